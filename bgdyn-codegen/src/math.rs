@@ -1,0 +1,118 @@
+//! 3-vectors and 3×3 matrices over any ring: constants in double-double, expressions, patterns of
+//! structural zeros. Only what the equations need.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// What vectors and matrices are made of.
+pub trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {}
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Neg<Output = T>> Ring for T {}
+
+/// A column of three components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vec3<T>(pub [T; 3]);
+
+/// A 3×3 matrix, row by row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mat3<T>(pub [[T; 3]; 3]);
+
+impl<T: Copy> Vec3<T> {
+    /// Each component through `f`.
+    pub fn map<U: Copy>(self, f: impl FnMut(T) -> U) -> Vec3<U> {
+        Vec3(self.0.map(f))
+    }
+}
+
+impl<T: Ring> Vec3<T> {
+    /// self · b
+    pub fn dot(self, b: Self) -> T {
+        let ([x, y, z], [u, v, w]) = (self.0, b.0);
+        x * u + y * v + z * w
+    }
+
+    /// self × b
+    pub fn cross(self, b: Self) -> Self {
+        let ([x, y, z], [u, v, w]) = (self.0, b.0);
+        Vec3([y * w - z * v, z * u - x * w, x * v - y * u])
+    }
+
+    /// self times the scalar `k`
+    pub fn scale(self, k: T) -> Self {
+        self.map(|x| x * k)
+    }
+}
+
+impl<T: Ring> Add for Vec3<T> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Vec3(std::array::from_fn(|i| self.0[i] + b.0[i]))
+    }
+}
+
+impl<T: Ring> Sub for Vec3<T> {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        Vec3(std::array::from_fn(|i| self.0[i] - b.0[i]))
+    }
+}
+
+impl<T: Ring> Neg for Vec3<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.map(|x| -x)
+    }
+}
+
+impl<T: Copy> Mat3<T> {
+    /// Entry (i, j) from `f(i, j)`.
+    pub fn from_fn(mut f: impl FnMut(usize, usize) -> T) -> Self {
+        Mat3(std::array::from_fn(|i| std::array::from_fn(|j| f(i, j))))
+    }
+
+    /// Each entry through `f`.
+    pub fn map<U: Copy>(self, mut f: impl FnMut(T) -> U) -> Mat3<U> {
+        Mat3::from_fn(|i, j| f(self.0[i][j]))
+    }
+
+    /// The transposed matrix.
+    pub fn transpose(self) -> Self {
+        Self::from_fn(|i, j| self.0[j][i])
+    }
+
+    /// Column `j`.
+    pub fn column(self, j: usize) -> Vec3<T> {
+        Vec3([self.0[0][j], self.0[1][j], self.0[2][j]])
+    }
+
+    /// Row `i`.
+    pub fn row(self, i: usize) -> Vec3<T> {
+        Vec3(self.0[i])
+    }
+}
+
+impl<T: Ring> Mul<Vec3<T>> for Mat3<T> {
+    type Output = Vec3<T>;
+    fn mul(self, v: Vec3<T>) -> Vec3<T> {
+        Vec3(std::array::from_fn(|i| self.row(i).dot(v)))
+    }
+}
+
+impl<T: Ring> Mul for Mat3<T> {
+    type Output = Self;
+    fn mul(self, b: Self) -> Self {
+        Self::from_fn(|i, j| self.row(i).dot(b.column(j)))
+    }
+}
+
+impl<T: Ring> Add for Mat3<T> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Self::from_fn(|i, j| self.0[i][j] + b.0[i][j])
+    }
+}
+
+impl<T: Ring> Sub for Mat3<T> {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        Self::from_fn(|i, j| self.0[i][j] - b.0[i][j])
+    }
+}

@@ -1,0 +1,7 @@
+//! Rotation about an axis without position limits; the coordinate is the angle.
+
+use super::{JointType, Motion};
+
+/// Rotation about an axis without position limits; the coordinate is the angle.
+pub static CONTINUOUS: JointType =
+    JointType { keyword: "continuous", motion: Motion::Rotation, position_limits: false };

@@ -1,0 +1,32 @@
+//! Joint types: one file each, one line each in [`JOINT_TYPES`].
+
+mod continuous;
+mod fixed;
+mod prismatic;
+mod revolute;
+
+/// The motion a joint allows, as the equations see it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// None: the link is welded to its parent.
+    None,
+    /// Rotation about the axis by the coordinate, in radians.
+    Rotation,
+    /// Translation along the axis by the coordinate, in metres.
+    Translation,
+}
+
+/// What the spec can say in a joint's `type`, and what it means.
+#[derive(Debug, PartialEq, Eq)]
+pub struct JointType {
+    /// The word in the spec.
+    pub keyword: &'static str,
+    /// The motion it allows.
+    pub motion: Motion,
+    /// Whether `lower` and `upper` limits have a meaning.
+    pub position_limits: bool,
+}
+
+/// Every joint type there is.
+pub static JOINT_TYPES: [&JointType; 4] =
+    [&revolute::REVOLUTE, &continuous::CONTINUOUS, &prismatic::PRISMATIC, &fixed::FIXED];

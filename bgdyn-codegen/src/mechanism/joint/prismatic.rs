@@ -1,0 +1,7 @@
+//! Translation along an axis.
+
+use super::{JointType, Motion};
+
+/// Translation along an axis.
+pub static PRISMATIC: JointType =
+    JointType { keyword: "prismatic", motion: Motion::Translation, position_limits: true };

@@ -1,0 +1,7 @@
+//! Rotation about an axis, between position limits if the spec states them.
+
+use super::{JointType, Motion};
+
+/// Rotation about an axis, between position limits if the spec states them.
+pub static REVOLUTE: JointType =
+    JointType { keyword: "revolute", motion: Motion::Rotation, position_limits: true };

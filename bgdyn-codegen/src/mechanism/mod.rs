@@ -1,0 +1,191 @@
+//! The checked mechanism: always valid, links in an order where parents stand before children.
+//!
+//! Only [`check`] can construct a [`Mechanism`]; nothing later checks again or fails on what a
+//! user wrote. Numbers are double-double, as the spec's decimals were read.
+
+mod check;
+pub mod joint;
+
+use bgdyn_runtime::Dd;
+
+use crate::math::{Mat3, Vec3};
+pub use check::check;
+pub use joint::{JointType, Motion};
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub usize);
+    };
+}
+id!(/// A link of [`Mechanism::links`].
+    LinkId);
+id!(/// A moving joint's coordinate: its place in q and v.
+    CoordinateId);
+id!(/// A run-time parameter of [`Mechanism::parameters`].
+    ParameterId);
+
+/// A number of the spec: folded into the code, or a public field of the generated struct.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Known at generation time.
+    Fixed(Dd),
+    /// Set by the caller at run time.
+    Parameter(ParameterId),
+}
+
+/// A number the caller may change at run time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Field name in the generated struct.
+    pub name: String,
+    /// The spec's value, which `Default` takes.
+    pub default: Dd,
+    /// SI unit, for the docs (`kg`, `m`, …).
+    pub unit: &'static str,
+}
+
+/// A fixed placement: axes and origin of one frame in another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Columns are the axes of the placed frame in the other one.
+    pub rotation: Mat3<Dd>,
+    /// Origin of the placed frame in the other one, m.
+    pub translation: Vec3<Dd>,
+}
+
+/// Inertial parameters of a link, in link axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inertial {
+    /// Mass, kg.
+    pub mass: Value,
+    /// Centre of mass, m.
+    pub com: Vec3<Value>,
+    /// Tensor about the centre of mass, kg·m²: xx, yy, zz, xy, xz, yz (tensor entries).
+    pub inertia: [Value; 6],
+}
+
+/// Limits of a joint as the spec states them; nothing is clipped.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Smallest coordinate, rad or m.
+    pub lower: Option<f64>,
+    /// Largest coordinate, rad or m.
+    pub upper: Option<f64>,
+    /// Largest speed, rad/s or m/s.
+    pub velocity: Option<f64>,
+    /// Largest effort, N·m or N.
+    pub effort: Option<f64>,
+}
+
+/// The joint that carries a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Its name elsewhere.
+    pub label: Option<String>,
+    /// Its type.
+    pub kind: &'static JointType,
+    /// Unit vector of its axis, in link axes.
+    pub axis: Vec3<Dd>,
+    /// Link axes in the parent's at coordinate zero.
+    pub origin: Pose,
+    /// Limits as stated.
+    pub limits: Limits,
+    /// Its place in q and v; `None` for a fixed joint.
+    pub coordinate: Option<CoordinateId>,
+}
+
+/// A rigid link and the joint that carries it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// Its name elsewhere.
+    pub label: Option<String>,
+    /// The link that carries it; `None` for the fixed world. Always a smaller id.
+    pub parent: Option<LinkId>,
+    /// How it is carried.
+    pub joint: Joint,
+    /// Mass, centre of mass, inertia.
+    pub inertial: Inertial,
+}
+
+/// A named pose on a link, or in the world (`link: None`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Its name.
+    pub name: String,
+    /// Its name elsewhere.
+    pub label: Option<String>,
+    /// The link it is fixed to.
+    pub link: Option<LinkId>,
+    /// Frame axes in the link's.
+    pub origin: Pose,
+}
+
+/// A mechanism that passed every check.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mechanism {
+    name: String,
+    description: Option<String>,
+    gravity: Vec3<Dd>,
+    links: Vec<Link>,
+    frames: Vec<Frame>,
+    parameters: Vec<Parameter>,
+    coordinates: Vec<LinkId>,
+}
+
+impl Mechanism {
+    /// Its name: a snake_case identifier, the module's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What the spec says of it.
+    pub fn description(&self) -> Option<&str> {
+        self.description.as_deref()
+    }
+
+    /// Acceleration of free fall in world axes, m/s².
+    pub fn gravity(&self) -> Vec3<Dd> {
+        self.gravity
+    }
+
+    /// The links, parents before children.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// The named frames, in the file's order.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
+    }
+
+    /// The run-time parameters, in the file's order.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// For each coordinate the link whose joint it moves.
+    pub fn coordinates(&self) -> &[LinkId] {
+        &self.coordinates
+    }
+
+    /// Number of velocities.
+    pub fn nv(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Number of positions.
+    pub fn nq(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// The joint of a coordinate.
+    pub fn joint(&self, coordinate: CoordinateId) -> &Joint {
+        &self.links[self.coordinates[coordinate.0].0].joint
+    }
+}

@@ -1,0 +1,4 @@
+//! Double-double placeholder.
+/// Double-double.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dd;

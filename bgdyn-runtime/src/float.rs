@@ -1,0 +1,123 @@
+//! [`Scalar`] for `f64` and `f32`.
+
+use nalgebra::SVector;
+
+use crate::singular::{finish, note_refused};
+use crate::{Scalar, Singular};
+
+/// How many units in the last place of the subtracted terms a pivot must exceed.
+const PIVOT_ULPS: f64 = 1.0;
+
+macro_rules! float_scalar {
+    ($float:ident, $sincos:path, $sqrt:path, $exp:path, $ln:path, $tanh:path) => {
+        impl Scalar for $float {
+            type Mask = bool;
+            type Refused = Option<usize>;
+            type Singular<const N: usize> = Singular;
+
+            fn from_f64(x: f64) -> Self {
+                x as $float
+            }
+
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                // Without a fused instruction a fused result costs a library call.
+                self * b + c
+            }
+
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+
+            fn sin_cos(self) -> (Self, Self) {
+                $sincos(self)
+            }
+
+            fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
+                let mut sum = offset.0 as $float;
+                let mut tail = (offset.0 - f64::from(sum) + offset.1) as $float;
+                for &angle in angles {
+                    // Knuth's two-sum: the rounding error of the addition, exactly.
+                    let next = sum + angle;
+                    let back = next - sum;
+                    tail += (sum - (next - back)) + (angle - back);
+                    sum = next;
+                }
+                let (s, c) = $sincos(sum);
+                if tail == 0.0 || !tail.is_finite() {
+                    return (s, c);
+                }
+                let (ds, dc) = $sincos(tail);
+                (s * dc + c * ds, c * dc - s * ds)
+            }
+
+            fn exp(self) -> Self {
+                $exp(self)
+            }
+
+            fn ln(self) -> Self {
+                $ln(self)
+            }
+
+            fn tanh(self) -> Self {
+                $tanh(self)
+            }
+
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+
+            fn min(self, other: Self) -> Self {
+                if self < other || self.is_nan() { self } else { other }
+            }
+
+            fn max(self, other: Self) -> Self {
+                if self > other || self.is_nan() { self } else { other }
+            }
+
+            fn sign(self) -> Self {
+                if self > 0.0 {
+                    1.0
+                } else if self < 0.0 {
+                    -1.0
+                } else {
+                    self * 0.0
+                }
+            }
+
+            fn less(self, other: Self) -> bool {
+                self < other
+            }
+
+            fn select(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
+            }
+
+            fn none_refused() -> Option<usize> {
+                None
+            }
+
+            fn checked_pivot(
+                self,
+                magnitude: Self,
+                joint: usize,
+                refused: &mut Option<usize>,
+            ) -> Self {
+                let floor = magnitude * (PIVOT_ULPS as $float * $float::EPSILON);
+                // Written so that a NaN on either side is refused.
+                let ok = self > 0.0 && self > floor && self < $float::INFINITY;
+                if note_refused(ok, joint, refused) { self } else { 1.0 }
+            }
+
+            fn finish<const N: usize>(
+                accelerations: SVector<Self, N>,
+                refused: Option<usize>,
+                names: &'static [&'static str; N],
+            ) -> Result<SVector<Self, N>, Singular> {
+                finish(accelerations, refused, names)
+            }
+        }
+    };
+}
+
+float_scalar!(f64, libm::sincos, libm::sqrt, libm::exp, libm::log, libm::tanh);
+float_scalar!(f32, libm::sincosf, libm::sqrtf, libm::expf, libm::logf, libm::tanhf);

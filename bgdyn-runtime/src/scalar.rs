@@ -1,0 +1,95 @@
+//! The scalar trait: the one bound of every generated function.
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use nalgebra::SVector;
+
+/// A number that generated dynamics can be computed with: `f64`, `f32`, double-double
+/// ([`crate::Dd`]), lanes of a SIMD register, dual numbers, or a type of your own (one that
+/// counts its operations, say).
+///
+/// Every generated function is generic over it. Comparisons give a [`Scalar::Mask`] rather than a
+/// `bool`, and a failed pivot is a value rather than an early return, so that lanes and scalars
+/// run the same straight line of code.
+pub trait Scalar:
+    Copy
+    + Debug
+    + PartialEq
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Outcome of a comparison: `bool`, or one truth value per lane.
+    type Mask: Copy + Debug;
+
+    /// Which joints had a pivot refused so far: none yet, or the first one (per lane).
+    type Refused: Copy + Debug;
+
+    /// What [`Scalar::finish`] returns where a mass matrix was singular.
+    type Singular<const N: usize>: Debug;
+
+    /// The nearest value to `x`.
+    fn from_f64(x: f64) -> Self;
+
+    /// The nearest value to the unevaluated sum `hi + lo`; `hi` is the sum's nearest `f64`.
+    fn from_parts(hi: f64, lo: f64) -> Self {
+        let _ = lo;
+        Self::from_f64(hi)
+    }
+
+    /// `self · b + c`, with one rounding where the machine has it for no more than two.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Sine and cosine of an angle in radians.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Sine and cosine of the exact sum of `angles` and `offset.0 + offset.1`, in radians.
+    ///
+    /// A plain sum loses |q|·eps of its angle; implementations carry the sum's tail into the sine.
+    /// The additions are part of the sine: they do not count as operations.
+    fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self);
+
+    /// e to the power of `self`.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// The smaller one; NaN where either is NaN.
+    fn min(self, other: Self) -> Self;
+    /// The larger one; NaN where either is NaN.
+    fn max(self, other: Self) -> Self;
+    /// −1, 0 or 1 with the sign of `self`; 0 for ±0, NaN for NaN.
+    fn sign(self) -> Self;
+
+    /// `self < other`; false where either is NaN.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `a` where the mask holds, else `b`.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// No pivot refused.
+    fn none_refused() -> Self::Refused;
+
+    /// Checks a pivot of a factorisation of the mass matrix. `self` came out of subtractions whose
+    /// terms were as large as `magnitude`.
+    ///
+    /// Gives `self` where it is positive and stands clear of the rounding error of those terms.
+    /// Otherwise notes `joint` in `refused` (the first one stays) and gives 1, so that what
+    /// follows stays finite.
+    fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self::Refused) -> Self;
+
+    /// The accelerations, or the error that names the joint; `names` are those of the model's
+    /// joints.
+    fn finish<const N: usize>(
+        accelerations: SVector<Self, N>,
+        refused: Self::Refused,
+        names: &'static [&'static str; N],
+    ) -> Result<SVector<Self, N>, Self::Singular<N>>;
+}
