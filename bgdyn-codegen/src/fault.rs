@@ -1,4 +1,10 @@
 //! Faults of a spec: where in the file, which rule, the numbers seen, the way out.
+//!
+//! Data and its rendering. Every sentence a user reads about a spec stands in `wording`.
+
+mod render;
+mod suggest;
+pub(crate) mod wording;
 
 use std::fmt;
 
@@ -9,6 +15,15 @@ pub struct Position {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
+}
+
+/// A place in the spec: in its text and in its structure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Where in the text.
+    pub position: Position,
+    /// Where in the structure: `links[2].inertia.xx`; empty for the whole file.
+    pub path: String,
 }
 
 /// How grave a finding is.
@@ -37,11 +52,40 @@ pub struct Fault {
     pub help: Option<String>,
 }
 
+impl Fault {
+    /// A fault at `place` against `rule`.
+    pub fn new(place: &Place, rule: &'static str, message: impl Into<String>) -> Self {
+        Fault {
+            severity: Severity::Fault,
+            position: place.position,
+            path: place.path.clone(),
+            rule,
+            message: message.into(),
+            help: None,
+        }
+    }
+
+    /// The same finding with a way out.
+    pub fn with_help(self, help: impl Into<String>) -> Self {
+        Fault { help: Some(help.into()), ..self }
+    }
+
+    /// The same finding as a warning.
+    pub fn into_warning(self) -> Self {
+        Fault { severity: Severity::Warning, ..self }
+    }
+}
+
 /// All that was found in one run, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Faults(pub Vec<Fault>);
 
 impl Faults {
+    /// Adds a finding.
+    pub fn push(&mut self, fault: Fault) {
+        self.0.push(fault);
+    }
+
     /// Whether anything refuses the spec.
     pub fn any_fault(&self) -> bool {
         self.0.iter().any(|f| f.severity == Severity::Fault)
@@ -55,6 +99,18 @@ impl Faults {
     /// Sorts by position; findings at one place keep their order.
     pub fn sort(&mut self) {
         self.0.sort_by_key(|f| f.position);
+    }
+}
+
+impl Position {
+    /// The beginning of the file.
+    pub const START: Position = Position { line: 1, column: 1 };
+}
+
+impl Place {
+    /// The whole file.
+    pub fn file() -> Self {
+        Place { position: Position::START, path: String::new() }
     }
 }
 

@@ -15,4 +15,7 @@ pub mod math;
 pub mod mechanism;
 pub mod method;
 pub mod model;
+mod read;
 pub mod spec;
+
+pub use read::read;

@@ -7,7 +7,7 @@ use crate::emit;
 use crate::fault::Faults;
 use crate::formulation::{self, Formulation};
 use crate::function::Function;
-use crate::mechanism::{self, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::method::Method;
 
 /// What the caller may ask for.
@@ -58,7 +58,7 @@ pub fn generate(
     place: &emit::Place,
     options: &Options,
 ) -> Result<TokenStream, Faults> {
-    let (mechanism, faults) = mechanism::read(text, Some(stem));
+    let (mechanism, faults) = crate::read(text, Some(stem));
     let mechanism = mechanism.ok_or(faults)?;
     let model = Model::new(mechanism, options);
     Ok(emit::module(&model, place))

@@ -5,6 +5,7 @@
 
 mod check;
 pub mod joint;
+pub mod name;
 
 use bgdyn_runtime::Dd;
 
@@ -130,6 +131,7 @@ pub struct Frame {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
     name: String,
+    label: Option<String>,
     description: Option<String>,
     gravity: Vec3<Dd>,
     links: Vec<Link>,
@@ -142,6 +144,11 @@ impl Mechanism {
     /// Its name: a snake_case identifier, the module's name.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Its name elsewhere.
+    pub fn label(&self) -> Option<&str> {
+        self.label.as_deref()
     }
 
     /// What the spec says of it.

@@ -3,5 +3,5 @@
 use super::{JointType, Motion};
 
 /// Rotation about an axis without position limits; the coordinate is the angle.
-pub static CONTINUOUS: JointType =
+pub(super) static CONTINUOUS: JointType =
     JointType { keyword: "continuous", motion: Motion::Rotation, position_limits: false };

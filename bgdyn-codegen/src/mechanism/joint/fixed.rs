@@ -3,5 +3,5 @@
 use super::{JointType, Motion};
 
 /// No motion: the link is welded to its parent.
-pub static FIXED: JointType =
+pub(super) static FIXED: JointType =
     JointType { keyword: "fixed", motion: Motion::None, position_limits: false };

@@ -3,5 +3,5 @@
 use super::{JointType, Motion};
 
 /// Translation along an axis.
-pub static PRISMATIC: JointType =
+pub(super) static PRISMATIC: JointType =
     JointType { keyword: "prismatic", motion: Motion::Translation, position_limits: true };

@@ -1,0 +1,47 @@
+//! Every sentence about a spec: rule by rule, with the numbers seen and the way out.
+
+mod checking;
+mod reading;
+
+use super::suggest::nearest;
+pub(crate) use checking::*;
+pub(crate) use reading::*;
+
+/// How many characters of a user's text a message repeats.
+const QUOTE_WIDTH: usize = 60;
+
+/// A user's text between backticks, on one line and not too long.
+pub(crate) fn quote(text: &str) -> String {
+    let mut shown: String = text.chars().take(QUOTE_WIDTH).flat_map(escape).collect();
+    if text.chars().nth(QUOTE_WIDTH).is_some() {
+        shown.push('…');
+    }
+    format!("`{shown}`")
+}
+
+fn escape(c: char) -> Vec<char> {
+    if c.is_control() { c.escape_default().collect() } else { vec![c] }
+}
+
+/// A number with six digits, for what was computed.
+fn figure(x: f64) -> String {
+    let digits: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    let plain = digits == 0.0 || (1e-4..1e6).contains(&digits.abs());
+    if plain { format!("{digits}") } else { format!("{digits:e}") }
+}
+
+fn figures(numbers: &[f64]) -> String {
+    numbers.iter().map(|x| figure(*x)).collect::<Vec<_>>().join(", ")
+}
+
+fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    words.into_iter().map(quote).collect::<Vec<_>>().join(", ")
+}
+
+/// "did you mean …?", or what is known.
+fn meant(word: &str, known: &[&str], otherwise: String) -> String {
+    match nearest(word, known.iter().copied()) {
+        Some(near) => format!("did you mean {}?", quote(near)),
+        None => otherwise,
+    }
+}

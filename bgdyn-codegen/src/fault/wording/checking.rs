@@ -1,0 +1,229 @@
+//! What the check finds: names, the tree, joints, masses, directions.
+
+use super::{figure, figures, listed, meant, quote};
+use crate::fault::{Fault, Place};
+use crate::mechanism::name::{is_keyword, to_identifier};
+
+// Names
+
+pub(crate) fn not_identifier(place: &Place, name: &str) -> Fault {
+    let why = if is_keyword(name) { "a keyword of Rust" } else { "no snake_case identifier" };
+    let help = match to_identifier(name) {
+        Some(better) => format!("call it {}; `label` can keep the other name", quote(&better)),
+        None => "use letters a–z, digits and single `_`, a letter first".to_owned(),
+    };
+    Fault::new(place, "name", format!("{} is {why}", quote(name))).with_help(help)
+}
+
+pub(crate) fn world_is_reserved(place: &Place) -> Fault {
+    Fault::new(place, "reserved-name", "`world` is the fixed base and cannot be given away")
+        .with_help("choose another name; a link without `parent` stands on the world")
+}
+
+pub(crate) fn repeated_name(place: &Place, name: &str, what: &str, first: &Place) -> Fault {
+    let message = format!("the name {} is taken; names are unique among {what}", quote(name));
+    let (path, line) = (&first.path, first.position.line);
+    Fault::new(place, "repeated-name", message).with_help(format!("`{path}` on line {line} has it"))
+}
+
+pub(crate) fn repeated_mount(place: &Place, name: &str, first: &Place) -> Fault {
+    let message =
+        format!("this link's joint is called {} by itself, and that name is taken", quote(name));
+    let (path, line) = (&first.path, first.position.line);
+    Fault::new(place, "repeated-name", message)
+        .with_help(format!("`{path}` on line {line} has it; give one of the joints another `name`"))
+}
+
+pub(crate) fn no_name(place: &Place) -> Fault {
+    Fault::new(
+        place,
+        "no-name",
+        "the mechanism has no name: no file to take it from, and no key `name`",
+    )
+    .with_help("add `name: my_arm`")
+}
+
+pub(crate) fn stem_not_identifier(place: &Place, stem: &str) -> Fault {
+    let why = if is_keyword(stem) { "a keyword of Rust" } else { "no snake_case identifier" };
+    let message =
+        format!("the mechanism takes its name from the file, but {} is {why}", quote(stem));
+    let fault = Fault::new(place, "name", message);
+    match to_identifier(stem) {
+        Some(better) => fault.with_help(format!("rename the file to `{better}.yaml`")),
+        None => fault.with_help("rename the file"),
+    }
+}
+
+pub(crate) fn name_differs_from_file(place: &Place, name: &str, stem: &str) -> Fault {
+    let message = format!("the name is {}, the file's is {}", quote(name), quote(stem));
+    Fault::new(place, "name-differs-from-file", message)
+        .with_help(format!("rename the file to `{name}.yaml`, or leave `name` out"))
+}
+
+// The tree
+
+pub(crate) fn no_links(place: &Place) -> Fault {
+    Fault::new(place, "no-links", "the list of links is empty").with_help("add at least one link")
+}
+
+pub(crate) fn unknown_link(
+    place: &Place,
+    rule: &'static str,
+    name: &str,
+    known: &[&str],
+    is_frame: bool,
+) -> Fault {
+    if is_frame {
+        return Fault::new(place, rule, format!("{} is a frame, not a link", quote(name)))
+            .with_help("name the link that the frame is on");
+    }
+    let mut words: Vec<&str> = known.iter().copied().take(8).collect();
+    words.push(if known.len() > 8 { "…" } else { "world" });
+    let links = format!("the links are {}", listed(words.iter().copied()).replace("`…`", "…"));
+    let nearest: Vec<&str> = known.iter().copied().chain(["world"]).collect();
+    Fault::new(place, rule, format!("no link is called {}", quote(name)))
+        .with_help(meant(name, &nearest, links))
+}
+
+pub(crate) fn circle(place: &Place, names: &[&str]) -> Fault {
+    let Some(first) = names.first() else {
+        return Fault::new(place, "cyclic-parents", "links carry each other in a circle");
+    };
+    if names.len() == 1 {
+        return Fault::new(place, "cyclic-parents", format!("{} is its own parent", quote(first)))
+            .with_help("leave `parent` out if it stands on the world");
+    }
+    let shown = names.iter().copied().take(12);
+    let cut = if names.len() > 12 { ["…"].as_slice() } else { &[] };
+    let path: Vec<&str> = shown.chain(cut.iter().copied()).chain([*first]).collect();
+    let message = format!(
+        "the links are their own ancestors: {} (each carried by the next)",
+        path.join(" → ")
+    );
+    Fault::new(place, "cyclic-parents", message)
+        .with_help("one of them must stand on the world or on another link; loops cannot be closed with `parent`")
+}
+
+// Joints
+
+pub(crate) fn unknown_joint_type(place: &Place, word: &str, known: &[&str]) -> Fault {
+    let fault =
+        Fault::new(place, "unknown-joint-type", format!("no joint type is called {}", quote(word)));
+    let types = format!("the types are {}", listed(known.iter().copied()));
+    if ["floating", "planar", "spherical", "ball", "universal", "cylindrical"].contains(&word) {
+        return fault.with_help(format!("{types}; build it from several of them"));
+    }
+    fault.with_help(meant(word, known, types))
+}
+
+pub(crate) fn moving_joint_without_name(place: &Place) -> Fault {
+    Fault::new(
+        place,
+        "missing-key",
+        "a moving joint needs a `name`: its coordinate is called by it",
+    )
+    .with_help("add `name: …`, unique among the joints")
+}
+
+pub(crate) fn axis_of_fixed_joint(place: &Place) -> Fault {
+    Fault::new(place, "axis-of-fixed-joint", "a fixed joint has no axis")
+        .with_help("leave `axis` out, or change `type`")
+}
+
+pub(crate) fn limits_of_fixed_joint(place: &Place) -> Fault {
+    Fault::new(place, "limits-of-fixed-joint", "a fixed joint has no limits")
+        .with_help("leave `limits` out, or change `type`")
+}
+
+pub(crate) fn position_limit(place: &Place, kind: &str) -> Fault {
+    let message = format!("a {kind} joint has no position limits");
+    Fault::new(place, "position-limit", message)
+        .with_help("leave it out, or write `type: revolute`")
+}
+
+pub(crate) fn lower_above_upper(place: &Place, lower: &str, upper: &str) -> Fault {
+    let message = format!("`lower` ({lower}) is above `upper` ({upper})");
+    Fault::new(place, "lower-above-upper", message).with_help("exchange them")
+}
+
+pub(crate) fn negative_limit(place: &Place, text: &str) -> Fault {
+    let message = format!("the limit is {}; it is a magnitude, for both directions", quote(text));
+    Fault::new(place, "negative-limit", message).with_help("leave out the minus sign")
+}
+
+pub(crate) fn unknown_axis(place: &Place, text: &str) -> Fault {
+    Fault::new(place, "unknown-axis", format!("{} is no axis", quote(text)))
+        .with_help("write `x`, `y`, `z`, `-x`, `-y`, `-z` or a direction `[0, 0, 1]`")
+}
+
+pub(crate) fn zero_axis(place: &Place) -> Fault {
+    Fault::new(place, "zero-axis", "the axis [0, 0, 0] has no direction")
+        .with_help("write `x`, `y`, `z` or a direction such as `[0, 0, 1]`")
+}
+
+// Masses
+
+pub(crate) fn negative_mass(place: &Place, text: &str) -> Fault {
+    Fault::new(place, "negative-mass", format!("the mass is negative: {text}"))
+        .with_help("a mass is 0 (which may be left out) or positive, in kg")
+}
+
+pub(crate) fn not_semidefinite(place: &Place, moments: [f64; 3]) -> Fault {
+    let message = format!(
+        "no body has this tensor: it is not positive semidefinite, its principal moments are {} kg·m²",
+        figures(&moments)
+    );
+    Fault::new(place, "not-semidefinite", message).with_help(
+        "check signs and units; `xy`, `xz`, `yz` are the tensor's entries (minus the products of \
+         inertia), about the centre of mass",
+    )
+}
+
+pub(crate) fn triangle_inequality(place: &Place, moments: [f64; 3]) -> Fault {
+    let [a, b, c] = moments.map(figure);
+    let message = format!(
+        "no body has this tensor: its principal moments are {a}, {b}, {c} kg·m², and {a} + {b} < {c}"
+    );
+    Fault::new(place, "triangle-inequality", message)
+        .with_help("check the numbers, or write `nonphysical: allow` in the link if they are meant")
+}
+
+pub(crate) fn nonphysical_word(place: &Place, word: &str) -> Fault {
+    Fault::new(place, "nonphysical-word", format!("{} means nothing here", quote(word)))
+        .with_help("write `nonphysical: allow`, or leave it out")
+}
+
+// Directions
+
+pub(crate) fn snap_out_of_range(place: &Place, text: &str) -> Fault {
+    Fault::new(place, "snap-out-of-range", format!("{} is outside 0 … 1e-3 rad", quote(text)))
+        .with_help("`snap: 1e-4` takes rounded quarter turns such as 1.5708 as exact")
+}
+
+pub(crate) fn angle_out_of_range(place: &Place, text: &str, most: f64) -> Fault {
+    let message = format!("the angle {} is beyond ±{most} rad", quote(text));
+    Fault::new(place, "angle-out-of-range", message)
+        .with_help("angles are in rad; write `90 deg` for degrees")
+}
+
+pub(crate) fn nearly_quarter_turn(place: &Place, off: &[(&str, f64)]) -> Fault {
+    let parts: Vec<String> =
+        off.iter().map(|(name, off)| format!("{name} by {} rad", figure(*off))).collect();
+    let message =
+        format!("nearly a quarter turn, but not taken as exact: {} off", parts.join(", "));
+    nearly(place, message, "write it as `90 deg`, or `snap: 1e-4` at the top")
+}
+
+pub(crate) fn nearly_axis(place: &Place, off: &[(&str, f64)]) -> Fault {
+    let parts: Vec<String> =
+        off.iter().map(|(name, off)| format!("{name} by {} rad", figure(*off))).collect();
+    let message =
+        format!("nearly in line with an axis, but not taken as exact: {} off", parts.join(", "));
+    nearly(place, message, "write 0 there, or `snap: 1e-4` at the top")
+}
+
+fn nearly(place: &Place, message: String, way: &str) -> Fault {
+    Fault::new(place, "nearly-exact", message)
+        .with_help(format!("{way}: structural zeros save operations"))
+        .into_warning()
+}

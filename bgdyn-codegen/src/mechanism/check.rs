@@ -1,0 +1,171 @@
+//! The one step that makes a [`Mechanism`]: a spec that obeys every rule, or all that breaks one.
+
+mod direction;
+mod inertia;
+mod joint;
+mod names;
+mod order;
+
+use bgdyn_runtime::Dd;
+
+use super::{CoordinateId, Frame, Inertial, Joint, Link, LinkId, Mechanism, Motion, Value};
+use crate::fault::{Faults, wording};
+use crate::math::Vec3;
+use crate::spec::{self, Field, Located, Number, Spec, Vector};
+use direction::Directions;
+use order::Tree;
+
+/// The only version of the format there is.
+const FORMAT: u32 = 1;
+
+/// Checks a spec against every rule. `stem` is the file's name without its ending, if there is a
+/// file; only what stands before its first dot counts.
+///
+/// The mechanism is there exactly if nothing refuses the spec.
+pub fn check(spec: &Spec, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
+    let mut faults = Faults::default();
+    let mechanism = mechanism(spec, stem, &mut faults);
+    faults.sort();
+    let sound = spec.complete && !faults.any_fault();
+    (mechanism.filter(|_| sound), faults)
+}
+
+fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mechanism> {
+    format(spec, faults);
+    let name = names::mechanism_name(spec, stem, faults);
+    let directions = Directions::new(spec, faults);
+    let links = spec.links.value().map_or(&[][..], Vec::as_slice);
+    let frames = spec.frames.value().map_or(&[][..], Vec::as_slice);
+    if let Some(none) = spec.links.given().filter(|links| links.value.is_empty()) {
+        faults.push(wording::no_links(&none.place));
+    }
+    names::check(links, frames, faults);
+    let tree = Tree::new(links, frames, faults);
+    let bodies = links.iter().map(|link| body(link, &directions, faults)).collect();
+    let frames = frames.iter().map(|f| frame(f, &tree, &directions, faults)).collect();
+    let gravity = vector_or(&spec.gravity, standard_gravity());
+    let (links, coordinates) = assemble(bodies, &tree)?;
+    Some(Mechanism {
+        name: name?,
+        label: text(&spec.label),
+        description: text(&spec.description),
+        gravity: gravity?,
+        links,
+        frames: all(frames)?,
+        parameters: Vec::new(),
+        coordinates,
+    })
+}
+
+fn format(spec: &Spec, faults: &mut Faults) {
+    if let Some(format) = spec.format.given()
+        && format.value.value != Dd::from_f64(f64::from(FORMAT))
+    {
+        faults.push(wording::unknown_format(&format.place, &format.value.text, FORMAT));
+    }
+}
+
+fn standard_gravity() -> Vec3<Dd> {
+    let down = "-9.81".parse().unwrap_or(Dd::from_f64(-9.81));
+    Vec3([Dd::ZERO, Dd::ZERO, down])
+}
+
+/// A link without its place in the tree.
+struct Body {
+    name: String,
+    label: Option<String>,
+    joint: Joint,
+    inertial: Inertial,
+}
+
+fn body(link: &spec::Link, directions: &Directions, faults: &mut Faults) -> Option<Body> {
+    let joint = joint::joint(link, directions, faults);
+    let inertial = inertial(link, directions, faults);
+    Some(Body {
+        name: link.name.value()?.clone(),
+        label: text(&link.label),
+        joint: joint?,
+        inertial: inertial?,
+    })
+}
+
+fn inertial(link: &spec::Link, directions: &Directions, faults: &mut Faults) -> Option<Inertial> {
+    if let Some(mass) = link.mass.given().filter(|mass| mass.value.value < Dd::ZERO) {
+        faults.push(wording::negative_mass(&mass.place, &mass.value.text));
+    }
+    let inertia = inertia::tensor(link, directions, faults);
+    let zero = Vec3([Value::Fixed(Dd::ZERO); 3]);
+    Some(Inertial {
+        mass: number_or(&link.mass, Value::Fixed(Dd::ZERO))?,
+        com: match &link.com {
+            Field::Absent => zero,
+            Field::Broken => return None,
+            Field::Given(com) => Vec3(com.value.each_ref().map(value)),
+        },
+        inertia: inertia?,
+    })
+}
+
+fn frame(
+    frame: &spec::Frame,
+    tree: &Tree<'_>,
+    directions: &Directions,
+    faults: &mut Faults,
+) -> Option<Frame> {
+    let origin = directions.pose(&frame.origin, faults);
+    let link = tree.frame_id(frame, faults);
+    Some(Frame {
+        name: frame.name.value()?.clone(),
+        label: text(&frame.label),
+        link: link?,
+        origin: origin?,
+    })
+}
+
+/// The links in their order, and the link of every coordinate.
+fn assemble(mut bodies: Vec<Option<Body>>, tree: &Tree<'_>) -> Option<(Vec<Link>, Vec<LinkId>)> {
+    let (mut links, mut coordinates) = (Vec::with_capacity(bodies.len()), Vec::new());
+    for &index in &tree.sequence {
+        let Body { name, label, mut joint, inertial } = bodies.get_mut(index)?.take()?;
+        if joint.kind.motion != Motion::None {
+            joint.coordinate = Some(CoordinateId(coordinates.len()));
+            coordinates.push(LinkId(links.len()));
+        }
+        links.push(Link { name, label, parent: tree.parent_id(index)?, joint, inertial });
+    }
+    Some((links, coordinates))
+}
+
+/// A number's value: the one place where a run-time parameter would become one.
+fn value(number: &Located<Number>) -> Value {
+    Value::Fixed(number.value.value)
+}
+
+fn number_or(field: &Field<Number>, default: Value) -> Option<Value> {
+    match field {
+        Field::Absent => Some(default),
+        Field::Broken => None,
+        Field::Given(number) => Some(value(number)),
+    }
+}
+
+fn vector_or(field: &Field<Vector>, default: Vec3<Dd>) -> Option<Vec3<Dd>> {
+    match field {
+        Field::Absent => Some(default),
+        Field::Broken => None,
+        Field::Given(vector) => Some(fixed(&vector.value)),
+    }
+}
+
+/// Three numbers where no run-time parameter can stand.
+fn fixed(vector: &Vector) -> Vec3<Dd> {
+    Vec3(vector.each_ref().map(|number| number.value.value))
+}
+
+fn text(field: &Field<String>) -> Option<String> {
+    field.value().cloned()
+}
+
+fn all<T>(items: Vec<Option<T>>) -> Option<Vec<T>> {
+    items.into_iter().collect()
+}

@@ -1,0 +1,197 @@
+//! Rotations and axes: quarter turns and axes are made exact, so that structural zeros are seen.
+//!
+//! Exact means: sines and cosines that are 0 or ±1, components that are 0.
+
+use bgdyn_runtime::Dd;
+
+use crate::fault::{Faults, wording};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::Pose;
+use crate::spec::{Field, Located, Origin, Spec, Vector};
+
+/// How far a direction may be off and still be taken as exact, if the spec says nothing.
+const SNAP: f64 = 1e-11;
+/// The most that a spec may ask for.
+const MOST: f64 = 1e-3;
+/// Up to here a direction off by more than `snap` looks like a rounded quarter turn.
+const SUSPECT: f64 = 1e-4;
+/// Rounding of the double-double operations in a rotation, with room to spare.
+const NOISE: f64 = 1e-28;
+/// The largest angle of a rotation, rad: beyond it the digits after the point are few.
+const TURNS: f64 = 1e4;
+
+/// How directions of this spec are read.
+#[derive(Debug)]
+pub(super) struct Directions {
+    snap: f64,
+}
+
+impl Directions {
+    /// By the spec's `snap`.
+    pub(super) fn new(spec: &Spec, faults: &mut Faults) -> Self {
+        let Some(given) = spec.snap.given() else { return Directions { snap: SNAP } };
+        let snap = given.value.value.to_f64();
+        if !(0.0..=MOST).contains(&snap) {
+            faults.push(wording::snap_out_of_range(&given.place, &given.value.text));
+            return Directions { snap: SNAP };
+        }
+        Directions { snap }
+    }
+
+    /// The pose that changes nothing.
+    pub(super) fn identity() -> Pose {
+        Pose { rotation: identity(), translation: Vec3([Dd::ZERO; 3]) }
+    }
+
+    /// The pose of an `origin`.
+    pub(super) fn pose(&self, origin: &Field<Origin>, faults: &mut Faults) -> Option<Pose> {
+        let origin = match origin {
+            Field::Absent => return Some(Self::identity()),
+            Field::Broken => return None,
+            Field::Given(origin) => &origin.value,
+        };
+        let rotation = self.rotation(&origin.rpy, faults);
+        let translation = super::vector_or(&origin.xyz, Vec3([Dd::ZERO; 3]));
+        Some(Pose { rotation: rotation?, translation: translation? })
+    }
+
+    /// R = Rz(yaw)·Ry(pitch)·Rx(roll).
+    pub(super) fn rotation(&self, rpy: &Field<Vector>, faults: &mut Faults) -> Option<Mat3<Dd>> {
+        let angles = match rpy {
+            Field::Absent => return Some(identity()),
+            Field::Broken => return None,
+            Field::Given(rpy) => rpy,
+        };
+        let far = angles.value.iter().find(|a| a.value.value.to_f64().abs() > TURNS);
+        if let Some(angle) = far {
+            faults.push(wording::angle_out_of_range(&angle.place, &angle.value.text, TURNS));
+            return None;
+        }
+        let turns = super::fixed(&angles.value).map(|angle| Turn::new(angle, self.snap));
+        self.warn_of_turns(angles, turns.0, faults);
+        let [roll, pitch, yaw] = turns.0;
+        Some(self.square(yaw.about(2) * pitch.about(1) * roll.about(0)))
+    }
+
+    fn warn_of_turns(&self, angles: &Located<Vector>, turns: [Turn; 3], faults: &mut Faults) {
+        let off: Vec<(&str, f64)> = ["roll", "pitch", "yaw"]
+            .into_iter()
+            .zip(turns.map(|turn| turn.off))
+            .filter(|(_, off)| self.suspect(*off))
+            .collect();
+        if !off.is_empty() {
+            faults.push(wording::nearly_quarter_turn(&angles.place, &off));
+        }
+    }
+
+    /// The unit vector of an axis.
+    pub(super) fn axis(&self, axis: &Located<Vector>, faults: &mut Faults) -> Option<Vec3<Dd>> {
+        let given = super::fixed(&axis.value);
+        let largest = given.0.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+        if largest == 0.0 {
+            faults.push(wording::zero_axis(&axis.place));
+            return None;
+        }
+        let length = given.dot(given).sqrt();
+        let share = given.map(|x| (x / length).to_f64().abs());
+        let off: Vec<(&str, f64)> =
+            ["x", "y", "z"].into_iter().zip(share.0).filter(|(_, s)| self.suspect(*s)).collect();
+        if !off.is_empty() {
+            faults.push(wording::nearly_axis(&axis.place, &off));
+        }
+        let kept = |i: usize| if share.0[i] <= self.exact() { Dd::ZERO } else { given.0[i] };
+        Some(unit(Vec3([kept(0), kept(1), kept(2)])))
+    }
+
+    /// What is taken for 0: `snap`, and the rounding of the arithmetic in any case.
+    fn exact(&self) -> f64 {
+        self.snap.max(NOISE)
+    }
+
+    fn suspect(&self, off: f64) -> bool {
+        off > self.exact() && off <= SUSPECT
+    }
+
+    /// Where one axis of `r` lies on an axis of the other frame, makes it exact and what is left
+    /// a turn about it. (Turns that undo each other leave rounding where a zero should be.)
+    fn square(&self, r: Mat3<Dd>) -> Mat3<Dd> {
+        let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+        let small = |x: Dd| x.to_f64().abs() <= self.exact();
+        let aligned = |&(i, j): &(usize, usize)| (1..3).all(|k| small(r.0[(i + k) % 3][j]));
+        let Some((i, j)) = places.clone().find(aligned) else { return r };
+        let sign = if r.0[i][j] < Dd::ZERO { -Dd::ONE } else { Dd::ONE };
+        let (rows, columns) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
+        let kept =
+            |row: usize| if small(r.0[row][columns[0]]) { Dd::ZERO } else { r.0[row][columns[0]] };
+        let Vec3([c, s, _]) = unit(Vec3([kept(rows[0]), kept(rows[1]), Dd::ZERO]));
+        let mut square = Mat3([[Dd::ZERO; 3]; 3]);
+        square.0[i][j] = sign;
+        square.0[rows[0]][columns[0]] = c;
+        square.0[rows[1]][columns[0]] = s;
+        square.0[rows[0]][columns[1]] = -(s * sign);
+        square.0[rows[1]][columns[1]] = c * sign;
+        square
+    }
+}
+
+fn identity() -> Mat3<Dd> {
+    Mat3::from_fn(|i, j| if i == j { Dd::ONE } else { Dd::ZERO })
+}
+
+/// `v` at length 1; ±1 exactly where only one component is left.
+fn unit(v: Vec3<Dd>) -> Vec3<Dd> {
+    let square = v.dot(v);
+    if v.0.iter().filter(|x| **x != Dd::ZERO).count() == 1 {
+        return v.map(|x| {
+            if x < Dd::ZERO {
+                -Dd::ONE
+            } else if x > Dd::ZERO {
+                Dd::ONE
+            } else {
+                Dd::ZERO
+            }
+        });
+    }
+    if (square - Dd::ONE).to_f64().abs() <= NOISE {
+        return v;
+    }
+    let length = square.sqrt();
+    v.map(|x| x / length)
+}
+
+/// Sine and cosine of one angle.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    sin: Dd,
+    cos: Dd,
+    /// Distance from the nearest quarter turn, rad.
+    off: f64,
+}
+
+impl Turn {
+    fn new(angle: Dd, snap: f64) -> Self {
+        let quarter = Dd::PI / Dd::from_f64(2.0);
+        let count = (angle / quarter).to_f64().round();
+        let off = (angle - quarter * Dd::from_f64(count)).to_f64().abs();
+        if off > snap.max(NOISE) {
+            let (sin, cos) = angle.sin_cos();
+            return Turn { sin, cos, off };
+        }
+        let (sin, cos) = match count.rem_euclid(4.0) as u8 {
+            0 => (Dd::ZERO, Dd::ONE),
+            1 => (Dd::ONE, Dd::ZERO),
+            2 => (Dd::ZERO, -Dd::ONE),
+            _ => (-Dd::ONE, Dd::ZERO),
+        };
+        Turn { sin, cos, off }
+    }
+
+    /// The rotation about a coordinate axis.
+    fn about(self, axis: usize) -> Mat3<Dd> {
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut r = identity();
+        (r.0[i][i], r.0[j][j]) = (self.cos, self.cos);
+        (r.0[i][j], r.0[j][i]) = (-self.sin, self.sin);
+        r
+    }
+}

@@ -1,0 +1,115 @@
+//! Inertia tensors: positive semidefinite, triangle inequality, turned into link axes.
+
+use bgdyn_runtime::Dd;
+use bgdyn_runtime::nalgebra::Matrix3;
+
+use super::direction::Directions;
+use crate::fault::{Faults, wording};
+use crate::math::Mat3;
+use crate::mechanism::Value;
+use crate::spec::{Field, Inertia, Link, Located};
+
+/// How far, relative to the largest principal moment, a tensor may miss a rule.
+const TOLERANCE: f64 = 1e-9;
+/// Rounding of the double-double operations in J = R·J'·Rᵀ, with room to spare.
+const NOISE: f64 = 1e-28;
+/// Rows and columns of xx, yy, zz, xy, xz, yz.
+const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
+/// The tensor of `link` in its axes: xx, yy, zz, xy, xz, yz.
+pub(super) fn tensor(
+    link: &Link,
+    directions: &Directions,
+    faults: &mut Faults,
+) -> Option<[Value; 6]> {
+    let allowed = allows_nonphysical(link, faults);
+    let inertia = match &link.inertia {
+        Field::Absent => return Some([Value::Fixed(Dd::ZERO); 6]),
+        Field::Broken => return None,
+        Field::Given(inertia) => inertia,
+    };
+    let rotation = directions.rotation(&inertia.value.rpy, faults);
+    let entries = entries(&inertia.value)?;
+    physical(inertia, &entries, allowed, faults);
+    let turned = if inertia.value.rpy.is_absent() { entries } else { turned(entries, rotation?) };
+    Some(turned.map(Value::Fixed))
+}
+
+fn allows_nonphysical(link: &Link, faults: &mut Faults) -> bool {
+    match &link.nonphysical {
+        Field::Absent => false,
+        // Unreadable, and said so: the tensor is not the point.
+        Field::Broken => true,
+        Field::Given(word) => {
+            if word.value != "allow" {
+                faults.push(wording::nonphysical_word(&word.place, &word.value));
+            }
+            true
+        }
+    }
+}
+
+fn entries(inertia: &Inertia) -> Option<[Dd; 6]> {
+    let mut entries = [Dd::ZERO; 6];
+    for (entry, field) in entries.iter_mut().zip(&inertia.entries) {
+        match field {
+            Field::Absent => {}
+            Field::Broken => return None,
+            Field::Given(number) => *entry = number.value.value,
+        }
+    }
+    Some(entries)
+}
+
+fn physical(inertia: &Located<Inertia>, entries: &[Dd; 6], allowed: bool, faults: &mut Faults) {
+    let moments = principal_moments(entries);
+    let [small, middle, large] = moments;
+    let slack = TOLERANCE * large.abs().max(small.abs());
+    if small < -slack {
+        faults.push(wording::not_semidefinite(&inertia.place, moments));
+    } else if !allowed && large > small + middle + slack {
+        faults.push(wording::triangle_inequality(&inertia.place, moments));
+    }
+}
+
+/// The principal moments, smallest first.
+fn principal_moments(entries: &[Dd; 6]) -> [f64; 3] {
+    let [xx, yy, zz, xy, xz, yz] = entries.map(Dd::to_f64);
+    let largest = [xx, yy, zz, xy, xz, yz].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if largest == 0.0 {
+        return [0.0; 3];
+    }
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz) / largest;
+    let values = tensor.symmetric_eigenvalues() * largest;
+    let mut moments = [values.x, values.y, values.z];
+    moments.sort_by(f64::total_cmp);
+    moments
+}
+
+/// J = R·J'·Rᵀ
+fn turned(entries: [Dd; 6], r: Mat3<Dd>) -> [Dd; 6] {
+    let mut own = Mat3([[Dd::ZERO; 3]; 3]);
+    for (entry, (i, j)) in entries.into_iter().zip(PLACES) {
+        (own.0[i][j], own.0[j][i]) = (entry, entry);
+    }
+    let tensor = r * own * r.transpose();
+    without_noise(PLACES.map(|(i, j)| tensor.0[i][j]))
+}
+
+/// Entries that are rounding beside the largest one become 0, and moments that differ by no more
+/// become equal.
+fn without_noise(mut entries: [Dd; 6]) -> [Dd; 6] {
+    let largest = entries.iter().fold(0.0_f64, |m, x| m.max(x.to_f64().abs()));
+    let noise = |x: Dd| x.to_f64().abs() <= NOISE * largest;
+    for entry in &mut entries {
+        if noise(*entry) {
+            *entry = Dd::ZERO;
+        }
+    }
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        if noise(entries[j] - entries[i]) {
+            entries[j] = entries[i];
+        }
+    }
+    entries
+}

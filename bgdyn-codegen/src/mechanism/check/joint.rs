@@ -1,0 +1,188 @@
+//! Joints: type, axis, origin, limits.
+
+use bgdyn_runtime::Dd;
+
+use super::direction::Directions;
+use super::names::mount_name;
+use crate::fault::{Faults, wording};
+use crate::math::Vec3;
+use crate::mechanism::joint::JOINT_TYPES;
+use crate::mechanism::{Joint, JointType, Limits, Motion};
+use crate::spec::{self, Dimension, Field, Link, Located, Number, misfit};
+
+/// The joint that carries `link`; its coordinate is given later.
+pub(super) fn joint(link: &Link, directions: &Directions, faults: &mut Faults) -> Option<Joint> {
+    match &link.joint {
+        Field::Absent => Some(Joint {
+            name: mount_name(link.name.value()?),
+            label: None,
+            kind: fixed()?,
+            axis: z(),
+            origin: Directions::identity(),
+            limits: Limits::default(),
+            coordinate: None,
+        }),
+        Field::Broken => None,
+        Field::Given(joint) => given(&joint.value, link, directions, faults),
+    }
+}
+
+fn given(
+    joint: &spec::Joint,
+    link: &Link,
+    directions: &Directions,
+    faults: &mut Faults,
+) -> Option<Joint> {
+    let kind = kind(joint, faults);
+    let axis = axis(joint, kind, directions, faults);
+    let origin = directions.pose(&joint.origin, faults);
+    let limits = limits(joint, kind, faults);
+    let name = name(joint, link, kind, faults);
+    Some(Joint {
+        name: name?,
+        label: joint.label.value().cloned(),
+        kind: kind?,
+        axis: axis?,
+        origin: origin?,
+        limits: limits?,
+        coordinate: None,
+    })
+}
+
+fn fixed() -> Option<&'static JointType> {
+    JOINT_TYPES.iter().find(|kind| kind.motion == Motion::None).copied()
+}
+
+fn z() -> Vec3<Dd> {
+    Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE])
+}
+
+fn kind(joint: &spec::Joint, faults: &mut Faults) -> Option<&'static JointType> {
+    let word = joint.kind.given()?;
+    let found = JOINT_TYPES.iter().find(|kind| kind.keyword == word.value).copied();
+    if found.is_none() {
+        let known: Vec<&str> = JOINT_TYPES.iter().map(|kind| kind.keyword).collect();
+        faults.push(wording::unknown_joint_type(&word.place, &word.value, &known));
+    }
+    found
+}
+
+fn name(
+    joint: &spec::Joint,
+    link: &Link,
+    kind: Option<&'static JointType>,
+    faults: &mut Faults,
+) -> Option<String> {
+    match &joint.name {
+        Field::Given(name) => Some(name.value.clone()),
+        Field::Broken => None,
+        Field::Absent if kind?.motion == Motion::None => Some(mount_name(link.name.value()?)),
+        Field::Absent => {
+            faults.push(wording::moving_joint_without_name(&joint.place));
+            None
+        }
+    }
+}
+
+fn axis(
+    joint: &spec::Joint,
+    kind: Option<&'static JointType>,
+    directions: &Directions,
+    faults: &mut Faults,
+) -> Option<Vec3<Dd>> {
+    match &joint.axis {
+        Field::Absent => Some(z()),
+        Field::Broken => None,
+        Field::Given(axis) if kind.is_some_and(|kind| kind.motion == Motion::None) => {
+            faults.push(wording::axis_of_fixed_joint(&axis.place));
+            None
+        }
+        Field::Given(axis) => directions.axis(axis, faults),
+    }
+}
+
+fn limits(
+    joint: &spec::Joint,
+    kind: Option<&'static JointType>,
+    faults: &mut Faults,
+) -> Option<Limits> {
+    let given = match &joint.limits {
+        Field::Absent => return Some(Limits::default()),
+        Field::Broken => return None,
+        Field::Given(limits) => limits,
+    };
+    if kind.is_some_and(|kind| kind.motion == Motion::None) {
+        faults.push(wording::limits_of_fixed_joint(&given.place));
+        return None;
+    }
+    let limits = &given.value;
+    if let Some(kind) = kind {
+        position_limits(limits, kind, faults);
+        units(limits, kind.motion, faults);
+    }
+    signs(limits, faults);
+    Some(Limits {
+        lower: number(&limits.lower)?,
+        upper: number(&limits.upper)?,
+        velocity: number(&limits.velocity)?,
+        effort: number(&limits.effort)?,
+    })
+}
+
+fn number(field: &Field<Number>) -> Option<Option<f64>> {
+    match field {
+        Field::Absent => Some(None),
+        Field::Broken => None,
+        Field::Given(number) => Some(Some(number.value.value.to_f64())),
+    }
+}
+
+fn position_limits(limits: &spec::Limits, kind: &JointType, faults: &mut Faults) {
+    if kind.position_limits {
+        return;
+    }
+    for limit in [&limits.lower, &limits.upper].into_iter().filter_map(Field::given) {
+        faults.push(wording::position_limit(&limit.place, kind.keyword));
+    }
+}
+
+/// Units of the coordinate, its rate and its effort, for a motion.
+fn units(limits: &spec::Limits, motion: Motion, faults: &mut Faults) {
+    let [position, speed, effort] = match motion {
+        Motion::None => return,
+        Motion::Rotation => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
+        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
+    };
+    let places = [
+        (&limits.lower, position),
+        (&limits.upper, position),
+        (&limits.velocity, speed),
+        (&limits.effort, effort),
+    ];
+    for (limit, dimension) in places {
+        faults.0.extend(limit.given().and_then(|limit| misfit(limit, &[dimension])));
+    }
+}
+
+fn signs(limits: &spec::Limits, faults: &mut Faults) {
+    if let (Some(lower), Some(upper)) = (limits.lower.given(), limits.upper.given())
+        && lower.value.value > upper.value.value
+        && same_dimension(lower, upper)
+    {
+        let (low, high) = (&lower.value.text, &upper.value.text);
+        faults.push(wording::lower_above_upper(&lower.place, low, high));
+    }
+    for limit in [&limits.velocity, &limits.effort].into_iter().filter_map(Field::given) {
+        if limit.value.value < Dd::ZERO {
+            faults.push(wording::negative_limit(&limit.place, &limit.value.text));
+        }
+    }
+}
+
+/// Whether two numbers can be compared: not an angle with a length.
+fn same_dimension(a: &Located<Number>, b: &Located<Number>) -> bool {
+    match (a.value.unit, b.value.unit) {
+        (Some(a), Some(b)) => a.dimension == b.dimension,
+        _ => true,
+    }
+}

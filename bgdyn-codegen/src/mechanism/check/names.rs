@@ -1,0 +1,112 @@
+//! Names: identifiers, unique, the mechanism's equal to its file's.
+
+use std::collections::BTreeMap;
+
+use crate::fault::{Fault, Faults, Place, wording};
+use crate::mechanism::name::{WORLD, is_identifier};
+use crate::spec::{Field, Frame, Joint, Link, Located, Spec};
+
+/// The mechanism's name: the file's stem up to its first dot, or the spec's `name`.
+pub(super) fn mechanism_name(
+    spec: &Spec,
+    stem: Option<&str>,
+    faults: &mut Faults,
+) -> Option<String> {
+    let stem = stem.map(|stem| stem.split('.').next().unwrap_or(stem));
+    let fault = match (&spec.name, stem) {
+        (Field::Broken, _) => return None,
+        (Field::Absent, None) => Some(wording::no_name(&spec.place)),
+        (Field::Absent, Some(stem)) => {
+            (!is_identifier(stem)).then(|| wording::stem_not_identifier(&spec.place, stem))
+        }
+        (Field::Given(name), stem) => {
+            not_identifier(name).or_else(|| stem.and_then(|stem| differs(name, stem)))
+        }
+    };
+    faults.0.extend(fault);
+    spec.name.value().map(String::as_str).or(stem).map(str::to_owned)
+}
+
+fn differs(name: &Located<String>, stem: &str) -> Option<Fault> {
+    (name.value != stem).then(|| wording::name_differs_from_file(&name.place, &name.value, stem))
+}
+
+fn not_identifier(name: &Located<String>) -> Option<Fault> {
+    (!is_identifier(&name.value)).then(|| wording::not_identifier(&name.place, &name.value))
+}
+
+/// Checks the names of links, frames and joints.
+pub(super) fn check(links: &[Link], frames: &[Frame], faults: &mut Faults) {
+    let mut carriers = Names::new("links and frames");
+    for link in links {
+        carriers.add_body(&link.name, faults);
+    }
+    for frame in frames {
+        carriers.add_body(&frame.name, faults);
+    }
+    let mut joints = Names::new("joints");
+    for joint in links.iter().filter_map(|link| link.joint.value()) {
+        if let Some(name) = joint.name.given() {
+            faults.0.extend(not_identifier(name));
+            joints.add(&name.value, &name.place, faults);
+        }
+    }
+    for link in links.iter().filter(|link| named_after_link(link)) {
+        if let Some(name) = link.name.given() {
+            joints.add_mount(&mount_name(&name.value), &name.place, faults);
+        }
+    }
+}
+
+/// The name of a fixed joint that has none of its own.
+pub(super) fn mount_name(link: &str) -> String {
+    format!("{link}_mount")
+}
+
+fn named_after_link(link: &Link) -> bool {
+    let fixed = |joint: &Joint| joint.kind.value().is_some_and(|kind| kind == "fixed");
+    match &link.joint {
+        Field::Absent => true,
+        Field::Broken => false,
+        Field::Given(joint) => joint.value.name.is_absent() && fixed(&joint.value),
+    }
+}
+
+/// Names that must be unique among `what`, each with the place of the first one.
+struct Names {
+    what: &'static str,
+    first: BTreeMap<String, Place>,
+}
+
+impl Names {
+    fn new(what: &'static str) -> Self {
+        Names { what, first: BTreeMap::new() }
+    }
+
+    fn add_body(&mut self, name: &Field<String>, faults: &mut Faults) {
+        let Some(name) = name.given() else { return };
+        if name.value == WORLD {
+            return faults.push(wording::world_is_reserved(&name.place));
+        }
+        faults.0.extend(not_identifier(name));
+        self.add(&name.value, &name.place, faults);
+    }
+
+    fn add_mount(&mut self, name: &str, place: &Place, faults: &mut Faults) {
+        match self.first.get(name) {
+            // The link's own name is taken: that is said already.
+            Some(first) if first.path.ends_with("].name") => {}
+            Some(first) => faults.push(wording::repeated_mount(place, name, first)),
+            None => self.add(name, place, faults),
+        }
+    }
+
+    fn add(&mut self, name: &str, place: &Place, faults: &mut Faults) {
+        match self.first.get(name) {
+            Some(first) => faults.push(wording::repeated_name(place, name, self.what, first)),
+            None => {
+                self.first.insert(name.to_owned(), place.clone());
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! YAML text → nodes with positions: strict syntax, one document, no cycles.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError, StrInput};
+
+use crate::fault::{Fault, Position, wording};
+
+/// How deep lists and mappings may be nested; the format needs seven.
+const DEPTH: usize = 64;
+
+/// A value and where it stands.
+#[derive(Debug)]
+pub(super) struct Node {
+    /// Where it begins.
+    pub(super) position: Position,
+    /// Where its tag stands, if it has one.
+    pub(super) tag: Option<String>,
+    /// What it is.
+    pub(super) shape: Shape,
+    depth: usize,
+}
+
+/// What a node is.
+#[derive(Debug)]
+pub(super) enum Shape {
+    /// Text, not yet a type.
+    Scalar {
+        /// Quotes and line folding undone.
+        text: String,
+        /// Whether it stands without quotes.
+        plain: bool,
+    },
+    /// A list.
+    List(Vec<Rc<Node>>),
+    /// Keys and values in turn.
+    Map(Vec<(Rc<Node>, Rc<Node>)>),
+}
+
+/// The document's root, or nothing for an empty file.
+pub(super) fn index(text: &str) -> Result<Option<Rc<Node>>, Fault> {
+    let mut builder = Builder::default();
+    let mut parser: Parser<'_, StrInput<'_>> = Parser::new_from_str(text);
+    while let Some(next) = parser.next_event() {
+        let (event, span) = next.map_err(|e| scan_fault(&e))?;
+        builder.take(event, position(span.start))?;
+    }
+    Ok(builder.root)
+}
+
+fn position(mark: Marker) -> Position {
+    Position { line: mark.line().max(1), column: mark.col() + 1 }
+}
+
+fn scan_fault(error: &ScanError) -> Fault {
+    wording::yaml_syntax(position(*error.marker()), error.info())
+}
+
+/// A list or mapping whose end has not come yet.
+struct Open {
+    position: Position,
+    tag: Option<String>,
+    anchor: usize,
+    is_map: bool,
+    depth: usize,
+    items: Vec<Rc<Node>>,
+}
+
+#[derive(Default)]
+struct Builder {
+    documents: usize,
+    open: Vec<Open>,
+    anchors: BTreeMap<usize, Rc<Node>>,
+    root: Option<Rc<Node>>,
+}
+
+impl Builder {
+    fn take(&mut self, event: Event<'_>, position: Position) -> Result<(), Fault> {
+        let tag_text =
+            |t: Option<std::borrow::Cow<'_, saphyr_parser::Tag>>| t.map(|t| t.to_string());
+        match event {
+            Event::DocumentStart(_) => self.document(position),
+            Event::Scalar(text, style, anchor, tag) => {
+                let shape =
+                    Shape::Scalar { text: text.into_owned(), plain: style == ScalarStyle::Plain };
+                let node = Node { position, tag: tag_text(tag), shape, depth: 0 };
+                self.close(anchor, node)
+            }
+            Event::SequenceStart(anchor, tag) => self.open(position, tag_text(tag), anchor, false),
+            Event::MappingStart(anchor, tag) => self.open(position, tag_text(tag), anchor, true),
+            Event::SequenceEnd | Event::MappingEnd => self.end(),
+            Event::Alias(anchor) => self.alias(anchor, position),
+            _ => Ok(()),
+        }
+    }
+
+    fn document(&mut self, position: Position) -> Result<(), Fault> {
+        self.documents += 1;
+        if self.documents > 1 { Err(wording::several_documents(position)) } else { Ok(()) }
+    }
+
+    fn open(
+        &mut self,
+        position: Position,
+        tag: Option<String>,
+        anchor: usize,
+        is_map: bool,
+    ) -> Result<(), Fault> {
+        self.open.push(Open { position, tag, anchor, is_map, depth: 0, items: Vec::new() });
+        if self.open.len() > DEPTH { Err(wording::too_deep(position, DEPTH)) } else { Ok(()) }
+    }
+
+    fn end(&mut self) -> Result<(), Fault> {
+        let Some(open) = self.open.pop() else { return Ok(()) };
+        let shape = if open.is_map { pairs(open.items) } else { Shape::List(open.items) };
+        let depth = open.depth + 1;
+        if depth > DEPTH {
+            return Err(wording::too_deep(open.position, DEPTH));
+        }
+        self.close(open.anchor, Node { position: open.position, tag: open.tag, shape, depth })
+    }
+
+    fn close(&mut self, anchor: usize, node: Node) -> Result<(), Fault> {
+        let node = Rc::new(node);
+        if anchor != 0 {
+            self.anchors.insert(anchor, Rc::clone(&node));
+        }
+        self.place(node);
+        Ok(())
+    }
+
+    fn alias(&mut self, anchor: usize, position: Position) -> Result<(), Fault> {
+        if self.open.iter().any(|o| o.anchor == anchor) {
+            return Err(wording::cyclic_alias(position));
+        }
+        let node = self.anchors.get(&anchor).map(Rc::clone);
+        self.place(node.ok_or_else(|| wording::yaml_syntax(position, "unknown anchor"))?);
+        Ok(())
+    }
+
+    fn place(&mut self, node: Rc<Node>) {
+        match self.open.last_mut() {
+            Some(open) => {
+                open.depth = open.depth.max(node.depth);
+                open.items.push(node);
+            }
+            None => self.root = Some(node),
+        }
+    }
+}
+
+fn pairs(items: Vec<Rc<Node>>) -> Shape {
+    let mut pairs = Vec::with_capacity(items.len() / 2);
+    let mut items = items.into_iter();
+    while let (Some(key), Some(value)) = (items.next(), items.next()) {
+        pairs.push((key, value));
+    }
+    Shape::Map(pairs)
+}

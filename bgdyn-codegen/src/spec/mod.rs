@@ -1,0 +1,147 @@
+//! The spec as it was written: typed values with their places, nothing concluded from them.
+//!
+//! [`parse`] reports what the format cannot say (syntax, unknown keys, wrong types, units);
+//! whether it makes a mechanism is for [`crate::mechanism::check`] to tell.
+
+mod field;
+mod index;
+mod number;
+mod parse;
+mod unit;
+mod walk;
+mod yaml;
+
+use bgdyn_runtime::Dd;
+
+use crate::fault::Place;
+pub use field::{Field, Located};
+pub(crate) use number::misfit;
+pub use parse::parse;
+pub use unit::{Dimension, Unit};
+
+/// A number as written. (A run-time parameter's name will stand here beside its value.)
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// Its value in SI units, read as a decimal.
+    pub value: Dd,
+    /// The unit written behind it.
+    pub unit: Option<&'static Unit>,
+    /// As it stands in the file.
+    pub text: String,
+}
+
+/// Three numbers.
+pub type Vector = [Located<Number>; 3];
+
+/// A mechanism's file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spec {
+    /// The file's mapping.
+    pub place: Place,
+    /// Whether everything in the file could be read; nothing is built from half a spec.
+    pub complete: bool,
+    /// Version of the format.
+    pub format: Field<Number>,
+    /// Name of the mechanism.
+    pub name: Field<String>,
+    /// Its name elsewhere.
+    pub label: Field<String>,
+    /// Text for the docs.
+    pub description: Field<String>,
+    /// Acceleration of free fall, world axes.
+    pub gravity: Field<Vector>,
+    /// Angle within which directions are taken as exact.
+    pub snap: Field<Number>,
+    /// The links; those that are no mapping are left out.
+    pub links: Field<Vec<Link>>,
+    /// The named frames; those that are no mapping are left out.
+    pub frames: Field<Vec<Frame>>,
+}
+
+/// An entry of `links`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// The link's mapping.
+    pub place: Place,
+    /// Its name.
+    pub name: Field<String>,
+    /// Its name elsewhere.
+    pub label: Field<String>,
+    /// Name of the link that carries it.
+    pub parent: Field<String>,
+    /// How it is carried.
+    pub joint: Field<Joint>,
+    /// Mass.
+    pub mass: Field<Number>,
+    /// Centre of mass.
+    pub com: Field<Vector>,
+    /// Tensor about the centre of mass.
+    pub inertia: Field<Inertia>,
+    /// `allow`, or a slip.
+    pub nonphysical: Field<String>,
+}
+
+/// A link's `joint`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// The joint's mapping.
+    pub place: Place,
+    /// Its name.
+    pub name: Field<String>,
+    /// Its name elsewhere.
+    pub label: Field<String>,
+    /// The word after `type`.
+    pub kind: Field<String>,
+    /// Direction of its axis, of any length; a letter is read as the unit vector it stands for.
+    pub axis: Field<Vector>,
+    /// Place of the link in the parent.
+    pub origin: Field<Origin>,
+    /// Limits.
+    pub limits: Field<Limits>,
+}
+
+/// A placement: `xyz` and `rpy`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Origin {
+    /// Displacement.
+    pub xyz: Field<Vector>,
+    /// Roll, pitch, yaw about fixed axes.
+    pub rpy: Field<Vector>,
+}
+
+/// A joint's `limits`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limits {
+    /// Smallest coordinate.
+    pub lower: Field<Number>,
+    /// Largest coordinate.
+    pub upper: Field<Number>,
+    /// Largest speed.
+    pub velocity: Field<Number>,
+    /// Largest effort.
+    pub effort: Field<Number>,
+}
+
+/// A link's `inertia`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inertia {
+    /// xx, yy, zz, xy, xz, yz: entries of the tensor.
+    pub entries: [Field<Number>; 6],
+    /// Axes of the entries in the link's.
+    pub rpy: Field<Vector>,
+}
+
+/// An entry of `frames`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// The frame's mapping.
+    pub place: Place,
+    /// Its name.
+    pub name: Field<String>,
+    /// Its name elsewhere.
+    pub label: Field<String>,
+    /// The link it is fixed to.
+    pub link: Field<String>,
+    /// Its place on the link.
+    pub origin: Field<Origin>,
+}

@@ -1,0 +1,113 @@
+//! Text → number: a decimal to 32 digits, with a unit that fits the place.
+
+use bgdyn_runtime::Dd;
+
+use super::unit::{Dimension, Unit};
+use super::yaml::Kind;
+use super::{Located, Number};
+use crate::fault::{Fault, Place, wording};
+
+/// Sizes a number may have unless it is 0: beyond them no product would be safe from overflow.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+
+/// The number that stands at `place` as a scalar of the given kind.
+pub(super) fn number(
+    kind: Kind,
+    text: &str,
+    place: &Place,
+    fit: &[Dimension],
+) -> Result<Number, Fault> {
+    if non_finite(text) {
+        return Err(wording::non_finite(place, text));
+    }
+    let (mantissa, exponent, rest) =
+        decimal(text).ok_or_else(|| wording::not_a_number(place, text, fit))?;
+    if kind == Kind::Number && !rest.is_empty() {
+        return Err(wording::not_decimal(place, text));
+    }
+    let unit = match rest {
+        "" => None,
+        unit => Some(fitting(unit, text, place, fit)?),
+    };
+    let value =
+        value(mantissa, exponent, unit).ok_or_else(|| wording::out_of_range(place, text))?;
+    if unit.is_none() && kind != Kind::Number {
+        return Err(wording::number_as_text(place, text, kind == Kind::Text { quoted: true }));
+    }
+    Ok(Number { value, unit, text: text.to_owned() })
+}
+
+/// Whether a number with its unit measures one of `fit`.
+pub(crate) fn misfit(number: &Located<Number>, fit: &[Dimension]) -> Option<Fault> {
+    let unit = number.value.unit?;
+    let fits = fit.contains(&unit.dimension);
+    (!fits).then(|| wording::unit_misfit(&number.place, &number.value.text, unit, fit))
+}
+
+fn non_finite(text: &str) -> bool {
+    let bare = text.trim().trim_start_matches(['+', '-']).trim_start_matches('.').to_lowercase();
+    let word = bare.split_whitespace().next().unwrap_or("");
+    ["inf", "nan", "infinity"].contains(&word)
+}
+
+/// Splits `-1.5e3 mm` into `-1.5`, 3 and `mm`.
+fn decimal(text: &str) -> Option<(&str, i32, &str)> {
+    let text = text.trim();
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let digits = |s: &str| s.len() - s.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let whole = digits(unsigned);
+    let fraction = unsigned[whole..].strip_prefix('.').map(digits);
+    if whole + fraction.unwrap_or(0) == 0 {
+        return None;
+    }
+    let end = text.len() - unsigned.len() + whole + fraction.map_or(0, |f| f + 1);
+    let (mantissa, rest) = text.split_at(end);
+    let (exponent, rest) = power(rest);
+    let spaced =
+        rest.is_empty() || !rest.starts_with(|c: char| c == '_' || c == '.' || c.is_ascii_digit());
+    spaced.then_some((mantissa, exponent, rest.trim_start()))
+}
+
+/// Splits `e-3 mm` into −3 and ` mm`; what is no power of ten stays whole.
+fn power(text: &str) -> (i32, &str) {
+    let Some(after) = text.strip_prefix(['e', 'E']) else { return (0, text) };
+    let unsigned = after.strip_prefix(['+', '-']).unwrap_or(after);
+    let rest = unsigned.trim_start_matches(|c: char| c.is_ascii_digit());
+    let end = after.len() - rest.len();
+    match after[..end].trim_start_matches('+').parse::<i32>() {
+        Ok(exponent) => (exponent, rest),
+        Err(_) if unsigned.len() == rest.len() => (0, text),
+        // More digits than an i32 holds: far out of range either way.
+        Err(_) => (if after.starts_with('-') { -1_000_000 } else { 1_000_000 }, rest),
+    }
+}
+
+fn fitting(
+    unit: &str,
+    text: &str,
+    place: &Place,
+    fit: &[Dimension],
+) -> Result<&'static Unit, Fault> {
+    let found = Unit::find(unit).ok_or_else(|| wording::unknown_unit(place, text, unit, fit))?;
+    let fits = fit.contains(&found.dimension);
+    if fits { Ok(found) } else { Err(wording::unit_misfit(place, text, found, fit)) }
+}
+
+fn value(mantissa: &str, exponent: i32, unit: Option<&'static Unit>) -> Option<Dd> {
+    let zero = mantissa.bytes().all(|b| matches!(b, b'0' | b'.' | b'+' | b'-'));
+    if zero {
+        return Some(Dd::ZERO);
+    }
+    // Powers of ten go into the decimal: 300 mm is read as 300e-3, not divided by 1000.
+    let exponent = exponent.saturating_add(unit.map_or(0, |u| u.exponent));
+    let decimal = format!("{}e{exponent}", mantissa.trim_start_matches('+'));
+    let size = decimal.parse::<f64>().ok()?.abs();
+    if !SIZES.contains(&size) {
+        return None;
+    }
+    let number: Dd = decimal.parse().ok()?;
+    // The quotient first: 90/180 is exact, so that 90 deg is the very double-double of π/2.
+    let degrees = unit.is_some_and(|u| u.degrees);
+    let number = if degrees { number / Dd::from_f64(180.0) * Dd::PI } else { number };
+    number.to_f64().is_finite().then_some(number)
+}

@@ -1,0 +1,154 @@
+//! The tree → the spec: one function per mapping of the format.
+
+use super::unit::Dimension;
+use super::walk::{At, Mapping, Reader};
+use super::yaml::{self, Data};
+use super::{Field, Frame, Inertia, Joint, Limits, Link, Located, Number, Origin, Spec, Vector};
+use crate::fault::{Faults, wording};
+use bgdyn_runtime::Dd;
+
+/// Reads a spec. What cannot be read is reported and left out, the rest is there.
+pub fn parse(text: &str) -> (Option<Spec>, Faults) {
+    let mut reader = Reader::default();
+    let tree = yaml::read(text, &mut reader.faults);
+    let spec = tree.and_then(|tree| reader.spec(&At::root(&tree)));
+    let complete = !reader.faults.any_fault();
+    reader.faults.sort();
+    (spec.map(|spec| Spec { complete, ..spec }), reader.faults)
+}
+
+impl Reader {
+    fn spec(&mut self, at: &At<'_>) -> Option<Spec> {
+        let keys = ["format", "name", "label", "description", "gravity", "snap", "links", "frames"];
+        let map = self.mapping(at, "a mapping (`format`, `links`, …)", &keys)?;
+        Some(Spec {
+            format: self.needed(
+                &map,
+                "format",
+                "the version of the format: `format: 1`",
+                |r, at| r.number(at, &[Dimension::One]),
+            ),
+            name: self.text_field(&map, "name"),
+            label: self.text_field(&map, "label"),
+            description: self.text_field(&map, "description"),
+            gravity: self.vector_field(&map, "gravity", &[Dimension::Acceleration]),
+            snap: self.number_field(&map, "snap", &[Dimension::Angle]),
+            links: self.needed(&map, "links", "the list of links", |r, at| {
+                Some(r.list(at, "a list of links")?.iter().filter_map(|at| r.link(at)).collect())
+            }),
+            frames: self.field(&map, "frames", |r, at| {
+                Some(r.list(at, "a list of frames")?.iter().filter_map(|at| r.frame(at)).collect())
+            }),
+            place: map.place,
+            complete: false,
+        })
+    }
+
+    fn link(&mut self, at: &At<'_>) -> Option<Link> {
+        let keys = ["name", "label", "parent", "joint", "mass", "com", "inertia", "nonphysical"];
+        let map = self.mapping(at, "a link (`name`, `joint`, `mass`, …)", &keys)?;
+        Some(Link {
+            name: self.needed(&map, "name", "the link's name", Self::text),
+            label: self.text_field(&map, "label"),
+            parent: self.text_field(&map, "parent"),
+            joint: self.field(&map, "joint", Self::joint),
+            mass: self.number_field(&map, "mass", &[Dimension::Mass]),
+            com: self.vector_field(&map, "com", &[Dimension::Length]),
+            inertia: self.field(&map, "inertia", Self::inertia),
+            nonphysical: self.text_field(&map, "nonphysical"),
+            place: map.place,
+        })
+    }
+
+    fn joint(&mut self, at: &At<'_>) -> Option<Joint> {
+        let keys = ["name", "label", "type", "axis", "origin", "limits"];
+        let map = self.mapping(at, "a joint (`name`, `type`, `axis`, …)", &keys)?;
+        Some(Joint {
+            name: self.text_field(&map, "name"),
+            label: self.text_field(&map, "label"),
+            kind: self.needed(&map, "type", "the joint's type", Self::text),
+            axis: self.field(&map, "axis", Self::axis),
+            origin: self.field(&map, "origin", Self::origin),
+            limits: self.field(&map, "limits", Self::limits),
+            place: map.place,
+        })
+    }
+
+    fn axis(&mut self, at: &At<'_>) -> Option<Vector> {
+        let Data::Scalar { text, .. } = &at.tree.data else {
+            return self.vector(at, &[Dimension::One]);
+        };
+        let (sign, letter) = match text.strip_prefix('-') {
+            Some(letter) => (-1.0, letter),
+            None => (1.0, text.as_str()),
+        };
+        let Some(place) = ["x", "y", "z"].iter().position(|l| *l == letter) else {
+            self.faults.push(wording::unknown_axis(&at.place, text));
+            return None;
+        };
+        Some(std::array::from_fn(|i| {
+            let value = Dd::from_f64(if i == place { sign } else { 0.0 });
+            let value = Number { value, unit: None, text: text.clone() };
+            Located { value, place: at.place.clone() }
+        }))
+    }
+
+    fn origin(&mut self, at: &At<'_>) -> Option<Origin> {
+        let map = self.mapping(at, "a mapping `{ xyz: […], rpy: […] }`", &["xyz", "rpy"])?;
+        Some(Origin {
+            xyz: self.vector_field(&map, "xyz", &[Dimension::Length]),
+            rpy: self.vector_field(&map, "rpy", &[Dimension::Angle]),
+        })
+    }
+
+    fn limits(&mut self, at: &At<'_>) -> Option<Limits> {
+        let keys = ["lower", "upper", "velocity", "effort"];
+        let map = self.mapping(at, "a mapping `{ lower: …, upper: … }`", &keys)?;
+        let position = [Dimension::Angle, Dimension::Length];
+        Some(Limits {
+            lower: self.number_field(&map, "lower", &position),
+            upper: self.number_field(&map, "upper", &position),
+            velocity: self.number_field(
+                &map,
+                "velocity",
+                &[Dimension::AngularSpeed, Dimension::Speed],
+            ),
+            effort: self.number_field(&map, "effort", &[Dimension::Torque, Dimension::Force]),
+        })
+    }
+
+    fn inertia(&mut self, at: &At<'_>) -> Option<Inertia> {
+        let keys = ["xx", "yy", "zz", "xy", "xz", "yz", "rpy"];
+        let map = self.mapping(at, "a mapping `{ xx: …, yy: …, zz: … }`", &keys)?;
+        Some(Inertia {
+            entries: std::array::from_fn(|i| {
+                self.number_field(&map, keys[i], &[Dimension::Inertia])
+            }),
+            rpy: self.vector_field(&map, "rpy", &[Dimension::Angle]),
+        })
+    }
+
+    fn frame(&mut self, at: &At<'_>) -> Option<Frame> {
+        let keys = ["name", "link", "origin", "label"];
+        let map = self.mapping(at, "a frame (`name`, `link`, `origin`)", &keys)?;
+        Some(Frame {
+            name: self.needed(&map, "name", "the frame's name", Self::text),
+            label: self.text_field(&map, "label"),
+            link: self.needed(&map, "link", "the link it is fixed to, or `world`", Self::text),
+            origin: self.field(&map, "origin", Self::origin),
+            place: map.place,
+        })
+    }
+
+    fn text_field(&mut self, map: &Mapping<'_>, key: &str) -> Field<String> {
+        self.field(map, key, Self::text)
+    }
+
+    fn number_field(&mut self, map: &Mapping<'_>, key: &str, fit: &[Dimension]) -> Field<Number> {
+        self.field(map, key, |r, at| r.number(at, fit))
+    }
+
+    fn vector_field(&mut self, map: &Mapping<'_>, key: &str, fit: &[Dimension]) -> Field<Vector> {
+        self.field(map, key, |r, at| r.vector(at, fit))
+    }
+}

@@ -1,0 +1,201 @@
+//! Steps of the typed reading: a mapping's keys, lists, texts, numbers. Every fault is noted and
+//! the reading goes on.
+
+use super::number::number;
+use super::unit::Dimension;
+use super::yaml::{Data, Entry, Kind, Tree};
+use super::{Field, Located, Number, Vector};
+use crate::fault::{Faults, Place, wording};
+
+/// A value and its path.
+#[derive(Clone, Debug)]
+pub(super) struct At<'t> {
+    pub(super) tree: &'t Tree,
+    pub(super) place: Place,
+}
+
+/// A mapping whose keys are known to the format.
+#[derive(Debug)]
+pub(super) struct Mapping<'t> {
+    pub(super) place: Place,
+    entries: Vec<&'t Entry>,
+    merged: bool,
+}
+
+/// Notes what is wrong along the way.
+#[derive(Debug, Default)]
+pub(super) struct Reader {
+    pub(super) faults: Faults,
+}
+
+impl<'t> At<'t> {
+    pub(super) fn root(tree: &'t Tree) -> Self {
+        At { tree, place: Place { position: tree.position, path: String::new() } }
+    }
+
+    fn item(&self, tree: &'t Tree, index: usize) -> Self {
+        let path = format!("{}[{index}]", self.place.path);
+        At { tree, place: Place { position: tree.position, path } }
+    }
+}
+
+impl<'t> Mapping<'t> {
+    fn get(&self, key: &str) -> Option<At<'t>> {
+        let entry = self.entries.iter().find(|e| e.key.as_deref() == Some(key))?;
+        let position = entry.value.position;
+        let place = Place { position, path: join(&self.place.path, key) };
+        Some(At { tree: &entry.value, place })
+    }
+}
+
+fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+impl Reader {
+    /// The mapping at `at`, its unknown and repeated keys reported.
+    pub(super) fn mapping<'t>(
+        &mut self,
+        at: &At<'t>,
+        what: &str,
+        keys: &[&'static str],
+    ) -> Option<Mapping<'t>> {
+        self.refuse_tag(at);
+        let Data::Map(entries) = &at.tree.data else {
+            self.faults.push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+            return None;
+        };
+        let mut mapping = Mapping { place: at.place.clone(), entries: Vec::new(), merged: false };
+        for entry in entries {
+            self.key(entry, keys, &mut mapping);
+        }
+        Some(mapping)
+    }
+
+    fn key<'t>(&mut self, entry: &'t Entry, keys: &[&'static str], mapping: &mut Mapping<'t>) {
+        let here = |path: String| Place { position: entry.position, path };
+        let Some(key) = &entry.key else {
+            let place = here(mapping.place.path.clone());
+            return self.faults.push(wording::key_not_text(&place, keys));
+        };
+        if key == "<<" {
+            mapping.merged = true;
+            return self.faults.push(wording::merge_key(&here(mapping.place.path.clone())));
+        }
+        if !keys.contains(&key.as_str()) {
+            let place = here(mapping.place.path.clone());
+            return self.faults.push(wording::unknown_key(&place, key, keys));
+        }
+        if let Some(first) = mapping.entries.iter().find(|e| e.key.as_ref() == Some(key)) {
+            let place = here(join(&mapping.place.path, key));
+            return self.faults.push(wording::repeated_key(&place, key, first.position));
+        }
+        mapping.entries.push(entry);
+    }
+
+    /// The value of `key`, read by `read`.
+    pub(super) fn field<'t, T>(
+        &mut self,
+        mapping: &Mapping<'t>,
+        key: &str,
+        read: impl FnOnce(&mut Self, &At<'t>) -> Option<T>,
+    ) -> Field<T> {
+        let Some(at) = mapping.get(key) else {
+            // What a merge key would have brought is not missing on top of it.
+            return if mapping.merged { Field::Broken } else { Field::Absent };
+        };
+        match read(self, &at) {
+            Some(value) => Field::Given(Located { value, place: at.place }),
+            None => Field::Broken,
+        }
+    }
+
+    /// The value of a key that must be there.
+    pub(super) fn needed<'t, T>(
+        &mut self,
+        mapping: &Mapping<'t>,
+        key: &str,
+        what: &str,
+        read: impl FnOnce(&mut Self, &At<'t>) -> Option<T>,
+    ) -> Field<T> {
+        let field = self.field(mapping, key, read);
+        if field.is_absent() {
+            self.faults.push(wording::missing_key(&mapping.place, key, what));
+            return Field::Broken;
+        }
+        field
+    }
+
+    /// The items of a list.
+    pub(super) fn list<'t>(&mut self, at: &At<'t>, what: &str) -> Option<Vec<At<'t>>> {
+        self.refuse_tag(at);
+        let Data::List(items) = &at.tree.data else {
+            self.faults.push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+            return None;
+        };
+        Some(items.iter().enumerate().map(|(i, tree)| at.item(tree, i)).collect())
+    }
+
+    /// A text; a number or a truth value is none.
+    pub(super) fn text(&mut self, at: &At<'_>) -> Option<String> {
+        self.refuse_tag(at);
+        match &at.tree.data {
+            Data::Scalar { kind: Kind::Text { .. }, text } => Some(text.clone()),
+            _ => {
+                self.faults.push(wording::wrong_type(&at.place, "text", &describe(at.tree)));
+                None
+            }
+        }
+    }
+
+    /// A number of one of the dimensions `fit`.
+    pub(super) fn number(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Number> {
+        self.refuse_tag(at);
+        let Data::Scalar { kind: kind @ (Kind::Number | Kind::Text { .. }), text } = &at.tree.data
+        else {
+            self.faults.push(wording::wrong_type(&at.place, "a number", &describe(at.tree)));
+            return None;
+        };
+        number(*kind, text, &at.place, fit).map_err(|fault| self.faults.push(fault)).ok()
+    }
+
+    /// Three numbers.
+    pub(super) fn vector(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Vector> {
+        let items = self.list(at, "a list of three numbers")?;
+        let count = items.len();
+        let numbers: Vec<Option<Located<Number>>> = items
+            .into_iter()
+            .map(|item| {
+                let value = self.number(&item, fit)?;
+                Some(Located { value, place: item.place })
+            })
+            .collect();
+        if count != 3 {
+            self.faults.push(wording::wrong_length(&at.place, count));
+            return None;
+        }
+        numbers.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
+    }
+
+    fn refuse_tag(&mut self, at: &At<'_>) {
+        if let Some(tag) = &at.tree.tag {
+            self.faults.push(wording::tag(&at.place, tag));
+        }
+    }
+}
+
+/// What stands at a place, for messages.
+fn describe(tree: &Tree) -> String {
+    match &tree.data {
+        Data::List(items) => format!("a list of {}", items.len()),
+        Data::Map(_) => "a mapping".to_owned(),
+        Data::Scalar { kind: Kind::Nothing, .. } => "nothing".to_owned(),
+        Data::Scalar { kind: Kind::Truth, text } => {
+            format!("the truth value {}", wording::quote(text))
+        }
+        Data::Scalar { kind: Kind::Number, text } => format!("the number {}", wording::quote(text)),
+        Data::Scalar { kind: Kind::Text { .. }, text } => {
+            format!("the text {}", wording::quote(text))
+        }
+    }
+}

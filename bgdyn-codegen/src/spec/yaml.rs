@@ -1,0 +1,169 @@
+//! YAML text → a tree of typed values with positions.
+//!
+//! serde_yaml tells the type of every value (`1.5` a number, `x` a text, `~` nothing); the index
+//! tells where it stands and how it was written, so that numbers keep their decimals.
+
+use serde::de::{
+    Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
+};
+
+use super::index::{Node, Shape, index};
+use crate::fault::{Fault, Faults, Position, wording};
+
+/// A typed value and where it stands.
+#[derive(Debug)]
+pub(super) struct Tree {
+    pub(super) position: Position,
+    pub(super) tag: Option<String>,
+    pub(super) data: Data,
+}
+
+/// What a value is.
+#[derive(Debug)]
+pub(super) enum Data {
+    Scalar { kind: Kind, text: String },
+    List(Vec<Tree>),
+    Map(Vec<Entry>),
+}
+
+/// The type of a scalar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Nothing,
+    Truth,
+    Number,
+    Text { quoted: bool },
+}
+
+/// A key with its value; `key` is empty for a key that is no scalar.
+#[derive(Debug)]
+pub(super) struct Entry {
+    pub(super) key: Option<String>,
+    pub(super) position: Position,
+    pub(super) value: Tree,
+}
+
+/// The file's tree, if its YAML is sound.
+pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Tree> {
+    match tree(text) {
+        Ok(tree) => Some(tree),
+        Err(fault) => {
+            faults.push(fault);
+            None
+        }
+    }
+}
+
+fn tree(text: &str) -> Result<Tree, Fault> {
+    let root = index(text)?.ok_or_else(wording::empty_file)?;
+    let typed: Typed = serde_yaml::from_str(text).map_err(|e| serde_fault(&e))?;
+    join(&root, typed)
+}
+
+fn serde_fault(error: &serde_yaml::Error) -> Fault {
+    let place = error.location();
+    let position = place.map(|l| Position { line: l.line().max(1), column: l.column().max(1) });
+    wording::yaml_syntax(position.unwrap_or(Position::START), &error.to_string())
+}
+
+fn join(node: &Node, typed: Typed) -> Result<Tree, Fault> {
+    let data = match (&node.shape, typed) {
+        (Shape::Scalar { text, plain }, Typed::Scalar(kind)) => {
+            let kind =
+                if let Kind::Text { .. } = kind { Kind::Text { quoted: !plain } } else { kind };
+            Data::Scalar { kind, text: text.clone() }
+        }
+        (Shape::List(nodes), Typed::List(items)) if nodes.len() == items.len() => {
+            let pairs = nodes.iter().zip(items);
+            Data::List(pairs.map(|(n, t)| join(n, t)).collect::<Result<_, _>>()?)
+        }
+        (Shape::Map(nodes), Typed::Map(items)) if nodes.len() == items.len() => {
+            let pairs = nodes.iter().zip(items);
+            Data::Map(pairs.map(|((k, v), t)| entry(k, v, t)).collect::<Result<_, _>>()?)
+        }
+        _ => return Err(wording::yaml_ambiguous(node.position)),
+    };
+    Ok(Tree { position: node.position, tag: node.tag.clone(), data })
+}
+
+fn entry(key: &Node, value: &Node, typed: Typed) -> Result<Entry, Fault> {
+    let text = match &key.shape {
+        Shape::Scalar { text, .. } => Some(text.clone()),
+        Shape::List(_) | Shape::Map(_) => None,
+    };
+    Ok(Entry { key: text, position: key.position, value: join(value, typed)? })
+}
+
+/// The types that serde_yaml sees; repeated keys stay, so that the reader can show both.
+enum Typed {
+    Scalar(Kind),
+    List(Vec<Typed>),
+    Map(Vec<Typed>),
+}
+
+impl<'de> Deserialize<'de> for Typed {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(TypedVisitor)
+    }
+}
+
+struct TypedVisitor;
+
+macro_rules! scalars {
+    ($($visit:ident($type:ty) = $kind:expr;)*) => {
+        $(fn $visit<E>(self, _: $type) -> Result<Typed, E> {
+            Ok(Typed::Scalar($kind))
+        })*
+    };
+}
+
+impl<'de> Visitor<'de> for TypedVisitor {
+    type Value = Typed;
+
+    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("a YAML value")
+    }
+
+    scalars! {
+        visit_bool(bool) = Kind::Truth;
+        visit_i64(i64) = Kind::Number;
+        visit_u64(u64) = Kind::Number;
+        visit_i128(i128) = Kind::Number;
+        visit_u128(u128) = Kind::Number;
+        visit_f64(f64) = Kind::Number;
+        visit_str(&str) = Kind::Text { quoted: false };
+    }
+
+    fn visit_unit<E>(self) -> Result<Typed, E> {
+        Ok(Typed::Scalar(Kind::Nothing))
+    }
+
+    fn visit_none<E>(self) -> Result<Typed, E> {
+        Ok(Typed::Scalar(Kind::Nothing))
+    }
+
+    fn visit_some<D: Deserializer<'de>>(self, deserializer: D) -> Result<Typed, D::Error> {
+        Typed::deserialize(deserializer)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Typed, A::Error> {
+        let mut items = Vec::new();
+        while let Some(item) = seq.next_element()? {
+            items.push(item);
+        }
+        Ok(Typed::List(items))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Typed, A::Error> {
+        let mut values = Vec::new();
+        while let Some((_, value)) = map.next_entry::<Typed, Typed>()? {
+            values.push(value);
+        }
+        Ok(Typed::Map(values))
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Typed, A::Error> {
+        let (_, content) = data.variant::<String>()?;
+        content.newtype_variant()
+    }
+}
