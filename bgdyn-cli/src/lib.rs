@@ -12,7 +12,11 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 #[derive(Parser)]
-#[command(name = "bgdyn", version, about = "Rigid-body dynamics as generated Rust")]
+#[command(
+    name = "bgdyn",
+    version,
+    about = "Rigid-body dynamics as generated Rust"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -20,9 +20,16 @@ impl SpecFile {
     pub(crate) fn open(path: &Path) -> Result<Self> {
         let text = std::fs::read_to_string(path)
             .with_context(|| format!("{} cannot be read", path.display()))?;
-        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = path
+            .file_name()
+            .map(|n| n.to_string_lossy().into_owned())
+            .unwrap_or_default();
         let stem = name.split('.').next().unwrap_or_default().to_string();
-        Ok(SpecFile { path: path.to_path_buf(), text, stem })
+        Ok(SpecFile {
+            path: path.to_path_buf(),
+            text,
+            stem,
+        })
     }
 
     /// The mechanism, if the spec passes, and all that was found.
@@ -47,9 +54,19 @@ impl SpecFile {
 
 /// The generator's options from the command line's.
 pub(crate) fn options(formulation: Option<&str>) -> Result<Options> {
-    let Some(name) = formulation else { return Ok(Options::default()) };
-    let known = || FORMULATIONS.iter().map(|f| f.name()).collect::<Vec<_>>().join(", ");
+    let Some(name) = formulation else {
+        return Ok(Options::default());
+    };
+    let known = || {
+        FORMULATIONS
+            .iter()
+            .map(|f| f.name())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let formulation = formulation::by_name(name)
         .ok_or_else(|| anyhow!("no formulation `{name}`; there are {}", known()))?;
-    Ok(Options { formulation: Some(formulation) })
+    Ok(Options {
+        formulation: Some(formulation),
+    })
 }

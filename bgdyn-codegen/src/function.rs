@@ -29,7 +29,12 @@ pub struct Function {
 impl Function {
     /// A function of one block.
     pub fn flat(method: Method, formulation: String, graph: Graph, outputs: Vec<Expr>) -> Self {
-        Function { method, formulation, graph, blocks: vec![Block { outputs }] }
+        Function {
+            method,
+            formulation,
+            graph,
+            blocks: vec![Block { outputs }],
+        }
     }
 
     /// Its name.

@@ -33,7 +33,11 @@ impl Model {
         let bond_graph = bond_graph::build(&mechanism);
         let function = |method| formulation::choose(&bond_graph, method, options.formulation);
         let functions = Method::ALL.into_iter().filter_map(function).collect();
-        Model { mechanism, bond_graph, functions }
+        Model {
+            mechanism,
+            bond_graph,
+            functions,
+        }
     }
 
     /// The function of a method.

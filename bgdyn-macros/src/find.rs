@@ -19,13 +19,19 @@ pub(crate) fn find(written: &str, span: Span) -> Result<PathBuf, String> {
         }
     }
     let list = |paths: &[PathBuf]| {
-        paths.iter().map(|p| format!("\n  {}", p.display())).collect::<String>()
+        paths
+            .iter()
+            .map(|p| format!("\n  {}", p.display()))
+            .collect::<String>()
     };
     match found.as_slice() {
         [only] => Ok(only.clone()),
         [] => {
             let tried: Vec<PathBuf> = places.iter().map(|p| p.join(written)).collect();
-            Err(format!("bgdyn: no file `{written}`; looked for{}", list(&tried)))
+            Err(format!(
+                "bgdyn: no file `{written}`; looked for{}",
+                list(&tried)
+            ))
         }
         several => Err(format!(
             "bgdyn: `{written}` could mean any of{}\nwrite a path that leaves only one of them",
@@ -54,7 +60,9 @@ fn places(span: Span) -> Vec<PathBuf> {
 
 /// The file's name.
 pub(crate) fn file_name(path: &Path) -> String {
-    path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default()
+    path.file_name()
+        .map(|n| n.to_string_lossy().into_owned())
+        .unwrap_or_default()
 }
 
 /// The file's name up to its first dot: the module's name.
@@ -62,6 +70,8 @@ pub(crate) fn stem(path: &Path) -> Result<String, String> {
     let name = file_name(path);
     match name.split('.').next() {
         Some(stem) if !stem.is_empty() => Ok(stem.to_string()),
-        _ => Err(format!("bgdyn: the file name `{name}` gives the module no name")),
+        _ => Err(format!(
+            "bgdyn: the file name `{name}` gives the module no name"
+        )),
     }
 }

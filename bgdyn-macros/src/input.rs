@@ -12,7 +12,10 @@ pub(crate) struct Input {
 
 impl Parse for Input {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        let mut parsed = Input { path: input.parse()?, formulation: None };
+        let mut parsed = Input {
+            path: input.parse()?,
+            formulation: None,
+        };
         while !input.is_empty() {
             input.parse::<Token![,]>()?;
             if input.is_empty() {
@@ -34,10 +37,24 @@ impl Parse for Input {
 impl Input {
     /// The formulation asked for.
     pub(crate) fn formulation(&self) -> Result<Option<&'static dyn Formulation>, String> {
-        let Some(name) = &self.formulation else { return Ok(None) };
-        let known = || FORMULATIONS.iter().map(|f| f.name()).collect::<Vec<_>>().join(", ");
+        let Some(name) = &self.formulation else {
+            return Ok(None);
+        };
+        let known = || {
+            FORMULATIONS
+                .iter()
+                .map(|f| f.name())
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
         formulation::by_name(&name.value())
             .map(Some)
-            .ok_or_else(|| format!("bgdyn: unknown formulation `{}`; known: {}", name.value(), known()))
+            .ok_or_else(|| {
+                format!(
+                    "bgdyn: unknown formulation `{}`; known: {}",
+                    name.value(),
+                    known()
+                )
+            })
     }
 }

@@ -27,7 +27,9 @@ use input::Input;
 pub fn bgdyn(input: TokenStream) -> TokenStream {
     let input = syn::parse_macro_input!(input as Input);
     let expanded = expand(&input);
-    expanded.unwrap_or_else(|message| syn::Error::new(input.path.span(), message).to_compile_error()).into()
+    expanded
+        .unwrap_or_else(|message| syn::Error::new(input.path.span(), message).to_compile_error())
+        .into()
 }
 
 fn expand(input: &Input) -> Result<proc_macro2::TokenStream, String> {
@@ -36,7 +38,9 @@ fn expand(input: &Input) -> Result<proc_macro2::TokenStream, String> {
     let text = std::fs::read_to_string(&path)
         .map_err(|e| format!("bgdyn: {} cannot be read: {e}", path.display()))?;
     let stem = find::stem(&path)?;
-    let options = Options { formulation: input.formulation()? };
+    let options = Options {
+        formulation: input.formulation()?,
+    };
     let place = Place {
         bgdyn: crate_path()?,
         visibility: quote! { pub },
@@ -55,6 +59,8 @@ fn crate_path() -> Result<proc_macro2::TokenStream, String> {
             let name = proc_macro2::Ident::new(&name, proc_macro2::Span::call_site());
             Ok(quote! { ::#name })
         }
-        Err(e) => Err(format!("bgdyn: the calling crate does not depend on bgdyn: {e}")),
+        Err(e) => Err(format!(
+            "bgdyn: the calling crate does not depend on bgdyn: {e}"
+        )),
     }
 }

@@ -67,11 +67,19 @@ macro_rules! float_scalar {
             }
 
             fn min(self, other: Self) -> Self {
-                if self < other || self.is_nan() { self } else { other }
+                if self < other || self.is_nan() {
+                    self
+                } else {
+                    other
+                }
             }
 
             fn max(self, other: Self) -> Self {
-                if self > other || self.is_nan() { self } else { other }
+                if self > other || self.is_nan() {
+                    self
+                } else {
+                    other
+                }
             }
 
             fn sign(self) -> Self {
@@ -105,7 +113,11 @@ macro_rules! float_scalar {
                 let floor = magnitude * (PIVOT_ULPS as $float * $float::EPSILON);
                 // Written so that a NaN on either side is refused.
                 let ok = self > 0.0 && self > floor && self < $float::INFINITY;
-                if note_refused(ok, joint, refused) { self } else { 1.0 }
+                if note_refused(ok, joint, refused) {
+                    self
+                } else {
+                    1.0
+                }
             }
 
             fn finish<const N: usize>(
@@ -119,5 +131,19 @@ macro_rules! float_scalar {
     };
 }
 
-float_scalar!(f64, libm::sincos, libm::sqrt, libm::exp, libm::log, libm::tanh);
-float_scalar!(f32, libm::sincosf, libm::sqrtf, libm::expf, libm::logf, libm::tanhf);
+float_scalar!(
+    f64,
+    libm::sincos,
+    libm::sqrt,
+    libm::exp,
+    libm::log,
+    libm::tanh
+);
+float_scalar!(
+    f32,
+    libm::sincosf,
+    libm::sqrtf,
+    libm::expf,
+    libm::logf,
+    libm::tanhf
+);

@@ -26,10 +26,13 @@ impl Check {
         let (mechanism, faults) = spec.read();
         if self.json {
             let found: Vec<Value> = faults.0.iter().map(finding).collect();
-            let model = mechanism.as_ref().map(|m| {
-                json!({ "name": m.name(), "nq": m.nq(), "nv": m.nv() })
-            });
-            println!("{:#}", json!({ "ok": model.is_some(), "model": model, "findings": found }));
+            let model = mechanism
+                .as_ref()
+                .map(|m| json!({ "name": m.name(), "nq": m.nq(), "nv": m.nv() }));
+            println!(
+                "{:#}",
+                json!({ "ok": model.is_some(), "model": model, "findings": found })
+            );
         } else if !faults.0.is_empty() {
             eprint!("{}", spec.render(&faults));
         }

@@ -14,7 +14,9 @@ use crate::spec_file::{SpecFile, options};
 
 /// Evaluate a method at the states of a file, without a compiler
 #[derive(Args)]
-#[command(after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}")]
+#[command(
+    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}"
+)]
 pub(crate) struct Eval {
     /// The spec
     file: PathBuf,
@@ -39,7 +41,11 @@ impl Eval {
         let options = options(self.formulation.as_deref())?;
         let method = Method::by_name(&self.method).ok_or_else(|| {
             let known: Vec<_> = Method::ALL.iter().map(|m| m.name()).collect();
-            anyhow!("no method `{}`; there are {}", self.method, known.join(", "))
+            anyhow!(
+                "no method `{}`; there are {}",
+                self.method,
+                known.join(", ")
+            )
         })?;
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let states = states(&self.states)?;
@@ -86,7 +92,9 @@ fn without_bare_words(text: &str) -> String {
     let mut rest = text;
     let mut quoted = false;
     while let Some(c) = rest.chars().next() {
-        let word = ["-Infinity", "Infinity", "NaN"].into_iter().find(|w| rest.starts_with(w));
+        let word = ["-Infinity", "Infinity", "NaN"]
+            .into_iter()
+            .find(|w| rest.starts_with(w));
         if let (false, Some(word)) = (quoted, word) {
             out.push_str("null");
             rest = &rest[word.len()..];
@@ -114,9 +122,16 @@ fn field(argument: Argument) -> &'static str {
 }
 
 fn evaluate(mechanism: &Mechanism, function: &Function, state: &Value) -> Result<Value, Failure> {
-    let plain = |message: String| Failure { joint: None, message };
+    let plain = |message: String| Failure {
+        joint: None,
+        message,
+    };
     let mut inputs = Inputs {
-        parameters: mechanism.parameters().iter().map(|p| p.default.to_f64()).collect(),
+        parameters: mechanism
+            .parameters()
+            .iter()
+            .map(|p| p.default.to_f64())
+            .collect(),
         ..Inputs::default()
     };
     for &argument in function.method.arguments() {
@@ -130,24 +145,39 @@ fn evaluate(mechanism: &Mechanism, function: &Function, state: &Value) -> Result
     }
     let (values, refused) = function.evaluate::<f64>(inputs);
     if let Some(joint) = refused {
-        let name = mechanism.joint(bgdyn_codegen::mechanism::CoordinateId(joint)).name.clone();
-        let message = format!("singular mass matrix: joint `{name}` has no inertia left to accelerate");
-        return Err(Failure { joint: Some(name), message });
+        let name = mechanism
+            .joint(bgdyn_codegen::mechanism::CoordinateId(joint))
+            .name
+            .clone();
+        let message =
+            format!("singular mass matrix: joint `{name}` has no inertia left to accelerate");
+        return Err(Failure {
+            joint: Some(name),
+            message,
+        });
     }
     if values.iter().any(|x| !x.is_finite()) {
-        return Err(plain("the result is not finite: the input is too large".into()));
+        return Err(plain(
+            "the result is not finite: the input is too large".into(),
+        ));
     }
     Ok(shaped(function.shape(), mechanism.nv(), &values))
 }
 
 fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, Failure> {
-    let plain = |message: String| Failure { joint: None, message };
+    let plain = |message: String| Failure {
+        joint: None,
+        message,
+    };
     let Some(Value::Array(values)) = state.get(name) else {
         return Err(plain(format!("no array `{name}`")));
     };
     if values.len() != mechanism.nv() {
         let n = mechanism.nv();
-        return Err(plain(format!("`{name}` has {} components instead of {n}", values.len())));
+        return Err(plain(format!(
+            "`{name}` has {} components instead of {n}",
+            values.len()
+        )));
     }
     let mut numbers = Vec::new();
     for (j, value) in values.iter().enumerate() {
@@ -156,10 +186,15 @@ fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, 
         match number {
             Some(x) if f64::is_finite(x) => numbers.push(x),
             _ => {
-                let joint =
-                    mechanism.joint(bgdyn_codegen::mechanism::CoordinateId(j)).name.clone();
+                let joint = mechanism
+                    .joint(bgdyn_codegen::mechanism::CoordinateId(j))
+                    .name
+                    .clone();
                 let message = format!("`{name}[{j}]` is not a finite number");
-                return Err(Failure { joint: Some(joint), message });
+                return Err(Failure {
+                    joint: Some(joint),
+                    message,
+                });
             }
         }
     }

@@ -27,7 +27,10 @@ impl Generate {
     pub(crate) fn run(self) -> Result<()> {
         let options = options(self.formulation.as_deref())?;
         let spec = SpecFile::open(&self.file)?;
-        let source = self.file.file_name().map(|n| n.to_string_lossy().into_owned());
+        let source = self
+            .file
+            .file_name()
+            .map(|n| n.to_string_lossy().into_owned());
         let place = Place::source_text(source.unwrap_or_default());
         let text = generate_source(&spec.text, &spec.stem, &place, &options).map_err(|faults| {
             eprint!("{}", spec.render(&faults));

@@ -50,7 +50,14 @@ impl Ops {
 fn counts(model: &Model) -> Value {
     let mut functions = Map::new();
     for f in &model.functions {
-        let Operations { mul, add, div, sqrt, sincos, other } = f.operations();
+        let Operations {
+            mul,
+            add,
+            div,
+            sqrt,
+            sincos,
+            other,
+        } = f.operations();
         let count = json!({ "mul": mul, "add": add, "div": div, "sqrt": sqrt, "sincos": sincos, "other": other });
         functions.insert(f.name().into(), count);
     }
@@ -58,12 +65,22 @@ fn counts(model: &Model) -> Value {
 }
 
 fn print_table(model: &Model) {
-    println!("{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}", "function", "mul", "add", "div", "sqrt", "sincos", "other", "mul+add");
+    println!(
+        "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}",
+        "function", "mul", "add", "div", "sqrt", "sincos", "other", "mul+add"
+    );
     for f in &model.functions {
         let o = f.operations();
         println!(
             "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}",
-            f.name(), o.mul, o.add, o.div, o.sqrt, o.sincos, o.other, o.total()
+            f.name(),
+            o.mul,
+            o.add,
+            o.div,
+            o.sqrt,
+            o.sincos,
+            o.other,
+            o.total()
         );
     }
 }
@@ -73,9 +90,16 @@ fn explain(mechanism: &Mechanism, model: &Model) {
     for f in &model.functions {
         eprintln!("{}: {}", f.name(), f.formulation);
         for formulation in FORMULATIONS {
-            let asked = Options { formulation: Some(formulation) };
+            let asked = Options {
+                formulation: Some(formulation),
+            };
             if let Some(other) = count_with(mechanism, f.method, &asked) {
-                eprintln!("  {:<12} {}  ({})", formulation.name(), other, formulation.summary());
+                eprintln!(
+                    "  {:<12} {}  ({})",
+                    formulation.name(),
+                    other,
+                    formulation.summary()
+                );
             }
         }
     }

@@ -22,7 +22,9 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
         gravity: mechanism.gravity(),
         parameters: mechanism.parameters().to_vec(),
     };
-    graph.junctions = (0..mechanism.nv()).map(|j| Junction::Velocity(CoordinateId(j))).collect();
+    graph.junctions = (0..mechanism.nv())
+        .map(|j| Junction::Velocity(CoordinateId(j)))
+        .collect();
     for (i, link) in mechanism.links().iter().enumerate() {
         add_link(&mut graph, LinkId(i), link);
     }
@@ -36,7 +38,11 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
 fn coordinates(mechanism: &Mechanism) -> Vec<Coordinate> {
     let coordinate = |&link: &LinkId| {
         let joint = &mechanism.links()[link.0].joint;
-        Coordinate { name: joint.name.clone(), link, motion: joint.kind.motion }
+        Coordinate {
+            name: joint.name.clone(),
+            link,
+            motion: joint.kind.motion,
+        }
     };
     mechanism.coordinates().iter().map(coordinate).collect()
 }
@@ -56,17 +62,34 @@ fn frame(link: &Link) -> LinkFrame {
 /// Two junctions, each with a store and a source.
 fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
     let (translation, rotation) = (graph.translation(i), graph.rotation(i));
-    graph.junctions.extend([Junction::Translation(i), Junction::Rotation(i)]);
+    graph
+        .junctions
+        .extend([Junction::Translation(i), Junction::Rotation(i)]);
     let mass = link.inertial.mass;
     graph.stores.extend([
-        Store { junction: translation, inertia: Inertia::Mass(mass) },
-        Store { junction: rotation, inertia: Inertia::Tensor(link.inertial.inertia) },
+        Store {
+            junction: translation,
+            inertia: Inertia::Mass(mass),
+        },
+        Store {
+            junction: rotation,
+            inertia: Inertia::Tensor(link.inertial.inertia),
+        },
     ]);
-    let weight = Effort::Weight { mass, gravity: graph.gravity };
+    let weight = Effort::Weight {
+        mass,
+        gravity: graph.gravity,
+    };
     let still = graph.gravity.0.iter().all(|&g| g == Dd::ZERO);
     graph.sources.extend([
-        Source { junction: translation, efforts: if still { vec![] } else { vec![weight] } },
-        Source { junction: rotation, efforts: vec![] },
+        Source {
+            junction: translation,
+            efforts: if still { vec![] } else { vec![weight] },
+        },
+        Source {
+            junction: rotation,
+            efforts: vec![],
+        },
     ]);
 }
 
@@ -88,7 +111,10 @@ fn places(frames: &[LinkFrame]) -> Vec<Place> {
 }
 
 fn place(frame: &LinkFrame, parent: Option<Place>) -> Place {
-    let Pose { rotation, translation } = frame.origin;
+    let Pose {
+        rotation,
+        translation,
+    } = frame.origin;
     let mut rotation = rotation.map(Modulus::constant);
     let mut origin = translation.map(Modulus::constant);
     if let Some(parent) = parent {
@@ -104,7 +130,11 @@ fn place(frame: &LinkFrame, parent: Option<Place>) -> Place {
             Motion::None => {}
         }
     }
-    Place { rotation, origin, axis }
+    Place {
+        rotation,
+        origin,
+        axis,
+    }
 }
 
 /// Pattern of the rotation about `axis`: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
@@ -133,7 +163,9 @@ fn add_transformers(graph: &mut BondGraph, places: &[Place], i: LinkId) {
         link = graph.frames[l.0].parent;
     }
     for l in path.into_iter().rev() {
-        let Some(j) = graph.frames[l.0].coordinate else { continue };
+        let Some(j) = graph.frames[l.0].coordinate else {
+            continue;
+        };
         let axis = places[l.0].axis;
         let linear = match graph.frames[l.0].motion {
             Motion::None => continue,
@@ -159,7 +191,9 @@ fn lever(
     let mut lever = places[i.0].rotation * com;
     let mut link = i;
     while link != l {
-        let Some(parent) = frames[link.0].parent else { break };
+        let Some(parent) = frames[link.0].parent else {
+            break;
+        };
         let step = frames[link.0].origin.translation.map(Modulus::constant);
         lever = lever + places[parent.0].rotation * step;
         if let (Motion::Translation, Some(j)) = (frames[link.0].motion, frames[link.0].coordinate) {

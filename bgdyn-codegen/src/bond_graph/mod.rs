@@ -153,7 +153,11 @@ impl BondGraph {
     pub fn inertial(&self, i: LinkId) -> Inertial {
         let at = |junction| self.stores.iter().filter(move |s| s.junction == junction);
         let zero = Value::Fixed(Dd::ZERO);
-        let mut inertial = Inertial { mass: zero, com: self.frames[i.0].com, inertia: [zero; 6] };
+        let mut inertial = Inertial {
+            mass: zero,
+            com: self.frames[i.0].com,
+            inertia: [zero; 6],
+        };
         for store in at(self.translation(i)).chain(at(self.rotation(i))) {
             match store.inertia {
                 Inertia::Mass(mass) => inertial.mass = mass,

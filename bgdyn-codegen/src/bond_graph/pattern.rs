@@ -51,7 +51,11 @@ impl Coordinates {
 impl Modulus {
     /// A constant, zero as such.
     pub fn constant(x: Dd) -> Self {
-        if x == Dd::ZERO { Modulus::Zero } else { Modulus::Constant(x) }
+        if x == Dd::ZERO {
+            Modulus::Zero
+        } else {
+            Modulus::Constant(x)
+        }
     }
 
     /// Whether it is zero at every q.
@@ -69,7 +73,11 @@ impl Add for Modulus {
                 let sum = x + y;
                 // What double-double leaves of an exact cancellation.
                 let noise = (x.abs() + y.abs()) * Dd::from_f64(1e-29);
-                if sum.abs() <= noise { Modulus::Zero } else { Modulus::Constant(sum) }
+                if sum.abs() <= noise {
+                    Modulus::Zero
+                } else {
+                    Modulus::Constant(sum)
+                }
             }
             (Modulus::Varying(a), Modulus::Varying(b)) => Modulus::Varying(a.union(b)),
             (Modulus::Varying(a), _) | (_, Modulus::Varying(a)) => Modulus::Varying(a),

@@ -37,11 +37,17 @@ pub(super) fn body(function: &Function, model: &Model) -> TokenStream {
     let mut results: Vec<TokenStream> = Vec::new();
     for (number, block) in function.blocks.iter().enumerate() {
         writer.block(number, &block.outputs, number + 1 == function.blocks.len());
-        results = block.outputs.iter().map(|&e| writer.operand(e, Binding::Sum)).collect();
+        results = block
+            .outputs
+            .iter()
+            .map(|&e| writer.operand(e, Binding::Sum))
+            .collect();
     }
     let result = result(function.shape(), model.mechanism.nv(), &results);
     let statements = &writer.statements;
-    let constants = writer.constants.then(|| quote! { let k = <T as __Scalar>::from_f64; });
+    let constants = writer
+        .constants
+        .then(|| quote! { let k = <T as __Scalar>::from_f64; });
     let refused = (function.shape() == Shape::CheckedVector).then(|| {
         let mutable = writer.pivots.then(|| quote! { mut });
         quote! { let #mutable refused = T::none_refused(); }
@@ -144,8 +150,18 @@ impl<'a> Writer<'a> {
         }
         Writer {
             graph,
-            joints: model.bond_graph.coordinates.iter().map(|c| c.name.as_str()).collect(),
-            parameters: model.mechanism.parameters().iter().map(|p| p.name.as_str()).collect(),
+            joints: model
+                .bond_graph
+                .coordinates
+                .iter()
+                .map(|c| c.name.as_str())
+                .collect(),
+            parameters: model
+                .mechanism
+                .parameters()
+                .iter()
+                .map(|p| p.name.as_str())
+                .collect(),
             names,
             code: vec![None; graph.len()],
             sines: vec![None; graph.len()],
@@ -170,7 +186,9 @@ impl<'a> Writer<'a> {
                     parts.push(quote! { _ });
                     continue;
                 }
-                let variable = self.names.named(&format!("{}_{}", argument.name(), self.joints[j]));
+                let variable = self
+                    .names
+                    .named(&format!("{}_{}", argument.name(), self.joints[j]));
                 parts.push(quote! { #variable });
                 for i in 0..self.graph.len() {
                     if *self.graph.node(NodeId(i as u32)) == Node::Leaf(leaf) {
@@ -195,7 +213,8 @@ impl<'a> Writer<'a> {
             node.for_each_operand(|operand| self.uses[operand.0 as usize] += 1);
         }
         for i in (0..needed.len()).filter(|&i| needed[i]) {
-            if self.code[i].is_none() || matches!(self.graph.node(NodeId(i as u32)), Node::Leaf(_)) {
+            if self.code[i].is_none() || matches!(self.graph.node(NodeId(i as u32)), Node::Leaf(_))
+            {
                 self.node(NodeId(i as u32));
             }
         }
@@ -224,9 +243,13 @@ impl<'a> Writer<'a> {
                 atom(quote! { k(#value) })
             }
             Node::Less(a, b) => {
-                let (a, b) = (self.operand(*a, Binding::Sum), self.operand(*b, Binding::Sum));
+                let (a, b) = (
+                    self.operand(*a, Binding::Sum),
+                    self.operand(*b, Binding::Sum),
+                );
                 let mask = self.names.numbered();
-                self.statements.push(quote! { let #mask = T::less(#a, #b); });
+                self.statements
+                    .push(quote! { let #mask = T::less(#a, #b); });
                 atom(quote! { #mask })
             }
             // Written with the sine.
@@ -249,7 +272,11 @@ impl<'a> Writer<'a> {
             && code.binding != Binding::Atom
             && code.operations < STATEMENT
             && self.graph.name(id).is_none();
-        self.code[i] = Some(if is_operation && !inline { self.bind(id, code) } else { code });
+        self.code[i] = Some(if is_operation && !inline {
+            self.bind(id, code)
+        } else {
+            code
+        });
     }
 
     /// A `let` for the node.
@@ -282,25 +309,43 @@ impl<'a> Writer<'a> {
                 let left = self.operand(plus(*a), Binding::Sum);
                 let right = self.operand(plus(b.node), Binding::Product);
                 let operations = self.size(*a) + self.size(b.node) + 1;
-                let tokens =
-                    if b.negative { quote! { #left - #right } } else { quote! { #left + #right } };
-                Code { tokens, binding: Binding::Sum, operations }
+                let tokens = if b.negative {
+                    quote! { #left - #right }
+                } else {
+                    quote! { #left + #right }
+                };
+                Code {
+                    tokens,
+                    binding: Binding::Sum,
+                    operations,
+                }
             }
             Node::Mul(a, b) => {
                 let left = self.operand(plus(*a), Binding::Product);
                 let right = self.operand(plus(*b), Binding::Atom);
                 let operations = self.size(*a) + self.size(*b) + 1;
-                Code { tokens: quote! { #left * #right }, binding: Binding::Product, operations }
+                Code {
+                    tokens: quote! { #left * #right },
+                    binding: Binding::Product,
+                    operations,
+                }
             }
             Node::Div(a, b) => {
                 let left = self.operand(plus(*a), Binding::Product);
                 let right = self.operand(plus(*b), Binding::Atom);
                 let operations = self.size(*a) + self.size(*b) + 1;
-                Code { tokens: quote! { #left / #right }, binding: Binding::Product, operations }
+                Code {
+                    tokens: quote! { #left / #right },
+                    binding: Binding::Product,
+                    operations,
+                }
             }
             Node::MulAdd(a, b, negative, c) => {
                 let a = self.operand(plus(*a).flipped(*negative), Binding::Sum);
-                let (b, c) = (self.operand(plus(*b), Binding::Sum), self.operand(*c, Binding::Sum));
+                let (b, c) = (
+                    self.operand(plus(*b), Binding::Sum),
+                    self.operand(*c, Binding::Sum),
+                );
                 atom(quote! { T::mul_add(#a, #b, #c) })
             }
             Node::Sqrt(a) => self.call("sqrt", &[*a]),
@@ -313,7 +358,10 @@ impl<'a> Writer<'a> {
             Node::Max(a, b) => self.call("max", &[*a, *b]),
             Node::Select(condition, a, b) => {
                 let mask = self.operand(plus(*condition), Binding::Sum);
-                let (a, b) = (self.operand(*a, Binding::Sum), self.operand(*b, Binding::Sum));
+                let (a, b) = (
+                    self.operand(*a, Binding::Sum),
+                    self.operand(*b, Binding::Sum),
+                );
                 atom(quote! { T::select(#mask, #a, #b) })
             }
             Node::Pivot(value, magnitude, joint) => {
@@ -330,19 +378,25 @@ impl<'a> Writer<'a> {
 
     fn call(&mut self, name: &str, operands: &[Expr]) -> Code {
         let name = ident(name);
-        let operands: Vec<_> =
-            operands.iter().map(|&e| self.operand(e, Binding::Sum)).collect();
+        let operands: Vec<_> = operands
+            .iter()
+            .map(|&e| self.operand(e, Binding::Sum))
+            .collect();
         atom(quote! { T::#name(#(#operands),*) })
     }
 
     /// How many operations stand where the node is used.
     fn size(&self, id: NodeId) -> usize {
-        self.code[id.0 as usize].as_ref().map_or(0, |c| c.operations)
+        self.code[id.0 as usize]
+            .as_ref()
+            .map_or(0, |c| c.operations)
     }
 
     /// Code of a signed operand, in parentheses where its place binds tighter.
     fn operand(&mut self, e: Expr, place: Binding) -> TokenStream {
-        let code = self.code[e.node.0 as usize].clone().unwrap_or_else(unreachable_node);
+        let code = self.code[e.node.0 as usize]
+            .clone()
+            .unwrap_or_else(unreachable_node);
         let tokens = code.tokens;
         match (e.negative, code.binding) {
             (true, Binding::Atom) if place == Binding::Sum => quote! { -#tokens },
@@ -360,13 +414,21 @@ impl<'a> Writer<'a> {
             return pair.clone();
         }
         let name = self.angle_name(angle);
-        let (sine, cosine) =
-            (self.names.named(&format!("sin_{name}")), self.names.named(&format!("cos_{name}")));
+        let (sine, cosine) = (
+            self.names.named(&format!("sin_{name}")),
+            self.names.named(&format!("cos_{name}")),
+        );
         let value = match self.graph.node(angle).clone() {
             Node::Angle(terms, offset, negative) => {
-                let terms: Vec<_> =
-                    terms.iter().map(|&t| self.operand(t, Binding::Sum)).collect();
-                let offset = if negative { -offset.value() } else { offset.value() };
+                let terms: Vec<_> = terms
+                    .iter()
+                    .map(|&t| self.operand(t, Binding::Sum))
+                    .collect();
+                let offset = if negative {
+                    -offset.value()
+                } else {
+                    offset.value()
+                };
                 let (hi, lo) = (number(offset.hi()), number(offset.lo()));
                 quote! { T::sin_cos_sum(&[#(#terms),*], (#hi, #lo)) }
             }
@@ -376,10 +438,18 @@ impl<'a> Writer<'a> {
             }
         };
         let used = |id: Option<NodeId>| id.is_some_and(|id| self.uses[id.0 as usize] > 0);
-        let left = if used(self.graph.find(&Node::Sin(angle))) { quote! { #sine } } else { quote! { _ } };
-        let right =
-            if used(self.graph.find(&Node::Cos(angle))) { quote! { #cosine } } else { quote! { _ } };
-        self.statements.push(quote! { let (#left, #right) = #value; });
+        let left = if used(self.graph.find(&Node::Sin(angle))) {
+            quote! { #sine }
+        } else {
+            quote! { _ }
+        };
+        let right = if used(self.graph.find(&Node::Cos(angle))) {
+            quote! { #cosine }
+        } else {
+            quote! { _ }
+        };
+        self.statements
+            .push(quote! { let (#left, #right) = #value; });
         self.sines[angle.0 as usize] = Some((sine.clone(), cosine.clone()));
         (sine, cosine)
     }
@@ -391,16 +461,22 @@ impl<'a> Writer<'a> {
             _ => "angle".to_string(),
         };
         match self.graph.node(angle) {
-            Node::Angle(terms, ..) => {
-                terms.iter().map(|t| joint(t.node)).collect::<Vec<_>>().join("_")
-            }
+            Node::Angle(terms, ..) => terms
+                .iter()
+                .map(|t| joint(t.node))
+                .collect::<Vec<_>>()
+                .join("_"),
             _ => joint(angle),
         }
     }
 }
 
 fn atom(tokens: TokenStream) -> Code {
-    Code { tokens, binding: Binding::Atom, operations: 0 }
+    Code {
+        tokens,
+        binding: Binding::Atom,
+        operations: 0,
+    }
 }
 
 /// Operands stand before their users, so every operand has its code; and [`Writer::node`] keeps

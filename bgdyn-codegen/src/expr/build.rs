@@ -34,12 +34,18 @@ impl Builder {
     }
 
     fn make(&self, f: impl FnOnce(&mut Graph) -> Expr) -> Ex<'_> {
-        Ex { builder: self, expr: f(&mut self.graph.borrow_mut()) }
+        Ex {
+            builder: self,
+            expr: f(&mut self.graph.borrow_mut()),
+        }
     }
 
     /// An expression made in this graph.
     pub fn ex(&self, expr: Expr) -> Ex<'_> {
-        Ex { builder: self, expr }
+        Ex {
+            builder: self,
+            expr,
+        }
     }
 
     /// A pass over the graph under construction.
@@ -93,13 +99,17 @@ impl<'g> Ex<'g> {
 
     /// Names its node for readers of the output.
     pub fn named(self, name: impl FnOnce() -> String) -> Self {
-        self.builder.graph.borrow_mut().set_name(self.expr.node, name);
+        self.builder
+            .graph
+            .borrow_mut()
+            .set_name(self.expr.node, name);
         self
     }
 
     /// Its value as a checked pivot of `joint`; see [`super::Node::Pivot`].
     pub fn pivot(self, magnitude: Self, joint: usize) -> Self {
-        self.builder.make(|g| g.pivot(self.expr, magnitude.expr, joint))
+        self.builder
+            .make(|g| g.pivot(self.expr, magnitude.expr, joint))
     }
 
     /// Its square root.
@@ -151,7 +161,10 @@ impl Div for Ex<'_> {
 impl Neg for Ex<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        Ex { expr: self.expr.flipped(true), ..self }
+        Ex {
+            expr: self.expr.flipped(true),
+            ..self
+        }
     }
 }
 

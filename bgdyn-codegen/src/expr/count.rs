@@ -82,7 +82,12 @@ pub fn count(graph: &Graph, outputs: &[Expr]) -> Operations {
     let needed = reachable(graph, outputs);
     let mut operations = Operations::default();
     let mut angles: BTreeSet<NodeId> = BTreeSet::new();
-    for (node, _) in graph.nodes.iter().zip(&needed).filter(|(_, needed)| **needed) {
+    for (node, _) in graph
+        .nodes
+        .iter()
+        .zip(&needed)
+        .filter(|(_, needed)| **needed)
+    {
         match node {
             Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) => {}
             Node::Add(..) => operations.add += 1,

@@ -15,7 +15,10 @@ pub struct Tangent<S> {
 impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
     /// A pass in which `seed` gives the tangent of a leaf, `None` for one held constant.
     pub fn new(seed: S) -> Self {
-        Tangent { seed, made: QuickMap::default() }
+        Tangent {
+            seed,
+            made: QuickMap::default(),
+        }
     }
 
     /// The tangent of `e`.
@@ -75,12 +78,10 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
                 let (da, denominator) = (self.d(a), g.mul(two, this));
                 g.div(da, denominator)
             }
-            Node::Angle(terms, ..) => {
-                terms.iter().fold(zero, |sum, &t| {
-                    let dt = self.d(t);
-                    g.add(sum, dt)
-                })
-            }
+            Node::Angle(terms, ..) => terms.iter().fold(zero, |sum, &t| {
+                let dt = self.d(t);
+                g.add(sum, dt)
+            }),
             Node::Sin(a) => {
                 let (cos, da) = (g.cos(plus(a)), self.d(plus(a)));
                 g.mul(cos, da)

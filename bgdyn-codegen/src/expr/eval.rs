@@ -93,7 +93,11 @@ impl<T: Scalar> Evaluation<T> {
             Node::Sqrt(a) => self.get(*a).sqrt(),
             Node::Angle(terms, offset, negative) => {
                 let terms: Vec<T> = terms.iter().map(|t| self.get(*t)).collect();
-                let offset = if *negative { -offset.value() } else { offset.value() };
+                let offset = if *negative {
+                    -offset.value()
+                } else {
+                    offset.value()
+                };
                 self.sines[i] = Some(T::sin_cos_sum(&terms, (offset.hi(), offset.lo())));
                 return;
             }
@@ -115,7 +119,8 @@ impl<T: Scalar> Evaluation<T> {
                 T::select(mask, self.get(*a), self.get(*b))
             }
             Node::Pivot(value, magnitude, joint) => {
-                self.get(*value).checked_pivot(self.get(*magnitude), *joint, refused)
+                self.get(*value)
+                    .checked_pivot(self.get(*magnitude), *joint, refused)
             }
         };
         self.values[i] = value;

@@ -57,7 +57,10 @@ impl Graph {
     fn intern_sum(&mut self, a: Expr, b: Expr) -> Expr {
         let (a, b) = if a.node <= b.node { (a, b) } else { (b, a) };
         let node = self.intern(Node::Add(a.node, b.flipped(a.negative)));
-        Expr { node, negative: a.negative }
+        Expr {
+            node,
+            negative: a.negative,
+        }
     }
 
     /// x = k·y with the constant factor k, 1 where there is none.
@@ -74,8 +77,10 @@ impl Graph {
     /// a · b
     pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
         let negative = a.negative ^ b.negative;
-        let (ka, kb) =
-            (self.constant_of(Expr::plus(a.node)), self.constant_of(Expr::plus(b.node)));
+        let (ka, kb) = (
+            self.constant_of(Expr::plus(a.node)),
+            self.constant_of(Expr::plus(b.node)),
+        );
         let (k, x) = match (ka, kb) {
             (Some(x), Some(y)) => return self.constant(x * y).flipped(negative),
             (Some(k), None) => (k, b.node),
@@ -100,7 +105,10 @@ impl Graph {
         }
         let k = self.constant(k);
         let node = self.intern(Node::Mul(k.node, x));
-        Expr { node, negative: k.negative }
+        Expr {
+            node,
+            negative: k.negative,
+        }
     }
 
     /// a / b; by a constant it becomes a product.
@@ -115,7 +123,10 @@ impl Graph {
             return a;
         }
         let node = self.intern(Node::Div(a.node, b.node));
-        Expr { node, negative: a.negative ^ b.negative }
+        Expr {
+            node,
+            negative: a.negative ^ b.negative,
+        }
     }
 
     /// a · b + c as one node: for passes that fuse.
@@ -152,14 +163,20 @@ impl Graph {
         let negative = offset < Dd::ZERO;
         let size = Constant::new(if negative { -offset } else { offset });
         let node = self.intern(Node::Angle(sorted.into(), size, negative));
-        Expr { node, negative: flip }
+        Expr {
+            node,
+            negative: flip,
+        }
     }
 
     /// sin a
     pub fn sin(&mut self, a: Expr) -> Expr {
         match self.constant_of(a) {
             Some(x) => self.constant(x.sin_cos().0),
-            None => Expr { node: self.intern(Node::Sin(a.node)), negative: a.negative },
+            None => Expr {
+                node: self.intern(Node::Sin(a.node)),
+                negative: a.negative,
+            },
         }
     }
 
@@ -206,7 +223,10 @@ impl Graph {
     fn odd(&mut self, a: Expr, fold: fn(Dd) -> Dd, node: fn(NodeId) -> Node) -> Expr {
         match self.constant_of(a) {
             Some(x) => self.constant(fold(x)),
-            None => Expr { node: self.intern(node(a.node)), negative: a.negative },
+            None => Expr {
+                node: self.intern(node(a.node)),
+                negative: a.negative,
+            },
         }
     }
 
@@ -262,5 +282,9 @@ impl Graph {
 fn cancelling_sum(x: Dd, y: Dd) -> Dd {
     let sum = x + y;
     let terms = x.hi().abs().max(y.hi().abs());
-    if sum.hi().abs() <= CANCELLED * terms { Dd::ZERO } else { sum }
+    if sum.hi().abs() <= CANCELLED * terms {
+        Dd::ZERO
+    } else {
+        sum
+    }
 }

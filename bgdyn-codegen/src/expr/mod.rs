@@ -36,12 +36,18 @@ pub struct Expr {
 
 impl Expr {
     pub(crate) fn plus(node: NodeId) -> Self {
-        Expr { node, negative: false }
+        Expr {
+            node,
+            negative: false,
+        }
     }
 
     /// The same value with its sign flipped where `flip` holds.
     pub(crate) fn flipped(self, flip: bool) -> Self {
-        Expr { negative: self.negative ^ flip, ..self }
+        Expr {
+            negative: self.negative ^ flip,
+            ..self
+        }
     }
 }
 
@@ -57,7 +63,10 @@ impl Constant {
         // One zero only: −0 and +0 are the same constant.
         let lo = if x.lo() == 0.0 { 0.0 } else { x.lo() };
         let hi = if x.hi() == 0.0 { 0.0 } else { x.hi() };
-        Constant { hi: f64::to_bits(hi), lo: f64::to_bits(lo) }
+        Constant {
+            hi: f64::to_bits(hi),
+            lo: f64::to_bits(lo),
+        }
     }
 
     /// Its value.

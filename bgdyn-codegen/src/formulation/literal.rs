@@ -35,14 +35,17 @@ impl Formulation for Literal {
             let arguments = Arguments::new(&b, graph, method);
             let sum = Sum::new(&b, graph, &arguments.q);
             let outputs = match method {
-                Method::InverseDynamics | Method::Bias | Method::Gravity => {
-                    sum.efforts(&arguments)
-                }
+                Method::InverseDynamics | Method::Bias | Method::Gravity => sum.efforts(&arguments),
                 Method::MassMatrix => sum.mass_matrix().into_iter().flatten().collect(),
                 Method::ForwardDynamics => {
                     let bias = sum.efforts(&arguments);
                     let mass = sum.mass_matrix();
-                    let drive = arguments.tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
+                    let drive = arguments
+                        .tau
+                        .iter()
+                        .zip(bias)
+                        .map(|(&tau, h)| tau - h)
+                        .collect();
                     solve::ltdl(&b, mass, drive)
                 }
                 Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
@@ -75,7 +78,13 @@ struct Sum<'a, 'g> {
 
 impl<'a, 'g> Sum<'a, 'g> {
     fn new(b: &'g Builder, graph: &'a BondGraph, q: &[Ex<'g>]) -> Self {
-        let mut sum = Sum { b, graph, rotations: vec![], positions: vec![], moduli: vec![] };
+        let mut sum = Sum {
+            b,
+            graph,
+            rotations: vec![],
+            positions: vec![],
+            moduli: vec![],
+        };
         let mut origins: Vec<Vec3<Ex<'g>>> = Vec::new();
         let mut axes: Vec<Vec3<Ex<'g>>> = Vec::new();
         for frame in &graph.frames {
@@ -107,12 +116,7 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// The moduli of link i, with the structural zeros and constants of the graph.
-    fn moduli_of(
-        &self,
-        i: LinkId,
-        origins: &[Vec3<Ex<'g>>],
-        axes: &[Vec3<Ex<'g>>],
-    ) -> Moduli<'g> {
+    fn moduli_of(&self, i: LinkId, origins: &[Vec3<Ex<'g>>], axes: &[Vec3<Ex<'g>>]) -> Moduli<'g> {
         let read = |to: JunctionId, linear: bool| {
             let of = |t: &crate::bond_graph::Transformer| {
                 let coordinate = &self.graph.coordinates[t.from.0];
@@ -121,7 +125,12 @@ impl<'a, 'g> Sum<'a, 'g> {
                     (true, Motion::Rotation) => axes[l].cross(self.positions[i.0] - origins[l]),
                     _ => axes[l],
                 };
-                (t.from.0, Vec3(std::array::from_fn(|c| self.entry(t.modulus.0[c], whole.0[c]))))
+                (
+                    t.from.0,
+                    Vec3(std::array::from_fn(|c| {
+                        self.entry(t.modulus.0[c], whole.0[c])
+                    })),
+                )
             };
             self.graph.into(to).map(of).collect()
         };
@@ -145,13 +154,18 @@ impl<'a, 'g> Sum<'a, 'g> {
 
     /// Σ_k modulus_k · x_k
     fn combine(&self, moduli: &[(usize, Vec3<Ex<'g>>)], x: &[Ex<'g>]) -> Vec3<Ex<'g>> {
-        moduli.iter().fold(self.zero(), |sum, (k, m)| sum + m.scale(x[*k]))
+        moduli
+            .iter()
+            .fold(self.zero(), |sum, (k, m)| sum + m.scale(x[*k]))
     }
 
     /// J_i = A_i J_i⁰ A_iᵀ in fixed axes.
     fn tensor(&self, i: usize) -> Mat3<Ex<'g>> {
-        let [xx, yy, zz, xy, xz, yz] =
-            self.graph.inertial(LinkId(i)).inertia.map(|x| value(self.b, x));
+        let [xx, yy, zz, xy, xz, yz] = self
+            .graph
+            .inertial(LinkId(i))
+            .inertia
+            .map(|x| value(self.b, x));
         let tensor = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
         self.rotations[i] * tensor * self.rotations[i].transpose()
     }
@@ -164,11 +178,13 @@ impl<'a, 'g> Sum<'a, 'g> {
     fn active_force(&self, i: usize) -> Vec3<Ex<'g>> {
         let junction = self.graph.translation(LinkId(i));
         let sources = self.graph.sources.iter().filter(|s| s.junction == junction);
-        sources.flat_map(|s| &s.efforts).fold(self.zero(), |sum, effort| match effort {
-            Effort::Weight { mass, gravity } => {
-                sum + self.b.vector(*gravity).scale(value(self.b, *mass))
-            }
-        })
+        sources
+            .flat_map(|s| &s.efforts)
+            .fold(self.zero(), |sum, effort| match effort {
+                Effort::Weight { mass, gravity } => {
+                    sum + self.b.vector(*gravity).scale(value(self.b, *mass))
+                }
+            })
     }
 
     /// P_j for the given velocities and accelerations.

@@ -68,7 +68,9 @@ impl<'g> Arguments<'g> {
     fn new(b: &'g Builder, graph: &BondGraph, method: Method) -> Self {
         let n = graph.coordinates.len();
         let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
-            (0..n).map(|j| if on { b.leaf(leaf(j)) } else { b.zero() }).collect()
+            (0..n)
+                .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
+                .collect()
         };
         let moving = !matches!(method, Method::Gravity | Method::MassMatrix);
         Arguments {

@@ -16,13 +16,24 @@ pub(super) fn ltdl<'g>(
     let mut inverse = vec![b.zero(); n];
     for k in (0..n).rev() {
         // Only what was really subtracted can have lost digits.
-        let magnitude = if mass[k][k] == original[k] { b.zero() } else { original[k] };
+        let magnitude = if mass[k][k] == original[k] {
+            b.zero()
+        } else {
+            original[k]
+        };
         let pivot = mass[k][k].pivot(magnitude, k);
         inverse[k] = b.constant(Dd::ONE) / pivot;
         // M_ij ← M_ij − l_ki M_kj for i, j < k with l_ki = M_ki / d_k
-        for i in (0..k).rev().filter(|&i| !mass[k][i].is_zero()).collect::<Vec<_>>() {
+        for i in (0..k)
+            .rev()
+            .filter(|&i| !mass[k][i].is_zero())
+            .collect::<Vec<_>>()
+        {
             let l = mass[k][i] * inverse[k];
-            for j in (0..=i).filter(|&j| !mass[k][j].is_zero()).collect::<Vec<_>>() {
+            for j in (0..=i)
+                .filter(|&j| !mass[k][j].is_zero())
+                .collect::<Vec<_>>()
+            {
                 mass[i][j] = mass[i][j] - l * mass[k][j];
             }
             mass[k][i] = l;

@@ -19,7 +19,16 @@ pub fn parse(text: &str) -> (Option<Spec>, Faults) {
 
 impl Reader {
     fn spec(&mut self, at: &At<'_>) -> Option<Spec> {
-        let keys = ["format", "name", "label", "description", "gravity", "snap", "links", "frames"];
+        let keys = [
+            "format",
+            "name",
+            "label",
+            "description",
+            "gravity",
+            "snap",
+            "links",
+            "frames",
+        ];
         let map = self.mapping(at, "a mapping (`format`, `links`, …)", &keys)?;
         Some(Spec {
             format: self.needed(
@@ -34,10 +43,20 @@ impl Reader {
             gravity: self.vector_field(&map, "gravity", &[Dimension::Acceleration]),
             snap: self.number_field(&map, "snap", &[Dimension::Angle]),
             links: self.needed(&map, "links", "the list of links", |r, at| {
-                Some(r.list(at, "a list of links")?.iter().filter_map(|at| r.link(at)).collect())
+                Some(
+                    r.list(at, "a list of links")?
+                        .iter()
+                        .filter_map(|at| r.link(at))
+                        .collect(),
+                )
             }),
             frames: self.field(&map, "frames", |r, at| {
-                Some(r.list(at, "a list of frames")?.iter().filter_map(|at| r.frame(at)).collect())
+                Some(
+                    r.list(at, "a list of frames")?
+                        .iter()
+                        .filter_map(|at| r.frame(at))
+                        .collect(),
+                )
             }),
             place: map.place,
             complete: false,
@@ -45,7 +64,16 @@ impl Reader {
     }
 
     fn link(&mut self, at: &At<'_>) -> Option<Link> {
-        let keys = ["name", "label", "parent", "joint", "mass", "com", "inertia", "nonphysical"];
+        let keys = [
+            "name",
+            "label",
+            "parent",
+            "joint",
+            "mass",
+            "com",
+            "inertia",
+            "nonphysical",
+        ];
         let map = self.mapping(at, "a link (`name`, `joint`, `mass`, …)", &keys)?;
         Some(Link {
             name: self.needed(&map, "name", "the link's name", Self::text),
@@ -88,8 +116,15 @@ impl Reader {
         };
         Some(std::array::from_fn(|i| {
             let value = Dd::from_f64(if i == place { sign } else { 0.0 });
-            let value = Number { value, unit: None, text: text.clone() };
-            Located { value, place: at.place.clone() }
+            let value = Number {
+                value,
+                unit: None,
+                text: text.clone(),
+            };
+            Located {
+                value,
+                place: at.place.clone(),
+            }
         }))
     }
 
@@ -134,7 +169,12 @@ impl Reader {
         Some(Frame {
             name: self.needed(&map, "name", "the frame's name", Self::text),
             label: self.text_field(&map, "label"),
-            link: self.needed(&map, "link", "the link it is fixed to, or `world`", Self::text),
+            link: self.needed(
+                &map,
+                "link",
+                "the link it is fixed to, or `world`",
+                Self::text,
+            ),
             origin: self.field(&map, "origin", Self::origin),
             place: map.place,
         })

@@ -94,11 +94,18 @@ impl<'g> Frames<'g> {
                 _ => (Vec::new(), (Dd::ONE, Dd::ZERO)),
             };
             let signed = |e: Ex<'g>| if body.opposite { -e } else { e };
-            let scale = if body.motion == Motion::Rotation { Dd::ONE } else { Dd::ONE / plan.unit };
+            let scale = if body.motion == Motion::Rotation {
+                Dd::ONE
+            } else {
+                Dd::ONE / plan.unit
+            };
             if body.motion == Motion::Rotation {
                 terms.push(signed(x.q[j]));
             }
-            let phase = (start.0 * phase.0 - start.1 * phase.1, start.0 * phase.1 + start.1 * phase.0);
+            let phase = (
+                start.0 * phase.0 - start.1 * phase.1,
+                start.0 * phase.1 + start.1 * phase.0,
+            );
             let mut local = b.vector(origin_offset(geometry, plan, j).scale(Dd::ONE / plan.unit));
             if body.motion == Motion::Translation {
                 local.0[2] = local.0[2] + signed(x.q[j]) * scale;
@@ -126,7 +133,11 @@ impl<'g> Frames<'g> {
         let gravity = geometry.bodies.iter().map(|body| {
             b.vector((body.twist.transpose() * graph.gravity).scale(Dd::ONE / plan.unit))
         });
-        Frames { gravity: gravity.collect(), bodies, constant_energy: energy }
+        Frames {
+            gravity: gravity.collect(),
+            bodies,
+            constant_energy: energy,
+        }
     }
 }
 
@@ -134,13 +145,25 @@ impl<'g> Frames<'g> {
 /// base's place enters nothing but the potential energy.
 fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<Dd> {
     let body = &geometry.bodies[j];
-    let Some(p) = body.parent else { return Vec3([Dd::ZERO; 3]) };
+    let Some(p) = body.parent else {
+        return Vec3([Dd::ZERO; 3]);
+    };
     let parent_z = body.twist.transpose().column(2);
     let mut offset = body.offset - parent_z.scale(plan.slides[p]);
     offset.0[2] = offset.0[2] + plan.slides[j];
     // What two equal lengths leave of their difference is no length.
-    let size = body.offset.0.iter().fold(0.0, |m: f64, x| m.max(x.hi().abs()));
-    offset.map(|x| if x.hi().abs() < 1e-26 * size { Dd::ZERO } else { x })
+    let size = body
+        .offset
+        .0
+        .iter()
+        .fold(0.0, |m: f64, x| m.max(x.hi().abs()));
+    offset.map(|x| {
+        if x.hi().abs() < 1e-26 * size {
+            Dd::ZERO
+        } else {
+            x
+        }
+    })
 }
 
 /// Inertia of all links of a body about its origin, in its axes.
@@ -230,8 +253,9 @@ fn regroup<'g>(
             moved = moved.turned(phase);
         }
         // What moved is the same in twisted as in own axes, about the same origin.
-        let at_parent =
-            moved.shifted(b.vector(origin_offset(geometry, plan, j))).rotated(b, body.twist);
+        let at_parent = moved
+            .shifted(b.vector(origin_offset(geometry, plan, j)))
+            .rotated(b, body.twist);
         match body.parent {
             Some(p) => inertias[p] = inertias[p].plus(&at_parent),
             None => *energy = *energy - b.vector(graph.gravity).dot(at_parent.first),

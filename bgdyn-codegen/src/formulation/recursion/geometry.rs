@@ -69,7 +69,10 @@ pub(super) struct Geometry {
 
 /// The bodies of a bond graph.
 pub(super) fn geometry(graph: &BondGraph) -> Geometry {
-    let mut made = Geometry { bodies: Vec::new(), fixed: Vec::new() };
+    let mut made = Geometry {
+        bodies: Vec::new(),
+        fixed: Vec::new(),
+    };
     // Which body a link belongs to, and its place in the axes of the link that carries the body.
     let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();
     let mut placed: Vec<Pose> = Vec::new();
@@ -86,8 +89,15 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
             }
             continue;
         };
-        debug_assert_eq!(j.0, made.bodies.len(), "coordinates follow the order of links");
-        let still = Pose { rotation: identity(), translation: Vec3([Dd::ZERO; 3]) };
+        debug_assert_eq!(
+            j.0,
+            made.bodies.len(),
+            "coordinates follow the order of links"
+        );
+        let still = Pose {
+            rotation: identity(),
+            translation: Vec3([Dd::ZERO; 3]),
+        };
         homes.push((Some(j.0), still));
         placed.push(place);
         made.bodies.push(Body {
@@ -191,7 +201,9 @@ fn twisted_axes(z: Vec3<Dd>) -> Mat3<Dd> {
 
 /// Right-handed axes with third column `z`, along the unit vectors where z is one.
 fn basis_with_z(z: Vec3<Dd>) -> Mat3<Dd> {
-    let least = (0..3).rev().min_by(|&a, &b| z.0[a].abs().hi().total_cmp(&z.0[b].abs().hi()));
+    let least = (0..3)
+        .rev()
+        .min_by(|&a, &b| z.0[a].abs().hi().total_cmp(&z.0[b].abs().hi()));
     let third = (0..3).find(|&k| z.0[k].abs() == Dd::ONE);
     let x = match third {
         Some(k) => unit((k + 1) % 3),
@@ -216,7 +228,9 @@ fn half_turn_about_x() -> Mat3<Dd> {
 }
 
 fn unit(k: usize) -> Vec3<Dd> {
-    Vec3(std::array::from_fn(|i| if i == k { Dd::ONE } else { Dd::ZERO }))
+    Vec3(std::array::from_fn(
+        |i| if i == k { Dd::ONE } else { Dd::ZERO },
+    ))
 }
 
 fn columns(x: Vec3<Dd>, y: Vec3<Dd>, z: Vec3<Dd>) -> Mat3<Dd> {
@@ -231,7 +245,10 @@ fn normalised(v: Vec3<Dd>) -> Vec3<Dd> {
 fn clean(v: Vec3<Dd>) -> Vec3<Dd> {
     v.map(|x| {
         let snapped = [Dd::ZERO, Dd::ONE, -Dd::ONE];
-        snapped.into_iter().find(|s| (x - *s).hi().abs() < NOISE).unwrap_or(x)
+        snapped
+            .into_iter()
+            .find(|s| (x - *s).hi().abs() < NOISE)
+            .unwrap_or(x)
     })
 }
 
@@ -242,7 +259,13 @@ fn clean_matrix(m: Mat3<Dd>) -> Mat3<Dd> {
 /// A place without what rounding left of its zeros.
 fn clean_length(v: Vec3<Dd>) -> Vec3<Dd> {
     let size = v.0.iter().fold(0.0, |m: f64, x| m.max(x.hi().abs()));
-    v.map(|x| if x.hi().abs() < NOISE * size { Dd::ZERO } else { x })
+    v.map(|x| {
+        if x.hi().abs() < NOISE * size {
+            Dd::ZERO
+        } else {
+            x
+        }
+    })
 }
 
 /// The place of `inner`, given in `outer`'s axes, where `outer` is.

@@ -28,7 +28,11 @@ pub(super) struct Inertia<'g> {
 impl<'g> Inertia<'g> {
     /// Of nothing.
     pub fn zero(b: &'g Builder) -> Self {
-        Inertia { mass: b.zero(), first: Vec3([b.zero(); 3]), pseudo: [b.zero(); 6] }
+        Inertia {
+            mass: b.zero(),
+            first: Vec3([b.zero(); 3]),
+            pseudo: [b.zero(); 6],
+        }
     }
 
     /// About the centre of mass, from the tensor J there.
@@ -36,9 +40,19 @@ impl<'g> Inertia<'g> {
         let [xx, yy, zz, xy, xz, yz] = tensor;
         let half = Dd::from_f64(0.5);
         let diagonal = |a: Ex<'g>, b: Ex<'g>, c: Ex<'g>| (a + b - c) * half;
-        let pseudo =
-            [diagonal(yy, zz, xx), diagonal(zz, xx, yy), diagonal(xx, yy, zz), -xy, -xz, -yz];
-        Inertia { mass, first: Vec3([b.zero(); 3]), pseudo }
+        let pseudo = [
+            diagonal(yy, zz, xx),
+            diagonal(zz, xx, yy),
+            diagonal(xx, yy, zz),
+            -xy,
+            -xz,
+            -yz,
+        ];
+        Inertia {
+            mass,
+            first: Vec3([b.zero(); 3]),
+            pseudo,
+        }
     }
 
     /// Entry (i, j) of D.
@@ -59,19 +73,25 @@ impl<'g> Inertia<'g> {
             };
             self.d(i, j) + moments + self.mass * pi * pj
         });
-        Inertia { mass: self.mass, first: h + p.scale(self.mass), pseudo }
+        Inertia {
+            mass: self.mass,
+            first: h + p.scale(self.mass),
+            pseudo,
+        }
     }
 
     /// In axes in which the present ones have the columns of the constant `r`: R D Rᵀ.
     pub fn rotated(&self, b: &'g Builder, r: Mat3<Dd>) -> Self {
         let r = r.map(|x| b.constant(x));
-        let half = Mat3::from_fn(|i, j| {
-            (0..3).fold(b.zero(), |sum, k| sum + r.0[i][k] * self.d(k, j))
-        });
-        let pseudo = symmetric(|i, j| {
-            (0..3).fold(b.zero(), |sum, k| sum + half.0[i][k] * r.0[j][k])
-        });
-        Inertia { mass: self.mass, first: r * self.first, pseudo }
+        let half =
+            Mat3::from_fn(|i, j| (0..3).fold(b.zero(), |sum, k| sum + r.0[i][k] * self.d(k, j)));
+        let pseudo =
+            symmetric(|i, j| (0..3).fold(b.zero(), |sum, k| sum + half.0[i][k] * r.0[j][k]));
+        Inertia {
+            mass: self.mass,
+            first: r * self.first,
+            pseudo,
+        }
     }
 
     /// Turned by Rz: four multiplications for the 2 × 2 block, with
@@ -80,8 +100,19 @@ impl<'g> Inertia<'g> {
         let [xx, yy, zz, xy, xz, yz] = self.pseudo;
         let e = s * (xx - yy) + c * (xy * Dd::from_f64(2.0));
         let (se, ce) = (s * e, c * e);
-        let pseudo = [xx - se, yy + se, zz, ce - xy, c * xz - s * yz, s * xz + c * yz];
-        Inertia { mass: self.mass, first: turn(self.first, (c, s)), pseudo }
+        let pseudo = [
+            xx - se,
+            yy + se,
+            zz,
+            ce - xy,
+            c * xz - s * yz,
+            s * xz + c * yz,
+        ];
+        Inertia {
+            mass: self.mass,
+            first: turn(self.first, (c, s)),
+            pseudo,
+        }
     }
 
     /// Of both.

@@ -49,16 +49,25 @@ struct Wrench<'g> {
 
 impl<'g> Wrench<'g> {
     fn plus(self, b: Self) -> Self {
-        Wrench { force: self.force + b.force, moment: self.moment + b.moment }
+        Wrench {
+            force: self.force + b.force,
+            moment: self.moment + b.moment,
+        }
     }
 
     fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
-        Wrench { force: f(self.force), moment: f(self.moment) }
+        Wrench {
+            force: f(self.force),
+            moment: f(self.moment),
+        }
     }
 
     /// About a point from which this one's origin is displaced by p.
     fn carried(self, p: Vec3<Ex<'g>>) -> Self {
-        Wrench { force: self.force, moment: self.moment + p.cross(self.force) }
+        Wrench {
+            force: self.force,
+            moment: self.moment + p.cross(self.force),
+        }
     }
 }
 
@@ -102,12 +111,14 @@ fn outwards<'g>(
     let (basis, mut rate, mut a_basis) = match parent {
         // The base stands still; gravity acts as an acceleration of the base upwards.
         None => (still(b), (b.zero(), b.zero()), -gravity),
-        Some(p) if frame.continues => {
-            (p.basis, p.rate, p.a_basis + p.in_basis.u * frame.position)
-        }
+        Some(p) if frame.continues => (p.basis, p.rate, p.a_basis + p.in_basis.u * frame.position),
         Some(p) => {
             let basis = twisted(b, &p.own, frame.twist);
-            (basis, (b.zero(), b.zero()), twisted_acceleration(b, p, frame, &basis))
+            (
+                basis,
+                (b.zero(), b.zero()),
+                twisted_acceleration(b, p, frame, &basis),
+            )
         }
     };
     match frame.motion {
@@ -122,7 +133,14 @@ fn outwards<'g>(
     let in_basis = spun(&basis, rate);
     let own = own_spin(&basis, rate, frame.turn);
     let a_own = turn_back(a_basis, frame.turn);
-    Moving { basis, rate, in_basis, a_basis, own, a_own }
+    Moving {
+        basis,
+        rate,
+        in_basis,
+        a_basis,
+        own,
+        a_own,
+    }
 }
 
 fn still(b: &Builder) -> Spin<'_> {
@@ -141,7 +159,12 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
     let Some(places) = permutation(twist) else {
         // In general directions U is cheaper made anew than turned.
         let u = u_of(omega, omega_dot);
-        return Spin { omega, omega_dot, u, differences: differences(&u) };
+        return Spin {
+            omega,
+            omega_dot,
+            u,
+            differences: differences(&u),
+        };
     };
     let u = back * parent.u * back.transpose();
     // Each difference is one of the parent's, with the sign of the permutation of its two axes.
@@ -151,7 +174,12 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
         let d = parent.differences.0[places[k]];
         if kept { d } else { -d }
     };
-    Spin { omega, omega_dot, u, differences: Vec3(std::array::from_fn(difference)) }
+    Spin {
+        omega,
+        omega_dot,
+        u,
+        differences: Vec3(std::array::from_fn(difference)),
+    }
 }
 
 /// For a rotation by quarter turns: which of the parent's axes each new one lies along.
@@ -238,7 +266,11 @@ fn own_spin<'g>(
     Spin {
         omega: Vec3([x, y, z]),
         omega_dot: Vec3([dx, dy, dz]),
-        u: Mat3([[u_xx, xy - dz, ux], [xy + dz, u_yy, uy], [xz - dy, yz + dx, uz]]),
+        u: Mat3([
+            [u_xx, xy - dz, ux],
+            [xy + dz, u_yy, uy],
+            [xz - dy, yz + dx, uz],
+        ]),
         differences: Vec3([uz - u_yy, across, u_yy - u_xx]),
     }
 }
@@ -256,7 +288,11 @@ fn dynamics<'g>(
     let [dzy, dxz, dyx] = spin.differences.0;
     // k₁ x − k₂ y, merged where k₁ = k₂
     let pair = |k1: Ex<'g>, x: Ex<'g>, k2: Ex<'g>, y: Ex<'g>| {
-        if k1 == k2 { k1 * (x - y) } else { k1 * x - k2 * y }
+        if k1 == k2 {
+            k1 * (x - y)
+        } else {
+            k1 * x - k2 * y
+        }
     };
     let nx = pair(d(1, 1), u[2][1], d(2, 2), u[1][2])
         + d(1, 2) * dzy
@@ -286,7 +322,10 @@ fn inwards<'g>(
     short: bool,
 ) -> Vec<Ex<'g>> {
     let n = frames.bodies.len();
-    let nothing = Wrench { force: zero(b), moment: zero(b) };
+    let nothing = Wrench {
+        force: zero(b),
+        moment: zero(b),
+    };
     // What the bodies beyond hand over: in own axes, and in the basis's.
     let mut own = vec![nothing; n];
     let mut basis = vec![nothing; n];
@@ -297,7 +336,11 @@ fn inwards<'g>(
         let j_zz = frame.inertia.d(0, 0) + frame.inertia.d(1, 1);
         if in_basis[j] {
             let round = frame.inertia.round();
-            let inertia = if round { frame.inertia } else { frame.inertia.turned(frame.turn) };
+            let inertia = if round {
+                frame.inertia
+            } else {
+                frame.inertia.turned(frame.turn)
+            };
             let wrench = dynamics(&inertia, j_zz, &motion.in_basis, motion.a_basis, short);
             basis[j] = wrench.plus(basis[j]);
         } else {

@@ -23,12 +23,19 @@ struct Momentum<'g> {
 
 impl<'g> Momentum<'g> {
     fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
-        Momentum { linear: f(self.linear), angular: f(self.angular), ..self }
+        Momentum {
+            linear: f(self.linear),
+            angular: f(self.angular),
+            ..self
+        }
     }
 
     /// About a point from which this one's origin is displaced by p.
     fn carried(self, p: Vec3<Ex<'g>>) -> Self {
-        Momentum { angular: self.angular + p.cross(self.linear), ..self }
+        Momentum {
+            angular: self.angular + p.cross(self.linear),
+            ..self
+        }
     }
 
     /// Its share in the direction of a joint.
@@ -49,7 +56,10 @@ struct Gathered<'g> {
 /// Lower triangle of M.
 pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
     let n = frames.bodies.len();
-    let empty = || Gathered { inertia: Inertia::zero(b), momenta: Vec::new() };
+    let empty = || Gathered {
+        inertia: Inertia::zero(b),
+        momenta: Vec::new(),
+    };
     let mut own: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
     let mut basis: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
     let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![b.zero(); j + 1]).collect();
@@ -57,13 +67,20 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
         let frame = &frames.bodies[j];
         let (inner, outer) = (&own[j], &basis[j]);
         let composite = frame.inertia.plus(&inner.inertia);
-        let turned = if composite.round() { composite } else { composite.turned(frame.turn) };
+        let turned = if composite.round() {
+            composite
+        } else {
+            composite.turned(frame.turn)
+        };
         let whole = turned.plus(&outer.inertia);
         // Turning about z leaves J_zz as it is.
         let j_zz = (composite.d(0, 0) + composite.d(1, 1))
             + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
-        let mut momenta: Vec<Momentum<'g>> =
-            inner.momenta.iter().map(|m| m.map(|v| turn(v, frame.turn))).collect();
+        let mut momenta: Vec<Momentum<'g>> = inner
+            .momenta
+            .iter()
+            .map(|m| m.map(|v| turn(v, frame.turn)))
+            .collect();
         momenta.extend(&outer.momenta);
         for m in &momenta {
             mass[m.joint][j] = m.along(frame) * frame.effort * frames.bodies[m.joint].effort;
@@ -124,7 +141,10 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> 
             }
             Some(p) => {
                 let back = frame.twist.transpose().map(|x| b.constant(x));
-                let (omega, u) = (own[p].0, own[p].1 + own[p].0.cross(frame.position_in_parent));
+                let (omega, u) = (
+                    own[p].0,
+                    own[p].1 + own[p].0.cross(frame.position_in_parent),
+                );
                 (back * omega, back * u)
             }
         };
@@ -140,11 +160,7 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> 
     twice * Dd::from_f64(0.5)
 }
 
-fn twice_kinetic_energy<'g>(
-    inertia: &Inertia<'g>,
-    omega: Vec3<Ex<'g>>,
-    u: Vec3<Ex<'g>>,
-) -> Ex<'g> {
+fn twice_kinetic_energy<'g>(inertia: &Inertia<'g>, omega: Vec3<Ex<'g>>, u: Vec3<Ex<'g>>) -> Ex<'g> {
     let two = Dd::from_f64(2.0);
     let d = |i, j| inertia.d(i, j);
     let [x, y, z] = omega.0;

@@ -58,9 +58,17 @@ fn outputs(
         let efforts = || inverse::efforts(&b, &frames, &plan.in_basis, plan.short_moment, x.active);
         let outputs = match method {
             Method::InverseDynamics | Method::Bias | Method::Gravity => efforts(),
-            Method::MassMatrix => mass::mass_matrix(&b, &frames).into_iter().flatten().collect(),
+            Method::MassMatrix => mass::mass_matrix(&b, &frames)
+                .into_iter()
+                .flatten()
+                .collect(),
             Method::ForwardDynamics => {
-                let drive = x.tau.iter().zip(efforts()).map(|(&tau, h)| tau - h).collect();
+                let drive = x
+                    .tau
+                    .iter()
+                    .zip(efforts())
+                    .map(|(&tau, h)| tau - h)
+                    .collect();
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],

@@ -57,7 +57,11 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         short_moment: false,
     };
     let groups = geometry.bodies.iter().any(|b| b.parallel());
-    if groups { vec![plan(true), plan(false)] } else { vec![plan(false)] }
+    if groups {
+        vec![plan(true), plan(false)]
+    } else {
+        vec![plan(false)]
+    }
 }
 
 type Change = Box<dyn Fn(&mut Plan)>;
@@ -125,7 +129,10 @@ fn units(geometry: &Geometry) -> Vec<Dd> {
 pub(super) fn describe(geometry: &Geometry, plan: &Plan) -> String {
     let named = |flags: &[bool]| -> String {
         let names = geometry.bodies.iter().zip(flags).filter(|(_, on)| **on);
-        names.map(|(b, _)| b.name.as_str()).collect::<Vec<_>>().join(", ")
+        names
+            .map(|(b, _)| b.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
     };
     let mut words = Vec::new();
     if plan.grouped {
@@ -137,5 +144,9 @@ pub(super) fn describe(geometry: &Geometry, plan: &Plan) -> String {
     if plan.in_basis.contains(&true) {
         words.push(format!("inertia turned for {}", named(&plan.in_basis)));
     }
-    if words.is_empty() { "plain".into() } else { words.join("; ") }
+    if words.is_empty() {
+        "plain".into()
+    } else {
+        words.join("; ")
+    }
 }
