@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bond_graph;
+mod cut;
 pub mod emit;
 pub mod expr;
 pub mod fault;

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 
 use crate::bond_graph::{self, BondGraph};
+use crate::cut::cut;
 use crate::emit;
 use crate::fault::Faults;
 use crate::formulation::{self, Formulation};
@@ -31,7 +32,7 @@ impl Model {
     /// Builds the bond graph and chooses a function for each method.
     pub fn new(mechanism: Mechanism, options: &Options) -> Self {
         let bond_graph = bond_graph::build(&mechanism);
-        let function = |method| formulation::choose(&bond_graph, method, options.formulation);
+        let function = |method| function_of(&bond_graph, method, options);
         let functions = Method::ALL.into_iter().filter_map(function).collect();
         Model {
             mechanism,
@@ -48,7 +49,11 @@ impl Model {
 
 /// One function of a mechanism, without the others.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
-    formulation::choose(&bond_graph::build(mechanism), method, options.formulation)
+    function_of(&bond_graph::build(mechanism), method, options)
+}
+
+fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
+    formulation::choose(graph, method, options.formulation).map(cut)
 }
 
 /// From a spec's text to the tokens of its module. `stem` is the file's stem, `place` says where

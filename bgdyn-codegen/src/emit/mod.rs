@@ -2,6 +2,7 @@
 
 mod body;
 mod names;
+mod writer;
 
 use heck::ToUpperCamelCase;
 use proc_macro2::{Literal, Span, TokenStream};
@@ -190,12 +191,13 @@ fn method(function: &Function, model: &Model) -> TokenStream {
     let types = arguments.iter().map(|a| argument_type(*a));
     let result = return_type(function.shape());
     let docs = method_docs(function, model);
-    let body = body::body(function, model);
+    let body::Body { body, blocks } = body::body(function, model);
     quote! {
         #(#[doc = #docs])*
         pub fn #name(&self, #(#names: #types),*) -> #result {
             #body
         }
+        #(#blocks)*
     }
 }
 

@@ -181,6 +181,39 @@ impl Node {
     }
 }
 
+impl Node {
+    /// The node with each operand replaced. Where the node has no place for a sign, the
+    /// replacement must have none.
+    pub(crate) fn map_operands(self, mut f: impl FnMut(Expr) -> Expr) -> Node {
+        let plain = |id: NodeId, f: &mut dyn FnMut(Expr) -> Expr| f(Expr::plus(id)).node;
+        match self {
+            Node::Constant(_) | Node::Leaf(_) => self,
+            Node::Add(a, b) => Node::Add(plain(a, &mut f), f(b)),
+            Node::Mul(a, b) => Node::Mul(plain(a, &mut f), plain(b, &mut f)),
+            Node::Div(a, b) => Node::Div(plain(a, &mut f), plain(b, &mut f)),
+            Node::MulAdd(a, b, negative, c) => {
+                Node::MulAdd(plain(a, &mut f), plain(b, &mut f), negative, f(c))
+            }
+            Node::Sqrt(a) => Node::Sqrt(f(a)),
+            Node::Angle(terms, offset, negative) => {
+                Node::Angle(terms.iter().map(|&t| f(t)).collect(), offset, negative)
+            }
+            Node::Sin(a) => Node::Sin(plain(a, &mut f)),
+            Node::Cos(a) => Node::Cos(plain(a, &mut f)),
+            Node::Exp(a) => Node::Exp(f(a)),
+            Node::Ln(a) => Node::Ln(f(a)),
+            Node::Tanh(a) => Node::Tanh(plain(a, &mut f)),
+            Node::Abs(a) => Node::Abs(plain(a, &mut f)),
+            Node::Min(a, b) => Node::Min(f(a), f(b)),
+            Node::Max(a, b) => Node::Max(f(a), f(b)),
+            Node::Sign(a) => Node::Sign(plain(a, &mut f)),
+            Node::Less(a, b) => Node::Less(f(a), f(b)),
+            Node::Select(condition, a, b) => Node::Select(plain(condition, &mut f), f(a), f(b)),
+            Node::Pivot(value, magnitude, joint) => Node::Pivot(f(value), f(magnitude), joint),
+        }
+    }
+}
+
 /// A quick hash for small keys: multiply and rotate. The order it gives is never seen.
 #[derive(Clone, Default, Debug)]
 pub(crate) struct QuickHasher(u64);

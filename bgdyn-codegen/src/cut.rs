@@ -1,0 +1,158 @@
+//! Cuts a long function into blocks that pass values.
+//!
+//! Compilers take time and stack that grow faster than the length of one straight line; a block
+//! becomes a function of its own. Sines stay with their cosines, and a comparison with what reads
+//! it, so that a cut costs no operation.
+
+use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
+use crate::function::{Block, Function};
+
+/// Operations in a block at the most. Arms of seven axes stay in one piece.
+const BLOCK: usize = 2500;
+
+/// The same function in blocks of bounded length.
+pub fn cut(function: Function) -> Function {
+    let operations = function.operations();
+    if operations.total() <= BLOCK || function.blocks.len() != 1 {
+        return function;
+    }
+    let outputs = &function.blocks[0].outputs;
+    let homes = homes(&function.graph, outputs);
+    let mut cutter = Cutter::new(&function.graph, homes, outputs);
+    let blocks = (0..cutter.blocks()).map(|b| cutter.block(b)).collect();
+    Function {
+        graph: cutter.made,
+        blocks,
+        ..function
+    }
+}
+
+/// The block in which each node is computed; `None` for what stands where it is used.
+fn homes(graph: &Graph, outputs: &[Expr]) -> Vec<Option<usize>> {
+    let needed = reachable(graph, outputs);
+    let mut homes = vec![None; graph.len()];
+    let mut angles: QuickMap<NodeId, usize> = QuickMap::default();
+    let mut done = 0;
+    for i in (0..graph.len()).filter(|&i| needed[i]) {
+        homes[i] = match graph.node(NodeId(i as u32)) {
+            Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) | Node::Less(..) => None,
+            Node::Sin(a) | Node::Cos(a) => Some(*angles.entry(*a).or_insert(done / BLOCK)),
+            Node::MulAdd(..) => {
+                done += 2;
+                Some(done / BLOCK)
+            }
+            _ => {
+                done += 1;
+                Some(done / BLOCK)
+            }
+        };
+    }
+    homes
+}
+
+struct Cutter<'a> {
+    graph: &'a Graph,
+    homes: Vec<Option<usize>>,
+    /// The function's results, and each block's: nodes that later blocks read.
+    results: &'a [Expr],
+    passed: Vec<Vec<NodeId>>,
+    /// The graph with blocks, and where a node of the old one is in it, block by block.
+    made: Graph,
+    copies: QuickMap<NodeId, Expr>,
+}
+
+impl<'a> Cutter<'a> {
+    fn new(graph: &'a Graph, homes: Vec<Option<usize>>, results: &'a [Expr]) -> Self {
+        let last = homes.iter().flatten().max().copied().unwrap_or(0);
+        let mut cutter = Cutter {
+            graph,
+            homes,
+            results,
+            passed: vec![Vec::new(); last + 1],
+            made: Graph::default(),
+            copies: QuickMap::default(),
+        };
+        cutter.find_passed(last);
+        cutter
+    }
+
+    fn blocks(&self) -> usize {
+        self.passed.len()
+    }
+
+    /// Notes every node that a later block, or the result, reads.
+    fn find_passed(&mut self, last: usize) {
+        let mut read_later = vec![false; self.graph.len()];
+        let needed = reachable(self.graph, self.results);
+        for i in (0..self.graph.len()).filter(|&i| needed[i]) {
+            let Some(home) = self.homes[i] else { continue };
+            self.for_each_read(NodeId(i as u32), &mut |operand| {
+                if self.homes[operand.0 as usize].is_some_and(|h| h < home) {
+                    read_later[operand.0 as usize] = true;
+                }
+            });
+        }
+        for e in self.results {
+            if self.homes[e.node.0 as usize].is_some_and(|h| h < last) {
+                read_later[e.node.0 as usize] = true;
+            }
+        }
+        for i in (0..self.graph.len()).filter(|&i| read_later[i]) {
+            if let Some(home) = self.homes[i] {
+                self.passed[home].push(NodeId(i as u32));
+            }
+        }
+    }
+
+    /// Calls `f` with the operands, seen through what stands where it is used.
+    fn for_each_read(&self, id: NodeId, f: &mut dyn FnMut(NodeId)) {
+        self.graph
+            .node(id)
+            .for_each_operand(|operand| match self.homes[operand.0 as usize] {
+                Some(_) => f(operand),
+                None => self.for_each_read(operand, f),
+            });
+    }
+
+    /// Copies a block; the last one's outputs are the function's.
+    fn block(&mut self, b: usize) -> Block {
+        self.copies.clear();
+        for (block, passed) in self.passed.iter().enumerate().take(b) {
+            for (index, &id) in passed.iter().enumerate() {
+                let leaf = self.made.leaf(Leaf::Passed { block, index });
+                self.copies.insert(id, leaf);
+            }
+        }
+        let wanted: Vec<Expr> = if b + 1 == self.blocks() {
+            self.results.to_vec()
+        } else {
+            self.passed[b].iter().map(|&id| Expr::plus(id)).collect()
+        };
+        for i in 0..self.graph.len() {
+            if self.homes[i] == Some(b) {
+                self.copy(NodeId(i as u32));
+            }
+        }
+        Block {
+            outputs: wanted.into_iter().map(|e| self.copy_signed(e)).collect(),
+        }
+    }
+
+    fn copy_signed(&mut self, e: Expr) -> Expr {
+        self.copy(e.node).flipped(e.negative)
+    }
+
+    fn copy(&mut self, id: NodeId) -> Expr {
+        if let Some(&copy) = self.copies.get(&id) {
+            return copy;
+        }
+        let node = self.graph.node(id).clone();
+        let copied = node.map_operands(|e| self.copy_signed(e));
+        let copy = Expr::plus(self.made.intern(copied));
+        if let Some(name) = self.graph.name(id) {
+            self.made.set_name(copy.node, || name.to_string());
+        }
+        self.copies.insert(id, copy);
+        copy
+    }
+}
