@@ -222,8 +222,7 @@ fn constant_energy<'g>(
 }
 
 /// Moves what lies on a joint's axis to the parent, from the tips to the base: it moves as if it
-/// belonged there. For a rotation mass, axial first moment and D_zz; for a translation all of D.
-/// What reaches the base is dropped, but for its energy. Run-time parameters stay where they are.
+/// belonged there. What reaches the base is dropped, but for its energy. Run-time parameters stay where they are.
 fn regroup<'g>(
     b: &'g Builder,
     graph: &BondGraph,
@@ -234,24 +233,16 @@ fn regroup<'g>(
 ) {
     for j in (0..geometry.bodies.len()).rev() {
         let body = &geometry.bodies[j];
-        let own = inertias[j];
-        if !own.is_constant() || body.parent.is_some_and(|p| !inertias[p].is_constant()) {
+        if !inertias[j].is_constant() || body.parent.is_some_and(|p| !inertias[p].is_constant()) {
             continue;
         }
-        let mut moved = Inertia::zero(b);
-        if body.motion == Motion::Rotation {
-            moved.mass = own.mass;
-            moved.first.0[2] = own.first.0[2];
-            moved.pseudo[2] = own.pseudo[2];
-            inertias[j].mass = b.zero();
-            inertias[j].first.0[2] = b.zero();
-            inertias[j].pseudo[2] = b.zero();
-        } else {
-            moved.pseudo = own.pseudo;
-            inertias[j].pseudo = [b.zero(); 6];
-            let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
-            moved = moved.turned(phase);
-        }
+        let moved = match body.motion {
+            Motion::Rotation => take_from_rotation(b, &mut inertias[j]),
+            _ => {
+                let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
+                take_from_translation(b, &mut inertias[j], body.planar).turned(phase)
+            }
+        };
         // What moved is the same in twisted as in own axes, about the same origin.
         let at_parent = moved
             .shifted(b.vector(origin_offset(geometry, plan, j)))
@@ -261,6 +252,33 @@ fn regroup<'g>(
             None => *energy = *energy - b.vector(graph.gravity).dot(at_parent.first),
         }
     }
+}
+
+/// What lies on the axis of a rotation: mass, axial first moment, D_zz.
+fn take_from_rotation<'g>(b: &'g Builder, own: &mut Inertia<'g>) -> Inertia<'g> {
+    let mut moved = Inertia::zero(b);
+    (moved.mass, moved.axial) = (own.mass, own.axial);
+    moved.first.0[2] = own.first.0[2];
+    moved.pseudo[2] = own.pseudo[2];
+    (own.mass, own.axial) = (b.zero(), b.zero());
+    own.first.0[2] = b.zero();
+    own.pseudo[2] = b.zero();
+    moved
+}
+
+/// What a translation shares with its parent: D, as both turn alike. A planar body also moves
+/// like its parent across the axis, so that only its mass along the axis is its own.
+fn take_from_translation<'g>(b: &'g Builder, own: &mut Inertia<'g>, planar: bool) -> Inertia<'g> {
+    let mut moved = Inertia::zero(b);
+    moved.pseudo = own.pseudo;
+    own.pseudo = [b.zero(); 6];
+    if planar {
+        moved.mass = own.mass;
+        moved.first = Vec3([own.first.0[0], own.first.0[1], b.zero()]);
+        own.mass = b.zero();
+        own.first = Vec3([b.zero(), b.zero(), own.first.0[2]]);
+    }
+    moved
 }
 
 /// Turns the axes of a tip about z so that x points at its centre of mass; gives its inertia in

@@ -25,6 +25,9 @@ pub(super) struct Body {
     pub motion: Motion,
     /// Whether z is opposite to the joint's axis, so that parallel joints share one direction.
     pub opposite: bool,
+    /// Whether every joint from the base to this one has the same axis: the body moves in a plane,
+    /// and along the axis.
+    pub planar: bool,
     /// Columns: twisted axes in the parent's body axes (in world axes for the base).
     pub twist: Mat3<Dd>,
     /// The body's origin in twisted axes at coordinate zero, from the parent's origin.
@@ -105,6 +108,7 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
             parent,
             motion: frame.motion,
             opposite: false,
+            planar: false,
             twist: identity(),
             offset: place.translation,
             phase: (Dd::ONE, Dd::ZERO),
@@ -163,6 +167,10 @@ fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
         None => bodies[j].twist = clean_matrix(placed[j].rotation * bodies[j].axes),
     }
     bodies[j].offset = clean_length(bodies[j].twist.transpose() * offset);
+    bodies[j].planar = match bodies[j].parent {
+        None => true,
+        Some(p) => bodies[p].planar && bodies[j].parallel(),
+    };
 }
 
 /// The direction of the common normal with the axis of the first child that has one, in the axes

@@ -19,6 +19,9 @@ const PLACE: [[usize; 3]; 3] = [[0, 3, 4], [3, 1, 5], [4, 5, 2]];
 pub(super) struct Inertia<'g> {
     /// m, kg
     pub mass: Ex<'g>,
+    /// The mass that counts along z, kg: the same, but where a planar body's mass was moved to its
+    /// parent and only its motion along the axes is its own.
+    pub axial: Ex<'g>,
     /// ∫ s dm, kg·m
     pub first: Vec3<Ex<'g>>,
     /// D = ∫ s sᵀ dm, kg·m²
@@ -28,10 +31,12 @@ pub(super) struct Inertia<'g> {
 impl<'g> Inertia<'g> {
     /// Of nothing.
     pub fn zero(b: &'g Builder) -> Self {
+        let zero = b.zero();
         Inertia {
-            mass: b.zero(),
-            first: Vec3([b.zero(); 3]),
-            pseudo: [b.zero(); 6],
+            mass: zero,
+            axial: zero,
+            first: Vec3([zero; 3]),
+            pseudo: [zero; 6],
         }
     }
 
@@ -50,6 +55,7 @@ impl<'g> Inertia<'g> {
         ];
         Inertia {
             mass,
+            axial: mass,
             first: Vec3([b.zero(); 3]),
             pseudo,
         }
@@ -74,9 +80,9 @@ impl<'g> Inertia<'g> {
             self.d(i, j) + moments + self.mass * pi * pj
         });
         Inertia {
-            mass: self.mass,
-            first: h + p.scale(self.mass),
+            first: h + self.weigh(p),
             pseudo,
+            ..*self
         }
     }
 
@@ -88,9 +94,9 @@ impl<'g> Inertia<'g> {
         let pseudo =
             symmetric(|i, j| (0..3).fold(b.zero(), |sum, k| sum + half.0[i][k] * r.0[j][k]));
         Inertia {
-            mass: self.mass,
             first: r * self.first,
             pseudo,
+            ..*self
         }
     }
 
@@ -109,16 +115,23 @@ impl<'g> Inertia<'g> {
             s * xz + c * yz,
         ];
         Inertia {
-            mass: self.mass,
             first: turn(self.first, (c, s)),
             pseudo,
+            ..*self
         }
+    }
+
+    /// m v, along z with the axial mass.
+    pub fn weigh(&self, v: Vec3<Ex<'g>>) -> Vec3<Ex<'g>> {
+        let [x, y, z] = v.0;
+        Vec3([x * self.mass, y * self.mass, z * self.axial])
     }
 
     /// Of both.
     pub fn plus(&self, other: &Self) -> Self {
         Inertia {
             mass: self.mass + other.mass,
+            axial: self.axial + other.axial,
             first: self.first + other.first,
             pseudo: std::array::from_fn(|k| self.pseudo[k] + other.pseudo[k]),
         }
@@ -126,7 +139,12 @@ impl<'g> Inertia<'g> {
 
     /// Whether every entry is known at generation time.
     pub fn is_constant(&self) -> bool {
-        let entries = self.first.0.iter().chain(&self.pseudo).chain([&self.mass]);
+        let entries = self
+            .first
+            .0
+            .iter()
+            .chain(&self.pseudo)
+            .chain([&self.mass, &self.axial]);
         entries.into_iter().all(|e| e.as_constant().is_some())
     }
 
@@ -141,6 +159,7 @@ impl<'g> Inertia<'g> {
     pub fn in_units_of(&self, length: Dd) -> Self {
         Inertia {
             mass: self.mass * (length * length),
+            axial: self.axial * (length * length),
             first: self.first.map(|h| h * length),
             pseudo: self.pseudo,
         }

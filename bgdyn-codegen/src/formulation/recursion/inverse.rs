@@ -308,7 +308,7 @@ fn dynamics<'g>(
         pair(d(0, 0), u[1][0], d(1, 1), u[0][1]) + products
     };
     Wrench {
-        force: spin.u * h + a.scale(inertia.mass),
+        force: spin.u * h + inertia.weigh(a),
         moment: Vec3([nx, ny, nz]) + h.cross(a),
     }
 }

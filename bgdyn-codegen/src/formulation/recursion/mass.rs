@@ -120,7 +120,7 @@ fn unit_momentum<'g>(
         },
         _ => Momentum {
             joint,
-            linear: Vec3([b.zero(), b.zero(), whole.mass]),
+            linear: Vec3([b.zero(), b.zero(), whole.axial]),
             angular: Vec3([y, -x, b.zero()]),
         },
     }
@@ -170,27 +170,28 @@ fn twice_kinetic_energy<'g>(inertia: &Inertia<'g>, omega: Vec3<Ex<'g>>, u: Vec3<
         + (d(0, 0) + d(1, 1)) * (z * z);
     let products = d(0, 1) * two * (x * y) + d(0, 2) * two * (x * z) + d(1, 2) * two * (y * z);
     let swept = omega.cross(inertia.first);
-    inertia.mass * u.dot(u) + u.dot(swept) * two + (squares - products)
+    u.dot(inertia.weigh(u)) + u.dot(swept) * two + (squares - products)
 }
 
 /// V = −g · Σ m r, first moments summed from the tips.
 pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> {
     let n = frames.bodies.len();
-    let nothing = (b.zero(), Vec3([b.zero(); 3]));
-    let mut own = vec![nothing; n];
-    let mut basis = vec![nothing; n];
+    let mut own = vec![Inertia::zero(b); n];
+    let mut basis = vec![Inertia::zero(b); n];
     let mut energy = frames.constant_energy;
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
-        let mass = frame.inertia.mass + own[j].0 + basis[j].0;
-        let first = turn(frame.inertia.first + own[j].1, frame.turn) + basis[j].1;
-        let first = first + frame.position.scale(mass);
+        // Masses and first moments only: D has no weight.
+        let mut whole = frame.inertia.plus(&own[j]);
+        whole.first = turn(whole.first, frame.turn);
+        whole = whole.plus(&basis[j]);
+        whole.first = whole.first + whole.weigh(frame.position);
         match frame.parent {
-            None => energy = energy - frames.gravity[j].dot(first),
-            Some(p) if frame.continues => basis[p] = (basis[p].0 + mass, basis[p].1 + first),
+            None => energy = energy - frames.gravity[j].dot(whole.first),
+            Some(p) if frame.continues => basis[p] = basis[p].plus(&whole),
             Some(p) => {
-                let twist = frame.twist.map(|x| b.constant(x));
-                own[p] = (own[p].0 + mass, own[p].1 + twist * first);
+                whole.first = frame.twist.map(|x| b.constant(x)) * whole.first;
+                own[p] = own[p].plus(&whole);
             }
         }
     }
