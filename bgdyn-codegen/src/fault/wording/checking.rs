@@ -23,7 +23,8 @@ pub(crate) fn world_is_reserved(place: &Place) -> Fault {
 pub(crate) fn repeated_name(place: &Place, name: &str, what: &str, first: &Place) -> Fault {
     let message = format!("the name {} is taken; names are unique among {what}", quote(name));
     let (path, line) = (&first.path, first.position.line);
-    Fault::new(place, "repeated-name", message).with_help(format!("`{path}` on line {line} has it"))
+    Fault::new(place, "repeated-name", message)
+        .with_help(format!("`{path}` on line {line} has it; choose another"))
 }
 
 pub(crate) fn repeated_mount(place: &Place, name: &str, first: &Place) -> Fault {
@@ -181,8 +182,9 @@ pub(crate) fn not_semidefinite(place: &Place, moments: [f64; 3]) -> Fault {
 
 pub(crate) fn triangle_inequality(place: &Place, moments: [f64; 3]) -> Fault {
     let [a, b, c] = moments.map(figure);
+    let short = figure(moments[2] - moments[0] - moments[1]);
     let message = format!(
-        "no body has this tensor: its principal moments are {a}, {b}, {c} kg·m², and {a} + {b} < {c}"
+        "no body has this tensor: its principal moments are {a}, {b}, {c} kg·m², and {a} + {b} falls short of {c} by {short}"
     );
     Fault::new(place, "triangle-inequality", message)
         .with_help("check the numbers, or write `nonphysical: allow` in the link if they are meant")
