@@ -210,22 +210,20 @@ pub(crate) fn angle_out_of_range(place: &Place, text: &str, most: f64) -> Fault 
 
 pub(crate) fn nearly_quarter_turn(place: &Place, off: &[(&str, f64)]) -> Fault {
     let parts: Vec<String> =
-        off.iter().map(|(name, off)| format!("{name} by {} rad", figure(*off))).collect();
-    let message =
-        format!("nearly a quarter turn, but not taken as exact: {} off", parts.join(", "));
-    nearly(place, message, "write it as `90 deg`, or `snap: 1e-4` at the top")
+        off.iter().map(|(name, off)| format!("{name} is {} rad", figure(*off))).collect();
+    let message = format!("{} off a multiple of 90 deg; kept as written", parts.join(", "));
+    nearly(place, message, "write the exact angle (`90 deg`)")
 }
 
 pub(crate) fn nearly_axis(place: &Place, off: &[(&str, f64)]) -> Fault {
     let parts: Vec<String> =
-        off.iter().map(|(name, off)| format!("{name} by {} rad", figure(*off))).collect();
-    let message =
-        format!("nearly in line with an axis, but not taken as exact: {} off", parts.join(", "));
-    nearly(place, message, "write 0 there, or `snap: 1e-4` at the top")
+        off.iter().map(|(name, off)| format!("{name} is {}", figure(*off))).collect();
+    let message = format!("{} of the axis's length, nearly 0; kept as written", parts.join(", "));
+    nearly(place, message, "write 0 there")
 }
 
 fn nearly(place: &Place, message: String, way: &str) -> Fault {
     Fault::new(place, "nearly-exact", message)
-        .with_help(format!("{way}: structural zeros save operations"))
+        .with_help(format!("{way}, or `snap: 1e-4` at the top: exact zeros save operations"))
         .into_warning()
 }
