@@ -40,6 +40,9 @@ pub(crate) fn finish<V>(
 ) -> Result<V, Singular> {
     match refused {
         None => Ok(accelerations),
-        Some(joint) => Err(Singular { joint, name: names.get(joint).copied().unwrap_or("") }),
+        Some(joint) => Err(Singular {
+            joint,
+            name: names.get(joint).copied().unwrap_or(""),
+        }),
     }
 }

@@ -1,4 +1,0 @@
-//! Double-double placeholder.
-/// Double-double.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dd;

@@ -1,0 +1,172 @@
+//! Sine and cosine of double-double angles, and of exact sums of them.
+//!
+//! An angle is turned into a fraction of a turn in fixed point, by multiplying each of its words by
+//! as many digits of 1/2π as matter (Payne and Hanek 1983). In that form angles of any size add
+//! without rounding, and the whole turns drop out by themselves.
+
+use super::Dd;
+use super::constants::{INVERSE_FACTORIAL, INVERSE_TAU, TAU};
+
+/// Words of a fraction of a turn.
+const WORDS: usize = 5;
+/// An eighth and a quarter of a turn, in the highest word.
+const EIGHTH: u64 = 1 << 61;
+const QUARTER: u64 = 1 << 62;
+/// Below this the series need no reduction: just under π/4, in radians.
+const REDUCED: f64 = 0.785;
+/// Below this, in radians, fixed point would lose relative accuracy.
+const TINY: f64 = 1.0 / (1_u64 << 63) as f64;
+
+/// A fraction of a turn in [0, 1), of 320 binary digits, the highest word first.
+#[derive(Clone, Copy)]
+struct Turn([u64; WORDS]);
+
+impl Turn {
+    const ZERO: Self = Self([0; WORDS]);
+
+    /// The finite angle `x` in radians, less its whole turns; short by less than 2⁻²⁶⁷ turns.
+    fn of_word(x: f64) -> Self {
+        let bits = x.to_bits();
+        let biased = (bits >> 52) & 0x7ff;
+        let fraction = bits & ((1 << 52) - 1);
+        let mantissa = if biased == 0 {
+            fraction
+        } else {
+            fraction | 1 << 52
+        };
+        let exponent = biased.max(1) as i32 - 1075;
+        // |x| = mantissa · 2^exponent: the digits of 2^exponent/2π after the point, times mantissa.
+        let mut words = [0; WORDS];
+        let mut carry = 0_u128;
+        for (i, word) in words.iter_mut().enumerate().rev() {
+            let digits = inverse_tau_digits(exponent + 64 * i as i32);
+            let product = u128::from(digits) * u128::from(mantissa) + carry;
+            *word = product as u64;
+            carry = product >> 64;
+        }
+        if x < 0.0 {
+            Self(words).negated()
+        } else {
+            Self(words)
+        }
+    }
+
+    fn of(x: Dd) -> Self {
+        Self::of_word(x.hi).plus(Self::of_word(x.lo))
+    }
+
+    fn plus(self, other: Self) -> Self {
+        let mut sum = self;
+        let mut carry = 0_u128;
+        for (word, add) in sum.0.iter_mut().zip(other.0).rev() {
+            let total = u128::from(*word) + u128::from(add) + carry;
+            *word = total as u64;
+            carry = total >> 64;
+        }
+        sum
+    }
+
+    fn negated(self) -> Self {
+        let mut one = Self::ZERO;
+        one.0[WORDS - 1] = 1;
+        Self(self.0.map(|word| !word)).plus(one)
+    }
+
+    /// The quarter turn nearest to the angle, modulo 4, and the radians from there, in ±π/4.
+    fn split(self) -> (u64, Dd) {
+        let mut rest = self;
+        rest.0[0] = rest.0[0].wrapping_add(EIGHTH);
+        let quarter = rest.0[0] / QUARTER;
+        rest.0[0] = (rest.0[0] % QUARTER).wrapping_sub(EIGHTH);
+        let negative = rest.0[0] >> 63 == 1;
+        if negative {
+            rest = rest.negated();
+        }
+        let radians = rest.to_dd() * TAU;
+        (quarter, if negative { -radians } else { radians })
+    }
+
+    /// The fraction, to 106 significant digits or more.
+    fn to_dd(self) -> Dd {
+        let Some(first) = self.0.iter().position(|&word| word != 0) else {
+            return Dd::ZERO;
+        };
+        let word = |i: usize| self.0.get(first + i).copied().unwrap_or(0);
+        let shift = word(0).leading_zeros();
+        // 128 digits without leading zeros, then 53 and 75 of them.
+        let digits = (u128::from(word(0)) << 64 | u128::from(word(1))) << shift
+            | (u128::from(word(2)) << shift) >> 64;
+        let (hi, lo) = (digits >> 75, digits & ((1 << 75) - 1));
+        Dd::new(libm::scalbn(hi as f64, -53), libm::scalbn(lo as f64, -128))
+            .scale(-(64 * first as i32 + shift as i32))
+    }
+
+    fn sin_cos(self) -> (Dd, Dd) {
+        let (quarter, radians) = self.split();
+        let (s, c) = reduced_sin_cos(radians);
+        match quarter {
+            0 => (s, c),
+            1 => (c, -s),
+            2 => (-s, -c),
+            _ => (-c, s),
+        }
+    }
+}
+
+/// 64 digits of 1/2π, from behind the `start`-th after the point; zeros in front of the point.
+fn inverse_tau_digits(start: i32) -> u64 {
+    let word = |i: i32| {
+        usize::try_from(i)
+            .ok()
+            .and_then(|i| INVERSE_TAU.get(i))
+            .copied()
+            .unwrap_or(0)
+    };
+    let (first, shift) = (start.div_euclid(64), start.rem_euclid(64));
+    let pair = u128::from(word(first)) << 64 | u128::from(word(first + 1));
+    ((pair << shift) >> 64) as u64
+}
+
+/// Sine and cosine by their Taylor series, for |x| ≤ π/4.
+fn reduced_sin_cos(x: Dd) -> (Dd, Dd) {
+    let square = x * x;
+    // 1/first! − x²/(first + 2)! + …, 13 terms.
+    let series = |first: usize| {
+        (0..13).rev().fold(Dd::ZERO, |sum, i| {
+            INVERSE_FACTORIAL[first + 2 * i] - square * sum
+        })
+    };
+    let sin = x - x * square * series(3);
+    let cos = Dd::ONE - (square.half() - square * square * series(4));
+    (sin, cos)
+}
+
+impl Dd {
+    /// Sine and cosine of an angle in radians, of any size: errors of a few 2⁻¹⁰⁶.
+    pub fn sin_cos(self) -> (Self, Self) {
+        if !self.is_finite() {
+            return (Self::NAN, Self::NAN);
+        }
+        if self.hi.abs() < REDUCED {
+            return reduced_sin_cos(self);
+        }
+        Turn::of(self).sin_cos()
+    }
+
+    /// Sine and cosine of the exact sum of angles in radians, of any size: errors of a few 2⁻¹⁰⁶.
+    pub(super) fn sin_cos_of_sum(angles: &[Self], offset: Self) -> (Self, Self) {
+        if let ([angle], true) = (angles, offset == Self::ZERO) {
+            return angle.sin_cos();
+        }
+        let all = || angles.iter().copied().chain([offset]);
+        if all().any(|angle| !angle.is_finite()) {
+            return (Self::NAN, Self::NAN);
+        }
+        if all().all(|angle| angle.hi.abs() < TINY) {
+            return all().fold(Self::ZERO, |sum, angle| sum + angle).sin_cos();
+        }
+        all()
+            .fold(Turn::ZERO, |sum, angle| sum.plus(Turn::of(angle)))
+            .sin_cos()
+    }
+}
