@@ -67,12 +67,18 @@ impl Fault {
 
     /// The same finding with a way out.
     pub fn with_help(self, help: impl Into<String>) -> Self {
-        Fault { help: Some(help.into()), ..self }
+        Fault {
+            help: Some(help.into()),
+            ..self
+        }
     }
 
     /// The same finding as a warning.
     pub fn into_warning(self) -> Self {
-        Fault { severity: Severity::Warning, ..self }
+        Fault {
+            severity: Severity::Warning,
+            ..self
+        }
     }
 }
 
@@ -93,7 +99,10 @@ impl Faults {
 
     /// How many findings refuse the spec.
     pub fn count(&self) -> usize {
-        self.0.iter().filter(|f| f.severity == Severity::Fault).count()
+        self.0
+            .iter()
+            .filter(|f| f.severity == Severity::Fault)
+            .count()
     }
 
     /// Sorts by position; findings at one place keep their order.
@@ -110,7 +119,10 @@ impl Position {
 impl Place {
     /// The whole file.
     pub fn file() -> Self {
-        Place { position: Position::START, path: String::new() }
+        Place {
+            position: Position::START,
+            path: String::new(),
+        }
     }
 }
 

@@ -4,7 +4,10 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// What vectors and matrices are made of.
-pub trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {}
+pub trait Ring:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+}
 impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Neg<Output = T>> Ring for T {}
 
 /// A column of three components.

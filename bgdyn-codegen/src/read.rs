@@ -11,7 +11,9 @@ use crate::spec::parse;
 /// findings are in the order of the file.
 pub fn read(text: &str, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
     let (spec, mut faults) = parse(text);
-    let Some(spec) = spec else { return (None, faults) };
+    let Some(spec) = spec else {
+        return (None, faults);
+    };
     let (mechanism, more) = check(&spec, stem);
     faults.0.extend(more.0);
     faults.sort();

@@ -35,8 +35,11 @@ frames:
 fn all_faults_are_reported_in_one_run() {
     let (mechanism, faults) = read(SPEC, Some("arm"));
     assert_eq!(mechanism, None);
-    let places: Vec<String> =
-        faults.0.iter().map(|f| format!("{} {} {}", f.position, f.path, f.rule)).collect();
+    let places: Vec<String> = faults
+        .0
+        .iter()
+        .map(|f| format!("{} {} {}", f.position, f.path, f.rule))
+        .collect();
     let wanted = [
         "2:7 name name-differs-from-file",
         "3:7 snap snap-out-of-range",

@@ -46,33 +46,55 @@ fn whole(rows: [[f64; 3]; 3]) -> Mat3<Dd> {
 }
 
 fn rotation(text: &str) -> Mat3<Dd> {
-    sound(&joint(&format!("origin: {{ rpy: [{text}] }}"))).links()[0].joint.origin.rotation
+    sound(&joint(&format!("origin: {{ rpy: [{text}] }}"))).links()[0]
+        .joint
+        .origin
+        .rotation
 }
 
 fn axis(text: &str) -> Vec3<Dd> {
-    sound(&joint(&format!("axis: {text}"))).links()[0].joint.axis
+    sound(&joint(&format!("axis: {text}"))).links()[0]
+        .joint
+        .axis
 }
 
 fn tensor(text: &str) -> [Dd; 6] {
     let mechanism = sound(&link(&format!("inertia: {{ {text} }}")));
-    mechanism.links()[0].inertial.inertia.map(|value| match value {
-        Value::Fixed(number) => number,
-        Value::Parameter(_) => panic!("no parameter was written"),
-    })
+    mechanism.links()[0]
+        .inertial
+        .inertia
+        .map(|value| match value {
+            Value::Fixed(number) => number,
+            Value::Parameter(_) => panic!("no parameter was written"),
+        })
 }
 
 #[test]
 fn what_is_left_out_has_its_default() {
     let arm = sound("format: 1\nlinks: [{ name: base }]\n");
-    assert_eq!((arm.name(), arm.label(), arm.description()), ("arm", None, None));
+    assert_eq!(
+        (arm.name(), arm.label(), arm.description()),
+        ("arm", None, None)
+    );
     assert_eq!(arm.gravity(), Vec3([Dd::ZERO, Dd::ZERO, dd("-9.81")]));
-    assert_eq!((arm.nq(), arm.nv(), arm.links().len(), arm.frames().len()), (0, 0, 1, 0));
-    let Link { parent, joint, inertial, .. } = &arm.links()[0];
+    assert_eq!(
+        (arm.nq(), arm.nv(), arm.links().len(), arm.frames().len()),
+        (0, 0, 1, 0)
+    );
+    let Link {
+        parent,
+        joint,
+        inertial,
+        ..
+    } = &arm.links()[0];
     assert_eq!(
         (*parent, joint.name.as_str(), joint.kind.motion),
         (None, "base_mount", Motion::None)
     );
-    assert_eq!(joint.origin.rotation, whole([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]));
+    assert_eq!(
+        joint.origin.rotation,
+        whole([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    );
     assert_eq!(inertial.mass, Value::Fixed(Dd::ZERO));
 }
 
@@ -94,16 +116,32 @@ links:
 frames: [{ name: tool, label: TCP, link: a, origin: { xyz: [0, 0, 0.1] } }, { name: cell, link: world }]
 ",
     );
-    assert_eq!((arm.label(), arm.description()), (Some("The Arm"), Some("Two joints")));
+    assert_eq!(
+        (arm.label(), arm.description()),
+        (Some("The Arm"), Some("Two joints"))
+    );
     assert_eq!(arm.gravity(), Vec3([Dd::ZERO, dd("-1.62"), Dd::ZERO]));
     let a = &arm.links()[0];
-    assert_eq!((a.label.as_deref(), a.joint.label.as_deref()), (Some("link_1"), Some("J1")));
-    assert_eq!(a.joint.axis, Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE]), "z is the default");
+    assert_eq!(
+        (a.label.as_deref(), a.joint.label.as_deref()),
+        (Some("link_1"), Some("J1"))
+    );
+    assert_eq!(
+        a.joint.axis,
+        Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE]),
+        "z is the default"
+    );
     let limits = a.joint.limits;
-    assert_eq!((limits.lower, limits.upper, limits.velocity), (Some(-0.005), Some(0.4), Some(1.0)));
+    assert_eq!(
+        (limits.lower, limits.upper, limits.velocity),
+        (Some(-0.005), Some(0.4), Some(1.0))
+    );
     assert_eq!(limits.effort, None);
     assert_eq!(a.inertial.com.0[0], Value::Fixed(dd("0.001")));
-    assert_eq!((arm.frames()[0].link, arm.frames()[1].link), (Some(LinkId(0)), None));
+    assert_eq!(
+        (arm.frames()[0].link, arm.frames()[1].link),
+        (Some(LinkId(0)), None)
+    );
     assert_eq!(arm.frames()[0].origin.translation.0[2], dd("0.1"));
     assert_eq!(arm.joint(CoordinateId(0)).name, "lift");
 }
@@ -111,9 +149,21 @@ frames: [{ name: tool, label: TCP, link: a, origin: { xyz: [0, 0, 0.1] } }, { na
 #[test]
 fn the_name_is_the_stem_up_to_its_first_dot() {
     let text = "format: 1\nlinks: [{ name: base }]\n";
-    assert_eq!(read(text, Some("pick.scene")).0.expect("a mechanism").name(), "pick");
+    assert_eq!(
+        read(text, Some("pick.scene"))
+            .0
+            .expect("a mechanism")
+            .name(),
+        "pick"
+    );
     let named = format!("name: pick\n{text}");
-    assert_eq!(read(&named, Some("pick.scene")).0.expect("a mechanism").name(), "pick");
+    assert_eq!(
+        read(&named, Some("pick.scene"))
+            .0
+            .expect("a mechanism")
+            .name(),
+        "pick"
+    );
     assert_eq!(read(&named, None).0.expect("a mechanism").name(), "pick");
     assert_eq!(read(text, None).1.0[0].rule, "no-name");
 }
@@ -135,8 +185,9 @@ links:
     assert_eq!(names, ["upper", "fore", "hand", "other", "finger"]);
     let parents: Vec<Option<usize>> = arm.links().iter().map(|l| l.parent.map(|p| p.0)).collect();
     assert_eq!(parents, [None, Some(0), Some(1), None, Some(2)]);
-    let joints: Vec<&str> =
-        (0..arm.nv()).map(|i| arm.joint(CoordinateId(i)).name.as_str()).collect();
+    let joints: Vec<&str> = (0..arm.nv())
+        .map(|i| arm.joint(CoordinateId(i)).name.as_str())
+        .collect();
     assert_eq!(joints, ["elbow", "wrist", "side", "grip"]);
     assert_eq!(arm.links()[2].joint.coordinate, Some(CoordinateId(1)));
     assert_eq!(arm.links()[0].joint.coordinate, None);
@@ -154,8 +205,11 @@ links:
   - { name: s, parent: s }
 ";
     let (_, faults) = read(text, Some("arm"));
-    let messages: Vec<(&str, &str)> =
-        faults.0.iter().map(|f| (f.path.as_str(), f.message.as_str())).collect();
+    let messages: Vec<(&str, &str)> = faults
+        .0
+        .iter()
+        .map(|f| (f.path.as_str(), f.message.as_str()))
+        .collect();
     assert_eq!(messages.len(), 2, "{messages:?}");
     assert_eq!(messages[0].0, "links[1].parent");
     assert!(messages[0].1.contains("a → c → b → a"), "{messages:?}");
@@ -175,7 +229,13 @@ fn a_very_long_chain_is_no_trouble() {
 #[test]
 fn quarter_turns_are_exact() {
     let about_y = whole([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]);
-    for quarter in ["90 deg", "-270 deg", "450 deg", "1.5707963267948966", "1.57079632679"] {
+    for quarter in [
+        "90 deg",
+        "-270 deg",
+        "450 deg",
+        "1.5707963267948966",
+        "1.57079632679",
+    ] {
         assert_eq!(rotation(&format!("0, {quarter}, 0")), about_y, "{quarter}");
     }
     let half = whole([[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]);
@@ -189,8 +249,11 @@ fn quarter_turns_are_exact() {
 #[test]
 fn turns_about_fixed_axes_x_then_y_then_z() {
     let r = rotation("0.1, -0.2, 0.3");
-    let ((sr, cr), (sp, cp), (sy, cy)) =
-        (dd("0.1").sin_cos(), dd("-0.2").sin_cos(), dd("0.3").sin_cos());
+    let ((sr, cr), (sp, cp), (sy, cy)) = (
+        dd("0.1").sin_cos(),
+        dd("-0.2").sin_cos(),
+        dd("0.3").sin_cos(),
+    );
     let wanted = [
         [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
         [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
@@ -207,7 +270,10 @@ fn turns_about_fixed_axes_x_then_y_then_z() {
 fn turns_that_undo_each_other_leave_exact_zeros() {
     // At pitch 90° roll and yaw turn about one axis; 0.4 rad there and back is no turn.
     let r = rotation("0.4, 90 deg, 0.4");
-    assert_eq!(r, whole([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]));
+    assert_eq!(
+        r,
+        whole([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+    );
     let r = rotation("0.5, 90 deg, 0.2");
     assert_eq!(
         (r.0[2], r.0[0][0], r.0[1][0]),
@@ -220,7 +286,10 @@ fn turns_that_undo_each_other_leave_exact_zeros() {
 #[test]
 fn a_slanted_turn_keeps_its_zeros_and_length() {
     let r = rotation("0, 0, 30 deg");
-    assert_eq!((r.0[2], r.0[0][2], r.0[1][2]), ([Dd::ZERO, Dd::ZERO, Dd::ONE], Dd::ZERO, Dd::ZERO));
+    assert_eq!(
+        (r.0[2], r.0[0][2], r.0[1][2]),
+        ([Dd::ZERO, Dd::ZERO, Dd::ONE], Dd::ZERO, Dd::ZERO)
+    );
     assert!((r.0[1][0] - dd("0.5")).to_f64().abs() < 1e-30);
     let product = r * r.transpose();
     assert!((product.0[0][0] - Dd::ONE).to_f64().abs() < 1e-30);
@@ -229,15 +298,28 @@ fn a_slanted_turn_keeps_its_zeros_and_length() {
 #[test]
 fn rounded_quarter_turns_are_kept_and_warned_of() {
     let fault = warning(&joint("origin: { rpy: [1.5708, 0, -3.1416] }"));
-    assert_eq!((fault.rule, fault.path.as_str()), ("nearly-exact", "links[0].joint.origin.rpy"));
+    assert_eq!(
+        (fault.rule, fault.path.as_str()),
+        ("nearly-exact", "links[0].joint.origin.rpy")
+    );
     assert_eq!(
         fault.headline("arm.yaml"),
         "arm.yaml:2:69: warning: links[0].joint.origin.rpy: roll is 3.67321e-6 rad, yaw is 7.34641e-6 rad off a multiple of 90 deg; kept as written [nearly-exact]"
     );
-    let snapped = format!("snap: 1e-4\n{}", joint("origin: { rpy: [1.5708, 0, -3.1416] }"));
+    let snapped = format!(
+        "snap: 1e-4\n{}",
+        joint("origin: { rpy: [1.5708, 0, -3.1416] }")
+    );
     let r = sound(&snapped).links()[0].joint.origin.rotation;
-    assert_eq!(r, whole([[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]));
-    assert_eq!(rules(&joint("origin: { rpy: [1.57, 0, 0] }")), [""; 0], "1.57 is meant");
+    assert_eq!(
+        r,
+        whole([[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
+    );
+    assert_eq!(
+        rules(&joint("origin: { rpy: [1.57, 0, 0] }")),
+        [""; 0],
+        "1.57 is meant"
+    );
 }
 
 #[test]
@@ -258,7 +340,10 @@ fn axes_have_length_one_and_exact_zeros() {
 
 #[test]
 fn snap_zero_takes_only_what_is_exact() {
-    let text = format!("snap: 0\n{}", joint("origin: { rpy: [0, 90 deg, 0] }, axis: [0, 0, 2]"));
+    let text = format!(
+        "snap: 0\n{}",
+        joint("origin: { rpy: [0, 90 deg, 0] }, axis: [0, 0, 2]")
+    );
     let joint = sound(&text).links()[0].joint.clone();
     assert_eq!(joint.origin.rotation.0[0], [Dd::ZERO, Dd::ZERO, Dd::ONE]);
     assert_eq!(joint.axis.0, [Dd::ZERO, Dd::ZERO, Dd::ONE]);
@@ -276,7 +361,10 @@ fn tensors_are_turned_into_link_axes() {
     assert_eq!((round[0], round[1]), (round[1], round[2]));
     assert_eq!(round[3..], [Dd::ZERO; 3]);
     let slanted = tensor("xx: 1, yy: 2, zz: 2.5, rpy: [0, 0, 45 deg]");
-    assert!((slanted[3] - dd("-0.5")).to_f64().abs() < 1e-30, "xy = (xx − yy)/2");
+    assert!(
+        (slanted[3] - dd("-0.5")).to_f64().abs() < 1e-30,
+        "xy = (xx − yy)/2"
+    );
     assert_eq!(slanted[4..], [Dd::ZERO; 2]);
     let close = tensor("xx: 1, yy: 1.00000000000000001, zz: 1");
     assert_ne!(close[0], close[1], "given numbers stay as written");
@@ -285,33 +373,75 @@ fn tensors_are_turned_into_link_axes() {
 #[test]
 fn tensors_of_no_body_are_refused() {
     let rule = |keys: &str| rules(&link(keys));
-    assert_eq!(rule("inertia: { xx: 1, yy: 1, zz: 2 }"), [""; 0], "a flat body");
-    assert_eq!(rule("inertia: { xx: 1, yy: 1, zz: 2.000000001 }"), [""; 0], "within 1e-9");
-    assert_eq!(rule("inertia: { xx: 1, yy: 1, zz: 2.00000001 }"), ["triangle-inequality"]);
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 2 }"),
+        [""; 0],
+        "a flat body"
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 2.000000001 }"),
+        [""; 0],
+        "within 1e-9"
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 2.00000001 }"),
+        ["triangle-inequality"]
+    );
     assert_eq!(rule("inertia: { zz: 1 }, nonphysical: allow"), [""; 0]);
-    assert_eq!(rule("inertia: { zz: 1, xy: 0.1 }, nonphysical: allow"), ["not-semidefinite"]);
-    assert_eq!(rule("inertia: { xx: -1, yy: -1, zz: -1 }"), ["not-semidefinite"]);
-    assert_eq!(rule("inertia: { xx: 1, yy: 1, zz: 1, xy: 1 }"), ["triangle-inequality"]);
-    assert_eq!(rule("inertia: { xx: 1e-90, yy: 1e-90, zz: 9e-90 }"), ["triangle-inequality"]);
-    assert_eq!(rule("inertia: { xx: 1e90, yy: 1e90, zz: 9e90 }"), ["triangle-inequality"]);
-    assert_eq!(rule("mass: 0, inertia: { xx: 1, yy: 1, zz: 1 }"), [""; 0], "lumped");
-    assert_eq!(rule("inertia: { xx: 1, yy: x, zz: 9 }"), ["wrong-type"], "no second fault");
+    assert_eq!(
+        rule("inertia: { zz: 1, xy: 0.1 }, nonphysical: allow"),
+        ["not-semidefinite"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: -1, yy: -1, zz: -1 }"),
+        ["not-semidefinite"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 1, xy: 1 }"),
+        ["triangle-inequality"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1e-90, yy: 1e-90, zz: 9e-90 }"),
+        ["triangle-inequality"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1e90, yy: 1e90, zz: 9e90 }"),
+        ["triangle-inequality"]
+    );
+    assert_eq!(
+        rule("mass: 0, inertia: { xx: 1, yy: 1, zz: 1 }"),
+        [""; 0],
+        "lumped"
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: x, zz: 9 }"),
+        ["wrong-type"],
+        "no second fault"
+    );
 }
 
 #[test]
 fn limits_fit_their_joint() {
     let prismatic = |keys: &str| {
-        rules(&link(&format!("joint: {{ name: j, type: prismatic, limits: {{ {keys} }} }}")))
+        rules(&link(&format!(
+            "joint: {{ name: j, type: prismatic, limits: {{ {keys} }} }}"
+        )))
     };
     assert_eq!(prismatic("lower: -1 deg"), ["unit-misfit"]);
-    assert_eq!(prismatic("velocity: 1 rad/s, effort: 2 N*m"), ["unit-misfit"; 2]);
+    assert_eq!(
+        prismatic("velocity: 1 rad/s, effort: 2 N*m"),
+        ["unit-misfit"; 2]
+    );
     assert_eq!(prismatic("lower: 1, upper: 1"), [""; 0]);
     assert_eq!(prismatic("effort: -1, velocity: -1"), ["negative-limit"; 2]);
     let both = "joint: { name: j, type: continuous, limits: { lower: -1, upper: 1 } }";
     assert_eq!(rules(&link(both)), ["position-limit"; 2]);
     let velocity = "joint: { name: j, type: continuous, limits: { velocity: 10 deg/s } }";
     assert_eq!(rules(&link(velocity)), [""; 0]);
-    assert_eq!(rules(&joint("limits: { lower: 1 m, upper: -1 rad }")), ["unit-misfit"]);
+    assert_eq!(
+        rules(&joint("limits: { lower: 1 m, upper: -1 rad }")),
+        ["unit-misfit"]
+    );
 }
 
 #[test]
@@ -327,7 +457,15 @@ frames: [{ name: world, link: fn }, { name: a, link: world }, { name: ok, link: 
     let found = rules(text);
     assert_eq!(
         found,
-        ["name", "name", "name", "name", "reserved-name", "repeated-name", "unknown-link"]
+        [
+            "name",
+            "name",
+            "name",
+            "name",
+            "reserved-name",
+            "repeated-name",
+            "unknown-link"
+        ]
     );
 }
 

@@ -35,14 +35,21 @@ fn run(text: &str) {
     let (mechanism, faults) = read(text, Some("arm"));
     assert_eq!(mechanism.is_none(), faults.any_fault(), "{text}");
     for fault in &faults.0 {
-        assert!(!fault.headline("arm.yaml").contains(['\n', '\r']), "{fault:?}");
+        assert!(
+            !fault.headline("arm.yaml").contains(['\n', '\r']),
+            "{fault:?}"
+        );
     }
     let _ = faults.render("arm.yaml", text);
 }
 
 #[test]
 fn the_unchanged_spec_is_sound() {
-    assert!(read(SPEC, Some("arm")).0.is_some(), "{:?}", read(SPEC, Some("arm")).1);
+    assert!(
+        read(SPEC, Some("arm")).0.is_some(),
+        "{:?}",
+        read(SPEC, Some("arm")).1
+    );
 }
 
 /// A piece of YAML that may do harm.

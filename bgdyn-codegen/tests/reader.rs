@@ -9,7 +9,10 @@ fn mass(text: &str) -> Result<Dd, String> {
     if let Some(fault) = faults.0.first() {
         return Err(format!("{}: {}", fault.rule, fault.message));
     }
-    let links = spec.as_ref().and_then(|spec| spec.links.value()).expect("links");
+    let links = spec
+        .as_ref()
+        .and_then(|spec| spec.links.value())
+        .expect("links");
     Ok(links[0].mass.value().expect("a mass").value)
 }
 
@@ -19,12 +22,24 @@ fn dd(text: &str) -> Dd {
 
 #[test]
 fn numbers_are_decimals() {
-    for text in
-        ["0.1", "1", "-3", "+2.5", ".5", "1.", "1e3", "1.5E-7", "3.14159265358979323846264338"]
-    {
+    for text in [
+        "0.1",
+        "1",
+        "-3",
+        "+2.5",
+        ".5",
+        "1.",
+        "1e3",
+        "1.5E-7",
+        "3.14159265358979323846264338",
+    ] {
         assert_eq!(mass(text), Ok(dd(text)), "{text}");
     }
-    assert_ne!(mass("0.1"), Ok(Dd::from_f64(0.1)), "the decimal, not the nearest f64");
+    assert_ne!(
+        mass("0.1"),
+        Ok(Dd::from_f64(0.1)),
+        "the decimal, not the nearest f64"
+    );
     assert_eq!(mass("0"), Ok(Dd::ZERO));
     assert_eq!(mass("-0.0e5"), Ok(Dd::ZERO));
 }
@@ -51,10 +66,22 @@ fn what_is_no_number_is_refused() {
         );
     }
     for text in [".nan", ".inf", "-.Inf", "nan", "inf kg", "-Infinity"] {
-        assert!(mass(text).expect_err(text).starts_with("non-finite"), "{text}");
+        assert!(
+            mass(text).expect_err(text).starts_with("non-finite"),
+            "{text}"
+        );
     }
-    for text in ["1e400", "1e-400", "1e99999999999", "1e-99999999999", "1e101 kg"] {
-        assert!(mass(text).expect_err(text).starts_with("out-of-range"), "{text}");
+    for text in [
+        "1e400",
+        "1e-400",
+        "1e99999999999",
+        "1e-99999999999",
+        "1e101 kg",
+    ] {
+        assert!(
+            mass(text).expect_err(text).starts_with("out-of-range"),
+            "{text}"
+        );
     }
 }
 
@@ -65,15 +92,28 @@ fn rpy(text: &str) -> Vec<Dd> {
     assert_eq!(faults.0, []);
     let spec = spec.expect("a spec");
     let links = spec.links.value().expect("links");
-    let origin = links[0].joint.value().and_then(|j| j.origin.value()).expect("an origin");
-    origin.rpy.value().expect("angles").iter().map(|angle| angle.value.value).collect()
+    let origin = links[0]
+        .joint
+        .value()
+        .and_then(|j| j.origin.value())
+        .expect("an origin");
+    origin
+        .rpy
+        .value()
+        .expect("angles")
+        .iter()
+        .map(|angle| angle.value.value)
+        .collect()
 }
 
 #[test]
 fn degrees_are_exact_where_they_can_be() {
     let half = Dd::PI / Dd::from_f64(2.0);
     assert_eq!(rpy("90 deg, -90 deg, 180 deg"), [half, -half, Dd::PI]);
-    assert_eq!(rpy("90°, 45.0 deg, 1.5 rad"), [half, half / Dd::from_f64(2.0), dd("1.5")]);
+    assert_eq!(
+        rpy("90°, 45.0 deg, 1.5 rad"),
+        [half, half / Dd::from_f64(2.0), dd("1.5")]
+    );
 }
 
 #[test]
@@ -103,7 +143,14 @@ links:
     let a = &links.value().expect("links")[0];
     let entries = a.inertia.value().expect("a tensor").entries.each_ref();
     let values: Vec<Option<Dd>> = entries.map(|e| e.value().map(|n| n.value)).to_vec();
-    let wanted = [Some("3"), Some("2e-6"), Some("7e-9"), Some("1e-4"), Some("4e-7"), None];
+    let wanted = [
+        Some("3"),
+        Some("2e-6"),
+        Some("7e-9"),
+        Some("1e-4"),
+        Some("4e-7"),
+        None,
+    ];
     assert_eq!(values, wanted.map(|text| text.map(dd)));
 }
 
@@ -119,8 +166,14 @@ fn places_count_characters_from_one() {
     let (spec, faults) = parse(text);
     assert_eq!(faults.0, []);
     let spec = spec.expect("a spec");
-    assert_eq!(place(&spec, 0), ("3:39".to_owned(), "links[0].mass".to_owned()));
-    assert_eq!(place(&spec, 1), ("5:11".to_owned(), "links[1].mass".to_owned()));
+    assert_eq!(
+        place(&spec, 0),
+        ("3:39".to_owned(), "links[0].mass".to_owned())
+    );
+    assert_eq!(
+        place(&spec, 1),
+        ("5:11".to_owned(), "links[1].mass".to_owned())
+    );
 }
 
 #[test]
@@ -128,7 +181,10 @@ fn an_alias_stands_for_its_anchor() {
     let text = "format: 1\nlinks:\n  - { name: a, mass: &m 2 kg }\n  - { name: b, mass: *m }\n";
     let (spec, faults) = parse(text);
     assert_eq!(faults.0, []);
-    assert_eq!(place(&spec.expect("a spec"), 1), ("3:22".to_owned(), "links[1].mass".to_owned()));
+    assert_eq!(
+        place(&spec.expect("a spec"), 1),
+        ("3:22".to_owned(), "links[1].mass".to_owned())
+    );
 }
 
 #[test]
@@ -152,5 +208,9 @@ fn half_a_spec_is_marked() {
     assert_eq!(faults.count(), 2);
     let spec = spec.expect("a spec");
     assert!(!spec.complete);
-    assert!(bgdyn_codegen::mechanism::check(&spec, Some("arm")).0.is_none());
+    assert!(
+        bgdyn_codegen::mechanism::check(&spec, Some("arm"))
+            .0
+            .is_none()
+    );
 }

@@ -38,7 +38,11 @@ impl Fault {
 impl Faults {
     /// Every finding with its excerpt, an empty line between them.
     pub fn render(&self, file: &str, source: &str) -> String {
-        self.0.iter().map(|f| f.render(file, source)).collect::<Vec<_>>().join("\n")
+        self.0
+            .iter()
+            .map(|f| f.render(file, source))
+            .collect::<Vec<_>>()
+            .join("\n")
     }
 }
 
@@ -47,7 +51,11 @@ fn source_line(source: &str, number: usize) -> Option<&str> {
     let mut rest = source;
     for _ in 1..number {
         let end = rest.find(['\n', '\r'])?;
-        let width = if rest[end..].starts_with("\r\n") { 2 } else { 1 };
+        let width = if rest[end..].starts_with("\r\n") {
+            2
+        } else {
+            1
+        };
         rest = &rest[end + width..];
     }
     let line = rest.split(['\n', '\r']).next().unwrap_or(rest);
@@ -58,10 +66,17 @@ fn source_line(source: &str, number: usize) -> Option<&str> {
 fn excerpt(line: &str, column: usize) -> (String, usize) {
     let characters: Vec<char> = line.chars().collect();
     let place = column.saturating_sub(1).min(characters.len());
-    let start =
-        if characters.len() <= EXCERPT_WIDTH { 0 } else { place.saturating_sub(EXCERPT_WIDTH / 2) };
+    let start = if characters.len() <= EXCERPT_WIDTH {
+        0
+    } else {
+        place.saturating_sub(EXCERPT_WIDTH / 2)
+    };
     let printable = |c: &char| if c.is_control() { ' ' } else { *c };
-    let shown: String = characters[start..].iter().take(EXCERPT_WIDTH).map(printable).collect();
+    let shown: String = characters[start..]
+        .iter()
+        .take(EXCERPT_WIDTH)
+        .map(printable)
+        .collect();
     (shown.trim_end().to_owned(), place - start)
 }
 
@@ -70,7 +85,10 @@ mod tests {
     use crate::fault::{Fault, Place, Position};
 
     fn fault(line: usize, column: usize) -> Fault {
-        let place = Place { position: Position { line, column }, path: "links[0].mass".into() };
+        let place = Place {
+            position: Position { line, column },
+            path: "links[0].mass".into(),
+        };
         Fault::new(&place, "negative-mass", "the mass is -1").with_help("leave it out")
     }
 
@@ -87,13 +105,20 @@ mod tests {
     #[test]
     fn places_outside_the_text_have_no_excerpt() {
         assert!(!fault(9, 9).render("a.yaml", "format: 1\n").contains('|'));
-        assert!(fault(1, 90).render("a.yaml", "format: 1\n").contains("1 | format: 1"));
+        assert!(
+            fault(1, 90)
+                .render("a.yaml", "format: 1\n")
+                .contains("1 | format: 1")
+        );
     }
 
     #[test]
     fn carriage_returns_break_lines() {
         for source in ["a\r\nb: 2", "a\rb: 2", "a\nb: 2"] {
-            assert!(fault(2, 1).render("a.yaml", source).contains("2 | b: 2\n"), "{source:?}");
+            assert!(
+                fault(2, 1).render("a.yaml", source).contains("2 | b: 2\n"),
+                "{source:?}"
+            );
         }
     }
 

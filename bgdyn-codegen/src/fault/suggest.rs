@@ -7,7 +7,10 @@ pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     if length > 64 {
         return None;
     }
-    let near = known.into_iter().map(|k| (distance(&word, k), k)).min_by_key(|(d, _)| *d)?;
+    let near = known
+        .into_iter()
+        .map(|k| (distance(&word, k), k))
+        .min_by_key(|(d, _)| *d)?;
     let limit = (length.max(near.1.chars().count()) / 3).max(1);
     (near.0 <= limit && near.0 < length.max(1)).then_some(near.1)
 }

@@ -20,18 +20,30 @@ pub(crate) fn quote(text: &str) -> String {
 }
 
 fn escape(c: char) -> Vec<char> {
-    if c.is_control() { c.escape_default().collect() } else { vec![c] }
+    if c.is_control() {
+        c.escape_default().collect()
+    } else {
+        vec![c]
+    }
 }
 
 /// A number with six digits, for what was computed.
 fn figure(x: f64) -> String {
     let digits: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     let plain = digits == 0.0 || (1e-4..1e6).contains(&digits.abs());
-    if plain { format!("{digits}") } else { format!("{digits:e}") }
+    if plain {
+        format!("{digits}")
+    } else {
+        format!("{digits:e}")
+    }
 }
 
 fn figures(numbers: &[f64]) -> String {
-    numbers.iter().map(|x| figure(*x)).collect::<Vec<_>>().join(", ")
+    numbers
+        .iter()
+        .map(|x| figure(*x))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {

@@ -41,8 +41,14 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
     }
     names::check(links, frames, faults);
     let tree = Tree::new(links, frames, faults);
-    let bodies = links.iter().map(|link| body(link, &directions, faults)).collect();
-    let frames = frames.iter().map(|f| frame(f, &tree, &directions, faults)).collect();
+    let bodies = links
+        .iter()
+        .map(|link| body(link, &directions, faults))
+        .collect();
+    let frames = frames
+        .iter()
+        .map(|f| frame(f, &tree, &directions, faults))
+        .collect();
     let gravity = vector_or(&spec.gravity, standard_gravity());
     let (links, coordinates) = assemble(bodies, &tree)?;
     Some(Mechanism {
@@ -61,7 +67,11 @@ fn format(spec: &Spec, faults: &mut Faults) {
     if let Some(format) = spec.format.given()
         && format.value.value != Dd::from_f64(f64::from(FORMAT))
     {
-        faults.push(wording::unknown_format(&format.place, &format.value.text, FORMAT));
+        faults.push(wording::unknown_format(
+            &format.place,
+            &format.value.text,
+            FORMAT,
+        ));
     }
 }
 
@@ -126,12 +136,23 @@ fn frame(
 fn assemble(mut bodies: Vec<Option<Body>>, tree: &Tree<'_>) -> Option<(Vec<Link>, Vec<LinkId>)> {
     let (mut links, mut coordinates) = (Vec::with_capacity(bodies.len()), Vec::new());
     for &index in &tree.sequence {
-        let Body { name, label, mut joint, inertial } = bodies.get_mut(index)?.take()?;
+        let Body {
+            name,
+            label,
+            mut joint,
+            inertial,
+        } = bodies.get_mut(index)?.take()?;
         if joint.kind.motion != Motion::None {
             joint.coordinate = Some(CoordinateId(coordinates.len()));
             coordinates.push(LinkId(links.len()));
         }
-        links.push(Link { name, label, parent: tree.parent_id(index)?, joint, inertial });
+        links.push(Link {
+            name,
+            label,
+            parent: tree.parent_id(index)?,
+            joint,
+            inertial,
+        });
     }
     Some((links, coordinates))
 }

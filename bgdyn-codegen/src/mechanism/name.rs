@@ -21,8 +21,11 @@ pub fn is_keyword(text: &str) -> bool {
 /// Whether `text` can name a mechanism, link, frame or joint: words of `a`–`z` and digits joined
 /// by single `_`, a letter first, no keyword.
 pub fn is_identifier(text: &str) -> bool {
-    let word =
-        |w: &str| !w.is_empty() && w.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit());
+    let word = |w: &str| {
+        !w.is_empty()
+            && w.bytes()
+                .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit())
+    };
     text.starts_with(|c: char| c.is_ascii_lowercase())
         && text.split('_').all(word)
         && !is_keyword(text)
@@ -31,7 +34,13 @@ pub fn is_identifier(text: &str) -> bool {
 /// The identifier nearest to `text`: lower case, `_` for what is no letter or digit, `n` before a
 /// leading digit, `_n` after a keyword. Nothing where no letter or digit is left.
 pub fn to_identifier(text: &str) -> Option<String> {
-    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '_'
+        }
+    };
     let spaced: String = text.chars().map(plain).collect();
     let words: Vec<&str> = spaced.split('_').filter(|w| !w.is_empty()).collect();
     let mut name = words.join("_");
@@ -53,9 +62,9 @@ mod tests {
         for good in ["a", "arm", "upper_arm", "iiwa14", "link_1_2", "q2d"] {
             assert!(is_identifier(good), "{good}");
         }
-        for bad in
-            ["", "_", "a_", "_a", "a__b", "Arm", "1a", "a-b", "a b", "ä", "fn", "self", "gen"]
-        {
+        for bad in [
+            "", "_", "a_", "_a", "a__b", "Arm", "1a", "a-b", "a b", "ä", "fn", "self", "gen",
+        ] {
             assert!(!is_identifier(bad), "{bad}");
         }
     }
@@ -67,8 +76,18 @@ mod tests {
         assert_eq!(to_identifier("fn").as_deref(), Some("fn_n"));
         assert_eq!(to_identifier("__x__y").as_deref(), Some("x_y"));
         assert_eq!(to_identifier("—"), None);
-        for text in ["Upper Arm", "1-dof", "fn", "__x__y", "Schulter (links)", "self"] {
-            assert!(to_identifier(text).is_some_and(|n| is_identifier(&n)), "{text}");
+        for text in [
+            "Upper Arm",
+            "1-dof",
+            "fn",
+            "__x__y",
+            "Schulter (links)",
+            "self",
+        ] {
+            assert!(
+                to_identifier(text).is_some_and(|n| is_identifier(&n)),
+                "{text}"
+            );
         }
     }
 }

@@ -50,7 +50,10 @@ pub(super) fn index(text: &str) -> Result<Option<Rc<Node>>, Fault> {
 }
 
 fn position(mark: Marker) -> Position {
-    Position { line: mark.line().max(1), column: mark.col() + 1 }
+    Position {
+        line: mark.line().max(1),
+        column: mark.col() + 1,
+    }
 }
 
 fn scan_fault(error: &ScanError) -> Fault {
@@ -82,9 +85,16 @@ impl Builder {
         match event {
             Event::DocumentStart(_) => self.document(position),
             Event::Scalar(text, style, anchor, tag) => {
-                let shape =
-                    Shape::Scalar { text: text.into_owned(), plain: style == ScalarStyle::Plain };
-                let node = Node { position, tag: tag_text(tag), shape, depth: 0 };
+                let shape = Shape::Scalar {
+                    text: text.into_owned(),
+                    plain: style == ScalarStyle::Plain,
+                };
+                let node = Node {
+                    position,
+                    tag: tag_text(tag),
+                    shape,
+                    depth: 0,
+                };
                 self.close(anchor, node)
             }
             Event::SequenceStart(anchor, tag) => self.open(position, tag_text(tag), anchor, false),
@@ -97,7 +107,11 @@ impl Builder {
 
     fn document(&mut self, position: Position) -> Result<(), Fault> {
         self.documents += 1;
-        if self.documents > 1 { Err(wording::several_documents(position)) } else { Ok(()) }
+        if self.documents > 1 {
+            Err(wording::several_documents(position))
+        } else {
+            Ok(())
+        }
     }
 
     fn open(
@@ -107,18 +121,43 @@ impl Builder {
         anchor: usize,
         is_map: bool,
     ) -> Result<(), Fault> {
-        self.open.push(Open { position, tag, anchor, is_map, depth: 0, items: Vec::new() });
-        if self.open.len() > DEPTH { Err(wording::too_deep(position, DEPTH)) } else { Ok(()) }
+        self.open.push(Open {
+            position,
+            tag,
+            anchor,
+            is_map,
+            depth: 0,
+            items: Vec::new(),
+        });
+        if self.open.len() > DEPTH {
+            Err(wording::too_deep(position, DEPTH))
+        } else {
+            Ok(())
+        }
     }
 
     fn end(&mut self) -> Result<(), Fault> {
-        let Some(open) = self.open.pop() else { return Ok(()) };
-        let shape = if open.is_map { pairs(open.items) } else { Shape::List(open.items) };
+        let Some(open) = self.open.pop() else {
+            return Ok(());
+        };
+        let shape = if open.is_map {
+            pairs(open.items)
+        } else {
+            Shape::List(open.items)
+        };
         let depth = open.depth + 1;
         if depth > DEPTH {
             return Err(wording::too_deep(open.position, DEPTH));
         }
-        self.close(open.anchor, Node { position: open.position, tag: open.tag, shape, depth })
+        self.close(
+            open.anchor,
+            Node {
+                position: open.position,
+                tag: open.tag,
+                shape,
+                depth,
+            },
+        )
     }
 
     fn close(&mut self, anchor: usize, node: Node) -> Result<(), Fault> {

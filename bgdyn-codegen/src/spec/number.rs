@@ -32,9 +32,17 @@ pub(super) fn number(
     let value =
         value(mantissa, exponent, unit).ok_or_else(|| wording::out_of_range(place, text))?;
     if unit.is_none() && kind != Kind::Number {
-        return Err(wording::number_as_text(place, text, kind == Kind::Text { quoted: true }));
+        return Err(wording::number_as_text(
+            place,
+            text,
+            kind == Kind::Text { quoted: true },
+        ));
     }
-    Ok(Number { value, unit, text: text.to_owned() })
+    Ok(Number {
+        value,
+        unit,
+        text: text.to_owned(),
+    })
 }
 
 /// Whether a number with its unit measures one of `fit`.
@@ -45,7 +53,11 @@ pub(crate) fn misfit(number: &Located<Number>, fit: &[Dimension]) -> Option<Faul
 }
 
 fn non_finite(text: &str) -> bool {
-    let bare = text.trim().trim_start_matches(['+', '-']).trim_start_matches('.').to_lowercase();
+    let bare = text
+        .trim()
+        .trim_start_matches(['+', '-'])
+        .trim_start_matches('.')
+        .to_lowercase();
     let word = bare.split_whitespace().next().unwrap_or("");
     ["inf", "nan", "infinity"].contains(&word)
 }
@@ -70,7 +82,9 @@ fn decimal(text: &str) -> Option<(&str, i32, &str)> {
 
 /// Splits `e-3 mm` into −3 and ` mm`; what is no power of ten stays whole.
 fn power(text: &str) -> (i32, &str) {
-    let Some(after) = text.strip_prefix(['e', 'E']) else { return (0, text) };
+    let Some(after) = text.strip_prefix(['e', 'E']) else {
+        return (0, text);
+    };
     let unsigned = after.strip_prefix(['+', '-']).unwrap_or(after);
     let rest = unsigned.trim_start_matches(|c: char| c.is_ascii_digit());
     let end = after.len() - rest.len();
@@ -78,7 +92,14 @@ fn power(text: &str) -> (i32, &str) {
         Ok(exponent) => (exponent, rest),
         Err(_) if unsigned.len() == rest.len() => (0, text),
         // More digits than an i32 holds: far out of range either way.
-        Err(_) => (if after.starts_with('-') { -1_000_000 } else { 1_000_000 }, rest),
+        Err(_) => (
+            if after.starts_with('-') {
+                -1_000_000
+            } else {
+                1_000_000
+            },
+            rest,
+        ),
     }
 }
 
@@ -90,11 +111,17 @@ fn fitting(
 ) -> Result<&'static Unit, Fault> {
     let found = Unit::find(unit).ok_or_else(|| wording::unknown_unit(place, text, unit, fit))?;
     let fits = fit.contains(&found.dimension);
-    if fits { Ok(found) } else { Err(wording::unit_misfit(place, text, found, fit)) }
+    if fits {
+        Ok(found)
+    } else {
+        Err(wording::unit_misfit(place, text, found, fit))
+    }
 }
 
 fn value(mantissa: &str, exponent: i32, unit: Option<&'static Unit>) -> Option<Dd> {
-    let zero = mantissa.bytes().all(|b| matches!(b, b'0' | b'.' | b'+' | b'-'));
+    let zero = mantissa
+        .bytes()
+        .all(|b| matches!(b, b'0' | b'.' | b'+' | b'-'));
     if zero {
         return Some(Dd::ZERO);
     }
@@ -108,6 +135,10 @@ fn value(mantissa: &str, exponent: i32, unit: Option<&'static Unit>) -> Option<D
     let number: Dd = decimal.parse().ok()?;
     // The quotient first: 90/180 is exact, so that 90 deg is the very double-double of π/2.
     let degrees = unit.is_some_and(|u| u.degrees);
-    let number = if degrees { number / Dd::from_f64(180.0) * Dd::PI } else { number };
+    let number = if degrees {
+        number / Dd::from_f64(180.0) * Dd::PI
+    } else {
+        number
+    };
     number.to_f64().is_finite().then_some(number)
 }

@@ -19,7 +19,16 @@ pub fn parse(text: &str) -> (Option<Spec>, Faults) {
 
 impl Reader {
     fn spec(&mut self, at: &At<'_>) -> Option<Spec> {
-        let keys = ["format", "name", "label", "description", "gravity", "snap", "links", "frames"];
+        let keys = [
+            "format",
+            "name",
+            "label",
+            "description",
+            "gravity",
+            "snap",
+            "links",
+            "frames",
+        ];
         let map = self.mapping(at, ("a mapping", "`format: 1`, `links: …`"), &keys)?;
         Some(Spec {
             format: self.needed(
@@ -35,17 +44,23 @@ impl Reader {
             snap: self.number_field(&map, "snap", &[Dimension::Angle]),
             links: self.needed(&map, "links", "`links: …`, the list of links", |r, at| {
                 Some(
-                    r.list(at, ("a list of links", "each link after a dash: `- name: …`"))?
-                        .iter()
-                        .filter_map(|at| r.link(at))
-                        .collect(),
+                    r.list(
+                        at,
+                        ("a list of links", "each link after a dash: `- name: …`"),
+                    )?
+                    .iter()
+                    .filter_map(|at| r.link(at))
+                    .collect(),
                 )
             }),
             frames: self.field(&map, "frames", |r, at| {
                 Some(
                     r.list(
                         at,
-                        ("a list of frames", "each frame after a dash: `- { name: …, link: … }`"),
+                        (
+                            "a list of frames",
+                            "each frame after a dash: `- { name: …, link: … }`",
+                        ),
                     )?
                     .iter()
                     .filter_map(|at| r.frame(at))
@@ -58,8 +73,21 @@ impl Reader {
     }
 
     fn link(&mut self, at: &At<'_>) -> Option<Link> {
-        let keys = ["name", "label", "parent", "joint", "mass", "com", "inertia", "nonphysical"];
-        let map = self.mapping(at, ("a link", "`- name: …` and its other keys below"), &keys)?;
+        let keys = [
+            "name",
+            "label",
+            "parent",
+            "joint",
+            "mass",
+            "com",
+            "inertia",
+            "nonphysical",
+        ];
+        let map = self.mapping(
+            at,
+            ("a link", "`- name: …` and its other keys below"),
+            &keys,
+        )?;
         Some(Link {
             name: self.needed(&map, "name", "`name: …`, the link's name", Self::text),
             label: self.text_field(&map, "label"),
@@ -75,7 +103,11 @@ impl Reader {
 
     fn joint(&mut self, at: &At<'_>) -> Option<Joint> {
         let keys = ["name", "label", "type", "axis", "origin", "limits"];
-        let map = self.mapping(at, ("a joint", "`{ name: …, type: revolute, axis: z }`"), &keys)?;
+        let map = self.mapping(
+            at,
+            ("a joint", "`{ name: …, type: revolute, axis: z }`"),
+            &keys,
+        )?;
         Some(Joint {
             name: self.text_field(&map, "name"),
             label: self.text_field(&map, "label"),
@@ -106,15 +138,25 @@ impl Reader {
         };
         Some(std::array::from_fn(|i| {
             let value = Dd::from_f64(if i == place { sign } else { 0.0 });
-            let value = Number { value, unit: None, text: text.clone() };
-            Located { value, place: at.place.clone() }
+            let value = Number {
+                value,
+                unit: None,
+                text: text.clone(),
+            };
+            Located {
+                value,
+                place: at.place.clone(),
+            }
         }))
     }
 
     fn origin(&mut self, at: &At<'_>) -> Option<Origin> {
         let map = self.mapping(
             at,
-            ("a placement", "`{ xyz: [x, y, z], rpy: [roll, pitch, yaw] }`"),
+            (
+                "a placement",
+                "`{ xyz: [x, y, z], rpy: [roll, pitch, yaw] }`",
+            ),
             &["xyz", "rpy"],
         )?;
         Some(Origin {
@@ -127,7 +169,10 @@ impl Reader {
         let keys = ["lower", "upper", "velocity", "effort"];
         let map = self.mapping(
             at,
-            ("a mapping", "`{ lower: …, upper: …, velocity: …, effort: … }`"),
+            (
+                "a mapping",
+                "`{ lower: …, upper: …, velocity: …, effort: … }`",
+            ),
             &keys,
         )?;
         let position = [Dimension::Angle, Dimension::Length];
@@ -158,7 +203,10 @@ impl Reader {
         let keys = ["name", "link", "origin", "label"];
         let map = self.mapping(
             at,
-            ("a frame", "`- { name: …, link: …, origin: { xyz: [x, y, z] } }`"),
+            (
+                "a frame",
+                "`- { name: …, link: …, origin: { xyz: [x, y, z] } }`",
+            ),
             &keys,
         )?;
         Some(Frame {

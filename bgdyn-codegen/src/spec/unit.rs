@@ -41,11 +41,21 @@ pub struct Unit {
 }
 
 const fn unit(text: &'static str, dimension: Dimension, exponent: i32) -> Unit {
-    Unit { text, dimension, exponent, degrees: false }
+    Unit {
+        text,
+        dimension,
+        exponent,
+        degrees: false,
+    }
 }
 
 const fn degrees(text: &'static str, dimension: Dimension) -> Unit {
-    Unit { text, dimension, exponent: 0, degrees: true }
+    Unit {
+        text,
+        dimension,
+        exponent: 0,
+        degrees: true,
+    }
 }
 
 /// Every unit there is; a dimension's SI unit stands first.
@@ -75,7 +85,10 @@ static UNITS: [Unit; 20] = [
 impl Unit {
     /// The unit written as `text`; `·`, `²` and `°` may stand for `*`, `^2` and `deg`.
     pub fn find(text: &str) -> Option<&'static Unit> {
-        let plain = text.replace('·', "*").replace('²', "^2").replace('°', "deg");
+        let plain = text
+            .replace('·', "*")
+            .replace('²', "^2")
+            .replace('°', "deg");
         UNITS.iter().find(|u| u.text == plain)
     }
 }
@@ -83,7 +96,10 @@ impl Unit {
 impl Dimension {
     /// The units that measure it, the SI unit first.
     pub fn units(self) -> impl Iterator<Item = &'static str> {
-        UNITS.iter().filter(move |u| u.dimension == self).map(|u| u.text)
+        UNITS
+            .iter()
+            .filter(move |u| u.dimension == self)
+            .map(|u| u.text)
     }
 
     /// Its SI unit; empty for a pure number.

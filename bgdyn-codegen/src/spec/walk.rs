@@ -31,26 +31,51 @@ pub(super) struct Reader {
 
 impl<'t> At<'t> {
     pub(super) fn root(tree: &'t Tree) -> Self {
-        At { tree, place: Place { position: tree.position, path: String::new() } }
+        At {
+            tree,
+            place: Place {
+                position: tree.position,
+                path: String::new(),
+            },
+        }
     }
 
     fn item(&self, tree: &'t Tree, index: usize) -> Self {
         let path = format!("{}[{index}]", self.place.path);
-        At { tree, place: Place { position: tree.position, path } }
+        At {
+            tree,
+            place: Place {
+                position: tree.position,
+                path,
+            },
+        }
     }
 }
 
 impl<'t> Mapping<'t> {
     fn get(&self, key: &str) -> Option<At<'t>> {
-        let entry = self.entries.iter().find(|e| e.key.as_deref() == Some(key))?;
+        let entry = self
+            .entries
+            .iter()
+            .find(|e| e.key.as_deref() == Some(key))?;
         let position = entry.value.position;
-        let place = Place { position, path: join(&self.place.path, key) };
-        Some(At { tree: &entry.value, place })
+        let place = Place {
+            position,
+            path: join(&self.place.path, key),
+        };
+        Some(At {
+            tree: &entry.value,
+            place,
+        })
     }
 }
 
 fn join(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+    if path.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{path}.{key}")
+    }
 }
 
 impl Reader {
@@ -63,10 +88,15 @@ impl Reader {
     ) -> Option<Mapping<'t>> {
         self.refuse_tag(at);
         let Data::Map(entries) = &at.tree.data else {
-            self.faults.push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+            self.faults
+                .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
             return None;
         };
-        let mut mapping = Mapping { place: at.place.clone(), entries: Vec::new(), merged: false };
+        let mut mapping = Mapping {
+            place: at.place.clone(),
+            entries: Vec::new(),
+            merged: false,
+        };
         for entry in entries {
             self.key(entry, keys, &mut mapping);
         }
@@ -74,14 +104,19 @@ impl Reader {
     }
 
     fn key<'t>(&mut self, entry: &'t Entry, keys: &[&'static str], mapping: &mut Mapping<'t>) {
-        let here = |path: String| Place { position: entry.position, path };
+        let here = |path: String| Place {
+            position: entry.position,
+            path,
+        };
         let Some(key) = &entry.key else {
             let place = here(mapping.place.path.clone());
             return self.faults.push(wording::key_not_text(&place, keys));
         };
         if key == "<<" {
             mapping.merged = true;
-            return self.faults.push(wording::merge_key(&here(mapping.place.path.clone())));
+            return self
+                .faults
+                .push(wording::merge_key(&here(mapping.place.path.clone())));
         }
         if !keys.contains(&key.as_str()) {
             let place = here(mapping.place.path.clone());
@@ -89,7 +124,9 @@ impl Reader {
         }
         if let Some(first) = mapping.entries.iter().find(|e| e.key.as_ref() == Some(key)) {
             let place = here(join(&mapping.place.path, key));
-            return self.faults.push(wording::repeated_key(&place, key, first.position));
+            return self
+                .faults
+                .push(wording::repeated_key(&place, key, first.position));
         }
         mapping.entries.push(entry);
     }
@@ -103,10 +140,17 @@ impl Reader {
     ) -> Field<T> {
         let Some(at) = mapping.get(key) else {
             // What a merge key would have brought is not missing on top of it.
-            return if mapping.merged { Field::Broken } else { Field::Absent };
+            return if mapping.merged {
+                Field::Broken
+            } else {
+                Field::Absent
+            };
         };
         match read(self, &at) {
-            Some(value) => Field::Given(Located { value, place: at.place }),
+            Some(value) => Field::Given(Located {
+                value,
+                place: at.place,
+            }),
             None => Field::Broken,
         }
     }
@@ -121,7 +165,8 @@ impl Reader {
     ) -> Field<T> {
         let field = self.field(mapping, key, read);
         if field.is_absent() {
-            self.faults.push(wording::missing_key(&mapping.place, key, what));
+            self.faults
+                .push(wording::missing_key(&mapping.place, key, what));
             return Field::Broken;
         }
         field
@@ -131,17 +176,27 @@ impl Reader {
     pub(super) fn list<'t>(&mut self, at: &At<'t>, what: Wanted<'_>) -> Option<Vec<At<'t>>> {
         self.refuse_tag(at);
         let Data::List(items) = &at.tree.data else {
-            self.faults.push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+            self.faults
+                .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
             return None;
         };
-        Some(items.iter().enumerate().map(|(i, tree)| at.item(tree, i)).collect())
+        Some(
+            items
+                .iter()
+                .enumerate()
+                .map(|(i, tree)| at.item(tree, i))
+                .collect(),
+        )
     }
 
     /// A text; a number or a truth value is none.
     pub(super) fn text(&mut self, at: &At<'_>) -> Option<String> {
         self.refuse_tag(at);
         match &at.tree.data {
-            Data::Scalar { kind: Kind::Text { .. }, text } => Some(text.clone()),
+            Data::Scalar {
+                kind: Kind::Text { .. },
+                text,
+            } => Some(text.clone()),
             _ => {
                 self.faults.push(wording::wrong_type(
                     &at.place,
@@ -156,7 +211,10 @@ impl Reader {
     /// A number of one of the dimensions `fit`.
     pub(super) fn number(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Number> {
         self.refuse_tag(at);
-        let Data::Scalar { kind: kind @ (Kind::Number | Kind::Text { .. }), text } = &at.tree.data
+        let Data::Scalar {
+            kind: kind @ (Kind::Number | Kind::Text { .. }),
+            text,
+        } = &at.tree.data
         else {
             self.faults.push(wording::wrong_type(
                 &at.place,
@@ -165,7 +223,9 @@ impl Reader {
             ));
             return None;
         };
-        number(*kind, text, &at.place, fit).map_err(|fault| self.faults.push(fault)).ok()
+        number(*kind, text, &at.place, fit)
+            .map_err(|fault| self.faults.push(fault))
+            .ok()
     }
 
     /// Three numbers.
@@ -176,14 +236,21 @@ impl Reader {
             .into_iter()
             .map(|item| {
                 let value = self.number(&item, fit)?;
-                Some(Located { value, place: item.place })
+                Some(Located {
+                    value,
+                    place: item.place,
+                })
             })
             .collect();
         if count != 3 {
             self.faults.push(wording::wrong_length(&at.place, count));
             return None;
         }
-        numbers.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
+        numbers
+            .into_iter()
+            .collect::<Option<Vec<_>>>()?
+            .try_into()
+            .ok()
     }
 
     fn refuse_tag(&mut self, at: &At<'_>) {
@@ -198,12 +265,24 @@ fn describe(tree: &Tree) -> String {
     match &tree.data {
         Data::List(items) => format!("a list of {}", items.len()),
         Data::Map(_) => "a mapping".to_owned(),
-        Data::Scalar { kind: Kind::Nothing, .. } => "nothing".to_owned(),
-        Data::Scalar { kind: Kind::Truth, text } => {
+        Data::Scalar {
+            kind: Kind::Nothing,
+            ..
+        } => "nothing".to_owned(),
+        Data::Scalar {
+            kind: Kind::Truth,
+            text,
+        } => {
             format!("the truth value {}", wording::quote(text))
         }
-        Data::Scalar { kind: Kind::Number, text } => format!("the number {}", wording::quote(text)),
-        Data::Scalar { kind: Kind::Text { .. }, text } => {
+        Data::Scalar {
+            kind: Kind::Number,
+            text,
+        } => format!("the number {}", wording::quote(text)),
+        Data::Scalar {
+            kind: Kind::Text { .. },
+            text,
+        } => {
             format!("the text {}", wording::quote(text))
         }
     }

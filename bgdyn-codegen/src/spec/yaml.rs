@@ -62,16 +62,25 @@ fn tree(text: &str) -> Result<Tree, Fault> {
 
 fn serde_fault(error: &serde_yaml::Error) -> Fault {
     let place = error.location();
-    let position = place.map(|l| Position { line: l.line().max(1), column: l.column().max(1) });
+    let position = place.map(|l| Position {
+        line: l.line().max(1),
+        column: l.column().max(1),
+    });
     wording::yaml_syntax(position.unwrap_or(Position::START), &error.to_string())
 }
 
 fn join(node: &Node, typed: Typed) -> Result<Tree, Fault> {
     let data = match (&node.shape, typed) {
         (Shape::Scalar { text, plain }, Typed::Scalar(kind)) => {
-            let kind =
-                if let Kind::Text { .. } = kind { Kind::Text { quoted: !plain } } else { kind };
-            Data::Scalar { kind, text: text.clone() }
+            let kind = if let Kind::Text { .. } = kind {
+                Kind::Text { quoted: !plain }
+            } else {
+                kind
+            };
+            Data::Scalar {
+                kind,
+                text: text.clone(),
+            }
         }
         (Shape::List(nodes), Typed::List(items)) if nodes.len() == items.len() => {
             let pairs = nodes.iter().zip(items);
@@ -79,11 +88,19 @@ fn join(node: &Node, typed: Typed) -> Result<Tree, Fault> {
         }
         (Shape::Map(nodes), Typed::Map(items)) if nodes.len() == items.len() => {
             let pairs = nodes.iter().zip(items);
-            Data::Map(pairs.map(|((k, v), t)| entry(k, v, t)).collect::<Result<_, _>>()?)
+            Data::Map(
+                pairs
+                    .map(|((k, v), t)| entry(k, v, t))
+                    .collect::<Result<_, _>>()?,
+            )
         }
         _ => return Err(wording::yaml_ambiguous(node.position)),
     };
-    Ok(Tree { position: node.position, tag: node.tag.clone(), data })
+    Ok(Tree {
+        position: node.position,
+        tag: node.tag.clone(),
+        data,
+    })
 }
 
 fn entry(key: &Node, value: &Node, typed: Typed) -> Result<Entry, Fault> {
@@ -91,7 +108,11 @@ fn entry(key: &Node, value: &Node, typed: Typed) -> Result<Entry, Fault> {
         Shape::Scalar { text, .. } => Some(text.clone()),
         Shape::List(_) | Shape::Map(_) => None,
     };
-    Ok(Entry { key: text, position: key.position, value: join(value, typed)? })
+    Ok(Entry {
+        key: text,
+        position: key.position,
+        value: join(value, typed)?,
+    })
 }
 
 /// The types that serde_yaml sees; repeated keys stay, so that the reader can show both.

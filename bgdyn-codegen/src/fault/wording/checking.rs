@@ -7,32 +7,49 @@ use crate::mechanism::name::{is_keyword, to_identifier};
 // Names
 
 pub(crate) fn not_identifier(place: &Place, name: &str) -> Fault {
-    let why = if is_keyword(name) { "a keyword of Rust" } else { "no snake_case identifier" };
+    let why = if is_keyword(name) {
+        "a keyword of Rust"
+    } else {
+        "no snake_case identifier"
+    };
     let help = match to_identifier(name) {
-        Some(better) => format!("call it {}; `label` can keep the other name", quote(&better)),
+        Some(better) => format!(
+            "call it {}; `label` can keep the other name",
+            quote(&better)
+        ),
         None => "use letters a–z, digits and single `_`, a letter first".to_owned(),
     };
     Fault::new(place, "name", format!("{} is {why}", quote(name))).with_help(help)
 }
 
 pub(crate) fn world_is_reserved(place: &Place) -> Fault {
-    Fault::new(place, "reserved-name", "`world` is the fixed base and cannot be given away")
-        .with_help("choose another name; a link without `parent` stands on the world")
+    Fault::new(
+        place,
+        "reserved-name",
+        "`world` is the fixed base and cannot be given away",
+    )
+    .with_help("choose another name; a link without `parent` stands on the world")
 }
 
 pub(crate) fn repeated_name(place: &Place, name: &str, what: &str, first: &Place) -> Fault {
-    let message = format!("the name {} is taken; names are unique among {what}", quote(name));
+    let message = format!(
+        "the name {} is taken; names are unique among {what}",
+        quote(name)
+    );
     let (path, line) = (&first.path, first.position.line);
     Fault::new(place, "repeated-name", message)
         .with_help(format!("`{path}` on line {line} has it; choose another"))
 }
 
 pub(crate) fn repeated_mount(place: &Place, name: &str, first: &Place) -> Fault {
-    let message =
-        format!("this link's joint is called {} by itself, and that name is taken", quote(name));
+    let message = format!(
+        "this link's joint is called {} by itself, and that name is taken",
+        quote(name)
+    );
     let (path, line) = (&first.path, first.position.line);
-    Fault::new(place, "repeated-name", message)
-        .with_help(format!("`{path}` on line {line} has it; give one of the joints another `name`"))
+    Fault::new(place, "repeated-name", message).with_help(format!(
+        "`{path}` on line {line} has it; give one of the joints another `name`"
+    ))
 }
 
 pub(crate) fn no_name(place: &Place) -> Fault {
@@ -45,9 +62,15 @@ pub(crate) fn no_name(place: &Place) -> Fault {
 }
 
 pub(crate) fn stem_not_identifier(place: &Place, stem: &str) -> Fault {
-    let why = if is_keyword(stem) { "a keyword of Rust" } else { "no snake_case identifier" };
-    let message =
-        format!("the mechanism takes its name from the file, but {} is {why}", quote(stem));
+    let why = if is_keyword(stem) {
+        "a keyword of Rust"
+    } else {
+        "no snake_case identifier"
+    };
+    let message = format!(
+        "the mechanism takes its name from the file, but {} is {why}",
+        quote(stem)
+    );
     let fault = Fault::new(place, "name", message);
     match to_identifier(stem) {
         Some(better) => fault.with_help(format!("rename the file to `{better}.yaml`")),
@@ -57,8 +80,9 @@ pub(crate) fn stem_not_identifier(place: &Place, stem: &str) -> Fault {
 
 pub(crate) fn name_differs_from_file(place: &Place, name: &str, stem: &str) -> Fault {
     let message = format!("the name is {}, the file's is {}", quote(name), quote(stem));
-    Fault::new(place, "name-differs-from-file", message)
-        .with_help(format!("rename the file to `{name}.yaml`, or leave `name` out"))
+    Fault::new(place, "name-differs-from-file", message).with_help(format!(
+        "rename the file to `{name}.yaml`, or leave `name` out"
+    ))
 }
 
 // The tree
@@ -75,12 +99,19 @@ pub(crate) fn unknown_link(
     is_frame: bool,
 ) -> Fault {
     if is_frame {
-        return Fault::new(place, rule, format!("{} is a frame, not a link", quote(name)))
-            .with_help("name the link that the frame is on");
+        return Fault::new(
+            place,
+            rule,
+            format!("{} is a frame, not a link", quote(name)),
+        )
+        .with_help("name the link that the frame is on");
     }
     let mut words: Vec<&str> = known.iter().copied().take(8).collect();
     words.push(if known.len() > 8 { "…" } else { "world" });
-    let links = format!("the links are {}", listed(words.iter().copied()).replace("`…`", "…"));
+    let links = format!(
+        "the links are {}",
+        listed(words.iter().copied()).replace("`…`", "…")
+    );
     let nearest: Vec<&str> = known.iter().copied().chain(["world"]).collect();
     Fault::new(place, rule, format!("no link is called {}", quote(name)))
         .with_help(meant(name, &nearest, links))
@@ -88,14 +119,26 @@ pub(crate) fn unknown_link(
 
 pub(crate) fn circle(place: &Place, names: &[&str]) -> Fault {
     let Some(first) = names.first() else {
-        return Fault::new(place, "cyclic-parents", "links carry each other in a circle");
+        return Fault::new(
+            place,
+            "cyclic-parents",
+            "links carry each other in a circle",
+        );
     };
     if names.len() == 1 {
-        return Fault::new(place, "cyclic-parents", format!("{} is its own parent", quote(first)))
-            .with_help("leave `parent` out if it stands on the world");
+        return Fault::new(
+            place,
+            "cyclic-parents",
+            format!("{} is its own parent", quote(first)),
+        )
+        .with_help("leave `parent` out if it stands on the world");
     }
     let shown = names.iter().copied().take(12);
-    let cut = if names.len() > 12 { ["…"].as_slice() } else { &[] };
+    let cut = if names.len() > 12 {
+        ["…"].as_slice()
+    } else {
+        &[]
+    };
     let path: Vec<&str> = shown.chain(cut.iter().copied()).chain([*first]).collect();
     let message = format!(
         "the links are their own ancestors: {} (each carried by the next)",
@@ -108,10 +151,22 @@ pub(crate) fn circle(place: &Place, names: &[&str]) -> Fault {
 // Joints
 
 pub(crate) fn unknown_joint_type(place: &Place, word: &str, known: &[&str]) -> Fault {
-    let fault =
-        Fault::new(place, "unknown-joint-type", format!("no joint type is called {}", quote(word)));
+    let fault = Fault::new(
+        place,
+        "unknown-joint-type",
+        format!("no joint type is called {}", quote(word)),
+    );
     let types = format!("the types are {}", listed(known.iter().copied()));
-    if ["floating", "planar", "spherical", "ball", "universal", "cylindrical"].contains(&word) {
+    if [
+        "floating",
+        "planar",
+        "spherical",
+        "ball",
+        "universal",
+        "cylindrical",
+    ]
+    .contains(&word)
+    {
         return fault.with_help(format!("{types}; build it from several of them"));
     }
     fault.with_help(meant(word, known, types))
@@ -132,8 +187,12 @@ pub(crate) fn axis_of_fixed_joint(place: &Place) -> Fault {
 }
 
 pub(crate) fn limits_of_fixed_joint(place: &Place) -> Fault {
-    Fault::new(place, "limits-of-fixed-joint", "a fixed joint has no limits")
-        .with_help("leave `limits` out, or change `type`")
+    Fault::new(
+        place,
+        "limits-of-fixed-joint",
+        "a fixed joint has no limits",
+    )
+    .with_help("leave `limits` out, or change `type`")
 }
 
 pub(crate) fn position_limit(place: &Place, kind: &str) -> Fault {
@@ -148,7 +207,10 @@ pub(crate) fn lower_above_upper(place: &Place, lower: &str, upper: &str) -> Faul
 }
 
 pub(crate) fn negative_limit(place: &Place, text: &str) -> Fault {
-    let message = format!("the limit is {}; it is a magnitude, for both directions", quote(text));
+    let message = format!(
+        "the limit is {}; it is a magnitude, for both directions",
+        quote(text)
+    );
     Fault::new(place, "negative-limit", message).with_help("leave out the minus sign")
 }
 
@@ -165,8 +227,12 @@ pub(crate) fn zero_axis(place: &Place) -> Fault {
 // Masses
 
 pub(crate) fn negative_mass(place: &Place, text: &str) -> Fault {
-    Fault::new(place, "negative-mass", format!("the mass is negative: {text}"))
-        .with_help("a mass is 0 (which may be left out) or positive, in kg")
+    Fault::new(
+        place,
+        "negative-mass",
+        format!("the mass is negative: {text}"),
+    )
+    .with_help("a mass is 0 (which may be left out) or positive, in kg")
 }
 
 pub(crate) fn not_semidefinite(place: &Place, moments: [f64; 3]) -> Fault {
@@ -191,15 +257,23 @@ pub(crate) fn triangle_inequality(place: &Place, moments: [f64; 3]) -> Fault {
 }
 
 pub(crate) fn nonphysical_word(place: &Place, word: &str) -> Fault {
-    Fault::new(place, "nonphysical-word", format!("{} means nothing here", quote(word)))
-        .with_help("write `nonphysical: allow`, or leave it out")
+    Fault::new(
+        place,
+        "nonphysical-word",
+        format!("{} means nothing here", quote(word)),
+    )
+    .with_help("write `nonphysical: allow`, or leave it out")
 }
 
 // Directions
 
 pub(crate) fn snap_out_of_range(place: &Place, text: &str) -> Fault {
-    Fault::new(place, "snap-out-of-range", format!("{} is outside 0 … 1e-3 rad", quote(text)))
-        .with_help("`snap: 1e-4` takes rounded quarter turns such as 1.5708 as exact")
+    Fault::new(
+        place,
+        "snap-out-of-range",
+        format!("{} is outside 0 … 1e-3 rad", quote(text)),
+    )
+    .with_help("`snap: 1e-4` takes rounded quarter turns such as 1.5708 as exact")
 }
 
 pub(crate) fn angle_out_of_range(place: &Place, text: &str, most: f64) -> Fault {
@@ -209,21 +283,33 @@ pub(crate) fn angle_out_of_range(place: &Place, text: &str, most: f64) -> Fault 
 }
 
 pub(crate) fn nearly_quarter_turn(place: &Place, off: &[(&str, f64)]) -> Fault {
-    let parts: Vec<String> =
-        off.iter().map(|(name, off)| format!("{name} is {} rad", figure(*off))).collect();
-    let message = format!("{} off a multiple of 90 deg; kept as written", parts.join(", "));
+    let parts: Vec<String> = off
+        .iter()
+        .map(|(name, off)| format!("{name} is {} rad", figure(*off)))
+        .collect();
+    let message = format!(
+        "{} off a multiple of 90 deg; kept as written",
+        parts.join(", ")
+    );
     nearly(place, message, "write the exact angle (`90 deg`)")
 }
 
 pub(crate) fn nearly_axis(place: &Place, off: &[(&str, f64)]) -> Fault {
-    let parts: Vec<String> =
-        off.iter().map(|(name, off)| format!("{name} is {}", figure(*off))).collect();
-    let message = format!("{} of the axis's length, nearly 0; kept as written", parts.join(", "));
+    let parts: Vec<String> = off
+        .iter()
+        .map(|(name, off)| format!("{name} is {}", figure(*off)))
+        .collect();
+    let message = format!(
+        "{} of the axis's length, nearly 0; kept as written",
+        parts.join(", ")
+    );
     nearly(place, message, "write 0 there")
 }
 
 fn nearly(place: &Place, message: String, way: &str) -> Fault {
     Fault::new(place, "nearly-exact", message)
-        .with_help(format!("{way}, or `snap: 1e-4` at the top: exact zeros save operations"))
+        .with_help(format!(
+            "{way}, or `snap: 1e-4` at the top: exact zeros save operations"
+        ))
         .into_warning()
 }

@@ -5,15 +5,22 @@ use crate::fault::{Fault, Place, Position};
 use crate::spec::{Dimension, Unit};
 
 fn at(position: Position) -> Place {
-    Place { position, path: String::new() }
+    Place {
+        position,
+        path: String::new(),
+    }
 }
 
 // YAML
 
 pub(crate) fn yaml_syntax(position: Position, info: &str) -> Fault {
     let info: String = info.chars().take(200).flat_map(escape).collect();
-    Fault::new(&at(position), "yaml-syntax", format!("this is no valid YAML: {info}"))
-        .with_help("look at the lines before it as well: a bracket or a quote may be open")
+    Fault::new(
+        &at(position),
+        "yaml-syntax",
+        format!("this is no valid YAML: {info}"),
+    )
+    .with_help("look at the lines before it as well: a bracket or a quote may be open")
 }
 
 pub(crate) fn yaml_ambiguous(position: Position) -> Fault {
@@ -28,8 +35,12 @@ pub(crate) fn empty_file() -> Fault {
 }
 
 pub(crate) fn several_documents(position: Position) -> Fault {
-    Fault::new(&at(position), "several-documents", "a second YAML document begins here")
-        .with_help("one mechanism per file: move it into a file of its own")
+    Fault::new(
+        &at(position),
+        "several-documents",
+        "a second YAML document begins here",
+    )
+    .with_help("one mechanism per file: move it into a file of its own")
 }
 
 pub(crate) fn too_deep(position: Position, depth: usize) -> Fault {
@@ -39,42 +50,69 @@ pub(crate) fn too_deep(position: Position, depth: usize) -> Fault {
 }
 
 pub(crate) fn cyclic_alias(position: Position) -> Fault {
-    Fault::new(&at(position), "cyclic-alias", "this alias stands inside what it refers to")
-        .with_help("write the values out")
+    Fault::new(
+        &at(position),
+        "cyclic-alias",
+        "this alias stands inside what it refers to",
+    )
+    .with_help("write the values out")
 }
 
 pub(crate) fn merge_key(place: &Place) -> Fault {
-    Fault::new(place, "merge-key", "merge keys (`<<`) are not part of the format")
-        .with_help("write the keys out, or use an alias for a single value")
+    Fault::new(
+        place,
+        "merge-key",
+        "merge keys (`<<`) are not part of the format",
+    )
+    .with_help("write the keys out, or use an alias for a single value")
 }
 
 pub(crate) fn tag(place: &Place, tag: &str) -> Fault {
-    let message = format!("YAML tags such as {} are not part of the format", quote(tag));
+    let message = format!(
+        "YAML tags such as {} are not part of the format",
+        quote(tag)
+    );
     Fault::new(place, "tag", message).with_help("leave the tag out")
 }
 
 // Keys and types
 
 pub(crate) fn unknown_key(place: &Place, key: &str, known: &[&'static str]) -> Fault {
-    let help = meant(key, known, format!("the keys here are {}", listed(known.iter().copied())));
-    Fault::new(place, "unknown-key", format!("the key {} is unknown here", quote(key)))
-        .with_help(help)
+    let help = meant(
+        key,
+        known,
+        format!("the keys here are {}", listed(known.iter().copied())),
+    );
+    Fault::new(
+        place,
+        "unknown-key",
+        format!("the key {} is unknown here", quote(key)),
+    )
+    .with_help(help)
 }
 
 pub(crate) fn key_not_text(place: &Place, known: &[&'static str]) -> Fault {
-    Fault::new(place, "unknown-key", "a key must be a single word")
-        .with_help(format!("the keys here are {}", listed(known.iter().copied())))
+    Fault::new(place, "unknown-key", "a key must be a single word").with_help(format!(
+        "the keys here are {}",
+        listed(known.iter().copied())
+    ))
 }
 
 pub(crate) fn repeated_key(place: &Place, key: &str, first: Position) -> Fault {
     let message = format!("the key {} stands here a second time", quote(key));
-    Fault::new(place, "repeated-key", message)
-        .with_help(format!("the first one is on line {}; remove one of them", first.line))
+    Fault::new(place, "repeated-key", message).with_help(format!(
+        "the first one is on line {}; remove one of them",
+        first.line
+    ))
 }
 
 pub(crate) fn missing_key(place: &Place, key: &str, what: &str) -> Fault {
-    Fault::new(place, "missing-key", format!("the key {} is missing", quote(key)))
-        .with_help(format!("add {what}"))
+    Fault::new(
+        place,
+        "missing-key",
+        format!("the key {} is missing", quote(key)),
+    )
+    .with_help(format!("add {what}"))
 }
 
 /// What belongs somewhere, and how it is written.
@@ -102,8 +140,12 @@ pub(crate) fn not_a_number(place: &Place, text: &str, fit: &[Dimension]) -> Faul
 }
 
 pub(crate) fn not_decimal(place: &Place, text: &str) -> Fault {
-    Fault::new(place, "wrong-type", format!("{} is no decimal number", quote(text)))
-        .with_help("write it as a decimal: `16`, `1.6e-3`")
+    Fault::new(
+        place,
+        "wrong-type",
+        format!("{} is no decimal number", quote(text)),
+    )
+    .with_help("write it as a decimal: `16`, `1.6e-3`")
 }
 
 pub(crate) fn number_as_text(place: &Place, text: &str, quoted: bool) -> Fault {
@@ -111,17 +153,28 @@ pub(crate) fn number_as_text(place: &Place, text: &str, quoted: bool) -> Fault {
         return Fault::new(
             place,
             "wrong-type",
-            format!("the number {} stands in quotes, which makes it text", quote(text)),
+            format!(
+                "the number {} stands in quotes, which makes it text",
+                quote(text)
+            ),
         )
         .with_help("leave out the quotes");
     }
-    Fault::new(place, "wrong-type", format!("YAML reads {} as text", quote(text)))
-        .with_help("leave out the zeros in front")
+    Fault::new(
+        place,
+        "wrong-type",
+        format!("YAML reads {} as text", quote(text)),
+    )
+    .with_help("leave out the zeros in front")
 }
 
 pub(crate) fn non_finite(place: &Place, text: &str) -> Fault {
-    Fault::new(place, "non-finite", format!("{} is no finite number", quote(text)))
-        .with_help("leave the key out if there is no value")
+    Fault::new(
+        place,
+        "non-finite",
+        format!("{} is no finite number", quote(text)),
+    )
+    .with_help("leave the key out if there is no value")
 }
 
 pub(crate) fn out_of_range(place: &Place, text: &str) -> Fault {
@@ -140,7 +193,11 @@ pub(crate) fn unknown_unit(place: &Place, text: &str, unit: &str, fit: &[Dimensi
 }
 
 pub(crate) fn unit_misfit(place: &Place, text: &str, unit: &Unit, fit: &[Dimension]) -> Fault {
-    let what = fit.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ");
+    let what = fit
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join(" or ");
     let message = format!("{} is {}; {what} belongs here", quote(text), unit.dimension);
     Fault::new(place, "unit-misfit", message).with_help(format!("write {}", wanted(fit)))
 }
@@ -152,11 +209,19 @@ fn wanted(fit: &[Dimension]) -> String {
         return "a plain number".to_owned();
     }
     let si: Vec<&str> = fit.iter().map(|d| d.si()).collect();
-    format!("a number in {}, or with a unit: {}", si.join(" or "), listed(units))
+    format!(
+        "a number in {}, or with a unit: {}",
+        si.join(" or "),
+        listed(units)
+    )
 }
 
 pub(crate) fn unknown_format(place: &Place, text: &str, known: u32) -> Fault {
-    let message = format!("this spec is of format {}; only format {known} is known", quote(text));
-    Fault::new(place, "unknown-format", message)
-        .with_help(format!("write `format: {known}`, or use the version of bgdyn the spec is for"))
+    let message = format!(
+        "this spec is of format {}; only format {known} is known",
+        quote(text)
+    );
+    Fault::new(place, "unknown-format", message).with_help(format!(
+        "write `format: {known}`, or use the version of bgdyn the spec is for"
+    ))
 }

@@ -29,7 +29,9 @@ pub(super) struct Directions {
 impl Directions {
     /// By the spec's `snap`.
     pub(super) fn new(spec: &Spec, faults: &mut Faults) -> Self {
-        let Some(given) = spec.snap.given() else { return Directions { snap: SNAP } };
+        let Some(given) = spec.snap.given() else {
+            return Directions { snap: SNAP };
+        };
         let snap = given.value.value.to_f64();
         if !(0.0..=MOST).contains(&snap) {
             faults.push(wording::snap_out_of_range(&given.place, &given.value.text));
@@ -40,7 +42,10 @@ impl Directions {
 
     /// The pose that changes nothing.
     pub(super) fn identity() -> Pose {
-        Pose { rotation: identity(), translation: Vec3([Dd::ZERO; 3]) }
+        Pose {
+            rotation: identity(),
+            translation: Vec3([Dd::ZERO; 3]),
+        }
     }
 
     /// The pose of an `origin`.
@@ -52,7 +57,10 @@ impl Directions {
         };
         let rotation = self.rotation(&origin.rpy, faults);
         let translation = super::vector_or(&origin.xyz, Vec3([Dd::ZERO; 3]));
-        Some(Pose { rotation: rotation?, translation: translation? })
+        Some(Pose {
+            rotation: rotation?,
+            translation: translation?,
+        })
     }
 
     /// R = Rz(yaw)·Ry(pitch)·Rx(roll).
@@ -62,9 +70,16 @@ impl Directions {
             Field::Broken => return None,
             Field::Given(rpy) => rpy,
         };
-        let far = angles.value.iter().find(|a| a.value.value.to_f64().abs() > TURNS);
+        let far = angles
+            .value
+            .iter()
+            .find(|a| a.value.value.to_f64().abs() > TURNS);
         if let Some(angle) = far {
-            faults.push(wording::angle_out_of_range(&angle.place, &angle.value.text, TURNS));
+            faults.push(wording::angle_out_of_range(
+                &angle.place,
+                &angle.value.text,
+                TURNS,
+            ));
             return None;
         }
         let turns = super::fixed(&angles.value).map(|angle| Turn::new(angle, self.snap));
@@ -94,12 +109,21 @@ impl Directions {
         }
         let length = given.dot(given).sqrt();
         let share = given.map(|x| (x / length).to_f64().abs());
-        let off: Vec<(&str, f64)> =
-            ["x", "y", "z"].into_iter().zip(share.0).filter(|(_, s)| self.suspect(*s)).collect();
+        let off: Vec<(&str, f64)> = ["x", "y", "z"]
+            .into_iter()
+            .zip(share.0)
+            .filter(|(_, s)| self.suspect(*s))
+            .collect();
         if !off.is_empty() {
             faults.push(wording::nearly_axis(&axis.place, &off));
         }
-        let kept = |i: usize| if share.0[i] <= self.exact() { Dd::ZERO } else { given.0[i] };
+        let kept = |i: usize| {
+            if share.0[i] <= self.exact() {
+                Dd::ZERO
+            } else {
+                given.0[i]
+            }
+        };
         Some(unit(Vec3([kept(0), kept(1), kept(2)])))
     }
 
@@ -118,11 +142,22 @@ impl Directions {
         let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
         let small = |x: Dd| x.to_f64().abs() <= self.exact();
         let aligned = |&(i, j): &(usize, usize)| (1..3).all(|k| small(r.0[(i + k) % 3][j]));
-        let Some((i, j)) = places.clone().find(aligned) else { return r };
-        let sign = if r.0[i][j] < Dd::ZERO { -Dd::ONE } else { Dd::ONE };
+        let Some((i, j)) = places.clone().find(aligned) else {
+            return r;
+        };
+        let sign = if r.0[i][j] < Dd::ZERO {
+            -Dd::ONE
+        } else {
+            Dd::ONE
+        };
         let (rows, columns) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
-        let kept =
-            |row: usize| if small(r.0[row][columns[0]]) { Dd::ZERO } else { r.0[row][columns[0]] };
+        let kept = |row: usize| {
+            if small(r.0[row][columns[0]]) {
+                Dd::ZERO
+            } else {
+                r.0[row][columns[0]]
+            }
+        };
         let Vec3([c, s, _]) = unit(Vec3([kept(rows[0]), kept(rows[1]), Dd::ZERO]));
         let mut square = Mat3([[Dd::ZERO; 3]; 3]);
         square.0[i][j] = sign;

@@ -31,7 +31,11 @@ pub(super) fn tensor(
     let rotation = directions.rotation(&inertia.value.rpy, faults);
     let entries = entries(&inertia.value)?;
     physical(inertia, &entries, allowed, faults);
-    let turned = if inertia.value.rpy.is_absent() { entries } else { turned(entries, rotation?) };
+    let turned = if inertia.value.rpy.is_absent() {
+        entries
+    } else {
+        turned(entries, rotation?)
+    };
     Some(turned.map(Value::Fixed))
 }
 
@@ -75,7 +79,9 @@ fn physical(inertia: &Located<Inertia>, entries: &[Dd; 6], allowed: bool, faults
 /// The principal moments, smallest first.
 fn principal_moments(entries: &[Dd; 6]) -> [f64; 3] {
     let [xx, yy, zz, xy, xz, yz] = entries.map(Dd::to_f64);
-    let largest = [xx, yy, zz, xy, xz, yz].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let largest = [xx, yy, zz, xy, xz, yz]
+        .iter()
+        .fold(0.0_f64, |m, x| m.max(x.abs()));
     if largest == 0.0 {
         return [0.0; 3];
     }

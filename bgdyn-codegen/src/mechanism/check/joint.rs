@@ -50,7 +50,10 @@ fn given(
 }
 
 fn fixed() -> Option<&'static JointType> {
-    JOINT_TYPES.iter().find(|kind| kind.motion == Motion::None).copied()
+    JOINT_TYPES
+        .iter()
+        .find(|kind| kind.motion == Motion::None)
+        .copied()
 }
 
 fn z() -> Vec3<Dd> {
@@ -59,10 +62,17 @@ fn z() -> Vec3<Dd> {
 
 fn kind(joint: &spec::Joint, faults: &mut Faults) -> Option<&'static JointType> {
     let word = joint.kind.given()?;
-    let found = JOINT_TYPES.iter().find(|kind| kind.keyword == word.value).copied();
+    let found = JOINT_TYPES
+        .iter()
+        .find(|kind| kind.keyword == word.value)
+        .copied();
     if found.is_none() {
         let known: Vec<&str> = JOINT_TYPES.iter().map(|kind| kind.keyword).collect();
-        faults.push(wording::unknown_joint_type(&word.place, &word.value, &known));
+        faults.push(wording::unknown_joint_type(
+            &word.place,
+            &word.value,
+            &known,
+        ));
     }
     found
 }
@@ -141,7 +151,10 @@ fn position_limits(limits: &spec::Limits, kind: &JointType, faults: &mut Faults)
     if kind.position_limits {
         return;
     }
-    for limit in [&limits.lower, &limits.upper].into_iter().filter_map(Field::given) {
+    for limit in [&limits.lower, &limits.upper]
+        .into_iter()
+        .filter_map(Field::given)
+    {
         faults.push(wording::position_limit(&limit.place, kind.keyword));
     }
 }
@@ -160,7 +173,9 @@ fn units(limits: &spec::Limits, motion: Motion, faults: &mut Faults) {
         (&limits.effort, effort),
     ];
     for (limit, dimension) in places {
-        faults.0.extend(limit.given().and_then(|limit| misfit(limit, &[dimension])));
+        faults
+            .0
+            .extend(limit.given().and_then(|limit| misfit(limit, &[dimension])));
     }
 }
 
@@ -172,7 +187,10 @@ fn signs(limits: &spec::Limits, faults: &mut Faults) {
         let (low, high) = (&lower.value.text, &upper.value.text);
         faults.push(wording::lower_above_upper(&lower.place, low, high));
     }
-    for limit in [&limits.velocity, &limits.effort].into_iter().filter_map(Field::given) {
+    for limit in [&limits.velocity, &limits.effort]
+        .into_iter()
+        .filter_map(Field::given)
+    {
         if limit.value.value < Dd::ZERO {
             faults.push(wording::negative_limit(&limit.place, &limit.value.text));
         }

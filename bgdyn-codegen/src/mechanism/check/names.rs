@@ -24,7 +24,11 @@ pub(super) fn mechanism_name(
         }
     };
     faults.0.extend(fault);
-    spec.name.value().map(String::as_str).or(stem).map(str::to_owned)
+    spec.name
+        .value()
+        .map(String::as_str)
+        .or(stem)
+        .map(str::to_owned)
 }
 
 fn differs(name: &Located<String>, stem: &str) -> Option<Fault> {
@@ -80,7 +84,10 @@ struct Names {
 
 impl Names {
     fn new(what: &'static str) -> Self {
-        Names { what, first: BTreeMap::new() }
+        Names {
+            what,
+            first: BTreeMap::new(),
+        }
     }
 
     fn add_body(&mut self, name: &Field<String>, faults: &mut Faults) {

@@ -39,8 +39,16 @@ impl<'s> Tree<'s> {
             rank: vec![0; links.len()],
             carriers: Vec::new(),
             by_name: BTreeMap::new(),
-            names: links.iter().filter_map(|l| l.name.value()).map(String::as_str).collect(),
-            frames: frames.iter().filter_map(|f| f.name.value()).map(String::as_str).collect(),
+            names: links
+                .iter()
+                .filter_map(|l| l.name.value())
+                .map(String::as_str)
+                .collect(),
+            frames: frames
+                .iter()
+                .filter_map(|f| f.name.value())
+                .map(String::as_str)
+                .collect(),
         };
         for (index, link) in links.iter().enumerate() {
             if let Some(name) = link.name.value() {
@@ -99,7 +107,13 @@ impl<'s> Tree<'s> {
 
     fn unknown(&self, name: &Located<String>, rule: &'static str, faults: &mut Faults) {
         let is_frame = self.frames.contains(&name.value.as_str());
-        faults.push(wording::unknown_link(&name.place, rule, &name.value, &self.names, is_frame));
+        faults.push(wording::unknown_link(
+            &name.place,
+            rule,
+            &name.value,
+            &self.names,
+            is_frame,
+        ));
     }
 
     /// Visits the links in the file's order, each after its ancestors.
@@ -129,10 +143,14 @@ impl<'s> Tree<'s> {
 
 /// Reports links that carry each other, once, at the one that stands first in the file.
 fn circle(members: &[usize], links: &[Link], faults: &mut Faults) {
-    let Some(first) = members.iter().enumerate().min_by_key(|(_, index)| **index) else { return };
+    let Some(first) = members.iter().enumerate().min_by_key(|(_, index)| **index) else {
+        return;
+    };
     let turned = members[first.0..].iter().chain(&members[..first.0]);
-    let names: Vec<&str> =
-        turned.filter_map(|i| links[*i].name.value()).map(String::as_str).collect();
+    let names: Vec<&str> = turned
+        .filter_map(|i| links[*i].name.value())
+        .map(String::as_str)
+        .collect();
     if let Some(parent) = links[*first.1].parent.given() {
         faults.push(wording::circle(&parent.place, &names));
     }

@@ -28,5 +28,9 @@ pub struct JointType {
 }
 
 /// Every joint type there is.
-pub static JOINT_TYPES: [&JointType; 4] =
-    [&revolute::REVOLUTE, &continuous::CONTINUOUS, &prismatic::PRISMATIC, &fixed::FIXED];
+pub static JOINT_TYPES: [&JointType; 4] = [
+    &revolute::REVOLUTE,
+    &continuous::CONTINUOUS,
+    &prismatic::PRISMATIC,
+    &fixed::FIXED,
+];

@@ -3,5 +3,8 @@
 use super::{JointType, Motion};
 
 /// Translation along an axis.
-pub(super) static PRISMATIC: JointType =
-    JointType { keyword: "prismatic", motion: Motion::Translation, position_limits: true };
+pub(super) static PRISMATIC: JointType = JointType {
+    keyword: "prismatic",
+    motion: Motion::Translation,
+    position_limits: true,
+};

@@ -3,5 +3,8 @@
 use super::{JointType, Motion};
 
 /// Rotation about an axis, between position limits if the spec states them.
-pub(super) static REVOLUTE: JointType =
-    JointType { keyword: "revolute", motion: Motion::Rotation, position_limits: true };
+pub(super) static REVOLUTE: JointType = JointType {
+    keyword: "revolute",
+    motion: Motion::Rotation,
+    position_limits: true,
+};
