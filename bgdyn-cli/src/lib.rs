@@ -1,1 +1,54 @@
-//! placeholder
+//! The command `bgdyn`, as a library: one module per subcommand.
+//!
+//! Errors go to stderr; exit 1 for a bad input, 2 for bad usage.
+#![forbid(unsafe_code)]
+
+mod commands;
+pub mod import;
+mod spec_file;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+#[command(
+    name = "bgdyn",
+    version,
+    about = "Rigid-body dynamics as generated Rust"
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Check(commands::check::Check),
+    Ops(commands::ops::Ops),
+    Eval(commands::eval::Eval),
+    Generate(commands::generate::Generate),
+    Import(import::ImportArgs),
+}
+
+/// Runs the command line.
+pub fn run() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Check(command) => command.run(),
+        Command::Ops(command) => command.run(),
+        Command::Eval(command) => command.run(),
+        Command::Generate(command) => command.run(),
+        Command::Import(arguments) => import::run(arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let text = format!("{error:#}");
+            // A refusal that was explained already is an empty error.
+            if !text.is_empty() {
+                eprintln!("bgdyn: {text}");
+            }
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,1 +1,7 @@
-fn main() {}
+//! The command `bgdyn`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    bgdyn_cli::run()
+}

@@ -1,8 +1,20 @@
-//! placeholder
+//! The generator behind bgdyn: a mechanism in YAML goes in, Rust tokens or source text come out.
+//!
+//! One path, one direction: [`spec`] (the file as written) → [`mechanism`] (checked) →
+//! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) →
+//! [`emit`] (Rust tokens). Data types import no steps; [`model`] runs the steps in order.
+#![forbid(unsafe_code)]
 
+pub mod bond_graph;
+pub mod emit;
+pub mod expr;
 pub mod fault;
+pub mod formulation;
+pub mod function;
 pub mod math;
 pub mod mechanism;
+pub mod method;
+pub mod model;
 mod read;
 pub mod spec;
 

@@ -1,0 +1,64 @@
+//! `bgdyn check`: whether a spec is sound, and if not, everything that is wrong with it.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, anyhow};
+use bgdyn_codegen::fault::{Fault, Severity};
+use clap::Args;
+use serde_json::{Value, json};
+
+use crate::spec_file::SpecFile;
+
+/// Check a spec; report every fault with its place
+#[derive(Args)]
+#[command(after_help = "Example:\n  bgdyn check specs/scara.yaml")]
+pub(crate) struct Check {
+    /// The spec
+    file: PathBuf,
+    /// Print the findings as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Check {
+    pub(crate) fn run(self) -> Result<()> {
+        let spec = SpecFile::open(&self.file)?;
+        let (mechanism, faults) = spec.read();
+        if self.json {
+            let found: Vec<Value> = faults.0.iter().map(finding).collect();
+            let model = mechanism
+                .as_ref()
+                .map(|m| json!({ "name": m.name(), "nq": m.nq(), "nv": m.nv() }));
+            println!(
+                "{:#}",
+                json!({ "ok": model.is_some(), "model": model, "findings": found })
+            );
+        } else if !faults.0.is_empty() {
+            eprint!("{}", spec.render(&faults));
+        }
+        match mechanism {
+            Some(m) if !self.json => println!("ok: {}, NQ {}, NV {}", m.name(), m.nq(), m.nv()),
+            Some(_) => {}
+            None => {
+                eprintln!("{} faults", faults.count());
+                return Err(anyhow!(""));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn finding(fault: &Fault) -> Value {
+    json!({
+        "severity": match fault.severity {
+            Severity::Fault => "fault",
+            Severity::Warning => "warning",
+        },
+        "line": fault.position.line,
+        "column": fault.position.column,
+        "path": fault.path,
+        "rule": fault.rule,
+        "message": fault.message,
+        "help": fault.help,
+    })
+}

@@ -1,0 +1,214 @@
+//! `bgdyn eval`: a method's value at given states, through the evaluator.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, anyhow, bail};
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::method::{Argument, Method, Shape};
+use clap::Args;
+use serde_json::{Value, json};
+
+use crate::spec_file::{SpecFile, options};
+
+/// Evaluate a method at the states of a file, without a compiler
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}"
+)]
+pub(crate) struct Eval {
+    /// The spec
+    file: PathBuf,
+    /// The method, as the generated code names it
+    method: String,
+    /// The states: fields a method does not need are ignored
+    #[arg(long, value_name = "STATES.json")]
+    states: PathBuf,
+    /// Use one formulation
+    #[arg(long, value_name = "NAME")]
+    formulation: Option<String>,
+}
+
+/// Why a state has no result.
+struct Failure {
+    joint: Option<String>,
+    message: String,
+}
+
+impl Eval {
+    pub(crate) fn run(self) -> Result<()> {
+        let options = options(self.formulation.as_deref())?;
+        let method = Method::by_name(&self.method).ok_or_else(|| {
+            let known: Vec<_> = Method::ALL.iter().map(|m| m.name()).collect();
+            anyhow!(
+                "no method `{}`; there are {}",
+                self.method,
+                known.join(", ")
+            )
+        })?;
+        let mechanism = SpecFile::open(&self.file)?.mechanism()?;
+        let states = states(&self.states)?;
+        let function = bgdyn_codegen::model::function(&mechanism, method, &options)
+            .ok_or_else(|| anyhow!("this formulation does not know `{}`", self.method))?;
+        let mut results = Vec::new();
+        let mut errors = Vec::new();
+        for (i, state) in states.iter().enumerate() {
+            match evaluate(&mechanism, &function, state) {
+                Ok(value) => results.push(value),
+                Err(Failure { joint, message }) => {
+                    results.push(Value::Null);
+                    errors.push(json!({ "state": i, "joint": joint, "message": message }));
+                }
+            }
+        }
+        let mut report = json!({ "function": self.method, "results": results });
+        let failed = errors.len();
+        if failed > 0 {
+            report["errors"] = Value::Array(errors);
+        }
+        println!("{report}");
+        if failed > 0 {
+            bail!("{failed} of {} states failed", states.len());
+        }
+        Ok(())
+    }
+}
+
+fn states(path: &std::path::Path) -> Result<Vec<Value>> {
+    let text = std::fs::read_to_string(path)
+        .with_context(|| format!("{} cannot be read", path.display()))?;
+    let file: Value = serde_json::from_str(&without_bare_words(&text))
+        .with_context(|| format!("{} is not JSON", path.display()))?;
+    match file.get("states") {
+        Some(Value::Array(states)) => Ok(states.clone()),
+        _ => bail!("{} has no array `states`", path.display()),
+    }
+}
+
+/// `NaN` and `Infinity`, as some programs write them, become text that reads as such a number.
+fn without_bare_words(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    let mut quoted = false;
+    while let Some(c) = rest.chars().next() {
+        let word = ["-Infinity", "Infinity", "NaN"]
+            .into_iter()
+            .find(|w| rest.starts_with(w));
+        if let (false, Some(word)) = (quoted, word) {
+            out.push_str("null");
+            rest = &rest[word.len()..];
+            continue;
+        }
+        if c == '\\' && quoted {
+            let two = rest.char_indices().nth(2).map_or(rest.len(), |(i, _)| i);
+            out.push_str(&rest[..two]);
+            rest = &rest[two..];
+            continue;
+        }
+        quoted ^= c == '"';
+        out.push(c);
+        rest = &rest[c.len_utf8()..];
+    }
+    out
+}
+
+/// The field of a state that holds an argument.
+fn field(argument: Argument) -> &'static str {
+    match argument {
+        Argument::Tau => "tau_in",
+        other => other.name(),
+    }
+}
+
+fn evaluate(mechanism: &Mechanism, function: &Function, state: &Value) -> Result<Value, Failure> {
+    let plain = |message: String| Failure {
+        joint: None,
+        message,
+    };
+    let mut inputs = Inputs {
+        parameters: mechanism
+            .parameters()
+            .iter()
+            .map(|p| p.default.to_f64())
+            .collect(),
+        ..Inputs::default()
+    };
+    for &argument in function.method.arguments() {
+        let values = vector(mechanism, state, field(argument))?;
+        match argument {
+            Argument::Q => inputs.q = values,
+            Argument::V => inputs.v = values,
+            Argument::A => inputs.a = values,
+            Argument::Tau => inputs.u = values,
+        }
+    }
+    let (values, refused) = function.evaluate::<f64>(inputs);
+    if let Some(joint) = refused {
+        let name = mechanism
+            .joint(bgdyn_codegen::mechanism::CoordinateId(joint))
+            .name
+            .clone();
+        let message =
+            format!("singular mass matrix: joint `{name}` has no inertia left to accelerate");
+        return Err(Failure {
+            joint: Some(name),
+            message,
+        });
+    }
+    if values.iter().any(|x| !x.is_finite()) {
+        return Err(plain(
+            "the result is not finite: the input is too large".into(),
+        ));
+    }
+    Ok(shaped(function.shape(), mechanism.nv(), &values))
+}
+
+fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, Failure> {
+    let plain = |message: String| Failure {
+        joint: None,
+        message,
+    };
+    let Some(Value::Array(values)) = state.get(name) else {
+        return Err(plain(format!("no array `{name}`")));
+    };
+    if values.len() != mechanism.nv() {
+        let n = mechanism.nv();
+        return Err(plain(format!(
+            "`{name}` has {} components instead of {n}",
+            values.len()
+        )));
+    }
+    let mut numbers = Vec::new();
+    for (j, value) in values.iter().enumerate() {
+        // A number beyond the range of f64 reads as infinite.
+        let number = value.as_number().and_then(|n| n.to_string().parse().ok());
+        match number {
+            Some(x) if f64::is_finite(x) => numbers.push(x),
+            _ => {
+                let joint = mechanism
+                    .joint(bgdyn_codegen::mechanism::CoordinateId(j))
+                    .name
+                    .clone();
+                let message = format!("`{name}[{j}]` is not a finite number");
+                return Err(Failure {
+                    joint: Some(joint),
+                    message,
+                });
+            }
+        }
+    }
+    Ok(numbers)
+}
+
+fn shaped(shape: Shape, nv: usize, values: &[f64]) -> Value {
+    match shape {
+        Shape::Scalar => json!(values[0]),
+        Shape::Vector | Shape::CheckedVector => json!(values),
+        Shape::Symmetric => {
+            let entry = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+            let row = |i: usize| (0..nv).map(|j| entry(i, j)).collect::<Vec<_>>();
+            json!((0..nv).map(row).collect::<Vec<_>>())
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The subcommands.
+
+pub(crate) mod check;
+pub(crate) mod eval;
+pub(crate) mod generate;
+pub(crate) mod ops;

@@ -1,0 +1,247 @@
+//! `bgdyn import`: a mechanism from a URDF.
+//!
+//! Text → elements with their places (`xml`) → the part a mechanism can hold, the rest counted (`select`) →
+//! links and joints (`reading`) → their order (`tree`) and names (`naming`) → YAML (`writing`).
+
+mod attributes;
+mod defaults;
+mod groups;
+mod inertia;
+mod naming;
+mod number;
+mod reading;
+mod select;
+mod tree;
+mod writing;
+mod xml;
+
+use anyhow::{Context, Result, anyhow};
+use inertia::{Verdict, judge};
+use naming::{identifiers, shown};
+use number::Num;
+use reading::{Inertial, Model};
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+
+/// A mechanism made from a URDF, and what there is to say about it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Import {
+    /// The mechanism, format 1. It has no `name:`: it is called after the file it is put into.
+    pub yaml: String,
+    /// The robot's name as an identifier: the stem of a file that fits.
+    pub name: String,
+    /// The names that were changed, one per line: ``link `Upper-Arm` → `upper_arm` ``.
+    pub notes: Vec<String>,
+    /// What was not taken over, and what looks wrong, one line each.
+    pub warnings: Vec<String>,
+}
+
+/// Makes a mechanism from the text of a URDF.
+///
+/// Links keep the order of their joints, numbers their decimal text. An error starts with `LINE:COLUMN: `.
+pub fn import(urdf_text: &str) -> Result<Import> {
+    let model = reading::read(urdf_text)?;
+    let tree = tree::order(&model)?;
+
+    let original: Vec<&str> = model.links.iter().map(|link| link.name.as_str()).collect();
+    let links = identifiers(&original, "link");
+    let original: Vec<&str> = model
+        .joints
+        .iter()
+        .map(|joint| joint.name.as_str())
+        .collect();
+    let joints = identifiers(&original, "joint");
+    let name = naming::identifier(&model.name, "robot");
+
+    let mut warnings = doubtful(&model, &tree);
+    let mut allowed = vec![false; model.links.len()];
+    for (link, allowed) in model.links.iter().zip(&mut allowed) {
+        if let Some(inertial) = &link.inertial {
+            *allowed = judge_inertial(&shown(&link.name), inertial, &mut warnings);
+        }
+    }
+
+    let mut taken: HashSet<String> = joints.iter().cloned().collect();
+    let entry = |link: usize| writing::Entry {
+        link: &model.links[link],
+        name: &links[link],
+        parent: None,
+        joint: None,
+        mount: None,
+        allow_nonphysical: allowed[link],
+    };
+    let mut entries = Vec::new();
+    for root in &tree.roots {
+        // Without a joint of its own the root's would be called so: find another name where a joint has that one.
+        let default = format!("{}_mount", links[*root]);
+        let free = (2..)
+            .map(|number| format!("{default}_{number}"))
+            .find(|name| !taken.contains(name));
+        let mount = if taken.contains(&default) { free } else { None };
+        taken.insert(mount.clone().unwrap_or(default));
+        entries.push(writing::entry(&writing::Entry {
+            mount,
+            ..entry(*root)
+        }));
+    }
+    for ((joint, name), (parent, child)) in model.joints.iter().zip(&joints).zip(&tree.ends) {
+        let (parent, joint) = (Some(links[*parent].as_str()), Some((joint, name.as_str())));
+        entries.push(writing::entry(&writing::Entry {
+            parent,
+            joint,
+            ..entry(*child)
+        }));
+    }
+
+    let robot = [(&model.name, &name)]
+        .into_iter()
+        .map(|(old, new)| ("robot", old, new));
+    let links = model
+        .links
+        .iter()
+        .zip(&links)
+        .map(|(old, new)| ("link", &old.name, new));
+    let joints = model
+        .joints
+        .iter()
+        .zip(&joints)
+        .map(|(old, new)| ("joint", &old.name, new));
+    let changed = robot
+        .chain(links)
+        .chain(joints)
+        .filter(|(_, old, new)| old != new);
+    let notes = changed
+        .map(|(what, old, new)| format!("{what} `{}` → `{new}`", shown(old)))
+        .collect();
+    let yaml = writing::head(&model.name) + &entries.join("\n");
+    warnings.extend(model.warnings);
+    Ok(Import {
+        yaml,
+        name,
+        notes,
+        warnings,
+    })
+}
+
+/// Warnings about the robot as a whole.
+fn doubtful(model: &Model, tree: &tree::Tree) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if model.name.is_empty() {
+        warnings.push("the robot has no name".into());
+    }
+    if tree.roots.len() > 1 {
+        let roots: Vec<String> = tree
+            .roots
+            .iter()
+            .map(|root| format!("`{}`", shown(&model.links[*root].name)))
+            .collect();
+        warnings.push(format!(
+            "several links have no joint, all are fixed to the world: {}",
+            roots.join(", ")
+        ));
+    }
+    let mut times = HashMap::new();
+    for joint in &model.joints {
+        let times = times.entry(&joint.name).or_insert(0);
+        *times += 1;
+        if *times == 2 {
+            warnings.push(format!(
+                "several joints are called `{}`",
+                shown(&joint.name)
+            ));
+        }
+    }
+    warnings
+}
+
+/// Warns of an inertial that no body has; true where the mechanism must allow it.
+fn judge_inertial(link: &str, inertial: &Inertial, warnings: &mut Vec<String>) -> bool {
+    if inertial.mass.value < 0.0 {
+        let mass = &inertial.mass.text;
+        warnings.push(format!(
+            "link `{link}`: the mass {mass} kg is negative; `bgdyn check` will refuse it"
+        ));
+    }
+    let verdict = judge(inertial.tensor.each_ref().map(|entry| entry.value));
+    let (moments, fault) = match &verdict {
+        Verdict::Physical => return false,
+        Verdict::NoTriangle(moments) => (
+            moments,
+            "break the triangle inequality; kept, with `nonphysical: allow`",
+        ),
+        Verdict::Indefinite(moments) => (
+            moments,
+            "are not all positive or zero; kept, but `bgdyn check` will refuse them",
+        ),
+    };
+    let [a, b, c] = moments.map(|moment| Num::computed(rounded(moment)).text);
+    warnings.push(format!(
+        "link `{link}`: the principal moments {a}, {b}, {c} kg·m² {fault}"
+    ));
+    matches!(verdict, Verdict::NoTriangle(_))
+}
+
+/// Rounded to six digits, for reading.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// Make a mechanism from a URDF
+#[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n\n\
+    The mechanism's module is called after the file it is written to. Changed names and what is not taken over are \
+    told on stderr.")]
+pub struct ImportArgs {
+    /// The URDF; a xacro file must be expanded first
+    #[arg(value_name = "FILE.urdf")]
+    pub file: PathBuf,
+    /// Where to write the mechanism; stdout if not given
+    #[arg(short, long, value_name = "FILE.yaml")]
+    pub output: Option<PathBuf>,
+}
+
+/// Runs `bgdyn import`.
+pub fn run(args: ImportArgs) -> Result<()> {
+    let path = args.file.display();
+    let bytes = std::fs::read(&args.file).with_context(|| format!("{path}: cannot be read"))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..good]
+            .iter()
+            .filter(|byte| **byte == b'\n')
+            .count()
+            + 1;
+        anyhow!("{path}:{line}:1: this line is not UTF-8: convert the file first")
+    })?;
+    let mut made = import(&text).map_err(|error| anyhow!("{path}:{error}"))?;
+    match &args.output {
+        Some(output) => {
+            std::fs::write(output, &made.yaml)
+                .with_context(|| format!("{}: cannot be written", output.display()))?;
+            made.warnings.extend(unfit_stem(output, &made.name));
+        }
+        None => {
+            use std::io::Write;
+            std::io::stdout()
+                .write_all(made.yaml.as_bytes())
+                .context("stdout: cannot be written")?;
+        }
+    }
+    for note in &made.notes {
+        eprintln!("renamed: {note}");
+    }
+    for warning in &made.warnings {
+        eprintln!("warning: {warning}");
+    }
+    Ok(())
+}
+
+/// A warning where the module could not be called after the file.
+fn unfit_stem(output: &Path, name: &str) -> Option<String> {
+    let file = output.file_name()?.to_string_lossy().into_owned();
+    let stem = file.split('.').next().unwrap_or_default();
+    let unfit = !naming::is_identifier(stem);
+    unfit.then(|| {
+        format!("a module cannot be called `{stem}`: rename {file}, for example to {name}.yaml")
+    })
+}

@@ -1,0 +1,119 @@
+//! Names of a URDF made identifiers.
+
+use std::collections::{HashMap, HashSet};
+
+/// Rust's keywords, also the reserved ones, and the name of the fixed base.
+const RESERVED: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "world", "yield",
+];
+
+/// Whether the name can stay: words of lower-case letters and digits joined by single `_`, no reserved word.
+pub(super) fn is_identifier(name: &str) -> bool {
+    !name.is_empty() && identifier(name, "_") == name
+}
+
+/// One name as an identifier; a reserved word gets `_kind` appended, a name without letters and digits is `kind`.
+pub(super) fn identifier(name: &str, kind: &str) -> String {
+    let mut out = String::with_capacity(name.len());
+    for c in name.chars() {
+        if c.is_ascii_alphanumeric() {
+            out.push(c.to_ascii_lowercase());
+        } else if !out.ends_with('_') && !out.is_empty() {
+            out.push('_');
+        }
+    }
+    let mut out = out.trim_end_matches('_').to_string();
+    if out.is_empty() {
+        return kind.to_string();
+    }
+    if out.starts_with(|c: char| c.is_ascii_digit()) {
+        out.insert(0, 'n');
+    }
+    if RESERVED.contains(&out.as_str()) {
+        out.push('_');
+        out.push_str(kind);
+    }
+    out
+}
+
+/// Identifiers for all names, no two alike. Names that are identifiers already keep theirs; of the others, the first
+/// comes first, and a clash gets `_2`, `_3`, ….
+pub(super) fn identifiers(names: &[&str], kind: &str) -> Vec<String> {
+    let mut used = HashSet::new();
+    let kept: Vec<bool> = names
+        .iter()
+        .map(|name| is_identifier(name) && used.insert(name.to_string()))
+        .collect();
+    let mut next: HashMap<String, usize> = HashMap::new();
+    let choose = |(name, kept): (&&str, bool)| {
+        if kept {
+            return name.to_string();
+        }
+        let plain = identifier(name, kind);
+        if used.insert(plain.clone()) {
+            return plain;
+        }
+        let number = next.entry(plain.clone()).or_insert(1);
+        loop {
+            *number += 1;
+            let numbered = format!("{plain}_{number}");
+            if used.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    };
+    names.iter().zip(kept).map(choose).collect()
+}
+
+/// A name as it is shown in a message or a comment: one line, whatever it holds.
+pub(super) fn shown(name: &str) -> String {
+    let visible =
+        |c: char| !c.is_control() && !matches!(c, '\u{85}' | '\u{2028}' | '\u{2029}' | '\u{feff}');
+    let show = |c: char| {
+        if visible(c) {
+            c.to_string()
+        } else {
+            c.escape_unicode().to_string()
+        }
+    };
+    name.chars().map(show).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{identifier, identifiers, is_identifier};
+
+    #[test]
+    fn names_become_identifiers() {
+        for (name, wanted) in [
+            ("Upper-Arm", "upper_arm"),
+            ("arm (left)", "arm_left"),
+            ("_base__link_", "base_link"),
+            ("6axis", "n6axis"),
+            ("type", "type_link"),
+            ("Self", "self_link"),
+            ("world", "world_link"),
+            ("Größe", "gr_e"),
+            ("***", "link"),
+            ("", "link"),
+            ("a.b/c", "a_b_c"),
+        ] {
+            assert_eq!(identifier(name, "link"), wanted);
+            assert!(is_identifier(wanted));
+            assert!(!is_identifier(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn clashes_are_numbered_and_good_names_stay() {
+        let names = ["Arm", "ARM", "arm", "arm_2", "a rm", "arm"];
+        assert_eq!(
+            identifiers(&names, "link"),
+            ["arm_3", "arm_4", "arm", "arm_2", "a_rm", "arm_5"]
+        );
+    }
+}

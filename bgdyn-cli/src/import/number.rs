@@ -1,0 +1,139 @@
+//! Decimal numbers, kept as they were written.
+
+/// A number: its decimal text, fit for YAML, and its value.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Num {
+    pub(super) text: String,
+    pub(super) value: f64,
+}
+
+/// So many digits the mechanism's reader keeps; longer texts are cut to the shortest that gives the same f64.
+const MAX_DIGITS: usize = 32;
+
+/// Integers of more digits are written with a decimal point.
+const MAX_INTEGER: usize = 18;
+
+impl Num {
+    /// Zero.
+    pub(super) fn zero() -> Self {
+        Num {
+            text: "0".into(),
+            value: 0.0,
+        }
+    }
+
+    /// A computed value, in its shortest form that reads back the same.
+    pub(super) fn computed(value: f64) -> Self {
+        let text = match value.abs() {
+            0.0 => "0".into(),
+            size if (1e-5..1e17).contains(&size) => format!("{value}"),
+            _ => format!("{value:e}"),
+        };
+        Num { text, value }
+    }
+
+    /// Reads a decimal. `inf` and what overflows give an infinite value; anything else that is no number, `None`.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let (negative, size) = match text.strip_prefix('-') {
+            Some(rest) => (true, rest),
+            None => (false, text.strip_prefix('+').unwrap_or(text)),
+        };
+        let value: f64 = text.parse().ok().filter(|value: &f64| !value.is_nan())?;
+        if value.is_infinite() || value == 0.0 {
+            return Some(Num::computed(value));
+        }
+        let (mantissa, exponent) = match size.split_once(['e', 'E']) {
+            Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+            None => (size, None),
+        };
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let whole = whole.trim_start_matches('0');
+        let significant = match whole {
+            "" => fraction.trim_start_matches('0').len(),
+            _ => whole.len() + fraction.len(),
+        };
+        if significant > MAX_DIGITS {
+            return Some(Num::computed(value));
+        }
+        let mut text = String::from(if negative { "-" } else { "" });
+        text.push_str(if whole.is_empty() { "0" } else { whole });
+        if !fraction.is_empty() {
+            text.push('.');
+            text.push_str(fraction);
+        }
+        if let Some(exponent) = exponent {
+            text.push('e');
+            text.push_str(exponent);
+        } else if fraction.is_empty() && whole.len() > MAX_INTEGER {
+            // YAML readers want integers to fit a machine word.
+            text.push_str(".0");
+        }
+        Some(Num { text, value })
+    }
+
+    /// Whether the number is 0.
+    pub(super) fn is_zero(&self) -> bool {
+        self.value == 0.0
+    }
+}
+
+/// Whether all of them are 0.
+pub(super) fn all_zero(numbers: &[Num]) -> bool {
+    numbers.iter().all(Num::is_zero)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Num;
+
+    #[test]
+    fn the_text_stays_as_it_was() {
+        for (given, kept) in [
+            ("0.0", "0"),
+            ("-0.0", "0"),
+            ("1.0", "1.0"),
+            ("+1.5", "1.5"),
+            (".5", "0.5"),
+            ("-.5e3", "-0.5e3"),
+            ("5.", "5"),
+            ("007.10", "7.10"),
+            ("4E-05", "4e-05"),
+            ("1.57079632679", "1.57079632679"),
+            (
+                "3.1415926535897932384626433832795",
+                "3.1415926535897932384626433832795",
+            ),
+            ("0.012499999999999997", "0.012499999999999997"),
+            (
+                "0.1000000000000000055511151231257827021181583404541015625",
+                "0.1",
+            ),
+            ("1e-999", "0"),
+            (" 12\t", "12"),
+            (
+                "-63713450892424100000000000000000",
+                "-63713450892424100000000000000000.0",
+            ),
+        ] {
+            let number = Num::parse(given).unwrap();
+            assert_eq!(number.text, kept);
+            assert_eq!(number.value, given.trim().parse::<f64>().unwrap());
+            assert_eq!(number.value, kept.parse::<f64>().unwrap());
+        }
+        assert_eq!(Num::parse("-inf").unwrap().value, f64::NEG_INFINITY);
+        assert_eq!(Num::parse("1e999").unwrap().value, f64::INFINITY);
+        for wrong in [
+            "", "nan", "0,5", "1 2", "${x}", "--1", "0x10", ".", "e5", "1_000",
+        ] {
+            assert_eq!(Num::parse(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn computed_values_read_back() {
+        for value in [1.0 / 3.0, 1e-300, -2.5e20, 123456.75, 5e-324, f64::MAX] {
+            assert_eq!(Num::computed(value).text.parse::<f64>().unwrap(), value);
+        }
+    }
+}

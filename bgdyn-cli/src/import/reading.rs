@@ -1,0 +1,297 @@
+//! URDF text to links and joints, with the numbers as they were written.
+
+use super::attributes::{bound, end, finite, name, numbers, place, turn, zeros};
+use super::defaults::{INERTIAL, complete};
+use super::groups::Groups;
+use super::naming::shown;
+use super::number::Num;
+use super::select::select;
+use super::xml::{At, Element, fault, parse};
+use anyhow::Result;
+use urdf_rs::JointType;
+
+/// A robot as far as a mechanism can hold it.
+pub(super) struct Model {
+    pub(super) name: String,
+    pub(super) links: Vec<Link>,
+    /// In the order of the file.
+    pub(super) joints: Vec<Joint>,
+    pub(super) warnings: Vec<String>,
+}
+
+pub(super) struct Link {
+    pub(super) name: String,
+    pub(super) at: At,
+    pub(super) inertial: Option<Inertial>,
+}
+
+pub(super) struct Inertial {
+    pub(super) mass: Num,
+    pub(super) com: [Num; 3],
+    pub(super) rpy: [Num; 3],
+    /// xx, yy, zz, xy, xz, yz.
+    pub(super) tensor: [Num; 6],
+}
+
+pub(super) struct Joint {
+    pub(super) name: String,
+    pub(super) at: At,
+    pub(super) kind: JointType,
+    pub(super) parent: String,
+    pub(super) child: String,
+    pub(super) xyz: [Num; 3],
+    pub(super) rpy: [Num; 3],
+    pub(super) axis: [Num; 3],
+    pub(super) limits: Limits,
+}
+
+#[derive(Default)]
+pub(super) struct Limits {
+    pub(super) lower: Option<Num>,
+    pub(super) upper: Option<Num>,
+    pub(super) velocity: Option<Num>,
+    pub(super) effort: Option<Num>,
+}
+
+/// Reads a URDF. urdf-rs says what the elements mean (types, defaults, the rules of the file's version); the numbers
+/// come from the text.
+pub(super) fn read(text: &str) -> Result<Model> {
+    let (mut root, ignored) = select(&parse(text)?)?;
+    refuse_types(&root)?;
+    let mut groups = Groups::default();
+    complete(&mut root, &mut groups);
+    let links = root.all("link").map(link).collect::<Result<_>>()?;
+    let meaning = meaning(&root)?;
+    let joints = root.all("joint").zip(&meaning.joints);
+    let joints = joints
+        .map(|(element, meaning)| joint(element, meaning, &mut groups))
+        .collect::<Result<_>>()?;
+    Ok(Model {
+        name: root.get("name").unwrap_or_default().to_string(),
+        links,
+        joints,
+        warnings: groups.lines().chain(ignored).collect(),
+    })
+}
+
+/// One error for all joints of types that a mechanism does not have.
+fn refuse_types(root: &Element) -> Result<()> {
+    let mut first = None;
+    let mut wrong = Vec::new();
+    for joint in root.all("joint") {
+        let name = shown(name(joint)?);
+        match joint.get("type") {
+            Some("revolute" | "continuous" | "prismatic" | "fixed") => continue,
+            Some(kind) => wrong.push(format!("joint `{name}` is `{}`", shown(kind))),
+            None => wrong.push(format!("joint `{name}` has no type")),
+        }
+        first = first.or(Some(joint.at));
+    }
+    let Some(at) = first else { return Ok(()) };
+    let wrong = wrong.join(", ");
+    Err(fault(
+        at,
+        format_args!(
+            "{wrong}: a mechanism's joints are revolute, continuous, prismatic or fixed; \
+             change the type (`fixed` for a base that is to stand), or build the motion of several such joints"
+        ),
+    ))
+}
+
+/// The robot as urdf-rs understands it; joints in the order of the elements.
+fn meaning(root: &Element) -> Result<urdf_rs::Robot> {
+    let mut plain = root.clone();
+    for joint in plain
+        .children
+        .iter_mut()
+        .filter(|child| child.name == "joint")
+    {
+        joint
+            .children
+            .retain(|child| child.name != "mimic" && child.name != "dynamics");
+        // Faults that urdf-rs would find without a line.
+        end(joint, "parent")?;
+        end(joint, "child")?;
+        joint.child("origin").map(turn).transpose()?;
+        place(joint.child("origin"))?;
+        if let Some(limit) = joint.child("limit") {
+            for (attribute, _) in &limit.attributes {
+                bound(limit, attribute)?;
+            }
+        }
+        if let Some(axis) = joint.child("axis") {
+            numbers::<3>(axis, "xyz")?;
+        }
+    }
+    let mut text = String::new();
+    plain.write(&mut text);
+    urdf_rs::read_from_string(&text).map_err(|error| fault(root.at, error))
+}
+
+fn link(element: &Element) -> Result<Link> {
+    let inertial = element
+        .child("inertial")
+        .map(|inertial| -> Result<Inertial> {
+            let origin = inertial.child("origin");
+            let [mass, inertia] =
+                INERTIAL.map(|(part, _)| inertial.child(part).unwrap_or(inertial));
+            let entry = |attribute| finite(inertia, attribute);
+            Ok(Inertial {
+                mass: finite(mass, "value")?,
+                com: place(origin)?,
+                rpy: origin.map_or(Ok(zeros()), turn)?,
+                tensor: [
+                    entry("ixx")?,
+                    entry("iyy")?,
+                    entry("izz")?,
+                    entry("ixy")?,
+                    entry("ixz")?,
+                    entry("iyz")?,
+                ],
+            })
+        });
+    Ok(Link {
+        name: name(element)?.to_string(),
+        at: element.at,
+        inertial: inertial.transpose()?,
+    })
+}
+
+fn joint(element: &Element, meaning: &urdf_rs::Joint, groups: &mut Groups) -> Result<Joint> {
+    let joint_name = name(element)?;
+    let label = format!("`{}`", shown(joint_name));
+    let kind = meaning.joint_type.clone();
+    let origin = element.child("origin");
+    let mut axis = zeros();
+    let mut limits = Limits::default();
+    if kind == JointType::Fixed {
+        for part in ["axis", "limit"]
+            .into_iter()
+            .filter(|part| element.child(part).is_some())
+        {
+            groups.add(
+                "without meaning on fixed joints, left out",
+                format!("<{part}> of {label}"),
+            );
+        }
+    } else {
+        axis = match element.child("axis") {
+            Some(axis) => numbers(axis, "xyz")?,
+            None => meaning.axis.xyz.map(Num::computed),
+        };
+        if axis.iter().all(Num::is_zero) {
+            let at = element.child("axis").map_or(element.at, |axis| axis.at);
+            return Err(fault(at, format_args!("the axis of joint {label} is zero")));
+        }
+        limits = self::limits(element, meaning, &label, groups)?;
+    }
+    report(element, &label, groups);
+    Ok(Joint {
+        name: joint_name.to_string(),
+        at: element.at,
+        kind,
+        parent: end(element, "parent")?.to_string(),
+        child: end(element, "child")?.to_string(),
+        xyz: place(origin)?,
+        rpy: origin.map_or(Ok(zeros()), turn)?,
+        axis,
+        limits,
+    })
+}
+
+fn limits(
+    element: &Element,
+    meaning: &urdf_rs::Joint,
+    label: &str,
+    groups: &mut Groups,
+) -> Result<Limits> {
+    let continuous = meaning.joint_type == JointType::Continuous;
+    let Some(limit) = element.child("limit") else {
+        if !continuous {
+            groups.add(
+                "joints without `<limit>`, taken over without limits",
+                label.to_string(),
+            );
+        }
+        return Ok(Limits::default());
+    };
+    let mut limits = Limits::default();
+    for (attribute, default) in [
+        ("lower", meaning.limit.lower),
+        ("upper", meaning.limit.upper),
+    ] {
+        let given = bound(limit, attribute)?;
+        if continuous {
+            if given.is_some() {
+                let item = format!("{attribute} of {label}");
+                groups.add("position limits of continuous joints, not taken over", item);
+            }
+            continue;
+        }
+        if given.is_none() && default.is_finite() {
+            let item = format!("{attribute} of {label}");
+            groups.add(
+                "position limits that the URDF leaves out, which it defines to be 0",
+                item,
+            );
+        }
+        let value = given.unwrap_or_else(|| Num::computed(default));
+        let slot = if attribute == "lower" {
+            &mut limits.lower
+        } else {
+            &mut limits.upper
+        };
+        *slot = Some(value).filter(|value| value.value.is_finite());
+    }
+    for attribute in ["velocity", "effort"] {
+        let value =
+            bound(limit, attribute)?.filter(|value| value.value.is_finite() || value.value < 0.0);
+        if value.as_ref().is_some_and(|value| value.value < 0.0) {
+            let item = format!("{attribute} of {label}");
+            groups.add("negative limits, not taken over", item);
+            continue;
+        }
+        let slot = if attribute == "velocity" {
+            &mut limits.velocity
+        } else {
+            &mut limits.effort
+        };
+        *slot = value;
+    }
+    if let (Some(lower), Some(upper)) = (&limits.lower, &limits.upper)
+        && lower.value > upper.value
+    {
+        let item = format!("{label} from {} to {}", lower.text, upper.text);
+        groups.add(
+            "lower limit above the upper one, which `bgdyn check` may refuse",
+            item,
+        );
+    }
+    Ok(limits)
+}
+
+/// Tells of a joint's elements that a mechanism cannot hold yet, with their values.
+fn report(element: &Element, label: &str, groups: &mut Groups) {
+    if let Some(mimic) = element.child("mimic") {
+        let item = format!("{label} ({})", values(&mimic.attributes));
+        groups.add(
+            "mimic is not taken over, the joints become independent",
+            item,
+        );
+    }
+    if let Some(dynamics) = element.child("dynamics") {
+        let mut given = dynamics.attributes.clone();
+        given.retain(|(_, value)| Num::parse(value).is_none_or(|number| !number.is_zero()));
+        if !given.is_empty() {
+            groups.add(
+                "joint dynamics are not taken over yet",
+                format!("{label} ({})", values(&given)),
+            );
+        }
+    }
+}
+
+fn values(attributes: &[(String, String)]) -> String {
+    let show = |(name, value): &(String, String)| format!("{name} {}", shown(value.trim()));
+    attributes.iter().map(show).collect::<Vec<_>>().join(", ")
+}

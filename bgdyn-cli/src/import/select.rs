@@ -1,0 +1,179 @@
+//! What of a URDF a mechanism can hold. Everything else is counted by name, so that it can be told.
+
+use super::xml::{Element, fault};
+use anyhow::Result;
+
+/// An element that is taken over: its attributes, the elements inside it.
+struct Kind {
+    name: &'static str,
+    attributes: Attributes,
+    children: &'static [Kind],
+    /// Whether it may stand only once in its parent.
+    once: bool,
+}
+
+enum Attributes {
+    These(&'static [&'static str]),
+    /// All of them: whoever reads the element tells what becomes of them.
+    Any,
+}
+use Attributes::{Any, These};
+
+const fn leaf(name: &'static str, attributes: &'static [&'static str]) -> Kind {
+    Kind {
+        name,
+        attributes: These(attributes),
+        children: &[],
+        once: true,
+    }
+}
+
+const fn reported(name: &'static str) -> Kind {
+    Kind {
+        name,
+        attributes: Any,
+        children: &[],
+        once: true,
+    }
+}
+
+const ORIGIN: Kind = leaf("origin", &["xyz", "rpy", "quat_xyzw"]);
+
+const LINK: &[Kind] = &[Kind {
+    name: "inertial",
+    attributes: These(&[]),
+    children: &[
+        ORIGIN,
+        leaf("mass", &["value"]),
+        leaf("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
+    ],
+    once: true,
+}];
+
+const JOINT: &[Kind] = &[
+    ORIGIN,
+    leaf("parent", &["link"]),
+    leaf("child", &["link"]),
+    leaf("axis", &["xyz"]),
+    leaf("limit", &["lower", "upper", "velocity", "effort"]),
+    reported("mimic"),
+    reported("dynamics"),
+];
+
+const ROBOT: Kind = Kind {
+    name: "robot",
+    attributes: These(&["name", "version"]),
+    children: &[
+        Kind {
+            name: "link",
+            attributes: These(&["name"]),
+            children: LINK,
+            once: false,
+        },
+        Kind {
+            name: "joint",
+            attributes: These(&["name", "type"]),
+            children: JOINT,
+            once: false,
+        },
+    ],
+    once: true,
+};
+
+/// What was left out, in the order of first sight: what it is, how often, how many mesh files in it.
+#[derive(Default)]
+struct Ignored(Vec<(String, usize, usize)>);
+
+impl Ignored {
+    fn count(&mut self, what: String, meshes: usize) {
+        match self.0.iter_mut().find(|(known, ..)| *known == what) {
+            Some((_, times, all)) => {
+                *times += 1;
+                *all += meshes;
+            }
+            None => self.0.push((what, 1, meshes)),
+        }
+    }
+}
+
+/// The part of the robot that can be taken over, and one line for each kind of thing that cannot.
+pub(super) fn select(root: &Element) -> Result<(Element, Vec<String>)> {
+    if root.name != ROBOT.name {
+        return Err(fault(
+            root.at,
+            format_args!("a URDF's root is `<robot>`, this is `<{}>`", root.name),
+        ));
+    }
+    let mut ignored = Ignored::default();
+    let quaternions = version(root) >= (1, 1);
+    let kept = keep(root, &ROBOT, quaternions, &mut ignored)?;
+    let lines = ignored.0.into_iter().map(|(what, times, meshes)| {
+        let times = plural(times, "time");
+        match meshes {
+            0 => format!("not taken over: {what} ({times})"),
+            _ => format!(
+                "not taken over: {what} ({times}, with {})",
+                plural(meshes, "mesh file")
+            ),
+        }
+    });
+    Ok((kept, lines.collect()))
+}
+
+fn keep(
+    element: &Element,
+    kind: &Kind,
+    quaternions: bool,
+    ignored: &mut Ignored,
+) -> Result<Element> {
+    let Element { name, at, .. } = element;
+    let mut kept = Element::empty(name, *at);
+    if element.text {
+        ignored.count(format!("text in `<{name}>`"), 0);
+    }
+    for (attribute, value) in &element.attributes {
+        let known = match kind.attributes {
+            These(list) => list.contains(&attribute.as_str()),
+            Any => true,
+        };
+        if known && (attribute != "quat_xyzw" || quaternions) {
+            kept.attributes.push((attribute.clone(), value.clone()));
+        } else {
+            ignored.count(format!("attribute `{attribute}` of `<{name}>`"), 0);
+        }
+    }
+    for child in &element.children {
+        match kind.children.iter().find(|kind| kind.name == child.name) {
+            Some(kind) if kind.once && kept.child(&child.name).is_some() => {
+                let message = format!(
+                    "a second `<{}>` in the `<{name}>` of line {}",
+                    child.name, at.0
+                );
+                return Err(fault(child.at, message));
+            }
+            Some(kind) => kept.children.push(keep(child, kind, quaternions, ignored)?),
+            None => ignored.count(
+                format!("`<{}>` in `<{name}>`", child.name),
+                child.count("mesh"),
+            ),
+        }
+    }
+    Ok(kept)
+}
+
+/// The version of the format, 1.0 unless the robot says otherwise (a malformed one counts as none).
+pub(super) fn version(root: &Element) -> (u32, u32) {
+    let parse = |text: &str| {
+        let (major, minor) = text.trim().split_once('.')?;
+        Some((major.parse().ok()?, minor.parse().ok()?))
+    };
+    root.get("version").and_then(parse).unwrap_or((1, 0))
+}
+
+/// `1 time`, `3 times`.
+pub(super) fn plural(count: usize, word: &str) -> String {
+    match count {
+        1 => format!("1 {word}"),
+        _ => format!("{count} {word}s"),
+    }
+}

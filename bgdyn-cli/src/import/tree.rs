@@ -1,0 +1,90 @@
+//! Which link carries which: the joints must make trees that grow from links without a joint.
+
+use super::naming::shown;
+use super::reading::Model;
+use super::xml::fault;
+use anyhow::Result;
+use std::collections::HashMap;
+
+/// The links in the order of the mechanism: those without a joint first, the others as their joints come in the file.
+pub(super) struct Tree {
+    /// Indices of links that no joint carries.
+    pub(super) roots: Vec<usize>,
+    /// For each joint the indices of its parent and its child.
+    pub(super) ends: Vec<(usize, usize)>,
+}
+
+/// Orders the links; an error names a link that is missing, given twice, carried twice or on a loop.
+pub(super) fn order(model: &Model) -> Result<Tree> {
+    let mut index = HashMap::new();
+    for (i, link) in model.links.iter().enumerate() {
+        if index.insert(link.name.as_str(), i).is_some() {
+            return Err(fault(
+                link.at,
+                format_args!("there is a second link `{}`", shown(&link.name)),
+            ));
+        }
+    }
+    if model.links.is_empty() {
+        return Err(fault((1, 1), "the robot has no link"));
+    }
+    let mut carrier: Vec<Option<usize>> = vec![None; model.links.len()];
+    let mut ends = Vec::new();
+    for (j, joint) in model.joints.iter().enumerate() {
+        let name = shown(&joint.name);
+        let find = |link: &str, end| {
+            let missing = || {
+                let link = shown(link);
+                fault(
+                    joint.at,
+                    format_args!(
+                        "the {end} of joint `{name}` is `{link}`, and there is no such link"
+                    ),
+                )
+            };
+            index.get(link).copied().ok_or_else(missing)
+        };
+        let (parent, child) = (find(&joint.parent, "parent")?, find(&joint.child, "child")?);
+        if let Some(other) = carrier[child] {
+            let (link, other) = (shown(&joint.child), shown(&model.joints[other].name));
+            let message = format!(
+                "link `{link}` is the child of joint `{other}` and of joint `{name}`: \
+                 closed loops cannot be taken over, cut the loop at one of them"
+            );
+            return Err(fault(joint.at, message));
+        }
+        carrier[child] = Some(j);
+        ends.push((parent, child));
+    }
+    let roots: Vec<usize> = (0..carrier.len())
+        .filter(|link| carrier[*link].is_none())
+        .collect();
+    refuse_cycles(model, &carrier, &ends)?;
+    Ok(Tree { roots, ends })
+}
+
+/// Every link must come to a root when its parents are followed.
+fn refuse_cycles(model: &Model, carrier: &[Option<usize>], ends: &[(usize, usize)]) -> Result<()> {
+    // For each link the start of the walk that saw it first: a walk that meets itself goes round.
+    let mut seen = vec![None; carrier.len()];
+    for start in 0..carrier.len() {
+        let mut link = start;
+        while seen[link].is_none() {
+            seen[link] = Some(start);
+            match carrier[link] {
+                Some(joint) => link = ends[joint].0,
+                None => break,
+            }
+        }
+        if let Some(joint) = carrier[link]
+            && seen[link] == Some(start)
+        {
+            let (name, joint) = (shown(&model.links[link].name), &model.joints[joint]);
+            return Err(fault(
+                joint.at,
+                format_args!("link `{name}` is carried by itself: the joints go round"),
+            ));
+        }
+    }
+    Ok(())
+}

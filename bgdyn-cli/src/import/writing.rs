@@ -1,0 +1,224 @@
+//! A read robot as the text of a mechanism.
+
+use super::naming::shown;
+use super::number::{Num, all_zero};
+use super::reading::{Inertial, Joint, Limits, Link};
+use urdf_rs::JointType;
+
+/// Longer lines are broken up.
+const WIDTH: usize = 100;
+
+/// A link as it stands in the mechanism.
+pub(super) struct Entry<'a> {
+    pub(super) link: &'a Link,
+    pub(super) name: &'a str,
+    /// The name of the link that carries it; none for the fixed base.
+    pub(super) parent: Option<&'a str>,
+    pub(super) joint: Option<(&'a Joint, &'a str)>,
+    /// A name for the joint that fixes a root, where the default name is taken.
+    pub(super) mount: Option<String>,
+    pub(super) allow_nonphysical: bool,
+}
+
+/// The text up to the first link.
+pub(super) fn head(robot: &str) -> String {
+    match robot {
+        "" => {
+            "# Imported from a URDF (robot without a name) by bgdyn import\nformat: 1\n\nlinks:\n"
+                .into()
+        }
+        _ => {
+            let (name, label) = (shown(robot), scalar(robot));
+            format!(
+                "# Imported from a URDF (robot {name}) by bgdyn import\nformat: 1\nlabel: {label}\n\nlinks:\n"
+            )
+        }
+    }
+}
+
+/// One link of the list.
+pub(super) fn entry(entry: &Entry<'_>) -> String {
+    let mut lines = vec![format!("name: {}", scalar(entry.name))];
+    if entry.name != entry.link.name {
+        lines.push(format!("label: {}", scalar(&entry.link.name)));
+    }
+    if let Some(parent) = entry.parent {
+        lines.push(format!("parent: {}", scalar(parent)));
+    }
+    if let Some((joint, name)) = entry.joint {
+        write_joint(joint, name, &mut lines);
+    }
+    if let Some(mount) = &entry.mount {
+        lines.push(format!("joint: {{ name: {}, type: fixed }}", scalar(mount)));
+    }
+    if let Some(inertial) = &entry.link.inertial {
+        write_inertial(inertial, &mut lines);
+    }
+    if entry.allow_nonphysical {
+        lines.push("nonphysical: allow".into());
+    }
+    format!("  - {}\n", lines.join("\n    "))
+}
+
+fn write_joint(joint: &Joint, name: &str, lines: &mut Vec<String>) {
+    let mut keys = vec![format!("name: {}", scalar(name))];
+    if name != joint.name {
+        keys.push(format!("label: {}", scalar(&joint.name)));
+    }
+    keys.push(format!("type: {}", kind(&joint.kind)));
+    if joint.kind != JointType::Fixed {
+        keys.extend(axis(&joint.axis));
+    }
+    keys.extend(origin(&joint.xyz, &joint.rpy));
+    keys.extend(limits(&joint.limits));
+    let flow = format!("joint: {{ {} }}", keys.join(", "));
+    if flow.len() + 4 <= WIDTH {
+        lines.push(flow);
+    } else {
+        lines.push("joint:".into());
+        lines.extend(keys.into_iter().map(|key| format!("  {key}")));
+    }
+}
+
+fn kind(kind: &JointType) -> &'static str {
+    match kind {
+        JointType::Revolute => "revolute",
+        JointType::Continuous => "continuous",
+        JointType::Prismatic => "prismatic",
+        // Other types were refused when they were read.
+        JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => {
+            "fixed"
+        }
+    }
+}
+
+/// The key `axis`, nothing for z, which is the default.
+fn axis(axis: &[Num; 3]) -> Option<String> {
+    let name = match axis.each_ref().map(|number| number.value) {
+        [0.0, 0.0, 1.0] => return None,
+        [1.0, 0.0, 0.0] => "x",
+        [0.0, 1.0, 0.0] => "y",
+        [-1.0, 0.0, 0.0] => "-x",
+        [0.0, -1.0, 0.0] => "-y",
+        [0.0, 0.0, -1.0] => "-z",
+        _ => return Some(format!("axis: {}", list(axis))),
+    };
+    Some(format!("axis: {name}"))
+}
+
+fn origin(xyz: &[Num; 3], rpy: &[Num; 3]) -> Option<String> {
+    let parts = [("xyz", xyz), ("rpy", rpy)]
+        .into_iter()
+        .filter(|(_, part)| !all_zero(*part));
+    let parts: Vec<String> = parts
+        .map(|(key, part)| format!("{key}: {}", list(part)))
+        .collect();
+    (!parts.is_empty()).then(|| format!("origin: {{ {} }}", parts.join(", ")))
+}
+
+fn limits(limits: &Limits) -> Option<String> {
+    let Limits {
+        lower,
+        upper,
+        velocity,
+        effort,
+    } = limits;
+    let parts = [
+        ("lower", lower),
+        ("upper", upper),
+        ("velocity", velocity),
+        ("effort", effort),
+    ];
+    let parts = parts
+        .into_iter()
+        .filter_map(|(key, value)| Some(format!("{key}: {}", value.as_ref()?.text)));
+    let parts: Vec<String> = parts.collect();
+    (!parts.is_empty()).then(|| format!("limits: {{ {} }}", parts.join(", ")))
+}
+
+fn write_inertial(inertial: &Inertial, lines: &mut Vec<String>) {
+    if !inertial.mass.is_zero() {
+        lines.push(format!("mass: {}", inertial.mass.text));
+    }
+    if !all_zero(&inertial.com) {
+        lines.push(format!("com: {}", list(&inertial.com)));
+    }
+    let entries = ["xx", "yy", "zz", "xy", "xz", "yz"]
+        .into_iter()
+        .zip(&inertial.tensor);
+    let entries = entries.filter(|(_, entry)| !entry.is_zero());
+    let mut entries: Vec<String> = entries
+        .map(|(key, entry)| format!("{key}: {}", entry.text))
+        .collect();
+    if entries.is_empty() {
+        return;
+    }
+    if !all_zero(&inertial.rpy) {
+        entries.push(format!("rpy: {}", list(&inertial.rpy)));
+    }
+    let flow = format!("inertia: {{ {} }}", entries.join(", "));
+    if flow.len() + 4 <= WIDTH {
+        lines.push(flow);
+    } else {
+        lines.push("inertia:".into());
+        lines.extend(entries.into_iter().map(|entry| format!("  {entry}")));
+    }
+}
+
+fn list(numbers: &[Num; 3]) -> String {
+    let [x, y, z] = numbers.each_ref().map(|number| number.text.as_str());
+    format!("[{x}, {y}, {z}]")
+}
+
+/// Text as a YAML scalar: plain where nothing in it can be taken for anything else, quoted otherwise.
+fn scalar(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | '/');
+    let words = [
+        "null", "true", "false", "yes", "no", "on", "off", "nan", "inf", "infinity",
+    ];
+    let letter = text.starts_with(|c: char| c.is_ascii_alphabetic());
+    let spaced = text
+        .split(' ')
+        .all(|word| !word.is_empty() && word.chars().all(plain));
+    if letter && spaced && !words.contains(&text.to_ascii_lowercase().as_str()) {
+        return text.to_string();
+    }
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            ' '..='~' => out.push(c),
+            // Letters and signs of the Basic Multilingual Plane that YAML prints.
+            '\u{a0}'..='\u{2027}' | '\u{202a}'..='\u{d7ff}' => out.push(c),
+            c if u32::from(c) <= 0xffff => out.push_str(&format!("\\u{:04x}", u32::from(c))),
+            c => out.push_str(&format!("\\U{:08x}", u32::from(c))),
+        }
+    }
+    out.push('"');
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scalar;
+
+    #[test]
+    fn scalars_are_quoted_where_needed() {
+        for plain in ["arm", "Upper-Arm", "UR5 left", "a.b/c"] {
+            assert_eq!(scalar(plain), plain);
+        }
+        for (text, quoted) in [
+            ("null", r#""null""#),
+            ("1e5", r#""1e5""#),
+            ("a: b", r#""a: b""#),
+            ("a  b", r#""a  b""#),
+            ("say \"x\"\\\n", r#""say \"x\"\\\u000a""#),
+            ("Größe \u{2028}🤖", "\"Größe \\u2028\\U0001f916\""),
+            ("", r#""""#),
+        ] {
+            assert_eq!(scalar(text), quoted);
+            let read: String = serde_yaml::from_str(quoted).unwrap();
+            assert_eq!(read, text);
+        }
+    }
+}

@@ -1,0 +1,388 @@
+//! `bgdyn import` as a library: texts made from URDFs, warnings, errors, and no panic whatever comes in.
+
+use bgdyn_cli::import::{Import, ImportArgs, import, run};
+use proptest::prelude::*;
+use serde_yaml::Value;
+
+const GRIPPER_ARM: &str = include_str!("urdf/gripper_arm.urdf");
+const HARD_INERTIA: &str = include_str!("urdf/hard_inertia.urdf");
+const LIMITS: &str = include_str!("urdf/limits.urdf");
+const VERSION_1_2: &str = include_str!("urdf/version_1_2.urdf");
+const NAMES: &str = include_str!("urdf/names.urdf");
+const ALL: [&str; 5] = [GRIPPER_ARM, HARD_INERTIA, LIMITS, VERSION_1_2, NAMES];
+
+/// Everything an import says, as one text.
+fn told(import: &Import) -> String {
+    let mut out = format!("{}\n--- {}\n", import.yaml, import.name);
+    for note in &import.notes {
+        out += &format!("renamed: {note}\n");
+    }
+    for warning in &import.warnings {
+        out += &format!("warning: {warning}\n");
+    }
+    out
+}
+
+fn error(urdf: &str) -> String {
+    import(urdf).unwrap_err().to_string()
+}
+
+/// A robot of two links, with this text as the joint and this as the child's inertial.
+fn with(joint: &str, inertial: &str) -> String {
+    format!(
+        "<robot name=\"r\">\n<link name=\"a\"/>\n<link name=\"b\">{inertial}</link>\n{joint}</robot>"
+    )
+}
+
+fn hinge(inside: &str) -> String {
+    let joint = "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/>";
+    with(&format!("{joint}{inside}</joint>"), "")
+}
+
+#[test]
+fn a_robot_package_file() {
+    insta::assert_snapshot!(told(&import(GRIPPER_ARM).unwrap()));
+}
+
+#[test]
+fn inertia_that_no_body_has() {
+    insta::assert_snapshot!(told(&import(HARD_INERTIA).unwrap()));
+}
+
+#[test]
+fn limits_of_all_kinds() {
+    insta::assert_snapshot!(told(&import(LIMITS).unwrap()));
+}
+
+#[test]
+fn rules_of_later_versions() {
+    insta::assert_snapshot!(told(&import(VERSION_1_2).unwrap()));
+}
+
+#[test]
+fn names_that_need_care() {
+    insta::assert_snapshot!(told(&import(NAMES).unwrap()));
+}
+
+#[test]
+fn errors_say_where_and_what() {
+    let joint = |kind: &str| {
+        with(
+            &format!("<joint name='j' {kind}><parent link='a'/><child link='b'/></joint>"),
+            "",
+        )
+    };
+    let cases = [
+        String::new(),
+        "no xml".into(),
+        "<robot name='r'>\n<link name='a'>\n</robot>".into(),
+        "<sdf version='1.6'/>".into(),
+        "<robot name='r'/>".into(),
+        "<robot name='r'><link/></robot>".into(),
+        "<robot name='r'><link name='a'/>\n <link name='a'/></robot>".into(),
+        "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n  <xacro:include filename='x'/></robot>".into(),
+        "<robot>\n  <xacro:include filename='x'/></robot>".into(),
+        format!("<robot name='r'>{}</robot>", "<a>".repeat(100) + &"</a>".repeat(100)),
+        joint("type='floating'"),
+        joint("type='ball &#7;'"),
+        joint(""),
+        with("<joint type='fixed'/>", ""),
+        with("<joint name='j' type='fixed'><parent link='a'/></joint>", ""),
+        with("<joint name='j' type='fixed'><parent link='a'/><child link='c'/></joint>", ""),
+        with("<joint name='j' type='fixed'><parent link='a'/><child link='a'/></joint>", ""),
+        joint("type='fixed'").replace("</robot>", "<link name='c'/></robot>").replace(
+            "</robot>",
+            "<joint name='k' type='fixed'><parent link='c'/><child link='b'/></joint></robot>",
+        ),
+        joint("type='fixed'").replace(
+            "</robot>",
+            "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
+        ),
+        hinge("<axis xyz='0 0 -0.0'/>"),
+        hinge("<axis xyz='0 0'/>"),
+        hinge("<axis xyz='0 0 1'/>\n<axis xyz='0 0 1'/>"),
+        hinge("<origin xyz='0 0 nan'/>"),
+        hinge("<origin xyz='0 0 ${length/2}'/>"),
+        hinge("<origin rpy='0 0 1 x'/>"),
+        hinge("<limit lower='0,5' velocity='1'/>"),
+        with("", "<inertial><mass value='heavy'/></inertial>"),
+        with("", "<inertial><mass value='1e999'/></inertial>"),
+        hinge("<origin rpy='0 0 0' quat_xyzw='0 0 0 1'/>").replace("<robot", "<robot version='1.1'"),
+        hinge("<origin quat_xyzw='0 0 0 0'/>").replace("<robot", "<robot version='1.1'"),
+        hinge("<limit lower='2' upper='1'/>").replace("<robot", "<robot version='1.2'"),
+    ];
+    insta::assert_snapshot!(cases.map(|case| error(&case)).join("\n"));
+}
+
+#[test]
+fn several_unsupported_joints_come_in_one_error() {
+    let urdf = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>
+        <joint name='root' type='floating'><parent link='a'/><child link='b'/></joint>
+        <joint name='slide' type='planar'><parent link='b'/><child link='c'/></joint></robot>";
+    let error = error(urdf);
+    assert!(
+        error.starts_with("2:9: joint `root` is `floating`, joint `slide` is `planar`: "),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_expanded_xacro_is_a_urdf() {
+    let urdf = hinge("").replace(
+        "<robot",
+        "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'",
+    );
+    assert!(import(&urdf).is_ok());
+}
+
+#[test]
+fn encodings_and_doctypes() {
+    let urdf = format!(
+        "\u{feff}<?xml version='1.0' encoding='ISO-8859-1'?>\n{}",
+        hinge("").replace("\"j\"", "\"é\"")
+    );
+    assert_eq!(import(&urdf).unwrap().notes, ["joint `é` → `joint`"]);
+    import(&urdf.replace("ISO-8859-1", "klingon")).unwrap();
+    let bomb = "<!DOCTYPE r [<!ENTITY a 'aaaaaaaaaaaaaaaa'>".to_string()
+        + &(0..12)
+            .map(|i| {
+                format!(
+                    "<!ENTITY a{i} '{}'>",
+                    if i == 0 {
+                        "&a;".repeat(9)
+                    } else {
+                        format!("&a{};", i - 1).repeat(9)
+                    }
+                )
+            })
+            .collect::<String>()
+        + "]><robot name='r'><link name='x'/>&a11;</robot>";
+    assert!(error(&bomb).contains("Entity too big"));
+}
+
+#[test]
+fn several_roots_stand_on_the_world() {
+    let import = import("<robot name='r'><link name='a'/><link name='b'/></robot>").unwrap();
+    assert!(
+        import
+            .yaml
+            .ends_with("links:\n  - name: a\n\n  - name: b\n"),
+        "{}",
+        import.yaml
+    );
+    assert_eq!(
+        import.warnings,
+        ["several links have no joint, all are fixed to the world: `a`, `b`"]
+    );
+}
+
+#[test]
+fn nothing_is_said_where_nothing_is_lost() {
+    let urdf =
+        hinge("<limit lower='-1' upper='1' effort='2' velocity='3'/><dynamics damping='0.0'/>");
+    let import = import(&urdf).unwrap();
+    assert!(
+        import.warnings.is_empty() && import.notes.is_empty(),
+        "{import:?}"
+    );
+}
+
+/// The numbers of the text are those that urdf-rs reads.
+#[test]
+fn numbers_agree_with_urdf_rs() {
+    let urdf = GRIPPER_ARM.replace("sensor:camera", "camera");
+    let robot = urdf_rs::read_from_string(&urdf).unwrap();
+    let yaml: Value = serde_yaml::from_str(&import(&urdf).unwrap().yaml).unwrap();
+    let links = yaml["links"].as_sequence().unwrap();
+    let vector =
+        |value: &Value| [0, 1, 2].map(|i| value.get(i).map_or(0.0, |v| v.as_f64().unwrap()));
+    let label = |value: &Value| {
+        value
+            .get("label")
+            .unwrap_or(&value["name"])
+            .as_str()
+            .unwrap()
+            .to_string()
+    };
+    assert_eq!(links.len(), robot.links.len());
+    for (link, joint) in links[1..].iter().zip(&robot.joints) {
+        assert_eq!(label(link), joint.child.link);
+        let read = &link["joint"];
+        assert_eq!(label(read), joint.name);
+        let origin = read.get("origin").cloned().unwrap_or_default();
+        let part = |key: &str| origin.get(key).map_or([0.0; 3], vector);
+        assert_eq!(part("xyz"), *joint.origin.xyz);
+        assert_eq!(part("rpy"), *joint.origin.rpy);
+        let inertial = &robot
+            .links
+            .iter()
+            .find(|l| l.name == joint.child.link)
+            .unwrap()
+            .inertial;
+        let number = |value: Option<&Value>| value.map_or(0.0, |v| v.as_f64().unwrap());
+        assert_eq!(number(link.get("mass")), inertial.mass.value);
+        assert_eq!(
+            link.get("com").map_or([0.0; 3], vector),
+            *inertial.origin.xyz
+        );
+        let inertia = link.get("inertia").cloned().unwrap_or_default();
+        let entry = |key: &str| number(inertia.get(key));
+        let urdf_rs::Inertia {
+            ixx,
+            ixy,
+            ixz,
+            iyy,
+            iyz,
+            izz,
+        } = inertial.inertia;
+        let entries = ["xx", "xy", "xz", "yy", "yz", "zz"].map(entry);
+        assert_eq!(entries, [ixx, ixy, ixz, iyy, iyz, izz]);
+    }
+}
+
+#[test]
+fn the_command_writes_the_file() {
+    let dir = std::env::temp_dir().join(format!("bgdyn-import-{}", std::process::id()));
+    std::fs::create_dir_all(&dir).unwrap();
+    let (file, output) = (dir.join("limits.urdf"), dir.join("limits.yaml"));
+    std::fs::write(&file, LIMITS).unwrap();
+    run(ImportArgs {
+        file: file.clone(),
+        output: Some(output.clone()),
+    })
+    .unwrap();
+    assert_eq!(
+        std::fs::read_to_string(&output).unwrap(),
+        import(LIMITS).unwrap().yaml
+    );
+
+    std::fs::write(&file, b"<robot>\n\xff</robot>").unwrap();
+    let error = run(ImportArgs {
+        file: file.clone(),
+        output: None,
+    })
+    .unwrap_err()
+    .to_string();
+    assert_eq!(
+        error,
+        format!(
+            "{}:2:1: this line is not UTF-8: convert the file first",
+            file.display()
+        )
+    );
+    std::fs::write(&file, "<sdf/>").unwrap();
+    let error = run(ImportArgs {
+        file: file.clone(),
+        output: None,
+    })
+    .unwrap_err()
+    .to_string();
+    assert!(
+        error.starts_with(&format!("{}:1:1: ", file.display())),
+        "{error}"
+    );
+    std::fs::remove_dir_all(&dir).unwrap();
+    assert!(run(ImportArgs { file, output: None }).is_err());
+}
+
+/// What comes out is a document with as many links as the robot has, their names identifiers and all different;
+/// an error starts with a line and a column.
+fn holds(urdf: &str) {
+    match import(urdf) {
+        Ok(import) => {
+            let yaml: Value = serde_yaml::from_str(&import.yaml)
+                .unwrap_or_else(|e| panic!("{e}\n{}", import.yaml));
+            let links = yaml["links"].as_sequence().unwrap();
+            let names = links.iter().map(|link| link["name"].as_str().unwrap());
+            let names: std::collections::HashSet<&str> = names.collect();
+            assert_eq!(names.len(), links.len());
+            for name in names.into_iter().chain([import.name.as_str()]) {
+                assert!(name.starts_with(|c: char| c.is_ascii_lowercase()), "{name}");
+                assert!(
+                    name.chars()
+                        .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'),
+                    "{name}"
+                );
+            }
+            let lines = import.notes.iter().chain(&import.warnings);
+            assert!(lines.into_iter().all(|line| !line.contains('\n')));
+        }
+        Err(error) => {
+            let error = error.to_string();
+            let mut parts = error.splitn(3, ':');
+            for _ in 0..2 {
+                assert!(
+                    parts
+                        .next()
+                        .is_some_and(|part| part.parse::<u64>().is_ok_and(|n| n > 0)),
+                    "{error}"
+                );
+            }
+        }
+    }
+}
+
+/// Pieces that a mutation puts into a file.
+const PIECES: &[&str] = &[
+    "<",
+    ">",
+    "/",
+    "\"",
+    "&",
+    "&#0;",
+    "&#10;",
+    "0",
+    "-1",
+    "1e999",
+    "nan",
+    "inf",
+    "1e-400",
+    "é",
+    "\0",
+    "<!--",
+    "]]>",
+    "<link name='x'/>",
+    "<origin/>",
+    "<axis xyz='1 2 3'/>",
+    "<limit/>",
+    "type='fixed'",
+    "version='1.2'",
+    "world",
+    "\n",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(512) })]
+
+    #[test]
+    fn arbitrary_text_never_panics(text in ".*") {
+        holds(&text);
+    }
+
+    #[test]
+    fn arbitrary_names_and_numbers_never_panic(names in prop::array::uniform4(".*"), number in any::<f64>(), digits in "[-+0-9.eE ]{0,40}") {
+        let [robot, a, b, joint] = names.map(|name| {
+            name.chars().map(|c| format!("&#{};", u32::from(c))).collect::<String>()
+        });
+        holds(&format!(
+            "<robot name='{robot}'><link name='{a}'/><link name='{b}'><inertial><mass value='{number:e}'/>\
+             <inertia ixx='{number}' ixy='{digits}' ixz='0' iyy='1' iyz='0' izz='2'/></inertial></link>\
+             <joint name='{joint}' type='revolute'><parent link='{a}'/><child link='{b}'/>\
+             <origin xyz='{digits} {digits} {number}'/><limit lower='{digits}' velocity='{digits}'/></joint></robot>"
+        ));
+    }
+
+    #[test]
+    fn mutated_files_never_panic(
+        which in 0..ALL.len(),
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0usize..12, prop::sample::select(PIECES)), 1..6),
+    ) {
+        let mut text: Vec<char> = ALL[which].chars().collect();
+        for (place, length, piece) in edits {
+            let from = place.index(text.len() + 1);
+            let to = (from + length).min(text.len());
+            text.splice(from..to, piece.chars());
+        }
+        holds(&text.into_iter().collect::<String>());
+    }
+}

@@ -1,0 +1,213 @@
+//! From the checked mechanism to its bond graph.
+
+use bgdyn_runtime::Dd;
+
+use super::pattern::{Coordinates, Modulus};
+use super::{
+    BondGraph, Coordinate, Effort, Inertia, Junction, JunctionId, LinkFrame, Source, Store,
+    Transformer,
+};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::{CoordinateId, Link, LinkId, Mechanism, Motion, Pose, Value};
+
+/// Builds the bond graph.
+pub fn build(mechanism: &Mechanism) -> BondGraph {
+    let mut graph = BondGraph {
+        coordinates: coordinates(mechanism),
+        frames: mechanism.links().iter().map(frame).collect(),
+        junctions: Vec::new(),
+        stores: Vec::new(),
+        sources: Vec::new(),
+        transformers: Vec::new(),
+        gravity: mechanism.gravity(),
+        parameters: mechanism.parameters().to_vec(),
+    };
+    graph.junctions = (0..mechanism.nv())
+        .map(|j| Junction::Velocity(CoordinateId(j)))
+        .collect();
+    for (i, link) in mechanism.links().iter().enumerate() {
+        add_link(&mut graph, LinkId(i), link);
+    }
+    let places = places(&graph.frames);
+    for i in 0..graph.frames.len() {
+        add_transformers(&mut graph, &places, LinkId(i));
+    }
+    graph
+}
+
+fn coordinates(mechanism: &Mechanism) -> Vec<Coordinate> {
+    let coordinate = |&link: &LinkId| {
+        let joint = &mechanism.links()[link.0].joint;
+        Coordinate {
+            name: joint.name.clone(),
+            link,
+            motion: joint.kind.motion,
+        }
+    };
+    mechanism.coordinates().iter().map(coordinate).collect()
+}
+
+fn frame(link: &Link) -> LinkFrame {
+    LinkFrame {
+        name: link.name.clone(),
+        parent: link.parent,
+        origin: link.joint.origin,
+        motion: link.joint.kind.motion,
+        axis: link.joint.axis,
+        coordinate: link.joint.coordinate,
+        com: link.inertial.com,
+    }
+}
+
+/// Two junctions, each with a store and a source.
+fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
+    let (translation, rotation) = (graph.translation(i), graph.rotation(i));
+    graph
+        .junctions
+        .extend([Junction::Translation(i), Junction::Rotation(i)]);
+    let mass = link.inertial.mass;
+    graph.stores.extend([
+        Store {
+            junction: translation,
+            inertia: Inertia::Mass(mass),
+        },
+        Store {
+            junction: rotation,
+            inertia: Inertia::Tensor(link.inertial.inertia),
+        },
+    ]);
+    let weight = Effort::Weight {
+        mass,
+        gravity: graph.gravity,
+    };
+    let still = graph.gravity.0.iter().all(|&g| g == Dd::ZERO);
+    graph.sources.extend([
+        Source {
+            junction: translation,
+            efforts: if still { vec![] } else { vec![weight] },
+        },
+        Source {
+            junction: rotation,
+            efforts: vec![],
+        },
+    ]);
+}
+
+/// Pattern of a link frame's axes and origin in fixed axes.
+#[derive(Clone, Copy)]
+struct Place {
+    rotation: Mat3<Modulus>,
+    origin: Vec3<Modulus>,
+    axis: Vec3<Modulus>,
+}
+
+fn places(frames: &[LinkFrame]) -> Vec<Place> {
+    let mut places: Vec<Place> = Vec::with_capacity(frames.len());
+    for frame in frames {
+        let parent = frame.parent.map(|p| places[p.0]);
+        places.push(place(frame, parent));
+    }
+    places
+}
+
+fn place(frame: &LinkFrame, parent: Option<Place>) -> Place {
+    let Pose {
+        rotation,
+        translation,
+    } = frame.origin;
+    let mut rotation = rotation.map(Modulus::constant);
+    let mut origin = translation.map(Modulus::constant);
+    if let Some(parent) = parent {
+        origin = parent.origin + parent.rotation * origin;
+        rotation = parent.rotation * rotation;
+    }
+    let axis = rotation * frame.axis.map(Modulus::constant);
+    if let Some(j) = frame.coordinate {
+        let varying = Modulus::Varying(Coordinates::one(j));
+        match frame.motion {
+            Motion::Rotation => rotation = rotation * turn(frame.axis, varying),
+            Motion::Translation => origin = origin + axis.scale(varying),
+            Motion::None => {}
+        }
+    }
+    Place {
+        rotation,
+        origin,
+        axis,
+    }
+}
+
+/// Pattern of the rotation about `axis`: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
+fn turn(axis: Vec3<Dd>, varying: Modulus) -> Mat3<Modulus> {
+    let n = axis.0;
+    Mat3::from_fn(|i, j| {
+        let along = n[i] * n[j];
+        let across = if i == j { Dd::ONE - along } else { -along };
+        let swirl = if i == j { Dd::ZERO } else { n[3 - i - j] };
+        let [along, across, swirl] = [along, across, swirl].map(Modulus::constant);
+        along + varying * (across + varying * swirl)
+    })
+}
+
+/// ρ_j^i and ∂r_i/∂q_j for every coordinate on the path from the base to link i.
+fn add_transformers(graph: &mut BondGraph, places: &[Place], i: LinkId) {
+    let com = graph.frames[i.0].com.map(|c| match c {
+        Value::Fixed(c) => Modulus::constant(c),
+        // A parameter keeps its place but has no value yet.
+        Value::Parameter(_) => Modulus::Varying(Coordinates::default()),
+    });
+    let mut path = Vec::new();
+    let mut link = Some(i);
+    while let Some(l) = link {
+        path.push(l);
+        link = graph.frames[l.0].parent;
+    }
+    for l in path.into_iter().rev() {
+        let Some(j) = graph.frames[l.0].coordinate else {
+            continue;
+        };
+        let axis = places[l.0].axis;
+        let linear = match graph.frames[l.0].motion {
+            Motion::None => continue,
+            Motion::Translation => axis,
+            Motion::Rotation => {
+                add(graph, j, graph.rotation(i), axis);
+                axis.cross(lever(&graph.frames, places, l, i, com))
+            }
+        };
+        add(graph, j, graph.translation(i), linear);
+    }
+}
+
+/// Pattern of r_i − o_l: from the origin of link l, on the path, to the centre of mass of link i.
+/// Summed link by link, so that what both have in common is left out.
+fn lever(
+    frames: &[LinkFrame],
+    places: &[Place],
+    l: LinkId,
+    i: LinkId,
+    com: Vec3<Modulus>,
+) -> Vec3<Modulus> {
+    let mut lever = places[i.0].rotation * com;
+    let mut link = i;
+    while link != l {
+        let Some(parent) = frames[link.0].parent else {
+            break;
+        };
+        let step = frames[link.0].origin.translation.map(Modulus::constant);
+        lever = lever + places[parent.0].rotation * step;
+        if let (Motion::Translation, Some(j)) = (frames[link.0].motion, frames[link.0].coordinate) {
+            let varying = Modulus::Varying(Coordinates::one(j));
+            lever = lever + places[link.0].axis.scale(varying);
+        }
+        link = parent;
+    }
+    lever
+}
+
+fn add(graph: &mut BondGraph, from: CoordinateId, to: JunctionId, modulus: Vec3<Modulus>) {
+    if modulus.0.iter().any(|m| !m.is_zero()) {
+        let from = graph.velocity(from);
+        graph.transformers.push(Transformer { from, to, modulus });
+    }
+}

@@ -1,0 +1,174 @@
+//! The bond graph of a mechanism, as plain data (Kuzmin 2007).
+//!
+//! One 1-junction per generalized velocity with a drive P_j on it; per link a translational and a
+//! rotational junction, each with an inertial store and an effort source; between them modulated
+//! transformers ∂r_i/∂q_j and ρ_j^i. A transformer that the structure makes zero does not exist; a
+//! component that is zero or constant says so: that is the graph's sparsity. Moduli are functions
+//! of the placement of the link frames, which stand beside the graph.
+
+mod build;
+mod pattern;
+
+use bgdyn_runtime::Dd;
+
+use crate::math::Vec3;
+use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Value};
+
+pub use build::build;
+pub use pattern::Modulus;
+
+/// A junction of [`BondGraph::junctions`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct JunctionId(pub usize);
+
+/// What flow a 1-junction carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Junction {
+    /// The generalized velocity q̇_j, with the drive P_j as an effort source on it.
+    Velocity(CoordinateId),
+    /// ṙ_i, the velocity of a link's centre of mass, fixed axes.
+    Translation(LinkId),
+    /// ω_i, the angular velocity of a link, fixed axes.
+    Rotation(LinkId),
+}
+
+/// What an inertial store stores.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Inertia {
+    /// Mass m_i, kg.
+    Mass(Value),
+    /// Tensor J_i⁰ about the centre of mass in link axes, kg·m²: xx, yy, zz, xy, xz, yz.
+    Tensor([Value; 6]),
+}
+
+/// An inertial store on a junction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Store {
+    /// Where it is.
+    pub junction: JunctionId,
+    /// What it stores.
+    pub inertia: Inertia,
+}
+
+/// An active effort that is not a drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Effort {
+    /// Weight: m_i g in fixed axes, N.
+    Weight {
+        /// m_i, kg.
+        mass: Value,
+        /// g, m/s².
+        gravity: Vec3<Dd>,
+    },
+}
+
+/// An effort source: R_i or M_i, the sum of its efforts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Where it is.
+    pub junction: JunctionId,
+    /// What acts; nothing in the sum is a source of zero effort.
+    pub efforts: Vec<Effort>,
+}
+
+/// A modulated transformer from a generalized velocity to a link's flow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transformer {
+    /// The junction of q̇_j.
+    pub from: JunctionId,
+    /// The junction of ṙ_i or ω_i.
+    pub to: JunctionId,
+    /// ∂r_i/∂q_j or ρ_j^i, fixed axes, component by component.
+    pub modulus: Vec3<Modulus>,
+}
+
+/// Placement of a link's frame: what the moduli are functions of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkFrame {
+    /// The link's name.
+    pub name: String,
+    /// The link that carries it.
+    pub parent: Option<LinkId>,
+    /// Link axes in the parent's at coordinate zero.
+    pub origin: Pose,
+    /// What the joint lets it do.
+    pub motion: Motion,
+    /// Unit vector of the joint's axis in link axes.
+    pub axis: Vec3<Dd>,
+    /// The coordinate that moves it.
+    pub coordinate: Option<CoordinateId>,
+    /// Centre of mass in link axes, m.
+    pub com: Vec3<Value>,
+}
+
+/// A generalized coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coordinate {
+    /// Its joint's name.
+    pub name: String,
+    /// The link that its joint carries.
+    pub link: LinkId,
+    /// Angle or displacement.
+    pub motion: Motion,
+}
+
+/// The bond graph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BondGraph {
+    /// Generalized coordinates, in the order of q.
+    pub coordinates: Vec<Coordinate>,
+    /// Frames of the links, parents before children.
+    pub frames: Vec<LinkFrame>,
+    /// 1-junctions: velocities first, then a translational and a rotational one per link.
+    pub junctions: Vec<Junction>,
+    /// Inertial stores, two per link.
+    pub stores: Vec<Store>,
+    /// Effort sources R_i and M_i, two per link.
+    pub sources: Vec<Source>,
+    /// Modulated transformers.
+    pub transformers: Vec<Transformer>,
+    /// Gravity, m/s², fixed axes.
+    pub gravity: Vec3<Dd>,
+    /// Run-time parameters that values refer to.
+    pub parameters: Vec<Parameter>,
+}
+
+impl BondGraph {
+    /// The junction of q̇_j.
+    pub fn velocity(&self, j: CoordinateId) -> JunctionId {
+        JunctionId(j.0)
+    }
+
+    /// The junction of ṙ_i.
+    pub fn translation(&self, i: LinkId) -> JunctionId {
+        JunctionId(self.coordinates.len() + 2 * i.0)
+    }
+
+    /// The junction of ω_i.
+    pub fn rotation(&self, i: LinkId) -> JunctionId {
+        JunctionId(self.coordinates.len() + 2 * i.0 + 1)
+    }
+
+    /// Mass, centre of mass and tensor of a link, read off its two stores.
+    pub fn inertial(&self, i: LinkId) -> Inertial {
+        let at = |junction| self.stores.iter().filter(move |s| s.junction == junction);
+        let zero = Value::Fixed(Dd::ZERO);
+        let mut inertial = Inertial {
+            mass: zero,
+            com: self.frames[i.0].com,
+            inertia: [zero; 6],
+        };
+        for store in at(self.translation(i)).chain(at(self.rotation(i))) {
+            match store.inertia {
+                Inertia::Mass(mass) => inertial.mass = mass,
+                Inertia::Tensor(tensor) => inertial.inertia = tensor,
+            }
+        }
+        inertial
+    }
+
+    /// The transformers that feed a junction.
+    pub fn into(&self, junction: JunctionId) -> impl Iterator<Item = &Transformer> {
+        self.transformers.iter().filter(move |t| t.to == junction)
+    }
+}

@@ -1,0 +1,486 @@
+//! The body of a function: one `let` per value that is used more than once, what is used once
+//! stands where it is used.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::names::Names;
+use super::{ident, number};
+use crate::expr::{Expr, Graph, Leaf, Node, NodeId, reachable};
+use crate::function::Function;
+use crate::method::Shape;
+use crate::model::Model;
+
+/// Operations in one statement at the most: what a reader takes in at a glance.
+const STATEMENT: usize = 6;
+
+/// How tightly a piece of code binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Atom,
+}
+
+/// A piece of code for a node, without the sign it is used with.
+#[derive(Clone)]
+struct Code {
+    tokens: TokenStream,
+    binding: Binding,
+    operations: usize,
+}
+
+/// The body of a method.
+pub(super) fn body(function: &Function, model: &Model) -> TokenStream {
+    let mut writer = Writer::new(function, model);
+    let arguments = writer.arguments(function);
+    let mut results: Vec<TokenStream> = Vec::new();
+    for (number, block) in function.blocks.iter().enumerate() {
+        writer.block(number, &block.outputs, number + 1 == function.blocks.len());
+        results = block
+            .outputs
+            .iter()
+            .map(|&e| writer.operand(e, Binding::Sum))
+            .collect();
+    }
+    let result = result(function.shape(), model.mechanism.nv(), &results);
+    let statements = &writer.statements;
+    let constants = writer
+        .constants
+        .then(|| quote! { let k = <T as __Scalar>::from_f64; });
+    let refused = (function.shape() == Shape::CheckedVector).then(|| {
+        let mutable = writer.pivots.then(|| quote! { mut });
+        quote! { let #mutable refused = T::none_refused(); }
+    });
+    quote! {
+        #arguments
+        #constants
+        #refused
+        #(#statements)*
+        #result
+    }
+}
+
+/// The arguments that a function does not read, as `q[joint]`.
+pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
+    let read = leaves(function);
+    let mut unread = Vec::new();
+    for argument in function.method.arguments() {
+        let is_read = |j: usize| read.iter().any(|l| leaf_of(*argument, j) == *l);
+        let joints = &model.bond_graph.coordinates;
+        let missing: Vec<_> = (0..joints.len()).filter(|&j| !is_read(j)).collect();
+        if missing.len() == joints.len() {
+            unread.push(format!("`{}`", argument.name()));
+        } else {
+            let name = |&j: &usize| format!("`{}[{j}]` ({})", argument.name(), joints[j].name);
+            unread.extend(missing.iter().map(name));
+        }
+    }
+    unread
+}
+
+fn leaf_of(argument: crate::method::Argument, j: usize) -> Leaf {
+    use crate::method::Argument;
+    match argument {
+        Argument::Q => Leaf::Position(j),
+        Argument::V => Leaf::Velocity(j),
+        Argument::A => Leaf::Acceleration(j),
+        Argument::Tau => Leaf::Input(j),
+    }
+}
+
+fn leaves(function: &Function) -> Vec<Leaf> {
+    let mut leaves = Vec::new();
+    for block in &function.blocks {
+        let needed = reachable(&function.graph, &block.outputs);
+        for i in (0..needed.len()).filter(|&i| needed[i]) {
+            if let Node::Leaf(leaf) = function.graph.node(NodeId(i as u32)) {
+                leaves.push(*leaf);
+            }
+        }
+    }
+    leaves
+}
+
+fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
+    let vector = quote! {
+        __na::SVector::<T, NV>::from_array_storage(__na::ArrayStorage([[#(#values),*]]))
+    };
+    match shape {
+        Shape::Scalar => quote! { #(#values)* },
+        Shape::Vector => vector,
+        Shape::CheckedVector => quote! { T::finish(#vector, refused, &JOINT_NAMES) },
+        Shape::Symmetric => {
+            let entry = |i: usize, j: usize| &values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+            let columns = (0..nv).map(|j| {
+                let column = (0..nv).map(|i| entry(i, j));
+                quote! { [#(#column),*] }
+            });
+            quote! {
+                __na::SMatrix::<T, NV, NV>::from_array_storage(__na::ArrayStorage([#(#columns),*]))
+            }
+        }
+    }
+}
+
+/// Writes the statements of a function.
+struct Writer<'a> {
+    graph: &'a Graph,
+    joints: Vec<&'a str>,
+    parameters: Vec<&'a str>,
+    names: Names,
+    /// Code to write where a node is used: a variable's name, or the whole operation.
+    code: Vec<Option<Code>>,
+    /// Sine and cosine of a node.
+    sines: Vec<Option<(Ident, Ident)>>,
+    /// How often a node is used in the block.
+    uses: Vec<usize>,
+    statements: Vec<TokenStream>,
+    passed: Vec<Vec<TokenStream>>,
+    constants: bool,
+    pivots: bool,
+}
+
+impl<'a> Writer<'a> {
+    fn new(function: &'a Function, model: &'a Model) -> Self {
+        let graph = &function.graph;
+        let mut names = Names::default();
+        for reserved in ["q", "v", "a", "tau", "k", "refused"] {
+            names.named(reserved);
+        }
+        Writer {
+            graph,
+            joints: model
+                .bond_graph
+                .coordinates
+                .iter()
+                .map(|c| c.name.as_str())
+                .collect(),
+            parameters: model
+                .mechanism
+                .parameters()
+                .iter()
+                .map(|p| p.name.as_str())
+                .collect(),
+            names,
+            code: vec![None; graph.len()],
+            sines: vec![None; graph.len()],
+            uses: vec![0; graph.len()],
+            statements: Vec::new(),
+            passed: Vec::new(),
+            constants: false,
+            pivots: false,
+        }
+    }
+
+    /// Binds the components of the arguments that are read.
+    fn arguments(&mut self, function: &Function) -> TokenStream {
+        let read = leaves(function);
+        let mut bindings = TokenStream::new();
+        for &argument in function.method.arguments() {
+            let name = ident(argument.name());
+            let mut parts = Vec::new();
+            for j in 0..self.joints.len() {
+                let leaf = leaf_of(argument, j);
+                if !read.contains(&leaf) {
+                    parts.push(quote! { _ });
+                    continue;
+                }
+                let variable = self
+                    .names
+                    .named(&format!("{}_{}", argument.name(), self.joints[j]));
+                parts.push(quote! { #variable });
+                for i in 0..self.graph.len() {
+                    if *self.graph.node(NodeId(i as u32)) == Node::Leaf(leaf) {
+                        self.code[i] = Some(atom(quote! { #variable }));
+                    }
+                }
+            }
+            bindings.extend(quote! { let [[#(#parts),*]] = #name.data.0; });
+        }
+        bindings
+    }
+
+    /// Writes a block; its results become variables where later blocks read them.
+    fn block(&mut self, number: usize, outputs: &[Expr], last: bool) {
+        let needed = reachable(self.graph, outputs);
+        self.uses = vec![0; self.graph.len()];
+        for e in outputs {
+            self.uses[e.node.0 as usize] += 1;
+        }
+        for i in (0..needed.len()).filter(|&i| needed[i]) {
+            let node = self.graph.node(NodeId(i as u32));
+            node.for_each_operand(|operand| self.uses[operand.0 as usize] += 1);
+        }
+        for i in (0..needed.len()).filter(|&i| needed[i]) {
+            if self.code[i].is_none() || matches!(self.graph.node(NodeId(i as u32)), Node::Leaf(_))
+            {
+                self.node(NodeId(i as u32));
+            }
+        }
+        if !last {
+            let mut passed = Vec::new();
+            for (k, &e) in outputs.iter().enumerate() {
+                let variable = self.names.named(&format!("block{number}_{k}"));
+                let value = self.operand(e, Binding::Sum);
+                self.statements.push(quote! { let #variable = #value; });
+                passed.push(quote! { #variable });
+            }
+            self.passed.push(passed);
+        }
+    }
+
+    fn node(&mut self, id: NodeId) {
+        let i = id.0 as usize;
+        let code = match self.graph.node(id) {
+            Node::Leaf(leaf) => match self.leaf(*leaf) {
+                Some(code) => code,
+                None => return,
+            },
+            Node::Constant(c) => {
+                self.constants = true;
+                let value = number(c.value().to_f64());
+                atom(quote! { k(#value) })
+            }
+            Node::Less(a, b) => {
+                let (a, b) = (
+                    self.operand(*a, Binding::Sum),
+                    self.operand(*b, Binding::Sum),
+                );
+                let mask = self.names.numbered();
+                self.statements
+                    .push(quote! { let #mask = T::less(#a, #b); });
+                atom(quote! { #mask })
+            }
+            // Written with the sine.
+            Node::Angle(..) => return,
+            Node::Sin(a) => {
+                let sine = self.sine_cosine(*a).0;
+                atom(quote! { #sine })
+            }
+            Node::Cos(a) => {
+                let cosine = self.sine_cosine(*a).1;
+                atom(quote! { #cosine })
+            }
+            node => self.operation(&node.clone()),
+        };
+        let is_operation = !matches!(
+            self.graph.node(id),
+            Node::Leaf(_) | Node::Constant(_) | Node::Less(..) | Node::Sin(_) | Node::Cos(_)
+        );
+        let inline = self.uses[i] <= 1
+            && code.binding != Binding::Atom
+            && code.operations < STATEMENT
+            && self.graph.name(id).is_none();
+        self.code[i] = Some(if is_operation && !inline {
+            self.bind(id, code)
+        } else {
+            code
+        });
+    }
+
+    /// A `let` for the node.
+    fn bind(&mut self, id: NodeId, code: Code) -> Code {
+        let variable = match self.graph.name(id) {
+            Some(name) => self.names.named(name),
+            None => self.names.numbered(),
+        };
+        let tokens = code.tokens;
+        self.statements.push(quote! { let #variable = #tokens; });
+        atom(quote! { #variable })
+    }
+
+    fn leaf(&self, leaf: Leaf) -> Option<Code> {
+        match leaf {
+            Leaf::Parameter(p) => {
+                let field = ident(self.parameters[p]);
+                Some(atom(quote! { self.#field }))
+            }
+            Leaf::Passed { block, index } => Some(atom(self.passed[block][index].clone())),
+            // Bound with the arguments.
+            _ => None,
+        }
+    }
+
+    fn operation(&mut self, node: &Node) -> Code {
+        let plus = Expr::plus;
+        match node {
+            Node::Add(a, b) => {
+                let left = self.operand(plus(*a), Binding::Sum);
+                let right = self.operand(plus(b.node), Binding::Product);
+                let operations = self.size(*a) + self.size(b.node) + 1;
+                let tokens = if b.negative {
+                    quote! { #left - #right }
+                } else {
+                    quote! { #left + #right }
+                };
+                Code {
+                    tokens,
+                    binding: Binding::Sum,
+                    operations,
+                }
+            }
+            Node::Mul(a, b) => {
+                let left = self.operand(plus(*a), Binding::Product);
+                let right = self.operand(plus(*b), Binding::Atom);
+                let operations = self.size(*a) + self.size(*b) + 1;
+                Code {
+                    tokens: quote! { #left * #right },
+                    binding: Binding::Product,
+                    operations,
+                }
+            }
+            Node::Div(a, b) => {
+                let left = self.operand(plus(*a), Binding::Product);
+                let right = self.operand(plus(*b), Binding::Atom);
+                let operations = self.size(*a) + self.size(*b) + 1;
+                Code {
+                    tokens: quote! { #left / #right },
+                    binding: Binding::Product,
+                    operations,
+                }
+            }
+            Node::MulAdd(a, b, negative, c) => {
+                let a = self.operand(plus(*a).flipped(*negative), Binding::Sum);
+                let (b, c) = (
+                    self.operand(plus(*b), Binding::Sum),
+                    self.operand(*c, Binding::Sum),
+                );
+                atom(quote! { T::mul_add(#a, #b, #c) })
+            }
+            Node::Sqrt(a) => self.call("sqrt", &[*a]),
+            Node::Exp(a) => self.call("exp", &[*a]),
+            Node::Ln(a) => self.call("ln", &[*a]),
+            Node::Tanh(a) => self.call("tanh", &[plus(*a)]),
+            Node::Abs(a) => self.call("abs", &[plus(*a)]),
+            Node::Sign(a) => self.call("sign", &[plus(*a)]),
+            Node::Min(a, b) => self.call("min", &[*a, *b]),
+            Node::Max(a, b) => self.call("max", &[*a, *b]),
+            Node::Select(condition, a, b) => {
+                let mask = self.operand(plus(*condition), Binding::Sum);
+                let (a, b) = (
+                    self.operand(*a, Binding::Sum),
+                    self.operand(*b, Binding::Sum),
+                );
+                atom(quote! { T::select(#mask, #a, #b) })
+            }
+            Node::Pivot(value, magnitude, joint) => {
+                self.pivots = true;
+                let value = self.operand(*value, Binding::Sum);
+                let magnitude = self.operand(*magnitude, Binding::Sum);
+                let joint = proc_macro2::Literal::usize_unsuffixed(*joint);
+                atom(quote! { T::checked_pivot(#value, #magnitude, #joint, &mut refused) })
+            }
+            Node::Constant(_) | Node::Leaf(_) | Node::Less(..) => unreachable_node(),
+            Node::Angle(..) | Node::Sin(_) | Node::Cos(_) => unreachable_node(),
+        }
+    }
+
+    fn call(&mut self, name: &str, operands: &[Expr]) -> Code {
+        let name = ident(name);
+        let operands: Vec<_> = operands
+            .iter()
+            .map(|&e| self.operand(e, Binding::Sum))
+            .collect();
+        atom(quote! { T::#name(#(#operands),*) })
+    }
+
+    /// How many operations stand where the node is used.
+    fn size(&self, id: NodeId) -> usize {
+        self.code[id.0 as usize]
+            .as_ref()
+            .map_or(0, |c| c.operations)
+    }
+
+    /// Code of a signed operand, in parentheses where its place binds tighter.
+    fn operand(&mut self, e: Expr, place: Binding) -> TokenStream {
+        let code = self.code[e.node.0 as usize]
+            .clone()
+            .unwrap_or_else(unreachable_node);
+        let tokens = code.tokens;
+        match (e.negative, code.binding) {
+            (true, Binding::Atom) if place == Binding::Sum => quote! { -#tokens },
+            (true, Binding::Atom) => quote! { (-#tokens) },
+            (true, _) if place == Binding::Sum => quote! { -(#tokens) },
+            (true, _) => quote! { (-(#tokens)) },
+            (false, binding) if binding < place => quote! { (#tokens) },
+            (false, _) => tokens,
+        }
+    }
+
+    /// Sine and cosine of an angle, computed once as a pair.
+    fn sine_cosine(&mut self, angle: NodeId) -> (Ident, Ident) {
+        if let Some(pair) = &self.sines[angle.0 as usize] {
+            return pair.clone();
+        }
+        let name = self.angle_name(angle);
+        let (sine, cosine) = (
+            self.names.named(&format!("sin_{name}")),
+            self.names.named(&format!("cos_{name}")),
+        );
+        let value = match self.graph.node(angle).clone() {
+            Node::Angle(terms, offset, negative) => {
+                let terms: Vec<_> = terms
+                    .iter()
+                    .map(|&t| self.operand(t, Binding::Sum))
+                    .collect();
+                let offset = if negative {
+                    -offset.value()
+                } else {
+                    offset.value()
+                };
+                let (hi, lo) = (number(offset.hi()), number(offset.lo()));
+                quote! { T::sin_cos_sum(&[#(#terms),*], (#hi, #lo)) }
+            }
+            _ => {
+                let operand = self.operand(Expr::plus(angle), Binding::Sum);
+                quote! { T::sin_cos(#operand) }
+            }
+        };
+        let used = |id: Option<NodeId>| id.is_some_and(|id| self.uses[id.0 as usize] > 0);
+        let left = if used(self.graph.find(&Node::Sin(angle))) {
+            quote! { #sine }
+        } else {
+            quote! { _ }
+        };
+        let right = if used(self.graph.find(&Node::Cos(angle))) {
+            quote! { #cosine }
+        } else {
+            quote! { _ }
+        };
+        self.statements
+            .push(quote! { let (#left, #right) = #value; });
+        self.sines[angle.0 as usize] = Some((sine.clone(), cosine.clone()));
+        (sine, cosine)
+    }
+
+    /// The joints whose angles are summed: `shoulder_elbow`.
+    fn angle_name(&self, angle: NodeId) -> String {
+        let joint = |id: NodeId| match self.graph.node(id) {
+            Node::Leaf(Leaf::Position(j)) => self.joints[*j].to_string(),
+            _ => "angle".to_string(),
+        };
+        match self.graph.node(angle) {
+            Node::Angle(terms, ..) => terms
+                .iter()
+                .map(|t| joint(t.node))
+                .collect::<Vec<_>>()
+                .join("_"),
+            _ => joint(angle),
+        }
+    }
+}
+
+fn atom(tokens: TokenStream) -> Code {
+    Code {
+        tokens,
+        binding: Binding::Atom,
+        operations: 0,
+    }
+}
+
+/// Operands stand before their users, so every operand has its code; and [`Writer::node`] keeps
+/// what is no operation to itself.
+fn unreachable_node<R>() -> R {
+    unreachable!("the graph is in topological order")
+}

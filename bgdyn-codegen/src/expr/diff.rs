@@ -1,0 +1,131 @@
+//! Differentiation: the tangent of every node, for given tangents of the leaves.
+//!
+//! With q̇ as the tangent of q it gives a time derivative, with a unit vector a partial one.
+
+use bgdyn_runtime::Dd;
+
+use super::{Expr, Graph, Leaf, Node, NodeId, QuickMap};
+
+/// A forward-mode pass over a graph under construction; remembers the tangents it made.
+pub struct Tangent<S> {
+    seed: S,
+    made: QuickMap<NodeId, Expr>,
+}
+
+impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
+    /// A pass in which `seed` gives the tangent of a leaf, `None` for one held constant.
+    pub fn new(seed: S) -> Self {
+        Tangent {
+            seed,
+            made: QuickMap::default(),
+        }
+    }
+
+    /// The tangent of `e`.
+    pub fn of(&mut self, g: &mut Graph, e: Expr) -> Expr {
+        // Operands first, by a stack of our own: graphs are deeper than the call stack likes.
+        let mut stack = vec![e.node];
+        while let Some(&id) = stack.last() {
+            let before = stack.len();
+            if !self.made.contains_key(&id) {
+                g.node(id).for_each_operand(|operand| {
+                    if !self.made.contains_key(&operand) {
+                        stack.push(operand);
+                    }
+                });
+                if stack.len() > before {
+                    continue;
+                }
+                let tangent = self.step(g, id);
+                self.made.insert(id, tangent);
+            }
+            stack.pop();
+        }
+        self.made[&e.node].flipped(e.negative)
+    }
+
+    fn d(&self, e: Expr) -> Expr {
+        self.made[&e.node].flipped(e.negative)
+    }
+
+    fn step(&mut self, g: &mut Graph, id: NodeId) -> Expr {
+        let this = Expr::plus(id);
+        let plus = Expr::plus;
+        let zero = g.constant(Dd::ZERO);
+        match g.node(id).clone() {
+            Node::Constant(_) | Node::Less(..) => zero,
+            Node::Leaf(leaf) => (self.seed)(g, leaf).unwrap_or(zero),
+            Node::Add(a, b) => {
+                let (da, db) = (self.d(plus(a)), self.d(b));
+                g.add(da, db)
+            }
+            Node::Mul(a, b) => self.product(g, plus(a), plus(b)),
+            Node::Div(a, b) => {
+                // (a/b)' = (a' − (a/b) b') / b
+                let (da, db) = (self.d(plus(a)), self.d(plus(b)));
+                let back = g.mul(this, db);
+                let numerator = g.add(da, back.flipped(true));
+                g.div(numerator, plus(b))
+            }
+            Node::MulAdd(a, b, negative, c) => {
+                let product = self.product(g, plus(a), plus(b)).flipped(negative);
+                let dc = self.d(c);
+                g.add(product, dc)
+            }
+            Node::Sqrt(a) => {
+                // (√a)' = a' / (2 √a)
+                let two = g.constant(Dd::from_f64(2.0));
+                let (da, denominator) = (self.d(a), g.mul(two, this));
+                g.div(da, denominator)
+            }
+            Node::Angle(terms, ..) => terms.iter().fold(zero, |sum, &t| {
+                let dt = self.d(t);
+                g.add(sum, dt)
+            }),
+            Node::Sin(a) => {
+                let (cos, da) = (g.cos(plus(a)), self.d(plus(a)));
+                g.mul(cos, da)
+            }
+            Node::Cos(a) => {
+                let (sin, da) = (g.sin(plus(a)), self.d(plus(a)));
+                g.mul(sin, da).flipped(true)
+            }
+            Node::Exp(a) => {
+                let da = self.d(a);
+                g.mul(this, da)
+            }
+            Node::Ln(a) => {
+                let da = self.d(a);
+                g.div(da, a)
+            }
+            Node::Tanh(a) => {
+                // tanh' = 1 − tanh²
+                let (one, square) = (g.constant(Dd::ONE), g.mul(this, this));
+                let slope = g.add(one, square.flipped(true));
+                let da = self.d(plus(a));
+                g.mul(slope, da)
+            }
+            Node::Abs(a) => {
+                let (sign, da) = (g.sign(plus(a)), self.d(plus(a)));
+                g.mul(sign, da)
+            }
+            Node::Sign(_) => zero,
+            Node::Min(a, b) => {
+                let condition = g.less(a, b);
+                g.select(condition, self.d(a), self.d(b))
+            }
+            Node::Max(a, b) => {
+                let condition = g.less(b, a);
+                g.select(condition, self.d(a), self.d(b))
+            }
+            Node::Select(condition, a, b) => g.select(condition, self.d(a), self.d(b)),
+            Node::Pivot(value, ..) => self.d(value),
+        }
+    }
+
+    fn product(&self, g: &mut Graph, a: Expr, b: Expr) -> Expr {
+        let (da, db) = (self.d(a), self.d(b));
+        let (left, right) = (g.mul(da, b), g.mul(a, db));
+        g.add(left, right)
+    }
+}

@@ -1,0 +1,290 @@
+//! Constructors that fold and normalise: every node of a graph is made here.
+
+use bgdyn_runtime::{Dd, Scalar};
+
+use super::{Constant, Expr, Graph, Leaf, Node, NodeId};
+
+/// Sums of constants smaller than this part of their terms are cancellations, hence zero.
+const CANCELLED: f64 = 1.0 / (1u128 << 98) as f64;
+
+impl Graph {
+    /// A number.
+    pub fn constant(&mut self, x: Dd) -> Expr {
+        let negative = x < Dd::ZERO;
+        let node = self.intern(Node::Constant(Constant::new(if negative { -x } else { x })));
+        Expr { node, negative }
+    }
+
+    /// An argument of the function.
+    pub fn leaf(&mut self, leaf: Leaf) -> Expr {
+        Expr::plus(self.intern(Node::Leaf(leaf)))
+    }
+
+    /// a + b
+    pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
+        match (self.constant_of(a), self.constant_of(b)) {
+            (Some(x), Some(y)) => return self.constant(cancelling_sum(x, y)),
+            (Some(x), None) if x == Dd::ZERO => return b,
+            (None, Some(y)) if y == Dd::ZERO => return a,
+            (Some(x), None) => return self.add_constant(b, x),
+            (None, Some(y)) => return self.add_constant(a, y),
+            (None, None) => {}
+        }
+        // k₁ x + k₂ x = (k₁ + k₂) x
+        let ((ka, xa), (kb, xb)) = (self.coefficient(a), self.coefficient(b));
+        if xa == xb {
+            let k = self.constant(cancelling_sum(ka, kb));
+            return self.mul(k, Expr::plus(xa));
+        }
+        self.intern_sum(a, b)
+    }
+
+    /// x + k for a constant k: (y + k₀) + k = y + (k₀ + k).
+    fn add_constant(&mut self, x: Expr, k: Dd) -> Expr {
+        if let Node::Add(p, q) = *self.node(x.node) {
+            let (p, q) = (Expr::plus(p).flipped(x.negative), q.flipped(x.negative));
+            for (constant, rest) in [(p, q), (q, p)] {
+                if let Some(k0) = self.constant_of(constant) {
+                    let sum = self.constant(cancelling_sum(k0, k));
+                    return self.add(rest, sum);
+                }
+            }
+        }
+        let k = self.constant(k);
+        self.intern_sum(x, k)
+    }
+
+    fn intern_sum(&mut self, a: Expr, b: Expr) -> Expr {
+        let (a, b) = if a.node <= b.node { (a, b) } else { (b, a) };
+        let node = self.intern(Node::Add(a.node, b.flipped(a.negative)));
+        Expr {
+            node,
+            negative: a.negative,
+        }
+    }
+
+    /// x = k·y with the constant factor k, 1 where there is none.
+    fn coefficient(&self, x: Expr) -> (Dd, NodeId) {
+        let sign = if x.negative { -Dd::ONE } else { Dd::ONE };
+        if let Node::Mul(k, y) = *self.node(x.node)
+            && let Some(k) = self.constant_of(Expr::plus(k))
+        {
+            return (k * sign, y);
+        }
+        (sign, x.node)
+    }
+
+    /// a · b
+    pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
+        let negative = a.negative ^ b.negative;
+        let (ka, kb) = (
+            self.constant_of(Expr::plus(a.node)),
+            self.constant_of(Expr::plus(b.node)),
+        );
+        let (k, x) = match (ka, kb) {
+            (Some(x), Some(y)) => return self.constant(x * y).flipped(negative),
+            (Some(k), None) => (k, b.node),
+            (None, Some(k)) => (k, a.node),
+            (None, None) => {
+                let node = self.intern(Node::Mul(a.node.min(b.node), a.node.max(b.node)));
+                return Expr { node, negative };
+            }
+        };
+        self.scale(k, x).flipped(negative)
+    }
+
+    /// k · x for a constant k ≥ 0; the constant is the first operand, and there is only one.
+    fn scale(&mut self, k: Dd, x: NodeId) -> Expr {
+        if k == Dd::ZERO {
+            return self.constant(Dd::ZERO);
+        }
+        let (k0, x) = self.coefficient(Expr::plus(x));
+        let k = k * k0;
+        if k == Dd::ONE {
+            return Expr::plus(x);
+        }
+        let k = self.constant(k);
+        let node = self.intern(Node::Mul(k.node, x));
+        Expr {
+            node,
+            negative: k.negative,
+        }
+    }
+
+    /// a / b; by a constant it becomes a product.
+    pub fn div(&mut self, a: Expr, b: Expr) -> Expr {
+        if let Some(k) = self.constant_of(b)
+            && k != Dd::ZERO
+        {
+            let inverse = self.constant(Dd::ONE / k);
+            return self.mul(a, inverse);
+        }
+        if self.constant_of(a) == Some(Dd::ZERO) {
+            return a;
+        }
+        let node = self.intern(Node::Div(a.node, b.node));
+        Expr {
+            node,
+            negative: a.negative ^ b.negative,
+        }
+    }
+
+    /// a · b + c as one node: for passes that fuse.
+    pub fn mul_add(&mut self, a: Expr, b: Expr, c: Expr) -> Expr {
+        let product_negative = a.negative ^ b.negative;
+        let (x, y) = (a.node.min(b.node), a.node.max(b.node));
+        Expr::plus(self.intern(Node::MulAdd(x, y, product_negative, c)))
+    }
+
+    /// The exact sum of angles and a constant, rad; for [`Graph::sin`] and [`Graph::cos`].
+    ///
+    /// Equal angles of opposite sign cancel; the order of the terms does not matter. The first
+    /// term is positive, the returned sign carries the rest.
+    pub fn angle(&mut self, terms: &[Expr], offset: Dd) -> Expr {
+        let mut sorted: Vec<Expr> = Vec::with_capacity(terms.len());
+        for &term in terms {
+            match sorted.iter().position(|&t| t == term.flipped(true)) {
+                Some(opposite) => {
+                    sorted.remove(opposite);
+                }
+                None => sorted.push(term),
+            }
+        }
+        sorted.sort();
+        if sorted.is_empty() {
+            return self.constant(offset);
+        }
+        let flip = sorted[0].negative;
+        sorted.iter_mut().for_each(|t| *t = t.flipped(flip));
+        let offset = if flip { -offset } else { offset };
+        if sorted.len() == 1 && offset == Dd::ZERO {
+            return sorted[0].flipped(flip);
+        }
+        let negative = offset < Dd::ZERO;
+        let size = Constant::new(if negative { -offset } else { offset });
+        let node = self.intern(Node::Angle(sorted.into(), size, negative));
+        Expr {
+            node,
+            negative: flip,
+        }
+    }
+
+    /// sin a
+    pub fn sin(&mut self, a: Expr) -> Expr {
+        match self.constant_of(a) {
+            Some(x) => self.constant(x.sin_cos().0),
+            None => Expr {
+                node: self.intern(Node::Sin(a.node)),
+                negative: a.negative,
+            },
+        }
+    }
+
+    /// cos a
+    pub fn cos(&mut self, a: Expr) -> Expr {
+        match self.constant_of(a) {
+            Some(x) => self.constant(x.sin_cos().1),
+            None => Expr::plus(self.intern(Node::Cos(a.node))),
+        }
+    }
+
+    /// √a
+    pub fn sqrt(&mut self, a: Expr) -> Expr {
+        self.unary(a, Scalar::sqrt, Node::Sqrt)
+    }
+
+    /// eᵃ
+    pub fn exp(&mut self, a: Expr) -> Expr {
+        self.unary(a, Scalar::exp, Node::Exp)
+    }
+
+    /// ln a
+    pub fn ln(&mut self, a: Expr) -> Expr {
+        self.unary(a, Scalar::ln, Node::Ln)
+    }
+
+    fn unary(&mut self, a: Expr, fold: fn(Dd) -> Dd, node: fn(Expr) -> Node) -> Expr {
+        match self.constant_of(a) {
+            Some(x) => self.constant(fold(x)),
+            None => Expr::plus(self.intern(node(a))),
+        }
+    }
+
+    /// tanh a
+    pub fn tanh(&mut self, a: Expr) -> Expr {
+        self.odd(a, Scalar::tanh, Node::Tanh)
+    }
+
+    /// −1, 0, 1
+    pub fn sign(&mut self, a: Expr) -> Expr {
+        self.odd(a, Scalar::sign, Node::Sign)
+    }
+
+    fn odd(&mut self, a: Expr, fold: fn(Dd) -> Dd, node: fn(NodeId) -> Node) -> Expr {
+        match self.constant_of(a) {
+            Some(x) => self.constant(fold(x)),
+            None => Expr {
+                node: self.intern(node(a.node)),
+                negative: a.negative,
+            },
+        }
+    }
+
+    /// |a|
+    pub fn abs(&mut self, a: Expr) -> Expr {
+        match self.constant_of(a) {
+            Some(x) => self.constant(Scalar::abs(x)),
+            None => Expr::plus(self.intern(Node::Abs(a.node))),
+        }
+    }
+
+    /// The smaller of a and b.
+    pub fn min(&mut self, a: Expr, b: Expr) -> Expr {
+        match (self.constant_of(a), self.constant_of(b)) {
+            (Some(x), Some(y)) => self.constant(Scalar::min(x, y)),
+            _ if a == b => a,
+            _ => Expr::plus(self.intern(Node::Min(a.min(b), a.max(b)))),
+        }
+    }
+
+    /// The larger of a and b.
+    pub fn max(&mut self, a: Expr, b: Expr) -> Expr {
+        match (self.constant_of(a), self.constant_of(b)) {
+            (Some(x), Some(y)) => self.constant(Scalar::max(x, y)),
+            _ if a == b => a,
+            _ => Expr::plus(self.intern(Node::Max(a.min(b), a.max(b)))),
+        }
+    }
+
+    /// The condition a < b, for [`Graph::select`].
+    pub fn less(&mut self, a: Expr, b: Expr) -> NodeId {
+        self.intern(Node::Less(a, b))
+    }
+
+    /// `a` where the condition holds, else `b`.
+    pub fn select(&mut self, condition: NodeId, a: Expr, b: Expr) -> Expr {
+        if a == b {
+            return a;
+        }
+        Expr::plus(self.intern(Node::Select(condition, a, b)))
+    }
+
+    /// A pivot with its check; see [`Node::Pivot`].
+    pub fn pivot(&mut self, value: Expr, magnitude: Expr, joint: usize) -> Expr {
+        match (self.constant_of(value), self.constant_of(magnitude)) {
+            (Some(x), Some(m)) if x > Dd::ZERO && m == Dd::ZERO => value,
+            _ => Expr::plus(self.intern(Node::Pivot(value, magnitude, joint))),
+        }
+    }
+}
+
+/// x + y, and 0 where nothing but rounding errors of double-double is left of it.
+fn cancelling_sum(x: Dd, y: Dd) -> Dd {
+    let sum = x + y;
+    let terms = x.hi().abs().max(y.hi().abs());
+    if sum.hi().abs() <= CANCELLED * terms {
+        Dd::ZERO
+    } else {
+        sum
+    }
+}

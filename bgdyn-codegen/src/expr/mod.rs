@@ -1,0 +1,275 @@
+//! The expression graph: every value of a function once, shared and folded.
+//!
+//! A node is made once ([`Graph`] is hash-consed); what refers to it is an [`Expr`], a node with a
+//! sign, so that negation is free and x − y, y − x are one node. Constants are double-double and
+//! folded exactly enough to prove one regrouping equal to another. Counting, evaluation,
+//! differentiation and emission are passes over the graph and live in their own files.
+
+mod build;
+mod count;
+mod diff;
+mod eval;
+mod fold;
+
+use std::collections::HashMap;
+use std::hash::BuildHasherDefault;
+
+use bgdyn_runtime::Dd;
+
+pub use build::{Builder, Ex};
+pub use count::{Operations, count, reachable};
+pub use diff::Tangent;
+pub use eval::{Inputs, evaluate};
+
+/// A node of a [`Graph`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId(pub(crate) u32);
+
+/// A node with a sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Expr {
+    /// The node.
+    pub node: NodeId,
+    /// Whether its value is taken with the opposite sign.
+    pub negative: bool,
+}
+
+impl Expr {
+    pub(crate) fn plus(node: NodeId) -> Self {
+        Expr {
+            node,
+            negative: false,
+        }
+    }
+
+    /// The same value with its sign flipped where `flip` holds.
+    pub(crate) fn flipped(self, flip: bool) -> Self {
+        Expr {
+            negative: self.negative ^ flip,
+            ..self
+        }
+    }
+}
+
+/// A constant as a key: the bits of its two words. Constants of nodes are never negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Constant {
+    hi: u64,
+    lo: u64,
+}
+
+impl Constant {
+    pub(crate) fn new(x: Dd) -> Self {
+        // One zero only: −0 and +0 are the same constant.
+        let lo = if x.lo() == 0.0 { 0.0 } else { x.lo() };
+        let hi = if x.hi() == 0.0 { 0.0 } else { x.hi() };
+        Constant {
+            hi: f64::to_bits(hi),
+            lo: f64::to_bits(lo),
+        }
+    }
+
+    /// Its value.
+    pub fn value(self) -> Dd {
+        Dd::new(f64::from_bits(self.hi), f64::from_bits(self.lo))
+    }
+}
+
+/// What a function is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Leaf {
+    /// Component of q.
+    Position(usize),
+    /// Component of v.
+    Velocity(usize),
+    /// Component of a.
+    Acceleration(usize),
+    /// First-order state (bristle, fluid volume): component of x.
+    State(usize),
+    /// Input: joint effort, voltage, valve opening, wrench.
+    Input(usize),
+    /// Discrete mode (stuck, slipping).
+    Mode(usize),
+    /// Run-time parameter.
+    Parameter(usize),
+    /// Result `index` of an earlier block of the same function.
+    Passed {
+        /// The block.
+        block: usize,
+        /// Its output.
+        index: usize,
+    },
+}
+
+/// An operation. Operands stand before the node that uses them.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number, never negative.
+    Constant(Constant),
+    /// An argument.
+    Leaf(Leaf),
+    /// a ± b.
+    Add(NodeId, Expr),
+    /// a · b.
+    Mul(NodeId, NodeId),
+    /// a / b.
+    Div(NodeId, NodeId),
+    /// a · b + c in one rounding where the machine has it; `true`: the product's sign is flipped.
+    MulAdd(NodeId, NodeId, bool, Expr),
+    /// √a.
+    Sqrt(Expr),
+    /// Σ ±angle + offset, carried exactly into the sine; read by [`Node::Sin`], [`Node::Cos`] only.
+    Angle(Box<[Expr]>, Constant, bool),
+    /// Sine of an [`Node::Angle`] or of any value.
+    Sin(NodeId),
+    /// Cosine.
+    Cos(NodeId),
+    /// eᵃ.
+    Exp(Expr),
+    /// ln a.
+    Ln(Expr),
+    /// tanh a.
+    Tanh(NodeId),
+    /// |a|.
+    Abs(NodeId),
+    /// The smaller one.
+    Min(Expr, Expr),
+    /// The larger one.
+    Max(Expr, Expr),
+    /// −1, 0, 1.
+    Sign(NodeId),
+    /// a < b: a truth value, read by [`Node::Select`] only.
+    Less(Expr, Expr),
+    /// The first value where the condition holds, else the second.
+    Select(NodeId, Expr, Expr),
+    /// A pivot of a factorisation of the mass matrix: the value, the size of what was subtracted
+    /// in it, the joint to name where it is refused.
+    Pivot(Expr, Expr, usize),
+}
+
+impl Node {
+    /// Calls `f` with each operand.
+    pub fn for_each_operand(&self, mut f: impl FnMut(NodeId)) {
+        match self {
+            Node::Constant(_) | Node::Leaf(_) => {}
+            Node::Add(a, b) => {
+                f(*a);
+                f(b.node);
+            }
+            Node::Mul(a, b) | Node::Div(a, b) => {
+                f(*a);
+                f(*b);
+            }
+            Node::MulAdd(a, b, _, c) => {
+                f(*a);
+                f(*b);
+                f(c.node);
+            }
+            Node::Angle(terms, ..) => terms.iter().for_each(|t| f(t.node)),
+            Node::Sqrt(a) | Node::Exp(a) | Node::Ln(a) => f(a.node),
+            Node::Sin(a) | Node::Cos(a) | Node::Tanh(a) | Node::Abs(a) | Node::Sign(a) => f(*a),
+            Node::Min(a, b) | Node::Max(a, b) | Node::Less(a, b) | Node::Pivot(a, b, _) => {
+                f(a.node);
+                f(b.node);
+            }
+            Node::Select(condition, a, b) => {
+                f(*condition);
+                f(a.node);
+                f(b.node);
+            }
+        }
+    }
+}
+
+/// A quick hash for small keys: multiply and rotate. The order it gives is never seen.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct QuickHasher(u64);
+
+impl std::hash::Hasher for QuickHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        for &b in bytes {
+            self.write_u64(u64::from(b));
+        }
+    }
+    fn write_u8(&mut self, x: u8) {
+        self.write_u64(u64::from(x));
+    }
+    fn write_u32(&mut self, x: u32) {
+        self.write_u64(u64::from(x));
+    }
+    fn write_u64(&mut self, x: u64) {
+        self.0 = (self.0.rotate_left(26) ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+    fn write_usize(&mut self, x: usize) {
+        self.write_u64(x as u64);
+    }
+    fn write_isize(&mut self, x: isize) {
+        self.write_u64(x as u64);
+    }
+    fn finish(&self) -> u64 {
+        self.0 ^ (self.0 >> 32)
+    }
+}
+
+pub(crate) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<QuickHasher>>;
+
+/// The nodes, operands before users.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    ids: QuickMap<Node, NodeId>,
+    names: std::collections::BTreeMap<NodeId, String>,
+}
+
+impl Graph {
+    /// The node with this id.
+    pub fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The name that a formulation gave to a node, for readers of the output.
+    pub fn name(&self, id: NodeId) -> Option<&str> {
+        self.names.get(&id).map(String::as_str)
+    }
+
+    /// Names a node; the first name stays.
+    pub(crate) fn set_name(&mut self, id: NodeId, name: impl FnOnce() -> String) {
+        if !matches!(self.node(id), Node::Constant(_) | Node::Leaf(_)) {
+            self.names.entry(id).or_insert_with(name);
+        }
+    }
+
+    /// The one node equal to `node`.
+    pub(crate) fn intern(&mut self, node: Node) -> NodeId {
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
+        }
+        let id = NodeId(u32::try_from(self.nodes.len()).expect("fewer than 2^32 nodes"));
+        self.ids.insert(node.clone(), id);
+        self.nodes.push(node);
+        id
+    }
+
+    /// The node equal to `node`, if there is one.
+    pub fn find(&self, node: &Node) -> Option<NodeId> {
+        self.ids.get(node).copied()
+    }
+
+    /// The value of a constant expression.
+    pub fn constant_of(&self, e: Expr) -> Option<Dd> {
+        match self.node(e.node) {
+            Node::Constant(c) => Some(if e.negative { -c.value() } else { c.value() }),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! Equation (6) as it stands: every term of the double sum, fixed axes.
+//!
+//! P_j = Σ_i [ ∂r_i/∂q_j · (m_i r̈_i − R_i) + ρ_j^i · (K̇_i − M_i) ]
+//!
+//! The specification that every other formulation is proved against. It follows the transformers
+//! of the bond graph one by one and leaves out only what their structure says is zero.
+
+use bgdyn_runtime::Dd;
+
+use super::{Arguments, Formulation, solve, value};
+use crate::bond_graph::{BondGraph, Effort, JunctionId, Modulus};
+use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
+use crate::function::Function;
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::{CoordinateId, LinkId, Motion};
+use crate::method::Method;
+
+pub(super) const NAME: &str = "literal";
+
+/// The literal double sum.
+pub(super) struct Literal;
+
+impl Formulation for Literal {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn summary(&self) -> &'static str {
+        "equation (6) term by term, in fixed axes"
+    }
+
+    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
+        let b = Builder::new();
+        let outputs = {
+            let arguments = Arguments::new(&b, graph, method);
+            let sum = Sum::new(&b, graph, &arguments.q);
+            let outputs = match method {
+                Method::InverseDynamics | Method::Bias | Method::Gravity => sum.efforts(&arguments),
+                Method::MassMatrix => sum.mass_matrix().into_iter().flatten().collect(),
+                Method::ForwardDynamics => {
+                    let bias = sum.efforts(&arguments);
+                    let mass = sum.mass_matrix();
+                    let drive = arguments
+                        .tau
+                        .iter()
+                        .zip(bias)
+                        .map(|(&tau, h)| tau - h)
+                        .collect();
+                    solve::ltdl(&b, mass, drive)
+                }
+                Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
+                Method::PotentialEnergy => vec![sum.potential_energy()],
+            };
+            outputs.into_iter().map(|e: Ex<'_>| e.expr).collect()
+        };
+        Some(Function::flat(method, NAME.into(), b.into_graph(), outputs))
+    }
+}
+
+/// Transformer moduli of one link: ∂r_i/∂q_j and ρ_j^i for the coordinates that move it.
+struct Moduli<'g> {
+    /// (j, ∂r_i/∂q_j)
+    linear: Vec<(usize, Vec3<Ex<'g>>)>,
+    /// (j, ρ_j^i)
+    angular: Vec<(usize, Vec3<Ex<'g>>)>,
+}
+
+/// What the double sum is made of, per link.
+struct Sum<'a, 'g> {
+    b: &'g Builder,
+    graph: &'a BondGraph,
+    /// A_i: link axes in fixed axes.
+    rotations: Vec<Mat3<Ex<'g>>>,
+    /// r_i: centres of mass.
+    positions: Vec<Vec3<Ex<'g>>>,
+    moduli: Vec<Moduli<'g>>,
+}
+
+impl<'a, 'g> Sum<'a, 'g> {
+    fn new(b: &'g Builder, graph: &'a BondGraph, q: &[Ex<'g>]) -> Self {
+        let mut sum = Sum {
+            b,
+            graph,
+            rotations: vec![],
+            positions: vec![],
+            moduli: vec![],
+        };
+        let mut origins: Vec<Vec3<Ex<'g>>> = Vec::new();
+        let mut axes: Vec<Vec3<Ex<'g>>> = Vec::new();
+        for frame in &graph.frames {
+            let mut rotation = frame.origin.rotation.map(|x| b.constant(x));
+            let mut origin = b.vector(frame.origin.translation);
+            if let Some(LinkId(p)) = frame.parent {
+                origin = origins[p] + sum.rotations[p] * origin;
+                rotation = sum.rotations[p] * rotation;
+            }
+            let axis = rotation * b.vector(frame.axis);
+            match (frame.motion, frame.coordinate) {
+                (Motion::Rotation, Some(j)) => {
+                    rotation = rotation * turn(b, frame.axis, q[j.0]);
+                }
+                (Motion::Translation, Some(j)) => origin = origin + axis.scale(q[j.0]),
+                _ => {}
+            }
+            let com = frame.com.map(|c| value(b, c));
+            sum.positions.push(origin + rotation * com);
+            sum.rotations.push(rotation);
+            origins.push(origin);
+            axes.push(axis);
+        }
+        for i in 0..graph.frames.len() {
+            let moduli = sum.moduli_of(LinkId(i), &origins, &axes);
+            sum.moduli.push(moduli);
+        }
+        sum
+    }
+
+    /// The moduli of link i, with the structural zeros and constants of the graph.
+    fn moduli_of(&self, i: LinkId, origins: &[Vec3<Ex<'g>>], axes: &[Vec3<Ex<'g>>]) -> Moduli<'g> {
+        let read = |to: JunctionId, linear: bool| {
+            let of = |t: &crate::bond_graph::Transformer| {
+                let coordinate = &self.graph.coordinates[t.from.0];
+                let l = coordinate.link.0;
+                let whole = match (linear, coordinate.motion) {
+                    (true, Motion::Rotation) => axes[l].cross(self.positions[i.0] - origins[l]),
+                    _ => axes[l],
+                };
+                (
+                    t.from.0,
+                    Vec3(std::array::from_fn(|c| {
+                        self.entry(t.modulus.0[c], whole.0[c])
+                    })),
+                )
+            };
+            self.graph.into(to).map(of).collect()
+        };
+        Moduli {
+            linear: read(self.graph.translation(i), true),
+            angular: read(self.graph.rotation(i), false),
+        }
+    }
+
+    fn entry(&self, modulus: Modulus, varying: Ex<'g>) -> Ex<'g> {
+        match modulus {
+            Modulus::Zero => self.b.zero(),
+            Modulus::Constant(x) => self.b.constant(x),
+            Modulus::Varying(_) => varying,
+        }
+    }
+
+    fn zero(&self) -> Vec3<Ex<'g>> {
+        Vec3([self.b.zero(); 3])
+    }
+
+    /// Σ_k modulus_k · x_k
+    fn combine(&self, moduli: &[(usize, Vec3<Ex<'g>>)], x: &[Ex<'g>]) -> Vec3<Ex<'g>> {
+        moduli
+            .iter()
+            .fold(self.zero(), |sum, (k, m)| sum + m.scale(x[*k]))
+    }
+
+    /// J_i = A_i J_i⁰ A_iᵀ in fixed axes.
+    fn tensor(&self, i: usize) -> Mat3<Ex<'g>> {
+        let [xx, yy, zz, xy, xz, yz] = self
+            .graph
+            .inertial(LinkId(i))
+            .inertia
+            .map(|x| value(self.b, x));
+        let tensor = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        self.rotations[i] * tensor * self.rotations[i].transpose()
+    }
+
+    fn mass(&self, i: usize) -> Ex<'g> {
+        value(self.b, self.graph.inertial(LinkId(i)).mass)
+    }
+
+    /// R_i: the sum of the active efforts on ṙ_i.
+    fn active_force(&self, i: usize) -> Vec3<Ex<'g>> {
+        let junction = self.graph.translation(LinkId(i));
+        let sources = self.graph.sources.iter().filter(|s| s.junction == junction);
+        sources
+            .flat_map(|s| &s.efforts)
+            .fold(self.zero(), |sum, effort| match effort {
+                Effort::Weight { mass, gravity } => {
+                    sum + self.b.vector(*gravity).scale(value(self.b, *mass))
+                }
+            })
+    }
+
+    /// P_j for the given velocities and accelerations.
+    fn efforts(&self, x: &Arguments<'g>) -> Vec<Ex<'g>> {
+        let seed = |_: &mut Graph, leaf| match leaf {
+            Leaf::Position(l) => Some(x.v[l].expr),
+            _ => None,
+        };
+        let mut rate = Tangent::new(seed);
+        let mut rate_of =
+            |m: &Vec3<Ex<'g>>| m.map(|e| self.b.ex(self.b.with_graph(|g| rate.of(g, e.expr))));
+        let mut efforts = vec![self.b.zero(); self.graph.coordinates.len()];
+        for i in 0..self.graph.frames.len() {
+            let moduli = &self.moduli[i];
+            // r̈_i = Σ ∂r_i/∂q_k q̈_k + Σ d/dt(∂r_i/∂q_k) q̇_k, and ω̇_i likewise with ρ_k.
+            let mut second = |moduli: &[(usize, Vec3<Ex<'g>>)]| {
+                let rates: Vec<_> = moduli.iter().map(|(k, m)| (*k, rate_of(m))).collect();
+                self.combine(moduli, &x.a) + self.combine(&rates, &x.v)
+            };
+            let mut force = second(&moduli.linear).scale(self.mass(i));
+            if x.active {
+                force = force - self.active_force(i);
+            }
+            // K̇_i = J_i ω̇_i + ω_i × (J_i ω_i)
+            let (omega, tensor) = (self.combine(&moduli.angular, &x.v), self.tensor(i));
+            let moment = tensor * second(&moduli.angular) + omega.cross(tensor * omega);
+            for (j, m) in &moduli.linear {
+                efforts[*j] = efforts[*j] + m.dot(force);
+            }
+            for (j, rho) in &moduli.angular {
+                efforts[*j] = efforts[*j] + rho.dot(moment);
+            }
+        }
+        efforts
+    }
+
+    /// Lower triangle of M_jk = Σ_i [ ∂r_i/∂q_j · m_i ∂r_i/∂q_k + ρ_j · J_i ρ_k ].
+    fn mass_matrix(&self) -> Vec<Vec<Ex<'g>>> {
+        let n = self.graph.coordinates.len();
+        let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![self.b.zero(); j + 1]).collect();
+        for i in 0..self.graph.frames.len() {
+            let (m, tensor) = (self.mass(i), self.tensor(i));
+            for (j, x) in &self.moduli[i].linear {
+                for (k, y) in self.moduli[i].linear.iter().filter(|(k, _)| k <= j) {
+                    mass[*j][*k] = mass[*j][*k] + m * x.dot(*y);
+                }
+            }
+            for (j, x) in &self.moduli[i].angular {
+                for (k, y) in self.moduli[i].angular.iter().filter(|(k, _)| k <= j) {
+                    mass[*j][*k] = mass[*j][*k] + x.dot(tensor * *y);
+                }
+            }
+        }
+        mass
+    }
+
+    /// T = ½ Σ_i [ m_i ṙ_i · ṙ_i + ω_i · J_i ω_i ]
+    fn kinetic_energy(&self, v: &[Ex<'g>]) -> Ex<'g> {
+        let twice = (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
+            let velocity = self.combine(&self.moduli[i].linear, v);
+            let omega = self.combine(&self.moduli[i].angular, v);
+            sum + self.mass(i) * velocity.dot(velocity) + omega.dot(self.tensor(i) * omega)
+        });
+        twice * Dd::from_f64(0.5)
+    }
+
+    /// V = −Σ_i R_i · r_i for the weights R_i.
+    fn potential_energy(&self) -> Ex<'g> {
+        (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
+            sum - self.active_force(i).dot(self.positions[i])
+        })
+    }
+}
+
+/// Rotation by q about the unit vector n: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
+fn turn<'g>(b: &'g Builder, axis: Vec3<Dd>, q: Ex<'g>) -> Mat3<Ex<'g>> {
+    let (cos, sin) = b.cos_sin(&[q], Dd::ZERO);
+    let n = axis.0;
+    Mat3::from_fn(|i, j| {
+        let along = n[i] * n[j];
+        let across = if i == j { Dd::ONE - along } else { -along };
+        let swirl = match (3 + j - i) % 3 {
+            0 => Dd::ZERO,
+            1 => -n[3 - i - j],
+            _ => n[3 - i - j],
+        };
+        b.constant(along) + cos * across + sin * swirl
+    })
+}
+
+// A coordinate's place among the junctions is its number: `Transformer::from` relies on it.
+const _: fn(&BondGraph, CoordinateId) -> JunctionId = BondGraph::velocity;

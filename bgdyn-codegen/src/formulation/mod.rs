@@ -1,0 +1,92 @@
+//! Formulations: equation (6) regrouped, each a way to compute the methods from the bond graph.
+//!
+//! One file or folder each, one line each in [`FORMULATIONS`]. The literal sum is the
+//! specification; the others must equal it, and the cheapest is found by counting, for each
+//! mechanism and each method.
+
+mod literal;
+mod recursion;
+mod solve;
+
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Ex, Leaf};
+use crate::function::Function;
+use crate::mechanism::{ParameterId, Value};
+use crate::method::Method;
+
+/// A way to compute methods from the bond graph.
+pub trait Formulation: Sync {
+    /// The name by which it is chosen.
+    fn name(&self) -> &'static str;
+
+    /// One line: how it groups equation (6).
+    fn summary(&self) -> &'static str;
+
+    /// The method's function; `None` where this formulation does not know the method.
+    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function>;
+}
+
+/// Every formulation there is.
+pub static FORMULATIONS: [&dyn Formulation; 2] = [&literal::Literal, &recursion::Recursion];
+
+/// The formulation with this name.
+pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
+    FORMULATIONS.into_iter().find(|f| f.name() == name)
+}
+
+/// The method's function by the formulation asked for, else by the cheapest.
+///
+/// The literal sum stands aside as long as another formulation knows the method: its graph grows
+/// with the cube of the number of links.
+pub fn choose(
+    graph: &BondGraph,
+    method: Method,
+    asked: Option<&dyn Formulation>,
+) -> Option<Function> {
+    if let Some(formulation) = asked {
+        return formulation.function(graph, method);
+    }
+    let regrouped = FORMULATIONS.iter().filter(|f| f.name() != literal::NAME);
+    regrouped
+        .filter_map(|f| f.function(graph, method))
+        .min_by_key(|f| f.operations().total())
+        .or_else(|| literal::Literal.function(graph, method))
+}
+
+/// The arguments of a method as expressions; what it does not take is zero.
+struct Arguments<'g> {
+    q: Vec<Ex<'g>>,
+    v: Vec<Ex<'g>>,
+    a: Vec<Ex<'g>>,
+    /// Joint efforts.
+    tau: Vec<Ex<'g>>,
+    /// Whether the active efforts act.
+    active: bool,
+}
+
+impl<'g> Arguments<'g> {
+    fn new(b: &'g Builder, graph: &BondGraph, method: Method) -> Self {
+        let n = graph.coordinates.len();
+        let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
+            (0..n)
+                .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
+                .collect()
+        };
+        let moving = !matches!(method, Method::Gravity | Method::MassMatrix);
+        Arguments {
+            q: read(true, Leaf::Position),
+            v: read(moving, Leaf::Velocity),
+            a: read(method == Method::InverseDynamics, Leaf::Acceleration),
+            tau: read(method == Method::ForwardDynamics, Leaf::Input),
+            active: true,
+        }
+    }
+}
+
+/// A number of the spec as an expression.
+fn value<'g>(b: &'g Builder, value: Value) -> Ex<'g> {
+    match value {
+        Value::Fixed(x) => b.constant(x),
+        Value::Parameter(ParameterId(p)) => b.leaf(Leaf::Parameter(p)),
+    }
+}

@@ -1,0 +1,286 @@
+//! Body frames for the recursion: z along the joint's axis, x along the common normal with the
+//! next joint's axis, origins free to slide along z.
+//!
+//! Links welded together are one body; body j is what coordinate j moves. Between a body and its
+//! parent stand the *twisted axes* T: the parent's axes turned by a constant rotation whose third
+//! column is the joint's axis. From T the body's own axes follow by Rz(φ), φ = ±q + a constant.
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::BondGraph;
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::{LinkId, Motion, Pose};
+
+/// Below this, a component of a rotation is what rounding in double-double left of a zero.
+const NOISE: f64 = 1e-26;
+
+/// A rigid body: the links that one coordinate moves, and their frame.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    /// Name of the link that the joint carries.
+    pub name: String,
+    /// The body that carries it; `None` for the fixed base.
+    pub parent: Option<usize>,
+    /// Rotation or translation.
+    pub motion: Motion,
+    /// Whether z is opposite to the joint's axis, so that parallel joints share one direction.
+    pub opposite: bool,
+    /// Columns: twisted axes in the parent's body axes (in world axes for the base).
+    pub twist: Mat3<Dd>,
+    /// The body's origin in twisted axes at coordinate zero, from the parent's origin.
+    pub offset: Vec3<Dd>,
+    /// Cosine and sine of the constant part of φ.
+    pub phase: (Dd, Dd),
+    /// Columns: body axes in the axes of the link that the joint carries.
+    pub axes: Mat3<Dd>,
+    /// Whether no other joint wants the direction of x.
+    pub free_x: bool,
+    /// Links of the body with their place in the carrying link's axes.
+    pub links: Vec<(LinkId, Pose)>,
+}
+
+impl Body {
+    /// Whether the axis is parallel to the parent body's.
+    pub fn parallel(&self) -> bool {
+        self.parent.is_some() && self.twist == identity()
+    }
+
+    /// Where the common normal with the parent's axis meets the two axes: (from the parent's
+    /// origin along its z, from there to this origin along this z). Parallel axes have none; all
+    /// of the distance counts as this body's.
+    pub fn normal_feet(&self) -> (Dd, Dd) {
+        let [_, sin, cos] = (self.twist.transpose() * unit(2)).0;
+        let [_, y, z] = self.offset.0;
+        if sin == Dd::ZERO {
+            return (Dd::ZERO, z);
+        }
+        let along_parent = y / sin;
+        (along_parent, z - along_parent * cos)
+    }
+}
+
+/// The bodies, parents before children, and the links welded to the world.
+pub(super) struct Geometry {
+    /// In the order of the coordinates.
+    pub bodies: Vec<Body>,
+    /// Links that never move, with their place in the world.
+    pub fixed: Vec<(LinkId, Pose)>,
+}
+
+/// The bodies of a bond graph.
+pub(super) fn geometry(graph: &BondGraph) -> Geometry {
+    let mut made = Geometry {
+        bodies: Vec::new(),
+        fixed: Vec::new(),
+    };
+    // Which body a link belongs to, and its place in the axes of the link that carries the body.
+    let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();
+    let mut placed: Vec<Pose> = Vec::new();
+    for (i, frame) in graph.frames.iter().enumerate() {
+        let (parent, place) = match frame.parent {
+            None => (None, frame.origin),
+            Some(p) => (homes[p.0].0, compose(&homes[p.0].1, &frame.origin)),
+        };
+        let Some(j) = frame.coordinate else {
+            homes.push((parent, place));
+            match parent {
+                Some(body) => made.bodies[body].links.push((LinkId(i), place)),
+                None => made.fixed.push((LinkId(i), place)),
+            }
+            continue;
+        };
+        debug_assert_eq!(
+            j.0,
+            made.bodies.len(),
+            "coordinates follow the order of links"
+        );
+        let still = Pose {
+            rotation: identity(),
+            translation: Vec3([Dd::ZERO; 3]),
+        };
+        homes.push((Some(j.0), still));
+        placed.push(place);
+        made.bodies.push(Body {
+            name: frame.name.clone(),
+            parent,
+            motion: frame.motion,
+            opposite: false,
+            twist: identity(),
+            offset: place.translation,
+            phase: (Dd::ONE, Dd::ZERO),
+            axes: basis_with_z(frame.axis),
+            free_x: true,
+            links: vec![(LinkId(i), still)],
+        });
+    }
+    align_parallel_axes(&mut made.bodies, &placed);
+    for j in 0..made.bodies.len() {
+        orient(&mut made.bodies, &placed, j);
+    }
+    made
+}
+
+/// Turns z where the axis is opposite to the parent's, so that parallel means equal.
+fn align_parallel_axes(bodies: &mut [Body], placed: &[Pose]) {
+    for j in 0..bodies.len() {
+        let Some(p) = bodies[j].parent else { continue };
+        let z = bodies[p].axes.transpose() * (placed[j].rotation * bodies[j].axes.column(2));
+        if clean(z) == -unit(2) {
+            bodies[j].opposite = true;
+            bodies[j].axes = bodies[j].axes * half_turn_about_x();
+        }
+    }
+}
+
+/// Chooses x of body j, then its twist, offset and phase.
+fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
+    let parent_axes = bodies[j].parent.map_or(identity(), |p| bodies[p].axes);
+    // The body's place in the parent's body axes, with x still as it came.
+    let rotation = clean_matrix(parent_axes.transpose() * placed[j].rotation * bodies[j].axes);
+    let offset = parent_axes.transpose() * placed[j].translation;
+    let twist = match bodies[j].parent {
+        Some(_) => twisted_axes(rotation.column(2)),
+        None => rotation,
+    };
+    let x = normal_to_child(bodies, placed, j);
+    bodies[j].free_x = x.is_none();
+    // Without a wish for x, the phase is zero.
+    let x = x.unwrap_or_else(|| {
+        let in_link = placed[j].rotation.transpose() * (parent_axes * twist.column(0));
+        clean(in_link)
+    });
+    let z = bodies[j].axes.column(2);
+    bodies[j].axes = clean_matrix(columns(x, z.cross(x), z));
+    let turned = clean_matrix(
+        twist.transpose() * (parent_axes.transpose() * placed[j].rotation * bodies[j].axes),
+    );
+    match bodies[j].parent {
+        Some(_) => {
+            bodies[j].twist = twist;
+            bodies[j].phase = (turned.0[0][0], turned.0[1][0]);
+        }
+        // The base has no axes of its own: its twisted axes are the body's at zero.
+        None => bodies[j].twist = clean_matrix(placed[j].rotation * bodies[j].axes),
+    }
+    bodies[j].offset = clean_length(bodies[j].twist.transpose() * offset);
+}
+
+/// The direction of the common normal with the axis of the first child that has one, in the axes
+/// of the link that carries body j.
+fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd>> {
+    let z = bodies[j].axes.column(2);
+    let children = (0..bodies.len()).filter(|&c| bodies[c].parent == Some(j));
+    let normal = |c: usize| {
+        let child_z = placed[c].rotation * bodies[c].axes.column(2);
+        let normal = clean(z.cross(child_z));
+        if normal != Vec3([Dd::ZERO; 3]) {
+            return Some(normalised(normal));
+        }
+        // Parallel axes: from one to the other.
+        let p = placed[c].translation;
+        let across = clean_length(p - z.scale(z.dot(p)));
+        (across != Vec3([Dd::ZERO; 3])).then(|| normalised(across))
+    };
+    children.into_iter().find_map(normal)
+}
+
+/// Axes with third column `z` and the first one along the common normal with the third unit
+/// vector; the identity where they are parallel.
+fn twisted_axes(z: Vec3<Dd>) -> Mat3<Dd> {
+    let normal = clean(unit(2).cross(z));
+    if normal == Vec3([Dd::ZERO; 3]) {
+        return identity();
+    }
+    let mut x = normalised(normal);
+    // Of the two directions the one with a positive leading component: twist, not half a turn.
+    if x.0[0] < Dd::ZERO || (x.0[0] == Dd::ZERO && x.0[1] < Dd::ZERO) {
+        x = -x;
+    }
+    clean_matrix(columns(x, z.cross(x), z))
+}
+
+/// Right-handed axes with third column `z`, along the unit vectors where z is one.
+fn basis_with_z(z: Vec3<Dd>) -> Mat3<Dd> {
+    let least = (0..3)
+        .rev()
+        .min_by(|&a, &b| z.0[a].abs().hi().total_cmp(&z.0[b].abs().hi()));
+    let third = (0..3).find(|&k| z.0[k].abs() == Dd::ONE);
+    let x = match third {
+        Some(k) => unit((k + 1) % 3),
+        None => {
+            let e = unit(least.unwrap_or(0));
+            normalised(e - z.scale(e.dot(z)))
+        }
+    };
+    clean_matrix(columns(x, z.cross(x), z))
+}
+
+pub(super) fn identity() -> Mat3<Dd> {
+    Mat3::from_fn(|i, j| if i == j { Dd::ONE } else { Dd::ZERO })
+}
+
+fn half_turn_about_x() -> Mat3<Dd> {
+    Mat3::from_fn(|i, j| match (i, j) {
+        (0, 0) => Dd::ONE,
+        (1, 1) | (2, 2) => -Dd::ONE,
+        _ => Dd::ZERO,
+    })
+}
+
+fn unit(k: usize) -> Vec3<Dd> {
+    Vec3(std::array::from_fn(
+        |i| if i == k { Dd::ONE } else { Dd::ZERO },
+    ))
+}
+
+fn columns(x: Vec3<Dd>, y: Vec3<Dd>, z: Vec3<Dd>) -> Mat3<Dd> {
+    Mat3([x.0, y.0, z.0]).transpose()
+}
+
+fn normalised(v: Vec3<Dd>) -> Vec3<Dd> {
+    v.scale(Dd::ONE / v.dot(v).sqrt())
+}
+
+/// A direction without what rounding left of its zeros and ones.
+fn clean(v: Vec3<Dd>) -> Vec3<Dd> {
+    v.map(|x| {
+        let snapped = [Dd::ZERO, Dd::ONE, -Dd::ONE];
+        snapped
+            .into_iter()
+            .find(|s| (x - *s).hi().abs() < NOISE)
+            .unwrap_or(x)
+    })
+}
+
+fn clean_matrix(m: Mat3<Dd>) -> Mat3<Dd> {
+    m.map(|x| clean(Vec3([x; 3])).0[0])
+}
+
+/// A place without what rounding left of its zeros.
+fn clean_length(v: Vec3<Dd>) -> Vec3<Dd> {
+    let size = v.0.iter().fold(0.0, |m: f64, x| m.max(x.hi().abs()));
+    v.map(|x| {
+        if x.hi().abs() < NOISE * size {
+            Dd::ZERO
+        } else {
+            x
+        }
+    })
+}
+
+/// The place of `inner`, given in `outer`'s axes, where `outer` is.
+fn compose(outer: &Pose, inner: &Pose) -> Pose {
+    Pose {
+        rotation: clean_matrix(outer.rotation * inner.rotation),
+        translation: outer.translation + outer.rotation * inner.translation,
+    }
+}
+
+/// The angle with this cosine and sine, to double-double accuracy.
+pub(super) fn angle_of((cos, sin): (Dd, Dd)) -> Dd {
+    let near = Dd::from_f64(f64::atan2(sin.to_f64(), cos.to_f64()));
+    let (s, c) = near.sin_cos();
+    // sin(φ − near), so small that it is the angle.
+    let rest = sin * c - cos * s;
+    near + rest
+}

@@ -1,0 +1,165 @@
+//! Inertia of a body as mass, first moment and pseudo-inertia D = ∫ s sᵀ dm about its origin.
+//!
+//! J = tr(D)·1 − D, D = ½ tr(J)·1 − J. Entries are expressions, so that constants fold and
+//! run-time parameters pass through the same equations.
+
+use bgdyn_runtime::Dd;
+
+use crate::expr::{Builder, Ex};
+use crate::math::{Mat3, Vec3};
+
+/// A symmetric matrix: xx, yy, zz, xy, xz, yz.
+pub(super) type Symmetric<'g> = [Ex<'g>; 6];
+
+/// Where entry (i, j) stands in a [`Symmetric`].
+const PLACE: [[usize; 3]; 3] = [[0, 3, 4], [3, 1, 5], [4, 5, 2]];
+
+/// Mass, first moment and pseudo-inertia about one point, in one set of axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inertia<'g> {
+    /// m, kg
+    pub mass: Ex<'g>,
+    /// ∫ s dm, kg·m
+    pub first: Vec3<Ex<'g>>,
+    /// D = ∫ s sᵀ dm, kg·m²
+    pub pseudo: Symmetric<'g>,
+}
+
+impl<'g> Inertia<'g> {
+    /// Of nothing.
+    pub fn zero(b: &'g Builder) -> Self {
+        Inertia {
+            mass: b.zero(),
+            first: Vec3([b.zero(); 3]),
+            pseudo: [b.zero(); 6],
+        }
+    }
+
+    /// About the centre of mass, from the tensor J there.
+    pub fn at_centre(b: &'g Builder, mass: Ex<'g>, tensor: Symmetric<'g>) -> Self {
+        let [xx, yy, zz, xy, xz, yz] = tensor;
+        let half = Dd::from_f64(0.5);
+        let diagonal = |a: Ex<'g>, b: Ex<'g>, c: Ex<'g>| (a + b - c) * half;
+        let pseudo = [
+            diagonal(yy, zz, xx),
+            diagonal(zz, xx, yy),
+            diagonal(xx, yy, zz),
+            -xy,
+            -xz,
+            -yz,
+        ];
+        Inertia {
+            mass,
+            first: Vec3([b.zero(); 3]),
+            pseudo,
+        }
+    }
+
+    /// Entry (i, j) of D.
+    pub fn d(&self, i: usize, j: usize) -> Ex<'g> {
+        self.pseudo[PLACE[i][j]]
+    }
+
+    /// The same mass seen from a point from which it is displaced by p:
+    /// D + p hᵀ + h pᵀ + m p pᵀ.
+    pub fn shifted(&self, p: Vec3<Ex<'g>>) -> Self {
+        let h = self.first;
+        let pseudo = symmetric(|i, j| {
+            let (pi, pj) = (p.0[i], p.0[j]);
+            let moments = if i == j {
+                (pi * Dd::from_f64(2.0)) * h.0[i]
+            } else {
+                pi * h.0[j] + pj * h.0[i]
+            };
+            self.d(i, j) + moments + self.mass * pi * pj
+        });
+        Inertia {
+            mass: self.mass,
+            first: h + p.scale(self.mass),
+            pseudo,
+        }
+    }
+
+    /// In axes in which the present ones have the columns of the constant `r`: R D Rᵀ.
+    pub fn rotated(&self, b: &'g Builder, r: Mat3<Dd>) -> Self {
+        let r = r.map(|x| b.constant(x));
+        let half =
+            Mat3::from_fn(|i, j| (0..3).fold(b.zero(), |sum, k| sum + r.0[i][k] * self.d(k, j)));
+        let pseudo =
+            symmetric(|i, j| (0..3).fold(b.zero(), |sum, k| sum + half.0[i][k] * r.0[j][k]));
+        Inertia {
+            mass: self.mass,
+            first: r * self.first,
+            pseudo,
+        }
+    }
+
+    /// Turned by Rz: four multiplications for the 2 × 2 block, with
+    /// e = s (D_xx − D_yy) + 2 c D_xy.
+    pub fn turned(&self, (c, s): (Ex<'g>, Ex<'g>)) -> Self {
+        let [xx, yy, zz, xy, xz, yz] = self.pseudo;
+        let e = s * (xx - yy) + c * (xy * Dd::from_f64(2.0));
+        let (se, ce) = (s * e, c * e);
+        let pseudo = [
+            xx - se,
+            yy + se,
+            zz,
+            ce - xy,
+            c * xz - s * yz,
+            s * xz + c * yz,
+        ];
+        Inertia {
+            mass: self.mass,
+            first: turn(self.first, (c, s)),
+            pseudo,
+        }
+    }
+
+    /// Of both.
+    pub fn plus(&self, other: &Self) -> Self {
+        Inertia {
+            mass: self.mass + other.mass,
+            first: self.first + other.first,
+            pseudo: std::array::from_fn(|k| self.pseudo[k] + other.pseudo[k]),
+        }
+    }
+
+    /// Whether every entry is known at generation time.
+    pub fn is_constant(&self) -> bool {
+        let entries = self.first.0.iter().chain(&self.pseudo).chain([&self.mass]);
+        entries.into_iter().all(|e| e.as_constant().is_some())
+    }
+
+    /// Whether turning it about z changes nothing.
+    pub fn round(&self) -> bool {
+        let [xx, yy, _, xy, xz, yz] = self.pseudo;
+        let zero = [xx - yy, xy, xz, yz, self.first.0[0], self.first.0[1]];
+        zero.into_iter().all(Ex::is_zero)
+    }
+
+    /// In units of `length`: moments keep their value.
+    pub fn in_units_of(&self, length: Dd) -> Self {
+        Inertia {
+            mass: self.mass * (length * length),
+            first: self.first.map(|h| h * length),
+            pseudo: self.pseudo,
+        }
+    }
+}
+
+/// Rz v
+pub(super) fn turn<'g>(v: Vec3<Ex<'g>>, (c, s): (Ex<'g>, Ex<'g>)) -> Vec3<Ex<'g>> {
+    let [x, y, z] = v.0;
+    Vec3([c * x - s * y, s * x + c * y, z])
+}
+
+/// Rzᵀ v
+pub(super) fn turn_back<'g>(v: Vec3<Ex<'g>>, (c, s): (Ex<'g>, Ex<'g>)) -> Vec3<Ex<'g>> {
+    let [x, y, z] = v.0;
+    Vec3([c * x + s * y, c * y - s * x, z])
+}
+
+/// The upper triangle from `f(i, j)`.
+fn symmetric<'g>(f: impl Fn(usize, usize) -> Ex<'g>) -> Symmetric<'g> {
+    [f(0, 0), f(1, 1), f(2, 2), f(0, 1), f(0, 2), f(1, 2)]
+}

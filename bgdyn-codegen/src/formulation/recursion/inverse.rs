@@ -1,0 +1,366 @@
+//! Inverse dynamics in link axes: accelerations outwards, forces and moments inwards.
+//!
+//! A body's motion is ω, the acceleration `a` of its origin less gravity, and
+//! U = [ω̇]× + [ω]×[ω]×: the point s of the body accelerates by a + U s. So its force is
+//! F = m a + U h and its moment about the origin N = h × a + the skew part of U·D, which is
+//! K̇ = J ω̇ + ω × J ω of equation (6), term for term.
+
+use bgdyn_runtime::Dd;
+
+use super::frames::{Frame, Frames};
+use super::inertia::{Inertia, turn, turn_back};
+use crate::expr::{Builder, Ex};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::Motion;
+
+/// Angular motion in one set of axes.
+#[derive(Clone, Copy)]
+struct Spin<'g> {
+    omega: Vec3<Ex<'g>>,
+    omega_dot: Vec3<Ex<'g>>,
+    /// U
+    u: Mat3<Ex<'g>>,
+    /// U_zz − U_yy, U_xx − U_zz, U_yy − U_xx
+    differences: Vec3<Ex<'g>>,
+}
+
+/// Motion of a body.
+struct Moving<'g> {
+    /// Of the twisted axes in which the basis began, before any angle of the group.
+    basis: Spin<'g>,
+    /// Ω, Ω̇: summed rates of the group's joints.
+    rate: (Ex<'g>, Ex<'g>),
+    /// Angular motion of the body, in the basis's axes.
+    in_basis: Spin<'g>,
+    /// Acceleration of the origin in the basis's axes.
+    a_basis: Vec3<Ex<'g>>,
+    /// Angular motion of the body in its own axes.
+    own: Spin<'g>,
+    /// Acceleration of the origin in own axes.
+    a_own: Vec3<Ex<'g>>,
+}
+
+/// Force and moment about the body's origin.
+#[derive(Clone, Copy)]
+struct Wrench<'g> {
+    force: Vec3<Ex<'g>>,
+    moment: Vec3<Ex<'g>>,
+}
+
+impl<'g> Wrench<'g> {
+    fn plus(self, b: Self) -> Self {
+        Wrench {
+            force: self.force + b.force,
+            moment: self.moment + b.moment,
+        }
+    }
+
+    fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+        Wrench {
+            force: f(self.force),
+            moment: f(self.moment),
+        }
+    }
+
+    /// About a point from which this one's origin is displaced by p.
+    fn carried(self, p: Vec3<Ex<'g>>) -> Self {
+        Wrench {
+            force: self.force,
+            moment: self.moment + p.cross(self.force),
+        }
+    }
+}
+
+/// Joint efforts for the rates and accelerations in `frames`.
+pub(super) fn efforts<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    in_basis: &[bool],
+    short_moment: bool,
+    active: bool,
+) -> Vec<Ex<'g>> {
+    let mut moving: Vec<Moving<'g>> = Vec::new();
+    for (j, frame) in frames.bodies.iter().enumerate() {
+        let parent = frame.parent.map(|p| &moving[p]);
+        let gravity = if active { frames.gravity[j] } else { zero(b) };
+        let step = outwards(b, frame, parent, gravity);
+        name(frame, &step);
+        moving.push(step);
+    }
+    inwards(b, frames, &moving, in_basis, short_moment)
+}
+
+fn zero(b: &Builder) -> Vec3<Ex<'_>> {
+    Vec3([b.zero(); 3])
+}
+
+fn name(frame: &Frame<'_>, step: &Moving<'_>) {
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        step.own.omega.0[k].named(|| format!("omega_{axis}_{}", frame.name));
+        step.a_own.0[k].named(|| format!("a_{axis}_{}", frame.name));
+    }
+}
+
+/// Motion of a body from its parent's.
+fn outwards<'g>(
+    b: &'g Builder,
+    frame: &Frame<'g>,
+    parent: Option<&Moving<'g>>,
+    gravity: Vec3<Ex<'g>>,
+) -> Moving<'g> {
+    let (basis, mut rate, mut a_basis) = match parent {
+        // The base stands still; gravity acts as an acceleration of the base upwards.
+        None => (still(b), (b.zero(), b.zero()), -gravity),
+        Some(p) if frame.continues => (p.basis, p.rate, p.a_basis + p.in_basis.u * frame.position),
+        Some(p) => {
+            let basis = twisted(b, &p.own, frame.twist);
+            (
+                basis,
+                (b.zero(), b.zero()),
+                twisted_acceleration(b, p, frame, &basis),
+            )
+        }
+    };
+    match frame.motion {
+        Motion::Rotation => rate = (rate.0 + frame.rate, rate.1 + frame.acceleration),
+        // 2 ω × ẑ ṡ + ẑ s̈
+        _ => {
+            let twice = frame.rate * Dd::from_f64(2.0);
+            let [x, y, _] = basis.omega.0;
+            a_basis = a_basis + Vec3([y * twice, -(x * twice), frame.acceleration]);
+        }
+    }
+    let in_basis = spun(&basis, rate);
+    let own = own_spin(&basis, rate, frame.turn);
+    let a_own = turn_back(a_basis, frame.turn);
+    Moving {
+        basis,
+        rate,
+        in_basis,
+        a_basis,
+        own,
+        a_own,
+    }
+}
+
+fn still(b: &Builder) -> Spin<'_> {
+    Spin {
+        omega: zero(b),
+        omega_dot: zero(b),
+        u: Mat3([[b.zero(); 3]; 3]),
+        differences: zero(b),
+    }
+}
+
+/// The parent's angular motion in twisted axes.
+fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
+    let back = twist.transpose().map(|x| b.constant(x));
+    let (omega, omega_dot) = (back * parent.omega, back * parent.omega_dot);
+    let Some(places) = permutation(twist) else {
+        // In general directions U is cheaper made anew than turned.
+        let u = u_of(omega, omega_dot);
+        return Spin {
+            omega,
+            omega_dot,
+            u,
+            differences: differences(&u),
+        };
+    };
+    let u = back * parent.u * back.transpose();
+    // Each difference is one of the parent's, with the sign of the permutation of its two axes.
+    let difference = |k: usize| {
+        let (upper, lower) = (places[(k + 2) % 3], places[(k + 1) % 3]);
+        let kept = (lower + 1) % 3 == upper;
+        let d = parent.differences.0[places[k]];
+        if kept { d } else { -d }
+    };
+    Spin {
+        omega,
+        omega_dot,
+        u,
+        differences: Vec3(std::array::from_fn(difference)),
+    }
+}
+
+/// For a rotation by quarter turns: which of the parent's axes each new one lies along.
+fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
+    let place = |k: usize| (0..3).find(|&i| twist.0[i][k] == Dd::ONE || twist.0[i][k] == -Dd::ONE);
+    Some([place(0)?, place(1)?, place(2)?])
+}
+
+/// Acceleration of the new origin in twisted axes: the product U p where it costs less.
+fn twisted_acceleration<'g>(
+    b: &'g Builder,
+    parent: &Moving<'g>,
+    frame: &Frame<'g>,
+    basis: &Spin<'g>,
+) -> Vec3<Ex<'g>> {
+    let back = frame.twist.transpose().map(|x| b.constant(x));
+    if permutation(frame.twist).is_some() {
+        back * parent.a_own + basis.u * frame.position
+    } else {
+        back * (parent.a_own + parent.own.u * frame.position_in_parent)
+    }
+}
+
+/// U = [ω̇]× + [ω]×[ω]×
+fn u_of<'g>(omega: Vec3<Ex<'g>>, omega_dot: Vec3<Ex<'g>>) -> Mat3<Ex<'g>> {
+    let ([x, y, z], [dx, dy, dz]) = (omega.0, omega_dot.0);
+    let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
+    Mat3([
+        [-(yy + zz), xy - dz, xz + dy],
+        [xy + dz, -(xx + zz), yz - dx],
+        [xz - dy, yz + dx, -(xx + yy)],
+    ])
+}
+
+fn differences<'g>(u: &Mat3<Ex<'g>>) -> Vec3<Ex<'g>> {
+    let [xx, yy, zz] = [u.0[0][0], u.0[1][1], u.0[2][2]];
+    Vec3([zz - yy, xx - zz, yy - xx])
+}
+
+/// Angular motion after the group's rates Ω, Ω̇ about z, in axes that do not turn with them:
+/// with σ = Ω (2 ω⁰_z + Ω), U = U⁰ + [[−σ, −Ω̇, 0], [Ω̇, −σ, 0], [2Ω ω⁰_x, 2Ω ω⁰_y, 0]].
+fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Ex<'g>, Ex<'g>)) -> Spin<'g> {
+    let ([x, y, z], [dx, dy, dz]) = (basis.omega.0, basis.omega_dot.0);
+    let (total, total_dot) = (z + rate, dz + acceleration);
+    let sigma = rate * (total + z);
+    let twice = rate * Dd::from_f64(2.0);
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = basis.u.0;
+    let u = Mat3([
+        [xx - sigma, xy - acceleration, xz],
+        [yx + acceleration, yy - sigma, yz],
+        [zx + twice * x, zy + twice * y, zz],
+    ]);
+    let d = basis.differences.0;
+    // ω̇_x and ω̇_y in axes that stay behind: ω̇⁰ + Ω (ω⁰_y, −ω⁰_x)
+    let omega_dot = Vec3([dx + rate * y, dy - rate * x, total_dot]);
+    Spin {
+        omega: Vec3([x, y, total]),
+        omega_dot,
+        u,
+        differences: Vec3([d[0] + sigma, d[1] - sigma, d[2]]),
+    }
+}
+
+/// Angular motion in own axes by the common-axis trick: the points of the joint's axis have the
+/// same acceleration in both bodies, so the column of U along it is shared, and rotated where the
+/// usual recursion rotates ω̇ and forms U anew.
+fn own_spin<'g>(
+    basis: &Spin<'g>,
+    (rate, acceleration): (Ex<'g>, Ex<'g>),
+    angle: (Ex<'g>, Ex<'g>),
+) -> Spin<'g> {
+    if rate.is_zero() && acceleration.is_zero() && angle.1.is_zero() {
+        return *basis;
+    }
+    let [x, y, _] = turn_back(basis.omega, angle).0;
+    let z = basis.omega.0[2] + rate;
+    let [ux, uy, uz] = turn_back(basis.u.column(2), angle).0;
+    let (xy, xz, yz) = (x * y, x * z, y * z);
+    // ω̇_x = ω_y ω_z − u_y, ω̇_y = u_x − ω_x ω_z
+    let (dx, dy, dz) = (yz - uy, ux - xz, basis.omega_dot.0[2] + acceleration);
+    let (xx, zz) = (x * x, z * z);
+    let across = xx - zz;
+    let (u_yy, u_xx) = (-(xx + zz), uz + across);
+    Spin {
+        omega: Vec3([x, y, z]),
+        omega_dot: Vec3([dx, dy, dz]),
+        u: Mat3([
+            [u_xx, xy - dz, ux],
+            [xy + dz, u_yy, uy],
+            [xz - dy, yz + dx, uz],
+        ]),
+        differences: Vec3([uz - u_yy, across, u_yy - u_xx]),
+    }
+}
+
+/// F = m a + U h and N = skew(U D) + h × a of a body.
+fn dynamics<'g>(
+    inertia: &Inertia<'g>,
+    j_zz: Ex<'g>,
+    spin: &Spin<'g>,
+    a: Vec3<Ex<'g>>,
+    short: bool,
+) -> Wrench<'g> {
+    let (u, h) = (&spin.u.0, inertia.first);
+    let d = |i, j| inertia.d(i, j);
+    let [dzy, dxz, dyx] = spin.differences.0;
+    // k₁ x − k₂ y, merged where k₁ = k₂
+    let pair = |k1: Ex<'g>, x: Ex<'g>, k2: Ex<'g>, y: Ex<'g>| {
+        if k1 == k2 {
+            k1 * (x - y)
+        } else {
+            k1 * x - k2 * y
+        }
+    };
+    let nx = pair(d(1, 1), u[2][1], d(2, 2), u[1][2])
+        + d(1, 2) * dzy
+        + (d(0, 1) * u[2][0] - d(0, 2) * u[1][0]);
+    let ny = pair(d(2, 2), u[0][2], d(0, 0), u[2][0])
+        + d(0, 2) * dxz
+        + (d(1, 2) * u[0][1] - d(0, 1) * u[2][1]);
+    let products = d(0, 1) * dyx + (d(0, 2) * u[1][2] - d(1, 2) * u[0][2]);
+    let nz = if short {
+        let [x, y, _] = spin.omega.0;
+        j_zz * spin.omega_dot.0[2] + ((d(0, 0) - d(1, 1)) * (x * y) + products)
+    } else {
+        pair(d(0, 0), u[1][0], d(1, 1), u[0][1]) + products
+    };
+    Wrench {
+        force: spin.u * h + a.scale(inertia.mass),
+        moment: Vec3([nx, ny, nz]) + h.cross(a),
+    }
+}
+
+/// Forces and moments summed from the tips, and the joints' share of them.
+fn inwards<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    moving: &[Moving<'g>],
+    in_basis: &[bool],
+    short: bool,
+) -> Vec<Ex<'g>> {
+    let n = frames.bodies.len();
+    let nothing = Wrench {
+        force: zero(b),
+        moment: zero(b),
+    };
+    // What the bodies beyond hand over: in own axes, and in the basis's.
+    let mut own = vec![nothing; n];
+    let mut basis = vec![nothing; n];
+    let mut efforts = vec![b.zero(); n];
+    for j in (0..n).rev() {
+        let (frame, motion) = (&frames.bodies[j], &moving[j]);
+        // Turning about z leaves J_zz as it is.
+        let j_zz = frame.inertia.d(0, 0) + frame.inertia.d(1, 1);
+        if in_basis[j] {
+            let round = frame.inertia.round();
+            let inertia = if round {
+                frame.inertia
+            } else {
+                frame.inertia.turned(frame.turn)
+            };
+            let wrench = dynamics(&inertia, j_zz, &motion.in_basis, motion.a_basis, short);
+            basis[j] = wrench.plus(basis[j]);
+        } else {
+            let wrench = dynamics(&frame.inertia, j_zz, &motion.own, motion.a_own, short);
+            own[j] = wrench.plus(own[j]);
+        }
+        let whole = basis[j].plus(own[j].map(|v| turn(v, frame.turn)));
+        let along = match frame.motion {
+            Motion::Rotation => whole.moment.0[2],
+            _ => whole.force.0[2],
+        };
+        efforts[j] = along * frame.effort;
+        let Some(p) = frame.parent else { continue };
+        let carried = whole.carried(frame.position);
+        if frame.continues {
+            basis[p] = basis[p].plus(carried);
+        } else {
+            let twist = frame.twist.map(|x| b.constant(x));
+            own[p] = own[p].plus(carried.map(|v| twist * v));
+        }
+    }
+    efforts
+}

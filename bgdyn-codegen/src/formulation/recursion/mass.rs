@@ -1,0 +1,198 @@
+//! Mass matrix by composite bodies, and the energies, in the frames of the recursion.
+//!
+//! From the tips inwards each body is joined with what it carries. A unit rate of joint k gives
+//! the composite beyond it the momentum h = (−m y, m x, 0) and, about the joint's origin,
+//! L = (−D_xz, −D_yz, J_zz), numbers that the turned composite holds already; carried to the base
+//! they give the row of k.
+
+use bgdyn_runtime::Dd;
+
+use super::frames::{Frame, Frames};
+use super::inertia::{Inertia, turn, turn_back};
+use crate::expr::{Builder, Ex};
+use crate::math::Vec3;
+use crate::mechanism::Motion;
+
+/// Momentum that a unit rate of a joint gives to everything beyond it.
+#[derive(Clone, Copy)]
+struct Momentum<'g> {
+    joint: usize,
+    linear: Vec3<Ex<'g>>,
+    angular: Vec3<Ex<'g>>,
+}
+
+impl<'g> Momentum<'g> {
+    fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+        Momentum {
+            linear: f(self.linear),
+            angular: f(self.angular),
+            ..self
+        }
+    }
+
+    /// About a point from which this one's origin is displaced by p.
+    fn carried(self, p: Vec3<Ex<'g>>) -> Self {
+        Momentum {
+            angular: self.angular + p.cross(self.linear),
+            ..self
+        }
+    }
+
+    /// Its share in the direction of a joint.
+    fn along(&self, frame: &Frame<'g>) -> Ex<'g> {
+        match frame.motion {
+            Motion::Rotation => self.angular.0[2],
+            _ => self.linear.0[2],
+        }
+    }
+}
+
+/// What a body has gathered from those beyond it.
+struct Gathered<'g> {
+    inertia: Inertia<'g>,
+    momenta: Vec<Momentum<'g>>,
+}
+
+/// Lower triangle of M.
+pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
+    let n = frames.bodies.len();
+    let empty = || Gathered {
+        inertia: Inertia::zero(b),
+        momenta: Vec::new(),
+    };
+    let mut own: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
+    let mut basis: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
+    let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![b.zero(); j + 1]).collect();
+    for j in (0..n).rev() {
+        let frame = &frames.bodies[j];
+        let (inner, outer) = (&own[j], &basis[j]);
+        let composite = frame.inertia.plus(&inner.inertia);
+        let turned = if composite.round() {
+            composite
+        } else {
+            composite.turned(frame.turn)
+        };
+        let whole = turned.plus(&outer.inertia);
+        // Turning about z leaves J_zz as it is.
+        let j_zz = (composite.d(0, 0) + composite.d(1, 1))
+            + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
+        let mut momenta: Vec<Momentum<'g>> = inner
+            .momenta
+            .iter()
+            .map(|m| m.map(|v| turn(v, frame.turn)))
+            .collect();
+        momenta.extend(&outer.momenta);
+        for m in &momenta {
+            mass[m.joint][j] = m.along(frame) * frame.effort * frames.bodies[m.joint].effort;
+        }
+        let unit = unit_momentum(b, j, frame, &whole, j_zz);
+        mass[j][j] = unit.along(frame) * (frame.effort * frame.effort);
+        momenta.push(unit);
+        let Some(p) = frame.parent else { continue };
+        let inertia = whole.shifted(frame.position);
+        let carried = momenta.into_iter().map(|m| m.carried(frame.position));
+        let twist = frame.twist.map(|x| b.constant(x));
+        let (home, inertia, momenta) = if frame.continues {
+            (&mut basis[p], inertia, carried.collect())
+        } else {
+            let turned: Vec<_> = carried.map(|m| m.map(|v| twist * v)).collect();
+            (&mut own[p], inertia.rotated(b, frame.twist), turned)
+        };
+        home.inertia = home.inertia.plus(&inertia);
+        home.momenta.extend(momenta);
+    }
+    mass
+}
+
+fn unit_momentum<'g>(
+    b: &'g Builder,
+    joint: usize,
+    frame: &Frame<'g>,
+    whole: &Inertia<'g>,
+    j_zz: Ex<'g>,
+) -> Momentum<'g> {
+    let [x, y, _] = whole.first.0;
+    match frame.motion {
+        Motion::Rotation => Momentum {
+            joint,
+            linear: Vec3([-y, x, b.zero()]),
+            angular: Vec3([-whole.d(0, 2), -whole.d(1, 2), j_zz]),
+        },
+        _ => Momentum {
+            joint,
+            linear: Vec3([b.zero(), b.zero(), whole.mass]),
+            angular: Vec3([y, -x, b.zero()]),
+        },
+    }
+}
+
+/// T = ½ Σ [ m u·u + 2 u·(ω × h) + ω·J ω ] with the velocity u of each body's origin, own axes.
+pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> {
+    let zero = Vec3([b.zero(); 3]);
+    // (ω, u) in own axes, and in the basis's.
+    let mut own: Vec<(Vec3<Ex<'g>>, Vec3<Ex<'g>>)> = Vec::new();
+    let mut basis: Vec<(Vec3<Ex<'g>>, Vec3<Ex<'g>>)> = Vec::new();
+    let mut twice = b.zero();
+    for frame in &frames.bodies {
+        let (mut omega, mut u) = match frame.parent {
+            None => (zero, zero),
+            Some(p) if frame.continues => {
+                (basis[p].0, basis[p].1 + basis[p].0.cross(frame.position))
+            }
+            Some(p) => {
+                let back = frame.twist.transpose().map(|x| b.constant(x));
+                let (omega, u) = (
+                    own[p].0,
+                    own[p].1 + own[p].0.cross(frame.position_in_parent),
+                );
+                (back * omega, back * u)
+            }
+        };
+        match frame.motion {
+            Motion::Rotation => omega.0[2] = omega.0[2] + frame.rate,
+            _ => u.0[2] = u.0[2] + frame.rate,
+        }
+        basis.push((omega, u));
+        let (omega, u) = (turn_back(omega, frame.turn), turn_back(u, frame.turn));
+        own.push((omega, u));
+        twice = twice + twice_kinetic_energy(&frame.inertia, omega, u);
+    }
+    twice * Dd::from_f64(0.5)
+}
+
+fn twice_kinetic_energy<'g>(inertia: &Inertia<'g>, omega: Vec3<Ex<'g>>, u: Vec3<Ex<'g>>) -> Ex<'g> {
+    let two = Dd::from_f64(2.0);
+    let d = |i, j| inertia.d(i, j);
+    let [x, y, z] = omega.0;
+    // J = tr(D)·1 − D
+    let squares = (d(1, 1) + d(2, 2)) * (x * x)
+        + (d(0, 0) + d(2, 2)) * (y * y)
+        + (d(0, 0) + d(1, 1)) * (z * z);
+    let products = d(0, 1) * two * (x * y) + d(0, 2) * two * (x * z) + d(1, 2) * two * (y * z);
+    let swept = omega.cross(inertia.first);
+    inertia.mass * u.dot(u) + u.dot(swept) * two + (squares - products)
+}
+
+/// V = −g · Σ m r, first moments summed from the tips.
+pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> {
+    let n = frames.bodies.len();
+    let nothing = (b.zero(), Vec3([b.zero(); 3]));
+    let mut own = vec![nothing; n];
+    let mut basis = vec![nothing; n];
+    let mut energy = frames.constant_energy;
+    for j in (0..n).rev() {
+        let frame = &frames.bodies[j];
+        let mass = frame.inertia.mass + own[j].0 + basis[j].0;
+        let first = turn(frame.inertia.first + own[j].1, frame.turn) + basis[j].1;
+        let first = first + frame.position.scale(mass);
+        match frame.parent {
+            None => energy = energy - frames.gravity[j].dot(first),
+            Some(p) if frame.continues => basis[p] = (basis[p].0 + mass, basis[p].1 + first),
+            Some(p) => {
+                let twist = frame.twist.map(|x| b.constant(x));
+                own[p] = (own[p].0 + mass, own[p].1 + twist * first);
+            }
+        }
+    }
+    energy
+}

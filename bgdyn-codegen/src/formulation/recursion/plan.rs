@@ -1,0 +1,152 @@
+//! Search for the cheapest plan: one choice at a time, each tried and kept where it costs less,
+//! until a round changes nothing. Bounded, deterministic.
+
+use bgdyn_runtime::Dd;
+
+use super::frames::Plan;
+use super::geometry::Geometry;
+
+/// Rounds over all choices at the most.
+const ROUNDS: usize = 2;
+
+/// Bodies beyond which the choices are not tried one by one: the cost of a search grows with the
+/// square of their number.
+const SEARCHED: usize = 16;
+
+/// The cheapest plan found.
+pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan {
+    let n = geometry.bodies.len();
+    let mut best: Option<(usize, Plan)> = None;
+    for start in starts(geometry) {
+        let mut plan = start;
+        let mut least = cost(&plan);
+        for _ in 0..if n <= SEARCHED { ROUNDS } else { 0 } {
+            let before = least;
+            for change in changes(geometry) {
+                let mut tried = plan.clone();
+                change(&mut tried);
+                if tried == plan {
+                    continue;
+                }
+                let c = cost(&tried);
+                if c < least {
+                    (least, plan) = (c, tried);
+                }
+            }
+            if least == before {
+                break;
+            }
+        }
+        if best.as_ref().is_none_or(|(c, _)| least < *c) {
+            best = Some((least, plan));
+        }
+    }
+    best.expect("there is a plan to start from").1
+}
+
+/// Plans to start from: with and without groups.
+fn starts(geometry: &Geometry) -> Vec<Plan> {
+    let n = geometry.bodies.len();
+    let tip = |j: usize| geometry.bodies.iter().all(|b| b.parent != Some(j));
+    let plan = |grouped| Plan {
+        slides: (0..n).map(|j| slides(geometry, j)[0]).collect(),
+        unit: Dd::ONE,
+        grouped,
+        in_basis: (0..n).map(tip).collect(),
+        aimed: (0..n).map(tip).collect(),
+        short_moment: false,
+    };
+    let groups = geometry.bodies.iter().any(|b| b.parallel());
+    if groups {
+        vec![plan(true), plan(false)]
+    } else {
+        vec![plan(false)]
+    }
+}
+
+type Change = Box<dyn Fn(&mut Plan)>;
+
+/// Every single choice, as a change of a plan.
+fn changes(geometry: &Geometry) -> Vec<Change> {
+    let n = geometry.bodies.len();
+    let mut changes: Vec<Change> = Vec::new();
+    for j in 0..n {
+        for h in slides(geometry, j) {
+            changes.push(Box::new(move |plan| plan.slides[j] = h));
+        }
+    }
+    for unit in units(geometry) {
+        changes.push(Box::new(move |plan| plan.unit = unit));
+    }
+    for j in 0..n {
+        changes.push(Box::new(move |plan| plan.in_basis[j] ^= true));
+    }
+    for j in (0..n).filter(|&j| geometry.bodies.iter().all(|b| b.parent != Some(j))) {
+        changes.push(Box::new(move |plan| plan.aimed[j] ^= true));
+    }
+    changes.push(Box::new(|plan| plan.short_moment ^= true));
+    changes
+}
+
+/// Where the origin of body j may go along its axis: the feet of the common normals with its
+/// children's axes, and with its parent's; where it was.
+fn slides(geometry: &Geometry, j: usize) -> Vec<Dd> {
+    let body = &geometry.bodies[j];
+    let mut slides: Vec<Dd> = Vec::new();
+    for child in geometry.bodies.iter().filter(|b| b.parent == Some(j)) {
+        let (on_parent, own) = child.normal_feet();
+        slides.push(if child.parallel() { own } else { on_parent });
+    }
+    if body.parent.is_some() {
+        slides.push(-body.normal_feet().1);
+    }
+    slides.push(Dd::ZERO);
+    let mut distinct: Vec<Dd> = Vec::new();
+    for h in slides {
+        if !distinct.contains(&h) {
+            distinct.push(h);
+        }
+    }
+    distinct
+}
+
+/// Units of length: metres, and the distances between joints. Where the base stands is none.
+fn units(geometry: &Geometry) -> Vec<Dd> {
+    let mut units = vec![Dd::ONE];
+    for body in geometry.bodies.iter().filter(|b| b.parent.is_some()) {
+        let (on_parent, own) = body.normal_feet();
+        for length in [body.offset.0[0], on_parent, own] {
+            let length = length.abs();
+            if length > Dd::ZERO && !units.contains(&length) {
+                units.push(length);
+            }
+        }
+    }
+    units
+}
+
+/// The plan in words.
+pub(super) fn describe(geometry: &Geometry, plan: &Plan) -> String {
+    let named = |flags: &[bool]| -> String {
+        let names = geometry.bodies.iter().zip(flags).filter(|(_, on)| **on);
+        names
+            .map(|(b, _)| b.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let mut words = Vec::new();
+    if plan.grouped {
+        words.push("parallel axes grouped".to_string());
+    }
+    if plan.unit != Dd::ONE {
+        words.push(format!("unit of length {} m", plan.unit.to_f64()));
+    }
+    if plan.in_basis.contains(&true) {
+        words.push(format!("inertia turned for {}", named(&plan.in_basis)));
+    }
+    if words.is_empty() {
+        "plain".into()
+    } else {
+        words.join("; ")
+    }
+}

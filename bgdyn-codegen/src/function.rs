@@ -1,0 +1,72 @@
+//! A function ready to be counted, evaluated or emitted.
+
+use bgdyn_runtime::Scalar;
+
+use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate};
+use crate::method::{Method, Shape};
+
+/// A straight line of code: what it computes. Later blocks read its results as
+/// [`crate::expr::Leaf::Passed`].
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Its results, in order.
+    pub outputs: Vec<Expr>,
+}
+
+/// A generated method: an expression graph, cut into blocks; the last block gives the result.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// Which method.
+    pub method: Method,
+    /// Name of the formulation that was chosen, with its variant.
+    pub formulation: String,
+    /// Expressions of all blocks.
+    pub graph: Graph,
+    /// In the order of execution; at least one.
+    pub blocks: Vec<Block>,
+}
+
+impl Function {
+    /// A function of one block.
+    pub fn flat(method: Method, formulation: String, graph: Graph, outputs: Vec<Expr>) -> Self {
+        Function {
+            method,
+            formulation,
+            graph,
+            blocks: vec![Block { outputs }],
+        }
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        self.method.name()
+    }
+
+    /// Its result's shape.
+    pub fn shape(&self) -> Shape {
+        self.method.shape()
+    }
+
+    /// Operations of one call.
+    pub fn operations(&self) -> Operations {
+        let mut all = Operations::default();
+        for block in &self.blocks {
+            all += count(&self.graph, &block.outputs);
+        }
+        all
+    }
+
+    /// Its value, without a compiler: the expressions of the last block.
+    ///
+    /// # Panics
+    /// If `inputs` lacks a component.
+    pub fn evaluate<T: Scalar>(&self, mut inputs: Inputs<T>) -> (Vec<T>, T::Refused) {
+        let mut refused = T::none_refused();
+        let mut result = Vec::new();
+        for block in &self.blocks {
+            result = evaluate(&self.graph, &block.outputs, &inputs, &mut refused);
+            inputs.passed.push(result.clone());
+        }
+        (result, refused)
+    }
+}
