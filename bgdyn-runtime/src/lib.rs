@@ -20,7 +20,7 @@ pub mod rotation;
 mod scalar;
 mod singular;
 
-pub use dd::Dd;
+pub use dd::{Dd, ParseDdError};
 pub use dynamics::Dynamics;
 pub use nalgebra;
 pub use scalar::Scalar;

@@ -76,7 +76,7 @@ fn decimal(text: &str) -> Option<(&str, i32, &str)> {
     let (mantissa, rest) = text.split_at(end);
     let (exponent, rest) = power(rest);
     let spaced =
-        rest.is_empty() || !rest.starts_with(|c: char| c == '_' || c == '.' || c.is_ascii_digit());
+        rest.is_empty() || !rest.starts_with(|c: char| "_.,".contains(c) || c.is_ascii_digit());
     spaced.then_some((mantissa, exponent, rest.trim_start()))
 }
 

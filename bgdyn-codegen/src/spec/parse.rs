@@ -29,12 +29,12 @@ impl Reader {
             "links",
             "frames",
         ];
-        let map = self.mapping(at, "a mapping (`format`, `links`, …)", &keys)?;
+        let map = self.mapping(at, ("a mapping", "`format: 1`, `links: …`"), &keys)?;
         Some(Spec {
             format: self.needed(
                 &map,
                 "format",
-                "the version of the format: `format: 1`",
+                "`format: 1`, the version of the format",
                 |r, at| r.number(at, &[Dimension::One]),
             ),
             name: self.text_field(&map, "name"),
@@ -42,20 +42,29 @@ impl Reader {
             description: self.text_field(&map, "description"),
             gravity: self.vector_field(&map, "gravity", &[Dimension::Acceleration]),
             snap: self.number_field(&map, "snap", &[Dimension::Angle]),
-            links: self.needed(&map, "links", "the list of links", |r, at| {
+            links: self.needed(&map, "links", "`links: …`, the list of links", |r, at| {
                 Some(
-                    r.list(at, "a list of links")?
-                        .iter()
-                        .filter_map(|at| r.link(at))
-                        .collect(),
+                    r.list(
+                        at,
+                        ("a list of links", "each link after a dash: `- name: …`"),
+                    )?
+                    .iter()
+                    .filter_map(|at| r.link(at))
+                    .collect(),
                 )
             }),
             frames: self.field(&map, "frames", |r, at| {
                 Some(
-                    r.list(at, "a list of frames")?
-                        .iter()
-                        .filter_map(|at| r.frame(at))
-                        .collect(),
+                    r.list(
+                        at,
+                        (
+                            "a list of frames",
+                            "each frame after a dash: `- { name: …, link: … }`",
+                        ),
+                    )?
+                    .iter()
+                    .filter_map(|at| r.frame(at))
+                    .collect(),
                 )
             }),
             place: map.place,
@@ -74,9 +83,13 @@ impl Reader {
             "inertia",
             "nonphysical",
         ];
-        let map = self.mapping(at, "a link (`name`, `joint`, `mass`, …)", &keys)?;
+        let map = self.mapping(
+            at,
+            ("a link", "`- name: …` and its other keys below"),
+            &keys,
+        )?;
         Some(Link {
-            name: self.needed(&map, "name", "the link's name", Self::text),
+            name: self.needed(&map, "name", "`name: …`, the link's name", Self::text),
             label: self.text_field(&map, "label"),
             parent: self.text_field(&map, "parent"),
             joint: self.field(&map, "joint", Self::joint),
@@ -90,11 +103,20 @@ impl Reader {
 
     fn joint(&mut self, at: &At<'_>) -> Option<Joint> {
         let keys = ["name", "label", "type", "axis", "origin", "limits"];
-        let map = self.mapping(at, "a joint (`name`, `type`, `axis`, …)", &keys)?;
+        let map = self.mapping(
+            at,
+            ("a joint", "`{ name: …, type: revolute, axis: z }`"),
+            &keys,
+        )?;
         Some(Joint {
             name: self.text_field(&map, "name"),
             label: self.text_field(&map, "label"),
-            kind: self.needed(&map, "type", "the joint's type", Self::text),
+            kind: self.needed(
+                &map,
+                "type",
+                "`type: …`: `revolute`, `continuous`, `prismatic` or `fixed`",
+                Self::text,
+            ),
             axis: self.field(&map, "axis", Self::axis),
             origin: self.field(&map, "origin", Self::origin),
             limits: self.field(&map, "limits", Self::limits),
@@ -129,7 +151,14 @@ impl Reader {
     }
 
     fn origin(&mut self, at: &At<'_>) -> Option<Origin> {
-        let map = self.mapping(at, "a mapping `{ xyz: […], rpy: […] }`", &["xyz", "rpy"])?;
+        let map = self.mapping(
+            at,
+            (
+                "a placement",
+                "`{ xyz: [x, y, z], rpy: [roll, pitch, yaw] }`",
+            ),
+            &["xyz", "rpy"],
+        )?;
         Some(Origin {
             xyz: self.vector_field(&map, "xyz", &[Dimension::Length]),
             rpy: self.vector_field(&map, "rpy", &[Dimension::Angle]),
@@ -138,7 +167,14 @@ impl Reader {
 
     fn limits(&mut self, at: &At<'_>) -> Option<Limits> {
         let keys = ["lower", "upper", "velocity", "effort"];
-        let map = self.mapping(at, "a mapping `{ lower: …, upper: … }`", &keys)?;
+        let map = self.mapping(
+            at,
+            (
+                "a mapping",
+                "`{ lower: …, upper: …, velocity: …, effort: … }`",
+            ),
+            &keys,
+        )?;
         let position = [Dimension::Angle, Dimension::Length];
         Some(Limits {
             lower: self.number_field(&map, "lower", &position),
@@ -154,7 +190,7 @@ impl Reader {
 
     fn inertia(&mut self, at: &At<'_>) -> Option<Inertia> {
         let keys = ["xx", "yy", "zz", "xy", "xz", "yz", "rpy"];
-        let map = self.mapping(at, "a mapping `{ xx: …, yy: …, zz: … }`", &keys)?;
+        let map = self.mapping(at, ("a tensor", "`{ xx: …, yy: …, zz: … }`"), &keys)?;
         Some(Inertia {
             entries: std::array::from_fn(|i| {
                 self.number_field(&map, keys[i], &[Dimension::Inertia])
@@ -165,14 +201,21 @@ impl Reader {
 
     fn frame(&mut self, at: &At<'_>) -> Option<Frame> {
         let keys = ["name", "link", "origin", "label"];
-        let map = self.mapping(at, "a frame (`name`, `link`, `origin`)", &keys)?;
+        let map = self.mapping(
+            at,
+            (
+                "a frame",
+                "`- { name: …, link: …, origin: { xyz: [x, y, z] } }`",
+            ),
+            &keys,
+        )?;
         Some(Frame {
-            name: self.needed(&map, "name", "the frame's name", Self::text),
+            name: self.needed(&map, "name", "`name: …`, the frame's name", Self::text),
             label: self.text_field(&map, "label"),
             link: self.needed(
                 &map,
                 "link",
-                "the link it is fixed to, or `world`",
+                "`link: …`, the link it is fixed to, or `world`",
                 Self::text,
             ),
             origin: self.field(&map, "origin", Self::origin),

@@ -5,6 +5,7 @@ use super::number::number;
 use super::unit::Dimension;
 use super::yaml::{Data, Entry, Kind, Tree};
 use super::{Field, Located, Number, Vector};
+use crate::fault::wording::Wanted;
 use crate::fault::{Faults, Place, wording};
 
 /// A value and its path.
@@ -82,7 +83,7 @@ impl Reader {
     pub(super) fn mapping<'t>(
         &mut self,
         at: &At<'t>,
-        what: &str,
+        what: Wanted<'_>,
         keys: &[&'static str],
     ) -> Option<Mapping<'t>> {
         self.refuse_tag(at);
@@ -172,7 +173,7 @@ impl Reader {
     }
 
     /// The items of a list.
-    pub(super) fn list<'t>(&mut self, at: &At<'t>, what: &str) -> Option<Vec<At<'t>>> {
+    pub(super) fn list<'t>(&mut self, at: &At<'t>, what: Wanted<'_>) -> Option<Vec<At<'t>>> {
         self.refuse_tag(at);
         let Data::List(items) = &at.tree.data else {
             self.faults
@@ -197,8 +198,11 @@ impl Reader {
                 text,
             } => Some(text.clone()),
             _ => {
-                self.faults
-                    .push(wording::wrong_type(&at.place, "text", &describe(at.tree)));
+                self.faults.push(wording::wrong_type(
+                    &at.place,
+                    ("text", "it between quotes: `\"…\"`"),
+                    &describe(at.tree),
+                ));
                 None
             }
         }
@@ -214,7 +218,7 @@ impl Reader {
         else {
             self.faults.push(wording::wrong_type(
                 &at.place,
-                "a number",
+                ("a number", "`1.5`, or with a unit: `5 mm`"),
                 &describe(at.tree),
             ));
             return None;
@@ -226,7 +230,7 @@ impl Reader {
 
     /// Three numbers.
     pub(super) fn vector(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Vector> {
-        let items = self.list(at, "a list of three numbers")?;
+        let items = self.list(at, ("a list of three numbers", "`[x, y, z]`"))?;
         let count = items.len();
         let numbers: Vec<Option<Located<Number>>> = items
             .into_iter()

@@ -37,7 +37,8 @@ pub(crate) fn repeated_name(place: &Place, name: &str, what: &str, first: &Place
         quote(name)
     );
     let (path, line) = (&first.path, first.position.line);
-    Fault::new(place, "repeated-name", message).with_help(format!("`{path}` on line {line} has it"))
+    Fault::new(place, "repeated-name", message)
+        .with_help(format!("`{path}` on line {line} has it; choose another"))
 }
 
 pub(crate) fn repeated_mount(place: &Place, name: &str, first: &Place) -> Fault {
@@ -247,8 +248,9 @@ pub(crate) fn not_semidefinite(place: &Place, moments: [f64; 3]) -> Fault {
 
 pub(crate) fn triangle_inequality(place: &Place, moments: [f64; 3]) -> Fault {
     let [a, b, c] = moments.map(figure);
+    let short = figure(moments[2] - moments[0] - moments[1]);
     let message = format!(
-        "no body has this tensor: its principal moments are {a}, {b}, {c} kg·m², and {a} + {b} < {c}"
+        "no body has this tensor: its principal moments are {a}, {b}, {c} kg·m², and {a} + {b} falls short of {c} by {short}"
     );
     Fault::new(place, "triangle-inequality", message)
         .with_help("check the numbers, or write `nonphysical: allow` in the link if they are meant")
@@ -283,33 +285,31 @@ pub(crate) fn angle_out_of_range(place: &Place, text: &str, most: f64) -> Fault 
 pub(crate) fn nearly_quarter_turn(place: &Place, off: &[(&str, f64)]) -> Fault {
     let parts: Vec<String> = off
         .iter()
-        .map(|(name, off)| format!("{name} by {} rad", figure(*off)))
+        .map(|(name, off)| format!("{name} is {} rad", figure(*off)))
         .collect();
     let message = format!(
-        "nearly a quarter turn, but not taken as exact: {} off",
+        "{} off a multiple of 90 deg; kept as written",
         parts.join(", ")
     );
-    nearly(
-        place,
-        message,
-        "write it as `90 deg`, or `snap: 1e-4` at the top",
-    )
+    nearly(place, message, "write the exact angle (`90 deg`)")
 }
 
 pub(crate) fn nearly_axis(place: &Place, off: &[(&str, f64)]) -> Fault {
     let parts: Vec<String> = off
         .iter()
-        .map(|(name, off)| format!("{name} by {} rad", figure(*off)))
+        .map(|(name, off)| format!("{name} is {}", figure(*off)))
         .collect();
     let message = format!(
-        "nearly in line with an axis, but not taken as exact: {} off",
+        "{} of the axis's length, nearly 0; kept as written",
         parts.join(", ")
     );
-    nearly(place, message, "write 0 there, or `snap: 1e-4` at the top")
+    nearly(place, message, "write 0 there")
 }
 
 fn nearly(place: &Place, message: String, way: &str) -> Fault {
     Fault::new(place, "nearly-exact", message)
-        .with_help(format!("{way}: structural zeros save operations"))
+        .with_help(format!(
+            "{way}, or `snap: 1e-4` at the top: exact zeros save operations"
+        ))
         .into_warning()
 }

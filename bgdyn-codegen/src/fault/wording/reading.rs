@@ -20,6 +20,7 @@ pub(crate) fn yaml_syntax(position: Position, info: &str) -> Fault {
         "yaml-syntax",
         format!("this is no valid YAML: {info}"),
     )
+    .with_help("look at the lines before it as well: a bracket or a quote may be open")
 }
 
 pub(crate) fn yaml_ambiguous(position: Position) -> Fault {
@@ -45,6 +46,7 @@ pub(crate) fn several_documents(position: Position) -> Fault {
 pub(crate) fn too_deep(position: Position, depth: usize) -> Fault {
     let message = format!("lists and mappings are nested more than {depth} deep");
     Fault::new(&at(position), "too-deep", message)
+        .with_help("the format needs no more than seven levels")
 }
 
 pub(crate) fn cyclic_alias(position: Position) -> Fault {
@@ -110,24 +112,24 @@ pub(crate) fn missing_key(place: &Place, key: &str, what: &str) -> Fault {
         "missing-key",
         format!("the key {} is missing", quote(key)),
     )
-    .with_help(format!("give {what}"))
+    .with_help(format!("add {what}"))
 }
 
-pub(crate) fn wrong_type(place: &Place, wanted: &str, found: &str) -> Fault {
-    let fault = Fault::new(
-        place,
-        "wrong-type",
-        format!("{wanted} belongs here, not {found}"),
-    );
-    if wanted == "text" && (found.starts_with("the number") || found.starts_with("the truth")) {
-        return fault.with_help("put it between quotes if it is meant as text");
-    }
-    fault
+/// What belongs somewhere, and how it is written.
+pub(crate) type Wanted<'a> = (&'a str, &'a str);
+
+pub(crate) fn wrong_type(place: &Place, (what, example): Wanted<'_>, found: &str) -> Fault {
+    let message = format!("{what} belongs here, not {found}");
+    let help = match found {
+        "nothing" => "leave the key out if there is no value".to_owned(),
+        _ => format!("write {example}"),
+    };
+    Fault::new(place, "wrong-type", message).with_help(help)
 }
 
 pub(crate) fn wrong_length(place: &Place, count: usize) -> Fault {
     let message = format!("three numbers belong here, not {count}");
-    Fault::new(place, "wrong-length", message)
+    Fault::new(place, "wrong-length", message).with_help("write `[x, y, z]`")
 }
 
 // Numbers
