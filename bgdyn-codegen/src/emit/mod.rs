@@ -8,6 +8,7 @@ use heck::ToUpperCamelCase;
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::expr::Operations;
 use crate::function::Function;
 use crate::method::{Argument, Shape};
 use crate::model::Model;
@@ -121,6 +122,8 @@ fn constants(model: &Model) -> TokenStream {
     let joints = model.bond_graph.coordinates.iter().map(|c| c.name.as_str());
     let links: Vec<&str> = mechanism.links().iter().map(|l| l.name.as_str()).collect();
     let count = links.len();
+    let functions = model.functions.len();
+    let operations = model.functions.iter().map(operations);
     quote! {
         /// Number of positions.
         pub const NQ: usize = #nq;
@@ -130,6 +133,28 @@ fn constants(model: &Model) -> TokenStream {
         pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
+        /// What one call of each method executes.
+        pub const OPERATIONS: [(&str, __rt::Operations); #functions] = [#(#operations),*];
+    }
+}
+
+fn operations(function: &Function) -> TokenStream {
+    let Operations {
+        mul,
+        add,
+        div,
+        sqrt,
+        sincos,
+        other,
+    } = function.operations();
+    let name = function.name();
+    quote! {
+        (
+            #name,
+            __rt::Operations {
+                mul: #mul, add: #add, div: #div, sqrt: #sqrt, sincos: #sincos, other: #other,
+            },
+        )
     }
 }
 

@@ -16,8 +16,9 @@ use std::hash::BuildHasherDefault;
 
 use bgdyn_runtime::Dd;
 
+pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Ex};
-pub use count::{Operations, count, reachable};
+pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use eval::{Inputs, evaluate};
 

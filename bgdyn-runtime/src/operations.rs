@@ -1,0 +1,56 @@
+//! Operation counts, as the generator states them beside the code.
+
+use core::fmt;
+use core::ops::AddAssign;
+
+/// How many operations of each kind a function executes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions and subtractions.
+    pub add: usize,
+    /// Divisions.
+    pub div: usize,
+    /// Square roots.
+    pub sqrt: usize,
+    /// Pairs of a sine and a cosine of one angle.
+    pub sincos: usize,
+    /// Comparisons, selections, minima and maxima, exponentials, checked pivots.
+    pub other: usize,
+}
+
+impl Operations {
+    /// Multiplications and additions together: what robots are compared by.
+    pub fn total(&self) -> usize {
+        self.mul + self.add
+    }
+}
+
+impl AddAssign for Operations {
+    fn add_assign(&mut self, b: Self) {
+        self.mul += b.mul;
+        self.add += b.add;
+        self.div += b.div;
+        self.sqrt += b.sqrt;
+        self.sincos += b.sincos;
+        self.other += b.other;
+    }
+}
+
+impl fmt::Display for Operations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} mul, {} add", self.mul, self.add)?;
+        for (n, what) in [
+            (self.div, "div"),
+            (self.sqrt, "sqrt"),
+            (self.sincos, "sincos"),
+            (self.other, "other"),
+        ] {
+            if n > 0 {
+                write!(f, ", {n} {what}")?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,198 @@
+//! The compiled code executes exactly the operations that the generator counts: a scalar that
+//! counts runs every method, and what it counted equals the module's `OPERATIONS`.
+
+use std::cell::Cell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use bgdyn::nalgebra::SVector;
+use bgdyn::runtime::Operations;
+use bgdyn::{Dynamics, Scalar, Singular};
+
+thread_local! {
+    static COUNT: Cell<Operations> = Cell::default();
+}
+
+fn note(f: impl FnOnce(&mut Operations)) {
+    let mut count = COUNT.get();
+    f(&mut count);
+    COUNT.set(count);
+}
+
+/// An f64 that counts its operations. Negation and constants are free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Counted(f64);
+
+impl Add for Counted {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        note(|c| c.add += 1);
+        Counted(self.0 + b.0)
+    }
+}
+
+impl Sub for Counted {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        note(|c| c.add += 1);
+        Counted(self.0 - b.0)
+    }
+}
+
+impl Mul for Counted {
+    type Output = Self;
+    fn mul(self, b: Self) -> Self {
+        note(|c| c.mul += 1);
+        Counted(self.0 * b.0)
+    }
+}
+
+impl Div for Counted {
+    type Output = Self;
+    fn div(self, b: Self) -> Self {
+        note(|c| c.div += 1);
+        Counted(self.0 / b.0)
+    }
+}
+
+impl Neg for Counted {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Counted(-self.0)
+    }
+}
+
+fn other(x: f64) -> Counted {
+    note(|c| c.other += 1);
+    Counted(x)
+}
+
+fn pair((s, c): (f64, f64)) -> (Counted, Counted) {
+    note(|c| c.sincos += 1);
+    (Counted(s), Counted(c))
+}
+
+impl Scalar for Counted {
+    type Mask = bool;
+    type Refused = Option<usize>;
+    type Singular<const N: usize> = Singular;
+
+    fn from_f64(x: f64) -> Self {
+        Counted(x)
+    }
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    fn sqrt(self) -> Self {
+        note(|c| c.sqrt += 1);
+        Counted(self.0.sqrt())
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        pair(self.0.sin_cos())
+    }
+    fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
+        let angles: Vec<f64> = angles.iter().map(|a| a.0).collect();
+        pair(<f64 as Scalar>::sin_cos_sum(&angles, offset))
+    }
+    fn exp(self) -> Self {
+        other(self.0.exp())
+    }
+    fn ln(self) -> Self {
+        other(self.0.ln())
+    }
+    fn tanh(self) -> Self {
+        other(self.0.tanh())
+    }
+    fn abs(self) -> Self {
+        other(self.0.abs())
+    }
+    fn min(self, b: Self) -> Self {
+        other(Scalar::min(self.0, b.0))
+    }
+    fn max(self, b: Self) -> Self {
+        other(Scalar::max(self.0, b.0))
+    }
+    fn sign(self) -> Self {
+        other(Scalar::sign(self.0))
+    }
+    fn less(self, b: Self) -> bool {
+        note(|c| c.other += 1);
+        self.0 < b.0
+    }
+    fn select(mask: bool, a: Self, b: Self) -> Self {
+        note(|c| c.other += 1);
+        if mask { a } else { b }
+    }
+    fn none_refused() -> Option<usize> {
+        None
+    }
+    fn checked_pivot(self, m: Self, joint: usize, refused: &mut Option<usize>) -> Self {
+        other(self.0.checked_pivot(m.0, joint, refused))
+    }
+    fn finish<const N: usize>(
+        a: SVector<Self, N>,
+        refused: Option<usize>,
+        names: &'static [&'static str; N],
+    ) -> Result<SVector<Self, N>, Singular> {
+        f64::finish(a.map(|x| x.0), refused, names).map(|a| a.map(Counted))
+    }
+}
+
+/// What running `f` executes.
+fn executed<R>(f: impl FnOnce() -> R) -> Operations {
+    COUNT.set(Operations::default());
+    let _ = std::hint::black_box(f());
+    COUNT.get()
+}
+
+pub(crate) fn counts_equal<M: Dynamics<Counted, N, N>, const N: usize>(
+    robot: &str,
+    model: &M,
+    operations: &[(&str, Operations)],
+) {
+    let vector = |scale: f64| SVector::<Counted, N>::from_fn(|j, _| Counted(scale + j as f64));
+    let (q, v, a) = (vector(0.3), vector(-1.1), vector(2.7));
+    let runs: [(&str, Operations); 7] = [
+        (
+            "inverse_dynamics",
+            executed(|| model.inverse_dynamics(&q, &v, &a)),
+        ),
+        ("mass_matrix", executed(|| model.mass_matrix(&q))),
+        ("bias", executed(|| model.bias(&q, &v))),
+        ("gravity", executed(|| model.gravity(&q))),
+        (
+            "forward_dynamics",
+            executed(|| model.forward_dynamics(&q, &v, &a)),
+        ),
+        ("kinetic_energy", executed(|| model.kinetic_energy(&q, &v))),
+        ("potential_energy", executed(|| model.potential_energy(&q))),
+    ];
+    assert_eq!(runs.as_slice(), operations, "{robot}");
+}
+
+#[test]
+fn compiled_code_executes_what_is_counted() {
+    crate::robots::for_each_operations!(counts_equal);
+}
+
+/// `bgdyn ops` counts what the macro emits: both go through one generator.
+#[test]
+fn the_generator_counts_the_same_again() {
+    for (name, stated) in [
+        ("scara_rrpr", crate::robots::scara_rrpr::OPERATIONS),
+        ("puma_arm", crate::robots::puma_arm::OPERATIONS),
+    ] {
+        let path = format!(
+            "{}/tests/golden/specs/{name}.yaml",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let text = std::fs::read_to_string(path).unwrap();
+        let (mechanism, _) = bgdyn_codegen::read(&text, Some(name));
+        let model = bgdyn_codegen::model::Model::new(mechanism.unwrap(), &Default::default());
+        let counted: Vec<_> = model
+            .functions
+            .iter()
+            .map(|f| (f.name(), f.operations()))
+            .collect();
+        assert_eq!(counted, stated, "{name}");
+    }
+}

@@ -1,0 +1,9 @@
+//! Compiled code against golden values, physical laws and its own operation counts.
+//!
+//! The models are what `bgdyn!` makes of the imported specs in `tests/golden/specs`.
+
+mod counting;
+mod golden;
+mod golden_values;
+mod laws;
+mod robots;
