@@ -147,6 +147,9 @@ impl Dd {
         if !self.is_finite() {
             return (Self::NAN, Self::NAN);
         }
+        if self.hi == 0.0 {
+            return (self, Self::ONE); // keeps the sign of zero
+        }
         if self.hi.abs() < REDUCED {
             return reduced_sin_cos(self);
         }

@@ -13,14 +13,13 @@ const fn power_of_two(n: i64) -> f64 {
     f64::from_bits(((n + 1023) as u64) << 52)
 }
 
-/// Above this a sum is formed at a smaller scale.
+/// Above this a sum or a product is formed at a smaller scale.
 const HUGE: f64 = power_of_two(1020);
-/// Between these, a quotient or a square root needs no scaling.
-const LARGE: f64 = power_of_two(1000);
-const SMALL: f64 = power_of_two(-900);
-/// A factor below this can be split; a product between these has an exact low word.
-const SPLITTABLE: f64 = power_of_two(995);
+/// Below this the low word of a product does not fit the exponents.
 const PRODUCT_MIN: f64 = power_of_two(-960);
+/// Between these a factor can be split, and a quotient or a square root needs no scaling.
+const LARGE: f64 = power_of_two(990);
+const SMALL: f64 = power_of_two(-900);
 
 /// `a + b` exactly, whichever is larger (Knuth's two-sum).
 pub(super) const fn two_sum(a: f64, b: f64) -> Dd {
@@ -62,17 +61,8 @@ fn split(a: f64) -> (f64, f64) {
     (hi, a - hi)
 }
 
-/// The rounding error of the finite product `p` of `a` and `b`: exact, but for what is smaller
-/// than the smallest `f64`.
+/// The rounding error of the product `p` of `a` and `b`, neither larger than [`LARGE`] (Dekker).
 fn product_error(a: f64, b: f64, p: f64) -> f64 {
-    if a == 0.0 || b == 0.0 {
-        return 0.0;
-    }
-    let plain =
-        a.abs() < SPLITTABLE && b.abs() < SPLITTABLE && p.abs() < HUGE && p.abs() > PRODUCT_MIN;
-    if !plain {
-        return libm::fma(a, b, -p);
-    }
     let (a_hi, a_lo) = split(a);
     let (b_hi, b_lo) = split(b);
     ((a_hi * b_hi - p) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo
@@ -81,7 +71,13 @@ fn product_error(a: f64, b: f64, p: f64) -> f64 {
 impl Dd {
     /// `self · 2ⁿ`, exactly but for overflow and underflow.
     pub(super) fn scale(self, n: i32) -> Self {
-        quick_two_sum(libm::scalbn(self.hi, n), libm::scalbn(self.lo, n))
+        let hi = libm::scalbn(self.hi, n);
+        let lo = if hi.is_finite() {
+            libm::scalbn(self.lo, n)
+        } else {
+            0.0
+        };
+        quick_two_sum(hi, lo)
     }
 
     /// `self · 0.5`, exactly but for underflow.
@@ -92,12 +88,9 @@ impl Dd {
         }
     }
 
-    /// `self · b`, for one word.
+    /// `self · b`, for one word; neither these nor the product beyond [`LARGE`].
     fn times(self, b: f64) -> Self {
         let p = self.hi * b;
-        if !p.is_finite() {
-            return Self { hi: p, lo: 0.0 };
-        }
         quick_two_sum(p, product_error(self.hi, b, p) + self.lo * b)
     }
 
@@ -157,8 +150,15 @@ impl Mul for Dd {
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
         let p = a.hi * b.hi;
-        if !p.is_finite() {
+        // Zeros, infinities and NaN in, and their like out.
+        if a.hi == 0.0 || b.hi == 0.0 || !a.hi.is_finite() || !b.hi.is_finite() {
             return Self { hi: p, lo: 0.0 };
+        }
+        let plain =
+            a.hi.abs() < LARGE && b.hi.abs() < LARGE && p.abs() < HUGE && p.abs() > PRODUCT_MIN;
+        if !plain {
+            let (na, nb) = (libm::ilogb(a.hi), libm::ilogb(b.hi));
+            return (a.scale(-na) * b.scale(-nb)).scale(na + nb);
         }
         let cross = a.hi * b.lo + (a.lo * b.hi + a.lo * b.lo);
         quick_two_sum(p, product_error(a.hi, b.hi, p) + cross)

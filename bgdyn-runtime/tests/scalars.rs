@@ -1,0 +1,196 @@
+//! The scalar trait for `f64`, `f32` and double-doubles.
+
+mod exact;
+
+use bgdyn_runtime::nalgebra::SVector;
+use bgdyn_runtime::{Dd, Scalar, Singular};
+use exact::cases;
+use proptest::prelude::*;
+
+/// Numbers in common that the generic checks are written with.
+trait Word: Scalar<Mask = bool, Refused = Option<usize>> {
+    fn get(self) -> f64;
+}
+
+impl Word for f64 {
+    fn get(self) -> f64 {
+        self
+    }
+}
+
+impl Word for f32 {
+    fn get(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+impl Word for Dd {
+    fn get(self) -> f64 {
+        self.to_f64()
+    }
+}
+
+/// The error of a sine and cosine of the sum of `angles` and `offset`, compared with double-double.
+fn sum_error<T: Word>(angles: &[T], offset: (f64, f64)) -> f64 {
+    let wide: Vec<Dd> = angles
+        .iter()
+        .map(|angle| Dd::from_f64(angle.get()))
+        .collect();
+    let (s, c) = T::sin_cos_sum(angles, offset);
+    let (sin, cos) = Dd::sin_cos_sum(&wide, offset);
+    let distance = |x: T, reference: Dd| (Dd::from_f64(x.get()) - reference).abs().to_f64();
+    distance(s, sin).max(distance(c, cos))
+}
+
+proptest! {
+    #![proptest_config(cases(5000))]
+
+    #[test]
+    fn sine_of_a_sum_in_f64(
+        a in -1e12..1e12, b in -1e12..1e12, c in -4.0..4.0, scale in 0..13_i32, offset in -4.0..4.0
+    ) {
+        let scale = 10_f64.powi(-scale);
+        let (a, b): (f64, f64) = (a * scale, b * scale);
+        for angles in [&[a][..], &[a, c], &[a, b], &[a, b, c], &[a, c, -a], &[a, b, c, -a, -b]] {
+            for offset in [(0.0, 0.0), (offset, offset * 5e-17), (std::f64::consts::FRAC_PI_2, 6.123233995736766e-17)] {
+                let error = sum_error(angles, offset);
+                prop_assert!(error <= 0.9 * f64::EPSILON, "{angles:?} {offset:?} {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn sine_of_a_sum_in_f32(
+        a in -1e7..1e7_f32, b in -1e7..1e7_f32, c in -4.0..4.0_f32, scale in 0..13_i32, offset in -4.0..4.0
+    ) {
+        let scale = 10_f32.powi(-scale);
+        let (a, b): (f32, f32) = (a * scale, b * scale);
+        for angles in [&[a][..], &[a, c], &[a, b], &[a, b, c], &[a, c, -a], &[a, b, c, -a, -b]] {
+            for offset in [(0.0, 0.0), (offset, offset * 5e-17)] {
+                let error = sum_error(angles, offset);
+                prop_assert!(error <= 2.0 * f64::from(f32::EPSILON), "{angles:?} {offset:?} {error:e}");
+            }
+        }
+    }
+}
+
+/// What a plain sum would lose.
+#[test]
+fn a_sum_of_large_angles_keeps_its_small_ones() {
+    let (s, _) = f64::sin_cos_sum(&[1e12, 1e-9, -1e12], (0.0, 0.0));
+    assert!((s - 1e-9).abs() < 1e-24);
+    assert_ne!((1e12 + 1e-9) - 1e12, 1e-9);
+    let (s, _) = f64::sin_cos_sum(&[std::f64::consts::PI], (0.0, 1.2246467991473532e-16));
+    assert!(s.abs() < 1e-31, "{s:e}");
+    // A tail too large for its series.
+    assert!(sum_error(&[1e12, 5e-5, 1e12], (0.0, 0.0)) < 2.0 * f64::EPSILON);
+    assert!(sum_error(&[1e7_f32, 0.3, 1e7], (0.0, 0.0)) < 2.0 * f64::from(f32::EPSILON));
+    assert!(
+        f64::sin_cos_sum(&[f64::INFINITY, 1.0], (0.0, 0.0))
+            .0
+            .is_nan()
+    );
+    assert!(f64::sin_cos_sum(&[f64::NAN, 1.0], (0.0, 0.0)).1.is_nan());
+}
+
+fn comparisons<T: Word>() {
+    let t = <T as Scalar>::from_f64;
+    let nan = t(f64::NAN);
+    assert_eq!((t(1.0).min(t(2.0)), t(1.0).max(t(2.0))), (t(1.0), t(2.0)));
+    assert_eq!((t(2.0).min(t(1.0)), t(2.0).max(t(1.0))), (t(1.0), t(2.0)));
+    for (a, b) in [(nan, t(1.0)), (t(1.0), nan), (nan, nan)] {
+        assert!(Scalar::min(a, b).get().is_nan() && Scalar::max(a, b).get().is_nan());
+        assert!(!a.less(b) && !b.less(a));
+    }
+    assert!(t(1.0).less(t(2.0)) && !t(2.0).less(t(1.0)) && !t(1.0).less(t(1.0)));
+    assert_eq!(
+        [-3.0, -0.0, 0.0, 5.0].map(|x| t(x).sign().get()),
+        [-1.0, 0.0, 0.0, 1.0]
+    );
+    assert!(nan.sign().get().is_nan());
+    assert_eq!(
+        (
+            T::select(true, t(1.0), t(2.0)),
+            T::select(false, t(1.0), t(2.0))
+        ),
+        (t(1.0), t(2.0))
+    );
+    assert_eq!(t(2.0).mul_add(t(3.0), t(1.0)), t(7.0));
+    assert_eq!(Scalar::abs(t(-2.0)), t(2.0));
+    assert_eq!(Scalar::sqrt(t(9.0)), t(3.0));
+}
+
+#[test]
+fn comparisons_of_all() {
+    comparisons::<f64>();
+    comparisons::<f32>();
+    comparisons::<Dd>();
+}
+
+/// Whether a pivot is accepted; what comes back is the pivot or 1.
+fn accepted<T: Word>(pivot: f64, magnitude: f64) -> bool {
+    let mut refused = T::none_refused();
+    let t = <T as Scalar>::from_f64;
+    let back = t(pivot).checked_pivot(t(magnitude), 4, &mut refused);
+    match refused {
+        None => assert_eq!(back, t(pivot)),
+        Some(joint) => assert_eq!((joint, back), (4, t(1.0))),
+    }
+    refused.is_none()
+}
+
+fn pivots<T: Word>(epsilon: f64) {
+    assert!(accepted::<T>(1.0, 1.0));
+    for bad in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(!accepted::<T>(bad, 1.0), "{bad}");
+        assert!(!accepted::<T>(bad, 0.0), "{bad}");
+    }
+    assert!(!accepted::<T>(1.0, f64::NAN));
+    assert!(!accepted::<T>(1.0, f64::INFINITY));
+    assert!(accepted::<T>(2_f64.powi(-100), 0.0));
+    assert!(accepted::<T>(8.0 * epsilon, 1.0));
+    assert!(!accepted::<T>(0.5 * epsilon, 1.0));
+    assert!(!accepted::<T>(1.0, 4.0 / epsilon));
+}
+
+#[test]
+fn pivots_of_all() {
+    pivots::<f64>(f64::EPSILON);
+    pivots::<f32>(f64::from(f32::EPSILON));
+    pivots::<Dd>(2_f64.powi(-104));
+    // A true pivot of this size is lost among terms as large as 1, except in double-double.
+    assert!(!accepted::<f64>(2_f64.powi(-100), 1.0));
+    assert!(!accepted::<f32>(2_f64.powi(-100), 1.0));
+    assert!(accepted::<Dd>(2_f64.powi(-100), 1.0));
+}
+
+#[test]
+fn the_first_refused_joint_is_named() {
+    static NAMES: [&str; 2] = ["hip", "knee"];
+    let mut refused = f64::none_refused();
+    let accelerations = SVector::<f64, 2>::new(1.0, 2.0);
+    assert_eq!(
+        f64::finish(accelerations, refused, &NAMES),
+        Ok(accelerations)
+    );
+    let _ = 0.0.checked_pivot(1.0, 1, &mut refused);
+    let _ = (-1.0).checked_pivot(1.0, 0, &mut refused);
+    let _ = 1.0.checked_pivot(1.0, 0, &mut refused);
+    let singular = Singular {
+        joint: 1,
+        name: "knee",
+    };
+    assert_eq!(f64::finish(accelerations, refused, &NAMES), Err(singular));
+    let wide = SVector::<Dd, 2>::new(Dd::ONE, Dd::PI);
+    assert_eq!(Dd::finish(wide, Some(1), &NAMES), Err(singular));
+    assert!(singular.to_string().contains("`knee` (number 1)"));
+}
+
+#[test]
+fn constants_keep_both_words_where_there_is_room() {
+    let (hi, lo) = (0.1, 1e-18);
+    assert_eq!(<Dd as Scalar>::from_parts(hi, lo), Dd::new(hi, lo));
+    assert_eq!(Dd::new(hi, lo).lo(), lo);
+    assert_eq!(<f64 as Scalar>::from_parts(hi, lo), hi);
+    assert_eq!(<f32 as Scalar>::from_parts(hi, lo), 0.1_f32);
+}
