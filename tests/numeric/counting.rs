@@ -30,6 +30,7 @@ impl Add for Counted {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "it counts")]
 impl Sub for Counted {
     type Output = Self;
     fn sub(self, b: Self) -> Self {
@@ -38,6 +39,7 @@ impl Sub for Counted {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "it counts")]
 impl Mul for Counted {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
@@ -46,6 +48,7 @@ impl Mul for Counted {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "it counts")]
 impl Div for Counted {
     type Output = Self;
     fn div(self, b: Self) -> Self {

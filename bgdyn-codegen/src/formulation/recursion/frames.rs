@@ -150,7 +150,7 @@ fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<Dd> {
     };
     let parent_z = body.twist.transpose().column(2);
     let mut offset = body.offset - parent_z.scale(plan.slides[p]);
-    offset.0[2] = offset.0[2] + plan.slides[j];
+    offset.0[2] += plan.slides[j];
     // What two equal lengths leave of their difference is no length.
     let size = body
         .offset
