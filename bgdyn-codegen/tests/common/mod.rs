@@ -14,6 +14,7 @@ use bgdyn_codegen::formulation;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion, Value};
 use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{self, Options};
 use bgdyn_runtime::{Dd, Scalar};
 use rng::Rng;
 
@@ -54,8 +55,18 @@ impl Robot {
         self.graph.coordinates.iter().map(|c| c.motion).collect()
     }
 
-    /// The function of a method by the named formulation.
+    /// The function of a method by the named formulation, as it is emitted.
     pub fn function(&self, formulation: &str, method: Method) -> Function {
+        let options = Options {
+            formulation: formulation::by_name(formulation),
+        };
+        assert!(options.formulation.is_some(), "{formulation}?");
+        let made = model::function(&self.mechanism, method, &options);
+        made.expect("every formulation knows every method")
+    }
+
+    /// The same before long functions are cut into blocks: one graph, to be differentiated.
+    pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
         let made = formulation.function(&self.graph, method);
         made.expect("every formulation knows every method")
