@@ -182,12 +182,13 @@ fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd
         let child_z = placed[c].rotation * bodies[c].axes.column(2);
         let normal = clean(z.cross(child_z));
         if normal != Vec3([Dd::ZERO; 3]) {
-            return Some(normalised(normal));
+            return Some(perpendicular(normal, z));
         }
-        // Parallel axes: from one to the other.
+        // Parallel axes: from one to the other. What is left of a distance along z is none.
         let p = placed[c].translation;
-        let across = clean_length(p - z.scale(z.dot(p)));
-        (across != Vec3([Dd::ZERO; 3])).then(|| normalised(across))
+        let across = p - z.scale(z.dot(p));
+        let apart = across.dot(across) > p.dot(p) * Dd::from_f64(NOISE * NOISE);
+        apart.then(|| perpendicular(clean_length(across), z))
     };
     children.into_iter().find_map(normal)
 }
@@ -247,6 +248,13 @@ fn columns(x: Vec3<Dd>, y: Vec3<Dd>, z: Vec3<Dd>) -> Mat3<Dd> {
 
 fn normalised(v: Vec3<Dd>) -> Vec3<Dd> {
     v.scale(Dd::ONE / v.dot(v).sqrt())
+}
+
+/// The direction of `v`, perpendicular to the unit vector `z` to the last digit: a short `v` that
+/// came out of a cancellation is so only roughly.
+fn perpendicular(v: Vec3<Dd>, z: Vec3<Dd>) -> Vec3<Dd> {
+    let v = normalised(v);
+    normalised(v - z.scale(z.dot(v)))
 }
 
 /// A direction without what rounding left of its zeros and ones.

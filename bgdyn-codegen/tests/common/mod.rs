@@ -1,0 +1,204 @@
+//! Shared by the tests: deterministic states, robots under test, tolerances.
+//!
+//! Tests go through the public interface only: text → mechanism → functions → evaluator.
+#![allow(dead_code)] // each test file uses a part
+
+pub mod golden;
+pub mod kinematics;
+pub mod random;
+pub mod rng;
+
+use bgdyn_codegen::bond_graph::{self, BondGraph};
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::formulation;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::mechanism::{Mechanism, Motion, Value};
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{self, Options};
+use bgdyn_runtime::{Dd, Scalar};
+use rng::Rng;
+
+/// Both formulations by name.
+pub const FORMULATIONS: [&str; 2] = ["literal", "recursion"];
+
+/// A mechanism with its bond graph.
+pub struct Robot {
+    pub mechanism: Mechanism,
+    pub graph: BondGraph,
+}
+
+impl Robot {
+    /// From a spec's text, which must be without faults.
+    pub fn read(text: &str, stem: Option<&str>) -> Self {
+        let (mechanism, faults) = bgdyn_codegen::read(text, stem);
+        let Some(mechanism) = mechanism else {
+            panic!("the spec is refused: {faults:?}\n{text}");
+        };
+        let graph = bond_graph::build(&mechanism);
+        Robot { mechanism, graph }
+    }
+
+    pub fn nv(&self) -> usize {
+        self.mechanism.nv()
+    }
+
+    /// Names of the moving joints, in the order of q.
+    pub fn joints(&self) -> Vec<String> {
+        let links = self.mechanism.coordinates().iter();
+        links
+            .map(|l| self.mechanism.links()[l.0].joint.name.clone())
+            .collect()
+    }
+
+    /// What each coordinate moves.
+    pub fn motions(&self) -> Vec<Motion> {
+        self.graph.coordinates.iter().map(|c| c.motion).collect()
+    }
+
+    /// The function of a method by the named formulation, as it is emitted.
+    pub fn function(&self, formulation: &str, method: Method) -> Function {
+        let options = Options {
+            formulation: formulation::by_name(formulation),
+        };
+        assert!(options.formulation.is_some(), "{formulation}?");
+        let made = model::function(&self.mechanism, method, &options);
+        made.expect("every formulation knows every method")
+    }
+
+    /// The same before long functions are cut into blocks: one graph, to be differentiated.
+    pub fn whole(&self, formulation: &str, method: Method) -> Function {
+        let formulation = formulation::by_name(formulation).expect("a formulation of this name");
+        let made = formulation.function(&self.graph, method);
+        made.expect("every formulation knows every method")
+    }
+}
+
+/// Positions, velocities, accelerations, efforts.
+#[derive(Clone, Debug)]
+pub struct State {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub a: Vec<f64>,
+    pub tau: Vec<f64>,
+}
+
+impl State {
+    /// A random one: angles over a whole turn, displacements within 1 m; now and then an exact 0.
+    pub fn random(rng: &mut Rng, motions: &[Motion]) -> Self {
+        let mut some = |size: f64| {
+            if rng.chance(0.05) {
+                0.0
+            } else {
+                rng.within(size)
+            }
+        };
+        let q = |m: &Motion| if *m == Motion::Rotation { 3.2 } else { 1.0 };
+        State {
+            q: motions.iter().map(|m| some(q(m))).collect(),
+            v: motions.iter().map(|_| some(2.0)).collect(),
+            a: motions.iter().map(|_| some(3.0)).collect(),
+            tau: motions.iter().map(|_| some(20.0)).collect(),
+        }
+    }
+
+    /// The arguments in a scalar type.
+    pub fn inputs<T: Scalar>(&self) -> Inputs<T> {
+        let all = |x: &[f64]| x.iter().map(|&x| T::from_f64(x)).collect();
+        Inputs {
+            q: all(&self.q),
+            v: all(&self.v),
+            a: all(&self.a),
+            u: all(&self.tau),
+            x: vec![],
+            modes: vec![],
+            parameters: vec![],
+            passed: vec![],
+        }
+    }
+
+    /// The method's value; no pivot may be refused.
+    pub fn value<T: Scalar<Refused = Option<usize>>>(&self, f: &Function) -> Vec<T> {
+        let (value, refused) = f.evaluate(self.inputs::<T>());
+        assert_eq!(refused, None, "a pivot is refused: {}", f.formulation);
+        value
+    }
+}
+
+/// A full matrix from its lower triangle, row by row.
+pub fn full<T: Copy>(triangle: &[T], n: usize) -> Vec<Vec<T>> {
+    assert_eq!(triangle.len(), n * (n + 1) / 2);
+    let at = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+    (0..n).map(|i| (0..n).map(|j| at(i, j)).collect()).collect()
+}
+
+/// The largest entry, absolute.
+pub fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m, x| m.max(x.abs()))
+}
+
+/// The sum of absolute entries.
+pub fn sum_abs(x: &[f64]) -> f64 {
+    x.iter().map(|x| x.abs()).sum()
+}
+
+/// Asserts |x − y| ≤ `tolerance` entry by entry; `what` tells the place of a failure.
+pub fn assert_close<T: Into<Dd> + Copy>(
+    x: &[T],
+    y: &[T],
+    tolerance: f64,
+    what: impl Fn() -> String,
+) {
+    assert_eq!(x.len(), y.len(), "{}", what());
+    for (k, (&x, &y)) in x.iter().zip(y).enumerate() {
+        let (x, y): (Dd, Dd) = (x.into(), y.into());
+        let off = (x - y).abs().to_f64();
+        assert!(
+            off <= tolerance,
+            "{}: entry {k}: {} against {}, off by {off:e}, allowed {tolerance:e}",
+            what(),
+            x.to_f64(),
+            y.to_f64()
+        );
+    }
+}
+
+/// A number of the spec.
+pub fn fixed(value: Value) -> f64 {
+    match value {
+        Value::Fixed(x) => x.to_f64(),
+        Value::Parameter(_) => panic!("the tests' mechanisms have no run-time parameters"),
+    }
+}
+
+/// An effort that no single term of equation (6) exceeds in this state: with L the sum of all
+/// lengths and W = Σ m_i L² + |J_i| (L at least 1 m), W (Σ|a| + (Σ|v|)²) + Σ m_i |g| L.
+pub fn natural_effort(robot: &Robot, s: &State) -> f64 {
+    let (weight, inertia) = natural_inertia(robot, s);
+    let speed = sum_abs(&s.v);
+    inertia * (sum_abs(&s.a) + speed * speed) + weight
+}
+
+/// (Σ m_i |g| L, W) of [`natural_effort`].
+pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
+    let links = robot.mechanism.links();
+    let mut length = 1.0;
+    for link in links {
+        if link.parent.is_some() {
+            let step = link.joint.origin.translation.0;
+            length += step.iter().map(|x| x.to_f64().abs()).sum::<f64>();
+        }
+        let com = link.inertial.com.0;
+        length += com.iter().map(|&x| fixed(x).abs()).sum::<f64>();
+    }
+    for (q, motion) in s.q.iter().zip(robot.motions()) {
+        if motion == Motion::Translation {
+            length += q.abs();
+        }
+    }
+    let mass: f64 = links.iter().map(|l| fixed(l.inertial.mass)).sum();
+    let tensors = links.iter().flat_map(|l| l.inertial.inertia);
+    let inertia = mass * length * length + tensors.map(|x| fixed(x).abs()).sum::<f64>();
+    let g = robot.mechanism.gravity().0;
+    let gravity: f64 = g.iter().map(|x| x.to_f64().abs()).sum();
+    (mass * gravity * length, inertia)
+}
