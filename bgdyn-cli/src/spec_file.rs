@@ -68,5 +68,6 @@ pub(crate) fn options(formulation: Option<&str>) -> Result<Options> {
         .ok_or_else(|| anyhow!("no formulation `{name}`; there are {}", known()))?;
     Ok(Options {
         formulation: Some(formulation),
+        ..Options::default()
     })
 }

@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Scalar;
 
+use crate::bond_graph::BondGraph;
 use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate};
 use crate::method::{Method, Shape};
 
@@ -18,6 +19,8 @@ pub struct Block {
 pub struct Function {
     /// Which method.
     pub method: Method,
+    /// Its name in the generated code.
+    pub name: String,
     /// Name of the formulation that was chosen, with its variant.
     pub formulation: String,
     /// Expressions of all blocks.
@@ -28,9 +31,16 @@ pub struct Function {
 
 impl Function {
     /// A function of one block.
-    pub fn flat(method: Method, formulation: String, graph: Graph, outputs: Vec<Expr>) -> Self {
+    pub fn flat(
+        bond_graph: &BondGraph,
+        method: Method,
+        formulation: String,
+        graph: Graph,
+        outputs: Vec<Expr>,
+    ) -> Self {
         Function {
             method,
+            name: method.name(bond_graph),
             formulation,
             graph,
             blocks: vec![Block { outputs }],
@@ -38,8 +48,8 @@ impl Function {
     }
 
     /// Its name.
-    pub fn name(&self) -> &'static str {
-        self.method.name()
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Its result's shape.

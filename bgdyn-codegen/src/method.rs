@@ -1,5 +1,7 @@
-//! The methods a generated model has: names, arguments, shapes, units. One list, read by the
-//! formulations, the emitter and the command line.
+//! The methods a generated model has: names, arguments, shapes, units. Read by the formulations,
+//! the emitter and the command line.
+
+use crate::bond_graph::{BondGraph, SiteId};
 
 /// An argument of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +39,19 @@ pub enum Shape {
     CheckedVector,
     /// A symmetric NV × NV matrix; the expressions are its lower triangle, row by row.
     Symmetric,
+    /// An NV × NV matrix, row by row.
+    Square,
+    /// Two NV × NV matrices.
+    SquarePair,
+    /// NV accelerations and three NV × NV matrices, or the error that names a joint; only the
+    /// matrices are returned.
+    CheckedSquares,
+    /// A rotation matrix, row by row, and a point.
+    Pose,
+    /// A spatial vector, angular part first.
+    Spatial,
+    /// A 6 × NV matrix, row by row, angular part first.
+    Jacobian,
 }
 
 impl Shape {
@@ -46,7 +61,18 @@ impl Shape {
             Shape::Scalar => 1,
             Shape::Vector | Shape::CheckedVector => nv,
             Shape::Symmetric => nv * (nv + 1) / 2,
+            Shape::Square => nv * nv,
+            Shape::SquarePair => 2 * nv * nv,
+            Shape::CheckedSquares => nv + 3 * nv * nv,
+            Shape::Pose => 12,
+            Shape::Spatial => 6,
+            Shape::Jacobian => 6 * nv,
         }
+    }
+
+    /// Whether a singular mass matrix is an error.
+    pub fn checked(self) -> bool {
+        matches!(self, Shape::CheckedVector | Shape::CheckedSquares)
     }
 }
 
@@ -67,10 +93,24 @@ pub enum Method {
     KineticEnergy,
     /// V(q).
     PotentialEnergy,
+    /// C(q, v).
+    CoriolisMatrix,
+    /// ∂τ/∂q, ∂τ/∂v.
+    InverseDynamicsDerivatives,
+    /// ∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ.
+    ForwardDynamicsDerivatives,
+    /// Where a site is.
+    Pose(SiteId),
+    /// How a site moves.
+    Velocity(SiteId),
+    /// How it moves per unit of each velocity.
+    Jacobian(SiteId),
+    /// Its acceleration where the joints' accelerations are zero.
+    JacobianDotV(SiteId),
 }
 
 impl Method {
-    /// Every method, in the order of the output.
+    /// The methods of [`bgdyn_runtime::Dynamics`], which every model has.
     pub const ALL: [Method; 7] = [
         Method::InverseDynamics,
         Method::MassMatrix,
@@ -81,21 +121,67 @@ impl Method {
         Method::PotentialEnergy,
     ];
 
+    /// The four methods of a site.
+    pub fn of_site(site: SiteId) -> [Method; 4] {
+        [
+            Method::Pose(site),
+            Method::Velocity(site),
+            Method::Jacobian(site),
+            Method::JacobianDotV(site),
+        ]
+    }
+
+    /// Every method that a mechanism can have.
+    pub fn possible(graph: &BondGraph) -> Vec<Method> {
+        let own = [
+            Method::CoriolisMatrix,
+            Method::InverseDynamicsDerivatives,
+            Method::ForwardDynamicsDerivatives,
+        ];
+        let sites = (0..graph.sites.len()).flat_map(|i| Method::of_site(SiteId(i)));
+        Method::ALL.into_iter().chain(own).chain(sites).collect()
+    }
+
     /// The method with this name.
-    pub fn by_name(name: &str) -> Option<Method> {
-        Method::ALL.into_iter().find(|m| m.name() == name)
+    pub fn by_name(graph: &BondGraph, name: &str) -> Option<Method> {
+        let mut possible = Method::possible(graph).into_iter();
+        possible.find(|m| m.name(graph) == name)
+    }
+
+    /// Whether the trait `Dynamics` has it.
+    pub fn of_trait(self) -> bool {
+        Method::ALL.contains(&self)
+    }
+
+    /// The site it is about.
+    pub fn site(self) -> Option<SiteId> {
+        match self {
+            Method::Pose(site)
+            | Method::Velocity(site)
+            | Method::Jacobian(site)
+            | Method::JacobianDotV(site) => Some(site),
+            _ => None,
+        }
     }
 
     /// Its name.
-    pub fn name(self) -> &'static str {
+    pub fn name(self, graph: &BondGraph) -> String {
+        let site = |prefix: &str, site: SiteId| format!("{prefix}_{}", graph.sites[site.0].name);
         match self {
-            Method::InverseDynamics => "inverse_dynamics",
-            Method::MassMatrix => "mass_matrix",
-            Method::Bias => "bias",
-            Method::Gravity => "gravity",
-            Method::ForwardDynamics => "forward_dynamics",
-            Method::KineticEnergy => "kinetic_energy",
-            Method::PotentialEnergy => "potential_energy",
+            Method::InverseDynamics => "inverse_dynamics".into(),
+            Method::MassMatrix => "mass_matrix".into(),
+            Method::Bias => "bias".into(),
+            Method::Gravity => "gravity".into(),
+            Method::ForwardDynamics => "forward_dynamics".into(),
+            Method::KineticEnergy => "kinetic_energy".into(),
+            Method::PotentialEnergy => "potential_energy".into(),
+            Method::CoriolisMatrix => "coriolis_matrix".into(),
+            Method::InverseDynamicsDerivatives => "inverse_dynamics_derivatives".into(),
+            Method::ForwardDynamicsDerivatives => "forward_dynamics_derivatives".into(),
+            Method::Pose(s) => site("pose", s),
+            Method::Velocity(s) => site("velocity", s),
+            Method::Jacobian(s) => site("jacobian_world", s),
+            Method::JacobianDotV(s) => site("jacobian_dot_v_world", s),
         }
     }
 
@@ -103,10 +189,12 @@ impl Method {
     pub fn arguments(self) -> &'static [Argument] {
         use Argument::{A, Q, Tau, V};
         match self {
-            Method::InverseDynamics => &[Q, V, A],
+            Method::InverseDynamics | Method::InverseDynamicsDerivatives => &[Q, V, A],
             Method::MassMatrix | Method::Gravity | Method::PotentialEnergy => &[Q],
-            Method::Bias | Method::KineticEnergy => &[Q, V],
-            Method::ForwardDynamics => &[Q, V, Tau],
+            Method::Pose(_) | Method::Jacobian(_) => &[Q],
+            Method::Bias | Method::KineticEnergy | Method::CoriolisMatrix => &[Q, V],
+            Method::Velocity(_) | Method::JacobianDotV(_) => &[Q, V],
+            Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
         }
     }
 
@@ -117,25 +205,56 @@ impl Method {
             Method::ForwardDynamics => Shape::CheckedVector,
             Method::MassMatrix => Shape::Symmetric,
             Method::KineticEnergy | Method::PotentialEnergy => Shape::Scalar,
+            Method::CoriolisMatrix => Shape::Square,
+            Method::InverseDynamicsDerivatives => Shape::SquarePair,
+            Method::ForwardDynamicsDerivatives => Shape::CheckedSquares,
+            Method::Pose(_) => Shape::Pose,
+            Method::Velocity(_) | Method::JacobianDotV(_) => Shape::Spatial,
+            Method::Jacobian(_) => Shape::Jacobian,
         }
     }
 
     /// What the result is: one line of documentation.
-    pub fn summary(self) -> &'static str {
+    pub fn summary(self, graph: &BondGraph) -> String {
+        let of = |site: SiteId| format!("`{}`", graph.sites[site.0].name);
         match self {
             Method::InverseDynamics => {
-                "Joint efforts that produce the accelerations `a` (Kuzmin 2007, eq. 6)."
+                "Joint efforts that produce the accelerations `a` (Kuzmin 2007, eq. 6).".into()
             }
-            Method::MassMatrix => "Mass matrix M(q), exactly symmetric.",
-            Method::Bias => "Bias force: everything in the joint efforts but M(q)·a.",
-            Method::Gravity => "Joint efforts that hold the mechanism at rest.",
+            Method::MassMatrix => "Mass matrix M(q), exactly symmetric.".into(),
+            Method::Bias => "Bias force: everything in the joint efforts but M(q)·a.".into(),
+            Method::Gravity => "Joint efforts that hold the mechanism at rest.".into(),
             Method::ForwardDynamics => {
-                "Accelerations under the joint efforts `tau`: M⁻¹(tau − bias)."
+                "Accelerations under the joint efforts `tau`: M⁻¹(tau − bias).".into()
             }
-            Method::KineticEnergy => "Kinetic energy ½ vᵀ M(q) v.",
+            Method::KineticEnergy => "Kinetic energy ½ vᵀ M(q) v.".into(),
             Method::PotentialEnergy => {
                 "Potential energy of gravity; zero with every centre of mass at the world's origin."
+                    .into()
             }
+            Method::CoriolisMatrix => {
+                "Coriolis matrix C(q, v) of Christoffel's symbols: bias = C v + gravity, Ṁ − 2C skew."
+                    .into()
+            }
+            Method::InverseDynamicsDerivatives => {
+                "Derivatives of the joint efforts: (∂τ/∂q, ∂τ/∂v); ∂τ/∂a is the mass matrix.".into()
+            }
+            Method::ForwardDynamicsDerivatives => {
+                "Derivatives of the accelerations: (∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ); the last is M⁻¹.".into()
+            }
+            Method::Pose(s) => format!("Pose of {} in the world.", of(s)),
+            Method::Velocity(s) => format!(
+                "Velocity of {}, angular part first: ω, and the velocity of its origin; world axes.",
+                of(s)
+            ),
+            Method::Jacobian(s) => format!(
+                "Jacobian of {}: its velocity, angular part first, is J v; world axes, at its origin.",
+                of(s)
+            ),
+            Method::JacobianDotV(s) => format!(
+                "J̇ v of {}: its acceleration, angular part first, where the joints' is zero; world axes.",
+                of(s)
+            ),
         }
     }
 
@@ -148,6 +267,15 @@ impl Method {
             Method::MassMatrix => "kg·m² between rotations, kg·m mixed, kg between translations",
             Method::ForwardDynamics => "rad/s² for a rotation, m/s² for a translation",
             Method::KineticEnergy | Method::PotentialEnergy => "J",
+            Method::CoriolisMatrix => "efforts per rad/s or m/s",
+            Method::InverseDynamicsDerivatives => "efforts per rad or m, and per rad/s or m/s",
+            Method::ForwardDynamicsDerivatives => {
+                "accelerations per rad or m, per rad/s or m/s, per N·m or N"
+            }
+            Method::Pose(_) => "m",
+            Method::Velocity(_) => "rad/s, m/s",
+            Method::Jacobian(_) => "rad and m per unit of each joint",
+            Method::JacobianDotV(_) => "rad/s², m/s²",
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 
-use crate::bond_graph::{self, BondGraph};
+use crate::bond_graph::{self, BondGraph, SiteId};
 use crate::cut::cut;
 use crate::emit;
 use crate::fault::Faults;
@@ -16,6 +16,29 @@ use crate::method::Method;
 pub struct Options {
     /// The formulation to use for every method; the cheapest of each where `None`.
     pub formulation: Option<&'static dyn Formulation>,
+    /// Whether first derivatives of inverse and forward dynamics are wanted.
+    pub derivatives: bool,
+}
+
+/// Velocities beyond which the Coriolis matrix comes only to those who ask: its code grows with
+/// the square of their number.
+const COMPACT: usize = 16;
+
+impl Options {
+    /// The methods to generate.
+    fn methods(&self, graph: &BondGraph) -> Vec<Method> {
+        let mut methods = Method::ALL.to_vec();
+        if graph.coordinates.len() <= COMPACT {
+            methods.push(Method::CoriolisMatrix);
+        }
+        if self.derivatives {
+            methods.push(Method::InverseDynamicsDerivatives);
+            methods.push(Method::ForwardDynamicsDerivatives);
+        }
+        let prominent = (0..graph.sites.len()).filter(|&i| graph.sites[i].prominent);
+        methods.extend(prominent.flat_map(|i| Method::of_site(SiteId(i))));
+        methods
+    }
 }
 
 /// A mechanism with the functions generated for it.
@@ -24,7 +47,7 @@ pub struct Model {
     pub mechanism: Mechanism,
     /// Its bond graph.
     pub bond_graph: BondGraph,
-    /// One function per method, in the order of [`Method::ALL`].
+    /// One function per method generated.
     pub functions: Vec<Function>,
 }
 
@@ -33,7 +56,11 @@ impl Model {
     pub fn new(mechanism: Mechanism, options: &Options) -> Self {
         let bond_graph = bond_graph::build(&mechanism);
         let function = |method| function_of(&bond_graph, method, options);
-        let functions = Method::ALL.into_iter().filter_map(function).collect();
+        let functions = options
+            .methods(&bond_graph)
+            .into_iter()
+            .filter_map(function)
+            .collect();
         Model {
             mechanism,
             bond_graph,

@@ -16,14 +16,18 @@ mod dd;
 mod dynamics;
 mod float;
 pub mod inertia;
+mod limits;
 mod operations;
+mod pose;
 pub mod rotation;
 mod scalar;
 mod singular;
 
 pub use dd::{Dd, ParseDdError};
 pub use dynamics::Dynamics;
+pub use limits::Limits;
 pub use nalgebra;
 pub use operations::Operations;
+pub use pose::Pose;
 pub use scalar::Scalar;
 pub use singular::Singular;

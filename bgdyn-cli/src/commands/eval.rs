@@ -39,15 +39,17 @@ struct Failure {
 impl Eval {
     pub(crate) fn run(self) -> Result<()> {
         let options = options(self.formulation.as_deref())?;
-        let method = Method::by_name(&self.method).ok_or_else(|| {
-            let known: Vec<_> = Method::ALL.iter().map(|m| m.name()).collect();
+        let mechanism = SpecFile::open(&self.file)?.mechanism()?;
+        let graph = bgdyn_codegen::bond_graph::build(&mechanism);
+        let method = Method::by_name(&graph, &self.method).ok_or_else(|| {
+            let known = Method::possible(&graph);
+            let known: Vec<_> = known.iter().map(|m| m.name(&graph)).collect();
             anyhow!(
                 "no method `{}`; there are {}",
                 self.method,
                 known.join(", ")
             )
         })?;
-        let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let states = states(&self.states)?;
         let function = bgdyn_codegen::model::function(&mechanism, method, &options)
             .ok_or_else(|| anyhow!("this formulation does not know `{}`", self.method))?;
@@ -202,13 +204,34 @@ fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, 
 }
 
 fn shaped(shape: Shape, nv: usize, values: &[f64]) -> Value {
+    let rows = |values: &[f64], columns: usize| {
+        json!(
+            values
+                .chunks(columns)
+                .map(<[f64]>::to_vec)
+                .collect::<Vec<_>>()
+        )
+    };
+    let squares = |values: &[f64]| -> Vec<Value> {
+        values
+            .chunks(nv * nv)
+            .map(|square| rows(square, nv))
+            .collect()
+    };
     match shape {
         Shape::Scalar => json!(values[0]),
-        Shape::Vector | Shape::CheckedVector => json!(values),
+        Shape::Vector | Shape::CheckedVector | Shape::Spatial => json!(values),
         Shape::Symmetric => {
             let entry = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
             let row = |i: usize| (0..nv).map(|j| entry(i, j)).collect::<Vec<_>>();
             json!((0..nv).map(row).collect::<Vec<_>>())
         }
+        Shape::Square | Shape::Jacobian => rows(values, nv),
+        Shape::SquarePair => json!(squares(values)),
+        Shape::CheckedSquares => json!(squares(&values[nv..])),
+        Shape::Pose => json!({
+            "rotation": rows(&values[..9], 3),
+            "translation": values[9..].to_vec(),
+        }),
     }
 }

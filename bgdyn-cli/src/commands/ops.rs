@@ -28,11 +28,15 @@ pub(crate) struct Ops {
     /// Use one formulation for every method
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
+    /// Count the first derivatives as well
+    #[arg(long)]
+    derivatives: bool,
 }
 
 impl Ops {
     pub(crate) fn run(self) -> Result<()> {
-        let options = options(self.formulation.as_deref())?;
+        let mut options = options(self.formulation.as_deref())?;
+        options.derivatives = self.derivatives;
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let model = Model::new(mechanism.clone(), &options);
         if self.json {
@@ -92,6 +96,7 @@ fn explain(mechanism: &Mechanism, model: &Model) {
         for formulation in FORMULATIONS {
             let asked = Options {
                 formulation: Some(formulation),
+                ..Options::default()
             };
             if let Some(other) = count_with(mechanism, f.method, &asked) {
                 eprintln!(

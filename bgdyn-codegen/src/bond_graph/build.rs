@@ -4,11 +4,11 @@ use bgdyn_runtime::Dd;
 
 use super::pattern::{Coordinates, Modulus};
 use super::{
-    BondGraph, Coordinate, Effort, Inertia, Junction, JunctionId, LinkFrame, Source, Store,
+    BondGraph, Coordinate, Effort, Inertia, Junction, JunctionId, LinkFrame, Site, Source, Store,
     Transformer,
 };
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{CoordinateId, Link, LinkId, Mechanism, Motion, Pose, Value};
+use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
 /// Builds the bond graph.
 pub fn build(mechanism: &Mechanism) -> BondGraph {
@@ -21,6 +21,7 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
         transformers: Vec::new(),
         gravity: mechanism.gravity(),
         parameters: mechanism.parameters().to_vec(),
+        sites: sites(mechanism),
     };
     graph.junctions = (0..mechanism.nv())
         .map(|j| Junction::Velocity(CoordinateId(j)))
@@ -33,6 +34,30 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
         add_transformers(&mut graph, &places, LinkId(i));
     }
     graph
+}
+
+/// The links' frames, then the named ones. A tip is a link that carries no other.
+fn sites(mechanism: &Mechanism) -> Vec<Site> {
+    let links = mechanism.links();
+    let still = Pose {
+        rotation: Mat3::from_fn(|i, j| if i == j { Dd::ONE } else { Dd::ZERO }),
+        translation: Vec3([Dd::ZERO; 3]),
+    };
+    let tip = |i: usize| links.iter().all(|l| l.parent != Some(LinkId(i)));
+    let link = |(i, link): (usize, &Link)| Site {
+        name: link.name.clone(),
+        link: Some(LinkId(i)),
+        place: still,
+        prominent: tip(i),
+    };
+    let frame = |frame: &Frame| Site {
+        name: frame.name.clone(),
+        link: frame.link,
+        place: frame.origin,
+        prominent: true,
+    };
+    let named = mechanism.frames().iter().map(frame);
+    links.iter().enumerate().map(link).chain(named).collect()
 }
 
 fn coordinates(mechanism: &Mechanism) -> Vec<Coordinate> {

@@ -21,6 +21,24 @@ pub use pattern::Modulus;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JunctionId(pub usize);
 
+/// A place of [`BondGraph::sites`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SiteId(pub usize);
+
+/// A named place whose motion can be asked for: a link's frame, or a frame named in the spec.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Site {
+    /// The link's or the frame's name.
+    pub name: String,
+    /// The link it is fixed to; `None` for the world.
+    pub link: Option<LinkId>,
+    /// Its axes and origin in the link's axes.
+    pub place: Pose,
+    /// Whether the spec names it as a frame, or no other link hangs on it: what a user asks for
+    /// who asks for nothing in particular.
+    pub prominent: bool,
+}
+
 /// What flow a 1-junction carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Junction {
@@ -131,6 +149,8 @@ pub struct BondGraph {
     pub gravity: Vec3<Dd>,
     /// Run-time parameters that values refer to.
     pub parameters: Vec<Parameter>,
+    /// The links' frames, then the named ones.
+    pub sites: Vec<Site>,
 }
 
 impl BondGraph {

@@ -26,7 +26,7 @@ pub(super) fn body(function: &Function, model: &Model) -> Body {
     if let [block] = function.blocks.as_slice() {
         let mut writer = Writer::new(function, model, &block.outputs);
         let statements = writer.block(&block.outputs, function);
-        let refused = (shape == Shape::CheckedVector).then(|| {
+        let refused = shape.checked().then(|| {
             let mutable = writer.pivots.then(|| quote! { mut });
             quote! { let #mutable refused = T::none_refused(); }
         });
@@ -45,8 +45,9 @@ pub(super) fn body(function: &Function, model: &Model) -> Body {
         calls.extend(quote! { let #passed = #call; });
         blocks.push(block);
     }
-    let refused =
-        (shape == Shape::CheckedVector).then(|| quote! { let mut refused = T::none_refused(); });
+    let refused = shape
+        .checked()
+        .then(|| quote! { let mut refused = T::none_refused(); });
     let last = format_ident!("p{}", function.blocks.len() - 1);
     let element = |i: usize| {
         let i = proc_macro2::Literal::usize_unsuffixed(i);
@@ -122,23 +123,68 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     unread
 }
 
+/// The result from its components.
 fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
-    let vector = quote! {
-        __na::SVector::<T, NV>::from_array_storage(__na::ArrayStorage([[#(#values),*]]))
-    };
+    let square = |values: &[TokenStream]| matrix(&quote! { NV }, nv, values);
     match shape {
         Shape::Scalar => quote! { #(#values)* },
-        Shape::Vector => vector,
-        Shape::CheckedVector => quote! { T::finish(#vector, refused, &JOINT_NAMES) },
+        Shape::Vector => vector(values),
+        Shape::CheckedVector => {
+            let accelerations = vector(values);
+            quote! { T::finish(#accelerations, refused, &JOINT_NAMES) }
+        }
         Shape::Symmetric => {
-            let entry = |i: usize, j: usize| &values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-            let columns = (0..nv).map(|j| {
-                let column = (0..nv).map(|i| entry(i, j));
-                quote! { [#(#column),*] }
-            });
+            let entry = |k: usize| {
+                let (i, j) = (k / nv, k % nv);
+                values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)].clone()
+            };
+            square(&(0..nv * nv).map(entry).collect::<Vec<_>>())
+        }
+        Shape::Square => square(values),
+        Shape::SquarePair => {
+            let squares = values.chunks(nv * nv).map(square);
+            quote! { [#(#squares),*] }
+        }
+        Shape::CheckedSquares => {
+            let (accelerations, squares) = values.split_at(nv);
+            let accelerations = vector(accelerations);
+            let squares = squares.chunks(nv * nv).map(square);
             quote! {
-                __na::SMatrix::<T, NV, NV>::from_array_storage(__na::ArrayStorage([#(#columns),*]))
+                T::finish(#accelerations, refused, &JOINT_NAMES)?;
+                ::core::result::Result::Ok([#(#squares),*])
             }
         }
+        Shape::Pose => {
+            let rotation = matrix(&quote! { 3 }, 3, &values[..9]);
+            let translation = &values[9..];
+            quote! {
+                __rt::Pose { rotation: #rotation, translation: __na::Vector3::new(#(#translation),*) }
+            }
+        }
+        Shape::Spatial => {
+            quote! { __na::SVector::<T, 6>::from_array_storage(__na::ArrayStorage([[#(#values),*]])) }
+        }
+        Shape::Jacobian => matrix(&quote! { 6 }, nv, values),
+    }
+}
+
+fn vector(values: &[TokenStream]) -> TokenStream {
+    quote! { __na::SVector::<T, NV>::from_array_storage(__na::ArrayStorage([[#(#values),*]])) }
+}
+
+/// A matrix of `columns` columns from its entries, row by row.
+fn matrix(rows: &TokenStream, columns: usize, values: &[TokenStream]) -> TokenStream {
+    let width = if columns == 3 && rows.to_string() == "3" {
+        quote! { 3 }
+    } else {
+        quote! { NV }
+    };
+    let column = |j: usize| {
+        let entries = values.iter().skip(j).step_by(columns);
+        quote! { [#(#entries),*] }
+    };
+    let storage = (0..columns).map(column);
+    quote! {
+        __na::SMatrix::<T, #rows, #width>::from_array_storage(__na::ArrayStorage([#(#storage),*]))
     }
 }

@@ -10,6 +10,7 @@ use quote::{format_ident, quote};
 
 use crate::expr::Operations;
 use crate::function::Function;
+use crate::mechanism::{CoordinateId, Limits};
 use crate::method::{Argument, Shape};
 use crate::model::Model;
 
@@ -124,6 +125,7 @@ fn constants(model: &Model) -> TokenStream {
     let count = links.len();
     let functions = model.functions.len();
     let operations = model.functions.iter().map(operations);
+    let limits = (0..nv).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
     quote! {
         /// Number of positions.
         pub const NQ: usize = #nq;
@@ -133,8 +135,36 @@ fn constants(model: &Model) -> TokenStream {
         pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
+        /// Limits of the moving joints; infinite where the spec states none.
+        pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];
         /// What one call of each method executes.
         pub const OPERATIONS: [(&str, __rt::Operations); #functions] = [#(#operations),*];
+    }
+}
+
+fn limits(limits: &Limits) -> TokenStream {
+    let bound = |x: Option<f64>, none: TokenStream| match x {
+        Some(x) => {
+            let size = number(x.abs());
+            if x < 0.0 {
+                quote! { -#size }
+            } else {
+                quote! { #size }
+            }
+        }
+        None => none,
+    };
+    let (above, below) = (quote! { f64::INFINITY }, quote! { f64::NEG_INFINITY });
+    let (lower, upper) = (
+        bound(limits.lower, below),
+        bound(limits.upper, above.clone()),
+    );
+    let (velocity, effort) = (
+        bound(limits.velocity, above.clone()),
+        bound(limits.effort, above),
+    );
+    quote! {
+        __rt::Limits { lower: #lower, upper: #upper, velocity: #velocity, effort: #effort }
     }
 }
 
@@ -204,7 +234,14 @@ fn return_type(shape: Shape) -> TokenStream {
         Shape::CheckedVector => {
             quote! { ::core::result::Result<__na::SVector<T, NV>, T::Singular<NV>> }
         }
-        Shape::Symmetric => quote! { __na::SMatrix<T, NV, NV> },
+        Shape::Symmetric | Shape::Square => quote! { __na::SMatrix<T, NV, NV> },
+        Shape::SquarePair => quote! { [__na::SMatrix<T, NV, NV>; 2] },
+        Shape::CheckedSquares => {
+            quote! { ::core::result::Result<[__na::SMatrix<T, NV, NV>; 3], T::Singular<NV>> }
+        }
+        Shape::Pose => quote! { __rt::Pose<T> },
+        Shape::Spatial => quote! { __na::SVector<T, 6> },
+        Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },
     }
 }
 
@@ -229,12 +266,9 @@ fn method(function: &Function, model: &Model) -> TokenStream {
 fn method_docs(function: &Function, model: &Model) -> Vec<String> {
     let method = function.method;
     let mut docs = vec![
-        format!(" {}", method.summary()),
+        format!(" {}", method.summary(&model.bond_graph)),
         String::new(),
-        format!(
-            " Units: {}. Joint space, joints as in [`JOINT_NAMES`].",
-            method.units()
-        ),
+        format!(" Units: {}. Joints as in [`JOINT_NAMES`].", method.units()),
         String::new(),
         format!(
             " Operations: {} ({}).",
@@ -249,7 +283,7 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
             format!(" Does not read: {}.", unread.join(", ")),
         ]);
     }
-    if function.shape() == Shape::CheckedVector {
+    if function.shape().checked() {
         docs.extend([
             String::new(),
             " # Errors".into(),
@@ -262,7 +296,8 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
 /// The trait implementation: every method by delegation.
 fn dynamics(model: &Model) -> TokenStream {
     let name = struct_name(model);
-    let methods = model.functions.iter().map(|function| {
+    let of_trait = model.functions.iter().filter(|f| f.method.of_trait());
+    let methods = of_trait.map(|function| {
         let name = ident(function.name());
         let arguments = function.method.arguments();
         let names: Vec<_> = arguments.iter().map(|a| ident(a.name())).collect();

@@ -14,6 +14,15 @@ pub struct Builder {
     graph: RefCell<Graph>,
 }
 
+impl From<Graph> for Builder {
+    /// A graph open for more.
+    fn from(graph: Graph) -> Self {
+        Builder {
+            graph: RefCell::new(graph),
+        }
+    }
+}
+
 /// An expression of a graph under construction.
 #[derive(Clone, Copy)]
 pub struct Ex<'g> {

@@ -6,6 +6,7 @@
 //! differentiation and emission are passes over the graph and live in their own files.
 
 mod build;
+mod copy;
 mod count;
 mod diff;
 mod eval;
@@ -18,6 +19,7 @@ use bgdyn_runtime::Dd;
 
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Ex};
+pub use copy::copy_into;
 pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use eval::{Inputs, evaluate};

@@ -4,15 +4,18 @@
 //! specification; the others must equal it, and the cheapest is found by counting, for each
 //! mechanism and each method.
 
+mod derived;
 mod literal;
+mod placement;
 mod recursion;
+mod site;
 mod solve;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Leaf};
 use crate::function::Function;
 use crate::mechanism::{ParameterId, Value};
-use crate::method::Method;
+use crate::method::{Argument, Method};
 
 /// A way to compute methods from the bond graph.
 pub trait Formulation: Sync {
@@ -43,6 +46,9 @@ pub fn choose(
     method: Method,
     asked: Option<&dyn Formulation>,
 ) -> Option<Function> {
+    if let Some(derived) = derived::function(graph, method, asked) {
+        return Some(derived);
+    }
     if let Some(formulation) = asked {
         return formulation.function(graph, method);
     }
@@ -72,12 +78,12 @@ impl<'g> Arguments<'g> {
                 .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
                 .collect()
         };
-        let moving = !matches!(method, Method::Gravity | Method::MassMatrix);
+        let takes = |argument| method.arguments().contains(&argument);
         Arguments {
             q: read(true, Leaf::Position),
-            v: read(moving, Leaf::Velocity),
-            a: read(method == Method::InverseDynamics, Leaf::Acceleration),
-            tau: read(method == Method::ForwardDynamics, Leaf::Input),
+            v: read(takes(Argument::V), Leaf::Velocity),
+            a: read(takes(Argument::A), Leaf::Acceleration),
+            tau: read(takes(Argument::Tau), Leaf::Input),
             active: true,
         }
     }

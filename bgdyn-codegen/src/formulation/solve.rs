@@ -1,55 +1,65 @@
-//! M q̈ = f for a symmetric positive definite M, unrolled.
+//! M x = f for a symmetric positive definite M, unrolled.
 
 use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Ex};
 
-/// Solves M x = f by M = Lᵀ D L from the last coordinate to the first, which keeps the zeros of
-/// a branching mechanism (Featherstone 2005). `mass` is the lower triangle; every pivot is checked.
-pub(super) fn ltdl<'g>(
-    b: &'g Builder,
-    mut mass: Vec<Vec<Ex<'g>>>,
-    mut x: Vec<Ex<'g>>,
-) -> Vec<Ex<'g>> {
-    let n = x.len();
-    let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
-    let mut inverse = vec![b.zero(); n];
-    for k in (0..n).rev() {
-        // Only what was really subtracted can have lost digits.
-        let magnitude = if mass[k][k] == original[k] {
-            b.zero()
-        } else {
-            original[k]
-        };
-        let pivot = mass[k][k].pivot(magnitude, k);
-        inverse[k] = b.constant(Dd::ONE) / pivot;
-        // M_ij ← M_ij − l_ki M_kj for i, j < k with l_ki = M_ki / d_k
-        for i in (0..k)
-            .rev()
-            .filter(|&i| !mass[k][i].is_zero())
-            .collect::<Vec<_>>()
-        {
-            let l = mass[k][i] * inverse[k];
-            for j in (0..=i)
-                .filter(|&j| !mass[k][j].is_zero())
-                .collect::<Vec<_>>()
-            {
-                mass[i][j] = mass[i][j] - l * mass[k][j];
+/// The factors of M = Lᵀ D L, from the last coordinate to the first, which keeps the zeros of a
+/// branching mechanism (Featherstone 2005). Every pivot is checked.
+pub(super) struct Factor<'g> {
+    /// L below its unit diagonal.
+    l: Vec<Vec<Ex<'g>>>,
+    /// D⁻¹
+    inverse: Vec<Ex<'g>>,
+}
+
+impl<'g> Factor<'g> {
+    /// Factors the lower triangle of M.
+    pub(super) fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
+        let n = mass.len();
+        let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
+        let mut inverse = vec![b.zero(); n];
+        for k in (0..n).rev() {
+            // Only what was really subtracted can have lost digits.
+            let magnitude = if mass[k][k] == original[k] {
+                b.zero()
+            } else {
+                original[k]
+            };
+            let pivot = mass[k][k].pivot(magnitude, k);
+            inverse[k] = b.constant(Dd::ONE) / pivot;
+            // M_ij ← M_ij − l_ki M_kj for i, j < k with l_ki = M_ki / d_k
+            let row = mass[k].clone();
+            for i in (0..k).filter(|&i| !row[i].is_zero()) {
+                let l = row[i] * inverse[k];
+                for j in (0..=i).filter(|&j| !row[j].is_zero()) {
+                    mass[i][j] = mass[i][j] - l * row[j];
+                }
+                mass[k][i] = l;
             }
-            mass[k][i] = l;
         }
+        Factor { l: mass, inverse }
     }
-    // Lᵀ y = f, then L x = D⁻¹ y
-    for k in (0..n).rev() {
-        for i in 0..k {
-            x[i] = x[i] - mass[k][i] * x[k];
+
+    /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
+    pub(super) fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+        let n = x.len();
+        for k in (0..n).rev() {
+            for i in 0..k {
+                x[i] = x[i] - self.l[k][i] * x[k];
+            }
         }
-    }
-    for k in 0..n {
-        x[k] = x[k] * inverse[k];
-        for i in 0..k {
-            x[k] = x[k] - mass[k][i] * x[i];
+        for k in 0..n {
+            x[k] = x[k] * self.inverse[k];
+            for i in 0..k {
+                x[k] = x[k] - self.l[k][i] * x[i];
+            }
         }
+        x
     }
-    x
+}
+
+/// Solves M x = f for one f.
+pub(super) fn ltdl<'g>(b: &'g Builder, mass: Vec<Vec<Ex<'g>>>, f: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+    Factor::new(b, mass).solve(f)
 }

@@ -29,6 +29,21 @@ pub(super) struct Plan {
     pub short_moment: bool,
 }
 
+impl Plan {
+    /// Metres, origins where the spec has them: for poses.
+    pub(super) fn of_kinematics(geometry: &Geometry, grouped: bool) -> Self {
+        let n = geometry.bodies.len();
+        Plan {
+            slides: vec![Dd::ZERO; n],
+            unit: Dd::ONE,
+            grouped,
+            in_basis: vec![false; n],
+            aimed: vec![false; n],
+            short_moment: false,
+        }
+    }
+}
+
 /// A body as the recursion sees it. Lengths are in units of the plan.
 pub(super) struct Frame<'g> {
     /// Name of its link.

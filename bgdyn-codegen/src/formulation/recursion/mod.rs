@@ -8,6 +8,7 @@ mod frames;
 mod geometry;
 mod inertia;
 mod inverse;
+mod kinematics;
 mod mass;
 mod plan;
 
@@ -33,6 +34,9 @@ impl Formulation for Recursion {
 
     fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
         let geometry = geometry::geometry(graph);
+        if let Some(site) = method.site() {
+            return Some(kinematics::function(graph, &geometry, method, site));
+        }
         let cost = |plan: &Plan| {
             let (graph, outputs) = outputs(graph, &geometry, method, plan);
             count(&graph, &outputs).total()
@@ -40,7 +44,7 @@ impl Formulation for Recursion {
         let best = plan::search(&geometry, cost);
         let (made, outputs) = outputs(graph, &geometry, method, &best);
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
-        Some(Function::flat(method, name, made, outputs))
+        Some(Function::flat(graph, method, name, made, outputs))
     }
 }
 
@@ -73,6 +77,7 @@ fn outputs(
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
             Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],
+            other => unreachable!("{other:?} is no method of the recursion"),
         };
         outputs.into_iter().map(|e| e.expr).collect()
     };

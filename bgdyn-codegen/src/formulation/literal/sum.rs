@@ -1,61 +1,13 @@
-//! Equation (6) as it stands: every term of the double sum, fixed axes.
-//!
-//! P_j = Σ_i [ ∂r_i/∂q_j · (m_i r̈_i − R_i) + ρ_j^i · (K̇_i − M_i) ]
-//!
-//! The specification that every other formulation is proved against. It follows the transformers
-//! of the bond graph one by one and leaves out only what their structure says is zero.
+//! The double sum.
 
 use bgdyn_runtime::Dd;
 
-use super::{Arguments, Formulation, solve, value};
-use crate::bond_graph::{BondGraph, Effort, JunctionId, Modulus};
+use crate::bond_graph::{BondGraph, Effort, JunctionId, LinkFrame, Modulus, Transformer};
 use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
-use crate::function::Function;
+use crate::formulation::placement::Placement;
+use crate::formulation::{Arguments, value};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{CoordinateId, LinkId, Motion};
-use crate::method::Method;
-
-pub(super) const NAME: &str = "literal";
-
-/// The literal double sum.
-pub(super) struct Literal;
-
-impl Formulation for Literal {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
-    fn summary(&self) -> &'static str {
-        "equation (6) term by term, in fixed axes"
-    }
-
-    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
-        let b = Builder::new();
-        let outputs = {
-            let arguments = Arguments::new(&b, graph, method);
-            let sum = Sum::new(&b, graph, &arguments.q);
-            let outputs = match method {
-                Method::InverseDynamics | Method::Bias | Method::Gravity => sum.efforts(&arguments),
-                Method::MassMatrix => sum.mass_matrix().into_iter().flatten().collect(),
-                Method::ForwardDynamics => {
-                    let bias = sum.efforts(&arguments);
-                    let mass = sum.mass_matrix();
-                    let drive = arguments
-                        .tau
-                        .iter()
-                        .zip(bias)
-                        .map(|(&tau, h)| tau - h)
-                        .collect();
-                    solve::ltdl(&b, mass, drive)
-                }
-                Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
-                Method::PotentialEnergy => vec![sum.potential_energy()],
-            };
-            outputs.into_iter().map(|e: Ex<'_>| e.expr).collect()
-        };
-        Some(Function::flat(method, NAME.into(), b.into_graph(), outputs))
-    }
-}
 
 /// Transformer moduli of one link: ∂r_i/∂q_j and ρ_j^i for the coordinates that move it.
 struct Moduli<'g> {
@@ -66,59 +18,41 @@ struct Moduli<'g> {
 }
 
 /// What the double sum is made of, per link.
-struct Sum<'a, 'g> {
+pub(super) struct Sum<'a, 'g> {
     b: &'g Builder,
     graph: &'a BondGraph,
-    /// A_i: link axes in fixed axes.
-    rotations: Vec<Mat3<Ex<'g>>>,
+    /// A_i, and the joints' places.
+    placement: Placement<'g>,
     /// r_i: centres of mass.
     positions: Vec<Vec3<Ex<'g>>>,
     moduli: Vec<Moduli<'g>>,
 }
 
 impl<'a, 'g> Sum<'a, 'g> {
-    fn new(b: &'g Builder, graph: &'a BondGraph, q: &[Ex<'g>]) -> Self {
+    pub(super) fn new(b: &'g Builder, graph: &'a BondGraph, q: &[Ex<'g>]) -> Self {
+        let placement = Placement::new(b, graph, q);
+        let position =
+            |(i, frame): (usize, &LinkFrame)| placement.point(i, frame.com.map(|c| value(b, c)));
+        let positions = graph.frames.iter().enumerate().map(position).collect();
         let mut sum = Sum {
             b,
             graph,
-            rotations: vec![],
-            positions: vec![],
+            placement,
+            positions,
             moduli: vec![],
         };
-        let mut origins: Vec<Vec3<Ex<'g>>> = Vec::new();
-        let mut axes: Vec<Vec3<Ex<'g>>> = Vec::new();
-        for frame in &graph.frames {
-            let mut rotation = frame.origin.rotation.map(|x| b.constant(x));
-            let mut origin = b.vector(frame.origin.translation);
-            if let Some(LinkId(p)) = frame.parent {
-                origin = origins[p] + sum.rotations[p] * origin;
-                rotation = sum.rotations[p] * rotation;
-            }
-            let axis = rotation * b.vector(frame.axis);
-            match (frame.motion, frame.coordinate) {
-                (Motion::Rotation, Some(j)) => {
-                    rotation = rotation * turn(b, frame.axis, q[j.0]);
-                }
-                (Motion::Translation, Some(j)) => origin = origin + axis.scale(q[j.0]),
-                _ => {}
-            }
-            let com = frame.com.map(|c| value(b, c));
-            sum.positions.push(origin + rotation * com);
-            sum.rotations.push(rotation);
-            origins.push(origin);
-            axes.push(axis);
-        }
         for i in 0..graph.frames.len() {
-            let moduli = sum.moduli_of(LinkId(i), &origins, &axes);
+            let moduli = sum.moduli_of(LinkId(i));
             sum.moduli.push(moduli);
         }
         sum
     }
 
     /// The moduli of link i, with the structural zeros and constants of the graph.
-    fn moduli_of(&self, i: LinkId, origins: &[Vec3<Ex<'g>>], axes: &[Vec3<Ex<'g>>]) -> Moduli<'g> {
+    fn moduli_of(&self, i: LinkId) -> Moduli<'g> {
+        let Placement { origins, axes, .. } = &self.placement;
         let read = |to: JunctionId, linear: bool| {
-            let of = |t: &crate::bond_graph::Transformer| {
+            let of = |t: &Transformer| {
                 let coordinate = &self.graph.coordinates[t.from.0];
                 let l = coordinate.link.0;
                 let whole = match (linear, coordinate.motion) {
@@ -167,7 +101,7 @@ impl<'a, 'g> Sum<'a, 'g> {
             .inertia
             .map(|x| value(self.b, x));
         let tensor = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-        self.rotations[i] * tensor * self.rotations[i].transpose()
+        self.placement.rotations[i] * tensor * self.placement.rotations[i].transpose()
     }
 
     fn mass(&self, i: usize) -> Ex<'g> {
@@ -188,7 +122,7 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// P_j for the given velocities and accelerations.
-    fn efforts(&self, x: &Arguments<'g>) -> Vec<Ex<'g>> {
+    pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Ex<'g>> {
         let seed = |_: &mut Graph, leaf| match leaf {
             Leaf::Position(l) => Some(x.v[l].expr),
             _ => None,
@@ -222,7 +156,7 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// Lower triangle of M_jk = Σ_i [ ∂r_i/∂q_j · m_i ∂r_i/∂q_k + ρ_j · J_i ρ_k ].
-    fn mass_matrix(&self) -> Vec<Vec<Ex<'g>>> {
+    pub(super) fn mass_matrix(&self) -> Vec<Vec<Ex<'g>>> {
         let n = self.graph.coordinates.len();
         let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![self.b.zero(); j + 1]).collect();
         for i in 0..self.graph.frames.len() {
@@ -242,7 +176,7 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// T = ½ Σ_i [ m_i ṙ_i · ṙ_i + ω_i · J_i ω_i ]
-    fn kinetic_energy(&self, v: &[Ex<'g>]) -> Ex<'g> {
+    pub(super) fn kinetic_energy(&self, v: &[Ex<'g>]) -> Ex<'g> {
         let twice = (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
             let velocity = self.combine(&self.moduli[i].linear, v);
             let omega = self.combine(&self.moduli[i].angular, v);
@@ -252,27 +186,11 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// V = −Σ_i R_i · r_i for the weights R_i.
-    fn potential_energy(&self) -> Ex<'g> {
+    pub(super) fn potential_energy(&self) -> Ex<'g> {
         (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
             sum - self.active_force(i).dot(self.positions[i])
         })
     }
-}
-
-/// Rotation by q about the unit vector n: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
-fn turn<'g>(b: &'g Builder, axis: Vec3<Dd>, q: Ex<'g>) -> Mat3<Ex<'g>> {
-    let (cos, sin) = b.cos_sin(&[q], Dd::ZERO);
-    let n = axis.0;
-    Mat3::from_fn(|i, j| {
-        let along = n[i] * n[j];
-        let across = if i == j { Dd::ONE - along } else { -along };
-        let swirl = match (3 + j - i) % 3 {
-            0 => Dd::ZERO,
-            1 => -n[3 - i - j],
-            _ => n[3 - i - j],
-        };
-        b.constant(along) + cos * across + sin * swirl
-    })
 }
 
 // A coordinate's place among the junctions is its number: `Transformer::from` relies on it.

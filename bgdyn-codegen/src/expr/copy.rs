@@ -1,0 +1,71 @@
+//! Copying expressions from one graph to another, with leaves replaced on the way.
+
+use super::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
+
+/// Copies of `outputs` in `to`; `leaf` may give another expression for a leaf. Everything is
+/// folded anew.
+pub fn copy_into(
+    to: &mut Graph,
+    from: &Graph,
+    outputs: &[Expr],
+    mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Expr>,
+) -> Vec<Expr> {
+    let needed = reachable(from, outputs);
+    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
+    for i in (0..from.len()).filter(|&i| needed[i]) {
+        let id = NodeId(i as u32);
+        let copy = match from.node(id) {
+            Node::Leaf(l) => match leaf(to, *l) {
+                Some(e) => e,
+                None => to.leaf(*l),
+            },
+            node => to.rebuilt(node, |e: Expr| copies[&e.node].flipped(e.negative)),
+        };
+        if let Some(name) = from.name(id) {
+            to.set_name(copy.node, || name.to_string());
+        }
+        copies.insert(id, copy);
+    }
+    outputs
+        .iter()
+        .map(|e| copies[&e.node].flipped(e.negative))
+        .collect()
+}
+
+impl Graph {
+    /// The node's operation on other operands, folded.
+    fn rebuilt(&mut self, node: &Node, at: impl Fn(Expr) -> Expr) -> Expr {
+        let plus = |id: &NodeId| at(Expr::plus(*id));
+        match node {
+            Node::Constant(c) => self.constant(c.value()),
+            Node::Leaf(l) => self.leaf(*l),
+            Node::Add(a, b) => self.add(plus(a), at(*b)),
+            Node::Mul(a, b) => self.mul(plus(a), plus(b)),
+            Node::Div(a, b) => self.div(plus(a), plus(b)),
+            Node::MulAdd(a, b, negative, c) => {
+                self.mul_add(plus(a).flipped(*negative), plus(b), at(*c))
+            }
+            Node::Sqrt(a) => self.sqrt(at(*a)),
+            Node::Angle(terms, offset, negative) => {
+                let terms: Vec<Expr> = terms.iter().map(|&t| at(t)).collect();
+                let offset = offset.value();
+                self.angle(&terms, if *negative { -offset } else { offset })
+            }
+            Node::Sin(a) => self.sin(plus(a)),
+            Node::Cos(a) => self.cos(plus(a)),
+            Node::Exp(a) => self.exp(at(*a)),
+            Node::Ln(a) => self.ln(at(*a)),
+            Node::Tanh(a) => self.tanh(plus(a)),
+            Node::Abs(a) => self.abs(plus(a)),
+            Node::Min(a, b) => self.min(at(*a), at(*b)),
+            Node::Max(a, b) => self.max(at(*a), at(*b)),
+            Node::Sign(a) => self.sign(plus(a)),
+            Node::Less(a, b) => Expr::plus(self.less(at(*a), at(*b))),
+            Node::Select(condition, a, b) => {
+                let condition = plus(condition).node;
+                self.select(condition, at(*a), at(*b))
+            }
+            Node::Pivot(value, magnitude, joint) => self.pivot(at(*value), at(*magnitude), *joint),
+        }
+    }
+}

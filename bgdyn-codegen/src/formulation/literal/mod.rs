@@ -1,0 +1,65 @@
+//! Equation (6) as it stands: every term of the double sum, fixed axes.
+//!
+//! P_j = Σ_i [ ∂r_i/∂q_j · (m_i r̈_i − R_i) + ρ_j^i · (K̇_i − M_i) ]
+//!
+//! The specification that every other formulation is proved against. It follows the transformers
+//! of the bond graph one by one and leaves out only what their structure says is zero.
+
+mod sites;
+mod sum;
+
+use super::{Arguments, Formulation, solve};
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Ex};
+use crate::function::Function;
+use crate::method::Method;
+use sum::Sum;
+
+pub(super) const NAME: &str = "literal";
+
+/// The literal double sum.
+pub(super) struct Literal;
+
+impl Formulation for Literal {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn summary(&self) -> &'static str {
+        "equation (6) term by term, in fixed axes"
+    }
+
+    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
+        let b = Builder::new();
+        let outputs = {
+            let arguments = Arguments::new(&b, graph, method);
+            let sum = Sum::new(&b, graph, &arguments.q);
+            let outputs = match method {
+                Method::InverseDynamics | Method::Bias | Method::Gravity => sum.efforts(&arguments),
+                Method::MassMatrix => sum.mass_matrix().into_iter().flatten().collect(),
+                Method::ForwardDynamics => {
+                    let bias = sum.efforts(&arguments);
+                    let mass = sum.mass_matrix();
+                    let drive = arguments
+                        .tau
+                        .iter()
+                        .zip(bias)
+                        .map(|(&tau, h)| tau - h)
+                        .collect();
+                    solve::ltdl(&b, mass, drive)
+                }
+                Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
+                Method::PotentialEnergy => vec![sum.potential_energy()],
+                method => sites::outputs(&b, graph, method, &arguments)?,
+            };
+            outputs.into_iter().map(|e: Ex<'_>| e.expr).collect()
+        };
+        Some(Function::flat(
+            graph,
+            method,
+            NAME.into(),
+            b.into_graph(),
+            outputs,
+        ))
+    }
+}

@@ -1,0 +1,58 @@
+//! Poses, velocities and Jacobians of sites from the placement of the links, fixed axes.
+
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Ex};
+use crate::formulation::Arguments;
+use crate::formulation::placement::Placement;
+use crate::formulation::site::{Column, SiteMotion};
+use crate::math::Vec3;
+use crate::mechanism::Motion;
+use crate::method::Method;
+
+/// The expressions of a method of a site; `None` for any other method.
+pub(super) fn outputs<'g>(
+    b: &'g Builder,
+    graph: &BondGraph,
+    method: Method,
+    x: &Arguments<'g>,
+) -> Option<Vec<Ex<'g>>> {
+    let site = &graph.sites[method.site()?.0];
+    let place = site.place.rotation.map(|x| b.constant(x));
+    let point = b.vector(site.place.translation);
+    let placement = Placement::new(b, graph, &x.q);
+    let mut columns: Vec<Option<Column<'g>>> = vec![None; graph.coordinates.len()];
+    let Some(link) = site.link else {
+        let motion = SiteMotion {
+            rotation: place,
+            origin: point,
+            columns,
+        };
+        return Some(motion.outputs(b, method, &x.v));
+    };
+    let rotation = placement.rotations[link.0] * place;
+    let origin = placement.point(link.0, point);
+    let mut on_path = Some(link);
+    while let Some(l) = on_path {
+        let frame = &graph.frames[l.0];
+        let axis = placement.axes[l.0];
+        if let Some(j) = frame.coordinate {
+            columns[j.0] = Some(match frame.motion {
+                Motion::Rotation => Column {
+                    angular: axis,
+                    linear: axis.cross(origin - placement.origins[l.0]),
+                },
+                _ => Column {
+                    angular: Vec3([b.zero(); 3]),
+                    linear: axis,
+                },
+            });
+        }
+        on_path = frame.parent;
+    }
+    let motion = SiteMotion {
+        rotation,
+        origin,
+        columns,
+    };
+    Some(motion.outputs(b, method, &x.v))
+}

@@ -1,0 +1,68 @@
+//! Where the link frames are: A_i(q), their origins and the joints' axes, in fixed axes.
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Ex};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::{LinkId, Motion};
+
+/// Placement of every link frame.
+pub(super) struct Placement<'g> {
+    /// A_i: link axes in fixed axes.
+    pub(super) rotations: Vec<Mat3<Ex<'g>>>,
+    /// Origins of the link frames, m.
+    pub(super) origins: Vec<Vec3<Ex<'g>>>,
+    /// Unit vectors of the joints' axes.
+    pub(super) axes: Vec<Vec3<Ex<'g>>>,
+}
+
+impl<'g> Placement<'g> {
+    /// From the base outwards.
+    pub(super) fn new(b: &'g Builder, graph: &BondGraph, q: &[Ex<'g>]) -> Self {
+        let mut placed = Placement {
+            rotations: Vec::new(),
+            origins: Vec::new(),
+            axes: Vec::new(),
+        };
+        for frame in &graph.frames {
+            let mut rotation = frame.origin.rotation.map(|x| b.constant(x));
+            let mut origin = b.vector(frame.origin.translation);
+            if let Some(LinkId(p)) = frame.parent {
+                origin = placed.point(p, origin);
+                rotation = placed.rotations[p] * rotation;
+            }
+            let axis = rotation * b.vector(frame.axis);
+            match (frame.motion, frame.coordinate) {
+                (Motion::Rotation, Some(j)) => rotation = rotation * turn(b, frame.axis, q[j.0]),
+                (Motion::Translation, Some(j)) => origin = origin + axis.scale(q[j.0]),
+                _ => {}
+            }
+            placed.rotations.push(rotation);
+            placed.origins.push(origin);
+            placed.axes.push(axis);
+        }
+        placed
+    }
+
+    /// A point of link i, given in its axes.
+    pub(super) fn point(&self, i: usize, p: Vec3<Ex<'g>>) -> Vec3<Ex<'g>> {
+        self.origins[i] + self.rotations[i] * p
+    }
+}
+
+/// Rotation by q about the unit vector n: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
+fn turn<'g>(b: &'g Builder, axis: Vec3<Dd>, q: Ex<'g>) -> Mat3<Ex<'g>> {
+    let (cos, sin) = b.cos_sin(&[q], Dd::ZERO);
+    let n = axis.0;
+    Mat3::from_fn(|i, j| {
+        let along = n[i] * n[j];
+        let across = if i == j { Dd::ONE - along } else { -along };
+        let swirl = match (3 + j - i) % 3 {
+            0 => Dd::ZERO,
+            1 => -n[3 - i - j],
+            _ => n[3 - i - j],
+        };
+        b.constant(along) + cos * across + sin * swirl
+    })
+}

@@ -1,0 +1,174 @@
+//! Poses, velocities and Jacobians of sites in the frames of the recursion: groups of parallel
+//! axes share a basis that turns with none of them.
+
+use bgdyn_runtime::Dd;
+
+use super::frames::{Frames, Plan};
+use super::geometry::Geometry;
+use crate::bond_graph::{BondGraph, SiteId};
+use crate::expr::{Builder, Ex, Expr, Graph, count};
+use crate::formulation::Arguments;
+use crate::formulation::site::{Column, SiteMotion};
+use crate::function::Function;
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::{LinkId, Motion, Pose};
+use crate::method::Method;
+
+/// The cheaper one of the method with and without groups.
+pub(super) fn function(
+    graph: &BondGraph,
+    geometry: &Geometry,
+    method: Method,
+    site: SiteId,
+) -> Function {
+    let of = |grouped| {
+        let (made, outputs) = outputs(graph, geometry, method, site, grouped);
+        let cost = count(&made, &outputs);
+        // A sine costs a dozen other operations.
+        (cost.total() + 12 * cost.sincos, made, outputs)
+    };
+    let (plain, grouped) = (of(false), of(true));
+    let (name, best) = if grouped.0 < plain.0 {
+        ("recursion: parallel axes grouped", grouped)
+    } else {
+        ("recursion: plain", plain)
+    };
+    Function::flat(graph, method, name.into(), best.1, best.2)
+}
+
+fn outputs(
+    graph: &BondGraph,
+    geometry: &Geometry,
+    method: Method,
+    site: SiteId,
+    grouped: bool,
+) -> (Graph, Vec<Expr>) {
+    let b = Builder::new();
+    let outputs = {
+        let x = Arguments::new(&b, graph, method);
+        let frames = Frames::new(
+            &b,
+            graph,
+            geometry,
+            &Plan::of_kinematics(geometry, grouped),
+            &x,
+        );
+        let motion = motion(&b, graph, geometry, &frames, site);
+        motion
+            .outputs(&b, method, &x.v)
+            .into_iter()
+            .map(|e| e.expr)
+            .collect()
+    };
+    (b.into_graph(), outputs)
+}
+
+/// World pose of a body: its basis, its own axes, its origin.
+#[derive(Clone, Copy)]
+struct Placed<'g> {
+    basis: Mat3<Ex<'g>>,
+    own: Mat3<Ex<'g>>,
+    origin: Vec3<Ex<'g>>,
+}
+
+fn motion<'g>(
+    b: &'g Builder,
+    graph: &BondGraph,
+    geometry: &Geometry,
+    frames: &Frames<'g>,
+    site: SiteId,
+) -> SiteMotion<'g> {
+    let placed = placed(b, geometry, frames);
+    let site = &graph.sites[site.0];
+    let mut columns: Vec<Option<Column<'g>>> = vec![None; frames.bodies.len()];
+    let (body, in_body) = home(geometry, site.link, &site.place);
+    let (rotation, origin) = in_body;
+    let (mut rotation, mut origin) = (rotation.map(|x| b.constant(x)), b.vector(origin));
+    if let Some(body) = body {
+        rotation = placed[body].own * rotation;
+        origin = placed[body].origin + placed[body].own * origin;
+    }
+    let mut on_path = body;
+    while let Some(j) = on_path {
+        let axis = placed[j].basis.column(2);
+        let axis = if geometry.bodies[j].opposite {
+            -axis
+        } else {
+            axis
+        };
+        columns[j] = Some(match frames.bodies[j].motion {
+            Motion::Rotation => Column {
+                angular: axis,
+                linear: axis.cross(origin - placed[j].origin),
+            },
+            _ => Column {
+                angular: Vec3([b.zero(); 3]),
+                linear: axis,
+            },
+        });
+        on_path = frames.bodies[j].parent;
+    }
+    SiteMotion {
+        rotation,
+        origin,
+        columns,
+    }
+}
+
+fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<Placed<'g>> {
+    let mut placed: Vec<Placed<'g>> = Vec::new();
+    for (body, frame) in geometry.bodies.iter().zip(&frames.bodies) {
+        let twist = frame.twist.map(|x| b.constant(x));
+        let (basis, origin) = match frame.parent {
+            // The place of the base enters here, and nowhere in the dynamics.
+            None => (twist, twist * (b.vector(body.offset) + frame.position)),
+            Some(p) => {
+                let parent = placed[p];
+                let basis = if frame.continues {
+                    parent.basis
+                } else {
+                    parent.own * twist
+                };
+                (basis, parent.origin + parent.own * frame.position_in_parent)
+            }
+        };
+        let (c, s) = frame.turn;
+        let (x, y) = (basis.column(0), basis.column(1));
+        let own = Mat3([
+            (x.scale(c) + y.scale(s)).0,
+            (y.scale(c) - x.scale(s)).0,
+            basis.column(2).0,
+        ])
+        .transpose();
+        placed.push(Placed { basis, own, origin });
+    }
+    placed
+}
+
+/// The body that a site is fixed to, and its axes and origin in that body's; in the world's where
+/// no joint moves it.
+fn home(
+    geometry: &Geometry,
+    link: Option<LinkId>,
+    place: &Pose,
+) -> (Option<usize>, (Mat3<Dd>, Vec3<Dd>)) {
+    let still = (place.rotation, place.translation);
+    let Some(link) = link else {
+        return (None, still);
+    };
+    let within = |outer: &Pose| {
+        let p = outer.translation + outer.rotation * place.translation;
+        (outer.rotation * place.rotation, p)
+    };
+    for (j, body) in geometry.bodies.iter().enumerate() {
+        if let Some((_, outer)) = body.links.iter().find(|(l, _)| *l == link) {
+            let (rotation, p) = within(outer);
+            let back = body.axes.transpose();
+            return (Some(j), (back * rotation, back * p));
+        }
+    }
+    match geometry.fixed.iter().find(|(l, _)| *l == link) {
+        Some((_, outer)) => (None, within(outer)),
+        None => (None, still),
+    }
+}

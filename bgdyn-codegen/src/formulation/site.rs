@@ -1,0 +1,80 @@
+//! What a site's methods return, from its pose and the columns of its Jacobian.
+
+use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
+use crate::math::{Mat3, Vec3};
+use crate::method::Method;
+
+/// Velocity of a site for a unit rate of one joint, fixed axes.
+#[derive(Clone, Copy)]
+pub(super) struct Column<'g> {
+    /// ω, rad/s
+    pub(super) angular: Vec3<Ex<'g>>,
+    /// Velocity of the site's origin, m/s.
+    pub(super) linear: Vec3<Ex<'g>>,
+}
+
+/// Pose of a site and how the joints move it, fixed axes.
+pub(super) struct SiteMotion<'g> {
+    /// Its axes.
+    pub(super) rotation: Mat3<Ex<'g>>,
+    /// Its origin, m.
+    pub(super) origin: Vec3<Ex<'g>>,
+    /// A column per coordinate; `None` where it moves nothing.
+    pub(super) columns: Vec<Option<Column<'g>>>,
+}
+
+impl<'g> SiteMotion<'g> {
+    /// The expressions of one of a site's methods.
+    pub(super) fn outputs(&self, b: &'g Builder, method: Method, v: &[Ex<'g>]) -> Vec<Ex<'g>> {
+        match method {
+            Method::Pose(_) => self
+                .rotation
+                .0
+                .into_iter()
+                .flatten()
+                .chain(self.origin.0)
+                .collect(),
+            Method::Jacobian(_) => self.jacobian(b),
+            Method::Velocity(_) => self.velocity(b, v),
+            _ => rates(b, &self.velocity(b, v), v),
+        }
+    }
+
+    /// Σ columns · v, angular part first.
+    fn velocity(&self, b: &'g Builder, v: &[Ex<'g>]) -> Vec<Ex<'g>> {
+        let (mut angular, mut linear) = (Vec3([b.zero(); 3]), Vec3([b.zero(); 3]));
+        for (column, &rate) in self.columns.iter().zip(v) {
+            if let Some(column) = column {
+                angular = angular + column.angular.scale(rate);
+                linear = linear + column.linear.scale(rate);
+            }
+        }
+        angular.0.into_iter().chain(linear.0).collect()
+    }
+
+    fn jacobian(&self, b: &'g Builder) -> Vec<Ex<'g>> {
+        let zero = Vec3([b.zero(); 3]);
+        let none = Column {
+            angular: zero,
+            linear: zero,
+        };
+        let columns: Vec<Column<'g>> = self.columns.iter().map(|c| c.unwrap_or(none)).collect();
+        let row = |part: fn(&Column<'g>) -> Vec3<Ex<'g>>, i: usize| {
+            columns.iter().map(move |c| part(c).0[i])
+        };
+        let angular = (0..3).flat_map(|i| row(|c| c.angular, i));
+        let linear = (0..3).flat_map(|i| row(|c| c.linear, i));
+        angular.chain(linear).collect()
+    }
+}
+
+/// Rates of change along the motion, the velocities held.
+fn rates<'g>(b: &'g Builder, x: &[Ex<'g>], v: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    let mut rate = Tangent::new(|_: &mut Graph, leaf| match leaf {
+        Leaf::Position(j) => Some(v[j].expr),
+        _ => None,
+    });
+    x.iter()
+        .map(|e| b.ex(b.with_graph(|g| rate.of(g, e.expr))))
+        .collect()
+}

@@ -1,0 +1,15 @@
+//! Limits of a joint.
+
+/// Limits of a joint as its spec states them; infinite where it states none. Generated functions
+/// clip nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Smallest coordinate: rad, m.
+    pub lower: f64,
+    /// Largest coordinate: rad, m.
+    pub upper: f64,
+    /// Largest speed: rad/s, m/s.
+    pub velocity: f64,
+    /// Largest effort: N·m, N.
+    pub effort: f64,
+}
