@@ -88,6 +88,7 @@ impl Panel {
             .margin_left(10)
             .margin_right(22)
             .margin_top(4)
+            .margin_bottom(if self.x_label.is_some() { 6 } else { 0 })
             .x_label_area_size(bottom)
             .y_label_area_size(68)
             .build_cartesian_2d(self.x.0..self.x.1, low..high)?;
@@ -132,7 +133,7 @@ pub fn draw_plan(
     lines: &[Line],
     marks: &[((f64, f64), &'static str)],
 ) -> Drawn {
-    const SIDES: (u32, u32) = (10 + 68 + 22, 4 + 24 + 46);
+    const SIDES: (u32, u32) = (10 + 68 + 22, 4 + 24 + 46 + 6);
     let places = || {
         let points = lines.iter().flat_map(|l| l.points.iter().copied());
         points.chain(marks.iter().map(|m| m.0))
@@ -152,6 +153,7 @@ pub fn draw_plan(
         .margin_left(10)
         .margin_right(22)
         .margin_top(4)
+        .margin_bottom(6)
         .x_label_area_size(46)
         .y_label_area_size(68)
         .build_cartesian_2d(around(left, right, width), around(low, high, height))?;
