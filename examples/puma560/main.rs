@@ -24,8 +24,8 @@ bgdyn::bgdyn!("../plants/puma560_loaded.yaml");
 use puma560::Puma560;
 use puma560_loaded::Puma560Loaded;
 
-/// Inertia of motor and drive, felt at the joint, kg·m² (Armstrong, Khatib, Burdick 1986). It is
-/// most of what the wrist's motors move; the controller's model and the plant have it alike.
+/// Inertia of motor and drive, felt at the joint, kg·m² (after Armstrong, Khatib, Burdick 1986). It
+/// is most of what the wrist's motors move; the controller's model and the plant have it alike.
 const ROTORS: [f64; 6] = [1.14, 4.71, 0.83, 0.200, 0.179, 0.193];
 
 fn main() -> ExitCode {
