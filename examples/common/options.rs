@@ -1,0 +1,49 @@
+//! The command line: `--out DIR` and `--help`.
+
+use std::path::PathBuf;
+
+/// What the user asked for.
+pub struct Options {
+    /// Folder of the plot.
+    pub out: PathBuf,
+}
+
+/// How to call the example.
+pub fn usage(name: &str) -> String {
+    format!(
+        "Pick and place under computed torque with a generated model
+
+Usage: cargo run --release --example {name} [-- --out DIR]
+
+Options:
+      --out DIR  Where to write the plot [default: target/{name}/]
+  -h, --help     Print help"
+    )
+}
+
+impl Options {
+    /// Reads the arguments; `None` where help was asked for, and printed.
+    pub fn parse(
+        name: &str,
+        mut arguments: impl Iterator<Item = String>,
+    ) -> Result<Option<Self>, String> {
+        let mut out = PathBuf::from("target").join(name);
+        while let Some(argument) = arguments.next() {
+            match argument.as_str() {
+                "-h" | "--help" => {
+                    println!("{}", usage(name));
+                    return Ok(None);
+                }
+                "--out" => match arguments.next() {
+                    Some(folder) => out = PathBuf::from(folder),
+                    None => return Err("`--out` needs a folder".into()),
+                },
+                other => match other.strip_prefix("--out=") {
+                    Some(folder) => out = PathBuf::from(folder),
+                    None => return Err(format!("unknown argument `{other}`")),
+                },
+            }
+        }
+        Ok(Some(Options { out }))
+    }
+}

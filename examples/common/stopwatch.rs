@@ -1,0 +1,91 @@
+//! How long a call takes: 1024 random states, the median of several passes over all of them.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use bgdyn::Dynamics;
+
+use super::Joints;
+use super::machine::Machine;
+
+/// Number of random states.
+pub const STATES: usize = 1024;
+/// Number of timed passes; odd, so that there is a median.
+pub const PASSES: usize = 15;
+/// Times each pass goes through the states, so that a pass is long against the clock's ticks.
+const ROUNDS: usize = 8;
+
+/// A method's name and its nanoseconds per call.
+pub type Times = [(&'static str, f64); 4];
+
+struct Inputs<const N: usize> {
+    q: Joints<N>,
+    v: Joints<N>,
+    /// Accelerations or efforts.
+    x: Joints<N>,
+}
+
+/// Times the methods a controller or a simulator calls.
+pub fn time<M: Dynamics<f64, N, N>, const N: usize>(model: &M, machine: &Machine) -> Times {
+    let states = random_states(machine);
+    [
+        (
+            "inverse_dynamics",
+            median(&states, |s| model.inverse_dynamics(&s.q, &s.v, &s.x)),
+        ),
+        ("mass_matrix", median(&states, |s| model.mass_matrix(&s.q))),
+        ("bias", median(&states, |s| model.bias(&s.q, &s.v))),
+        (
+            "forward_dynamics",
+            median(&states, |s| model.forward_dynamics(&s.q, &s.v, &s.x)),
+        ),
+    ]
+}
+
+/// Median over the passes of the time per call, ns. Neither the inputs nor the results can be seen
+/// through by the compiler, so that every call is made in full.
+fn median<R, const N: usize>(states: &[Inputs<N>], call: impl Fn(&Inputs<N>) -> R) -> f64 {
+    let pass = || {
+        let start = Instant::now();
+        for _ in 0..ROUNDS {
+            for state in states {
+                black_box(call(black_box(state)));
+            }
+        }
+        start.elapsed().as_secs_f64() * 1e9 / (ROUNDS * states.len()) as f64
+    };
+    pass(); // warms up the caches and the clock
+    let mut times: Vec<f64> = (0..PASSES).map(|_| pass()).collect();
+    times.sort_by(f64::total_cmp);
+    times[PASSES / 2]
+}
+
+/// Positions within the joints' ranges, speeds within their limits, the rest within ±10.
+fn random_states<const N: usize>(machine: &Machine) -> Vec<Inputs<N>> {
+    let mut random = xorshift();
+    let mut within = move |low: f64, high: f64| low + (high - low) * random();
+    (0..STATES)
+        .map(|_| Inputs {
+            q: Joints::from_fn(|i, _| {
+                let (low, high) = machine.joint(i).range;
+                within(low, high)
+            }),
+            v: Joints::from_fn(|i, _| {
+                let speed = machine.joint(i).speed;
+                within(-speed, speed)
+            }),
+            x: Joints::from_fn(|_, _| within(-10.0, 10.0)),
+        })
+        .collect()
+}
+
+/// Numbers in [0, 1), the same ones in every run (Marsaglia 2003, 13-7-17).
+fn xorshift() -> impl FnMut() -> f64 {
+    let mut x = 0x9e37_79b9_7f4a_7c15_u64;
+    move || {
+        x ^= x << 13;
+        x ^= x >> 7;
+        x ^= x << 17;
+        (x >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
