@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use bgdyn::nalgebra::Point3;
 use common::control::Gains;
 use common::cycle::{Cycle, Gripper, Leg};
-use common::machine::Machine;
+use common::machine::{Machine, machine};
 use common::{Cell, Joints};
 
 // The controller's model, and the arm with an open gripper.
@@ -31,7 +31,7 @@ fn main() -> ExitCode {
 }
 
 fn cell() -> Result<Cell<Scara, Scara, Scara, ScaraLoaded, 4>, String> {
-    let machine = Machine::read("scara", include_str!("../specs/scara.yaml"))?;
+    let machine = machine!(scara, Scara);
 
     // Places of the tool: x, y, z in m and its angle about the vertical.
     let place = |x, y, z, angle: f64| joints(&machine, &Point3::new(x, y, z), angle.to_radians());
@@ -70,7 +70,7 @@ fn cell() -> Result<Cell<Scara, Scara, Scara, ScaraLoaded, 4>, String> {
 ///
 /// The law of cosines gives the elbow from the distance, the direction then gives the shoulder;
 /// the quill hangs head down, so that lowering and turning count against the world's z.
-fn joints(machine: &Machine, tool: &Point3<f64>, angle: f64) -> Result<Joints<4>, String> {
+fn joints(machine: &Machine<4>, tool: &Point3<f64>, angle: f64) -> Result<Joints<4>, String> {
     let (upper, fore) = ARMS;
     let square = tool.x * tool.x + tool.y * tool.y;
     let cosine = (square - upper * upper - fore * fore) / (2.0 * upper * fore);
@@ -82,7 +82,7 @@ fn joints(machine: &Machine, tool: &Point3<f64>, angle: f64) -> Result<Joints<4>
     let q = Joints::from([shoulder, elbow, TOP - tool.z, shoulder + elbow - angle]);
 
     // The constants above and the spec must agree: forward kinematics leads back.
-    let off = (machine.tool(q.as_slice()) - tool).norm();
+    let off = ((machine.tool)(&q) - tool).norm();
     if off > 1e-9 {
         return Err(format!("inverse kinematics misses {tool} by {off} m"));
     }

@@ -2,12 +2,14 @@
 
 use bgdyn_codegen::formulation::{self, FORMULATIONS, Formulation};
 use syn::parse::{Parse, ParseStream};
-use syn::{Ident, LitStr, Token};
+use syn::{Ident, LitBool, LitStr, Token};
 
 /// `"scara.yaml"`, then options `name = "value"`.
 pub(crate) struct Input {
     pub(crate) path: LitStr,
     formulation: Option<LitStr>,
+    /// Whether first derivatives are wanted.
+    pub(crate) derivatives: bool,
 }
 
 impl Parse for Input {
@@ -15,6 +17,7 @@ impl Parse for Input {
         let mut parsed = Input {
             path: input.parse()?,
             formulation: None,
+            derivatives: false,
         };
         while !input.is_empty() {
             input.parse::<Token![,]>()?;
@@ -25,8 +28,11 @@ impl Parse for Input {
             input.parse::<Token![=]>()?;
             if option == "formulation" {
                 parsed.formulation = Some(input.parse()?);
+            } else if option == "derivatives" {
+                parsed.derivatives = input.parse::<LitBool>()?.value;
             } else {
-                let message = format!("bgdyn: unknown option `{option}`; known: formulation");
+                let message =
+                    format!("bgdyn: unknown option `{option}`; known: formulation, derivatives");
                 return Err(syn::Error::new(option.span(), message));
             }
         }

@@ -40,6 +40,7 @@ fn expand(input: &Input) -> Result<proc_macro2::TokenStream, String> {
     let stem = find::stem(&path)?;
     let options = Options {
         formulation: input.formulation()?,
+        derivatives: input.derivatives,
     };
     let place = Place {
         bgdyn: crate_path()?,

@@ -16,7 +16,7 @@ mod dd;
 mod dynamics;
 mod float;
 pub mod inertia;
-mod limits;
+mod joint;
 mod operations;
 mod pose;
 pub mod rotation;
@@ -25,7 +25,7 @@ mod singular;
 
 pub use dd::{Dd, ParseDdError};
 pub use dynamics::Dynamics;
-pub use limits::Limits;
+pub use joint::{Limits, Motion};
 pub use nalgebra;
 pub use operations::Operations;
 pub use pose::Pose;

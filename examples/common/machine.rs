@@ -1,11 +1,23 @@
-//! The arm as its spec says: what the report and the plot need beyond the generated methods.
+//! The arm as its generated module says: what the report and the plot need beside the methods.
 
-use bgdyn::nalgebra::{Matrix3, Point3, Rotation3, Unit, Vector3};
-use bgdyn::runtime::Dd;
-use bgdyn_codegen::expr::Operations;
-use bgdyn_codegen::math::{Mat3, Vec3};
-use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose};
-use bgdyn_codegen::model::{Model, Options};
+use bgdyn::nalgebra::Point3;
+use bgdyn::runtime::{Limits, Motion, Operations};
+
+use super::Joints;
+
+/// What a generated module says of the arm.
+pub struct Machine<const N: usize> {
+    /// `JOINT_NAMES`
+    pub names: [&'static str; N],
+    /// `JOINT_MOTIONS`
+    pub motions: [Motion; N],
+    /// `JOINT_LIMITS`
+    pub limits: [Limits; N],
+    /// `OPERATIONS`
+    pub operations: &'static [(&'static str, Operations)],
+    /// Where the frame `tool` is, in world axes, m: `pose_tool`.
+    pub tool: fn(&Joints<N>) -> Point3<f64>,
+}
 
 /// A joint's name, units and limits.
 pub struct Joint {
@@ -13,12 +25,8 @@ pub struct Joint {
     pub name: String,
     /// Whether it turns; otherwise it slides.
     pub turns: bool,
-    /// Largest effort, N·m or N.
-    pub effort: f64,
-    /// Largest speed, rad/s or m/s.
-    pub speed: f64,
-    /// Smallest and largest coordinate, rad or m.
-    pub range: (f64, f64),
+    /// Its limits.
+    pub limits: Limits,
 }
 
 impl Joint {
@@ -46,50 +54,14 @@ impl Joint {
     }
 }
 
-/// A checked spec.
-pub struct Machine {
-    mechanism: Mechanism,
-    joints: Vec<Joint>,
-    operations: Vec<(&'static str, Operations)>,
-}
-
-impl Machine {
-    /// Reads the spec `text` of the file `name.yaml`, by the generator the macro calls.
-    pub fn read(name: &str, text: &str) -> Result<Self, String> {
-        let (mechanism, faults) = bgdyn_codegen::read(text, Some(name));
-        let mechanism = mechanism.ok_or_else(|| faults.render(name, text))?;
-        let model = Model::new(mechanism, &Options::default());
-        let joints = (0..model.mechanism.nv())
-            .map(|i| {
-                let joint = model.mechanism.joint(CoordinateId(i));
-                let limits = joint.limits;
-                Joint {
-                    name: joint.name.replace('_', " "),
-                    turns: joint.kind.motion == Motion::Rotation,
-                    effort: limits.effort.unwrap_or(f64::INFINITY),
-                    speed: limits.velocity.unwrap_or(f64::INFINITY),
-                    range: (
-                        limits.lower.unwrap_or(f64::NEG_INFINITY),
-                        limits.upper.unwrap_or(f64::INFINITY),
-                    ),
-                }
-            })
-            .collect();
-        let operations = model
-            .functions
-            .iter()
-            .map(|f| (f.name(), f.operations()))
-            .collect();
-        Ok(Machine {
-            mechanism: model.mechanism,
-            joints,
-            operations,
-        })
-    }
-
+impl<const N: usize> Machine<N> {
     /// The joint of coordinate `i`.
-    pub fn joint(&self, i: usize) -> &Joint {
-        &self.joints[i]
+    pub fn joint(&self, i: usize) -> Joint {
+        Joint {
+            name: self.names[i].replace('_', " "),
+            turns: self.motions[i] == Motion::Rotation,
+            limits: self.limits[i],
+        }
     }
 
     /// Operations of one call of the generated method.
@@ -97,42 +69,18 @@ impl Machine {
         let found = self.operations.iter().find(|(name, _)| *name == method);
         found.map(|(_, operations)| operations)
     }
-
-    /// Where the frame `tool` is, in world axes, m.
-    pub fn tool(&self, q: &[f64]) -> Point3<f64> {
-        let tool = self.mechanism.frames().iter().find(|f| f.name == "tool");
-        tool.map_or(Point3::origin(), |frame| {
-            self.to_world(frame.link, q, point(&frame.origin))
-        })
-    }
-
-    /// A point given in the axes of `link`, in world axes: from link to parent, down to the base.
-    fn to_world(&self, link: Option<LinkId>, q: &[f64], point: Point3<f64>) -> Point3<f64> {
-        let Some(LinkId(index)) = link else {
-            return point;
-        };
-        let link = &self.mechanism.links()[index];
-        let joint = &link.joint;
-        let coordinate = joint.coordinate.map_or(0.0, |CoordinateId(i)| q[i]);
-        let axis = Unit::new_unchecked(vector(joint.axis));
-        let moved = match joint.kind.motion {
-            Motion::None => point,
-            Motion::Rotation => Rotation3::from_axis_angle(&axis, coordinate) * point,
-            Motion::Translation => point + axis.into_inner() * coordinate,
-        };
-        let in_parent = rotation(joint.origin.rotation) * moved + vector(joint.origin.translation);
-        self.to_world(link.parent, q, in_parent)
-    }
 }
 
-fn vector(v: Vec3<Dd>) -> Vector3<f64> {
-    Vector3::from(v.0.map(Dd::to_f64))
+/// The [`Machine`] of a generated module with a frame `tool`.
+macro_rules! machine {
+    ($module:ident, $model:ident) => {
+        $crate::common::machine::Machine {
+            names: $module::JOINT_NAMES,
+            motions: $module::JOINT_MOTIONS,
+            limits: $module::JOINT_LIMITS,
+            operations: &$module::OPERATIONS,
+            tool: |q| $module::$model::default().pose_tool(q).translation.into(),
+        }
+    };
 }
-
-fn rotation(m: Mat3<Dd>) -> Matrix3<f64> {
-    Matrix3::from_fn(|row, column| m.0[row][column].to_f64())
-}
-
-fn point(pose: &Pose) -> Point3<f64> {
-    Point3::from(vector(pose.translation))
-}
+pub(crate) use machine;

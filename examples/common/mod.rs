@@ -29,7 +29,7 @@ pub struct Cell<G, C, E, L, const N: usize> {
     /// One sentence about the plant, for the report.
     pub plant: &'static str,
     /// The arm as its spec says: limits, lengths, operation counts.
-    pub machine: Machine,
+    pub machine: Machine<N>,
     /// The generated model, whose calls are timed.
     pub generated: G,
     /// The controller's model.

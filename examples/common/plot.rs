@@ -141,14 +141,14 @@ fn draw_joint<G, C, E, L, const N: usize>(
     let lines = two_lines(runs, |s| s.tau[i]);
     let peak = lines.iter().map(Line::peak).fold(0.0, f64::max);
     // A limit far off would flatten the curves: it is then told, not drawn.
-    let near = peak > 0.3 * joint.effort;
+    let near = peak > 0.3 * joint.limits.effort;
     let place = if near { "" } else { ", off the scale" };
     let title = format!(
         "{}: effort (limit ±{} {unit}{place})",
-        joint.name, joint.effort
+        joint.name, joint.limits.effort
     );
     let effort = Panel {
-        limit: near.then_some(joint.effort),
+        limit: near.then_some(joint.limits.effort),
         ..panel(title, format!("tau / {unit}"))
     };
     effort.draw(&panels[2], &lines)
@@ -160,7 +160,7 @@ fn draw_plan<G, C, E, L, const N: usize>(
     runs: &Runs<'_, N>,
     area: &Area<'_>,
 ) -> Drawn {
-    let tool = |q: &Joints<N>| cell.machine.tool(q.as_slice());
+    let tool = |q: &Joints<N>| (cell.machine.tool)(q);
     // x is forward: up in the picture; y is to the left.
     let seen = |q: &Joints<N>| (-tool(q).y, tool(q).x);
     let at = |gripper, name: &'static str| {
@@ -190,7 +190,7 @@ fn draw_tool<G, C, E, L, const N: usize>(
     left: &Area<'_>,
     right: &Area<'_>,
 ) -> Drawn {
-    let height = |q: &Joints<N>| cell.machine.tool(q.as_slice()).z * 1e3;
+    let height = |q: &Joints<N>| (cell.machine.tool)(q).z * 1e3;
     let lines = three_lines(runs, |s| height(&s.wanted.q), |s| height(&s.q));
     let panel = |title: &str, y_label: &str| Panel {
         title: title.into(),

@@ -18,8 +18,8 @@ fn peak_and_rms(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Distance of the tool from where it should be, mm.
-pub fn tool_error<const N: usize>(machine: &Machine, sample: &Sample<N>) -> f64 {
-    let at = |q: &Joints<N>| machine.tool(q.as_slice());
+pub fn tool_error<const N: usize>(machine: &Machine<N>, sample: &Sample<N>) -> f64 {
+    let at = |q: &Joints<N>| (machine.tool)(q);
     (at(&sample.q) - at(&sample.wanted.q)).norm() * 1e3
 }
 
@@ -84,11 +84,11 @@ pub fn tracking<G, C, E, L, const N: usize>(
             joint.name,
             speed * scale,
             format!("{unit}/s"),
-            100.0 * speed / joint.speed,
+            100.0 * speed / joint.limits.velocity,
             joint.effort_unit(),
-            joint.effort,
+            joint.limits.effort,
             joint.effort_unit(),
-            100.0 * effort / joint.effort,
+            100.0 * effort / joint.limits.effort,
         );
     }
     for (law, samples) in [("CT", computed), ("PD+grav", baseline)] {
@@ -114,7 +114,7 @@ pub fn tracking<G, C, E, L, const N: usize>(
 }
 
 /// Operations and time of the generated methods.
-pub fn calls(machine: &Machine, times: &Times) {
+pub fn calls<const N: usize>(machine: &Machine<N>, times: &Times) {
     println!("\nGenerated method      mul   add   div  sqrt  sincos    ns/call  of the period");
     for (method, nanoseconds) in times {
         let o = machine.operations(method).copied().unwrap_or_default();

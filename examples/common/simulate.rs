@@ -49,7 +49,7 @@ where
 {
     let calls = (cell.cycle.seconds() / PERIOD).round() as usize;
     let (taken, released) = cell.cycle.carried();
-    let limits = Joints::from_fn(|i, _| cell.machine.joint(i).effort);
+    let limits = Joints::from_fn(|i, _| cell.machine.joint(i).limits.effort);
     let mut state = State {
         q: cell.cycle.start,
         v: Joints::zeros(),

@@ -26,7 +26,7 @@ struct Inputs<const N: usize> {
 }
 
 /// Times the methods a controller or a simulator calls.
-pub fn time<M: Dynamics<f64, N, N>, const N: usize>(model: &M, machine: &Machine) -> Times {
+pub fn time<M: Dynamics<f64, N, N>, const N: usize>(model: &M, machine: &Machine<N>) -> Times {
     let states = random_states(machine);
     [
         (
@@ -61,17 +61,21 @@ fn median<R, const N: usize>(states: &[Inputs<N>], call: impl Fn(&Inputs<N>) -> 
 }
 
 /// Positions within the joints' ranges, speeds within their limits, the rest within ±10.
-fn random_states<const N: usize>(machine: &Machine) -> Vec<Inputs<N>> {
+fn random_states<const N: usize>(machine: &Machine<N>) -> Vec<Inputs<N>> {
     let mut random = xorshift();
     let mut within = move |low: f64, high: f64| low + (high - low) * random();
     (0..STATES)
         .map(|_| Inputs {
             q: Joints::from_fn(|i, _| {
-                let (low, high) = machine.joint(i).range;
+                let bgdyn::runtime::Limits {
+                    lower: low,
+                    upper: high,
+                    ..
+                } = machine.limits[i];
                 within(low, high)
             }),
             v: Joints::from_fn(|i, _| {
-                let speed = machine.joint(i).speed;
+                let speed = machine.limits[i].velocity;
                 within(-speed, speed)
             }),
             x: Joints::from_fn(|_, _| within(-10.0, 10.0)),

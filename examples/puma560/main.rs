@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use common::control::Gains;
 use common::cycle::{Cycle, Gripper, Leg};
-use common::machine::Machine;
+use common::machine::machine;
 use common::{Cell, Joints};
 use geared::Geared;
 
@@ -56,7 +56,7 @@ fn cell() -> Result<Cell<Puma560, Arm, Arm, Geared<Puma560Loaded, 6>, 6>, String
         name: "puma560",
         title: "PUMA 560: pick and place with a part the controller does not know",
         plant: "Plant: the same arm and rotors; while carrying, + 2 kg at the tool.",
-        machine: Machine::read("puma560", include_str!("../../specs/puma560.yaml"))?,
+        machine: machine!(puma560, Puma560),
         generated: Puma560::default(),
         model: geared(Puma560::default()),
         empty: geared(Puma560::default()),

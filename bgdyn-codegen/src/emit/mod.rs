@@ -10,7 +10,7 @@ use quote::{format_ident, quote};
 
 use crate::expr::Operations;
 use crate::function::Function;
-use crate::mechanism::{CoordinateId, Limits};
+use crate::mechanism::{CoordinateId, Limits, Motion};
 use crate::method::{Argument, Shape};
 use crate::model::Model;
 
@@ -125,6 +125,10 @@ fn constants(model: &Model) -> TokenStream {
     let count = links.len();
     let functions = model.functions.len();
     let operations = model.functions.iter().map(operations);
+    let motions = model.bond_graph.coordinates.iter().map(|c| match c.motion {
+        Motion::Rotation => ident("Rotation"),
+        _ => ident("Translation"),
+    });
     let limits = (0..nv).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
     quote! {
         /// Number of positions.
@@ -135,6 +139,8 @@ fn constants(model: &Model) -> TokenStream {
         pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
+        /// What each coordinate is: an angle or a displacement.
+        pub const JOINT_MOTIONS: [__rt::Motion; NV] = [#(__rt::Motion::#motions),*];
         /// Limits of the moving joints; infinite where the spec states none.
         pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];
         /// What one call of each method executes.

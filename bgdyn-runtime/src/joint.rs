@@ -1,4 +1,13 @@
-//! Limits of a joint.
+//! What a generated module says of its joints.
+
+/// The motion that a joint allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// About the axis: the coordinate is an angle, rad.
+    Rotation,
+    /// Along the axis: the coordinate is a displacement, m.
+    Translation,
+}
 
 /// Limits of a joint as its spec states them; infinite where it states none. Generated functions
 /// clip nothing.
