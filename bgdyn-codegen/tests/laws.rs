@@ -87,7 +87,7 @@ impl Case {
             let x: Vec<Dd> = self.recursion.value(method, &self.state);
             let y: Vec<Dd> = self.literal.value(method, &self.state);
             let tolerance = EXACT * self.size(method);
-            assert_close(&x, &y, tolerance, self.place(method.name()));
+            assert_close(&x, &y, tolerance, self.place(&format!("{method:?}")));
         }
     }
 
@@ -196,12 +196,7 @@ impl Case {
                 let y: Vec<Dd> = methods.value(method, &self.state);
                 let x: Vec<Dd> = x.into_iter().map(Dd::from_f64).collect();
                 let tolerance = ROUNDED * self.size(method);
-                assert_close(
-                    &x,
-                    &y,
-                    tolerance,
-                    self.place(&format!("{}, f64", method.name())),
-                );
+                assert_close(&x, &y, tolerance, self.place(&format!("{method:?}, f64")));
             }
         }
     }

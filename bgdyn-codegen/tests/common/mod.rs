@@ -60,6 +60,7 @@ impl Robot {
     pub fn function(&self, formulation: &str, method: Method) -> Function {
         let options = Options {
             formulation: formulation::by_name(formulation),
+            ..Options::default()
         };
         assert!(options.formulation.is_some(), "{formulation}?");
         let made = model::function(&self.mechanism, method, &options);
