@@ -251,7 +251,8 @@ fn own_spin<'g>(
     (rate, acceleration): (Ex<'g>, Ex<'g>),
     angle: (Ex<'g>, Ex<'g>),
 ) -> Spin<'g> {
-    if rate.is_zero() && acceleration.is_zero() && angle.1.is_zero() {
+    let straight = angle.0.as_constant() == Some(Dd::ONE);
+    if rate.is_zero() && acceleration.is_zero() && straight {
         return *basis;
     }
     let [x, y, _] = turn_back(basis.omega, angle).0;
