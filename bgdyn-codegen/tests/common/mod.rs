@@ -7,6 +7,7 @@ pub mod golden;
 pub mod kinematics;
 pub mod random;
 pub mod rng;
+pub mod values;
 
 use bgdyn_codegen::bond_graph::{self, BondGraph};
 use bgdyn_codegen::expr::Inputs;
