@@ -215,6 +215,7 @@ impl Case {
             tau: efforts,
             ..self.state.clone()
         };
+        let pivot = least_pivot(self.literal.mass(&self.state));
         let mut worst = 0.0_f64;
         for methods in [&self.literal, &self.recursion] {
             let function = methods.function(Method::ForwardDynamics);
@@ -222,14 +223,21 @@ impl Case {
             let place = self.place(&format!("forward dynamics, {}", function.formulation));
             let finite = found.iter().all(|x| x.is_finite());
             assert!(finite, "{}: {found:?}", place());
+            if pivot < 1e-25 {
+                // Singular at this q, whatever the digits.
+                assert!(refused.is_some(), "{}: {found:?}", place());
+                continue;
+            }
             if least <= 1e-13 * most {
-                continue; // singular, or as good as: judged in `singular.rs`
+                continue; // regular, but beyond the digits of `f64`: may be refused or solved
             }
             assert_eq!(refused, None, "{}: eigenvalues {moments}", place());
-            // ‖FD(ID(a)) − a‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖)
+            // ‖FD(ID(a)) − a‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖), and where terms of h cancel to less
+            // than their rounding, that.
             let a = DVector::from_row_slice(&self.state.a);
             let h = DVector::from_row_slice(&bias);
-            let bar = 8.0 * n as f64 * f64::EPSILON * (most * a.norm() + h.norm()) / least;
+            let bar = 8.0 * n as f64 * (most * a.norm() + h.norm()) + self.effort;
+            let bar = f64::EPSILON * bar / least;
             let off = (DVector::from_vec(found) - a).norm();
             assert!(off <= bar, "{}: off by {off:e}, bar {bar:e}", place());
             worst = worst.max(off / bar.max(f64::MIN_POSITIVE));
@@ -279,6 +287,26 @@ impl Case {
             self.place("another order"),
         );
     }
+}
+
+/// The least pivot of M = LᵀDL in double-double, beside the diagonal entry it came from.
+fn least_pivot(mut mass: Vec<Vec<Dd>>) -> f64 {
+    let diagonal: Vec<Dd> = (0..mass.len()).map(|k| mass[k][k]).collect();
+    let mut least = f64::INFINITY;
+    for k in (0..mass.len()).rev() {
+        let pivot = mass[k][k];
+        let share = (pivot / diagonal[k]).to_f64();
+        if share.is_nan() || share < 1e-25 {
+            return 0.0;
+        }
+        least = least.min(share);
+        for i in 0..k {
+            for j in 0..k {
+                mass[i][j] = mass[i][j] - mass[k][i] / pivot * mass[k][j];
+            }
+        }
+    }
+    least
 }
 
 /// All laws on a range of seeds; gives how many mass matrices were regular.

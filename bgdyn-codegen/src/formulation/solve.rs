@@ -20,8 +20,10 @@ impl<'g> Factor<'g> {
         let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
         for k in (0..n).rev() {
-            // Only what was really subtracted can have lost digits.
-            let magnitude = if mass[k][k] == original[k] {
+            // Only what was really subtracted can have lost digits; what folded to a number was
+            // subtracted in double-double, which tells a small rest from nothing.
+            let folded = mass[k][k].as_constant().is_some();
+            let magnitude = if folded || mass[k][k] == original[k] {
                 b.zero()
             } else {
                 original[k]

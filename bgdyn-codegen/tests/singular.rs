@@ -1,0 +1,169 @@
+//! Mass matrices that cannot be inverted are refused by the name of a joint, in every state and
+//! scalar; massless links that can be are solved to the last digits.
+
+mod common;
+
+use bgdyn_codegen::method::Method;
+use bgdyn_runtime::{Dd, Scalar};
+use common::rng::Rng;
+use common::{Robot, State};
+
+/// The literal sum is the reference in double-double; its digits in `f64` are nobody's promise.
+const FORMULATIONS: [&str; 1] = ["recursion"];
+
+fn robot(links: &str) -> Robot {
+    Robot::read(&format!("format: 1\nname: singular\nlinks:\n{links}"), None)
+}
+
+/// Name of the joint that is refused.
+fn refused<T: Scalar<Refused = Option<usize>>>(
+    robot: &Robot,
+    formulation: &str,
+    s: &State,
+) -> Option<String> {
+    let f = robot.function(formulation, Method::ForwardDynamics);
+    let (_, refused) = f.evaluate(s.inputs::<T>());
+    refused.map(|j| robot.joints()[j].clone())
+}
+
+fn always_refuses(links: &str, joint: &str) {
+    let robot = robot(links);
+    let mut rng = Rng::new(7);
+    for formulation in FORMULATIONS {
+        for _ in 0..40 {
+            let s = State::random(&mut rng, &robot.motions());
+            let place = || format!("{formulation}\n{links}{s:?}");
+            let rough = refused::<f64>(&robot, formulation, &s);
+            assert_eq!(rough.as_deref(), Some(joint), "f64, {}", place());
+            let fine = refused::<Dd>(&robot, formulation, &s);
+            assert_eq!(fine.as_deref(), Some(joint), "double-double, {}", place());
+        }
+    }
+}
+
+const ARM: &str = "
+  - name: arm
+    joint: { name: first, type: revolute, axis: z }
+    mass: 1
+    com: [1, 0, 0]
+";
+
+#[test]
+fn nothing_to_accelerate() {
+    for last in [
+        "type: revolute, axis: z, origin: { xyz: [1, 0, 0] } }",
+        "type: revolute, axis: z, origin: { xyz: [1, 0, 0] } }\n    mass: 2",
+        "type: prismatic, axis: x, origin: { xyz: [1, 0, 0] } }\n    inertia: { zz: 0.5, xx: 0.5 }",
+        "type: revolute, axis: [0.6, 0.3, -0.2], origin: { rpy: [0.1, 0.2, 0.3] } }",
+    ] {
+        let links =
+            format!("{ARM}  - name: last\n    parent: arm\n    joint: {{ name: second, {last}\n");
+        always_refuses(&links, "second");
+    }
+}
+
+/// Two joints on one axis with nothing between them: M is singular whatever hangs on them.
+#[test]
+fn two_joints_on_one_axis() {
+    let body = "mass: 1\n    inertia: { xx: 1, yy: 1, zz: 1 }";
+    let skew = "mass: 1.3\n    com: [0.1, 0.2, 0.3]\n    inertia: { xx: 1, yy: 1.1, zz: 1.2 }";
+    for (axis, step, body) in [
+        ("z", "[0, 0, 0]", body),
+        ("z", "[0, 0, 0.3]", skew),
+        ("[0.6, 0.8, 0]", "[0.3, 0.4, 0]", skew),
+        ("[0.708, -0.786, -0.694]", "[0.177, -0.1965, -0.1735]", skew),
+    ] {
+        let links = format!(
+            "
+  - name: inner
+    joint: {{ name: first, type: revolute, axis: {axis} }}
+  - name: outer
+    parent: inner
+    joint: {{ name: second, type: revolute, axis: {axis}, origin: {{ xyz: {step} }} }}
+    {body}
+"
+        );
+        always_refuses(&links, "first");
+    }
+}
+
+/// A massless link between crossed axes has the inertia of what it carries.
+#[test]
+fn massless_middle_of_a_gimbal() {
+    let robot = robot(
+        "
+  - name: ring
+    joint: { name: yaw, type: revolute, axis: z }
+  - name: rotor
+    parent: ring
+    joint: { name: pitch, type: revolute, axis: x }
+    mass: 1
+    inertia: { xx: 1, yy: 2, zz: 3 }
+",
+    );
+    for formulation in FORMULATIONS {
+        let f = robot.function(formulation, Method::ForwardDynamics);
+        for angle in [0.0, 1e-8, 0.3, 1.5] {
+            let s = State {
+                q: vec![0.25, angle],
+                v: vec![0.0, 0.0],
+                a: vec![0.0, 0.0],
+                tau: vec![1.0, 1.0],
+            };
+            let found: Vec<f64> = s.value(&f);
+            let exact: Vec<Dd> = s.value(&f);
+            // M = diag(3 cos² + 2 sin², 1)
+            let (sin, cos) = f64::sin_cos(angle);
+            let expected = [1.0 / (3.0 * cos * cos + 2.0 * sin * sin), 1.0];
+            for k in 0..2 {
+                let off = (Dd::from_f64(found[k]) - exact[k]).abs().to_f64();
+                assert!(
+                    off <= 16.0 * f64::EPSILON,
+                    "{formulation}, {angle}: {found:?}"
+                );
+                assert!(
+                    (found[k] - expected[k]).abs() < 1e-15,
+                    "{formulation}, {angle}: {found:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A middle link with hardly any inertia: what was subtracted exactly is folded, a tiny true pivot
+/// passes.
+#[test]
+fn tiny_inertia_between_two_joints() {
+    for exponent in [20, 40, 50, 60, 90] {
+        let tiny = 2.0_f64.powi(-exponent);
+        let robot = robot(&format!(
+            "
+  - name: inner
+    joint: {{ name: first, type: revolute, axis: z }}
+    inertia: {{ xx: {tiny:?}, zz: {tiny:?} }}
+  - name: outer
+    parent: inner
+    joint: {{ name: second, type: revolute, axis: z }}
+    mass: 1
+    inertia: {{ xx: 1, yy: 1, zz: 1 }}
+"
+        ));
+        let s = State {
+            q: vec![0.25, 0.5],
+            v: vec![0.0; 2],
+            a: vec![0.0; 2],
+            tau: vec![1.5, 1.0],
+        };
+        for formulation in FORMULATIONS {
+            let f = robot.function(formulation, Method::ForwardDynamics);
+            let found: Vec<f64> = s.value(&f);
+            // M = [[1 + ε, 1], [1, 1]]: q̈₁ = 0.5 / ε, q̈₂ = 1 − q̈₁
+            let expected = [0.5 / tiny, 1.0 - 0.5 / tiny];
+            for k in 0..2 {
+                let off = (found[k] - expected[k]).abs();
+                let bar = 16.0 * f64::EPSILON * expected[k].abs();
+                assert!(off <= bar, "2^-{exponent}, {formulation}: {found:?}");
+            }
+        }
+    }
+}
