@@ -52,7 +52,7 @@ fn difference<M: Dynamics<Dd, N, N>, const N: usize>(
 ) -> SMatrix<f64, N, N> {
     let at = |j: usize, step: f64| {
         let mut shifted: State<Dd, N> = widen(state);
-        shifted[part][j] = shifted[part][j] + Dd::from_f64(step);
+        shifted[part][j] += Dd::from_f64(step);
         let [q, v, a] = &shifted;
         model.inverse_dynamics(q, v, a)
     };
