@@ -66,7 +66,10 @@ fn check(name: &str, robot: &Robot, formulation: &str, values: &Value) {
         let mut tally = Tally::default();
         let mut energies: Vec<(f64, f64)> = Vec::new();
         for (k, state) in states.iter().enumerate() {
-            let what = format!("{name}, {formulation}, {}, state {k}", method.name(&robot.graph));
+            let what = format!(
+                "{name}, {formulation}, {}, state {k}",
+                method.name(&robot.graph)
+            );
             let by_joint = |key: &str| {
                 let x = numbers(&state[key])?;
                 Some(order.iter().map(|&i| x[i]).collect::<Vec<f64>>())
@@ -96,6 +99,7 @@ fn check(name: &str, robot: &Robot, formulation: &str, values: &Value) {
                     energies.extend(state["V"].as_f64().map(|v| (value[0], v)));
                     None
                 }
+                _ => unreachable!("no method of the trait"),
             };
             let Some(expected) = vector else { continue };
             let value = if method == Method::MassMatrix {
@@ -118,7 +122,11 @@ fn check(name: &str, robot: &Robot, formulation: &str, values: &Value) {
         if method == Method::PotentialEnergy {
             potential(&mut tally, &energies, &format!("{name}, {formulation}"));
         }
-        assert!(tally.compared > 0, "{name}, {}: nothing", method.name(&robot.graph));
+        assert!(
+            tally.compared > 0,
+            "{name}, {}: nothing",
+            method.name(&robot.graph)
+        );
         println!(
             "{name:14} {formulation:10} {:17} {:6} numbers, worst at {:.1e} of what is allowed",
             method.name(&robot.graph),

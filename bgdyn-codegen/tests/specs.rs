@@ -99,7 +99,7 @@ fn equal(x: &Robot, y: &Robot, name: &str) {
                 let singular = m.singular_values();
                 allowed = allowed.max(1e-15 * singular.max() / singular.min() * largest(&g));
             }
-            let what = || format!("{name}, {}, state {k}", method.name(&robot.graph));
+            let what = || format!("{name}, {}, state {k}", method.name(&x.graph));
             assert_close(&f, &g, allowed, what);
         }
     }

@@ -8,6 +8,40 @@ use crate::{Scalar, Singular};
 /// How many units in the last place of the subtracted terms a pivot must exceed.
 const PIVOT_ULPS: f64 = 1.0;
 
+/// Constants in two words.
+pub(crate) trait Split: Scalar {
+    /// The nearest value to `hi`, and the nearest to the rest of `hi + lo`.
+    fn split(hi: f64, lo: f64) -> (Self, Self);
+}
+
+/// What lanes and dual numbers need of the numbers they are made of.
+pub(crate) trait Float: Split {
+    /// Up to here, in radians, two terms of a Taylor series stand for a tail's sine and cosine.
+    const SMALL_TAIL: Self;
+    /// A pivot must exceed this many times the terms it was subtracted from.
+    const PIVOT_FLOOR: Self;
+
+    /// Sine and cosine of a + `tail` from those of a.
+    fn turn(sine_cosine: (Self, Self), tail: Self) -> (Self, Self);
+}
+
+/// The sum of `angles` and `offset`, rounded, and what the rounding leaves; in any arithmetic that
+/// rounds as [`Float`]s do, lane by lane.
+pub(crate) fn exact_sum<T: Split>(angles: impl Iterator<Item = T>, offset: (f64, f64)) -> (T, T) {
+    let (mut sum, mut tail) = T::split(offset.0, offset.1);
+    for angle in angles {
+        // Knuth's two-sum: the rounding error of the addition, exactly.
+        let next = sum + angle;
+        let back = next - sum;
+        tail = tail + ((sum - (next - back)) + (angle - back));
+        sum = next;
+    }
+    // And once more, so that the tail is half a unit in the last place at most.
+    let angle = sum + tail;
+    let back = angle - sum;
+    (angle, (sum - (angle - back)) + (tail - back))
+}
+
 macro_rules! float_scalar {
     ($float:ident, $small_tail:expr, $sincos:path, $sqrt:path, $exp:path, $ln:path, $tanh:path) => {
         impl Scalar for $float {
@@ -35,32 +69,8 @@ macro_rules! float_scalar {
             // The tail's own rounding is |q|·eps², so the sum is good to eps for |q| up to 1/eps:
             // 4e15 rad for `f64`, 8e6 rad for `f32`.
             fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
-                let mut sum = offset.0 as $float;
-                let mut tail = (offset.0 - f64::from(sum) + offset.1) as $float;
-                for &angle in angles {
-                    // Knuth's two-sum: the rounding error of the addition, exactly.
-                    let next = sum + angle;
-                    let back = next - sum;
-                    tail += (sum - (next - back)) + (angle - back);
-                    sum = next;
-                }
-                // And once more, so that the tail is half a unit in the last place at most.
-                let angle = sum + tail;
-                let back = angle - sum;
-                let tail = (sum - (angle - back)) + (tail - back);
-                let (s, c) = $sincos(angle);
-                if tail.abs() <= $small_tail {
-                    // Adding the small correction last leaves its rounding as the only new error.
-                    (
-                        s + tail * (c - 0.5 * tail * s),
-                        c - tail * (s + 0.5 * tail * c),
-                    )
-                } else if tail.is_finite() {
-                    let (ds, dc) = $sincos(tail);
-                    (s * dc + c * ds, c * dc - s * ds)
-                } else {
-                    (s, c)
-                }
+                let (angle, tail) = exact_sum(angles.iter().copied(), offset);
+                Self::turn($sincos(angle), tail)
             }
 
             fn exp(self) -> Self {
@@ -123,7 +133,7 @@ macro_rules! float_scalar {
                 joint: usize,
                 refused: &mut Option<usize>,
             ) -> Self {
-                let floor = magnitude * (PIVOT_ULPS as $float * $float::EPSILON);
+                let floor = magnitude * Self::PIVOT_FLOOR;
                 // Written so that a NaN on either side is refused.
                 let ok = self > 0.0 && self > floor && self < $float::INFINITY;
                 if note_refused(ok, joint, refused) {
@@ -139,6 +149,33 @@ macro_rules! float_scalar {
                 names: &'static [&'static str; N],
             ) -> Result<SVector<Self, N>, Singular> {
                 finish(accelerations, refused, names)
+            }
+        }
+
+        impl Split for $float {
+            fn split(hi: f64, lo: f64) -> (Self, Self) {
+                let sum = hi as $float;
+                (sum, (hi - f64::from(sum) + lo) as $float)
+            }
+        }
+
+        impl Float for $float {
+            const SMALL_TAIL: Self = $small_tail;
+            const PIVOT_FLOOR: Self = PIVOT_ULPS as $float * $float::EPSILON;
+
+            fn turn((s, c): (Self, Self), tail: Self) -> (Self, Self) {
+                if tail.abs() <= Self::SMALL_TAIL {
+                    // Adding the small correction last leaves its rounding as the only new error.
+                    (
+                        s + tail * (c - 0.5 * tail * s),
+                        c - tail * (s + 0.5 * tail * c),
+                    )
+                } else if tail.is_finite() {
+                    let (ds, dc) = $sincos(tail);
+                    (s * dc + c * ds, c * dc - s * ds)
+                } else {
+                    (s, c)
+                }
             }
         }
     };

@@ -9,14 +9,23 @@
 //! - An inertia tensor's off-diagonal entries are *minus* the products of inertia
 //!   (Kuzmin 2007, eq. 1); `ixy` always means the tensor's entry, as in URDF.
 //! - `q` positions, `v` velocities, `a` accelerations, `tau` joint efforts.
+//!
+//! # Features, off by default
+//! - `wide`: [`Scalar`] for the lanes of the crate `wide`, re-exported as `wide`. Stays `no_std`.
+//! - `num-dual`: [`Scalar`] for the dual numbers of the crate `num-dual`, re-exported as
+//!   `num_dual`. That crate needs `std`; this one still does not use it.
 #![no_std]
 #![forbid(unsafe_code)]
 
 mod dd;
+#[cfg(feature = "num-dual")]
+mod dual;
 mod dynamics;
 mod float;
 pub mod inertia;
 mod joint;
+#[cfg(feature = "wide")]
+mod lanes;
 mod operations;
 mod pose;
 pub mod rotation;
@@ -24,10 +33,18 @@ mod scalar;
 mod singular;
 
 pub use dd::{Dd, ParseDdError};
+#[cfg(feature = "num-dual")]
+pub use dual::DualPart;
 pub use dynamics::Dynamics;
 pub use joint::{Limits, Motion};
+#[cfg(feature = "wide")]
+pub use lanes::LaneSingular;
 pub use nalgebra;
+#[cfg(feature = "num-dual")]
+pub use num_dual;
 pub use operations::Operations;
 pub use pose::Pose;
 pub use scalar::Scalar;
 pub use singular::Singular;
+#[cfg(feature = "wide")]
+pub use wide;

@@ -1,0 +1,194 @@
+//! [`Scalar`] for lanes of a SIMD register: several states at once.
+//!
+//! Lane k of every result equals, bit for bit, what `f64` (or `f32`) makes of lane k of the
+//! inputs; only where the compilation target has fused multiply-add may [`Scalar::mul_add`] round
+//! once instead of twice. Elementary functions are those of the scalar, lane by lane: the ones of
+//! `wide` lose the reduction of large angles.
+
+use core::fmt;
+
+use nalgebra::SVector;
+use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
+
+use crate::float::{Float, Split, exact_sum};
+use crate::{Scalar, Singular};
+
+/// The mass matrix is singular in at least one lane; the other lanes have their accelerations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaneSingular<T: nalgebra::Scalar, const LANES: usize, const N: usize> {
+    /// The accelerations; 0 in lanes that failed.
+    pub accelerations: SVector<T, N>,
+    /// For each lane the joint whose pivot vanishes, in the order of `JOINT_NAMES`; `None` where
+    /// the mass matrix is regular.
+    pub joint: [Option<usize>; LANES],
+    /// Names of the model's joints.
+    pub names: &'static [&'static str; N],
+}
+
+impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> LaneSingular<T, LANES, N> {
+    /// The error of one lane; `None` where it succeeded, or where there is no such lane.
+    pub fn lane(&self, lane: usize) -> Option<Singular> {
+        let joint = self.joint.get(lane).copied().flatten()?;
+        Some(Singular {
+            joint,
+            name: self.names.get(joint).copied().unwrap_or(""),
+        })
+    }
+
+    /// The lanes that failed, each with its error.
+    pub fn failed(&self) -> impl Iterator<Item = (usize, Singular)> + '_ {
+        (0..LANES).filter_map(|lane| Some((lane, self.lane(lane)?)))
+    }
+}
+
+impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> fmt::Display
+    for LaneSingular<T, LANES, N>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, (lane, error)) in self.failed().enumerate() {
+            let separator = if i > 0 { "; " } else { "" };
+            write!(f, "{separator}lane {lane}: {error}")?;
+        }
+        Ok(())
+    }
+}
+
+impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> core::error::Error
+    for LaneSingular<T, LANES, N>
+{
+}
+
+macro_rules! lane_scalar {
+    ($($lanes:ident: $float:ident, $n:literal;)*) => {$(
+        impl Scalar for $lanes {
+            /// All bits of a lane are set where the comparison holds.
+            type Mask = Self;
+            /// Index of the joint, -1 for none.
+            type Refused = Self;
+            type Singular<const N: usize> = LaneSingular<Self, $n, N>;
+
+            fn from_f64(x: f64) -> Self {
+                Self::splat(x as $float)
+            }
+
+            // One instruction where the target has it, else a product and a sum: never a call.
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                $lanes::mul_add(self, b, c)
+            }
+
+            fn sqrt(self) -> Self {
+                $lanes::sqrt(self)
+            }
+
+            fn sin_cos(self) -> (Self, Self) {
+                let both = self.to_array().map(<$float as Scalar>::sin_cos);
+                (Self::new(both.map(|x| x.0)), Self::new(both.map(|x| x.1)))
+            }
+
+            fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
+                let (angle, tail) = exact_sum(angles.iter().copied(), offset);
+                let (s, c) = Scalar::sin_cos(angle);
+                let small = $lanes::abs(tail).simd_le(Self::splat($float::SMALL_TAIL));
+                if small.all() {
+                    let half = Self::splat(0.5);
+                    return (
+                        s + tail * (c - half * tail * s),
+                        c - tail * (s + half * tail * c),
+                    );
+                }
+                let (mut s, mut c) = (s.to_array(), c.to_array());
+                for ((s, c), tail) in s.iter_mut().zip(&mut c).zip(tail.to_array()) {
+                    (*s, *c) = $float::turn((*s, *c), tail);
+                }
+                (Self::new(s), Self::new(c))
+            }
+
+            fn exp(self) -> Self {
+                Self::new(self.to_array().map(<$float as Scalar>::exp))
+            }
+
+            fn ln(self) -> Self {
+                Self::new(self.to_array().map(<$float as Scalar>::ln))
+            }
+
+            fn tanh(self) -> Self {
+                Self::new(self.to_array().map(<$float as Scalar>::tanh))
+            }
+
+            fn abs(self) -> Self {
+                $lanes::abs(self)
+            }
+
+            fn min(self, other: Self) -> Self {
+                (self.simd_lt(other) | self.is_nan()).select(self, other)
+            }
+
+            fn max(self, other: Self) -> Self {
+                (self.simd_gt(other) | self.is_nan()).select(self, other)
+            }
+
+            fn sign(self) -> Self {
+                let (zero, one) = (Self::splat(0.0), Self::splat(1.0));
+                let not_positive = self.simd_lt(zero).select(-one, self * zero);
+                self.simd_gt(zero).select(one, not_positive)
+            }
+
+            fn less(self, other: Self) -> Self {
+                self.simd_lt(other)
+            }
+
+            fn select(mask: Self, a: Self, b: Self) -> Self {
+                mask.select(a, b)
+            }
+
+            fn none_refused() -> Self {
+                Self::splat(-1.0)
+            }
+
+            fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self) -> Self {
+                let zero = Self::splat(0.0);
+                let floor = magnitude * Self::splat($float::PIVOT_FLOOR);
+                // Written so that a NaN on either side is refused.
+                let ok = self.simd_gt(zero)
+                    & self.simd_gt(floor)
+                    & self.simd_lt(Self::splat($float::INFINITY));
+                let first = refused.simd_lt(zero).select(Self::splat(joint as $float), *refused);
+                *refused = ok.select(*refused, first);
+                ok.select(self, Self::splat(1.0))
+            }
+
+            fn finish<const N: usize>(
+                accelerations: SVector<Self, N>,
+                refused: Self,
+                names: &'static [&'static str; N],
+            ) -> Result<SVector<Self, N>, LaneSingular<Self, $n, N>> {
+                let zero = Self::splat(0.0);
+                let regular = refused.simd_lt(zero);
+                if regular.all() {
+                    return Ok(accelerations);
+                }
+                Err(LaneSingular {
+                    accelerations: accelerations.map(|a| regular.select(a, zero)),
+                    joint: refused.to_array().map(|j| (j >= 0.0).then_some(j as usize)),
+                    names,
+                })
+            }
+        }
+
+        impl Split for $lanes {
+            fn split(hi: f64, lo: f64) -> (Self, Self) {
+                let (hi, lo) = $float::split(hi, lo);
+                (Self::splat(hi), Self::splat(lo))
+            }
+        }
+    )*};
+}
+
+lane_scalar! {
+    f64x2: f64, 2;
+    f64x4: f64, 4;
+    f64x8: f64, 8;
+    f32x4: f32, 4;
+    f32x8: f32, 8;
+    f32x16: f32, 16;
+}

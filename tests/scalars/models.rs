@@ -1,0 +1,53 @@
+//! The models, random states, and every result of a model in one list.
+
+use bgdyn::nalgebra::SVector;
+use bgdyn::{Dynamics, Scalar};
+
+bgdyn::bgdyn!("../golden/specs/puma560.yaml");
+bgdyn::bgdyn!("../golden/specs/scara4.yaml");
+bgdyn::bgdyn!("specs/massless_tip.yaml");
+bgdyn::bgdyn!("specs/spherical_pendulum.yaml");
+
+/// Equally distributed numbers in (−1, 1): splitmix64.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    pub(crate) fn vector<const N: usize>(&mut self, size: f64) -> SVector<f64, N> {
+        SVector::from_fn(|_, _| size * self.number())
+    }
+}
+
+/// Positions, velocities, and accelerations or efforts.
+pub(crate) type State<T, const N: usize> = [SVector<T, N>; 3];
+
+/// A state turned into another scalar.
+pub(crate) fn widen<T: Scalar, const N: usize>(state: &State<f64, N>) -> State<T, N> {
+    state.map(|x| x.map(T::from_f64))
+}
+
+/// Everything a model computes but accelerations, with the name of the method.
+pub(crate) fn results<T: Scalar, M: Dynamics<T, N, N>, const N: usize>(
+    model: &M,
+    [q, v, a]: &State<T, N>,
+) -> Vec<(&'static str, Vec<T>)> {
+    let list = |x: SVector<T, N>| x.as_slice().to_vec();
+    let mass = model.mass_matrix(q);
+    vec![
+        ("inverse_dynamics", list(model.inverse_dynamics(q, v, a))),
+        ("mass_matrix", mass.as_slice().to_vec()),
+        ("bias", list(model.bias(q, v))),
+        ("gravity", list(model.gravity(q))),
+        ("kinetic_energy", vec![model.kinetic_energy(q, v)]),
+        ("potential_energy", vec![model.potential_energy(q)]),
+        ("integrate", list(model.integrate(q, v))),
+        ("difference", list(model.difference(q, v))),
+    ]
+}
