@@ -1,7 +1,7 @@
 //! What a refused spec still tells of its module: how large it is and what its parts are called.
 
-use crate::mechanism::name::is_identifier;
 use crate::mechanism::joint::{JOINT_TYPES, Motion};
+use crate::mechanism::name::is_identifier;
 use crate::spec::{Field, Link, Spec};
 
 /// The interface of a module without the mechanism behind it.

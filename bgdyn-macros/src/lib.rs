@@ -75,9 +75,9 @@ fn module(
         formulation: input.formulation,
     };
     model::generate(&text, &find::stem(&path), &place, &options).map_err(|faults| {
-        let mut message = faults.render(&written, &text);
+        let mut message = faults.render(&written, &text).trim_end().to_string();
         if faults.count() > 1 {
-            message += &format!("\n{} faults", faults.count());
+            message += &format!("\n\n{} faults", faults.count());
         }
         refused(message, &text, &place)
     })
