@@ -115,7 +115,9 @@ fn a_crate_of_its_own() {
     scratch.write("src/beside.yaml", &spec(3.0));
     assert_eq!(scratch.printed(), "1 1 2 29.43");
 
+    // A file in another place is seen when the crate is compiled next.
     scratch.write("specs/beside.yaml", &spec(3.0));
+    scratch.write("src/main.rs", MAIN);
     let stderr = scratch.refused();
     let both = "error: bgdyn: `beside.yaml` could mean any of\n         src/beside.yaml\n         specs/beside.yaml\n";
     assert!(stderr.starts_with(both), "{stderr}");
