@@ -5,17 +5,21 @@
 
 mod commands;
 pub mod import;
+mod output;
 mod spec_file;
+mod usage;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use usage::Usage;
 
 #[derive(Parser)]
 #[command(
     name = "bgdyn",
     version,
-    about = "Rigid-body dynamics as generated Rust"
+    about = "Rigid-body dynamics as generated Rust",
+    after_help = "Example:\n  bgdyn check specs/scara.yaml"
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -46,9 +50,9 @@ pub fn run() -> ExitCode {
             let text = format!("{error:#}");
             // A refusal that was explained already is an empty error.
             if !text.is_empty() {
-                eprintln!("bgdyn: {text}");
+                output::tell(&format!("bgdyn: {text}\n"));
             }
-            ExitCode::FAILURE
+            ExitCode::from(if error.is::<Usage>() { 2 } else { 1 })
         }
     }
 }

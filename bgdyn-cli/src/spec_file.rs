@@ -8,6 +8,9 @@ use bgdyn_codegen::formulation::{self, FORMULATIONS};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::Options;
 
+use crate::output::tell;
+use crate::usage::Usage;
+
 /// A file and its text.
 pub(crate) struct SpecFile {
     pub(crate) path: PathBuf,
@@ -18,8 +21,7 @@ pub(crate) struct SpecFile {
 impl SpecFile {
     /// Reads the file.
     pub(crate) fn open(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path)
-            .with_context(|| format!("{} cannot be read", path.display()))?;
+        let text = read_text(path)?;
         let name = path
             .file_name()
             .map(|n| n.to_string_lossy().into_owned())
@@ -45,11 +47,20 @@ impl SpecFile {
     /// The mechanism; what was found goes to stderr.
     pub(crate) fn mechanism(&self) -> Result<Mechanism> {
         let (mechanism, faults) = self.read();
-        if !faults.0.is_empty() {
-            eprint!("{}", self.render(&faults));
-        }
+        tell(&self.render(&faults));
         mechanism.ok_or_else(|| anyhow!("{} has {} faults", self.path.display(), faults.count()))
     }
+}
+
+/// A file's text.
+pub(crate) fn read_text(path: &Path) -> Result<String> {
+    let shown = path.display();
+    let bytes = std::fs::read(path).with_context(|| format!("{shown} cannot be read"))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
+        anyhow!("{shown}:{line}:1: this line is not UTF-8: convert the file first")
+    })
 }
 
 /// The generator's options from the command line's.
@@ -65,7 +76,7 @@ pub(crate) fn options(formulation: Option<&str>) -> Result<Options> {
             .join(", ")
     };
     let formulation = formulation::by_name(name)
-        .ok_or_else(|| anyhow!("no formulation `{name}`; there are {}", known()))?;
+        .ok_or_else(|| Usage(format!("no formulation `{name}`; there are {}", known())))?;
     Ok(Options {
         formulation: Some(formulation),
         ..Options::default()

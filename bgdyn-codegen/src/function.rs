@@ -40,7 +40,7 @@ impl Function {
     ) -> Self {
         Function {
             method,
-            name: method.name(bond_graph),
+            name: method.name(&bond_graph.sites),
             formulation,
             graph,
             blocks: vec![Block { outputs }],

@@ -12,6 +12,7 @@ pub mod expr;
 pub mod fault;
 pub mod formulation;
 pub mod function;
+pub mod interface;
 pub mod math;
 pub mod mechanism;
 pub mod method;

@@ -1,7 +1,7 @@
 //! The methods a generated model has: names, arguments, shapes, units. Read by the formulations,
 //! the emitter and the command line.
 
-use crate::bond_graph::{BondGraph, SiteId};
+use crate::bond_graph::{Site, SiteId};
 
 /// An argument of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,20 +132,20 @@ impl Method {
     }
 
     /// Every method that a mechanism can have.
-    pub fn possible(graph: &BondGraph) -> Vec<Method> {
+    pub fn possible(sites: &[Site]) -> Vec<Method> {
         let own = [
             Method::CoriolisMatrix,
             Method::InverseDynamicsDerivatives,
             Method::ForwardDynamicsDerivatives,
         ];
-        let sites = (0..graph.sites.len()).flat_map(|i| Method::of_site(SiteId(i)));
-        Method::ALL.into_iter().chain(own).chain(sites).collect()
+        let of_sites = (0..sites.len()).flat_map(|i| Method::of_site(SiteId(i)));
+        Method::ALL.into_iter().chain(own).chain(of_sites).collect()
     }
 
     /// The method with this name.
-    pub fn by_name(graph: &BondGraph, name: &str) -> Option<Method> {
-        let mut possible = Method::possible(graph).into_iter();
-        possible.find(|m| m.name(graph) == name)
+    pub fn by_name(sites: &[Site], name: &str) -> Option<Method> {
+        let mut possible = Method::possible(sites).into_iter();
+        possible.find(|m| m.name(sites) == name)
     }
 
     /// Whether the trait `Dynamics` has it.
@@ -165,8 +165,8 @@ impl Method {
     }
 
     /// Its name.
-    pub fn name(self, graph: &BondGraph) -> String {
-        let site = |prefix: &str, site: SiteId| format!("{prefix}_{}", graph.sites[site.0].name);
+    pub fn name(self, sites: &[Site]) -> String {
+        let site = |prefix: &str, site: SiteId| format!("{prefix}_{}", sites[site.0].name);
         match self {
             Method::InverseDynamics => "inverse_dynamics".into(),
             Method::MassMatrix => "mass_matrix".into(),
@@ -215,8 +215,8 @@ impl Method {
     }
 
     /// What the result is: one line of documentation.
-    pub fn summary(self, graph: &BondGraph) -> String {
-        let of = |site: SiteId| format!("`{}`", graph.sites[site.0].name);
+    pub fn summary(self, sites: &[Site]) -> String {
+        let of = |site: SiteId| format!("`{}`", sites[site.0].name);
         match self {
             Method::InverseDynamics => {
                 "Joint efforts that produce the accelerations `a` (Kuzmin 2007, eq. 6).".into()

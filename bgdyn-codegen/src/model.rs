@@ -8,6 +8,7 @@ use crate::emit;
 use crate::fault::Faults;
 use crate::formulation::{self, Formulation};
 use crate::function::Function;
+use crate::interface::Interface;
 use crate::mechanism::Mechanism;
 use crate::method::Method;
 
@@ -98,6 +99,12 @@ pub fn generate(
     let mechanism = mechanism.ok_or(faults)?;
     let model = Model::new(mechanism, options);
     Ok(emit::module(&model, place))
+}
+
+/// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
+/// caller can name, nothing that runs. Nothing where the stem cannot name a module.
+pub fn fallback(text: &str, stem: &str, place: &emit::Place) -> Option<TokenStream> {
+    Interface::guess(text, stem).map(|interface| emit::fallback(&interface, place))
 }
 
 /// [`generate`] as formatted source text.

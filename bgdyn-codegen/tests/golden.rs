@@ -68,7 +68,7 @@ fn check(name: &str, robot: &Robot, formulation: &str, values: &Value) {
         for (k, state) in states.iter().enumerate() {
             let what = format!(
                 "{name}, {formulation}, {}, state {k}",
-                method.name(&robot.graph)
+                method.name(&robot.graph.sites)
             );
             let by_joint = |key: &str| {
                 let x = numbers(&state[key])?;
@@ -125,11 +125,11 @@ fn check(name: &str, robot: &Robot, formulation: &str, values: &Value) {
         assert!(
             tally.compared > 0,
             "{name}, {}: nothing",
-            method.name(&robot.graph)
+            method.name(&robot.graph.sites)
         );
         println!(
             "{name:14} {formulation:10} {:17} {:6} numbers, worst at {:.1e} of what is allowed",
-            method.name(&robot.graph),
+            method.name(&robot.graph.sites),
             tally.compared,
             tally.worst
         );

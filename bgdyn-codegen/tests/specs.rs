@@ -99,7 +99,7 @@ fn equal(x: &Robot, y: &Robot, name: &str) {
                 let singular = m.singular_values();
                 allowed = allowed.max(1e-15 * singular.max() / singular.min() * largest(&g));
             }
-            let what = || format!("{name}, {}, state {k}", method.name(&x.graph));
+            let what = || format!("{name}, {}, state {k}", method.name(&x.graph.sites));
             assert_close(&f, &g, allowed, what);
         }
     }
@@ -210,7 +210,7 @@ fn the_palletiser_takes_no_sine_twice() {
     for method in Method::ALL {
         let function = model::function(&robot.mechanism, method, &Options::default());
         let pairs = function.expect("every method").operations().sincos;
-        let (name, joints) = (method.name(&robot.graph), robot.nv());
+        let (name, joints) = (method.name(&robot.graph.sites), robot.nv());
         assert!(pairs <= joints, "{name}: {pairs} pairs for {joints} joints");
     }
 }

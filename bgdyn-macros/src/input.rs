@@ -7,9 +7,12 @@ use syn::{Ident, LitBool, LitStr, Token};
 /// `"scara.yaml"`, then options `name = "value"`.
 pub(crate) struct Input {
     pub(crate) path: LitStr,
-    formulation: Option<LitStr>,
+    /// The formulation asked for.
+    pub(crate) formulation: Option<&'static dyn Formulation>,
     /// Whether first derivatives are wanted.
     pub(crate) derivatives: bool,
+    /// What is wrong with the options. The module is made all the same.
+    pub(crate) errors: Vec<syn::Error>,
 }
 
 impl Parse for Input {
@@ -18,7 +21,19 @@ impl Parse for Input {
             path: input.parse()?,
             formulation: None,
             derivatives: false,
+            errors: Vec::new(),
         };
+        if let Err(error) = parsed.options(input) {
+            parsed.errors.push(error);
+            // What is left means nothing without what went before.
+            input.parse::<proc_macro2::TokenStream>()?;
+        }
+        Ok(parsed)
+    }
+}
+
+impl Input {
+    fn options(&mut self, input: ParseStream<'_>) -> syn::Result<()> {
         while !input.is_empty() {
             input.parse::<Token![,]>()?;
             if input.is_empty() {
@@ -26,41 +41,29 @@ impl Parse for Input {
             }
             let option: Ident = input.parse()?;
             input.parse::<Token![=]>()?;
-            if option == "formulation" {
-                parsed.formulation = Some(input.parse()?);
-            } else if option == "derivatives" {
-                parsed.derivatives = input.parse::<LitBool>()?.value;
-            } else {
+            if option == "derivatives" {
+                self.derivatives = input.parse::<LitBool>()?.value;
+                continue;
+            }
+            if option != "formulation" {
                 let message =
-                    format!("bgdyn: unknown option `{option}`; known: formulation, derivatives");
-                return Err(syn::Error::new(option.span(), message));
+                    format!("bgdyn: unknown option `{option}`; known: derivatives, formulation");
+                self.errors.push(syn::Error::new(option.span(), message));
+                input.parse::<syn::Lit>()?;
+                continue;
+            }
+            let value: LitStr = input.parse()?;
+            self.formulation = formulation::by_name(&value.value());
+            if self.formulation.is_none() {
+                let known: Vec<_> = FORMULATIONS.iter().map(|f| f.name()).collect();
+                let message = format!(
+                    "bgdyn: unknown formulation `{}`; known: {}",
+                    value.value(),
+                    known.join(", ")
+                );
+                self.errors.push(syn::Error::new(value.span(), message));
             }
         }
-        Ok(parsed)
-    }
-}
-
-impl Input {
-    /// The formulation asked for.
-    pub(crate) fn formulation(&self) -> Result<Option<&'static dyn Formulation>, String> {
-        let Some(name) = &self.formulation else {
-            return Ok(None);
-        };
-        let known = || {
-            FORMULATIONS
-                .iter()
-                .map(|f| f.name())
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
-        formulation::by_name(&name.value())
-            .map(Some)
-            .ok_or_else(|| {
-                format!(
-                    "bgdyn: unknown formulation `{}`; known: {}",
-                    name.value(),
-                    known()
-                )
-            })
+        Ok(())
     }
 }

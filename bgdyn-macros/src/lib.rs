@@ -4,6 +4,8 @@
 mod find;
 mod input;
 
+use std::path::Path;
+
 use bgdyn_codegen::emit::Place;
 use bgdyn_codegen::model::{self, Options};
 use proc_macro::TokenStream;
@@ -23,36 +25,67 @@ use input::Input;
 ///
 /// `bgdyn!("scara.yaml", formulation = "literal")` uses one formulation for every method instead
 /// of the cheapest.
+///
+/// A spec with faults gives one error that lists them all. The module is there all the same, with
+/// everything that can be named, so that no call adds an error of its own.
 #[proc_macro]
 pub fn bgdyn(input: TokenStream) -> TokenStream {
     let input = syn::parse_macro_input!(input as Input);
-    let expanded = expand(&input);
-    expanded
-        .unwrap_or_else(|message| syn::Error::new(input.path.span(), message).to_compile_error())
-        .into()
+    let mut code = proc_macro2::TokenStream::new();
+    let module = crate_path().and_then(|bgdyn| module(&input, bgdyn));
+    match module {
+        Ok(tokens) => code.extend(tokens),
+        Err(Refused { message, stand_in }) => {
+            code.extend(syn::Error::new(input.path.span(), message).to_compile_error());
+            code.extend(stand_in);
+        }
+    }
+    code.extend(input.errors.iter().map(syn::Error::to_compile_error));
+    code.into()
 }
 
-fn expand(input: &Input) -> Result<proc_macro2::TokenStream, String> {
+/// Why there is no module, and what stands in for it.
+struct Refused {
+    message: String,
+    stand_in: Option<proc_macro2::TokenStream>,
+}
+
+fn module(
+    input: &Input,
+    bgdyn: proc_macro2::TokenStream,
+) -> Result<proc_macro2::TokenStream, Refused> {
     let written = input.path.value();
-    let path = find::find(&written, input.path.span())?;
-    let text = std::fs::read_to_string(&path)
-        .map_err(|e| format!("bgdyn: {} cannot be read: {e}", path.display()))?;
-    let stem = find::stem(&path)?;
+    let mut place = Place {
+        bgdyn,
+        visibility: quote! { pub },
+        source: find::file_name(Path::new(&written)),
+        rebuild: None,
+    };
+    let refused = |message: String, text: &str, place: &Place| Refused {
+        message,
+        stand_in: model::fallback(text, &find::stem(Path::new(&place.source)), place),
+    };
+    let path = find::find(&written, input.path.span()).map_err(|m| refused(m, "", &place))?;
+    let text = std::fs::read_to_string(&path).map_err(|e| {
+        let message = format!("bgdyn: `{written}` cannot be read: {e}");
+        refused(message, "", &place)
+    })?;
+    place.rebuild = Some(path.display().to_string());
     let options = Options {
-        formulation: input.formulation()?,
+        formulation: input.formulation,
         derivatives: input.derivatives,
     };
-    let place = Place {
-        bgdyn: crate_path()?,
-        visibility: quote! { pub },
-        source: find::file_name(&path),
-        rebuild: Some(path.display().to_string()),
-    };
-    model::generate(&text, &stem, &place, &options).map_err(|faults| faults.render(&written, &text))
+    model::generate(&text, &find::stem(&path), &place, &options).map_err(|faults| {
+        let mut message = faults.render(&written, &text).trim_end().to_string();
+        if faults.count() > 1 {
+            message += &format!("\n\n{} faults", faults.count());
+        }
+        refused(message, &text, &place)
+    })
 }
 
 /// The path by which the calling crate reaches bgdyn, renamed or not.
-fn crate_path() -> Result<proc_macro2::TokenStream, String> {
+fn crate_path() -> Result<proc_macro2::TokenStream, Refused> {
     use proc_macro_crate::{FoundCrate, crate_name};
     match crate_name("bgdyn") {
         Ok(FoundCrate::Itself) => Ok(quote! { ::bgdyn }),
@@ -60,8 +93,9 @@ fn crate_path() -> Result<proc_macro2::TokenStream, String> {
             let name = proc_macro2::Ident::new(&name, proc_macro2::Span::call_site());
             Ok(quote! { ::#name })
         }
-        Err(e) => Err(format!(
-            "bgdyn: the calling crate does not depend on bgdyn: {e}"
-        )),
+        Err(e) => Err(Refused {
+            message: format!("bgdyn: the calling crate does not depend on bgdyn: {e}"),
+            stand_in: None,
+        }),
     }
 }

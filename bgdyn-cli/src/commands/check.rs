@@ -7,6 +7,7 @@ use bgdyn_codegen::fault::{Fault, Severity};
 use clap::Args;
 use serde_json::{Value, json};
 
+use crate::output::{print, tell};
 use crate::spec_file::SpecFile;
 
 /// Check a spec; report every fault with its place
@@ -29,20 +30,17 @@ impl Check {
             let model = mechanism
                 .as_ref()
                 .map(|m| json!({ "name": m.name(), "nq": m.nq(), "nv": m.nv() }));
-            println!(
-                "{:#}",
-                json!({ "ok": model.is_some(), "model": model, "findings": found })
-            );
-        } else if !faults.0.is_empty() {
-            eprint!("{}", spec.render(&faults));
+            let report = json!({ "ok": model.is_some(), "model": model, "findings": found });
+            print(&format!("{report:#}\n"))?;
+        } else {
+            tell(&spec.render(&faults));
         }
-        match mechanism {
-            Some(m) if !self.json => println!("ok: {}, NQ {}, NV {}", m.name(), m.nq(), m.nv()),
-            Some(_) => {}
-            None => {
-                eprintln!("{} faults", faults.count());
-                return Err(anyhow!(""));
-            }
+        let Some(m) = mechanism else {
+            tell(&format!("{} faults\n", faults.count()));
+            return Err(anyhow!(""));
+        };
+        if !self.json {
+            print(&format!("ok: {}, NQ {}, NV {}\n", m.name(), m.nq(), m.nv()))?;
         }
         Ok(())
     }

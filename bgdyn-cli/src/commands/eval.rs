@@ -2,15 +2,18 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::{Argument, Method, Shape};
 use clap::Args;
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::spec_file::{SpecFile, options};
+use crate::output::print;
+use crate::spec_file::{SpecFile, options, read_text};
+use crate::usage::Usage;
 
 /// Evaluate a method at the states of a file, without a compiler
 #[derive(Args)]
@@ -30,7 +33,26 @@ pub(crate) struct Eval {
     formulation: Option<String>,
 }
 
+/// What is printed.
+#[derive(Serialize)]
+struct Report<'a> {
+    function: &'a str,
+    /// One value per state; null where it failed.
+    results: Vec<Value>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    errors: Vec<Refused>,
+}
+
+/// A state without a result.
+#[derive(Serialize)]
+struct Refused {
+    state: usize,
+    #[serde(flatten)]
+    failure: Failure,
+}
+
 /// Why a state has no result.
+#[derive(Serialize)]
 struct Failure {
     joint: Option<String>,
     message: String,
@@ -41,45 +63,40 @@ impl Eval {
         let options = options(self.formulation.as_deref())?;
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let graph = bgdyn_codegen::bond_graph::build(&mechanism);
-        let method = Method::by_name(&graph, &self.method).ok_or_else(|| {
-            let known = Method::possible(&graph);
-            let known: Vec<_> = known.iter().map(|m| m.name(&graph)).collect();
-            anyhow!(
+        let method = Method::by_name(&graph.sites, &self.method).ok_or_else(|| {
+            let known = Method::possible(&graph.sites);
+            let known: Vec<_> = known.iter().map(|m| m.name(&graph.sites)).collect();
+            Usage(format!(
                 "no method `{}`; there are {}",
                 self.method,
                 known.join(", ")
-            )
+            ))
         })?;
         let states = states(&self.states)?;
         let function = bgdyn_codegen::model::function(&mechanism, method, &options)
-            .ok_or_else(|| anyhow!("this formulation does not know `{}`", self.method))?;
-        let mut results = Vec::new();
-        let mut errors = Vec::new();
+            .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
+        let mut report = Report {
+            function: &self.method,
+            results: Vec::new(),
+            errors: Vec::new(),
+        };
         for (i, state) in states.iter().enumerate() {
-            match evaluate(&mechanism, &function, state) {
-                Ok(value) => results.push(value),
-                Err(Failure { joint, message }) => {
-                    results.push(Value::Null);
-                    errors.push(json!({ "state": i, "joint": joint, "message": message }));
-                }
-            }
+            let value = evaluate(&mechanism, &function, state).unwrap_or_else(|failure| {
+                report.errors.push(Refused { state: i, failure });
+                Value::Null
+            });
+            report.results.push(value);
         }
-        let mut report = json!({ "function": self.method, "results": results });
-        let failed = errors.len();
-        if failed > 0 {
-            report["errors"] = Value::Array(errors);
+        print(&(serde_json::to_string(&report)? + "\n"))?;
+        match report.errors.len() {
+            0 => Ok(()),
+            failed => bail!("{failed} of {} states failed", states.len()),
         }
-        println!("{report}");
-        if failed > 0 {
-            bail!("{failed} of {} states failed", states.len());
-        }
-        Ok(())
     }
 }
 
 fn states(path: &std::path::Path) -> Result<Vec<Value>> {
-    let text = std::fs::read_to_string(path)
-        .with_context(|| format!("{} cannot be read", path.display()))?;
+    let text = read_text(path)?;
     let file: Value = serde_json::from_str(&without_bare_words(&text))
         .with_context(|| format!("{} is not JSON", path.display()))?;
     match file.get("states") {
@@ -88,7 +105,7 @@ fn states(path: &std::path::Path) -> Result<Vec<Value>> {
     }
 }
 
-/// `NaN` and `Infinity`, as some programs write them, become text that reads as such a number.
+/// `NaN` and `Infinity`, as some programs write them, become `null`: no number either, but JSON.
 fn without_bare_words(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;

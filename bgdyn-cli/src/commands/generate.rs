@@ -7,6 +7,7 @@ use bgdyn_codegen::emit::Place;
 use bgdyn_codegen::model::generate_source;
 use clap::Args;
 
+use crate::output::print;
 use crate::spec_file::{SpecFile, options};
 
 /// Write the generated Rust source
@@ -27,17 +28,17 @@ impl Generate {
     pub(crate) fn run(self) -> Result<()> {
         let options = options(self.formulation.as_deref())?;
         let spec = SpecFile::open(&self.file)?;
+        // Says what was found, warnings too.
+        spec.mechanism()?;
         let source = self
             .file
             .file_name()
             .map(|n| n.to_string_lossy().into_owned());
         let place = Place::source_text(source.unwrap_or_default());
-        let text = generate_source(&spec.text, &spec.stem, &place, &options).map_err(|faults| {
-            eprint!("{}", spec.render(&faults));
-            anyhow!("{} has {} faults", spec.path.display(), faults.count())
-        })?;
+        let text = generate_source(&spec.text, &spec.stem, &place, &options)
+            .map_err(|faults| anyhow!("{}", spec.render(&faults)))?;
         match &self.output {
-            None => print!("{text}"),
+            None => print(&text)?,
             Some(path) => std::fs::write(path, text)
                 .with_context(|| format!("{} cannot be written", path.display()))?,
         }

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use anyhow::Result;
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::formulation::FORMULATIONS;
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::{Model, Options};
 use clap::Args;
-use serde_json::{Map, Value, json};
+use serde::{Serialize, Serializer};
 
+use crate::output::{print, tell};
 use crate::spec_file::{SpecFile, options};
 
 /// Count the operations of each generated function
@@ -40,9 +42,12 @@ impl Ops {
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let model = Model::new(mechanism.clone(), &options);
         if self.json {
-            println!("{:#}", counts(&model));
+            let report = serde_json::to_string_pretty(&Report {
+                functions: Functions(&model),
+            })?;
+            print(&(report + "\n"))?;
         } else {
-            print_table(&model);
+            print(&table(&model))?;
         }
         if self.explain {
             explain(&mechanism, &model);
@@ -51,9 +56,32 @@ impl Ops {
     }
 }
 
-fn counts(model: &Model) -> Value {
-    let mut functions = Map::new();
-    for f in &model.functions {
+#[derive(Serialize)]
+struct Report<'a> {
+    functions: Functions<'a>,
+}
+
+/// One entry per generated function, in the module's order.
+struct Functions<'a>(&'a Model);
+
+impl Serialize for Functions<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.functions.iter().map(|f| (f.name(), Counts::of(f))))
+    }
+}
+
+#[derive(Serialize)]
+struct Counts {
+    mul: usize,
+    add: usize,
+    div: usize,
+    sqrt: usize,
+    sincos: usize,
+    other: usize,
+}
+
+impl Counts {
+    fn of(function: &Function) -> Self {
         let Operations {
             mul,
             add,
@@ -61,22 +89,27 @@ fn counts(model: &Model) -> Value {
             sqrt,
             sincos,
             other,
-        } = f.operations();
-        let count = json!({ "mul": mul, "add": add, "div": div, "sqrt": sqrt, "sincos": sincos, "other": other });
-        functions.insert(f.name().into(), count);
+        } = function.operations();
+        Counts {
+            mul,
+            add,
+            div,
+            sqrt,
+            sincos,
+            other,
+        }
     }
-    json!({ "functions": functions })
 }
 
-fn print_table(model: &Model) {
-    println!(
-        "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}",
+fn table(model: &Model) -> String {
+    let mut text = format!(
+        "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",
         "function", "mul", "add", "div", "sqrt", "sincos", "other", "mul+add"
     );
     for f in &model.functions {
         let o = f.operations();
-        println!(
-            "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}",
+        text += &format!(
+            "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",
             f.name(),
             o.mul,
             o.add,
@@ -87,24 +120,25 @@ fn print_table(model: &Model) {
             o.total()
         );
     }
+    text
 }
 
 /// Goes to stderr, so that it can stand beside `--json`.
 fn explain(mechanism: &Mechanism, model: &Model) {
     for f in &model.functions {
-        eprintln!("{}: {}", f.name(), f.formulation);
+        tell(&format!("{}: {}\n", f.name(), f.formulation));
         for formulation in FORMULATIONS {
             let asked = Options {
                 formulation: Some(formulation),
                 ..Options::default()
             };
             if let Some(other) = count_with(mechanism, f.method, &asked) {
-                eprintln!(
-                    "  {:<12} {}  ({})",
+                tell(&format!(
+                    "  {:<12} {}  ({})\n",
                     formulation.name(),
                     other,
                     formulation.summary()
-                );
+                ));
             }
         }
     }

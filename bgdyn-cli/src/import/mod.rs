@@ -15,6 +15,8 @@ mod tree;
 mod writing;
 mod xml;
 
+use crate::output::{print, tell};
+use crate::spec_file::read_text;
 use anyhow::{Context, Result, anyhow};
 use inertia::{Verdict, judge};
 use naming::{identifiers, shown};
@@ -203,35 +205,21 @@ pub struct ImportArgs {
 /// Runs `bgdyn import`.
 pub fn run(args: ImportArgs) -> Result<()> {
     let path = args.file.display();
-    let bytes = std::fs::read(&args.file).with_context(|| format!("{path}: cannot be read"))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let good = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..good]
-            .iter()
-            .filter(|byte| **byte == b'\n')
-            .count()
-            + 1;
-        anyhow!("{path}:{line}:1: this line is not UTF-8: convert the file first")
-    })?;
+    let text = read_text(&args.file)?;
     let mut made = import(&text).map_err(|error| anyhow!("{path}:{error}"))?;
     match &args.output {
         Some(output) => {
             std::fs::write(output, &made.yaml)
-                .with_context(|| format!("{}: cannot be written", output.display()))?;
+                .with_context(|| format!("{} cannot be written", output.display()))?;
             made.warnings.extend(unfit_stem(output, &made.name));
         }
-        None => {
-            use std::io::Write;
-            std::io::stdout()
-                .write_all(made.yaml.as_bytes())
-                .context("stdout: cannot be written")?;
-        }
+        None => print(&made.yaml)?,
     }
     for note in &made.notes {
-        eprintln!("renamed: {note}");
+        tell(&format!("renamed: {note}\n"));
     }
     for warning in &made.warnings {
-        eprintln!("warning: {warning}");
+        tell(&format!("warning: {warning}\n"));
     }
     Ok(())
 }

@@ -39,15 +39,11 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
 /// The links' frames, then the named ones. A tip is a link that carries no other.
 fn sites(mechanism: &Mechanism) -> Vec<Site> {
     let links = mechanism.links();
-    let still = Pose {
-        rotation: Mat3::from_fn(|i, j| if i == j { Dd::ONE } else { Dd::ZERO }),
-        translation: Vec3([Dd::ZERO; 3]),
-    };
     let tip = |i: usize| links.iter().all(|l| l.parent != Some(LinkId(i)));
     let link = |(i, link): (usize, &Link)| Site {
         name: link.name.clone(),
         link: Some(LinkId(i)),
-        place: still,
+        place: Pose::IDENTITY,
         prominent: tip(i),
     };
     let frame = |frame: &Frame| Site {

@@ -1,9 +1,11 @@
 //! The emitter: a model becomes the tokens of a Rust module. It knows no physics.
 
 mod body;
+mod fallback;
 mod names;
 mod writer;
 
+pub use fallback::fallback;
 use heck::ToUpperCamelCase;
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -51,9 +53,7 @@ pub fn module(model: &Model, place: &Place) -> TokenStream {
     let methods = model.functions.iter().map(|f| method(f, model));
     let struct_name = struct_name(model);
     let dynamics = dynamics(model);
-    let rebuild = place.rebuild.as_ref().map(|path| {
-        quote! { const _: &[u8] = ::core::include_bytes!(#path); }
-    });
+    let rebuild = rebuild(place);
     quote! {
         #(#[doc = #docs])*
         #[allow(
@@ -74,6 +74,12 @@ pub fn module(model: &Model, place: &Place) -> TokenStream {
             #dynamics
         }
     }
+}
+
+/// Includes the spec, which makes the compiler watch it.
+fn rebuild(place: &Place) -> Option<TokenStream> {
+    let path = place.rebuild.as_ref()?;
+    Some(quote! { const _: &[u8] = ::core::include_bytes!(#path); })
 }
 
 fn ident(name: &str) -> proc_macro2::Ident {
@@ -272,7 +278,7 @@ fn method(function: &Function, model: &Model) -> TokenStream {
 fn method_docs(function: &Function, model: &Model) -> Vec<String> {
     let method = function.method;
     let mut docs = vec![
-        format!(" {}", method.summary(&model.bond_graph)),
+        format!(" {}", method.summary(&model.bond_graph.sites)),
         String::new(),
         format!(" Units: {}. Joints as in [`JOINT_NAMES`].", method.units()),
         String::new(),

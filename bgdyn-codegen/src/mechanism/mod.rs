@@ -56,6 +56,18 @@ pub struct Pose {
     pub translation: Vec3<Dd>,
 }
 
+impl Pose {
+    /// No rotation, no displacement.
+    pub const IDENTITY: Pose = Pose {
+        rotation: Mat3([
+            [Dd::ONE, Dd::ZERO, Dd::ZERO],
+            [Dd::ZERO, Dd::ONE, Dd::ZERO],
+            [Dd::ZERO, Dd::ZERO, Dd::ONE],
+        ]),
+        translation: Vec3([Dd::ZERO; 3]),
+    };
+}
+
 /// Inertial parameters of a link, in link axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertial {

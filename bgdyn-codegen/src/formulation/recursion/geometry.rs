@@ -97,10 +97,7 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
             made.bodies.len(),
             "coordinates follow the order of links"
         );
-        let still = Pose {
-            rotation: identity(),
-            translation: Vec3([Dd::ZERO; 3]),
-        };
+        let still = Pose::IDENTITY;
         homes.push((Some(j.0), still));
         placed.push(place);
         made.bodies.push(Body {

@@ -1,0 +1,15 @@
+//! The error of a command that was called wrongly: exit 2 instead of 1.
+
+use std::fmt;
+
+/// What is wrong with the call.
+#[derive(Debug)]
+pub(crate) struct Usage(pub(crate) String);
+
+impl fmt::Display for Usage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}

@@ -1,0 +1,121 @@
+//! `bgdyn check`.
+
+use serde_json::Value;
+
+use crate::{bgdyn, scratch};
+
+const TWO_FAULTS: &str = "\
+format: 1
+links:
+  - name: arm
+    joint: { name: shoulder, type: revolute }
+    mass: -1
+  - name: hand
+    parent: amr
+";
+
+#[test]
+fn a_good_spec_is_one_line() {
+    let run = bgdyn(&["check", "tests/golden/specs/scara4.yaml"]);
+    assert_eq!(run.stderr, "");
+    assert_eq!(run.good(), "ok: scara4, NQ 4, NV 4\n");
+}
+
+#[test]
+fn every_fault_starts_with_its_place() {
+    let file = scratch("check_faults", "arm.yaml", TWO_FAULTS);
+    let run = bgdyn(&["check", &file]);
+    assert_eq!(run.stdout, "");
+    let stderr = run.bad_input();
+    let headlines: Vec<&str> = stderr.lines().filter(|l| l.starts_with(&file)).collect();
+    assert_eq!(headlines.len(), 2, "{stderr}");
+    assert!(headlines[0].starts_with(&format!("{file}:5:11: links[0].mass: ")));
+    assert!(headlines[1].starts_with(&format!("{file}:7:13: links[1].parent: ")));
+    assert!(stderr.starts_with(headlines[0]));
+    assert_eq!(stderr.lines().last(), Some("2 faults"));
+}
+
+#[test]
+fn the_path_is_printed_as_given() {
+    let stderr = bgdyn(&["check", "specs/../specs/invalid/negative_mass.yaml"]).bad_input();
+    assert!(stderr.starts_with("specs/../specs/invalid/negative_mass.yaml:16:11: "));
+    assert_eq!(stderr.lines().last(), Some("1 faults"));
+}
+
+#[test]
+fn every_invalid_spec_is_refused() {
+    let folder = crate::root().join("specs/invalid");
+    let mut count = 0;
+    for entry in folder.read_dir().expect("the folder") {
+        let path = entry.expect("an entry").path();
+        let name = path.display().to_string();
+        let run = bgdyn(&["check", &name]);
+        assert_eq!(run.stdout, "", "{name}");
+        let stderr = run.bad_input();
+        assert!(stderr.starts_with(&format!("{name}:")), "{stderr}");
+        assert_eq!(stderr.lines().last(), Some("1 faults"), "{name}");
+        count += 1;
+    }
+    assert!(count > 40);
+}
+
+#[test]
+fn warnings_do_not_refuse() {
+    let text = "\
+format: 1
+links:
+  - name: arm
+    joint: { name: shoulder, type: revolute, origin: { rpy: [1.5708, 0, 0] } }
+    mass: 1
+";
+    let file = scratch("check_warning", "arm.yaml", text);
+    let run = bgdyn(&["check", &file]);
+    assert!(
+        run.stderr.starts_with(&format!("{file}:4:61: warning: ")),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(run.good(), "ok: arm, NQ 1, NV 1\n");
+    let report = bgdyn(&["check", &file, "--json"]).good();
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["ok"], true);
+    assert_eq!(report["findings"][0]["severity"], "warning");
+}
+
+#[test]
+fn findings_as_json() {
+    let file = scratch("check_json", "arm.yaml", TWO_FAULTS);
+    let run = bgdyn(&["check", &file, "--json"]);
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!(run.bad_input(), "2 faults\n");
+    assert_eq!(report["ok"], false);
+    assert_eq!(report["model"], Value::Null);
+    let fault = &report["findings"][0];
+    assert_eq!(fault["line"], 5);
+    assert_eq!(fault["column"], 11);
+    assert_eq!(fault["path"], "links[0].mass");
+    assert_eq!(fault["rule"], "negative-mass");
+    assert_eq!(report["findings"][1]["help"], "did you mean `arm`?");
+
+    let good = bgdyn(&["check", "tests/golden/specs/dpend2.yaml", "--json"]).good();
+    let good: Value = serde_json::from_str(&good).expect("JSON");
+    let model = serde_json::json!({ "name": "dpend2", "nq": 2, "nv": 2 });
+    assert_eq!(good["model"], model);
+    assert_eq!(good["ok"], true);
+    assert_eq!(good["findings"], Value::Array(vec![]));
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let stderr = bgdyn(&["check", "nowhere.yaml"]).bad_input();
+    assert!(
+        stderr.starts_with("bgdyn: nowhere.yaml cannot be read: "),
+        "{stderr}"
+    );
+    let file = scratch("check_bytes", "arm.yaml", b"format: 1\nlabel: \xff\n");
+    let stderr = bgdyn(&["check", &file]).bad_input();
+    assert!(
+        stderr.starts_with(&format!("bgdyn: {file}:2:1: this line is not UTF-8")),
+        "{stderr}"
+    );
+}

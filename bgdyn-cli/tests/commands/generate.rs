@@ -1,0 +1,60 @@
+//! `bgdyn generate`.
+
+use std::fs;
+
+use bgdyn_codegen::emit::Place;
+use bgdyn_codegen::model::{Options, generate};
+
+use crate::{bgdyn, root, scratch};
+
+const SCARA: &str = "tests/golden/specs/scara4.yaml";
+
+#[test]
+fn the_source_is_the_same_in_every_run_and_in_every_place() {
+    let first = bgdyn(&["generate", SCARA]).good();
+    assert_eq!(first, bgdyn(&["generate", SCARA]).good());
+    let text = fs::read_to_string(root().join(SCARA)).expect("the spec");
+    let elsewhere = scratch("generate_same", "scara4.yaml", text);
+    assert_eq!(first, bgdyn(&["generate", &elsewhere]).good());
+    let output = scratch("generate_same", "scara4.rs", "");
+    let run = bgdyn(&["generate", SCARA, "-o", &output]);
+    assert_eq!(run.good(), "");
+    assert_eq!(fs::read_to_string(output).expect("the output"), first);
+}
+
+#[test]
+fn the_source_is_what_the_macro_gets() {
+    let text = fs::read_to_string(root().join(SCARA)).expect("the spec");
+    let place = Place::source_text("scara4.yaml".into());
+    let tokens = generate(&text, "scara4", &place, &Options::default()).expect("a good spec");
+    let source = bgdyn(&["generate", SCARA]).good();
+    let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");
+    // Commas at the end of lists and the quotes of documentation are the layout's.
+    let plain = |t: String| -> String {
+        let t = t.replace("doc = r\"", "doc = \"");
+        t.chars().filter(|c| !" ,\n".contains(*c)).collect()
+    };
+    assert!(plain(parsed.to_string()) == plain(tokens.to_string()));
+    assert!(source.contains("pub mod scara4 {") && source.contains("pub struct Scara4<T = f64>"));
+    assert!(!source.contains("include_bytes"));
+}
+
+#[test]
+fn formulations_differ() {
+    let literal = bgdyn(&["generate", SCARA, "--formulation", "literal"]).good();
+    assert_ne!(literal, bgdyn(&["generate", SCARA]).good());
+    assert!(literal.contains("| literal"));
+}
+
+#[test]
+fn what_cannot_be_generated_or_written() {
+    let run = bgdyn(&["generate", "specs/invalid/negative_mass.yaml"]);
+    assert_eq!(run.stdout, "");
+    let stderr = run.bad_input();
+    assert_eq!(stderr.matches("[negative-mass]").count(), 1, "{stderr}");
+    let stderr = bgdyn(&["generate", SCARA, "-o", "no/such/folder/a.rs"]).bad_input();
+    assert!(
+        stderr.starts_with("bgdyn: no/such/folder/a.rs cannot be written: "),
+        "{stderr}"
+    );
+}

@@ -1,0 +1,67 @@
+//! The command `bgdyn` as scripts see it: what it prints, where, and how it exits.
+
+mod check;
+mod eval;
+mod generate;
+mod golden_specs;
+mod ops;
+mod usage;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The root of the workspace.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// A run of the command from the root of the workspace.
+struct Run {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+}
+
+fn bgdyn(arguments: &[&str]) -> Run {
+    let output: Output = Command::new(env!("CARGO_BIN_EXE_bgdyn"))
+        .args(arguments)
+        .current_dir(root())
+        .output()
+        .expect("the command starts");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    Run {
+        code: output.status.code(),
+        stdout: text(output.stdout),
+        stderr: text(output.stderr),
+    }
+}
+
+impl Run {
+    /// Its stdout, if it went well.
+    fn good(self) -> String {
+        assert_eq!(self.code, Some(0), "{}", self.stderr);
+        self.stdout
+    }
+
+    /// Its stderr, if it refused a bad input.
+    fn bad_input(self) -> String {
+        assert_eq!(self.code, Some(1), "{}", self.stderr);
+        self.stderr
+    }
+
+    /// Its stderr, if it was called wrongly.
+    fn bad_usage(self) -> String {
+        assert_eq!(self.code, Some(2), "{}", self.stderr);
+        assert_eq!(self.stdout, "");
+        self.stderr
+    }
+}
+
+/// A file of one test, by the name of the test.
+fn scratch(test: &str, file: &str, text: impl AsRef<[u8]>) -> String {
+    let path: PathBuf = [env!("CARGO_TARGET_TMPDIR"), test, file].iter().collect();
+    fs::create_dir_all(path.parent().expect("a parent")).expect("a directory");
+    fs::write(&path, text).expect("a file");
+    path.display().to_string()
+}

@@ -1,0 +1,87 @@
+//! `bgdyn ops`.
+
+use bgdyn_codegen::method::Method;
+use serde_json::Value;
+
+use crate::bgdyn;
+
+const SCARA: &str = "tests/golden/specs/scara4.yaml";
+
+fn counts(arguments: &[&str]) -> Value {
+    let text = bgdyn(&[&["ops", SCARA, "--json"], arguments].concat()).good();
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn total(counts: &Value, method: &str) -> u64 {
+    let count = &counts["functions"][method];
+    let of = |kind: &str| count[kind].as_u64().expect("a number");
+    of("mul") + of("add")
+}
+
+#[test]
+fn one_entry_for_each_function() {
+    let counts = counts(&[]);
+    let keys = |value: &Value| -> Vec<String> {
+        let mut keys: Vec<_> = value.as_object().expect("a map").keys().cloned().collect();
+        keys.sort();
+        keys
+    };
+    assert_eq!(keys(&counts), ["functions"]);
+    let mut methods: Vec<_> = Method::ALL.iter().map(|m| m.name(&[])).collect();
+    // And those of the tip.
+    let others = [
+        "coriolis_matrix",
+        "pose_l_j4",
+        "velocity_l_j4",
+        "jacobian_world_l_j4",
+        "jacobian_dot_v_world_l_j4",
+    ];
+    methods.extend(others.map(String::from));
+    methods.sort();
+    assert_eq!(keys(&counts["functions"]), methods);
+    for method in methods {
+        let count = &counts["functions"][&method];
+        let kinds = ["add", "div", "mul", "other", "sincos", "sqrt"];
+        assert_eq!(keys(count), kinds, "{method}");
+        assert!(kinds.iter().all(|k| count[k].is_u64()), "{method}");
+    }
+}
+
+#[test]
+fn the_json_is_in_the_order_of_the_module() {
+    let text = bgdyn(&["ops", SCARA, "--json"]).good();
+    let place = |word: &str| text.find(&format!("\"{word}\"")).expect(word);
+    let methods: Vec<_> = Method::ALL.iter().map(|m| place(&m.name(&[]))).collect();
+    assert!(methods.is_sorted());
+    assert!(place("mul") < place("add") && place("add") < place("div"));
+}
+
+#[test]
+fn one_formulation_for_every_function() {
+    let (cheapest, literal) = (counts(&[]), counts(&["--formulation", "literal"]));
+    for method in ["inverse_dynamics", "mass_matrix"] {
+        assert!(
+            total(&cheapest, method) < total(&literal, method),
+            "{method}"
+        );
+    }
+    assert_eq!(cheapest, counts(&["--formulation", "recursion"]));
+}
+
+#[test]
+fn explanations_stand_beside_the_json() {
+    let run = bgdyn(&["ops", SCARA, "--json", "--explain"]);
+    assert!(run.stderr.contains("inverse_dynamics: "), "{}", run.stderr);
+    assert!(run.stderr.contains("  literal "), "{}", run.stderr);
+    assert!(serde_json::from_str::<Value>(&run.good()).is_ok());
+}
+
+#[test]
+fn the_table_has_a_line_for_each_function() {
+    let table = bgdyn(&["ops", SCARA]).good();
+    assert_eq!(table.lines().count(), 1 + Method::ALL.len());
+    let line = table.lines().find(|l| l.starts_with("inverse_dynamics"));
+    let last = line.and_then(|l| l.split_whitespace().last());
+    let expected = total(&counts(&[]), "inverse_dynamics").to_string();
+    assert_eq!(last, Some(expected.as_str()));
+}

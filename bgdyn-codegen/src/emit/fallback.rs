@@ -1,0 +1,153 @@
+//! The module of a refused spec: everything a caller can name, so that the user sees the one error
+//! that matters and not one more at every call.
+//!
+//! The types are those of the real module, which lets inference go the way it will go. Where the
+//! number of joints is a guess, the methods take vectors of any size.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::{Place, argument_type, ident, rebuild, return_type, struct_ident};
+use crate::bond_graph::Site;
+use crate::interface::Interface;
+use crate::mechanism::Pose;
+use crate::mechanism::name::is_identifier;
+use crate::method::{Argument, Method};
+
+/// The module with bodies that never run.
+pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
+    let name = ident(&interface.name);
+    let model = ident(&struct_ident(&interface.name));
+    let (bgdyn, visibility) = (&place.bgdyn, &place.visibility);
+    let rebuild = rebuild(place);
+    let doc = format!(" The spec {} was refused: see the error.", place.source);
+    let constants = constants(interface);
+    let sites = sites(interface);
+    let methods = Method::possible(&sites).into_iter();
+    let methods = methods.map(|m| method(m, &sites, interface.certain, true));
+    let dynamics = dynamics(interface, &model);
+    quote! {
+        #[doc = #doc]
+        #[allow(unused_variables, clippy::all, reason = "stands in for a refused spec")]
+        #visibility mod #name {
+            use #bgdyn::runtime as __rt;
+            use __rt::nalgebra as __na;
+            use __rt::Scalar as __Scalar;
+            #rebuild
+            #constants
+            #[doc = #doc]
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct #model<T = f64> {
+                scalar: ::core::marker::PhantomData<T>,
+            }
+            impl<T: __Scalar> Default for #model<T> {
+                fn default() -> Self {
+                    Self { scalar: ::core::marker::PhantomData }
+                }
+            }
+            impl<T: __Scalar> #model<T> {
+                #(#methods)*
+            }
+            #dynamics
+        }
+    }
+}
+
+/// Every link and frame: which of them the mended spec makes prominent is open.
+fn sites(interface: &Interface) -> Vec<Site> {
+    let names = interface.links.iter().chain(&interface.frames);
+    let site = |name: &String| Site {
+        name: name.clone(),
+        link: None,
+        place: Pose::IDENTITY,
+        prominent: true,
+    };
+    names.filter(|n| is_identifier(n)).map(site).collect()
+}
+
+fn constants(interface: &Interface) -> TokenStream {
+    let (joints, links) = (&interface.joints, &interface.links);
+    let (nv, count, functions) = (joints.len(), links.len(), Method::ALL.len());
+    let operations = Method::ALL.into_iter().map(|m| {
+        let name = m.name(&[]);
+        quote! {
+            (#name, __rt::Operations { mul: 0, add: 0, div: 0, sqrt: 0, sincos: 0, other: 0 })
+        }
+    });
+    quote! {
+        /// Number of positions.
+        pub const NQ: usize = #nv;
+        /// Number of velocities.
+        pub const NV: usize = #nv;
+        /// Names of the moving joints, in the order of the coordinates.
+        pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
+        /// Names of the links, parents before children.
+        pub const LINK_NAMES: [&str; #count] = [#(#links),*];
+        /// What each coordinate is: an angle or a displacement.
+        pub const JOINT_MOTIONS: [__rt::Motion; NV] = [__rt::Motion::Rotation; NV];
+        /// Limits of the moving joints; infinite where the spec states none.
+        pub const JOINT_LIMITS: [__rt::Limits; NV] =
+            [__rt::Limits { lower: 0.0, upper: 0.0, velocity: 0.0, effort: 0.0 }; NV];
+        /// What one call of each method executes.
+        pub const OPERATIONS: [(&str, __rt::Operations); #functions] = [#(#operations),*];
+    }
+}
+
+/// A method; where the size is a guess and no trait fixes it, the vectors' own sizes count.
+fn method(method: Method, sites: &[Site], sized: bool, inherent: bool) -> TokenStream {
+    let name = ident(&method.name(sites));
+    let arguments = method.arguments();
+    let names = arguments.iter().map(|a| ident(a.name()));
+    let result = return_type(method.shape());
+    // Parameters of these names hide the module's constants.
+    let (sizes, types): (_, Vec<_>) = if sized {
+        (None, arguments.iter().map(|a| argument_type(*a)).collect())
+    } else if arguments == [Argument::Q] {
+        // Nothing but the positions tells how many velocities there are.
+        let q = quote! { &__na::SVector<T, NV> };
+        (Some(quote! { <const NV: usize> }), vec![q])
+    } else {
+        let sizes = quote! { <const NQ: usize, const NV: usize> };
+        let types = arguments.iter().map(|a| argument_type(*a)).collect();
+        (Some(sizes), types)
+    };
+    let (docs, public) = if inherent {
+        let doc = format!(" {}", method.summary(sites));
+        (Some(quote! { #[doc = #doc] }), Some(quote! { pub }))
+    } else {
+        (None, None)
+    };
+    quote! {
+        #docs
+        #public fn #name #sizes(&self, #(#names: #types),*) -> #result {
+            ::core::unreachable!()
+        }
+    }
+}
+
+fn dynamics(interface: &Interface, model: &proc_macro2::Ident) -> TokenStream {
+    let sizes = (!interface.certain).then(|| quote! { , const NQ: usize, const NV: usize });
+    let methods = Method::ALL.into_iter().map(|m| method(m, &[], true, false));
+    quote! {
+        impl<T: __Scalar #sizes> __rt::Dynamics<T, NQ, NV> for #model<T> {
+            fn joint_names(&self) -> &'static [&'static str; NV] {
+                ::core::unreachable!()
+            }
+            #(#methods)*
+            fn integrate(
+                &self,
+                q: &__na::SVector<T, NQ>,
+                dv: &__na::SVector<T, NV>,
+            ) -> __na::SVector<T, NQ> {
+                ::core::unreachable!()
+            }
+            fn difference(
+                &self,
+                q1: &__na::SVector<T, NQ>,
+                q0: &__na::SVector<T, NQ>,
+            ) -> __na::SVector<T, NV> {
+                ::core::unreachable!()
+            }
+        }
+    }
+}

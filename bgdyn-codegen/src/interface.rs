@@ -1,0 +1,104 @@
+//! What a refused spec still tells of its module: how large it is and what its parts are called.
+
+use crate::mechanism::joint::{JOINT_TYPES, Motion};
+use crate::mechanism::name::is_identifier;
+use crate::spec::{Field, Link, Spec};
+
+/// The interface of a module without the mechanism behind it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Interface {
+    /// The module's name.
+    pub name: String,
+    /// Names of the moving joints; empty where the spec gives none.
+    pub joints: Vec<String>,
+    /// Names of the links; empty where the spec gives none.
+    pub links: Vec<String>,
+    /// Names of the frames; empty where the spec gives none.
+    pub frames: Vec<String>,
+    /// Whether the mended spec will surely have as many joints.
+    pub certain: bool,
+}
+
+impl Interface {
+    /// The interface that the author of the spec most likely means. Nothing where the stem cannot
+    /// name a module.
+    pub fn guess(text: &str, stem: &str) -> Option<Self> {
+        if !is_identifier(stem) {
+            return None;
+        }
+        let (spec, _) = crate::spec::parse(text);
+        let (_, faults) = crate::read(text, Some(stem));
+        let links = spec.as_ref().and_then(links);
+        let Some(links) = links else {
+            return Some(Interface {
+                name: stem.into(),
+                joints: vec![String::new(); moving_words(text)],
+                links: vec![],
+                frames: vec![],
+                certain: false,
+            });
+        };
+        Some(Interface {
+            name: stem.into(),
+            joints: links.iter().filter_map(moving_joint).collect(),
+            links: links
+                .iter()
+                .map(|l| l.name.value().cloned().unwrap_or_default())
+                .collect(),
+            frames: spec.as_ref().map(frames).unwrap_or_default(),
+            certain: !faults.0.iter().any(|f| shapes_the_tree(&f.path)),
+        })
+    }
+}
+
+fn links(spec: &Spec) -> Option<&[Link]> {
+    spec.links.value().map(Vec::as_slice)
+}
+
+fn frames(spec: &Spec) -> Vec<String> {
+    let frames = spec.frames.value().map(Vec::as_slice).unwrap_or_default();
+    frames
+        .iter()
+        .filter_map(|f| f.name.value().cloned())
+        .collect()
+}
+
+/// The name of the link's joint, if it seems to move.
+fn moving_joint(link: &Link) -> Option<String> {
+    let joint = match &link.joint {
+        Field::Absent => return None,
+        Field::Broken => return Some(String::new()),
+        Field::Given(joint) => &joint.value,
+    };
+    let fixed = joint.kind.value().is_some_and(|kind| kind == "fixed");
+    (!fixed).then(|| joint.name.value().cloned().unwrap_or_default())
+}
+
+/// Whether a fault at this path leaves it open how many joints there are.
+fn shapes_the_tree(path: &str) -> bool {
+    let mut parts = path.split('.');
+    let links = parts.next().unwrap_or_default();
+    if !(links.is_empty() || links == "links" || links.starts_with("links[")) {
+        return false;
+    }
+    let rest: Vec<&str> = parts.collect();
+    matches!(rest.as_slice(), [] | ["joint"] | ["joint", "type"])
+}
+
+/// How many words of the text name a moving joint type: all there is to go by where the text is no
+/// YAML.
+fn moving_words(text: &str) -> usize {
+    let moving = |word: &str| {
+        JOINT_TYPES
+            .iter()
+            .any(|t| t.keyword == word && t.motion != Motion::None)
+    };
+    text.lines()
+        .filter_map(|line| line.split('#').next()?.split_once("type:"))
+        .filter(|(_, value)| {
+            let end = value.trim_start().find(|c: char| !c.is_ascii_lowercase());
+            let value = value.trim_start();
+            moving(&value[..end.unwrap_or(value.len())])
+        })
+        .count()
+}

@@ -1,0 +1,124 @@
+//! A crate outside the workspace that calls bgdyn by another name: a changed spec rebuilds it, every
+//! place is searched, and a spec that two places hold is refused.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const MANIFEST: &str = r#"
+[package]
+name = "scratch"
+version = "0.0.0"
+edition = "2024"
+
+[dependencies]
+dyn_gen = { package = "bgdyn", path = "BGDYN" }
+
+[workspace]
+
+[profile.dev]
+debug = false
+"#;
+
+const MAIN: &str = r#"
+#![deny(warnings)]
+dyn_gen::bgdyn!("beside.yaml");
+dyn_gen::bgdyn!("in_package.yaml");
+mod inner;
+
+fn main() {
+    let q = dyn_gen::nalgebra::SVector::from_element(0.0);
+    let force = beside::Beside::<f64>::default().gravity(&q)[0];
+    println!("{} {} {} {force:.2}", beside::NV, in_package::NV, inner::in_specs::NV);
+}
+"#;
+
+fn spec(mass: f64) -> String {
+    format!(
+        "format: 1\nlinks:\n  - name: platform\n    joint: {{ name: slide, type: prismatic }}\n    mass: {mass}\n"
+    )
+}
+
+/// A package of its own below `target/`, with a target directory that later runs find warm.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new() -> Self {
+        let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scratch");
+        for old in ["src", "specs"] {
+            fs::remove_dir_all(root.join(old)).ok();
+        }
+        let scratch = Scratch(root);
+        let bgdyn = env!("CARGO_MANIFEST_DIR").replace('\\', "/");
+        scratch.write("Cargo.toml", &MANIFEST.replace("BGDYN", &bgdyn));
+        let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.lock");
+        if let Ok(lock) = fs::read_to_string(lock) {
+            scratch.write("Cargo.lock", &lock);
+        }
+        scratch
+    }
+
+    fn write(&self, file: &str, text: &str) {
+        let path = self.0.join(file);
+        fs::create_dir_all(path.parent().expect("a parent")).expect("a directory");
+        fs::write(path, text).expect("a file");
+    }
+
+    fn run(&self) -> Output {
+        Command::new(env!("CARGO"))
+            .args(["run", "--quiet", "--offline", "--color", "never"])
+            .current_dir(&self.0)
+            .env("CARGO_TARGET_DIR", self.0.join("target"))
+            .env_remove("RUSTFLAGS")
+            .output()
+            .expect("cargo runs")
+    }
+
+    fn printed(&self) -> String {
+        let output = self.run();
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{stderr}");
+        String::from_utf8_lossy(&output.stdout).trim().to_string()
+    }
+
+    fn refused(&self) -> String {
+        let output = self.run();
+        assert!(!output.status.success());
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    }
+}
+
+#[test]
+fn a_crate_of_its_own() {
+    let scratch = Scratch::new();
+    scratch.write("src/main.rs", MAIN);
+    scratch.write("src/inner/mod.rs", "dyn_gen::bgdyn!(\"in_specs.yaml\");\n");
+    scratch.write("src/beside.yaml", &spec(1.0));
+    scratch.write("in_package.yaml", &spec(1.0));
+    scratch.write("specs/in_specs.yaml", &spec(1.0));
+    assert_eq!(scratch.printed(), "1 1 1 9.81");
+
+    scratch.write("src/beside.yaml", &spec(2.0));
+    assert_eq!(scratch.printed(), "1 1 1 19.62");
+    let second =
+        "  - { name: top, parent: platform, joint: { name: turn, type: revolute }, mass: 1 }\n";
+    scratch.write("specs/in_specs.yaml", &(spec(1.0) + second));
+    assert_eq!(scratch.printed(), "1 1 2 19.62");
+
+    scratch.write("src/beside.yaml", &spec(-2.0));
+    let stderr = scratch.refused();
+    assert!(
+        stderr.starts_with("error: beside.yaml:5:11: links[0].mass: "),
+        "{stderr}"
+    );
+    assert_eq!(stderr.matches("\nerror").count(), 1, "{stderr}");
+    scratch.write("src/beside.yaml", &spec(3.0));
+    assert_eq!(scratch.printed(), "1 1 2 29.43");
+
+    // A file in another place is seen when the crate is compiled next.
+    scratch.write("specs/beside.yaml", &spec(3.0));
+    scratch.write("src/main.rs", MAIN);
+    let stderr = scratch.refused();
+    let both = "error: bgdyn: `beside.yaml` could mean any of\n         src/beside.yaml\n         specs/beside.yaml\n";
+    assert!(stderr.starts_with(both), "{stderr}");
+}

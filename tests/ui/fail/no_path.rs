@@ -1,0 +1,5 @@
+//! The path is a literal.
+
+bgdyn::bgdyn!(good_arm);
+
+fn main() {}

@@ -1,0 +1,22 @@
+//! No YAML at all: the words in the text tell how many joints there are.
+
+use bgdyn::nalgebra::{SMatrix, SVector, Vector2};
+use bgdyn::{Dynamics, Singular};
+
+bgdyn::bgdyn!("no_yaml.yaml");
+
+fn hold<M: Dynamics<f64, N, N>, const N: usize>(model: &M, q: &SVector<f64, N>) -> SVector<f64, N> {
+    model.gravity(q)
+}
+
+fn main() -> Result<(), Singular> {
+    let arm = no_yaml::NoYaml::default();
+    let (q, v) = (Vector2::new(0.3, -0.4), SVector::<f64, 2>::zeros());
+    let tau = arm.inverse_dynamics(&q, &v, &SVector::zeros());
+    let mass: SMatrix<f64, 2, 2> = arm.mass_matrix(&q);
+    let a = arm.forward_dynamics(&q, &v, &tau)?;
+    let energy = arm.kinetic_energy(&q, &a) + arm.potential_energy(&q) + tau[0] * 2.0;
+    println!("{energy} {:?} {}", hold(&arm, &q) - mass * arm.bias(&q, &v), no_yaml::NV);
+    println!("{:?} {:?}", no_yaml::JOINT_NAMES, no_yaml::LINK_NAMES.len());
+    Ok(())
+}
