@@ -31,7 +31,14 @@ pub(super) fn ltdl<'g>(
             .filter(|&i| !mass[k][i].is_zero())
             .collect::<Vec<_>>()
         {
-            let l = mass[k][i] * inverse[k];
+            // Two joints on one axis have equal entries: M_ki / M_kk = ±1 folds exactly.
+            let l = if mass[k][i] == mass[k][k] {
+                b.number(1.0)
+            } else if mass[k][i] == -mass[k][k] {
+                b.number(-1.0)
+            } else {
+                mass[k][i] * inverse[k]
+            };
             for j in (0..=i)
                 .filter(|&j| !mass[k][j].is_zero())
                 .collect::<Vec<_>>()
