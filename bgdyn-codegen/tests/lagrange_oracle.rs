@@ -52,17 +52,17 @@ where
     for (i, place) in moving(robot, q, v).into_iter().enumerate() {
         let (mass, tensor) = inertial(&robot.mechanism, i);
         let rate = v3(|c| place.centre[c].eps);
-        kinetic = kinetic + dot(rate, rate) * (0.5 * mass);
+        kinetic += dot(rate, rate) * (0.5 * mass);
         let d = pseudo(tensor);
         for row in place.rotation {
             for (j, x) in row.iter().enumerate() {
                 for (k, y) in row.iter().enumerate() {
-                    kinetic = kinetic + x.eps * y.eps * (0.5 * d[j][k]);
+                    kinetic += x.eps * y.eps * (0.5 * d[j][k]);
                 }
             }
         }
         for c in 0..3 {
-            potential = potential - place.centre[c].re * (mass * g[c]);
+            potential -= place.centre[c].re * (mass * g[c]);
         }
     }
     (kinetic, potential)

@@ -224,8 +224,10 @@ impl Case {
             let finite = found.iter().all(|x| x.is_finite());
             assert!(finite, "{}: {found:?}", place());
             if pivot < 1e-25 {
-                // Singular at this q, whatever the digits.
-                assert!(refused.is_some(), "{}: {found:?}", place());
+                // Singular at this q, whatever the digits. The literal sum does not fold enough to
+                // be sure of it; it is the reference in double-double only.
+                let sure = std::ptr::eq(methods, &self.recursion);
+                assert!(refused.is_some() || !sure, "{}: {found:?}", place());
                 continue;
             }
             if least <= 1e-13 * most {

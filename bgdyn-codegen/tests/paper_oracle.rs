@@ -20,13 +20,16 @@ use common::{
 };
 use num_dual::HyperDual;
 
+/// Derivatives of A_i and r_i, for every link.
+type Change = Vec<(M3<f64>, V3<f64>)>;
+
 /// First and second derivatives of A_i and r_i at one q.
 struct Derivatives {
     at: Vec<Place<f64>>,
     /// [k][i]: ∂/∂q_k
-    first: Vec<Vec<(M3<f64>, V3<f64>)>>,
+    first: Vec<Change>,
     /// [k][l][i]: ∂²/∂q_k∂q_l
-    second: Vec<Vec<Vec<(M3<f64>, V3<f64>)>>>,
+    second: Vec<Vec<Change>>,
 }
 
 impl Derivatives {

@@ -33,7 +33,14 @@ impl<'g> Factor<'g> {
             // M_ij ← M_ij − l_ki M_kj for i, j < k with l_ki = M_ki / d_k
             let row = mass[k].clone();
             for i in (0..k).filter(|&i| !row[i].is_zero()) {
-                let l = row[i] * inverse[k];
+                // Two joints on one axis have equal entries: M_ki / M_kk = ±1 folds exactly.
+                let l = if row[i] == row[k] {
+                    b.number(1.0)
+                } else if row[i] == -row[k] {
+                    b.number(-1.0)
+                } else {
+                    row[i] * inverse[k]
+                };
                 for j in (0..=i).filter(|&j| !row[j].is_zero()) {
                     mass[i][j] = mass[i][j] - l * row[j];
                 }
