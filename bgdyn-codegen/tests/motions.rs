@@ -44,7 +44,7 @@ impl Case {
     fn at(&self, formulation: &str, method: Method, step: f64) -> Vec<Dd> {
         let mut inputs = self.state.inputs::<Dd>();
         for (q, v) in inputs.q.iter_mut().zip(&self.state.v) {
-            *q = *q + Dd::from_f64(step) * Dd::from_f64(*v);
+            *q += Dd::from_f64(step) * Dd::from_f64(*v);
         }
         self.robot.function(formulation, method).evaluate(inputs).0
     }
@@ -181,7 +181,7 @@ fn derivatives_of_inverse_dynamics_are_its_slopes() {
                     } else {
                         &mut inputs.v[j]
                     };
-                    *x = *x + Dd::from_f64(step);
+                    *x += Dd::from_f64(step);
                     inverse.evaluate(inputs).0
                 };
                 let quotient = |(x, y): (Dd, Dd)| (x - y) / Dd::from_f64(2.0 * STEP);

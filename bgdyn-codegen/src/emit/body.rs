@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use super::code::{leaf_of, leaves};
 use super::ident;
-use super::writer::{Writer, leaf_of, leaves};
+use super::writer::Writer;
 use crate::expr::Leaf;
 use crate::function::{Block, Function};
 use crate::method::Shape;

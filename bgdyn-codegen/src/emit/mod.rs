@@ -1,6 +1,7 @@
 //! The emitter: a model becomes the tokens of a Rust module. It knows no physics.
 
 mod body;
+mod code;
 mod fallback;
 mod names;
 mod writer;

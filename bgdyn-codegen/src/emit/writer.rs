@@ -6,31 +6,16 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::code::{Binding, Code, atom, leaf_of, leaves};
 use super::names::Names;
 use super::{ident, number};
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
 use crate::function::Function;
-use crate::method::{Argument, Shape};
+use crate::method::Shape;
 use crate::model::Model;
 
 /// Operations in one statement at the most: what a reader takes in at a glance.
 const STATEMENT: usize = 6;
-
-/// How tightly a piece of code binds.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
-    Sum,
-    Product,
-    Atom,
-}
-
-/// A piece of code for a node, without the sign it is used with.
-#[derive(Clone)]
-struct Code {
-    tokens: TokenStream,
-    binding: Binding,
-    operations: usize,
-}
 
 /// Writes the statements of a function.
 pub(super) struct Writer<'a> {
@@ -396,41 +381,6 @@ impl<'a> Writer<'a> {
                 .join("_"),
             _ => joint(angle),
         }
-    }
-}
-
-/// The leaf that holds component `j` of an argument.
-pub(super) fn leaf_of(argument: Argument, j: usize) -> Leaf {
-    match argument {
-        Argument::Q => Leaf::Position(j),
-        Argument::V => Leaf::Velocity(j),
-        Argument::A => Leaf::Acceleration(j),
-        Argument::Tau => Leaf::Input(j),
-    }
-}
-
-/// The leaves that the outputs read.
-pub(super) fn leaves(graph: &Graph, outputs: &[Expr]) -> BTreeSet<Leaf> {
-    let needed = reachable(graph, outputs);
-    let nodes = (0..needed.len())
-        .filter(|&i| needed[i])
-        .map(|i| graph.node(NodeId(i as u32)));
-    nodes
-        .filter_map(|n| {
-            if let Node::Leaf(leaf) = n {
-                Some(*leaf)
-            } else {
-                None
-            }
-        })
-        .collect()
-}
-
-fn atom(tokens: TokenStream) -> Code {
-    Code {
-        tokens,
-        binding: Binding::Atom,
-        operations: 0,
     }
 }
 
