@@ -212,11 +212,13 @@ fn place(rng: &mut Rng) -> [f64; 3] {
 }
 
 fn angle(rng: &mut Rng) -> String {
-    match rng.below(8) {
+    match rng.below(9) {
         0..=3 => "0".into(),
         4 => (*rng.pick(&["90 deg", "-90 deg", "180 deg", "270 deg"])).into(),
         5 => (*rng.pick(&["1.5707963267948966", "3.141592653589793"])).into(),
         6 => (*rng.pick(&["30 deg", "45 deg", "-60 deg"])).into(),
+        // Quarter turns as files round them: axes that are nearly parallel.
+        7 => (*rng.pick(&["1.5708", "-1.5708", "3.1416", "1e-9", "-0.00001"])).into(),
         _ => format!("{}", thousandths(rng, 3.0)),
     }
 }
