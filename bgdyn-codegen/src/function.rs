@@ -1,6 +1,6 @@
 //! A function ready to be counted, evaluated or emitted.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
 use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate};
@@ -38,6 +38,12 @@ impl Function {
         graph: Graph,
         outputs: Vec<Expr>,
     ) -> Self {
+        // One zero only: a result that is always zero has no sign.
+        let unsigned = |e: Expr| match graph.constant_of(e) {
+            Some(x) if x == Dd::ZERO => Expr::plus(e.node),
+            _ => e,
+        };
+        let outputs = outputs.into_iter().map(unsigned).collect();
         Function {
             method,
             name: method.name(&bond_graph.sites),
