@@ -17,7 +17,7 @@ pub enum Argument {
 }
 
 impl Argument {
-    /// Its name in signatures and in files of states.
+    /// Its name in signatures.
     pub fn name(self) -> &'static str {
         match self {
             Argument::Q => "q",
@@ -272,7 +272,7 @@ impl Method {
             Method::ForwardDynamicsDerivatives => {
                 "accelerations per rad or m, per rad/s or m/s, per N·m or N"
             }
-            Method::Pose(_) => "m",
+            Method::Pose(_) => "m; columns of the rotation are the frame's axes in the world's",
             Method::Velocity(_) => "rad/s, m/s",
             Method::Jacobian(_) => "rad and m per unit of each joint",
             Method::JacobianDotV(_) => "rad/s², m/s²",

@@ -23,7 +23,8 @@ use input::Input;
 /// its `specs/`. The module is called after the file, up to its first dot. A change of the file
 /// rebuilds the crate.
 ///
-/// `bgdyn!("scara.yaml", formulation = "literal")` uses one formulation for every method instead
+/// `bgdyn!("scara.yaml", derivatives = true)` adds the first derivatives of inverse and forward
+/// dynamics. `bgdyn!("scara.yaml", formulation = "literal")` uses one formulation for every method instead
 /// of the cheapest.
 ///
 /// A spec with faults gives one error that lists them all. The module is there all the same, with

@@ -6,7 +6,7 @@ use crate::singular::{finish, note_refused};
 use crate::{Scalar, Singular};
 
 /// How many units in the last place of the subtracted terms a pivot must exceed.
-const PIVOT_ULPS: f64 = 1.0;
+const PIVOT_ULPS: f64 = 64.0;
 
 /// Constants in two words.
 pub(crate) trait Split: Scalar {

@@ -163,6 +163,13 @@ macro_rules! lane_scalar {
                 names: &'static [&'static str; N],
             ) -> Result<SVector<Self, N>, LaneSingular<Self, $n, N>> {
                 let zero = Self::splat(0.0);
+                let mut refused = refused;
+                for (j, a) in accelerations.iter().enumerate() {
+                    #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
+                    let finite = (*a - *a).simd_eq(zero);
+                    let noted = refused.simd_lt(zero).select(Self::splat(j as $float), refused);
+                    refused = finite.select(refused, noted);
+                }
                 let regular = refused.simd_lt(zero);
                 if regular.all() {
                     return Ok(accelerations);

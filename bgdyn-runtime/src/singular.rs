@@ -2,8 +2,17 @@
 
 use core::fmt;
 
-/// The mass matrix is singular, or not distinguishable from a singular one: the pivot of `joint`
-/// is no larger than the rounding error of the terms it was computed from, or not a number.
+use nalgebra::SVector;
+
+use crate::Scalar;
+
+/// The accelerations do not exist: the pivot of `joint` in the mass matrix is no larger than 64
+/// units of rounding error of the entry it was computed from, so that the matrix is singular or
+/// not distinguishable from a singular one; or the joint's acceleration is not finite, out of an
+/// input that is not or is too large.
+///
+/// Where several links without inertia of their own stand in a row, rounding can add up to more
+/// than that: such a mechanism is singular everywhere, yet some of its configurations pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Singular {
     /// Index of the joint, in the order of `JOINT_NAMES`.
@@ -32,13 +41,16 @@ pub(crate) fn note_refused(ok: bool, joint: usize, refused: &mut Option<usize>) 
     ok
 }
 
-/// [`crate::Scalar::finish`] for scalars that are one number.
-pub(crate) fn finish<V>(
-    accelerations: V,
+/// [`crate::Scalar::finish`] for scalars that are one number. A result that is not finite, out of
+/// an input that is not or is too large, is an error as well.
+pub(crate) fn finish<T: Scalar, const N: usize>(
+    accelerations: SVector<T, N>,
     refused: Option<usize>,
-    names: &'static [&'static str],
-) -> Result<V, Singular> {
-    match refused {
+    names: &'static [&'static str; N],
+) -> Result<SVector<T, N>, Singular> {
+    #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
+    let wild = |x: &T| *x - *x != T::from_f64(0.0);
+    match refused.or_else(|| accelerations.iter().position(wild)) {
         None => Ok(accelerations),
         Some(joint) => Err(Singular {
             joint,

@@ -139,7 +139,8 @@ fn accepted<T: Word>(pivot: f64, magnitude: f64) -> bool {
     refused.is_none()
 }
 
-fn pivots<T: Word>(epsilon: f64) {
+/// `least`: the smallest pivot accepted beside terms as large as 1.
+fn pivots<T: Word>(least: f64) {
     assert!(accepted::<T>(1.0, 1.0));
     for bad in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert!(!accepted::<T>(bad, 1.0), "{bad}");
@@ -148,15 +149,15 @@ fn pivots<T: Word>(epsilon: f64) {
     assert!(!accepted::<T>(1.0, f64::NAN));
     assert!(!accepted::<T>(1.0, f64::INFINITY));
     assert!(accepted::<T>(2_f64.powi(-100), 0.0));
-    assert!(accepted::<T>(8.0 * epsilon, 1.0));
-    assert!(!accepted::<T>(0.5 * epsilon, 1.0));
-    assert!(!accepted::<T>(1.0, 4.0 / epsilon));
+    assert!(accepted::<T>(1.1 * least, 1.0));
+    assert!(!accepted::<T>(0.9 * least, 1.0));
+    assert!(!accepted::<T>(1.0, 1.1 / least));
 }
 
 #[test]
 fn pivots_of_all() {
-    pivots::<f64>(f64::EPSILON);
-    pivots::<f32>(f64::from(f32::EPSILON));
+    pivots::<f64>(64.0 * f64::EPSILON);
+    pivots::<f32>(64.0 * f64::from(f32::EPSILON));
     pivots::<Dd>(2_f64.powi(-104));
     // A true pivot of this size is lost among terms as large as 1, except in double-double.
     assert!(!accepted::<f64>(2_f64.powi(-100), 1.0));
@@ -193,4 +194,16 @@ fn constants_keep_both_words_where_there_is_room() {
     assert_eq!(Dd::new(hi, lo).lo(), lo);
     assert_eq!(<f64 as Scalar>::from_parts(hi, lo), hi);
     assert_eq!(<f32 as Scalar>::from_parts(hi, lo), 0.1_f32);
+}
+
+/// Accelerations that are not finite are an error that names the first one's joint.
+#[test]
+fn nothing_but_finite_accelerations() {
+    use bgdyn_runtime::nalgebra::Vector2;
+    static NAMES: [&str; 2] = ["first", "second"];
+    for wild in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let error = f64::finish(Vector2::new(1.0, wild), None, &NAMES).unwrap_err();
+        assert_eq!((error.joint, error.name), (1, "second"));
+    }
+    assert!(f64::finish(Vector2::new(1.0, -2e300), None, &NAMES).is_ok());
 }

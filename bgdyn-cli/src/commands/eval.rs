@@ -154,7 +154,11 @@ fn evaluate(mechanism: &Mechanism, function: &Function, state: &Value) -> Result
         ..Inputs::default()
     };
     for &argument in function.method.arguments() {
-        let values = vector(mechanism, state, field(argument))?;
+        let values = match argument {
+            // `tau` may be the effort of the state's own motion: `tau_in` comes first.
+            Argument::Tau if state.get("tau_in").is_none() => vector(mechanism, state, "tau")?,
+            _ => vector(mechanism, state, field(argument))?,
+        };
         match argument {
             Argument::Q => inputs.q = values,
             Argument::V => inputs.v = values,
@@ -224,14 +228,14 @@ fn shaped(shape: Shape, nv: usize, values: &[f64]) -> Value {
     let rows = |values: &[f64], columns: usize| {
         json!(
             values
-                .chunks(columns)
+                .chunks(columns.max(1))
                 .map(<[f64]>::to_vec)
                 .collect::<Vec<_>>()
         )
     };
     let squares = |values: &[f64]| -> Vec<Value> {
         values
-            .chunks(nv * nv)
+            .chunks((nv * nv).max(1))
             .map(|square| rows(square, nv))
             .collect()
     };

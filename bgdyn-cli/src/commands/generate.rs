@@ -22,11 +22,15 @@ pub(crate) struct Generate {
     /// Use one formulation for every method
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
+    /// Write the first derivatives as well
+    #[arg(long)]
+    derivatives: bool,
 }
 
 impl Generate {
     pub(crate) fn run(self) -> Result<()> {
-        let options = options(self.formulation.as_deref())?;
+        let mut options = options(self.formulation.as_deref())?;
+        options.derivatives = self.derivatives;
         let spec = SpecFile::open(&self.file)?;
         // Says what was found, warnings too.
         spec.mechanism()?;

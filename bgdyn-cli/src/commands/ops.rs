@@ -103,13 +103,13 @@ impl Counts {
 
 fn table(model: &Model) -> String {
     let mut text = format!(
-        "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",
+        "{:<30} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",
         "function", "mul", "add", "div", "sqrt", "sincos", "other", "mul+add"
     );
     for f in &model.functions {
         let o = f.operations();
         text += &format!(
-            "{:<20} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",
+            "{:<30} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",
             f.name(),
             o.mul,
             o.add,

@@ -126,7 +126,12 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
 
 /// The result from its components.
 fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
-    let square = |values: &[TokenStream]| matrix(&quote! { NV }, nv, values);
+    let (three, sides) = (quote! { 3 }, quote! { NV });
+    let square = |values: &[TokenStream]| matrix(&sides, &sides, nv, values);
+    let squares = |values: &[TokenStream], count: usize| -> Vec<TokenStream> {
+        let one = |k: usize| square(&values[k * nv * nv..(k + 1) * nv * nv]);
+        (0..count).map(one).collect()
+    };
     match shape {
         Shape::Scalar => quote! { #(#values)* },
         Shape::Vector => vector(values),
@@ -143,20 +148,20 @@ fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
         }
         Shape::Square => square(values),
         Shape::SquarePair => {
-            let squares = values.chunks(nv * nv).map(square);
+            let squares = squares(values, 2);
             quote! { [#(#squares),*] }
         }
         Shape::CheckedSquares => {
-            let (accelerations, squares) = values.split_at(nv);
+            let (accelerations, rest) = values.split_at(nv);
             let accelerations = vector(accelerations);
-            let squares = squares.chunks(nv * nv).map(square);
+            let squares = squares(rest, 3);
             quote! {
                 T::finish(#accelerations, refused, &JOINT_NAMES)?;
                 ::core::result::Result::Ok([#(#squares),*])
             }
         }
         Shape::Pose => {
-            let rotation = matrix(&quote! { 3 }, 3, &values[..9]);
+            let rotation = matrix(&three, &three, 3, &values[..9]);
             let translation = &values[9..];
             quote! {
                 __rt::Pose { rotation: #rotation, translation: __na::Vector3::new(#(#translation),*) }
@@ -165,7 +170,7 @@ fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
         Shape::Spatial => {
             quote! { __na::SVector::<T, 6>::from_array_storage(__na::ArrayStorage([[#(#values),*]])) }
         }
-        Shape::Jacobian => matrix(&quote! { 6 }, nv, values),
+        Shape::Jacobian => matrix(&quote! { 6 }, &sides, nv, values),
     }
 }
 
@@ -173,13 +178,13 @@ fn vector(values: &[TokenStream]) -> TokenStream {
     quote! { __na::SVector::<T, NV>::from_array_storage(__na::ArrayStorage([[#(#values),*]])) }
 }
 
-/// A matrix of `columns` columns from its entries, row by row.
-fn matrix(rows: &TokenStream, columns: usize, values: &[TokenStream]) -> TokenStream {
-    let width = if columns == 3 && rows.to_string() == "3" {
-        quote! { 3 }
-    } else {
-        quote! { NV }
-    };
+/// A matrix of `rows` × `width`, where `width` stands for `columns`, from its entries, row by row.
+fn matrix(
+    rows: &TokenStream,
+    width: &TokenStream,
+    columns: usize,
+    values: &[TokenStream],
+) -> TokenStream {
     let column = |j: usize| {
         let entries = values.iter().skip(j).step_by(columns);
         quote! { [#(#entries),*] }

@@ -40,7 +40,7 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
             pub struct #model<T = f64> {
                 scalar: ::core::marker::PhantomData<T>,
             }
-            impl<T: __Scalar> Default for #model<T> {
+            impl<T: __Scalar> ::core::default::Default for #model<T> {
                 fn default() -> Self {
                     Self { scalar: ::core::marker::PhantomData }
                 }

@@ -218,7 +218,7 @@ fn structure(model: &Model) -> TokenStream {
             #(#[doc = #docs] pub #fields: T,)*
             scalar: ::core::marker::PhantomData<T>,
         }
-        impl<T: __Scalar> Default for #name<T> {
+        impl<T: __Scalar> ::core::default::Default for #name<T> {
             fn default() -> Self {
                 Self {
                     #(#fields: T::from_f64(#defaults),)*

@@ -78,7 +78,7 @@ fn forward_derivatives(
         let unit = |j: usize| (0..n).map(|i| b.number(f64::from(i == j))).collect();
         let inverse: Vec<Vec<Ex<'_>>> = (0..n).map(|j| factor.solve(unit(j))).collect();
         let mut outputs: Vec<Expr> = accelerations.iter().map(|e| e.expr).collect();
-        for square in columns.chunks(n).chain([inverse.as_slice()]) {
+        for square in columns.chunks(n.max(1)).chain([inverse.as_slice()]) {
             outputs.extend((0..n).flat_map(|i| square.iter().map(move |c| c[i].expr)));
         }
         outputs
@@ -118,7 +118,7 @@ fn replaced(
         let from = g.clone();
         copy_into(g, &from, &all, &mut leaf)
     });
-    let n = columns.first().map_or(1, Vec::len);
+    let n = columns.first().map_or(1, |c| c.len().max(1));
     copies.chunks(n).map(<[Expr]>::to_vec).collect()
 }
 

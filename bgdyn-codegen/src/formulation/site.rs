@@ -36,7 +36,8 @@ impl<'g> SiteMotion<'g> {
                 .collect(),
             Method::Jacobian(_) => self.jacobian(b),
             Method::Velocity(_) => self.velocity(b, v),
-            _ => rates(b, &self.velocity(b, v), v),
+            Method::JacobianDotV(_) => rates(b, &self.velocity(b, v), v),
+            other => unreachable!("{other:?} is no method of a site"),
         }
     }
 

@@ -1,0 +1,32 @@
+//! A mechanism without a moving joint is accepted, and everything of it can be generated.
+
+use bgdyn_codegen::emit::Place;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{Model, Options, generate};
+use bgdyn_codegen::read;
+
+const TEXT: &str = "
+format: 1
+links:
+  - name: bench
+    mass: 3
+    com: [0, 0, 2]
+frames:
+  - { name: vice, link: bench, origin: { xyz: [1, 0, 0] } }
+";
+
+#[test]
+fn everything_is_generated() {
+    let options = Options {
+        derivatives: true,
+        ..Options::default()
+    };
+    let place = Place::source_text("still.yaml".into());
+    let tokens = generate(TEXT, "still", &place, &options).expect("no fault");
+    assert!(tokens.to_string().contains("forward_dynamics_derivatives"));
+    let (mechanism, _) = read(TEXT, Some("still"));
+    let model = Model::new(mechanism.expect("no fault"), &options);
+    let energy = model.function(Method::PotentialEnergy).expect("a method");
+    let (value, _) = energy.evaluate::<f64>(Default::default());
+    assert!((value[0] - 3.0 * 9.81 * 2.0).abs() < 1e-12);
+}
