@@ -1,7 +1,7 @@
 //! Laws of mechanics, and the equality of the two formulations, on random mechanisms.
 //!
-//! In double-double the regrouped recursion must equal the literal sum to 1e-27 of the natural
-//! size of the result (see `common::natural_effort`): rounding stays four digits below, so every
+//! In double-double the regrouped recursion must equal the literal sum to 1e-29 of the natural
+//! size of the result (see `common::natural_effort`): rounding stays digits below, so every
 //! regrouping is shown to be exact. The long run:
 //!
 //! ```sh
@@ -19,9 +19,9 @@ use common::{Robot, State, assert_close, full, natural_effort, natural_inertia, 
 use nalgebra::{DMatrix, DVector};
 
 /// Of double-double results, relative to their natural size.
-const EXACT: f64 = 1e-27;
+const EXACT: f64 = 1e-29;
 /// Of `f64` results, relative to their natural size.
-const ROUNDED: f64 = 1e-14;
+const ROUNDED: f64 = 1e-15;
 
 /// A random mechanism with both formulations and a state.
 struct Case {

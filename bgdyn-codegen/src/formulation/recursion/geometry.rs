@@ -14,6 +14,9 @@ use crate::mechanism::{LinkId, Motion, Pose};
 /// Below this, a component of a rotation is what rounding in double-double left of a zero.
 const NOISE: f64 = 1e-26;
 
+/// How many times farther than the distance of two origins their axes' common normal may be.
+const FAR: f64 = 4.0;
+
 /// A rigid body: the links that one coordinate moves, and their frame.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
@@ -50,11 +53,17 @@ impl Body {
 
     /// Where the common normal with the parent's axis meets the two axes: (from the parent's
     /// origin along its z, from there to this origin along this z). Parallel axes have none; all
-    /// of the distance counts as this body's.
+    /// of the distance counts as this body's. Nearly parallel ones have it so far away that
+    /// inertia referred to it would lose its digits: they count as parallel.
     pub fn normal_feet(&self) -> (Dd, Dd) {
         let [_, sin, cos] = (self.twist.transpose() * unit(2)).0;
         let [_, y, z] = self.offset.0;
-        if sin == Dd::ZERO {
+        let size = self
+            .offset
+            .0
+            .iter()
+            .fold(0.0, |m: f64, x| m.max(x.hi().abs()));
+        if y.hi().abs() > FAR * size * sin.hi().abs() || sin == Dd::ZERO {
             return (Dd::ZERO, z);
         }
         let along_parent = y / sin;
