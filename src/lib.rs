@@ -12,6 +12,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "macros")]
 pub use bgdyn_macros::bgdyn;
 pub use bgdyn_runtime as runtime;
 pub use bgdyn_runtime::{Dynamics, Scalar, Singular};

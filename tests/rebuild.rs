@@ -1,5 +1,6 @@
-//! A crate outside the workspace that calls bgdyn by another name: a changed spec rebuilds it, every
-//! place is searched, and a spec that two places hold is refused.
+//! A crate outside the workspace that calls bgdyn by another name, by the macro and by a build
+//! script: a changed spec rebuilds it, every place is searched, and a spec that two places hold is
+//! refused.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,10 +15,21 @@ edition = "2024"
 [dependencies]
 dyn_gen = { package = "bgdyn", path = "BGDYN" }
 
+[build-dependencies]
+bgdyn-codegen = { path = "BGDYN/bgdyn-codegen", features = ["source"] }
+
 [workspace]
 
 [profile.dev]
 debug = false
+"#;
+
+const BUILD: &str = r#"
+fn main() -> Result<(), bgdyn_codegen::build_script::Error> {
+    let build = bgdyn_codegen::Build::new("built.yaml").bgdyn("::dyn_gen").module("from_script");
+    build.visibility("").write()?;
+    Ok(())
+}
 "#;
 
 const MAIN: &str = r#"
@@ -25,11 +37,13 @@ const MAIN: &str = r#"
 dyn_gen::bgdyn!("beside.yaml");
 dyn_gen::bgdyn!("in_package.yaml");
 mod inner;
+include!(concat!(env!("OUT_DIR"), "/from_script.rs"));
 
 fn main() {
     let q = dyn_gen::nalgebra::SVector::from_element(0.0);
     let force = beside::Beside::<f64>::default().gravity(&q)[0];
-    println!("{} {} {} {force:.2}", beside::NV, in_package::NV, inner::in_specs::NV);
+    let built = from_script::Built::<f64>::default().gravity(&q)[0];
+    println!("{} {} {} {force:.2} {built:.2}", beside::NV, in_package::NV, inner::in_specs::NV);
 }
 "#;
 
@@ -96,14 +110,25 @@ fn a_crate_of_its_own() {
     scratch.write("src/beside.yaml", &spec(1.0));
     scratch.write("in_package.yaml", &spec(1.0));
     scratch.write("specs/in_specs.yaml", &spec(1.0));
-    assert_eq!(scratch.printed(), "1 1 1 9.81");
+    scratch.write("build.rs", BUILD);
+    scratch.write("built.yaml", &spec(4.0));
+    assert_eq!(scratch.printed(), "1 1 1 9.81 39.24");
 
     scratch.write("src/beside.yaml", &spec(2.0));
-    assert_eq!(scratch.printed(), "1 1 1 19.62");
+    assert_eq!(scratch.printed(), "1 1 1 19.62 39.24");
     let second =
         "  - { name: top, parent: platform, joint: { name: turn, type: revolute }, mass: 1 }\n";
     scratch.write("specs/in_specs.yaml", &(spec(1.0) + second));
-    assert_eq!(scratch.printed(), "1 1 2 19.62");
+    assert_eq!(scratch.printed(), "1 1 2 19.62 39.24");
+    scratch.write("built.yaml", &spec(-1.0));
+    let stderr = scratch.refused();
+    let fault = "built.yaml:5:11: links[0].mass: ";
+    assert!(
+        stderr.contains(fault) && !stderr.contains("panicked"),
+        "{stderr}"
+    );
+    scratch.write("built.yaml", &spec(5.0));
+    assert_eq!(scratch.printed(), "1 1 2 19.62 49.05");
 
     scratch.write("src/beside.yaml", &spec(-2.0));
     let stderr = scratch.refused();
@@ -113,7 +138,7 @@ fn a_crate_of_its_own() {
     );
     assert_eq!(stderr.matches("\nerror").count(), 1, "{stderr}");
     scratch.write("src/beside.yaml", &spec(3.0));
-    assert_eq!(scratch.printed(), "1 1 2 29.43");
+    assert_eq!(scratch.printed(), "1 1 2 29.43 49.05");
 
     // A file in another place is seen when the crate is compiled next.
     scratch.write("specs/beside.yaml", &spec(3.0));

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::fault::Faults;
-use bgdyn_codegen::formulation::{self, FORMULATIONS};
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::model::Options;
+use bgdyn_codegen::model::{Options, Unknown, formulation_named, stem};
+use clap::Args;
 
 use crate::output::tell;
 use crate::usage::Usage;
@@ -22,15 +22,10 @@ impl SpecFile {
     /// Reads the file.
     pub(crate) fn open(path: &Path) -> Result<Self> {
         let text = read_text(path)?;
-        let name = path
-            .file_name()
-            .map(|n| n.to_string_lossy().into_owned())
-            .unwrap_or_default();
-        let stem = name.split('.').next().unwrap_or_default().to_string();
         Ok(SpecFile {
             path: path.to_path_buf(),
             text,
-            stem,
+            stem: stem(path),
         })
     }
 
@@ -63,22 +58,45 @@ pub(crate) fn read_text(path: &Path) -> Result<String> {
     })
 }
 
-/// The generator's options from the command line's.
+/// The generator's options, as the command line gives them.
+#[derive(Args)]
+pub(crate) struct Asked {
+    /// These methods only, separated by commas; `dynamics` stands for those of the trait
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    methods: Option<Vec<String>>,
+    /// Pose, velocity, Jacobian and J̇ v of these links and frames only, separated by commas
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    frames: Option<Vec<String>>,
+    /// The first derivatives as well
+    #[arg(long)]
+    derivatives: bool,
+    /// One formulation for every method
+    #[arg(long, value_name = "NAME")]
+    formulation: Option<String>,
+}
+
+impl Asked {
+    pub(crate) fn options(&self) -> Result<Options> {
+        Ok(Options {
+            derivatives: self.derivatives,
+            methods: self.methods.clone(),
+            frames: self.frames.clone(),
+            ..options(self.formulation.as_deref())?
+        })
+    }
+}
+
+/// Options with this formulation.
 pub(crate) fn options(formulation: Option<&str>) -> Result<Options> {
-    let Some(name) = formulation else {
-        return Ok(Options::default());
-    };
-    let known = || {
-        FORMULATIONS
-            .iter()
-            .map(|f| f.name())
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let formulation = formulation::by_name(name)
-        .ok_or_else(|| Usage(format!("no formulation `{name}`; there are {}", known())))?;
+    let formulation = formulation.map(formulation_named).transpose();
     Ok(Options {
-        formulation: Some(formulation),
+        formulation: formulation.map_err(Usage)?,
         ..Options::default()
     })
+}
+
+/// Names asked for in vain are bad usage.
+pub(crate) fn unknown(names: Vec<Unknown>) -> Usage {
+    let lines: Vec<String> = names.into_iter().map(|u| u.message).collect();
+    Usage(lines.join("\nbgdyn: "))
 }

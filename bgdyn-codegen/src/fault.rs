@@ -8,6 +8,8 @@ pub(crate) mod wording;
 
 use std::fmt;
 
+pub(crate) use suggest::unknown_name;
+
 /// A place in the spec's text; lines and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {

@@ -6,6 +6,8 @@
 #![forbid(unsafe_code)]
 
 pub mod bond_graph;
+#[cfg(feature = "source")]
+pub mod build_script;
 mod cut;
 pub mod emit;
 pub mod expr;
@@ -17,7 +19,10 @@ pub mod math;
 pub mod mechanism;
 pub mod method;
 pub mod model;
+mod options;
 mod read;
 pub mod spec;
 
+#[cfg(feature = "source")]
+pub use build_script::{Build, build};
 pub use read::read;

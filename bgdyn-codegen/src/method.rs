@@ -2,6 +2,7 @@
 //! the emitter and the command line.
 
 use crate::bond_graph::{Site, SiteId};
+use crate::fault::unknown_name;
 
 /// An argument of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,7 +112,7 @@ pub enum Method {
 
 impl Method {
     /// The methods of [`bgdyn_runtime::Dynamics`], which every model has.
-    pub const ALL: [Method; 7] = [
+    pub const OF_TRAIT: [Method; 7] = [
         Method::InverseDynamics,
         Method::MassMatrix,
         Method::Bias,
@@ -139,18 +140,37 @@ impl Method {
             Method::ForwardDynamicsDerivatives,
         ];
         let of_sites = (0..sites.len()).flat_map(|i| Method::of_site(SiteId(i)));
-        Method::ALL.into_iter().chain(own).chain(of_sites).collect()
+        Method::OF_TRAIT
+            .into_iter()
+            .chain(own)
+            .chain(of_sites)
+            .collect()
     }
 
-    /// The method with this name.
-    pub fn by_name(sites: &[Site], name: &str) -> Option<Method> {
-        let mut possible = Method::possible(sites).into_iter();
-        possible.find(|m| m.name(sites) == name)
+    /// The method with this name, if the mechanism can have it.
+    ///
+    /// # Errors
+    /// A sentence with the nearest name, or with all there are.
+    pub fn named(sites: &[Site], name: &str) -> Result<Method, String> {
+        let possible = Method::possible(sites);
+        let found = possible.iter().find(|m| m.name(sites) == name);
+        found.copied().ok_or_else(|| {
+            let known: Vec<String> = possible.iter().map(|m| m.name(sites)).collect();
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            let own = &known[..possible.iter().filter(|m| m.site().is_none()).count()];
+            let places: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
+            let all = format!(
+                "{}; and pose_X, velocity_X, jacobian_world_X, jacobian_dot_v_world_X for X = {}",
+                own.join(", "),
+                places.join(", ")
+            );
+            unknown_name("method", name, &known, &all)
+        })
     }
 
     /// Whether the trait `Dynamics` has it.
     pub fn of_trait(self) -> bool {
-        Method::ALL.contains(&self)
+        Method::OF_TRAIT.contains(&self)
     }
 
     /// The site it is about.

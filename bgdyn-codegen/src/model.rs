@@ -1,46 +1,19 @@
 //! The steps in order: from a spec's text to a model, from a model to code.
 
+use std::path::Path;
+
 use proc_macro2::TokenStream;
 
-use crate::bond_graph::{self, BondGraph, SiteId};
+use crate::bond_graph::{self, BondGraph};
 use crate::cut::cut;
 use crate::emit;
 use crate::fault::Faults;
-use crate::formulation::{self, Formulation};
+use crate::formulation;
 use crate::function::Function;
 use crate::interface::Interface;
 use crate::mechanism::Mechanism;
 use crate::method::Method;
-
-/// What the caller may ask for.
-#[derive(Clone, Copy, Default)]
-pub struct Options {
-    /// The formulation to use for every method; the cheapest of each where `None`.
-    pub formulation: Option<&'static dyn Formulation>,
-    /// Whether first derivatives of inverse and forward dynamics are wanted.
-    pub derivatives: bool,
-}
-
-/// Velocities beyond which the Coriolis matrix comes only to those who ask: its code grows with
-/// the square of their number.
-const COMPACT: usize = 16;
-
-impl Options {
-    /// The methods to generate.
-    fn methods(&self, graph: &BondGraph) -> Vec<Method> {
-        let mut methods = Method::ALL.to_vec();
-        if graph.coordinates.len() <= COMPACT {
-            methods.push(Method::CoriolisMatrix);
-        }
-        if self.derivatives {
-            methods.push(Method::InverseDynamicsDerivatives);
-            methods.push(Method::ForwardDynamicsDerivatives);
-        }
-        let prominent = (0..graph.sites.len()).filter(|&i| graph.sites[i].prominent);
-        methods.extend(prominent.flat_map(|i| Method::of_site(SiteId(i))));
-        methods
-    }
-}
+pub use crate::options::{DYNAMICS, List, Options, Unknown, formulation_named};
 
 /// A mechanism with the functions generated for it.
 pub struct Model {
@@ -53,20 +26,20 @@ pub struct Model {
 }
 
 impl Model {
-    /// Builds the bond graph and chooses a function for each method.
-    pub fn new(mechanism: Mechanism, options: &Options) -> Self {
+    /// Builds the bond graph and chooses a function for each method asked for.
+    ///
+    /// # Errors
+    /// Every name asked for that the mechanism does not have.
+    pub fn new(mechanism: Mechanism, options: &Options) -> Result<Self, Vec<Unknown>> {
         let bond_graph = bond_graph::build(&mechanism);
+        let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
         let function = |method| function_of(&bond_graph, method, options);
-        let functions = options
-            .methods(&bond_graph)
-            .into_iter()
-            .filter_map(function)
-            .collect();
-        Model {
+        let functions = methods.into_iter().filter_map(function).collect();
+        Ok(Model {
             mechanism,
             bond_graph,
             functions,
-        }
+        })
     }
 
     /// The function of a method.
@@ -84,21 +57,32 @@ fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<F
     formulation::choose(graph, method, options.formulation).map(cut)
 }
 
-/// From a spec's text to the tokens of its module. `stem` is the file's stem, `place` says where
-/// and from what the code is generated.
+/// Why there is no module.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// What is wrong with the spec.
+    Spec(Faults),
+    /// Names asked for that the mechanism does not have.
+    Options(Vec<Unknown>),
+}
+
+/// From a spec's text to the tokens of its module, with warnings if there are any. `stem` is the
+/// file's stem, `place` says where and from what the code is generated.
 ///
 /// # Errors
-/// Every fault found in the spec.
+/// Every fault found in the spec; or, where it has none, every name asked for that it lacks.
 pub fn generate(
     text: &str,
     stem: &str,
     place: &emit::Place,
     options: &Options,
-) -> Result<TokenStream, Faults> {
-    let (mechanism, faults) = crate::read(text, Some(stem));
-    let mechanism = mechanism.ok_or(faults)?;
-    let model = Model::new(mechanism, options);
-    Ok(emit::module(&model, place))
+) -> Result<(TokenStream, Faults), Refusal> {
+    let (mechanism, findings) = crate::read(text, Some(stem));
+    let Some(mechanism) = mechanism else {
+        return Err(Refusal::Spec(findings));
+    };
+    let model = Model::new(mechanism, options).map_err(Refusal::Options)?;
+    Ok((emit::module(&model, place), findings))
 }
 
 /// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
@@ -107,18 +91,9 @@ pub fn fallback(text: &str, stem: &str, place: &emit::Place) -> Option<TokenStre
     Interface::guess(text, stem).map(|interface| emit::fallback(&interface, place))
 }
 
-/// [`generate`] as formatted source text.
-///
-/// # Errors
-/// Every fault found in the spec.
-#[cfg(feature = "source")]
-pub fn generate_source(
-    text: &str,
-    stem: &str,
-    place: &emit::Place,
-    options: &Options,
-) -> Result<String, Faults> {
-    let tokens = generate(text, stem, place, options)?;
-    let file = syn::parse2(tokens).expect("the emitter writes valid Rust");
-    Ok(prettyplease::unparse(&file))
+/// The name of a spec's module: the file's name up to its first dot.
+pub fn stem(path: &Path) -> String {
+    let name = path.file_name().map(|n| n.to_string_lossy());
+    let stem = name.as_deref().and_then(|n| n.split('.').next());
+    stem.unwrap_or_default().to_string()
 }

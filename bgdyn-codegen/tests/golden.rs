@@ -61,7 +61,7 @@ fn check(name: &str, robot: &Robot, formulation: &str, values: &Value) {
     let order = order(robot, values);
     let states = values["states"].as_array().expect("states");
     let mass_matrix = robot.function(formulation, Method::MassMatrix);
-    for method in Method::ALL {
+    for method in Method::OF_TRAIT {
         let function = robot.function(formulation, method);
         let mut tally = Tally::default();
         let mut energies: Vec<(f64, f64)> = Vec::new();

@@ -80,7 +80,7 @@ impl Case {
 
     /// recursion = literal, for every method but the solved one.
     fn formulations_agree(&self) {
-        for method in Method::ALL {
+        for method in Method::OF_TRAIT {
             if method == Method::ForwardDynamics {
                 continue;
             }
@@ -188,7 +188,7 @@ impl Case {
     /// In `f64` every method is the double-double one, rounded.
     fn rounding(&self) {
         for methods in [&self.literal, &self.recursion] {
-            for method in Method::ALL {
+            for method in Method::OF_TRAIT {
                 if method == Method::ForwardDynamics {
                     continue;
                 }

@@ -80,7 +80,7 @@ fn equal(x: &Robot, y: &Robot, name: &str) {
     let states: Vec<State> = (0..STATES)
         .map(|_| State::random(&mut rng, &x.motions()))
         .collect();
-    for method in Method::ALL {
+    for method in Method::OF_TRAIT {
         let function = |robot: &Robot| robot.function("recursion", method);
         let (f, g) = (function(x), function(y));
         let mut first: Option<(f64, f64)> = None;
@@ -207,7 +207,7 @@ fn the_torsos_right_arm_mirrors_the_left() {
 #[test]
 fn the_palletiser_takes_no_sine_twice() {
     let robot = robot("palletiser");
-    for method in Method::ALL {
+    for method in Method::OF_TRAIT {
         let function = model::function(&robot.mechanism, method, &Options::default());
         let pairs = function.expect("every method").operations().sincos;
         let (name, joints) = (method.name(&robot.graph.sites), robot.nv());

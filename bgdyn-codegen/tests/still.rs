@@ -22,10 +22,10 @@ fn everything_is_generated() {
         ..Options::default()
     };
     let place = Place::source_text("still.yaml".into());
-    let tokens = generate(TEXT, "still", &place, &options).expect("no fault");
+    let (tokens, _) = generate(TEXT, "still", &place, &options).expect("no fault");
     assert!(tokens.to_string().contains("forward_dynamics_derivatives"));
     let (mechanism, _) = read(TEXT, Some("still"));
-    let model = Model::new(mechanism.expect("no fault"), &options);
+    let model = Model::new(mechanism.expect("no fault"), &options).expect("nothing unknown");
     let energy = model.function(Method::PotentialEnergy).expect("a method");
     let (value, _) = energy.evaluate::<f64>(Default::default());
     assert!((value[0] - 3.0 * 9.81 * 2.0).abs() < 1e-12);

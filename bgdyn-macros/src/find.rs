@@ -75,12 +75,6 @@ pub(crate) fn file_name(path: &Path) -> String {
         .unwrap_or_default()
 }
 
-/// The file's name up to its first dot: the module's name.
-pub(crate) fn stem(path: &Path) -> String {
-    let name = file_name(path);
-    name.split('.').next().unwrap_or_default().to_string()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,12 +141,5 @@ mod tests {
         let places = [root.join("src"), root.join("specs/../src")];
         assert!(choose("a.yaml", &places, &root).is_ok());
         fs::remove_dir_all(root).expect("it was there");
-    }
-
-    #[test]
-    fn stems_end_at_the_first_dot() {
-        assert_eq!(stem(Path::new("a/scara.yaml")), "scara");
-        assert_eq!(stem(Path::new("a/pick.scene.yaml")), "pick");
-        assert_eq!(stem(Path::new("a/.yaml")), "");
     }
 }

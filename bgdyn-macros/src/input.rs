@@ -1,16 +1,28 @@
 //! What the user writes between the parentheses.
 
-use bgdyn_codegen::formulation::{self, FORMULATIONS, Formulation};
+use bgdyn_codegen::mechanism::name::is_identifier;
+use bgdyn_codegen::model::{List, Options, Unknown, formulation_named};
+use proc_macro2::{Delimiter, Group, Span, TokenStream};
+use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
-/// `"scara.yaml"`, then options `name = "value"`.
+/// The options there are.
+const KNOWN: &str = "derivatives, formulation, frames, methods, module, visibility";
+
+/// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
     pub(crate) path: LitStr,
-    /// The formulation asked for.
-    pub(crate) formulation: Option<&'static dyn Formulation>,
-    /// Whether first derivatives are wanted.
-    pub(crate) derivatives: bool,
+    /// What is asked for.
+    pub(crate) options: Options,
+    /// Another name for the module.
+    pub(crate) module: Option<String>,
+    /// The module's visibility.
+    pub(crate) visibility: TokenStream,
+    /// Where the names in `methods` and `frames` stand.
+    methods: Vec<Span>,
+    frames: Vec<Span>,
     /// What is wrong with the options. The module is made all the same.
     pub(crate) errors: Vec<syn::Error>,
 }
@@ -19,51 +31,114 @@ impl Parse for Input {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
         let mut parsed = Input {
             path: input.parse()?,
-            formulation: None,
-            derivatives: false,
+            options: Options::default(),
+            module: None,
+            visibility: quote! { pub },
+            methods: Vec::new(),
+            frames: Vec::new(),
             errors: Vec::new(),
         };
-        if let Err(error) = parsed.options(input) {
+        if let Err(error) = parsed.all(input) {
             parsed.errors.push(error);
             // What is left means nothing without what went before.
-            input.parse::<proc_macro2::TokenStream>()?;
+            input.parse::<TokenStream>()?;
         }
         Ok(parsed)
     }
 }
 
 impl Input {
-    fn options(&mut self, input: ParseStream<'_>) -> syn::Result<()> {
+    /// The error on a name that the mechanism does not have.
+    pub(crate) fn error(&self, unknown: &Unknown) -> syn::Error {
+        let spans = match unknown.list {
+            List::Methods => &self.methods,
+            List::Frames => &self.frames,
+        };
+        let span = spans.get(unknown.index).copied();
+        let span = span.unwrap_or_else(|| self.path.span());
+        syn::Error::new(span, format!("bgdyn: {}", unknown.message))
+    }
+
+    fn all(&mut self, input: ParseStream<'_>) -> syn::Result<()> {
+        let mut seen: Vec<Ident> = Vec::new();
         while !input.is_empty() {
             input.parse::<Token![,]>()?;
             if input.is_empty() {
                 break;
             }
             let option: Ident = input.parse()?;
+            if seen.contains(&option) {
+                self.refuse(option.span(), format!("`{option}` is given twice"));
+            }
             input.parse::<Token![=]>()?;
-            if option == "derivatives" {
-                self.derivatives = input.parse::<LitBool>()?.value;
-                continue;
+            self.option(&option, input)?;
+            seen.push(option);
+        }
+        Ok(())
+    }
+
+    fn refuse(&mut self, span: Span, message: String) {
+        let error = syn::Error::new(span, format!("bgdyn: {message}"));
+        self.errors.push(error);
+    }
+
+    fn option(&mut self, option: &Ident, input: ParseStream<'_>) -> syn::Result<()> {
+        match option.to_string().as_str() {
+            "derivatives" => self.options.derivatives = input.parse::<LitBool>()?.value,
+            "formulation" => {
+                let value: LitStr = input.parse()?;
+                match formulation_named(&value.value()) {
+                    Ok(formulation) => self.options.formulation = Some(formulation),
+                    Err(message) => self.refuse(value.span(), message),
+                }
             }
-            if option != "formulation" {
-                let message =
-                    format!("bgdyn: unknown option `{option}`; known: derivatives, formulation");
-                self.errors.push(syn::Error::new(option.span(), message));
-                input.parse::<syn::Lit>()?;
-                continue;
+            "methods" => {
+                let names;
+                (self.methods, names) = list(input)?;
+                self.options.methods = Some(names);
             }
-            let value: LitStr = input.parse()?;
-            self.formulation = formulation::by_name(&value.value());
-            if self.formulation.is_none() {
-                let known: Vec<_> = FORMULATIONS.iter().map(|f| f.name()).collect();
-                let message = format!(
-                    "bgdyn: unknown formulation `{}`; known: {}",
-                    value.value(),
-                    known.join(", ")
-                );
-                self.errors.push(syn::Error::new(value.span(), message));
+            "frames" => {
+                let names;
+                (self.frames, names) = list(input)?;
+                self.options.frames = Some(names);
+            }
+            "module" => {
+                let name: Ident = input.parse()?;
+                self.module = Some(name.to_string());
+                if !is_identifier(&name.to_string()) {
+                    let message = format!("`{name}` cannot name a module: write it in snake_case");
+                    self.refuse(name.span(), message);
+                    self.module = None;
+                }
+            }
+            "visibility" => self.visibility = visibility(input)?,
+            _ => {
+                let message = format!("unknown option `{option}`; known: {KNOWN}");
+                self.refuse(option.span(), message);
+                while !input.is_empty() && !input.peek(Token![,]) {
+                    input.parse::<proc_macro2::TokenTree>()?;
+                }
             }
         }
         Ok(())
     }
+}
+
+/// `[name, name]`
+fn list(input: ParseStream<'_>) -> syn::Result<(Vec<Span>, Vec<String>)> {
+    let content;
+    syn::bracketed!(content in input);
+    let names = Punctuated::<Ident, Token![,]>::parse_terminated(&content)?;
+    Ok(names.iter().map(|n| (n.span(), n.to_string())).unzip())
+}
+
+/// `pub`, `pub(crate)`, `pub(self)`, `pub(in path)`
+fn visibility(input: ParseStream<'_>) -> syn::Result<TokenStream> {
+    let mut visibility = input.parse::<Token![pub]>()?.to_token_stream();
+    if input.peek(syn::token::Paren) {
+        let group: Group = input.parse()?;
+        debug_assert_eq!(group.delimiter(), Delimiter::Parenthesis);
+        visibility.extend([proc_macro2::TokenTree::Group(group)]);
+    }
+    Ok(visibility)
 }

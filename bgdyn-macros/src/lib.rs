@@ -7,7 +7,7 @@ mod input;
 use std::path::Path;
 
 use bgdyn_codegen::emit::Place;
-use bgdyn_codegen::model::{self, Options};
+use bgdyn_codegen::model::{self, Refusal};
 use proc_macro::TokenStream;
 use quote::quote;
 
@@ -23,31 +23,37 @@ use input::Input;
 /// its `specs/`. The module is called after the file, up to its first dot. A change of the file
 /// rebuilds the crate.
 ///
-/// `bgdyn!("scara.yaml", derivatives = true)` adds the first derivatives of inverse and forward
-/// dynamics. `bgdyn!("scara.yaml", formulation = "literal")` uses one formulation for every method instead
-/// of the cheapest.
+/// Options, in any order:
+///
+/// | option | |
+/// |---|---|
+/// | `methods = [inverse_dynamics, pose_tool]` | these methods instead of the usual ones; `dynamics` stands for those of the trait `Dynamics`, which is implemented only where all of them are there |
+/// | `frames = [tool, forearm]` | pose, velocity, Jacobian and J̇ v of these links and frames instead of the named frames and tips |
+/// | `derivatives = true` | first derivatives of inverse and forward dynamics |
+/// | `formulation = "literal"` | one formulation for every method instead of the cheapest of each |
+/// | `module = left_arm` | another name for the module; the struct keeps the file's |
+/// | `visibility = pub(crate)` | of the module, instead of `pub` |
 ///
 /// A spec with faults gives one error that lists them all. The module is there all the same, with
 /// everything that can be named, so that no call adds an error of its own.
 #[proc_macro]
 pub fn bgdyn(input: TokenStream) -> TokenStream {
     let input = syn::parse_macro_input!(input as Input);
-    let mut code = proc_macro2::TokenStream::new();
     let module = crate_path().and_then(|bgdyn| module(&input, bgdyn));
-    match module {
-        Ok(tokens) => code.extend(tokens),
-        Err(Refused { message, stand_in }) => {
-            code.extend(syn::Error::new(input.path.span(), message).to_compile_error());
-            code.extend(stand_in);
+    let mut code = match module {
+        Ok(tokens) => tokens,
+        Err(Refused { errors, stand_in }) => {
+            let errors = errors.iter().map(syn::Error::to_compile_error);
+            errors.chain(stand_in).collect()
         }
-    }
+    };
     code.extend(input.errors.iter().map(syn::Error::to_compile_error));
     code.into()
 }
 
 /// Why there is no module, and what stands in for it.
 struct Refused {
-    message: String,
+    errors: Vec<syn::Error>,
     stand_in: Option<proc_macro2::TokenStream>,
 }
 
@@ -58,13 +64,17 @@ fn module(
     let written = input.path.value();
     let mut place = Place {
         bgdyn,
-        visibility: quote! { pub },
+        visibility: input.visibility.clone(),
+        module: input.module.clone(),
         source: find::file_name(Path::new(&written)),
         rebuild: None,
     };
+    let stand_in = |text: &str, place: &Place| {
+        model::fallback(text, &model::stem(Path::new(&place.source)), place)
+    };
     let refused = |message: String, text: &str, place: &Place| Refused {
-        message,
-        stand_in: model::fallback(text, &find::stem(Path::new(&place.source)), place),
+        errors: vec![syn::Error::new(input.path.span(), message)],
+        stand_in: stand_in(text, place),
     };
     let path = find::find(&written, input.path.span()).map_err(|m| refused(m, "", &place))?;
     let text = std::fs::read_to_string(&path).map_err(|e| {
@@ -72,17 +82,20 @@ fn module(
         refused(message, "", &place)
     })?;
     place.rebuild = Some(path.display().to_string());
-    let options = Options {
-        formulation: input.formulation,
-        derivatives: input.derivatives,
-    };
-    model::generate(&text, &find::stem(&path), &place, &options).map_err(|faults| {
-        let mut message = faults.render(&written, &text).trim_end().to_string();
-        if faults.count() > 1 {
-            message += &format!("\n\n{} faults", faults.count());
+    match model::generate(&text, &model::stem(&path), &place, &input.options) {
+        Ok((tokens, _warnings)) => Ok(tokens),
+        Err(Refusal::Spec(faults)) => {
+            let mut message = faults.render(&written, &text).trim_end().to_string();
+            if faults.count() > 1 {
+                message += &format!("\n\n{} faults", faults.count());
+            }
+            Err(refused(message, &text, &place))
         }
-        refused(message, &text, &place)
-    })
+        Err(Refusal::Options(unknown)) => Err(Refused {
+            errors: unknown.iter().map(|u| input.error(u)).collect(),
+            stand_in: stand_in(&text, &place),
+        }),
+    }
 }
 
 /// The path by which the calling crate reaches bgdyn, renamed or not.
@@ -95,7 +108,10 @@ fn crate_path() -> Result<proc_macro2::TokenStream, Refused> {
             Ok(quote! { ::#name })
         }
         Err(e) => Err(Refused {
-            message: format!("bgdyn: the calling crate does not depend on bgdyn: {e}"),
+            errors: vec![syn::Error::new(
+                proc_macro2::Span::call_site(),
+                format!("bgdyn: the calling crate does not depend on bgdyn: {e}"),
+            )],
             stand_in: None,
         }),
     }

@@ -21,6 +21,18 @@ pub struct Operations {
 }
 
 impl Operations {
+    /// The counts in the order of the fields.
+    pub const fn new([mul, add, div, sqrt, sincos, other]: [usize; 6]) -> Self {
+        Operations {
+            mul,
+            add,
+            div,
+            sqrt,
+            sincos,
+            other,
+        }
+    }
+
     /// Multiplications and additions together: what robots are compared by.
     pub fn total(&self) -> usize {
         self.mul + self.add

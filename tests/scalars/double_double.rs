@@ -17,7 +17,7 @@ fn generated(robot: &str) -> Model {
     let path = format!("{root}/tests/golden/specs/{robot}.yaml");
     let text = std::fs::read_to_string(path).expect("the spec is there");
     let (mechanism, _) = bgdyn_codegen::read(&text, Some(robot));
-    Model::new(mechanism.expect("a valid spec"), &Default::default())
+    Model::new(mechanism.expect("a valid spec"), &Default::default()).expect("nothing unknown")
 }
 
 fn near(what: &str, found: &[Dd], wanted: &[Dd], relative: f64) {
@@ -34,7 +34,7 @@ fn near(what: &str, found: &[Dd], wanted: &[Dd], relative: f64) {
 
 /// What the evaluator makes of a method; a symmetric matrix in full.
 fn evaluated<const N: usize>(model: &Model, method: &str, state: &State<Dd, N>) -> Vec<Dd> {
-    let method = Method::by_name(&[], method).expect("a method");
+    let method = Method::named(&[], method).expect("a method");
     let function = model.function(method).expect("it is generated");
     let [q, v, a] = state.map(|x| x.as_slice().iter().map(|&x| Rounded(x)).collect::<Vec<_>>());
     let inputs = Inputs {
@@ -73,7 +73,7 @@ fn agrees<const N: usize>(
         for ((name, found), (_, wanted)) in found.iter().zip(results(plain, &narrow)) {
             let wanted: Vec<Dd> = wanted.into_iter().map(Dd::from_f64).collect();
             near(&format!("{robot} {name}"), found, &wanted, 1e-12);
-            if Method::by_name(&[], name).is_some() {
+            if Method::named(&[], name).is_ok() {
                 let wanted = evaluated(&model, name, &state);
                 near(&format!("{robot} {name}"), found, &wanted, 1e-26);
             }

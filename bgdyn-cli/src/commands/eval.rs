@@ -63,15 +63,7 @@ impl Eval {
         let options = options(self.formulation.as_deref())?;
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let graph = bgdyn_codegen::bond_graph::build(&mechanism);
-        let method = Method::by_name(&graph.sites, &self.method).ok_or_else(|| {
-            let known = Method::possible(&graph.sites);
-            let known: Vec<_> = known.iter().map(|m| m.name(&graph.sites)).collect();
-            Usage(format!(
-                "no method `{}`; there are {}",
-                self.method,
-                known.join(", ")
-            ))
-        })?;
+        let method = Method::named(&graph.sites, &self.method).map_err(Usage)?;
         let states = states(&self.states)?;
         let function = bgdyn_codegen::model::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;

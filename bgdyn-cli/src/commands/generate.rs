@@ -1,51 +1,94 @@
 //! `bgdyn generate`: the module's source text.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::emit::Place;
-use bgdyn_codegen::model::generate_source;
+use anyhow::{Context, Result, anyhow, bail};
+use bgdyn_codegen::emit::{Place, source_text};
+use bgdyn_codegen::model::{Refusal, generate};
 use clap::Args;
 
-use crate::output::print;
-use crate::spec_file::{SpecFile, options};
+use crate::output::{print, tell};
+use crate::spec_file::{Asked, SpecFile, read_text, unknown};
+use crate::usage::Usage;
 
 /// Write the generated Rust source
 #[derive(Args)]
-#[command(after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs")]
+#[command(
+    after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs\n  bgdyn generate specs/scara.yaml -o scara.rs --check   # exit 1 if scara.rs is not up to date"
+)]
 pub(crate) struct Generate {
     /// The spec
     file: PathBuf,
     /// Where to write it; stdout by default
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// Use one formulation for every method
+    /// Write nothing; fail where the output is not what would be written
+    #[arg(long, requires = "output")]
+    check: bool,
+    /// Another name for the module
     #[arg(long, value_name = "NAME")]
-    formulation: Option<String>,
-    /// Write the first derivatives as well
-    #[arg(long)]
-    derivatives: bool,
+    module: Option<String>,
+    /// The module's visibility
+    #[arg(long, value_name = "RUST", default_value = "pub")]
+    visibility: String,
+    /// The path by which the including crate reaches bgdyn
+    #[arg(long = "crate", value_name = "PATH", default_value = "::bgdyn")]
+    bgdyn: String,
+    #[command(flatten)]
+    asked: Asked,
 }
 
 impl Generate {
     pub(crate) fn run(self) -> Result<()> {
-        let mut options = options(self.formulation.as_deref())?;
-        options.derivatives = self.derivatives;
+        let (options, place) = (self.asked.options()?, self.place().map_err(Usage)?);
         let spec = SpecFile::open(&self.file)?;
-        // Says what was found, warnings too.
-        spec.mechanism()?;
-        let source = self
-            .file
-            .file_name()
-            .map(|n| n.to_string_lossy().into_owned());
-        let place = Place::source_text(source.unwrap_or_default());
-        let text = generate_source(&spec.text, &spec.stem, &place, &options)
-            .map_err(|faults| anyhow!("{}", spec.render(&faults)))?;
+        let shown = self.file.display();
+        let (tokens, warnings) = match generate(&spec.text, &spec.stem, &place, &options) {
+            Ok(generated) => generated,
+            Err(Refusal::Spec(faults)) => {
+                tell(&spec.render(&faults));
+                bail!("{shown} has {} faults", faults.count());
+            }
+            Err(Refusal::Options(names)) => return Err(unknown(names).into()),
+        };
+        tell(&spec.render(&warnings));
+        let text = source_text(tokens);
         match &self.output {
-            None => print(&text)?,
+            None => print(&text),
+            Some(path) if self.check => self.compare(path, &text),
             Some(path) => std::fs::write(path, text)
-                .with_context(|| format!("{} cannot be written", path.display()))?,
+                .with_context(|| format!("{} cannot be written", path.display())),
         }
-        Ok(())
+    }
+
+    fn place(&self) -> std::result::Result<Place, String> {
+        let source = self.file.file_name().map(|n| n.to_string_lossy());
+        let place = Place::source_text(source.unwrap_or_default().into_owned());
+        let place = place
+            .with_crate(&self.bgdyn)?
+            .with_visibility(&self.visibility)?;
+        match &self.module {
+            Some(module) => place.with_module(module),
+            None => Ok(place),
+        }
+    }
+
+    /// Whether the file at `path` holds `text`.
+    fn compare(&self, path: &Path, text: &str) -> Result<()> {
+        let found = read_text(path)?;
+        if found == text {
+            return Ok(());
+        }
+        let mut lines = (1..).zip(found.lines().zip(text.lines()));
+        let differs = lines.find(|(_, (found, wanted))| found != wanted);
+        let line = differs.map_or_else(
+            || found.lines().count().min(text.lines().count()) + 1,
+            |(number, _)| number,
+        );
+        Err(anyhow!(
+            "{}:{line}:1: this is not what {} gives; write it anew with `bgdyn generate`",
+            path.display(),
+            self.file.display()
+        ))
     }
 }

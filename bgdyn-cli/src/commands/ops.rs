@@ -13,7 +13,7 @@ use clap::Args;
 use serde::{Serialize, Serializer};
 
 use crate::output::{print, tell};
-use crate::spec_file::{SpecFile, options};
+use crate::spec_file::{Asked, SpecFile, unknown};
 
 /// Count the operations of each generated function
 #[derive(Args)]
@@ -27,20 +27,15 @@ pub(crate) struct Ops {
     /// Say which formulation was chosen, and what the others cost
     #[arg(long)]
     explain: bool,
-    /// Use one formulation for every method
-    #[arg(long, value_name = "NAME")]
-    formulation: Option<String>,
-    /// Count the first derivatives as well
-    #[arg(long)]
-    derivatives: bool,
+    #[command(flatten)]
+    asked: Asked,
 }
 
 impl Ops {
     pub(crate) fn run(self) -> Result<()> {
-        let mut options = options(self.formulation.as_deref())?;
-        options.derivatives = self.derivatives;
+        let options = self.asked.options()?;
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
-        let model = Model::new(mechanism.clone(), &options);
+        let model = Model::new(mechanism.clone(), &options).map_err(unknown)?;
         if self.json {
             let report = serde_json::to_string_pretty(&Report {
                 functions: Functions(&model),

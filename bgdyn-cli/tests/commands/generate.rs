@@ -26,7 +26,7 @@ fn the_source_is_the_same_in_every_run_and_in_every_place() {
 fn the_source_is_what_the_macro_gets() {
     let text = fs::read_to_string(root().join(SCARA)).expect("the spec");
     let place = Place::source_text("scara4.yaml".into());
-    let tokens = generate(&text, "scara4", &place, &Options::default()).expect("a good spec");
+    let (tokens, _) = generate(&text, "scara4", &place, &Options::default()).expect("a good spec");
     let source = bgdyn(&["generate", SCARA]).good();
     let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");
     // Commas at the end of lists and the quotes of documentation are the layout's.
@@ -57,4 +57,41 @@ fn what_cannot_be_generated_or_written() {
         stderr.starts_with("bgdyn: no/such/folder/a.rs cannot be written: "),
         "{stderr}"
     );
+}
+
+#[test]
+fn a_kept_file_is_compared() {
+    let kept = scratch("generate_check", "kept.rs", "");
+    let asked = ["--methods", "gravity,pose_l_j4", "--module", "kept"];
+    let run =
+        |more: &[&str]| bgdyn(&[&["generate", SCARA, "-o", &kept], &asked[..], more].concat());
+    assert!(
+        run(&["--check"])
+            .bad_input()
+            .contains("kept.rs:1:1: this is not what")
+    );
+    run(&[]).good();
+    let text = fs::read_to_string(&kept).expect("the output");
+    assert!(text.contains("pub mod kept {") && !text.contains("fn bias"));
+    assert_eq!(run(&["--check"]).good(), "");
+    fs::write(&kept, text.replacen("pub mod kept {", "pub mod kept  {", 1)).expect("a file");
+    let line = 1 + text
+        .lines()
+        .position(|l| l == "pub mod kept {")
+        .expect("a line");
+    let stderr = run(&["--check"]).bad_input();
+    assert!(stderr.contains(&format!("kept.rs:{line}:1: ")), "{stderr}");
+    fs::write(&kept, text + "\n").expect("a file");
+    run(&["--check"]).bad_input();
+    let stderr = bgdyn(&["generate", SCARA, "--check"]).bad_usage();
+    assert!(stderr.contains("--output"), "{stderr}");
+}
+
+#[test]
+fn names_asked_for_in_vain_are_bad_usage() {
+    let stderr = bgdyn(&["generate", SCARA, "--frames", "l_j", "--methods", "bia"]).bad_usage();
+    assert!(stderr.contains("`bia`: did you mean `bias`?"), "{stderr}");
+    assert!(stderr.contains("`l_j`: did you mean `l_j1`?"), "{stderr}");
+    let stderr = bgdyn(&["generate", SCARA, "--module", "Arm"]).bad_usage();
+    assert!(stderr.contains("`Arm` cannot name a module"), "{stderr}");
 }

@@ -7,8 +7,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::constants::{operations, size};
 use super::{Place, argument_type, ident, rebuild, return_type, struct_ident};
 use crate::bond_graph::Site;
+use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
 use crate::mechanism::name::is_identifier;
@@ -16,19 +18,23 @@ use crate::method::{Argument, Method};
 
 /// The module with bodies that never run.
 pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
-    let name = ident(&interface.name);
+    let name = place.module_ident(&interface.name);
     let model = ident(&struct_ident(&interface.name));
     let (bgdyn, visibility) = (&place.bgdyn, &place.visibility);
     let rebuild = rebuild(place);
     let doc = format!(" The spec {} was refused: see the error.", place.source);
     let constants = constants(interface);
     let sites = sites(interface);
-    let methods = Method::possible(&sites).into_iter();
-    let methods = methods.map(|m| method(m, &sites, interface.certain, true));
+    let possible = Method::possible(&sites);
+    let methods = possible.iter();
+    let methods = methods.map(|&m| method(m, &sites, interface.certain, true));
+    let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();
+    let nothing = names.iter().map(|n| (n.as_str(), Operations::default()));
+    let operations = operations(nothing);
     let dynamics = dynamics(interface, &model);
     quote! {
         #[doc = #doc]
-        #[allow(unused_variables, clippy::all, reason = "stands in for a refused spec")]
+        #[allow(unused, unreachable_pub, clippy::all, reason = "stands in for a refused spec")]
         #visibility mod #name {
             use #bgdyn::runtime as __rt;
             use __rt::nalgebra as __na;
@@ -49,6 +55,7 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
                 #(#methods)*
             }
             #dynamics
+            #operations
         }
     }
 }
@@ -67,13 +74,7 @@ fn sites(interface: &Interface) -> Vec<Site> {
 
 fn constants(interface: &Interface) -> TokenStream {
     let (joints, links) = (&interface.joints, &interface.links);
-    let (nv, count, functions) = (joints.len(), links.len(), Method::ALL.len());
-    let operations = Method::ALL.into_iter().map(|m| {
-        let name = m.name(&[]);
-        quote! {
-            (#name, __rt::Operations { mul: 0, add: 0, div: 0, sqrt: 0, sincos: 0, other: 0 })
-        }
-    });
+    let (nv, count) = (size(joints.len()), size(links.len()));
     quote! {
         /// Number of positions.
         pub const NQ: usize = #nv;
@@ -88,8 +89,6 @@ fn constants(interface: &Interface) -> TokenStream {
         /// Limits of the moving joints; infinite where the spec states none.
         pub const JOINT_LIMITS: [__rt::Limits; NV] =
             [__rt::Limits { lower: 0.0, upper: 0.0, velocity: 0.0, effort: 0.0 }; NV];
-        /// What one call of each method executes.
-        pub const OPERATIONS: [(&str, __rt::Operations); #functions] = [#(#operations),*];
     }
 }
 
@@ -127,7 +126,9 @@ fn method(method: Method, sites: &[Site], sized: bool, inherent: bool) -> TokenS
 
 fn dynamics(interface: &Interface, model: &proc_macro2::Ident) -> TokenStream {
     let sizes = (!interface.certain).then(|| quote! { , const NQ: usize, const NV: usize });
-    let methods = Method::ALL.into_iter().map(|m| method(m, &[], true, false));
+    let methods = Method::OF_TRAIT
+        .into_iter()
+        .map(|m| method(m, &[], true, false));
     quote! {
         impl<T: __Scalar #sizes> __rt::Dynamics<T, NQ, NV> for #model<T> {
             fn joint_names(&self) -> &'static [&'static str; NV] {

@@ -2,6 +2,7 @@
 
 mod body;
 mod code;
+mod constants;
 mod fallback;
 mod names;
 mod writer;
@@ -11,10 +12,9 @@ use heck::ToUpperCamelCase;
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::expr::Operations;
 use crate::function::Function;
-use crate::mechanism::{CoordinateId, Limits, Motion};
-use crate::method::{Argument, Shape};
+use crate::mechanism::name::is_identifier;
+use crate::method::{Argument, Method, Shape};
 use crate::model::Model;
 
 /// Where and from what the code is generated.
@@ -24,6 +24,8 @@ pub struct Place {
     pub bgdyn: TokenStream,
     /// Visibility of the module.
     pub visibility: TokenStream,
+    /// Name of the module; the mechanism's where `None`.
+    pub module: Option<String>,
     /// Name of the spec, for the header.
     pub source: String,
     /// Path to include, so that a change of the spec rebuilds; `None` where the build script sees
@@ -37,29 +39,78 @@ impl Place {
         Place {
             bgdyn: quote! { ::bgdyn },
             visibility: quote! { pub },
+            module: None,
             source,
             rebuild: None,
         }
     }
+
+    /// The same for a crate that reaches bgdyn by this path.
+    ///
+    /// # Errors
+    /// Where the path is not Rust.
+    pub fn with_crate(self, path: &str) -> Result<Self, String> {
+        let bgdyn = tokens("the path", path)?;
+        Ok(Place { bgdyn, ..self })
+    }
+
+    /// The same with this visibility of the module.
+    ///
+    /// # Errors
+    /// Where it is not Rust.
+    pub fn with_visibility(self, visibility: &str) -> Result<Self, String> {
+        let visibility = tokens("the visibility", visibility)?;
+        Ok(Place { visibility, ..self })
+    }
+
+    /// The same with this name of the module.
+    ///
+    /// # Errors
+    /// Where it is no snake_case identifier.
+    pub fn with_module(self, name: &str) -> Result<Self, String> {
+        if !is_identifier(name) {
+            return Err(format!(
+                "`{name}` cannot name a module: write words of a–z and digits joined by `_`"
+            ));
+        }
+        let module = Some(name.to_string());
+        Ok(Place { module, ..self })
+    }
+
+    /// The module's name for a mechanism of this name.
+    fn module_ident(&self, mechanism: &str) -> proc_macro2::Ident {
+        ident(self.module.as_deref().unwrap_or(mechanism))
+    }
+}
+
+fn tokens(what: &str, text: &str) -> Result<TokenStream, String> {
+    text.parse()
+        .map_err(|e| format!("{what} `{text}` is not Rust: {e}"))
 }
 
 /// The module of a model.
 pub fn module(model: &Model, place: &Place) -> TokenStream {
-    let name = ident(model.mechanism.name());
+    let name = place.module_ident(model.mechanism.name());
     let bgdyn = &place.bgdyn;
     let visibility = &place.visibility;
     let docs = module_docs(model, place);
-    let constants = constants(model);
+    let constants = constants::constants(model);
+    let operations = constants::counted(&model.functions);
     let structure = structure(model);
     let methods = model.functions.iter().map(|f| method(f, model));
     let struct_name = struct_name(model);
-    let dynamics = dynamics(model);
+    let has = |m: Method| model.function(m).is_some();
+    let whole = Method::OF_TRAIT.into_iter().all(has);
+    let dynamics = whole.then(|| dynamics(model));
     let rebuild = rebuild(place);
     quote! {
         #(#[doc = #docs])*
         #[allow(
-            unused_parens,
+            unused,
+            unreachable_pub,
             clippy::all,
+            clippy::pedantic,
+            clippy::nursery,
             reason = "generated: straight-line arithmetic with the mechanism's own numbers"
         )]
         #visibility mod #name {
@@ -73,6 +124,7 @@ pub fn module(model: &Model, place: &Place) -> TokenStream {
                 #(#methods)*
             }
             #dynamics
+            #operations
         }
     }
 }
@@ -108,7 +160,8 @@ fn module_docs(model: &Model, place: &Place) -> Vec<String> {
         ),
     ];
     if let Some(text) = mechanism.description() {
-        docs.extend([String::new(), format!(" {text}")]);
+        docs.push(String::new());
+        docs.extend(text.lines().map(|line| format!(" {}", line.trim_end())));
     }
     docs.push(String::new());
     docs.push(" | method | operations | formulation |".into());
@@ -122,83 +175,6 @@ fn module_docs(model: &Model, place: &Place) -> Vec<String> {
         ));
     }
     docs
-}
-
-fn constants(model: &Model) -> TokenStream {
-    let mechanism = &model.mechanism;
-    let (nq, nv) = (mechanism.nq(), mechanism.nv());
-    let joints = model.bond_graph.coordinates.iter().map(|c| c.name.as_str());
-    let links: Vec<&str> = mechanism.links().iter().map(|l| l.name.as_str()).collect();
-    let count = links.len();
-    let functions = model.functions.len();
-    let operations = model.functions.iter().map(operations);
-    let motions = model.bond_graph.coordinates.iter().map(|c| match c.motion {
-        Motion::Rotation => ident("Rotation"),
-        _ => ident("Translation"),
-    });
-    let limits = (0..nv).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
-    quote! {
-        /// Number of positions.
-        pub const NQ: usize = #nq;
-        /// Number of velocities.
-        pub const NV: usize = #nv;
-        /// Names of the moving joints, in the order of the coordinates.
-        pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
-        /// Names of the links, parents before children.
-        pub const LINK_NAMES: [&str; #count] = [#(#links),*];
-        /// What each coordinate is: an angle or a displacement.
-        pub const JOINT_MOTIONS: [__rt::Motion; NV] = [#(__rt::Motion::#motions),*];
-        /// Limits of the moving joints; infinite where the spec states none.
-        pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];
-        /// What one call of each method executes.
-        pub const OPERATIONS: [(&str, __rt::Operations); #functions] = [#(#operations),*];
-    }
-}
-
-fn limits(limits: &Limits) -> TokenStream {
-    let bound = |x: Option<f64>, none: TokenStream| match x {
-        Some(x) => {
-            let size = number(x.abs());
-            if x < 0.0 {
-                quote! { -#size }
-            } else {
-                quote! { #size }
-            }
-        }
-        None => none,
-    };
-    let (above, below) = (quote! { f64::INFINITY }, quote! { f64::NEG_INFINITY });
-    let (lower, upper) = (
-        bound(limits.lower, below),
-        bound(limits.upper, above.clone()),
-    );
-    let (velocity, effort) = (
-        bound(limits.velocity, above.clone()),
-        bound(limits.effort, above),
-    );
-    quote! {
-        __rt::Limits { lower: #lower, upper: #upper, velocity: #velocity, effort: #effort }
-    }
-}
-
-fn operations(function: &Function) -> TokenStream {
-    let Operations {
-        mul,
-        add,
-        div,
-        sqrt,
-        sincos,
-        other,
-    } = function.operations();
-    let name = function.name();
-    quote! {
-        (
-            #name,
-            __rt::Operations {
-                mul: #mul, add: #add, div: #div, sqrt: #sqrt, sincos: #sincos, other: #other,
-            },
-        )
-    }
 }
 
 /// The struct: one public field per run-time parameter, otherwise zero-sized.
@@ -304,6 +280,13 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
         ]);
     }
     docs
+}
+
+/// Formatted source text of a module's tokens.
+#[cfg(feature = "source")]
+pub fn source_text(module: TokenStream) -> String {
+    let file = syn::parse2(module).expect("the emitter writes valid Rust");
+    prettyplease::unparse(&file)
 }
 
 /// The trait implementation: every method by delegation.

@@ -15,6 +15,14 @@ pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     (near.0 <= limit && near.0 < length.max(1)).then_some(near.1)
 }
 
+/// No `what` is called `name`: the nearest of `known`, or `all` of them.
+pub(crate) fn unknown_name(what: &str, name: &str, known: &[&str], all: &str) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(near) => format!("no {what} is called `{name}`: did you mean `{near}`?"),
+        None => format!("no {what} is called `{name}`; there are {all}"),
+    }
+}
+
 /// Insertions, deletions, replacements and swaps of neighbours that lead from `a` to `b`.
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());

@@ -29,6 +29,12 @@ pub trait Formulation: Sync {
     fn function(&self, graph: &BondGraph, method: Method) -> Option<Function>;
 }
 
+impl std::fmt::Debug for dyn Formulation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 /// Every formulation there is.
 pub static FORMULATIONS: [&dyn Formulation; 2] = [&literal::Literal, &recursion::Recursion];
 

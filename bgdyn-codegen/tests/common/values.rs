@@ -14,7 +14,7 @@ pub struct Methods {
 
 impl Methods {
     pub fn new(robot: &Robot, formulation: &str) -> Self {
-        let functions = Method::ALL.map(|m| robot.whole(formulation, m));
+        let functions = Method::OF_TRAIT.map(|m| robot.whole(formulation, m));
         Methods {
             functions: functions.into(),
         }

@@ -1,0 +1,215 @@
+//! For build scripts: a spec becomes a file of Rust source, `OUT_DIR/scara.rs`.
+//!
+//! In `Cargo.toml`, with `bgdyn` without its macro, which saves compiling the generator twice:
+//! ```toml
+//! [dependencies]
+//! bgdyn = { version = "0.1", default-features = false }
+//! [build-dependencies]
+//! bgdyn-codegen = { version = "0.1", features = ["source"] }
+//! ```
+//! in `build.rs`:
+//! ```no_run
+//! fn main() -> Result<(), bgdyn_codegen::build_script::Error> {
+//!     bgdyn_codegen::build("specs/scara.yaml")?;
+//!     Ok(())
+//! }
+//! ```
+//! and where the module is wanted:
+//! ```ignore
+//! include!(concat!(env!("OUT_DIR"), "/scara.rs")); // pub mod scara { … }
+//! ```
+//! A change of the spec runs the script again; a mistake in it is shown as the macro shows it.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::emit::{Place, source_text};
+use crate::fault::{Faults, Severity};
+use crate::model::{Options, Refusal, generate, stem};
+use crate::options::formulation_named;
+
+/// Writes the module of a spec to `OUT_DIR`: [`Build`] with nothing asked for in particular.
+///
+/// # Errors
+/// What is wrong with the spec, or with its file.
+pub fn build(spec: impl AsRef<Path>) -> Result<PathBuf, Error> {
+    Build::new(spec).write()
+}
+
+/// A request for the source text of a module.
+#[derive(Clone, Debug)]
+pub struct Build {
+    spec: PathBuf,
+    options: Options,
+    formulation: Option<String>,
+    module: Option<String>,
+    visibility: String,
+    bgdyn: String,
+}
+
+/// The source text of a module.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The module's name.
+    pub module: String,
+    /// The text.
+    pub text: String,
+    /// What a reader of the spec should know though nothing refuses it, one line each.
+    pub warnings: Vec<String>,
+}
+
+/// Why there is no module. Its text is all that a user needs to read; `Debug` shows the same, so
+/// that a build script's `main` may return it.
+pub struct Error(String);
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl Build {
+    /// The module of the spec at this path: absolute, or below the package's directory, which is
+    /// where build scripts run.
+    pub fn new(spec: impl AsRef<Path>) -> Self {
+        Build {
+            spec: spec.as_ref().to_path_buf(),
+            options: Options::default(),
+            formulation: None,
+            module: None,
+            visibility: "pub".into(),
+            bgdyn: "::bgdyn".into(),
+        }
+    }
+
+    /// The methods wanted instead of the usual ones: [`Options::methods`].
+    pub fn methods<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        self.options.methods = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// The links and frames wanted instead of the usual ones: [`Options::frames`].
+    pub fn frames<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        self.options.frames = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// Whether first derivatives of inverse and forward dynamics are wanted.
+    pub fn derivatives(mut self, wanted: bool) -> Self {
+        self.options.derivatives = wanted;
+        self
+    }
+
+    /// One formulation for every method instead of the cheapest of each.
+    pub fn formulation(mut self, name: &str) -> Self {
+        self.formulation = Some(name.into());
+        self
+    }
+
+    /// Another name for the module than the file's stem. The struct keeps the stem's.
+    pub fn module(mut self, name: &str) -> Self {
+        self.module = Some(name.into());
+        self
+    }
+
+    /// The module's visibility instead of `pub`: `pub(crate)`, or nothing.
+    pub fn visibility(mut self, visibility: &str) -> Self {
+        self.visibility = visibility.into();
+        self
+    }
+
+    /// The path by which the including crate reaches bgdyn, where that is not `::bgdyn`.
+    pub fn bgdyn(mut self, path: &str) -> Self {
+        self.bgdyn = path.into();
+        self
+    }
+
+    /// The source text; writes nothing.
+    ///
+    /// # Errors
+    /// What is wrong with the request, the file or the spec.
+    pub fn source(&self) -> Result<Source, Error> {
+        let shown = self.spec.display();
+        let bytes = std::fs::read(&self.spec)
+            .map_err(|e| Error(format!("{shown}: the spec cannot be read: {e}")))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| Error(format!("{shown}: the spec is not UTF-8: convert it first")))?;
+        let stem = stem(&self.spec);
+        let (place, options) = (self.place()?, self.options()?);
+        let (tokens, findings) =
+            generate(&text, &stem, &place, &options).map_err(|r| self.refused(r, &text))?;
+        Ok(Source {
+            module: self.module.clone().unwrap_or(stem),
+            text: source_text(tokens),
+            warnings: self.warnings(&findings),
+        })
+    }
+
+    /// Writes the module to `OUT_DIR`, under its name with the ending `.rs`, and tells cargo when to
+    /// run the build script again. Gives the file's path.
+    ///
+    /// # Errors
+    /// As [`Build::source`]; and where this is no build script, or the file cannot be written.
+    pub fn write(&self) -> Result<PathBuf, Error> {
+        println!("cargo::rerun-if-changed={}", self.spec.display());
+        let folder = std::env::var_os("OUT_DIR")
+            .ok_or_else(|| Error("OUT_DIR is not set: this is for build scripts".into()))?;
+        let source = self.source()?;
+        for warning in &source.warnings {
+            println!("cargo::warning={warning}");
+        }
+        let path = Path::new(&folder).join(source.module + ".rs");
+        std::fs::write(&path, source.text)
+            .map_err(|e| Error(format!("{} cannot be written: {e}", path.display())))?;
+        Ok(path)
+    }
+
+    fn options(&self) -> Result<Options, Error> {
+        let named = self.formulation.as_deref().map(formulation_named);
+        Ok(Options {
+            formulation: named.transpose().map_err(Error)?,
+            ..self.options.clone()
+        })
+    }
+
+    fn place(&self) -> Result<Place, Error> {
+        let name = self.spec.file_name().map(|n| n.to_string_lossy());
+        let place = Place::source_text(name.unwrap_or_default().into_owned());
+        let place = place.with_crate(&self.bgdyn).map_err(Error)?;
+        let place = place.with_visibility(&self.visibility).map_err(Error)?;
+        match &self.module {
+            Some(module) => place.with_module(module).map_err(Error),
+            None => Ok(place),
+        }
+    }
+
+    fn refused(&self, refusal: Refusal, text: &str) -> Error {
+        let shown = self.spec.display().to_string();
+        Error(match refusal {
+            Refusal::Spec(faults) => {
+                format!("{}\n{} faults", faults.render(&shown, text), faults.count())
+            }
+            Refusal::Options(unknown) => {
+                let lines = unknown.iter().map(|u| format!("{shown}: {u}"));
+                lines.collect::<Vec<_>>().join("\n")
+            }
+        })
+    }
+
+    fn warnings(&self, findings: &Faults) -> Vec<String> {
+        let shown = self.spec.display().to_string();
+        let warnings = findings
+            .0
+            .iter()
+            .filter(|f| f.severity == Severity::Warning);
+        warnings.map(|f| f.headline(&shown)).collect()
+    }
+}

@@ -1,0 +1,98 @@
+//! The module's constants: sizes, names, motions, limits; what each method executes.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::{ident, number};
+use crate::expr::Operations;
+use crate::function::Function;
+use crate::mechanism::{CoordinateId, Limits, Motion};
+use crate::model::Model;
+
+/// What stands at the head of the module.
+pub(super) fn constants(model: &Model) -> TokenStream {
+    let mechanism = &model.mechanism;
+    let (nq, nv) = (size(mechanism.nq()), size(mechanism.nv()));
+    let joints = model.bond_graph.coordinates.iter().map(|c| c.name.as_str());
+    let links: Vec<&str> = mechanism.links().iter().map(|l| l.name.as_str()).collect();
+    let count = size(links.len());
+    let motions = model.bond_graph.coordinates.iter().map(|c| match c.motion {
+        Motion::Rotation => ident("Rotation"),
+        _ => ident("Translation"),
+    });
+    let limits = (0..mechanism.nv()).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
+    quote! {
+        /// Number of positions.
+        pub const NQ: usize = #nq;
+        /// Number of velocities.
+        pub const NV: usize = #nv;
+        /// Names of the moving joints, in the order of the coordinates.
+        pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
+        /// Names of the links, parents before children.
+        pub const LINK_NAMES: [&str; #count] = [#(#links),*];
+        /// What each coordinate is: an angle or a displacement.
+        pub const JOINT_MOTIONS: [__rt::Motion; NV] = [#(__rt::Motion::#motions),*];
+        /// Limits of the moving joints; infinite where the spec states none.
+        pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];
+    }
+}
+
+fn limits(limits: &Limits) -> TokenStream {
+    let bound = |x: Option<f64>, none: TokenStream| match x {
+        Some(x) => {
+            let size = number(x.abs());
+            if x < 0.0 {
+                quote! { -#size }
+            } else {
+                quote! { #size }
+            }
+        }
+        None => none,
+    };
+    let (above, below) = (quote! { f64::INFINITY }, quote! { f64::NEG_INFINITY });
+    let (lower, upper) = (
+        bound(limits.lower, below),
+        bound(limits.upper, above.clone()),
+    );
+    let (velocity, effort) = (
+        bound(limits.velocity, above.clone()),
+        bound(limits.effort, above),
+    );
+    quote! {
+        __rt::Limits { lower: #lower, upper: #upper, velocity: #velocity, effort: #effort }
+    }
+}
+
+/// The table of counts.
+pub(super) fn operations<'a>(
+    functions: impl ExactSizeIterator<Item = (&'a str, Operations)>,
+) -> TokenStream {
+    let count = size(functions.len());
+    let entries = functions.map(|(name, operations)| {
+        let Operations {
+            mul,
+            add,
+            div,
+            sqrt,
+            sincos,
+            other,
+        } = operations;
+        let counts = [mul, add, div, sqrt, sincos, other].map(size);
+        quote! { (#name, __rt::Operations::new([#(#counts),*])) }
+    });
+    quote! {
+        /// What one call of each method executes: multiplications, additions, divisions, roots,
+        /// pairs of sine and cosine, others.
+        pub const OPERATIONS: [(&str, __rt::Operations); #count] = [#(#entries),*];
+    }
+}
+
+/// The counts of a model's functions.
+pub(super) fn counted(functions: &[Function]) -> TokenStream {
+    operations(functions.iter().map(|f| (f.name(), f.operations())))
+}
+
+/// A size, as a reader writes it.
+pub(super) fn size(n: usize) -> Literal {
+    Literal::usize_unsuffixed(n)
+}
