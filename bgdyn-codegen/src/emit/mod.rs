@@ -286,7 +286,22 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
 #[cfg(feature = "source")]
 pub fn source_text(module: TokenStream) -> String {
     let file = syn::parse2(module).expect("the emitter writes valid Rust");
-    prettyplease::unparse(&file)
+    let text = prettyplease::unparse(&file);
+    let lines = text.lines().map(|line| match comment(line) {
+        Some(comment) => comment + "\n",
+        None => line.to_string() + "\n",
+    });
+    lines.collect()
+}
+
+/// The comment that this line stands for, if it is the attribute of a statement's title.
+#[cfg(feature = "source")]
+fn comment(line: &str) -> Option<String> {
+    let (margin, attribute) = line.split_at(line.len() - line.trim_start().len());
+    let literal = attribute.strip_prefix("#[doc = ")?.strip_suffix(']')?;
+    let text = syn::parse_str::<syn::LitStr>(literal).ok()?.value();
+    let comment = text.starts_with(writer::COMMENT);
+    comment.then(|| format!("{margin}{text}"))
 }
 
 /// The trait implementation: every method by delegation.
@@ -322,7 +337,7 @@ fn dynamics(model: &Model) -> TokenStream {
                 dv: &__na::SVector<T, NV>,
             ) -> __na::SVector<T, NQ> {
                 let ([[#(#x),*]], [[#(#y),*]]) = (q.data.0, dv.data.0);
-                __na::SVector::<T, NQ>::from_array_storage(__na::ArrayStorage([[#(#x + #y),*]]))
+                __rt::vector([#(#x + #y),*])
             }
             fn difference(
                 &self,
@@ -330,7 +345,7 @@ fn dynamics(model: &Model) -> TokenStream {
                 q0: &__na::SVector<T, NQ>,
             ) -> __na::SVector<T, NV> {
                 let ([[#(#x),*]], [[#(#y),*]]) = (q1.data.0, q0.data.0);
-                __na::SVector::<T, NV>::from_array_storage(__na::ArrayStorage([[#(#x - #y),*]]))
+                __rt::vector([#(#x - #y),*])
             }
         }
     }

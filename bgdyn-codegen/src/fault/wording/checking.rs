@@ -61,6 +61,14 @@ pub(crate) fn no_name(place: &Place) -> Fault {
     .with_help("add `name: my_arm`")
 }
 
+pub(crate) fn taken_name(place: &Place, name: &str) -> Fault {
+    let message = format!(
+        "the mechanism {} would give the struct `T`, the name of its own type parameter",
+        quote(name)
+    );
+    Fault::new(place, "name", message).with_help("write a longer name: `t_arm`")
+}
+
 pub(crate) fn stem_not_identifier(place: &Place, stem: &str) -> Fault {
     let why = if is_keyword(stem) {
         "a keyword of Rust"

@@ -48,6 +48,8 @@ impl Plan {
 pub(super) struct Frame<'g> {
     /// Name of its link.
     pub name: String,
+    /// Name of its joint.
+    pub joint: String,
     /// The body that carries it.
     pub parent: Option<usize>,
     /// Rotation or translation.
@@ -102,6 +104,7 @@ impl<'g> Frames<'g> {
         let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<Frame<'g>> = Vec::new();
         for (j, body) in geometry.bodies.iter().enumerate() {
+            b.section(format!("{}: place and inertia", body.name));
             let (inertia, phase) = aim(b, body, plan.aimed[j], inertias[j]);
             let continues = plan.grouped && body.parallel();
             let (mut terms, start) = match body.parent {
@@ -131,6 +134,7 @@ impl<'g> Frames<'g> {
             };
             bodies.push(Frame {
                 name: body.name.clone(),
+                joint: body.joint.clone(),
                 parent: body.parent,
                 motion: body.motion,
                 continues,

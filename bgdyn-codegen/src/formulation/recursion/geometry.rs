@@ -22,6 +22,8 @@ const FAR: f64 = 4.0;
 pub(super) struct Body {
     /// Name of the link that the joint carries.
     pub name: String,
+    /// Name of the joint.
+    pub joint: String,
     /// The body that carries it; `None` for the fixed base.
     pub parent: Option<usize>,
     /// Rotation or translation.
@@ -111,6 +113,7 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
         placed.push(place);
         made.bodies.push(Body {
             name: frame.name.clone(),
+            joint: graph.coordinates[j.0].name.clone(),
             parent,
             motion: frame.motion,
             opposite: false,

@@ -83,6 +83,10 @@ pub(super) fn efforts<'g>(
     for (j, frame) in frames.bodies.iter().enumerate() {
         let parent = frame.parent.map(|p| &moving[p]);
         let gravity = if active { frames.gravity[j] } else { zero(b) };
+        b.section(format!(
+            "{}: ω, U = [ω̇]× + [ω]×[ω]×, acceleration a of its origin less gravity",
+            frame.name
+        ));
         let step = outwards(b, frame, parent, gravity);
         name(frame, &step);
         moving.push(step);
@@ -333,6 +337,10 @@ fn inwards<'g>(
     let mut efforts = vec![b.zero(); n];
     for j in (0..n).rev() {
         let (frame, motion) = (&frames.bodies[j], &moving[j]);
+        b.section(format!(
+            "{}: F = m a + U h, N = h × a + skew(U D), summed from the tips; effort of `{}`",
+            frame.name, frame.joint
+        ));
         // Turning about z leaves J_zz as it is.
         let j_zz = frame.inertia.d(0, 0) + frame.inertia.d(1, 1);
         if in_basis[j] {
@@ -353,7 +361,7 @@ fn inwards<'g>(
             Motion::Rotation => whole.moment.0[2],
             _ => whole.force.0[2],
         };
-        efforts[j] = along * frame.effort;
+        efforts[j] = (along * frame.effort).named(|| format!("tau_{}", frame.joint));
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {
