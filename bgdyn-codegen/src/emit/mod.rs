@@ -164,6 +164,14 @@ fn module_docs(model: &Model, place: &Place) -> Vec<String> {
         docs.extend(text.lines().map(|line| format!(" {}", line.trim_end())));
     }
     docs.push(String::new());
+    docs.push(" | coordinate | joint | carries | unit |".into());
+    docs.push(" |---|---|---|---|".into());
+    for (j, c) in model.bond_graph.coordinates.iter().enumerate() {
+        let link = &mechanism.links()[c.link.0].name;
+        let unit = c.motion.unit();
+        docs.push(format!(" | {j} | `{}` | `{link}` | {unit} |", c.name));
+    }
+    docs.push(String::new());
     docs.push(" | method | operations | formulation |".into());
     docs.push(" |---|---|---|".into());
     for f in &model.functions {
