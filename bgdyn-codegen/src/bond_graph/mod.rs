@@ -12,7 +12,7 @@ mod pattern;
 use bgdyn_runtime::Dd;
 
 use crate::math::Vec3;
-use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Value};
+use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Tensor, Value};
 
 pub use build::build;
 pub use pattern::Modulus;
@@ -55,8 +55,8 @@ pub enum Junction {
 pub enum Inertia {
     /// Mass m_i, kg.
     Mass(Value),
-    /// Tensor J_i⁰ about the centre of mass in link axes, kg·m²: xx, yy, zz, xy, xz, yz.
-    Tensor([Value; 6]),
+    /// Tensor J_i⁰ about the centre of mass.
+    Tensor(Tensor),
 }
 
 /// An inertial store on a junction.
@@ -176,7 +176,10 @@ impl BondGraph {
         let mut inertial = Inertial {
             mass: zero,
             com: self.frames[i.0].com,
-            inertia: [zero; 6],
+            inertia: Tensor {
+                entries: [zero; 6],
+                axes: Pose::IDENTITY.rotation,
+            },
         };
         for store in at(self.translation(i)).chain(at(self.rotation(i))) {
             match store.inertia {

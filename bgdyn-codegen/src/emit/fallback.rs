@@ -7,7 +7,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{Place, argument_type, ident, rebuild, return_type, struct_ident};
+use super::{Place, argument_type, fields, ident, rebuild, return_type, struct_ident};
 use crate::bond_graph::Site;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
@@ -22,6 +22,11 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
     let rebuild = rebuild(place);
     let doc = format!(" The spec {} was refused: see the error.", place.source);
     let constants = constants(interface);
+    let parameters = interface.parameters.iter();
+    let fields = fields(
+        parameters.clone().map(String::as_str),
+        parameters.map(|_| doc.clone()),
+    );
     let sites = sites(interface);
     let methods = Method::possible(&sites).into_iter();
     let methods = methods.map(|m| method(m, &sites, interface.certain, true));
@@ -37,12 +42,10 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
             #constants
             #[doc = #doc]
             #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct #model<T = f64> {
-                scalar: ::core::marker::PhantomData<T>,
-            }
+            pub struct #model<T = f64> { #fields }
             impl<T: __Scalar> ::core::default::Default for #model<T> {
                 fn default() -> Self {
-                    Self { scalar: ::core::marker::PhantomData }
+                    ::core::unreachable!()
                 }
             }
             impl<T: __Scalar> #model<T> {

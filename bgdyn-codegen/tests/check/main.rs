@@ -44,6 +44,7 @@ fn tensor(text: &str) -> [Dd; 6] {
     mechanism.links()[0]
         .inertial
         .inertia
+        .entries
         .map(|value| match value {
             Value::Fixed(number) => number,
             Value::Parameter(_) => panic!("no parameter was written"),
