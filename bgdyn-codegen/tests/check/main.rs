@@ -1,6 +1,7 @@
 //! The check: what a sound spec becomes, and which rule a slip breaks.
 
 mod directions;
+mod parameters;
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::math::{Mat3, Vec3};

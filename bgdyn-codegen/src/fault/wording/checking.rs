@@ -88,6 +88,14 @@ pub(crate) fn name_differs_from_file(place: &Place, name: &str, stem: &str) -> F
 
 // Run-time parameters
 
+pub(crate) fn parameter_not_identifier(place: &Place, name: &str) -> Fault {
+    let fault = not_identifier(place, name);
+    match to_identifier(name) {
+        Some(better) => fault.with_help(format!("call it {}", quote(&better))),
+        None => fault,
+    }
+}
+
 pub(crate) fn parameter_is_method(place: &Place, name: &str) -> Fault {
     let message = format!("{} is a method of the generated struct", quote(name));
     Fault::new(place, "reserved-name", message)

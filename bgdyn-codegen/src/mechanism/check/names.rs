@@ -35,7 +35,7 @@ fn differs(name: &Located<String>, stem: &str) -> Option<Fault> {
     (name.value != stem).then(|| wording::name_differs_from_file(&name.place, &name.value, stem))
 }
 
-pub(super) fn not_identifier(name: &Located<String>) -> Option<Fault> {
+fn not_identifier(name: &Located<String>) -> Option<Fault> {
     (!is_identifier(&name.value)).then(|| wording::not_identifier(&name.place, &name.value))
 }
 

@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::names::not_identifier;
 use crate::fault::{Faults, Place, wording};
+use crate::mechanism::name::is_identifier;
 use crate::mechanism::{Parameter, ParameterId, Value};
 use crate::method::Method;
 use crate::spec::{Dimension, Located, Number};
@@ -40,7 +40,9 @@ impl Parameters {
             self.found[p].meet_again(number, dimension, meaning(), faults);
             return Value::Parameter(ParameterId(p));
         }
-        faults.0.extend(not_identifier(name));
+        if !is_identifier(&name.value) {
+            faults.push(wording::parameter_not_identifier(&name.place, &name.value));
+        }
         if is_method(&name.value) {
             faults.push(wording::parameter_is_method(&name.place, &name.value));
         }
