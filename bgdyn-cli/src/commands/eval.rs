@@ -18,7 +18,7 @@ use crate::usage::Usage;
 /// Evaluate a method at the states of a file, without a compiler
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n  bgdyn eval arm.yaml gravity --states states.json --parameter payload=2.5\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}"
+    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n  bgdyn eval arm.yaml gravity --states states.json --parameter payload=2.5\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}"
 )]
 pub(crate) struct Eval {
     /// The spec

@@ -11,7 +11,7 @@ mod pattern;
 
 use bgdyn_runtime::Dd;
 
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Tensor, Value};
 
 pub use build::build;
@@ -55,8 +55,9 @@ pub enum Junction {
 pub enum Inertia {
     /// Mass m_i, kg.
     Mass(Value),
-    /// Tensor J_i⁰ about the centre of mass.
-    Tensor(Tensor),
+    /// Tensor J_i⁰ about the centre of mass in [`LinkFrame::tensor_axes`], kg·m²: xx, yy, zz, xy,
+    /// xz, yz.
+    Tensor([Value; 6]),
 }
 
 /// An inertial store on a junction.
@@ -117,6 +118,8 @@ pub struct LinkFrame {
     pub coordinate: Option<CoordinateId>,
     /// Centre of mass in link axes, m.
     pub com: Vec3<Value>,
+    /// Columns: axes of the inertia tensor's entries in the link's.
+    pub tensor_axes: Mat3<Dd>,
 }
 
 /// A generalized coordinate.
@@ -178,13 +181,13 @@ impl BondGraph {
             com: self.frames[i.0].com,
             inertia: Tensor {
                 entries: [zero; 6],
-                axes: Pose::IDENTITY.rotation,
+                axes: self.frames[i.0].tensor_axes,
             },
         };
         for store in at(self.translation(i)).chain(at(self.rotation(i))) {
             match store.inertia {
                 Inertia::Mass(mass) => inertial.mass = mass,
-                Inertia::Tensor(tensor) => inertial.inertia = tensor,
+                Inertia::Tensor(entries) => inertial.inertia.entries = entries,
             }
         }
         inertial
