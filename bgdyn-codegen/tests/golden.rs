@@ -86,6 +86,7 @@ fn check(name: &str, robot: &Robot, formulation: &str, values: &Value) {
                 v: given("v"),
                 a: given("a"),
                 tau: given("tau_in"),
+                parameters: vec![],
             };
             let value = s.value::<f64>(&function);
             let vector = match method {

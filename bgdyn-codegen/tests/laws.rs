@@ -12,6 +12,7 @@ mod common;
 
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
+use common::parameters::{parametrised, values};
 use common::random::Draft;
 use common::rng::Rng;
 use common::values::{Direction, Methods, dot};
@@ -37,12 +38,16 @@ struct Case {
 }
 
 impl Case {
-    fn new(seed: u64, most: usize) -> Self {
+    fn new(seed: u64, most: usize, parameters: bool) -> Self {
         let mut rng = Rng::new(seed);
-        let draft = Draft::random(&mut rng, most);
+        let mut draft = Draft::random(&mut rng, most);
+        if parameters {
+            draft = parametrised(&draft, &mut rng);
+        }
         let text = draft.yaml();
         let robot = Robot::read(&text, None);
-        let state = State::random(&mut rng, &robot.motions());
+        let mut state = State::random(&mut rng, &robot.motions());
+        state.parameters = values(&robot.mechanism, &mut rng);
         Case {
             what: format!("seed {seed}\n{text}{state:?}"),
             literal: Methods::new(&robot, "literal"),
@@ -277,6 +282,7 @@ impl Case {
             v: reordered(&s.v),
             a: reordered(&s.a),
             tau: reordered(&s.tau),
+            parameters: of_names(&other, |name| s.parameters[place_of(&self.robot, name)]),
         };
         let own: Vec<Dd> = self.recursion.value(Method::InverseDynamics, s);
         let own: Vec<Dd> = order.iter().map(|&k| own[k]).collect();
@@ -289,6 +295,18 @@ impl Case {
             self.place("another order"),
         );
     }
+}
+
+/// Place of the run-time parameter of this name.
+fn place_of(robot: &Robot, name: &str) -> usize {
+    let mut names = robot.mechanism.parameters().iter().map(|p| p.name.as_str());
+    names.position(|n| n == name).expect("the same parameters")
+}
+
+/// A number for each run-time parameter, by its name.
+fn of_names(robot: &Robot, number: impl Fn(&str) -> f64) -> Vec<f64> {
+    let parameters = robot.mechanism.parameters().iter();
+    parameters.map(|p| number(&p.name)).collect()
 }
 
 /// The least pivot of M = LᵀDL in double-double, beside the diagonal entry it came from.
@@ -312,10 +330,10 @@ fn least_pivot(mut mass: Vec<Vec<Dd>>) -> f64 {
 }
 
 /// All laws on a range of seeds; gives how many mass matrices were regular.
-fn check(seeds: std::ops::Range<u64>, most: usize) -> usize {
+fn check(seeds: std::ops::Range<u64>, most: usize, parameters: bool) -> usize {
     let (mut regular, mut worst) = (0, 0.0_f64);
     for seed in seeds.clone() {
-        let case = Case::new(seed, most);
+        let case = Case::new(seed, most, parameters);
         case.formulations_agree();
         case.mass_matrix();
         case.energy();
@@ -333,12 +351,18 @@ fn check(seeds: std::ops::Range<u64>, most: usize) -> usize {
 
 #[test]
 fn small_mechanisms() {
-    assert!(check(0..150, 3) > 75);
+    assert!(check(0..150, 3, false) > 75);
 }
 
 #[test]
 fn larger_mechanisms() {
-    assert!(check(1000..1060, 7) > 20);
+    assert!(check(1000..1060, 7, false) > 20);
+}
+
+#[test]
+fn with_run_time_parameters() {
+    assert!(check(2000..2060, 3, true) > 30);
+    assert!(check(3000..3016, 7, true) > 4);
 }
 
 #[test]
@@ -347,8 +371,11 @@ fn ten_thousand_mechanisms() {
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get() as u64);
     let share = 10_000_u64.div_ceil(threads);
     let regular: usize = std::thread::scope(|scope| {
-        let run =
-            |t: u64| scope.spawn(move || check(10_000 + t * share..10_000 + (t + 1) * share, 7));
+        let run = |t: u64| {
+            let (from, to) = (10_000 + t * share, 10_000 + (t + 1) * share);
+            let half = (from + to) / 2;
+            scope.spawn(move || check(from..half, 7, false) + check(half..to, 7, true))
+        };
         let runs: Vec<_> = (0..threads).map(run).collect();
         runs.into_iter()
             .map(|run| run.join().expect("a law is broken"))

@@ -238,6 +238,7 @@ fn derivatives_equal_golden_values() {
                 v: vector("v"),
                 a: vector("a"),
                 tau: vector("tau_in"),
+                parameters: vec![],
             };
             let found: Vec<f64> = given.value(&inverse);
             let solved: Vec<f64> = given.value(&forward);

@@ -110,6 +110,7 @@ fn massless_middle_of_a_gimbal() {
                 v: vec![0.0, 0.0],
                 a: vec![0.0, 0.0],
                 tau: vec![1.0, 1.0],
+                parameters: vec![],
             };
             let found: Vec<f64> = s.value(&f);
             let exact: Vec<Dd> = s.value(&f);
@@ -154,6 +155,7 @@ fn tiny_inertia_between_two_joints() {
             v: vec![0.0; 2],
             a: vec![0.0; 2],
             tau: vec![1.5, 1.0],
+            parameters: vec![],
         };
         for formulation in FORMULATIONS {
             let f = robot.function(formulation, Method::ForwardDynamics);

@@ -20,7 +20,7 @@ fn note(f: impl FnOnce(&mut Operations)) {
 
 /// An f64 that counts its operations. Negation and constants are free.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Counted(f64);
+pub(crate) struct Counted(pub(crate) f64);
 
 impl Add for Counted {
     type Output = Self;
@@ -141,7 +141,7 @@ impl Scalar for Counted {
 }
 
 /// What running `f` executes.
-fn executed<R>(f: impl FnOnce() -> R) -> Operations {
+pub(crate) fn executed<R>(f: impl FnOnce() -> R) -> Operations {
     COUNT.set(Operations::default());
     let _ = std::hint::black_box(f());
     COUNT.get()

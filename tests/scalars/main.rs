@@ -4,4 +4,5 @@ mod double_double;
 mod duals;
 mod lanes;
 mod models;
+mod parameters;
 mod rounded;

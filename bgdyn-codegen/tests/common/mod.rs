@@ -5,6 +5,7 @@
 
 pub mod golden;
 pub mod kinematics;
+pub mod parameters;
 pub mod random;
 pub mod rng;
 pub mod values;
@@ -75,13 +76,14 @@ impl Robot {
     }
 }
 
-/// Positions, velocities, accelerations, efforts.
+/// Positions, velocities, accelerations, efforts, and what the run-time parameters are set to.
 #[derive(Clone, Debug)]
 pub struct State {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub a: Vec<f64>,
     pub tau: Vec<f64>,
+    pub parameters: Vec<f64>,
 }
 
 impl State {
@@ -100,6 +102,7 @@ impl State {
             v: motions.iter().map(|_| some(2.0)).collect(),
             a: motions.iter().map(|_| some(3.0)).collect(),
             tau: motions.iter().map(|_| some(20.0)).collect(),
+            parameters: vec![],
         }
     }
 
@@ -113,7 +116,7 @@ impl State {
             u: all(&self.tau),
             x: vec![],
             modes: vec![],
-            parameters: vec![],
+            parameters: all(&self.parameters),
             passed: vec![],
         }
     }
@@ -164,11 +167,11 @@ pub fn assert_close<T: Into<Dd> + Copy>(
     }
 }
 
-/// A number of the spec.
-pub fn fixed(value: Value) -> f64 {
+/// A number of the spec, or what its run-time parameter is set to.
+pub fn fixed(value: Value, parameters: &[f64]) -> f64 {
     match value {
         Value::Fixed(x) => x.to_f64(),
-        Value::Parameter(_) => panic!("the tests' mechanisms have no run-time parameters"),
+        Value::Parameter(p) => parameters[p.0],
     }
 }
 
@@ -183,6 +186,7 @@ pub fn natural_effort(robot: &Robot, s: &State) -> f64 {
 /// (Σ m_i |g| L, W) of [`natural_effort`].
 pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
     let links = robot.mechanism.links();
+    let fixed = |x| fixed(x, &s.parameters);
     let mut length = 1.0;
     for link in links {
         if link.parent.is_some() {
@@ -198,7 +202,7 @@ pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
         }
     }
     let mass: f64 = links.iter().map(|l| fixed(l.inertial.mass)).sum();
-    let tensors = links.iter().flat_map(|l| l.inertial.inertia);
+    let tensors = links.iter().flat_map(|l| l.inertial.inertia.entries);
     let inertia = mass * length * length + tensors.map(|x| fixed(x).abs()).sum::<f64>();
     let g = robot.mechanism.gravity().0;
     let gravity: f64 = g.iter().map(|x| x.to_f64().abs()).sum();

@@ -8,7 +8,7 @@
 use bgdyn_runtime::Dd;
 
 use super::frames::{Frame, Frames};
-use super::inertia::{Inertia, turn, turn_back};
+use super::inertia::{Inertia, Point, turn, turn_back};
 use crate::expr::{Builder, Ex};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -318,6 +318,15 @@ fn dynamics<'g>(
     }
 }
 
+/// F = m (a + U s) and N = s × F of a point mass.
+fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Ex<'g>>) -> Wrench<'g> {
+    let force = (a + spin.u * point.place).scale(point.mass);
+    Wrench {
+        force,
+        moment: point.place.cross(force),
+    }
+}
+
 /// Forces and moments summed from the tips, and the joints' share of them.
 fn inwards<'g>(
     b: &'g Builder,
@@ -342,19 +351,25 @@ fn inwards<'g>(
             frame.name, frame.joint
         ));
         // Turning about z leaves J_zz as it is.
-        let j_zz = frame.inertia.d(0, 0) + frame.inertia.d(1, 1);
+        let rest = &frame.rest;
+        let j_zz = rest.d(0, 0) + rest.d(1, 1);
         if in_basis[j] {
-            let round = frame.inertia.round();
-            let inertia = if round {
-                frame.inertia
+            let inertia = if rest.round() {
+                *rest
             } else {
-                frame.inertia.turned(frame.turn)
+                rest.turned(frame.turn)
             };
-            let wrench = dynamics(&inertia, j_zz, &motion.in_basis, motion.a_basis, short);
-            basis[j] = wrench.plus(basis[j]);
+            let (spin, a) = (&motion.in_basis, motion.a_basis);
+            basis[j] = dynamics(&inertia, j_zz, spin, a, short).plus(basis[j]);
+            for point in &frame.points {
+                basis[j] = dynamics_of_point(&point.turned(frame.turn), spin, a).plus(basis[j]);
+            }
         } else {
-            let wrench = dynamics(&frame.inertia, j_zz, &motion.own, motion.a_own, short);
-            own[j] = wrench.plus(own[j]);
+            let (spin, a) = (&motion.own, motion.a_own);
+            own[j] = dynamics(rest, j_zz, spin, a, short).plus(own[j]);
+            for point in &frame.points {
+                own[j] = dynamics_of_point(point, spin, a).plus(own[j]);
+            }
         }
         let whole = basis[j].plus(own[j].map(|v| turn(v, frame.turn)));
         let along = match frame.motion {

@@ -4,6 +4,7 @@
 //! Its free choices are a [`Plan`]; the plan is searched for by counting, in a bounded number of
 //! steps, method by method.
 
+mod base;
 mod frames;
 mod geometry;
 mod inertia;
