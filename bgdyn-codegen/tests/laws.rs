@@ -15,7 +15,9 @@ use bgdyn_runtime::Dd;
 use common::random::Draft;
 use common::rng::Rng;
 use common::values::{Direction, Methods, dot};
-use common::{Robot, State, assert_close, full, natural_effort, natural_inertia, sum_abs};
+use common::{
+    Robot, State, assert_close, full, natural_effort, natural_inertia, natural_size, sum_abs,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// Of double-double results, relative to their natural size.
@@ -62,20 +64,12 @@ impl Case {
 
     /// How far every centre of mass may be from the world's origin, m.
     fn reach(&self) -> f64 {
-        let links = self.robot.mechanism.links().iter();
-        let steps = links.flat_map(|l| l.joint.origin.translation.0);
-        1.0 + steps.map(|x| x.to_f64().abs()).sum::<f64>()
+        common::reach(&self.robot, &self.state)
     }
 
     /// Natural size of a method's result.
     fn size(&self, method: Method) -> f64 {
-        let speed = sum_abs(&self.state.v);
-        match method {
-            Method::MassMatrix => self.inertia,
-            Method::KineticEnergy => self.inertia * speed * speed,
-            Method::PotentialEnergy => self.effort * self.reach(),
-            _ => self.effort,
-        }
+        natural_size(&self.robot, &self.state, method)
     }
 
     /// recursion = literal, for every method but the solved one.

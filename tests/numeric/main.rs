@@ -2,6 +2,7 @@
 //!
 //! The models are what `bgdyn!` makes of the imported specs in `tests/golden/specs`.
 
+mod counted;
 mod counting;
 mod golden;
 mod golden_values;

@@ -4,4 +4,3 @@ mod double_double;
 mod duals;
 mod lanes;
 mod models;
-mod rounded;
