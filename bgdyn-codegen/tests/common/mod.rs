@@ -5,6 +5,7 @@
 
 pub mod golden;
 pub mod kinematics;
+pub mod laws;
 pub mod random;
 pub mod rng;
 pub mod values;
