@@ -3,6 +3,7 @@
 //! The models are what `bgdyn!` makes of the imported specs in `tests/golden/specs`, and of two in
 //! `specs` with and without run-time parameters.
 
+mod counted;
 mod counting;
 mod golden;
 mod golden_values;

@@ -6,7 +6,8 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 
-use crate::counting::{Counted, counts_equal, executed};
+use crate::counted::{Counted, executed};
+use crate::counting::counts_equal;
 use crate::golden_values::equals_golden;
 use crate::laws::Random;
 

@@ -5,4 +5,3 @@ mod duals;
 mod lanes;
 mod models;
 mod parameters;
-mod rounded;

@@ -5,6 +5,7 @@
 
 pub mod golden;
 pub mod kinematics;
+pub mod laws;
 pub mod parameters;
 pub mod random;
 pub mod rng;
@@ -207,4 +208,37 @@ pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
     let g = robot.mechanism.gravity().0;
     let gravity: f64 = g.iter().map(|x| x.to_f64().abs()).sum();
     (mass * gravity * length, inertia)
+}
+
+/// A size that no single term of the method's result exceeds in this state.
+pub fn natural_size(robot: &Robot, s: &State, method: Method) -> f64 {
+    let speed = sum_abs(&s.v);
+    let (_, inertia) = natural_inertia(robot, s);
+    match method {
+        Method::MassMatrix => inertia,
+        Method::KineticEnergy => inertia * speed * speed,
+        Method::PotentialEnergy => natural_effort(robot, s) * reach(robot, s),
+        Method::CoriolisMatrix => inertia * speed,
+        Method::Pose(_) | Method::Jacobian(_) => reach(robot, s),
+        Method::Velocity(_) => reach(robot, s) * speed,
+        Method::JacobianDotV(_) => reach(robot, s) * speed * speed,
+        _ => natural_effort(robot, s),
+    }
+}
+
+/// How far any centre of mass and any frame may be from the world's origin, m; at least 1.
+pub fn reach(robot: &Robot, s: &State) -> f64 {
+    let links = robot.mechanism.links().iter();
+    let coms = links.clone().flat_map(|l| l.inertial.com.0);
+    let coms = coms.map(|x| fixed(x, &s.parameters));
+    let frames = robot.mechanism.frames().iter();
+    let steps = links
+        .map(|l| l.joint.origin)
+        .chain(frames.map(|f| f.origin))
+        .flat_map(|origin| origin.translation.0)
+        .map(Dd::to_f64);
+    let slides = s.q.iter().zip(robot.motions());
+    let slides = slides.filter(|(_, m)| *m == Motion::Translation);
+    let all = coms.chain(steps).chain(slides.map(|(q, _)| *q));
+    1.0 + all.map(f64::abs).sum::<f64>()
 }
