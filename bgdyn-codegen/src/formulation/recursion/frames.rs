@@ -25,6 +25,8 @@ pub(super) struct Plan {
     pub in_basis: Vec<bool>,
     /// Bodies at the tips whose x axis points at their centre of mass.
     pub aimed: Vec<bool>,
+    /// Whether inertia is regrouped into base parameters; otherwise every body keeps its own.
+    pub base_parameters: bool,
     /// N_z = J_zz ω̇_z + (D_xx − D_yy) ω_x ω_y + … instead of the skew part of U·D.
     pub short_moment: bool,
 }
@@ -39,6 +41,7 @@ impl Plan {
             grouped,
             in_basis: vec![false; n],
             aimed: vec![false; n],
+            base_parameters: true,
             short_moment: false,
         }
     }
@@ -98,7 +101,9 @@ impl<'g> Frames<'g> {
             .map(|(body, &slide)| inertia(b, graph, body, slide))
             .collect();
         let mut energy = constant_energy(b, graph, geometry, &inertias, plan);
-        regroup(b, graph, geometry, plan, &mut inertias, &mut energy);
+        if plan.base_parameters {
+            regroup(b, graph, geometry, plan, &mut inertias, &mut energy);
+        }
         let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<Frame<'g>> = Vec::new();
         for (j, body) in geometry.bodies.iter().enumerate() {
