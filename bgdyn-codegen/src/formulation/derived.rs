@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Formulation, choose};
+use super::{Formulation, candidates, choose};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::function::Function;
@@ -32,7 +32,13 @@ pub(super) fn function(
             outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
             Some(finish(graph, method, &inverse, b, outputs))
         }
-        Method::ForwardDynamicsDerivatives => forward_derivatives(graph, method, asked),
+        Method::ForwardDynamicsDerivatives => {
+            let inverse = choose(graph, Method::InverseDynamics, asked)?;
+            candidates(graph, Method::ForwardDynamics, asked)
+                .iter()
+                .map(|forward| forward_derivatives(graph, method, &inverse, forward))
+                .min_by_key(|f| f.operations().total())
+        }
         _ => None,
     }
 }
@@ -44,12 +50,11 @@ pub(super) fn function(
 fn forward_derivatives(
     graph: &BondGraph,
     method: Method,
-    asked: Option<&dyn Formulation>,
-) -> Option<Function> {
+    inverse: &Function,
+    forward: &Function,
+) -> Function {
     let n = graph.coordinates.len();
-    let inverse = choose(graph, Method::InverseDynamics, asked)?;
-    let forward = choose(graph, Method::ForwardDynamics, asked)?;
-    let (b, tau) = reopened(&inverse);
+    let (b, tau) = reopened(inverse);
     let mut slopes = derivatives(&b, &tau, n, Leaf::Position);
     slopes.extend(derivatives(&b, &tau, n, Leaf::Velocity));
     let results = &forward.blocks[0].outputs;
@@ -79,7 +84,7 @@ fn forward_derivatives(
         outputs.extend(rows(square));
     }
     debug_assert_eq!(outputs.len(), Shape::CheckedSquares.len(n));
-    Some(finish(graph, method, &forward, b, outputs))
+    finish(graph, method, forward, b, outputs)
 }
 
 /// A function's graph, open for more, and its results.

@@ -59,12 +59,20 @@ pub fn choose(
     if let Some(derived) = derived::function(graph, method, asked) {
         return Some(derived);
     }
+    candidates(graph, method, asked).into_iter().next()
+}
+
+/// The ways to a method that is not derived from another, the cheapest first.
+fn candidates(graph: &BondGraph, method: Method, asked: Option<&dyn Formulation>) -> Vec<Function> {
     if let Some(function) = asked.and_then(|f| f.function(graph, method)) {
-        return Some(function);
+        return vec![function];
     }
     match method {
         Method::ForwardDynamics => recursion::forward_dynamics(graph),
-        _ => recursion::Recursion.function(graph, method),
+        _ => recursion::Recursion
+            .function(graph, method)
+            .into_iter()
+            .collect(),
     }
 }
 

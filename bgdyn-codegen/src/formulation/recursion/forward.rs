@@ -19,38 +19,35 @@ use crate::method::Method;
 
 const METHOD: Method = Method::ForwardDynamics;
 
-/// The forward dynamics: the cheapest of those that keep their digits.
-pub(in crate::formulation) fn forward_dynamics(graph: &BondGraph) -> Option<Function> {
+/// The ways to forward dynamics that keep their digits and are worth a look, the cheapest first.
+pub(in crate::formulation) fn forward_dynamics(graph: &BondGraph) -> Vec<Function> {
     let geometry = geometry(graph);
     let shares = own_shares(graph, &geometry);
-    if let Some(j) = (0..shares.len()).find(|&j| shares[j] < FAIR) {
-        let function = Articulated::Own.function(graph, METHOD)?;
-        let joint = &geometry.bodies[j].name;
-        let reason = format!("{joint} has next to no inertia of its own");
-        let formulation = format!("{}; {reason}", function.formulation);
-        return Some(Function {
-            formulation,
-            ..function
-        });
+    let bodies = |way: Articulated| way.function(graph, METHOD).into_iter().collect::<Vec<_>>();
+    if let Some(j) = shares.iter().position(|&share| share < FAIR) {
+        let mut found = bodies(Articulated::Own);
+        for function in &mut found {
+            let link = &geometry.bodies[j].name;
+            function.formulation += &format!("; {link} has next to no inertia of its own");
+        }
+        return found;
     }
-    let bodies = || Articulated::Base.function(graph, METHOD);
     if geometry.bodies.len() > SEARCHED {
-        let bodies = bodies()?;
-        if elimination(&geometry.parents()) > bodies.operations().total() {
-            return Some(bodies);
+        let found = bodies(Articulated::Base);
+        let least = elimination(&geometry.parents());
+        if found.iter().any(|f| f.operations().total() < least) {
+            return found;
         }
     }
     // The plan that suits one suits the other but for a few operations: it tells whether a search
     // for the other's own is worth its time.
     let plan = cheapest_plan(graph, &geometry, METHOD);
-    let factors = with_plan(graph, &geometry, METHOD, &plan);
-    let most = factors.operations().total();
-    if Articulated::Base.cost(graph, &geometry, &plan) > most {
-        return Some(factors);
+    let mut found = vec![with_plan(graph, &geometry, METHOD, &plan)];
+    if Articulated::Base.cost(graph, &geometry, &plan) < found[0].operations().total() {
+        found.extend(bodies(Articulated::Base));
+        found.sort_by_key(|f| f.operations().total());
     }
-    let bodies = bodies()?;
-    let less = bodies.operations().total() < most;
-    Some(if less { bodies } else { factors })
+    found
 }
 
 /// Operations that the elimination of M takes alone: each joint's row is taken from those of the
