@@ -3,14 +3,28 @@
 
 mod common;
 
+use std::fmt::Write;
+
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::{Dd, Scalar};
+use common::hard::{cases, list};
 use common::random::Draft;
 use common::rng::Rng;
 use common::{Robot, State};
+use serde_json::Value;
 
-/// The literal sum is the reference in double-double; its digits in `f64` are nobody's promise.
-const FORMULATIONS: [&str; 1] = ["recursion"];
+/// What is generated when nothing is asked for, and the ways there are for it. The literal sum is
+/// the reference in double-double; its digits in `f64` are nobody's promise.
+const FORMULATIONS: [&str; 4] = [CHOSEN, "recursion", "articulated", "articulated_base"];
+const CHOSEN: &str = "";
+
+fn forward(robot: &Robot, formulation: &str) -> Function {
+    match formulation {
+        CHOSEN => robot.chosen(Method::ForwardDynamics),
+        name => robot.whole(name, Method::ForwardDynamics),
+    }
+}
 
 fn robot(links: &str) -> Robot {
     Robot::read(&format!("format: 1\nname: singular\nlinks:\n{links}"), None)
@@ -19,10 +33,9 @@ fn robot(links: &str) -> Robot {
 /// Name of the joint that is refused.
 fn refused<T: Scalar<Refused = Option<usize>>>(
     robot: &Robot,
-    formulation: &str,
+    f: &Function,
     s: &State,
 ) -> Option<String> {
-    let f = robot.function(formulation, Method::ForwardDynamics);
     let (_, refused) = f.evaluate(s.inputs::<T>());
     refused.map(|j| robot.joints()[j].clone())
 }
@@ -31,12 +44,13 @@ fn always_refuses(links: &str, joint: &str) {
     let robot = robot(links);
     let mut rng = Rng::new(7);
     for formulation in FORMULATIONS {
+        let f = forward(&robot, formulation);
         for _ in 0..40 {
             let s = State::random(&mut rng, &robot.motions());
             let place = || format!("{formulation}\n{links}{s:?}");
-            let rough = refused::<f64>(&robot, formulation, &s);
+            let rough = refused::<f64>(&robot, &f, &s);
             assert_eq!(rough.as_deref(), Some(joint), "f64, {}", place());
-            let fine = refused::<Dd>(&robot, formulation, &s);
+            let fine = refused::<Dd>(&robot, &f, &s);
             assert_eq!(fine.as_deref(), Some(joint), "double-double, {}", place());
         }
     }
@@ -103,7 +117,7 @@ fn massless_middle_of_a_gimbal() {
 ",
     );
     for formulation in FORMULATIONS {
-        let f = robot.function(formulation, Method::ForwardDynamics);
+        let f = forward(&robot, formulation);
         for angle in [0.0, 1e-8, 0.3, 1.5] {
             let s = State {
                 q: vec![0.25, angle],
@@ -156,7 +170,7 @@ fn tiny_inertia_between_two_joints() {
             tau: vec![1.5, 1.0],
         };
         for formulation in FORMULATIONS {
-            let f = robot.function(formulation, Method::ForwardDynamics);
+            let f = forward(&robot, formulation);
             let found: Vec<f64> = s.value(&f);
             // M = [[1 + ε, 1], [1, 1]]: q̈₁ = 0.5 / ε, q̈₂ = 1 − q̈₁
             let expected = [0.5 / tiny, 1.0 - 0.5 / tiny];
@@ -192,7 +206,7 @@ fn two_joints_on_one_axis_of_random_mechanisms() {
         link.joint.xyz = front.joint.axis.map(|x| x * step);
         draft.links.insert(k, front);
         let robot = Robot::read(&draft.yaml(), None);
-        let function = robot.function("recursion", Method::ForwardDynamics);
+        let function = forward(&robot, CHOSEN);
         for _ in 0..5 {
             let s = State::random(&mut rng, &robot.motions());
             let (found, refused) = function.evaluate(s.inputs::<f64>());
@@ -204,4 +218,228 @@ fn two_joints_on_one_axis_of_random_mechanisms() {
     }
     assert!(tried > 4000);
     assert!(passed.is_empty(), "{} of {tried}: {passed:?}", passed.len());
+}
+
+/// The links of a hard case; joints have the names of their links.
+fn links_of(bodies: &[Value]) -> String {
+    let mut text = String::new();
+    for body in bodies {
+        let word = |key: &str| body[key].as_str().expect("a word").to_owned();
+        let numbers = |key: &str| list(&body[key]);
+        writeln!(text, "  - name: {}", word("name")).unwrap();
+        if word("parent") != "world" {
+            writeln!(text, "    parent: {}", word("parent")).unwrap();
+        }
+        let (name, joint) = (word("name"), word("joint"));
+        let (axis, origin) = (numbers("axis"), numbers("origin_in_parent"));
+        writeln!(
+            text,
+            "    joint: {{ name: {name}, type: {joint}, axis: {axis:?}, origin: {{ xyz: {origin:?} }} }}"
+        )
+        .unwrap();
+        let (mass, com) = (&body["mass"], numbers("com"));
+        writeln!(text, "    mass: {mass}\n    com: {com:?}").unwrap();
+        let moments = numbers("inertia_com");
+        let names = ["xx", "yy", "zz", "xy", "xz", "yz"].iter().zip(moments);
+        // A moment about one axis alone is no body's.
+        let terms: Vec<String> = names.map(|(name, x)| format!("{name}: {x:.110}")).collect();
+        writeln!(text, "    nonphysical: allow").unwrap();
+        writeln!(text, "    inertia: {{ {} }}", terms.join(", ")).unwrap();
+    }
+    text
+}
+
+fn solves(what: &str, robot: &Robot, case: &Value) {
+    let zero = || vec![0.0; robot.nv()];
+    let given = |key: &str| case.get(key).map_or_else(zero, list);
+    let s = State {
+        q: given("q"),
+        v: given("qd"),
+        a: zero(),
+        tau: given("tau"),
+    };
+    let found: Vec<f64> = s.value(&forward(robot, CHOSEN));
+    for (x, expected) in found.iter().zip(list(&case["qdd"])) {
+        let bar = 16.0 * f64::EPSILON * expected.abs();
+        assert!((x - expected).abs() <= bar, "{what}: {found:?}");
+    }
+}
+
+/// Exact answers: which joint is to be named, or the accelerations.
+#[test]
+fn exact_answers() {
+    let mut kinds = [0; 3];
+    for case in cases("singular_mass_matrix") {
+        let id = case["id"].as_str().expect("a name");
+        let expected = case["expect_forward"].as_str().expect("an expectation");
+        if let Some(items) = case["items"].as_array() {
+            for item in items {
+                let text: String = [("a", "mA"), ("b", "mB")]
+                    .map(|(name, mass)| {
+                        let parent = if name == "b" { "    parent: a\n" } else { "" };
+                        let mass = item[mass].as_f64().expect("a mass");
+                        format!("  - name: {name}\n{parent}    joint: {{ name: {name}, type: prismatic, axis: x }}\n    mass: {mass:.110}\n")
+                    })
+                    .concat();
+                solves(id, &robot(&text), item);
+                kinds[0] += 1;
+            }
+            continue;
+        }
+        let links = links_of(case["bodies"].as_array().expect("bodies"));
+        match expected.strip_prefix("error naming joint ") {
+            Some(rest) => {
+                always_refuses(&links, rest.split(' ').next().expect("a joint"));
+                kinds[1] += 1;
+            }
+            None => {
+                solves(id, &robot(&format!("{links}gravity: [0, 0, 0]\n")), &case);
+                kinds[2] += 1;
+            }
+        }
+    }
+    assert_eq!(kinds, [4, 4, 6]);
+}
+
+/// Joints on massless links in a row, and a body.
+struct Row {
+    axes: &'static [&'static str],
+    step: &'static str,
+    body: &'static str,
+    /// How many of the joints the body's inertia reaches.
+    rank: usize,
+}
+
+const HERE: &str = "[0, 0, 0]";
+const STEP: &str = "[0.3, 0.1, 0.2]";
+const POINT: &str = "mass: 1.3\n    com: [0.1, 0.2, 0.3]";
+const RIGID: &str = "mass: 1.3\n    com: [0.1, 0.2, 0.3]\n    inertia: { xx: 1, yy: 1.1, zz: 1.2 }";
+const SKEW: &str = "[0.6, 0.8, 0]";
+const ODD: &str = "[0.708, -0.786, -0.694]";
+
+impl Row {
+    fn robot(&self) -> Robot {
+        let mut links = String::new();
+        for (i, axis) in self.axes.iter().enumerate() {
+            let step = if i > 0 { self.step } else { HERE };
+            writeln!(links, "  - name: link_{i}").unwrap();
+            if i > 0 {
+                writeln!(links, "    parent: link_{}", i - 1).unwrap();
+            }
+            writeln!(
+                links,
+                "    joint: {{ name: joint_{i}, type: revolute, axis: {axis}, origin: {{ xyz: {step} }} }}"
+            )
+            .unwrap();
+        }
+        robot(&format!("{links}    {}\n", self.body))
+    }
+
+    /// In seeded states: refused by the name of the joint that nothing is left for, or solved.
+    fn check(&self, states: usize) {
+        let robot = self.robot();
+        let f = forward(&robot, CHOSEN);
+        let lost = self.axes.len().checked_sub(self.rank + 1);
+        let lost = lost.map(|j| format!("joint_{j}"));
+        let mut rng = Rng::new(11);
+        for _ in 0..states {
+            let mut s = State::random(&mut rng, &robot.motions());
+            // At exact zeros a gimbal is locked.
+            s.q.iter_mut().filter(|q| **q == 0.0).for_each(|q| *q = 0.1);
+            let found = refused::<f64>(&robot, &f, &s);
+            let place = || format!("{:?} {} {}\n{s:?}", self.axes, self.step, self.body);
+            assert_eq!(found, lost, "{}", place());
+        }
+    }
+}
+
+#[test]
+fn massless_links_in_a_row_that_can_be_moved() {
+    let row = |axes, step, body| Row {
+        axes,
+        step,
+        body,
+        rank: usize::MAX - 1,
+    };
+    for row in [
+        row(&["z", "y", "x"], HERE, RIGID),
+        row(&["z", SKEW, ODD], HERE, RIGID),
+        row(&["z", "y", "x"], STEP, POINT),
+        row(&["z", "z"], STEP, POINT),
+        row(&["z", "z", "z"], STEP, RIGID),
+        row(&["z", "y", "x", "z"], STEP, RIGID),
+        row(&["z", "y", "x", "z", "y"], STEP, RIGID),
+        row(&["z", "y", "x", "z", "y", "x"], STEP, RIGID),
+    ] {
+        row.check(1250);
+    }
+}
+
+#[test]
+fn massless_links_in_a_row_that_cannot() {
+    let row = |axes, step, body, rank| Row {
+        axes,
+        step,
+        body,
+        rank,
+    };
+    for row in [
+        row(&["z", "y", "x", "z"], HERE, RIGID, 3),
+        row(&["z", "y", "x", "z", "y"], HERE, RIGID, 3),
+        row(&["z", SKEW, ODD, "z"], HERE, RIGID, 3),
+        row(&["z", "y", "x", "z"], STEP, POINT, 3),
+        row(&["z", SKEW, ODD, "z", "y"], STEP, POINT, 3),
+        row(&["z", "y", "x", "z", "y", "x", "z"], STEP, RIGID, 6),
+        row(&["z", "z", "z"], STEP, POINT, 2),
+        row(&["z", "z", "z", "z"], STEP, RIGID, 3),
+    ] {
+        row.check(1250);
+    }
+}
+
+/// ∂q̈/∂τ = M⁻¹ and ∂q̈/∂q where only articulated bodies keep the digits: the derivatives are as
+/// good as the accelerations.
+#[test]
+fn derivatives_beyond_a_massless_link() {
+    let row = Row {
+        axes: &["z", "y", "z"],
+        step: HERE,
+        body: RIGID,
+        rank: 3,
+    };
+    let robot = row.robot();
+    let f = robot.chosen(Method::ForwardDynamicsDerivatives);
+    let mass = robot.chosen(Method::MassMatrix);
+    for angle in [0.7, 1e-3, 1e-6] {
+        let s = State {
+            q: vec![0.3, angle, 0.4],
+            v: vec![0.1, -0.2, 0.3],
+            a: vec![0.0; 3],
+            tau: vec![0.5, 0.4, -0.3],
+        };
+        let exact: Vec<Dd> = s.value(&f);
+        let rough: Vec<f64> = s.value(&f);
+        let m = common::full(&s.value::<Dd>(&mass), 3);
+        let inverse = &exact[3 + 18..];
+        for i in 0..3 {
+            for j in 0..3 {
+                let sum = (0..3).fold(Dd::ZERO, |sum, k| sum + m[i][k] * inverse[3 * k + j]);
+                let off = (sum - Dd::from_f64(f64::from(i == j))).abs().to_f64();
+                // A condition number of 1 / angle² in double-double.
+                assert!(off < 1e-15, "{angle}: {off:e}");
+            }
+        }
+        for block in [3..12, 12..21, 21..30] {
+            let size = block
+                .clone()
+                .map(|k| exact[k].to_f64().abs())
+                .fold(0.0, f64::max);
+            for k in block {
+                let off = (Dd::from_f64(rough[k]) - exact[k]).abs().to_f64();
+                // The efforts all but cancel along the lock: that costs 1 / angle once.
+                let bar = 64.0 * f64::EPSILON / angle * size;
+                assert!(off <= bar, "{angle}, {k}: {off:e} of {size:e}");
+            }
+        }
+    }
 }

@@ -161,20 +161,29 @@ impl<'g> ArticulatedInertia<'g> {
     /// Turned by Rz.
     pub fn turned(&self, turn: (Ex<'g>, Ex<'g>), careful: bool) -> Self {
         ArticulatedInertia {
-            angular: mirrored(turned(&self.angular, turn, careful)),
-            coupling: turned(&self.coupling, turn, careful),
-            linear: mirrored(turned(&self.linear, turn, careful)),
+            angular: mirrored(turned(&self.angular, 2, turn, careful)),
+            coupling: turned(&self.coupling, 2, turn, careful),
+            linear: mirrored(turned(&self.linear, 2, turn, careful)),
         }
     }
 
-    /// In axes in which the present ones have the columns of the constant `r`.
-    pub fn rotated(&self, b: &'g Builder, r: Mat3<Dd>) -> Self {
-        let r = r.map(|x| b.constant(x));
-        let rotated = |m: &Mat3<Ex<'g>>| r * *m * r.transpose();
+    /// In axes in which the present ones have the columns of the constant `r`, which is a turn
+    /// about x and then one about z: a twist.
+    pub fn twisted(&self, b: &'g Builder, r: Mat3<Dd>, careful: bool) -> Self {
+        let [about_x, about_z] = [(r.0[2][2], r.0[2][1]), (r.0[0][0], r.0[1][0])];
+        self.turned_by(b, 0, about_x, careful)
+            .turned_by(b, 2, about_z, careful)
+    }
+
+    /// Turned about an axis by a constant angle; quarter turns cost nothing.
+    fn turned_by(&self, b: &'g Builder, axis: usize, (c, s): (Dd, Dd), careful: bool) -> Self {
+        let careful = careful || c == Dd::ZERO || s == Dd::ZERO;
+        let turn = (b.constant(c), b.constant(s));
+        let turned = |m: &Mat3<Ex<'g>>| turned(m, axis, turn, careful);
         ArticulatedInertia {
-            angular: mirrored(rotated(&self.angular)),
-            coupling: rotated(&self.coupling),
-            linear: mirrored(rotated(&self.linear)),
+            angular: mirrored(turned(&self.angular)),
+            coupling: turned(&self.coupling),
+            linear: mirrored(turned(&self.linear)),
         }
     }
 
@@ -199,25 +208,34 @@ fn mirrored<'g>(m: Mat3<Ex<'g>>) -> Mat3<Ex<'g>> {
     Mat3::from_fn(|i, j| m.0[i.min(j)][i.max(j)])
 }
 
-/// Rz m Rzᵀ. By e = s (m_xx − m_yy) + c (m_xy + m_yx) for the 2 × 2 block, or as two products,
-/// which takes more operations and subtracts nothing large where one of the entries is zero.
-fn turned<'g>(m: &Mat3<Ex<'g>>, (c, s): (Ex<'g>, Ex<'g>), careful: bool) -> Mat3<Ex<'g>> {
-    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = m.0;
-    let [[xx, xy], [yx, yy]] = if careful && !(xx == yy && (xy + yx).is_zero()) {
-        let [[a, b], [d, e]] = [
-            [c * xx - s * yx, c * xy - s * yy],
-            [s * xx + c * yx, s * xy + c * yy],
+/// R m Rᵀ for a turn about an axis k, with i and j the axes after it. By
+/// e = s (m_ii − m_jj) + c (m_ij + m_ji) for the 2 × 2 block, or as two products, which takes more
+/// operations and subtracts nothing large where one of the entries is zero.
+fn turned<'g>(m: &Mat3<Ex<'g>>, k: usize, (c, s): (Ex<'g>, Ex<'g>), careful: bool) -> Mat3<Ex<'g>> {
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let [[ii, ij], [ji, jj]] = [[m.0[i][i], m.0[i][j]], [m.0[j][i], m.0[j][j]]];
+    let mut to = *m;
+    if careful && !(ii == jj && (ij + ji).is_zero()) {
+        let [[p, q], [r, t]] = [
+            [c * ii - s * ji, c * ij - s * jj],
+            [s * ii + c * ji, s * ij + c * jj],
         ];
-        [
-            [a * c - b * s, a * s + b * c],
-            [d * c - e * s, d * s + e * c],
-        ]
+        (to.0[i][i], to.0[i][j]) = (p * c - q * s, p * s + q * c);
+        (to.0[j][i], to.0[j][j]) = (r * c - t * s, r * s + t * c);
     } else {
-        let e = s * (xx - yy) + c * (xy + yx);
+        // 2 c is the same for every symmetric block of the body.
+        let across = if ij == ji {
+            (c * Dd::from_f64(2.0)) * ij
+        } else {
+            c * (ij + ji)
+        };
+        let e = s * (ii - jj) + across;
         let (se, ce) = (s * e, c * e);
-        [[xx - se, ce - yx], [ce - xy, yy + se]]
-    };
+        (to.0[i][i], to.0[i][j]) = (ii - se, ce - ji);
+        (to.0[j][i], to.0[j][j]) = (ce - ij, jj + se);
+    }
     let turn = |x: Ex<'g>, y: Ex<'g>| (c * x - s * y, s * x + c * y);
-    let ((xz, yz), (zx, zy)) = (turn(xz, yz), turn(zx, zy));
-    Mat3([[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]])
+    (to.0[i][k], to.0[j][k]) = turn(m.0[i][k], m.0[j][k]);
+    (to.0[k][i], to.0[k][j]) = turn(m.0[k][i], m.0[k][j]);
+    to
 }

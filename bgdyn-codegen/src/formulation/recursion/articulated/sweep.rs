@@ -127,7 +127,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
             if frame.continues {
                 basis[p] = basis[p].plus(&rest);
             } else {
-                own[p] = own[p].plus(&rest.rotated(b, frame.twist));
+                own[p] = own[p].plus(&rest.twisted(b, frame.twist, careful));
             }
         }
         hinges.reverse();
