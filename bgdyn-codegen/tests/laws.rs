@@ -33,10 +33,8 @@ struct Case {
     robot: Robot,
     literal: Methods,
     recursion: Methods,
-    /// Forward dynamics: the ways there are, and what is generated; with whether it is sure of a
-    /// singular mass matrix in every state. The literal M does not fold enough, and an elimination
-    /// of M may miss massless links in a row.
-    forward: Vec<(Function, bool)>,
+    /// Forward dynamics by articulated bodies, and what is generated.
+    bodies: [Function; 3],
     state: State,
     /// Natural size of an effort, of an entry of M.
     effort: f64,
@@ -52,12 +50,10 @@ impl Case {
         let state = State::random(&mut rng, &robot.motions());
         Case {
             what: format!("seed {seed}\n{text}{state:?}"),
-            forward: vec![
-                (robot.whole("literal", FORWARD), false),
-                (robot.whole("recursion", FORWARD), false),
-                (robot.whole("articulated", FORWARD), true),
-                (robot.whole("articulated_base", FORWARD), true),
-                (robot.chosen(FORWARD), true),
+            bodies: [
+                robot.whole("articulated", FORWARD),
+                robot.whole("articulated_base", FORWARD),
+                robot.chosen(FORWARD),
             ],
             literal: Methods::new(&robot, "literal"),
             recursion: Methods::new(&robot, "recursion"),
@@ -232,7 +228,11 @@ impl Case {
         let pivot = least_pivot(self.literal.mass(&self.state));
         let mut worst = 0.0_f64;
         let a = DVector::from_row_slice(&self.state.a);
-        for (function, sure) in &self.forward {
+        // The literal M does not fold enough to be sure of a singular one, and an elimination may
+        // miss massless links in a row; they are not generated where that may be.
+        let factors = [&self.literal, &self.recursion].map(|m| m.function(FORWARD));
+        let ways = factors.map(|f| (f, false)).into_iter();
+        for (function, sure) in ways.chain(self.bodies.iter().map(|f| (f, true))) {
             let (found, refused) = function.evaluate(state.inputs::<f64>());
             let place = self.place(&format!("forward dynamics, {}", function.formulation));
             let finite = found.iter().all(|x| x.is_finite());

@@ -6,4 +6,5 @@ mod counting;
 mod golden;
 mod golden_values;
 mod laws;
+mod massless;
 mod robots;

@@ -5,13 +5,10 @@ use super::geometry::{Body, Geometry};
 use crate::bond_graph::BondGraph;
 use crate::mechanism::{LinkId, Motion, Pose, Value};
 
-/// A share that is fair: with less, elimination could lose half the digits of `f64`, and more.
-/// Chains of a hundred like links are above it, a load of a million times a link's mass below.
+/// A share that is fair: with less, elimination could lose half the digits of `f64`, and all of
+/// those of `f32`, so that a pivot's check has to know how large its rounding error is. Chains of a
+/// hundred like links are above it, a load of a million times a link's mass below.
 pub(super) const FAIR: f64 = 1e-7;
-
-/// With less than this, what is left of a pivot may be rounding errors only, and its check has to
-/// know how large they are.
-pub(super) const GUARDED: f64 = 1e-10;
 
 /// Travel of a prismatic joint that its spec leaves open, m.
 const TRAVEL: f64 = 1.0;

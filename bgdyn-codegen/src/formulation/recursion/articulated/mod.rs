@@ -12,7 +12,7 @@ mod sweep;
 
 use super::frames::{Frames, Plan};
 use super::geometry::{Geometry, geometry};
-use super::share::{GUARDED, own_shares};
+use super::share::{FAIR, own_shares};
 use super::{inverse, plan};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, count};
@@ -54,34 +54,43 @@ impl Formulation for Articulated {
         }
         let geometry = geometry(graph);
         let best = plan::search(&geometry, |plan| self.cost(graph, &geometry, plan));
-        let (made, outputs) = self.outputs(graph, &geometry, &best);
+        // A pivot with a fair share of its own is never less than that.
+        let guarded: Vec<bool> = own_shares(graph, &geometry)
+            .iter()
+            .map(|&share| share < FAIR)
+            .collect();
+        let (made, outputs) = self.outputs(graph, &geometry, &best, &guarded);
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
         Some(Function::flat(graph, method, name, made, outputs))
     }
 }
 
 impl Articulated {
-    /// Operations under a plan.
+    /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
     pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> usize {
-        let (graph, outputs) = self.outputs(graph, geometry, plan);
+        let unguarded = vec![false; geometry.bodies.len()];
+        let (graph, outputs) = self.outputs(graph, geometry, plan, &unguarded);
         count(&graph, &outputs).total()
     }
 
     /// The accelerations under a plan.
-    fn outputs(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> (Graph, Vec<Expr>) {
+    fn outputs(
+        &self,
+        graph: &BondGraph,
+        geometry: &Geometry,
+        plan: &Plan,
+        guarded: &[bool],
+    ) -> (Graph, Vec<Expr>) {
         let careful = matches!(self, Articulated::Own);
         let plan = &Plan {
             base_parameters: !careful,
             ..plan.clone()
         };
-        let shares = own_shares(graph, geometry);
         let b = Builder::new();
         let outputs: Vec<Expr> = {
             let x = Arguments::new(&b, graph, Method::ForwardDynamics);
             let frames = Frames::new(&b, graph, geometry, plan, &x);
-            // A pivot with a share of its own is never less than that.
-            let guarded: Vec<bool> = shares.iter().map(|&share| share < GUARDED).collect();
-            let sweep = Sweep::new(&b, &frames, careful, &guarded);
+            let sweep = Sweep::new(&b, &frames, careful, guarded);
             let loads = inverse::loads(&b, &frames, plan, x.active);
             let found = sweep.accelerations(&loads, &x.tau);
             found.into_iter().map(|e| e.expr).collect()
