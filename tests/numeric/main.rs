@@ -8,5 +8,6 @@ mod counting;
 mod golden;
 mod golden_values;
 mod laws;
+mod massless;
 mod parameters;
 mod robots;

@@ -6,7 +6,7 @@ use crate::expr::{Builder, Ex};
 
 /// The factors of M = Lᵀ D L, from the last coordinate to the first, which keeps the zeros of a
 /// branching mechanism (Featherstone 2005). Every pivot is checked.
-pub(super) struct Factor<'g> {
+struct Factor<'g> {
     b: &'g Builder,
     /// L below its unit diagonal.
     l: Vec<Vec<Ex<'g>>>,
@@ -16,7 +16,7 @@ pub(super) struct Factor<'g> {
 
 impl<'g> Factor<'g> {
     /// Factors the lower triangle of M.
-    pub(super) fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
+    fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
         let n = mass.len();
         let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
@@ -57,7 +57,7 @@ impl<'g> Factor<'g> {
     }
 
     /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
-    pub(super) fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+    fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
         let n = x.len();
         self.b.section("Lᵀ y = f, L x = D⁻¹ y");
         for k in (0..n).rev() {

@@ -4,6 +4,7 @@
 #![allow(dead_code)] // each test file uses a part
 
 pub mod golden;
+pub mod hard;
 pub mod kinematics;
 pub mod laws;
 pub mod parameters;
@@ -67,6 +68,11 @@ impl Robot {
         assert!(options.formulation.is_some(), "{formulation}?");
         let made = model::function(&self.mechanism, method, &options);
         made.expect("every formulation knows every method")
+    }
+
+    /// The function of a method that is generated when nothing is asked for, in one piece.
+    pub fn chosen(&self, method: Method) -> Function {
+        formulation::choose(&self.graph, method, None).expect("every method is known")
     }
 
     /// The same before long functions are cut into blocks: one graph, to be differentiated.

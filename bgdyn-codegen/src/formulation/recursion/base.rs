@@ -62,6 +62,9 @@ pub(super) fn regrouped<'g>(
     let parts = |j: usize| parts(b, graph, &geometry.bodies[j], plan, j);
     let mut bodies: Vec<Parts<'g>> = (0..geometry.bodies.len()).map(parts).collect();
     let mut energy = constant_energy(b, graph, geometry, plan);
+    if !plan.base_parameters {
+        return (bodies, energy);
+    }
     for j in (0..bodies.len()).rev() {
         let body = &geometry.bodies[j];
         let offset = b.vector(origin_offset(geometry, plan, j));

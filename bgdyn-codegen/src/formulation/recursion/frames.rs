@@ -31,6 +31,8 @@ pub(super) struct Plan {
     /// Bodies whose point masses with run-time parameters have a force of their own each, where
     /// the others' are merged with the body.
     pub apart: Vec<bool>,
+    /// Whether inertia is regrouped into base parameters; otherwise every body keeps its own.
+    pub base_parameters: bool,
     /// N_z = J_zz ω̇_z + (D_xx − D_yy) ω_x ω_y + … instead of the skew part of U·D.
     pub short_moment: bool,
 }
@@ -47,6 +49,7 @@ impl Plan {
             aimed: vec![false; n],
             carried: vec![0; n],
             apart: vec![false; n],
+            base_parameters: true,
             short_moment: false,
         }
     }

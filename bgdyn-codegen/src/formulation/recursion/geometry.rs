@@ -83,6 +83,13 @@ pub(super) struct Geometry {
     pub fixed: Vec<(LinkId, Pose)>,
 }
 
+impl Geometry {
+    /// Which body carries each body.
+    pub fn parents(&self) -> Vec<Option<usize>> {
+        self.bodies.iter().map(|body| body.parent).collect()
+    }
+}
+
 /// The bodies of a bond graph.
 pub(super) fn geometry(graph: &BondGraph) -> Geometry {
     let mut made = Geometry {

@@ -11,7 +11,7 @@ const ROUNDS: usize = 2;
 
 /// Bodies beyond which the choices are not tried one by one: the cost of a search grows with the
 /// square of their number.
-const SEARCHED: usize = 16;
+pub(super) const SEARCHED: usize = 16;
 
 /// The cheapest plan found.
 pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan {
@@ -56,6 +56,7 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         aimed: (0..n).map(tip).collect(),
         carried: vec![0; n],
         apart: vec![false; n],
+        base_parameters: true,
         short_moment: false,
     };
     let groups = geometry.bodies.iter().any(|b| b.parallel());
