@@ -4,7 +4,7 @@ use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::Dd;
 use bgdyn::runtime::num_dual::Dual64;
 use bgdyn::runtime::wide::f64x4;
-use bgdyn::{Dynamics, Scalar};
+use bgdyn::Scalar;
 
 use crate::models::lifter::Lifter;
 use crate::models::{Random, State, results, widen};
