@@ -1,10 +1,10 @@
 //! Run-time parameters in lanes, dual numbers and double-double.
 
+use bgdyn::Scalar;
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::Dd;
 use bgdyn::runtime::num_dual::Dual64;
 use bgdyn::runtime::wide::f64x4;
-use bgdyn::Scalar;
 
 use crate::models::lifter::Lifter;
 use crate::models::{Random, State, results, widen};
