@@ -10,6 +10,8 @@ set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
+# An interrupted run must not leave half a cache behind.
+export CARGO_INCREMENTAL=0
 copy=$CARGO_TARGET_DIR/mutations
 log=$CARGO_TARGET_DIR/mutations.log
 wanted=" $* "
