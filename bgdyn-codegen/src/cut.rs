@@ -58,6 +58,7 @@ struct Cutter<'a> {
     passed: Vec<Vec<NodeId>>,
     /// The graph with blocks, and where a node of the old one is in it, block by block.
     made: Graph,
+    titles: u32,
     copies: QuickMap<NodeId, Expr>,
 }
 
@@ -70,9 +71,11 @@ impl<'a> Cutter<'a> {
             results,
             passed: vec![Vec::new(); last + 1],
             made: Graph::default(),
+            titles: 0,
             copies: QuickMap::default(),
         };
         cutter.find_passed(last);
+        cutter.titles = cutter.made.adopt_sections(graph);
         cutter
     }
 
@@ -148,6 +151,7 @@ impl<'a> Cutter<'a> {
         }
         let node = self.graph.node(id).clone();
         let copied = node.map_operands(|e| self.copy_signed(e));
+        self.made.reopen_section(self.graph, id, self.titles);
         let copy = Expr::plus(self.made.intern(copied));
         if let Some(name) = self.graph.name(id) {
             self.made.set_name(copy.node, || name.to_string());

@@ -23,11 +23,12 @@ struct Seen {
     forward: f64,
 }
 
-/// All laws on a range of seeds; `most` says how many joints a seed may have.
-fn check(seeds: Range<u64>, most: impl Fn(u64) -> usize) -> Seen {
+/// All laws on a range of seeds; `most` says how many joints a seed may have, `parameters` whether
+/// some numbers are run-time parameters.
+fn check(seeds: Range<u64>, most: impl Fn(u64) -> usize, parameters: bool) -> Seen {
     let mut seen = Seen::default();
     for seed in seeds {
-        let case = Case::of_seed(seed, most(seed));
+        let case = Case::of_seed(seed, most(seed), parameters);
         let (formulations, forward) = laws::all(&case, &mut Rng::new(seed ^ 0xfeed));
         seen.regular += usize::from(forward.is_some());
         seen.formulations = seen.formulations.max(formulations);
@@ -43,16 +44,22 @@ fn check(seeds: Range<u64>, most: impl Fn(u64) -> usize) -> Seen {
 
 #[test]
 fn small_mechanisms() {
-    assert!(check(0..150, |_| 3).regular > 75);
+    assert!(check(0..150, |_| 3, false).regular > 75);
 }
 
 #[test]
 fn larger_mechanisms() {
-    assert!(check(1000..1060, |_| 7).regular > 20);
+    assert!(check(1000..1060, |_| 7, false).regular > 20);
+}
+
+#[test]
+fn with_run_time_parameters() {
+    assert!(check(2000..2060, |_| 3, true).regular > 30);
+    assert!(check(3000..3016, |_| 7, true).regular > 4);
 }
 
 /// A quarter of ten thousand mechanisms. Most are small: the time goes with the cube of the joints,
-/// and faults show in small mechanisms.
+/// and faults show in small mechanisms. Every other quarter has run-time parameters.
 fn quarter(number: u64) {
     let most = |seed: u64| match seed % 20 {
         0 => 7,
@@ -60,7 +67,7 @@ fn quarter(number: u64) {
         _ => 3,
     };
     let first = 10_000 + 2500 * number;
-    assert!(check(first..first + 2500, most).regular > 1000);
+    assert!(check(first..first + 2500, most, number % 2 == 1).regular > 1000);
 }
 
 #[test]

@@ -118,3 +118,13 @@ fn nearly_parallel_axes() {
         ));
     }
 }
+
+/// A struct `T` would hide the type parameter `T` of its own methods.
+#[test]
+fn a_name_that_hides_the_type_parameter_is_refused() {
+    let text = "format: 1\nlinks: [{ name: a, mass: 1 }]\n";
+    let (mechanism, faults) = bgdyn_codegen::read(text, Some("t"));
+    assert!(mechanism.is_none());
+    assert_eq!(faults.0[0].rule, "name");
+    assert!(bgdyn_codegen::read(text, Some("t1")).0.is_some());
+}

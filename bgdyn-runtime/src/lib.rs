@@ -31,6 +31,7 @@ mod pose;
 pub mod rotation;
 mod scalar;
 mod singular;
+mod storage;
 
 pub use dd::{Dd, ParseDdError};
 #[cfg(feature = "num-dual")]
@@ -46,5 +47,6 @@ pub use operations::Operations;
 pub use pose::Pose;
 pub use scalar::Scalar;
 pub use singular::Singular;
+pub use storage::{matrix, vector};
 #[cfg(feature = "wide")]
 pub use wide;

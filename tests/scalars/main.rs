@@ -4,3 +4,4 @@ mod double_double;
 mod duals;
 mod lanes;
 mod models;
+mod parameters;

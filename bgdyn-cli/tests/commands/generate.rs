@@ -29,12 +29,19 @@ fn the_source_is_what_the_macro_gets() {
     let (tokens, _) = generate(&text, "scara4", &place, &Options::default()).expect("a good spec");
     let source = bgdyn(&["generate", SCARA]).good();
     let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");
-    // Commas at the end of lists and the quotes of documentation are the layout's.
+    // Commas at the end of lists and the quotes of documentation are the layout's; the titles above
+    // statements are comments in the source.
     let plain = |t: String| -> String {
         let t = t.replace("doc = r\"", "doc = \"");
+        let mut parts = t.split("# [doc = \"//");
+        let first = parts.next().unwrap_or_default().to_string();
+        let rest = parts.map(|p| p.split_once("\"]").expect("the end of a title").1);
+        let t = first + &rest.collect::<String>();
         t.chars().filter(|c| !" ,\n".contains(*c)).collect()
     };
     assert!(plain(parsed.to_string()) == plain(tokens.to_string()));
+    let title = "            // l_j2: ω, U = [ω̇]× + [ω]×[ω]×, ";
+    assert!(source.contains(title) && !source.contains("#[doc = \"//"));
     assert!(source.contains("pub mod scara4 {") && source.contains("pub struct Scara4<T = f64>"));
     assert!(!source.contains("include_bytes"));
 }

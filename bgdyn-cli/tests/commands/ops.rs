@@ -103,14 +103,27 @@ fn one_formulation_for_every_function() {
             "{method}"
         );
     }
-    assert_eq!(cheapest, counts(&["--formulation", "recursion"]));
+    // What a formulation does not know is made as if nothing was asked for.
+    let bodies = counts(&["--formulation", "articulated_base"]);
+    assert_eq!(cheapest, bodies);
+    let recursion = counts(&["--formulation", "recursion"]);
+    let forward = "forward_dynamics";
+    assert!(total(&cheapest, forward) < total(&recursion, forward));
+    for method in ["inverse_dynamics", "mass_matrix", "bias"] {
+        assert_eq!(total(&cheapest, method), total(&recursion, method));
+    }
 }
 
 #[test]
 fn explanations_stand_beside_the_json() {
     let run = bgdyn(&["ops", SCARA, "--json", "--explain"]);
     assert!(run.stderr.contains("inverse_dynamics: "), "{}", run.stderr);
-    assert!(run.stderr.contains("  literal "), "{}", run.stderr);
+    for way in ["literal", "recursion", "articulated", "articulated_base"] {
+        let line = format!("  {way} ");
+        assert!(run.stderr.contains(&line), "{way}: {}", run.stderr);
+    }
+    let chosen = "forward_dynamics: articulated_base";
+    assert!(run.stderr.contains(chosen), "{}", run.stderr);
     assert!(serde_json::from_str::<Value>(&run.good()).is_ok());
 }
 

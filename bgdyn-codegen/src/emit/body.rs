@@ -105,7 +105,7 @@ fn separate_block(function: &Function, model: &Model, b: usize) -> (TokenStream,
     (block, quote! { self.#name(#(#arguments),*) })
 }
 
-/// The arguments that a function does not read, as `q[joint]`.
+/// What a function does not read: arguments, as `q[joint]`, and run-time parameters.
 pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
     let read: BTreeSet<Leaf> = function.blocks.iter().flat_map(of_block).collect();
@@ -121,13 +121,15 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
             unread.extend(missing.iter().map(name));
         }
     }
+    let parameters = model.mechanism.parameters().iter().enumerate();
+    let missing = parameters.filter(|(p, _)| !read.contains(&Leaf::Parameter(*p)));
+    unread.extend(missing.map(|(_, parameter)| format!("the parameter `{}`", parameter.name)));
     unread
 }
 
 /// The result from its components.
 fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
-    let (three, sides) = (quote! { 3 }, quote! { NV });
-    let square = |values: &[TokenStream]| matrix(&sides, &sides, nv, values);
+    let square = |values: &[TokenStream]| matrix(nv, values);
     let squares = |values: &[TokenStream], count: usize| -> Vec<TokenStream> {
         let one = |k: usize| square(&values[k * nv * nv..(k + 1) * nv * nv]);
         (0..count).map(one).collect()
@@ -161,36 +163,27 @@ fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
             }
         }
         Shape::Pose => {
-            let rotation = matrix(&three, &three, 3, &values[..9]);
+            let rotation = matrix(3, &values[..9]);
             let translation = &values[9..];
             quote! {
                 __rt::Pose { rotation: #rotation, translation: __na::Vector3::new(#(#translation),*) }
             }
         }
-        Shape::Spatial => {
-            quote! { __na::SVector::<T, 6>::from_array_storage(__na::ArrayStorage([[#(#values),*]])) }
-        }
-        Shape::Jacobian => matrix(&quote! { 6 }, &sides, nv, values),
+        Shape::Spatial => vector(values),
+        Shape::Jacobian => matrix(nv, values),
     }
 }
 
 fn vector(values: &[TokenStream]) -> TokenStream {
-    quote! { __na::SVector::<T, NV>::from_array_storage(__na::ArrayStorage([[#(#values),*]])) }
+    quote! { __rt::vector([#(#values),*]) }
 }
 
-/// A matrix of `rows` × `width`, where `width` stands for `columns`, from its entries, row by row.
-fn matrix(
-    rows: &TokenStream,
-    width: &TokenStream,
-    columns: usize,
-    values: &[TokenStream],
-) -> TokenStream {
+/// A matrix of so many columns from its entries, row by row.
+fn matrix(columns: usize, values: &[TokenStream]) -> TokenStream {
     let column = |j: usize| {
         let entries = values.iter().skip(j).step_by(columns);
         quote! { [#(#entries),*] }
     };
-    let storage = (0..columns).map(column);
-    quote! {
-        __na::SMatrix::<T, #rows, #width>::from_array_storage(__na::ArrayStorage([#(#storage),*]))
-    }
+    let columns = (0..columns).map(column);
+    quote! { __rt::matrix([#(#columns),*]) }
 }

@@ -17,6 +17,9 @@ use crate::model::Model;
 /// Operations in one statement at the most: what a reader takes in at a glance.
 const STATEMENT: usize = 6;
 
+/// How the text of a doc attribute begins that is a comment.
+pub(super) const COMMENT: &str = "//";
+
 /// Writes the statements of a function.
 pub(super) struct Writer<'a> {
     graph: &'a Graph,
@@ -30,6 +33,8 @@ pub(super) struct Writer<'a> {
     /// How often a node is used in the block.
     uses: Vec<usize>,
     statements: Vec<TokenStream>,
+    /// The section of the last statement.
+    section: Option<&'a str>,
     needed: Vec<bool>,
     /// Whether the block is a function of its own.
     separate: bool,
@@ -66,6 +71,7 @@ impl<'a> Writer<'a> {
             needed: reachable(graph, outputs),
             separate: function.blocks.len() > 1,
             statements: Vec::new(),
+            section: None,
             constants: false,
             pivots: false,
         };
@@ -154,8 +160,7 @@ impl<'a> Writer<'a> {
                     self.operand(*b, Binding::Sum),
                 );
                 let mask = self.names.numbered();
-                self.statements
-                    .push(quote! { let #mask = T::less(#a, #b); });
+                self.push(id, quote! { let #mask = T::less(#a, #b); });
                 atom(quote! { #mask })
             }
             // Written with the sine.
@@ -192,8 +197,21 @@ impl<'a> Writer<'a> {
             None => self.names.numbered(),
         };
         let tokens = code.tokens;
-        self.statements.push(quote! { let #variable = #tokens; });
+        self.push(id, quote! { let #variable = #tokens; });
         atom(quote! { #variable })
+    }
+
+    /// Adds a statement that computes the node. Where a section begins, its title stands above as a
+    /// comment: tokens have none, so it is a doc attribute until [`super::source_text`].
+    fn push(&mut self, id: NodeId, statement: TokenStream) {
+        let section = self.graph.section(id);
+        let begins = section.filter(|_| section != self.section);
+        let title = begins.map(|title| {
+            let text = format!("{COMMENT} {title}");
+            quote! { #[doc = #text] }
+        });
+        self.section = section.or(self.section);
+        self.statements.push(quote! { #title #statement });
     }
 
     fn leaf(&self, leaf: Leaf) -> Option<Code> {
@@ -361,8 +379,7 @@ impl<'a> Writer<'a> {
         } else {
             quote! { _ }
         };
-        self.statements
-            .push(quote! { let (#left, #right) = #value; });
+        self.push(angle, quote! { let (#left, #right) = #value; });
         self.sines.insert(angle, (sine.clone(), cosine.clone()));
         (sine, cosine)
     }

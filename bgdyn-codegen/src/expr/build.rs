@@ -62,6 +62,11 @@ impl Builder {
         f(&mut self.graph.borrow_mut())
     }
 
+    /// What is made from now on belongs under this title, for readers of the output.
+    pub fn section(&self, title: impl Into<String>) {
+        self.graph.borrow_mut().begin_section(title.into());
+    }
+
     /// A number.
     pub fn constant(&self, x: Dd) -> Ex<'_> {
         self.make(|g| g.constant(x))

@@ -12,8 +12,10 @@ pub fn copy_into(
 ) -> Vec<Expr> {
     let needed = reachable(from, outputs);
     let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
+    let titles = to.adopt_sections(from);
     for i in (0..from.len()).filter(|&i| needed[i]) {
         let id = NodeId(i as u32);
+        to.reopen_section(from, id, titles);
         let copy = match from.node(id) {
             Node::Leaf(l) => match leaf(to, *l) {
                 Some(e) => e,

@@ -9,6 +9,7 @@ mod build;
 mod copy;
 mod count;
 mod diff;
+mod error;
 mod eval;
 mod fold;
 
@@ -22,6 +23,7 @@ pub use build::{Builder, Ex};
 pub use copy::copy_into;
 pub use count::{count, reachable};
 pub use diff::Tangent;
+pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
 
 /// A node of a [`Graph`].
@@ -255,7 +257,15 @@ pub struct Graph {
     nodes: Vec<Node>,
     ids: QuickMap<Node, NodeId>,
     names: std::collections::BTreeMap<NodeId, String>,
+    /// Titles of the sections, and for each node the one in which it was made.
+    titles: Vec<String>,
+    sections: Vec<Section>,
+    /// The section that is open.
+    open: Section,
 }
+
+/// A stretch of the algorithm that readers of the output find under one title; 0 has none.
+type Section = u32;
 
 impl Graph {
     /// The node with this id.
@@ -285,6 +295,31 @@ impl Graph {
         }
     }
 
+    /// The title of the section in which a node was made.
+    pub fn section(&self, id: NodeId) -> Option<&str> {
+        let section = self.sections[id.0 as usize] as usize;
+        section.checked_sub(1).map(|i| self.titles[i].as_str())
+    }
+
+    /// What is made from now on belongs under this title.
+    pub(crate) fn begin_section(&mut self, title: String) {
+        self.titles.push(title);
+        self.open = self.titles.len() as Section;
+    }
+
+    /// Takes over another graph's titles. What it gives opens the section of a node of that graph.
+    pub(crate) fn adopt_sections(&mut self, from: &Graph) -> Section {
+        let offset = self.titles.len() as Section;
+        self.titles.extend(from.titles.iter().cloned());
+        offset
+    }
+
+    /// Opens the section that `id` of `from` was made in; `offset` is where its titles went.
+    pub(crate) fn reopen_section(&mut self, from: &Graph, id: NodeId, offset: Section) {
+        let section = from.sections[id.0 as usize];
+        self.open = if section == 0 { 0 } else { section + offset };
+    }
+
     /// The one node equal to `node`.
     pub(crate) fn intern(&mut self, node: Node) -> NodeId {
         if let Some(&id) = self.ids.get(&node) {
@@ -293,6 +328,7 @@ impl Graph {
         let id = NodeId(u32::try_from(self.nodes.len()).expect("fewer than 2^32 nodes"));
         self.ids.insert(node.clone(), id);
         self.nodes.push(node);
+        self.sections.push(self.open);
         id
     }
 

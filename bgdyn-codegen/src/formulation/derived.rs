@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Formulation, choose, solve};
+use super::{Formulation, candidates, choose};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::function::Function;
@@ -32,59 +32,59 @@ pub(super) fn function(
             outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
             Some(finish(graph, method, &inverse, b, outputs))
         }
-        Method::ForwardDynamicsDerivatives => forward_derivatives(graph, method, asked),
+        Method::ForwardDynamicsDerivatives => {
+            let inverse = choose(graph, Method::InverseDynamics, asked)?;
+            candidates(graph, Method::ForwardDynamics, asked)
+                .iter()
+                .map(|forward| forward_derivatives(graph, method, &inverse, forward))
+                .min_by_key(|f| f.operations().total())
+        }
         _ => None,
     }
 }
 
 /// ∂q̈/∂x = −M⁻¹ ∂τ/∂x at τ = inverse dynamics(q, v, q̈), and ∂q̈/∂τ = M⁻¹.
+///
+/// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by whatever way it was
+/// found to be stable and cheap.
 fn forward_derivatives(
     graph: &BondGraph,
     method: Method,
-    asked: Option<&dyn Formulation>,
-) -> Option<Function> {
+    inverse: &Function,
+    forward: &Function,
+) -> Function {
     let n = graph.coordinates.len();
-    let inverse = choose(graph, Method::InverseDynamics, asked)?;
-    let mass = choose(graph, Method::MassMatrix, asked)?;
-    let bias = choose(graph, Method::Bias, asked)?;
-    let (b, tau) = reopened(&inverse);
+    let (b, tau) = reopened(inverse);
     let mut slopes = derivatives(&b, &tau, n, Leaf::Position);
     slopes.extend(derivatives(&b, &tau, n, Leaf::Velocity));
-    let keep = |_: &mut Graph, _: Leaf| None;
-    let copied = |f: &Function| -> Vec<Expr> {
-        let outputs = &f.blocks[0].outputs;
-        b.with_graph(|g| copy_into(g, &f.graph, outputs, keep))
+    let results = &forward.blocks[0].outputs;
+    let accelerations = b.with_graph(|g| copy_into(g, &forward.graph, results, |_, _| None));
+    // The accelerations take the place of their leaves.
+    let placed = |_: &mut Graph, leaf: Leaf| match leaf {
+        Leaf::Acceleration(j) => Some(accelerations[j]),
+        _ => None,
     };
-    let (mass, bias) = (copied(&mass), copied(&bias));
-    let outputs = {
-        let triangle = (0..n).map(|i| {
-            (0..=i)
-                .map(|j| b.ex(mass[i * (i + 1) / 2 + j]))
-                .collect::<Vec<_>>()
-        });
-        let factor = solve::Factor::new(&b, triangle.collect());
-        let drive = (0..n)
-            .map(|j| b.leaf(Leaf::Input(j)) - b.ex(bias[j]))
-            .collect();
-        let accelerations = factor.solve(drive);
-        // The accelerations take the place of their leaves.
-        let placed = |_: &mut Graph, leaf: Leaf| match leaf {
-            Leaf::Acceleration(j) => Some(accelerations[j].expr),
+    let slopes = replaced(&b, &slopes, placed);
+    let along = |drive: &[Expr]| {
+        let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
+            Leaf::Input(j) => Some(drive[j]),
             _ => None,
-        };
-        let slopes = replaced(&b, &slopes, placed);
-        let solved = |column: &[Expr]| factor.solve(column.iter().map(|&e| -b.ex(e)).collect());
-        let columns: Vec<Vec<Ex<'_>>> = slopes.iter().map(|c| solved(c)).collect();
-        let unit = |j: usize| (0..n).map(|i| b.number(f64::from(i == j))).collect();
-        let inverse: Vec<Vec<Ex<'_>>> = (0..n).map(|j| factor.solve(unit(j))).collect();
-        let mut outputs: Vec<Expr> = accelerations.iter().map(|e| e.expr).collect();
-        for square in columns.chunks(n.max(1)).chain([inverse.as_slice()]) {
-            outputs.extend((0..n).flat_map(|i| square.iter().map(move |c| c[i].expr)));
-        }
-        outputs
+        });
+        b.with_graph(|g| accelerations.iter().map(|&e| tangent.of(g, e)).collect())
     };
+    let minus = |column: &Vec<Expr>| column.iter().map(|&e| (-b.ex(e)).expr).collect();
+    let columns: Vec<Vec<Expr>> = slopes
+        .iter()
+        .map(minus)
+        .map(|c: Vec<_>| along(&c))
+        .collect();
+    let inertia = derivatives(&b, &accelerations, n, Leaf::Input);
+    let mut outputs = accelerations.clone();
+    for square in columns.chunks(n.max(1)).chain([inertia.as_slice()]) {
+        outputs.extend(rows(square));
+    }
     debug_assert_eq!(outputs.len(), Shape::CheckedSquares.len(n));
-    Some(finish(graph, method, &inverse, b, outputs))
+    finish(graph, method, forward, b, outputs)
 }
 
 /// A function's graph, open for more, and its results.

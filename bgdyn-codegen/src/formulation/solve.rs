@@ -6,7 +6,8 @@ use crate::expr::{Builder, Ex};
 
 /// The factors of M = Lᵀ D L, from the last coordinate to the first, which keeps the zeros of a
 /// branching mechanism (Featherstone 2005). Every pivot is checked.
-pub(super) struct Factor<'g> {
+struct Factor<'g> {
+    b: &'g Builder,
     /// L below its unit diagonal.
     l: Vec<Vec<Ex<'g>>>,
     /// D⁻¹
@@ -15,10 +16,11 @@ pub(super) struct Factor<'g> {
 
 impl<'g> Factor<'g> {
     /// Factors the lower triangle of M.
-    pub(super) fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
+    fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
         let n = mass.len();
         let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
+        b.section("M = Lᵀ D L, from the last joint to the first");
         for k in (0..n).rev() {
             // Only what was really subtracted can have lost digits; what folded to a number was
             // subtracted in double-double, which tells a small rest from nothing.
@@ -47,12 +49,17 @@ impl<'g> Factor<'g> {
                 mass[k][i] = l;
             }
         }
-        Factor { l: mass, inverse }
+        Factor {
+            b,
+            l: mass,
+            inverse,
+        }
     }
 
     /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
-    pub(super) fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+    fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
         let n = x.len();
+        self.b.section("Lᵀ y = f, L x = D⁻¹ y");
         for k in (0..n).rev() {
             for i in 0..k {
                 x[i] = x[i] - self.l[k][i] * x[k];

@@ -5,16 +5,20 @@
 //! Rounding is 1e-32, but folded constants are known to 2⁻⁹⁸ = 3e-30 of the terms that they were
 //! summed from.
 
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 use nalgebra::{DMatrix, DVector};
 
+use super::parameters::{parametrised, values};
 use super::random::Draft;
 use super::rng::Rng;
 use super::values::{Direction, Methods, dot};
 use super::{
     Robot, State, assert_close, full, natural_effort, natural_inertia, natural_size, reach, sum_abs,
 };
+
+const FORWARD: Method = Method::ForwardDynamics;
 
 /// Of double-double results, relative to their natural size.
 pub const EXACT: f64 = 1e-28;
@@ -28,6 +32,8 @@ pub struct Case {
     pub robot: Robot,
     pub literal: Methods,
     pub recursion: Methods,
+    /// Forward dynamics by articulated bodies, and what is generated.
+    pub bodies: [Function; 3],
     pub state: State,
     /// Natural size of an effort, of an entry of M.
     pub effort: f64,
@@ -35,12 +41,17 @@ pub struct Case {
 }
 
 impl Case {
-    /// The case of a seed, with up to `most` moving joints.
-    pub fn of_seed(seed: u64, most: usize) -> Self {
+    /// The case of a seed, with up to `most` moving joints; with run-time parameters or without.
+    pub fn of_seed(seed: u64, most: usize, parameters: bool) -> Self {
         let mut rng = Rng::new(seed);
-        let draft = Draft::random(&mut rng, most);
+        let mut draft = Draft::random(&mut rng, most);
+        if parameters {
+            draft = parametrised(&draft, &mut rng);
+        }
         Case::new(&format!("seed {seed}"), draft, |robot| {
-            State::random(&mut rng, &robot.motions())
+            let mut state = State::random(&mut rng, &robot.motions());
+            state.parameters = values(&robot.mechanism, &mut rng);
+            state
         })
     }
 
@@ -51,6 +62,11 @@ impl Case {
         let state = state(&robot);
         Case {
             what: format!("{name}\n{text}{state:?}"),
+            bodies: [
+                robot.whole("articulated", FORWARD),
+                robot.whole("articulated_base", FORWARD),
+                robot.chosen(FORWARD),
+            ],
             literal: Methods::new(&robot, "literal"),
             recursion: Methods::new(&robot, "recursion"),
             effort: natural_effort(&robot, &state),
@@ -221,16 +237,18 @@ impl Case {
         };
         let pivot = least_pivot(self.literal.mass(&self.state));
         let mut worst = 0.0_f64;
-        for methods in [&self.literal, &self.recursion] {
-            let function = methods.function(Method::ForwardDynamics);
+        let a = DVector::from_row_slice(&self.state.a);
+        // The literal M does not fold enough to be sure of a singular one, and an elimination may
+        // miss massless links in a row; they are not generated where that may be.
+        let factors = [&self.literal, &self.recursion].map(|m| m.function(FORWARD));
+        let ways = factors.map(|f| (f, false)).into_iter();
+        for (function, sure) in ways.chain(self.bodies.iter().map(|f| (f, true))) {
             let (found, refused) = function.evaluate(state.inputs::<f64>());
             let place = self.place(&format!("forward dynamics, {}", function.formulation));
             let finite = found.iter().all(|x| x.is_finite());
             assert!(finite, "{}: {found:?}", place());
             if pivot < 1e-25 {
-                // Singular at this q, whatever the digits. The literal sum does not fold enough to
-                // be sure of it; it is the reference in double-double only.
-                let sure = std::ptr::eq(methods, &self.recursion);
+                // Singular at this q, whatever the digits.
                 assert!(refused.is_some() || !sure, "{}: {found:?}", place());
                 continue;
             }
@@ -240,13 +258,21 @@ impl Case {
             assert_eq!(refused, None, "{}: eigenvalues {moments}", place());
             // ‖FD(ID(a)) − a‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖), and where terms of h cancel to less
             // than their rounding, that.
-            let a = DVector::from_row_slice(&self.state.a);
             let h = DVector::from_row_slice(&bias);
-            let bar = 8.0 * n as f64 * (most * a.norm() + h.norm()) + self.effort;
-            let bar = f64::EPSILON * bar / least;
-            let off = (DVector::from_vec(found) - a).norm();
+            let size = 8.0 * n as f64 * (most * a.norm() + h.norm()) + self.effort;
+            let bar = f64::EPSILON * size / least;
+            let off = (DVector::from_vec(found) - &a).norm();
             assert!(off <= bar, "{}: off by {off:e}, bar {bar:e}", place());
             worst = worst.max(off / bar.max(f64::MIN_POSITIVE));
+            // In double-double it undoes the literal sum, for which the efforts keep their tails.
+            let mut inputs = state.inputs::<Dd>();
+            inputs.u = self.literal.value(Method::InverseDynamics, &self.state);
+            let (found, _) = function.evaluate(inputs);
+            let off = found.iter().zip(&self.state.a);
+            let off = off.map(|(&x, &a)| (x - Dd::from_f64(a)).to_f64());
+            let off = DVector::from_iterator(n, off).norm();
+            let bar = EXACT * size / least;
+            assert!(off <= bar, "{}: off by {off:e}, bar {bar:e}", place());
         }
         (least > 1e-13 * most).then_some(worst)
     }
@@ -281,6 +307,7 @@ impl Case {
             v: reordered(&s.v),
             a: reordered(&s.a),
             tau: reordered(&s.tau),
+            parameters: of_names(&other, |name| s.parameters[place_of(&self.robot, name)]),
         };
         let own: Vec<Dd> = self.recursion.value(Method::InverseDynamics, s);
         let own: Vec<Dd> = order.iter().map(|&k| own[k]).collect();
@@ -293,6 +320,18 @@ impl Case {
             self.place("another order"),
         );
     }
+}
+
+/// Place of the run-time parameter of this name.
+fn place_of(robot: &Robot, name: &str) -> usize {
+    let mut names = robot.mechanism.parameters().iter().map(|p| p.name.as_str());
+    names.position(|n| n == name).expect("the same parameters")
+}
+
+/// A number for each run-time parameter, by its name.
+fn of_names(robot: &Robot, number: impl Fn(&str) -> f64) -> Vec<f64> {
+    let parameters = robot.mechanism.parameters().iter();
+    parameters.map(|p| number(&p.name)).collect()
 }
 
 /// The least pivot of M = LᵀDL in double-double, beside the diagonal entry it came from.

@@ -4,8 +4,10 @@
 #![allow(dead_code)] // each test file uses a part
 
 pub mod golden;
+pub mod hard;
 pub mod kinematics;
 pub mod laws;
+pub mod parameters;
 pub mod random;
 pub mod rng;
 pub mod values;
@@ -68,6 +70,11 @@ impl Robot {
         made.expect("every formulation knows every method")
     }
 
+    /// The function of a method that is generated when nothing is asked for, in one piece.
+    pub fn chosen(&self, method: Method) -> Function {
+        formulation::choose(&self.graph, method, None).expect("every method is known")
+    }
+
     /// The same before long functions are cut into blocks: one graph, to be differentiated.
     pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
@@ -76,13 +83,14 @@ impl Robot {
     }
 }
 
-/// Positions, velocities, accelerations, efforts.
+/// Positions, velocities, accelerations, efforts, and what the run-time parameters are set to.
 #[derive(Clone, Debug)]
 pub struct State {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub a: Vec<f64>,
     pub tau: Vec<f64>,
+    pub parameters: Vec<f64>,
 }
 
 impl State {
@@ -101,6 +109,7 @@ impl State {
             v: motions.iter().map(|_| some(2.0)).collect(),
             a: motions.iter().map(|_| some(3.0)).collect(),
             tau: motions.iter().map(|_| some(20.0)).collect(),
+            parameters: vec![],
         }
     }
 
@@ -114,7 +123,7 @@ impl State {
             u: all(&self.tau),
             x: vec![],
             modes: vec![],
-            parameters: vec![],
+            parameters: all(&self.parameters),
             passed: vec![],
         }
     }
@@ -165,11 +174,11 @@ pub fn assert_close<T: Into<Dd> + Copy>(
     }
 }
 
-/// A number of the spec.
-pub fn fixed(value: Value) -> f64 {
+/// A number of the spec, or what its run-time parameter is set to.
+pub fn fixed(value: Value, parameters: &[f64]) -> f64 {
     match value {
         Value::Fixed(x) => x.to_f64(),
-        Value::Parameter(_) => panic!("the tests' mechanisms have no run-time parameters"),
+        Value::Parameter(p) => parameters[p.0],
     }
 }
 
@@ -184,6 +193,7 @@ pub fn natural_effort(robot: &Robot, s: &State) -> f64 {
 /// (Σ m_i |g| L, W) of [`natural_effort`].
 pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
     let links = robot.mechanism.links();
+    let fixed = |x| fixed(x, &s.parameters);
     let mut length = 1.0;
     for link in links {
         if link.parent.is_some() {
@@ -199,7 +209,7 @@ pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
         }
     }
     let mass: f64 = links.iter().map(|l| fixed(l.inertial.mass)).sum();
-    let tensors = links.iter().flat_map(|l| l.inertial.inertia);
+    let tensors = links.iter().flat_map(|l| l.inertial.inertia.entries);
     let inertia = mass * length * length + tensors.map(|x| fixed(x).abs()).sum::<f64>();
     let g = robot.mechanism.gravity().0;
     let gravity: f64 = g.iter().map(|x| x.to_f64().abs()).sum();
@@ -225,7 +235,8 @@ pub fn natural_size(robot: &Robot, s: &State, method: Method) -> f64 {
 /// How far any centre of mass and any frame may be from the world's origin, m; at least 1.
 pub fn reach(robot: &Robot, s: &State) -> f64 {
     let links = robot.mechanism.links().iter();
-    let coms = links.clone().flat_map(|l| l.inertial.com.0).map(fixed);
+    let coms = links.clone().flat_map(|l| l.inertial.com.0);
+    let coms = coms.map(|x| fixed(x, &s.parameters));
     let frames = robot.mechanism.frames().iter();
     let steps = links
         .map(|l| l.joint.origin)

@@ -22,6 +22,7 @@ impl Machine {
             v: all(1),
             a: all(2),
             tau: all(3),
+            parameters: Vec::new(),
         }
     }
 }

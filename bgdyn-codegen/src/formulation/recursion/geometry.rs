@@ -22,6 +22,8 @@ const FAR: f64 = 4.0;
 pub(super) struct Body {
     /// Name of the link that the joint carries.
     pub name: String,
+    /// Name of the joint.
+    pub joint: String,
     /// The body that carries it; `None` for the fixed base.
     pub parent: Option<usize>,
     /// Rotation or translation.
@@ -43,6 +45,8 @@ pub(super) struct Body {
     pub free_x: bool,
     /// Links of the body with their place in the carrying link's axes.
     pub links: Vec<(LinkId, Pose)>,
+    /// Whether one of them has a run-time parameter.
+    pub varying: bool,
 }
 
 impl Body {
@@ -79,6 +83,13 @@ pub(super) struct Geometry {
     pub fixed: Vec<(LinkId, Pose)>,
 }
 
+impl Geometry {
+    /// Which body carries each body.
+    pub fn parents(&self) -> Vec<Option<usize>> {
+        self.bodies.iter().map(|body| body.parent).collect()
+    }
+}
+
 /// The bodies of a bond graph.
 pub(super) fn geometry(graph: &BondGraph) -> Geometry {
     let mut made = Geometry {
@@ -111,6 +122,7 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
         placed.push(place);
         made.bodies.push(Body {
             name: frame.name.clone(),
+            joint: graph.coordinates[j.0].name.clone(),
             parent,
             motion: frame.motion,
             opposite: false,
@@ -121,9 +133,13 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
             axes: basis_with_z(frame.axis),
             free_x: true,
             links: vec![(LinkId(i), still)],
+            varying: false,
         });
     }
     align_parallel_axes(&mut made.bodies, &placed);
+    for body in &mut made.bodies {
+        body.varying = (body.links.iter()).any(|(link, _)| graph.inertial(*link).varies());
+    }
     for j in 0..made.bodies.len() {
         orient(&mut made.bodies, &placed, j);
     }

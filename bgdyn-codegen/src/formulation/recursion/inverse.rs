@@ -7,8 +7,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Frame, Frames};
-use super::inertia::{Inertia, turn, turn_back};
+use super::frames::{Frame, Frames, Plan};
+use super::inertia::{Inertia, Point, turn, turn_back};
 use crate::expr::{Builder, Ex};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -42,20 +42,32 @@ struct Moving<'g> {
 
 /// Force and moment about the body's origin.
 #[derive(Clone, Copy)]
-struct Wrench<'g> {
-    force: Vec3<Ex<'g>>,
-    moment: Vec3<Ex<'g>>,
+pub(super) struct Wrench<'g> {
+    /// N in units of the plan.
+    pub force: Vec3<Ex<'g>>,
+    /// N·m
+    pub moment: Vec3<Ex<'g>>,
 }
 
 impl<'g> Wrench<'g> {
-    fn plus(self, b: Self) -> Self {
+    /// No force, no moment.
+    pub fn zero(b: &'g Builder) -> Self {
+        Wrench {
+            force: zero(b),
+            moment: zero(b),
+        }
+    }
+
+    /// Of both.
+    pub fn plus(self, b: Self) -> Self {
         Wrench {
             force: self.force + b.force,
             moment: self.moment + b.moment,
         }
     }
 
-    fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+    /// In other axes.
+    pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
         Wrench {
             force: f(self.force),
             moment: f(self.moment),
@@ -63,7 +75,7 @@ impl<'g> Wrench<'g> {
     }
 
     /// About a point from which this one's origin is displaced by p.
-    fn carried(self, p: Vec3<Ex<'g>>) -> Self {
+    pub fn carried(self, p: Vec3<Ex<'g>>) -> Self {
         Wrench {
             force: self.force,
             moment: self.moment + p.cross(self.force),
@@ -71,23 +83,87 @@ impl<'g> Wrench<'g> {
     }
 }
 
+/// What a body's motion takes, by equation (6): computed in its own axes or in its basis's.
+#[derive(Clone, Copy)]
+pub(super) struct Load<'g> {
+    /// In own axes.
+    pub own: Wrench<'g>,
+    /// In the basis's axes.
+    pub basis: Wrench<'g>,
+}
+
 /// Joint efforts for the rates and accelerations in `frames`.
 pub(super) fn efforts<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    in_basis: &[bool],
-    short_moment: bool,
+    plan: &Plan,
     active: bool,
 ) -> Vec<Ex<'g>> {
+    inwards(b, frames, &loads(b, frames, plan, active))
+}
+
+/// Forces and moments that move each body with the rates and accelerations in `frames`.
+pub(super) fn loads<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    plan: &Plan,
+    active: bool,
+) -> Vec<Load<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
         let parent = frame.parent.map(|p| &moving[p]);
         let gravity = if active { frames.gravity[j] } else { zero(b) };
+        b.section(format!(
+            "{}: ω, U = [ω̇]× + [ω]×[ω]×, acceleration a of its origin less gravity",
+            frame.name
+        ));
         let step = outwards(b, frame, parent, gravity);
         name(frame, &step);
         moving.push(step);
     }
-    inwards(b, frames, &moving, in_basis, short_moment)
+    let bodies = frames.bodies.iter().zip(&moving).zip(&plan.in_basis);
+    bodies
+        .map(|((frame, motion), &in_basis)| load(b, frame, motion, in_basis, plan.short_moment))
+        .collect()
+}
+
+fn load<'g>(
+    b: &'g Builder,
+    frame: &Frame<'g>,
+    motion: &Moving<'g>,
+    in_basis: bool,
+    short: bool,
+) -> Load<'g> {
+    b.section(format!(
+        "{}: F = m a + U h, N = h × a + skew(U D)",
+        frame.name
+    ));
+    // Turning about z leaves J_zz as it is.
+    let rest = &frame.rest;
+    let j_zz = rest.d(0, 0) + rest.d(1, 1);
+    let points = frame.points.iter();
+    if in_basis {
+        let inertia = if rest.round() {
+            *rest
+        } else {
+            rest.turned(frame.turn)
+        };
+        let (spin, a) = (&motion.in_basis, motion.a_basis);
+        let load = dynamics(&inertia, j_zz, spin, a, short);
+        let turned = points.map(|p| dynamics_of_point(&p.turned(frame.turn), spin, a));
+        Load {
+            own: Wrench::zero(b),
+            basis: turned.fold(load, |sum, p| p.plus(sum)),
+        }
+    } else {
+        let (spin, a) = (&motion.own, motion.a_own);
+        let load = dynamics(rest, j_zz, spin, a, short);
+        let own = points.map(|p| dynamics_of_point(p, spin, a));
+        Load {
+            own: own.fold(load, |sum, p| p.plus(sum)),
+            basis: Wrench::zero(b),
+        }
+    }
 }
 
 fn zero(b: &Builder) -> Vec3<Ex<'_>> {
@@ -314,46 +390,35 @@ fn dynamics<'g>(
     }
 }
 
+/// F = m (a + U s) and N = s × F of a point mass.
+fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Ex<'g>>) -> Wrench<'g> {
+    let force = (a + spin.u * point.place).scale(point.mass);
+    Wrench {
+        force,
+        moment: point.place.cross(force),
+    }
+}
+
 /// Forces and moments summed from the tips, and the joints' share of them.
-fn inwards<'g>(
-    b: &'g Builder,
-    frames: &Frames<'g>,
-    moving: &[Moving<'g>],
-    in_basis: &[bool],
-    short: bool,
-) -> Vec<Ex<'g>> {
+fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<Ex<'g>> {
     let n = frames.bodies.len();
-    let nothing = Wrench {
-        force: zero(b),
-        moment: zero(b),
-    };
     // What the bodies beyond hand over: in own axes, and in the basis's.
-    let mut own = vec![nothing; n];
-    let mut basis = vec![nothing; n];
+    let mut own = vec![Wrench::zero(b); n];
+    let mut basis = own.clone();
     let mut efforts = vec![b.zero(); n];
     for j in (0..n).rev() {
-        let (frame, motion) = (&frames.bodies[j], &moving[j]);
-        // Turning about z leaves J_zz as it is.
-        let j_zz = frame.inertia.d(0, 0) + frame.inertia.d(1, 1);
-        if in_basis[j] {
-            let round = frame.inertia.round();
-            let inertia = if round {
-                frame.inertia
-            } else {
-                frame.inertia.turned(frame.turn)
-            };
-            let wrench = dynamics(&inertia, j_zz, &motion.in_basis, motion.a_basis, short);
-            basis[j] = wrench.plus(basis[j]);
-        } else {
-            let wrench = dynamics(&frame.inertia, j_zz, &motion.own, motion.a_own, short);
-            own[j] = wrench.plus(own[j]);
-        }
-        let whole = basis[j].plus(own[j].map(|v| turn(v, frame.turn)));
+        let frame = &frames.bodies[j];
+        b.section(format!(
+            "{}: forces and moments summed from the tips; effort of `{}`",
+            frame.name, frame.joint
+        ));
+        let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
+        let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
         let along = match frame.motion {
             Motion::Rotation => whole.moment.0[2],
             _ => whole.force.0[2],
         };
-        efforts[j] = along * frame.effort;
+        efforts[j] = (along * frame.effort).named(|| format!("tau_{}", frame.joint));
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {

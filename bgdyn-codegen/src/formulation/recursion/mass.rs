@@ -65,6 +65,10 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
     let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![b.zero(); j + 1]).collect();
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
+        b.section(format!(
+            "{}: inertia with all it carries; row of `{}`: momenta of the joints beyond",
+            frame.name, frame.joint
+        ));
         let (inner, outer) = (&own[j], &basis[j]);
         let composite = frame.inertia.plus(&inner.inertia);
         let turned = if composite.round() {
@@ -83,10 +87,13 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             .collect();
         momenta.extend(&outer.momenta);
         for m in &momenta {
-            mass[m.joint][j] = m.along(frame) * frame.effort * frames.bodies[m.joint].effort;
+            let other = &frames.bodies[m.joint];
+            mass[m.joint][j] = (m.along(frame) * frame.effort * other.effort)
+                .named(|| format!("m_{}_{}", frame.joint, other.joint));
         }
         let unit = unit_momentum(b, j, frame, &whole, j_zz);
-        mass[j][j] = unit.along(frame) * (frame.effort * frame.effort);
+        mass[j][j] = (unit.along(frame) * (frame.effort * frame.effort))
+            .named(|| format!("m_{}_{}", frame.joint, frame.joint));
         momenta.push(unit);
         let Some(p) = frame.parent else { continue };
         let inertia = whole.shifted(frame.position);
@@ -134,6 +141,10 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> 
     let mut basis: Vec<(Vec3<Ex<'g>>, Vec3<Ex<'g>>)> = Vec::new();
     let mut twice = b.zero();
     for frame in &frames.bodies {
+        b.section(format!(
+            "{}: ω, velocity u of its origin; m u·u + 2 u·(ω × h) + ω·J ω",
+            frame.name
+        ));
         let (mut omega, mut u) = match frame.parent {
             None => (zero, zero),
             Some(p) if frame.continues => {
@@ -181,6 +192,7 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g
     let mut energy = frames.constant_energy;
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
+        b.section(format!("{}: first moment with all it carries", frame.name));
         // Masses and first moments only: D has no weight.
         let mut whole = frame.inertia.plus(&own[j]);
         whole.first = turn(whole.first, frame.turn);

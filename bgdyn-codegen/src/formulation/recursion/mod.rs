@@ -4,6 +4,9 @@
 //! Its free choices are a [`Plan`]; the plan is searched for by counting, in a bounded number of
 //! steps, method by method.
 
+mod articulated;
+mod base;
+mod forward;
 mod frames;
 mod geometry;
 mod inertia;
@@ -11,12 +14,15 @@ mod inverse;
 mod kinematics;
 mod mass;
 mod plan;
+mod share;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, count};
 use crate::function::Function;
 use crate::method::Method;
+pub(super) use articulated::Articulated;
+pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
 
@@ -37,15 +43,22 @@ impl Formulation for Recursion {
         if let Some(site) = method.site() {
             return Some(kinematics::function(graph, &geometry, method, site));
         }
-        let cost = |plan: &Plan| {
-            let (graph, outputs) = outputs(graph, &geometry, method, plan);
-            count(&graph, &outputs).total()
-        };
-        let best = plan::search(&geometry, cost);
-        let (made, outputs) = outputs(graph, &geometry, method, &best);
-        let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
-        Some(Function::flat(graph, method, name, made, outputs))
+        let best = cheapest_plan(graph, &geometry, method);
+        Some(with_plan(graph, &geometry, method, &best))
     }
+}
+
+fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan {
+    plan::search(geometry, |plan| {
+        let (graph, outputs) = outputs(graph, geometry, method, plan);
+        count(&graph, &outputs).total()
+    })
+}
+
+fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {
+    let (made, outputs) = outputs(graph, geometry, method, plan);
+    let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
+    Function::flat(graph, method, name, made, outputs)
 }
 
 /// The method's expressions under a plan.
@@ -59,7 +72,7 @@ fn outputs(
     let outputs: Vec<Expr> = {
         let x = Arguments::new(&b, graph, method);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
-        let efforts = || inverse::efforts(&b, &frames, &plan.in_basis, plan.short_moment, x.active);
+        let efforts = || inverse::efforts(&b, &frames, plan, x.active);
         let outputs = match method {
             Method::InverseDynamics | Method::Bias | Method::Gravity => efforts(),
             Method::MassMatrix => mass::mass_matrix(&b, &frames)

@@ -6,6 +6,9 @@ use crate::fault::{Fault, Faults, Place, wording};
 use crate::mechanism::name::{WORLD, is_identifier};
 use crate::spec::{Field, Frame, Joint, Link, Located, Spec};
 
+/// The one name whose struct, `T`, would hide the type parameter of generated code.
+const TYPE_PARAMETER: &str = "t";
+
 /// The mechanism's name: the file's stem up to its first dot, or the spec's `name`.
 pub(super) fn mechanism_name(
     spec: &Spec,
@@ -24,11 +27,12 @@ pub(super) fn mechanism_name(
         }
     };
     faults.0.extend(fault);
-    spec.name
-        .value()
-        .map(String::as_str)
-        .or(stem)
-        .map(str::to_owned)
+    let name = spec.name.value().map(String::as_str).or(stem)?;
+    if name == TYPE_PARAMETER {
+        let place = spec.name.given().map_or(&spec.place, |n| &n.place);
+        faults.push(wording::taken_name(place, name));
+    }
+    Some(name.to_owned())
 }
 
 fn differs(name: &Located<String>, stem: &str) -> Option<Fault> {
