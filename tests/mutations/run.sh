@@ -10,6 +10,8 @@ set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
+# An interrupted run must not leave half a cache behind.
+export CARGO_INCREMENTAL=0
 copy=$CARGO_TARGET_DIR/mutations
 log=$CARGO_TARGET_DIR/mutations.log
 wanted=" $* "
@@ -85,7 +87,7 @@ mutate "properties: rates" $recursion/kinematics.rs \
 mutate "derivatives" $src/expr/diff.rs \
     'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
 mutate "derivatives, solved" $src/formulation/derived.rs \
-    '|&e| -b.ex(e)' '|&e| b.ex(e)' "${codegen[@]}" motions derivatives
+    '(-b.ex(e)).expr' 'b.ex(e).expr' "${codegen[@]}" motions derivatives
 mutate "generated text" $src/emit/writer.rs \
     'quote! { #left - #right }' 'quote! { #left + #right }' "${codegen[@]}" text
 mutate "compiled = evaluator" $src/emit/writer.rs \
