@@ -3,7 +3,7 @@
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
-use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate};
+use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate, factored};
 use crate::method::{Method, Shape};
 
 /// A straight line of code: what it computes. Later blocks read its results as
@@ -51,6 +51,16 @@ impl Function {
             graph,
             blocks: vec![Block { outputs }],
         }
+    }
+
+    /// The same function with fewer operations, where factoring finds a way. A function that is cut
+    /// into blocks stays as it is.
+    pub(crate) fn factored(mut self) -> Self {
+        if let [Block { outputs }] = &mut self.blocks[..] {
+            let graph = std::mem::take(&mut self.graph);
+            (self.graph, *outputs) = factored(graph, std::mem::take(outputs));
+        }
+        self
     }
 
     /// Its name.

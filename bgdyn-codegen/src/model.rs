@@ -54,7 +54,8 @@ pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Opt
 }
 
 fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
-    formulation::choose(graph, method, options.formulation).map(cut)
+    let chosen = formulation::choose(graph, method, options.formulation)?;
+    Some(cut(chosen.factored()))
 }
 
 /// Why there is no module.

@@ -279,7 +279,7 @@ impl Graph {
 }
 
 /// x + y, and 0 where nothing but rounding errors of double-double is left of it.
-fn cancelling_sum(x: Dd, y: Dd) -> Dd {
+pub(super) fn cancelling_sum(x: Dd, y: Dd) -> Dd {
     let sum = x + y;
     let terms = x.hi().abs().max(y.hi().abs());
     if sum.hi().abs() <= CANCELLED * terms {
