@@ -54,8 +54,7 @@ pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Opt
 }
 
 fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
-    let chosen = formulation::choose(graph, method, options.formulation)?;
-    Some(cut(chosen.factored()))
+    formulation::choose(graph, method, options.formulation).map(cut)
 }
 
 /// Why there is no module.

@@ -24,7 +24,7 @@ pub use copy::copy_into;
 pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use eval::{Inputs, evaluate};
-pub(crate) use factor::factored;
+pub use factor::factored;
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -46,21 +46,25 @@ pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
 /// The method's function by the formulation asked for, else by the cheapest.
 ///
 /// The literal sum stands aside as long as another formulation knows the method: its graph grows
-/// with the cube of the number of links.
+/// with the cube of the number of links. It stays as equation (6) is written; the others are
+/// factored.
 pub fn choose(
     graph: &BondGraph,
     method: Method,
     asked: Option<&dyn Formulation>,
 ) -> Option<Function> {
+    let literal = asked.is_some_and(|f| f.name() == literal::NAME);
+    let finished = |f: Function| if literal { f } else { f.factored() };
     if let Some(derived) = derived::function(graph, method, asked) {
-        return Some(derived);
+        return Some(finished(derived));
     }
     if let Some(formulation) = asked {
-        return formulation.function(graph, method);
+        return formulation.function(graph, method).map(finished);
     }
     let regrouped = FORMULATIONS.iter().filter(|f| f.name() != literal::NAME);
     regrouped
         .filter_map(|f| f.function(graph, method))
+        .map(finished)
         .min_by_key(|f| f.operations().total())
         .or_else(|| literal::Literal.function(graph, method))
 }

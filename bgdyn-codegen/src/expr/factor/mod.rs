@@ -26,7 +26,7 @@ const ROUNDS: usize = 4;
 const LIMIT: usize = 20_000;
 
 /// The same values with fewer operations, where the pass finds a way.
-pub(crate) fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     let mut best = (graph, outputs);
     let mut cost = count(&best.0, &best.1);
     if cost.total() > LIMIT {

@@ -39,12 +39,23 @@ impl Formulation for Recursion {
         }
         let cost = |plan: &Plan| {
             let (graph, outputs) = outputs(graph, &geometry, method, plan);
+            if std::env::var("FULL").is_ok() {
+                let (graph, outputs) = crate::expr::factored(graph, outputs);
+                return count(&graph, &outputs).total();
+            }
             count(&graph, &outputs).total()
         };
-        let best = plan::search(&geometry, cost);
-        let (made, outputs) = outputs(graph, &geometry, method, &best);
-        let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
-        Some(Function::flat(graph, method, name, made, outputs))
+        let most = std::env::var("PLANS").map_or(4, |s| s.parse().unwrap());
+        let function = |plan: &Plan| {
+            let (made, outputs) = outputs(graph, &geometry, method, plan);
+            let name = format!("{}: {}", self.name(), plan::describe(&geometry, plan));
+            Function::flat(graph, method, name, made, outputs)
+        };
+        let plans = plan::search(&geometry, most, cost);
+        plans
+            .iter()
+            .map(|p| function(p))
+            .min_by_key(|f| f.clone().factored().operations().total())
     }
 }
 
