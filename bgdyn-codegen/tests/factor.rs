@@ -50,7 +50,7 @@ impl Program {
             let (a, s) = *rng.pick(&made);
             let (b, t) = *rng.pick(&made);
             let b = minus(b, rng.chance(0.5));
-            made.push(match rng.below(12) {
+            let new = match rng.below(12) {
                 0..=4 => (g.add(a, b), s + t),
                 // Degrees stay low, so that numbers do.
                 5..=9 if s * t < 1e6 => (g.mul(a, b), s * t),
@@ -66,7 +66,8 @@ impl Program {
                     (g.div(b, divisor), t * (1.0 + s * s))
                 }
                 _ => (a, s),
-            });
+            };
+            made.push(new);
         }
         let some = (0..1 + rng.below(5)).map(|_| made[made.len() - 1 - rng.below(steps)]);
         let (outputs, sizes) = some.unzip();
@@ -158,7 +159,7 @@ fn mechanism(seed: u64, most: usize) {
         ..Options::default()
     };
     for method in Method::possible(&robot.graph.sites) {
-        let made = |options| model::function(&robot.mechanism, method, options);
+        let made = |options: &Options| model::function(&robot.mechanism, method, options);
         let what = format!("seed {seed}\n{text}{state:?}\nseed {seed}");
         let chosen = made(&Options::default()).expect("a function");
         let literal = made(&literal).expect("a function");

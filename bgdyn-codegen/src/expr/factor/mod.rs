@@ -32,15 +32,44 @@ pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     if cost.total() > LIMIT {
         return best;
     }
-    for _ in 0..ROUNDS {
-        let mut network = Network::new(&best.0, &best.1);
+    let mut improved = |best: &mut (Graph, Vec<Expr>), spread| {
+        let mut network = Network::new(&best.0, &best.1, spread);
         Extraction::new(&mut network).run();
         let made = rebuild::rebuild(&network, &best.1);
         let made_cost = count(&made.0, &made.1);
-        if !cheaper(&made_cost, &cost) {
+        let better = cheaper(&made_cost, &cost);
+        if better {
+            (*best, cost) = (made, made_cost);
+        }
+        better
+    };
+    for _ in 0..ROUNDS {
+        if !improved(&mut best, None) {
             break;
         }
-        (best, cost) = (made, made_cost);
+    }
+    let effort: usize = std::env::var("EFFORT").map_or(0, |s| s.parse().unwrap());
+    let mut tries = effort / best.0.len().max(1);
+    let mut i = 0;
+    let mut last = 0;
+    loop {
+        if tries == 0 {
+            break;
+        }
+        let n = best.0.len();
+        if i >= n { i = 0; }
+        let id = super::NodeId(i as u32);
+        if matches!(best.0.node(id), super::Node::Add(..) | super::Node::Mul(..)) {
+            tries -= 1;
+            if improved(&mut best, Some(id)) {
+                last = 0;
+            }
+        }
+        i += 1;
+        last += 1;
+        if last > best.0.len() {
+            break;
+        }
     }
     best
 }

@@ -81,13 +81,16 @@ pub(super) struct Network<'a> {
     /// Nodes that stay as they are: magnitudes of pivots, which bound what is subtracted, and
     /// products with a quotient, which could overflow in another order.
     kept: Vec<bool>,
+    /// A sum or product to write out everywhere.
+    spread: Option<Var>,
     /// How many terms, other nodes and results read each variable; never too low.
     uses: Vec<usize>,
 }
 
 impl<'a> Network<'a> {
     /// Reads the graph: single uses are written out where that costs nothing, equal terms meet.
-    pub fn new(graph: &'a Graph, outputs: &[Expr]) -> Self {
+    /// `spread`, a sum or product, is written out wherever terms read it.
+    pub fn new(graph: &'a Graph, outputs: &[Expr], spread: Option<NodeId>) -> Self {
         let needed = reachable(graph, outputs);
         let mut network = Network {
             graph,
@@ -95,6 +98,7 @@ impl<'a> Network<'a> {
             kept: vec![false; graph.len()],
             uses: vec![0; graph.len()],
             needed,
+            spread: spread.map(|id| id.0),
         };
         for i in network.nodes() {
             network.read(i);
@@ -193,9 +197,10 @@ impl<'a> Network<'a> {
         self.uses[var as usize] += 1;
     }
 
-    /// Whether nothing but one term reads it.
+    /// Whether it is to be written out: nothing but one term reads it.
     fn read_once(&self, var: Var) -> bool {
-        self.uses[var as usize] == 1 && !self.kept[var as usize]
+        let wanted = self.uses[var as usize] == 1 || self.spread == Some(var);
+        wanted && !self.kept[var as usize]
     }
 
     /// Writes products and sums that are read once, and multiples by numbers, out in their place.
@@ -217,6 +222,9 @@ impl<'a> Network<'a> {
         }
         let mut whole = merged(whole);
         for term in inner {
+            for f in self.factors_of(term.factors[0]) {
+                self.uses[f as usize] += usize::from(self.uses[term.factors[0] as usize] > 1);
+            }
             let sum = self.sums[term.factors[0] as usize].as_deref();
             let scaled = sum.into_iter().flatten().map(|t| Term {
                 k: t.k * term.k,
@@ -226,13 +234,19 @@ impl<'a> Network<'a> {
             let spread = merged(whole.into_iter().chain(scaled).collect());
             apart.push(term.clone());
             let sum = sum.map_or(0, sum_cost);
-            whole = if sum_cost(&spread) <= sum_cost(&apart) + sum {
+            let wanted = self.spread == Some(term.factors[0]);
+            whole = if wanted || sum_cost(&spread) <= sum_cost(&apart) + sum {
                 spread
             } else {
                 merged(apart)
             };
         }
         self.sums[i as usize] = Some(whole);
+    }
+
+    fn factors_of(&self, var: Var) -> Vec<Var> {
+        let terms = self.sums[var as usize].as_deref().unwrap_or(&[]);
+        terms.iter().flat_map(|t| t.factors.clone()).collect()
     }
 
     /// The term with products that are read once written out.
