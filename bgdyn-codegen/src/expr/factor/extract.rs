@@ -63,6 +63,8 @@ pub(super) struct Extraction<'a, 'g> {
     cube_ids: QuickMap<Vec<Var>, u32>,
     numbers: Vec<Dd>,
     number_ids: QuickMap<NumberKey, u32>,
+    /// Two products, their memory used again and again.
+    scratch: (Vec<Var>, Vec<Var>),
 }
 
 impl<'a, 'g> Extraction<'a, 'g> {
@@ -77,6 +79,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
             cube_ids: QuickMap::default(),
             numbers: Vec::new(),
             number_ids: QuickMap::default(),
+            scratch: Default::default(),
         };
         for i in 0..extraction.network.sums.len() {
             if extraction.network.needed[i] {
@@ -134,18 +137,21 @@ impl<'a, 'g> Extraction<'a, 'g> {
     }
 
     fn register_pair(&mut self, var: Var, s: usize, t: usize) {
+        let (mut a, mut b) = std::mem::take(&mut self.scratch);
         let (x, y) = (&self.terms(var)[s], &self.terms(var)[t]);
-        let (mut a, mut b, common) = divided(&x.factors, &y.factors);
         let (mut k, mut l) = (x.k, y.k);
         let before = x.cost() + y.cost() + 1;
+        let common = divide(&x.factors, &y.factors, &mut a, &mut b);
         if b < a {
-            (a, b, k, l) = (b, a, l, k);
+            std::mem::swap(&mut a, &mut b);
+            (k, l) = (l, k);
         }
-        let saved = before as isize - product_cost(Dd::ONE, common.len() + 1) as isize;
+        let saved = before as isize - product_cost(Dd::ONE, common + 1) as isize;
         let least = 1 + product_cost(Dd::ONE, a.len()) + product_cost(Dd::ONE, b.len());
-        let r = self.number(l / k);
-        let key = Key::Sum(self.cube(a), self.cube(b), r);
+        let r = self.number(quotient_of(l, k));
+        let key = Key::Sum(self.cube(&a), self.cube(&b), r);
         self.note(key, var, saved, -(least as isize));
+        self.scratch = (a, b);
     }
 
     fn note(&mut self, key: Key, var: Var, saved: isize, cost: isize) {
@@ -179,13 +185,13 @@ impl<'a, 'g> Extraction<'a, 'g> {
         id
     }
 
-    fn cube(&mut self, factors: Vec<Var>) -> u32 {
-        if let Some(&id) = self.cube_ids.get(&factors) {
+    fn cube(&mut self, factors: &[Var]) -> u32 {
+        if let Some(&id) = self.cube_ids.get(factors) {
             return id;
         }
         let id = self.cubes.len() as u32;
-        self.cubes.push(factors.clone());
-        self.cube_ids.insert(factors, id);
+        self.cubes.push(factors.to_vec());
+        self.cube_ids.insert(factors.to_vec(), id);
         id
     }
 
@@ -253,6 +259,10 @@ impl<'a, 'g> Extraction<'a, 'g> {
 
     /// The term divided by a · b.
     fn without(&self, term: &Term, a: Literal, b: Literal) -> Option<Term> {
+        let missing = |l| matches!(l, Literal::Factor(f) if term.factors.binary_search(&f).is_err());
+        if missing(a) || missing(b) {
+            return None;
+        }
         let mut made = term.clone();
         for literal in [a, b] {
             match literal {
@@ -414,9 +424,10 @@ fn insert(factors: &mut Vec<Var>, f: Var) {
     factors.insert(at, f);
 }
 
-/// The factors of x and of y that they do not share, and those that they share.
-fn divided(x: &[Var], y: &[Var]) -> (Vec<Var>, Vec<Var>, Vec<Var>) {
-    let (mut a, mut b, mut common) = (Vec::new(), Vec::new(), Vec::new());
+/// The factors of x and of y that they do not share, and how many they share.
+fn divide(x: &[Var], y: &[Var], a: &mut Vec<Var>, b: &mut Vec<Var>) -> usize {
+    a.clear();
+    b.clear();
     let (mut i, mut j) = (0, 0);
     while i < x.len() && j < y.len() {
         match x[i].cmp(&y[j]) {
@@ -428,19 +439,20 @@ fn divided(x: &[Var], y: &[Var]) -> (Vec<Var>, Vec<Var>, Vec<Var>) {
                 b.push(y[j]);
                 j += 1;
             }
-            std::cmp::Ordering::Equal => {
-                common.push(x[i]);
-                (i, j) = (i + 1, j + 1);
-            }
+            std::cmp::Ordering::Equal => (i, j) = (i + 1, j + 1),
         }
     }
     a.extend(&x[i..]);
     b.extend(&y[j..]);
-    (a, b, common)
+    x.len() - a.len()
 }
 
 /// x / a, where a divides x.
 fn quotient(x: &[Var], a: &[Var]) -> Option<Vec<Var>> {
-    let (rest, missing, _) = divided(x, a);
+    if a.len() > x.len() || a.iter().any(|f| x.binary_search(f).is_err()) {
+        return None;
+    }
+    let (mut rest, mut missing) = (Vec::new(), Vec::new());
+    divide(x, a, &mut rest, &mut missing);
     missing.is_empty().then_some(rest)
 }

@@ -14,7 +14,7 @@ mod extract;
 mod network;
 mod rebuild;
 
-use super::{Expr, Graph, Operations, count};
+use super::{Expr, Graph, Node, NodeId, Operations, count};
 use extract::Extraction;
 use network::Network;
 
@@ -25,58 +25,76 @@ const ROUNDS: usize = 4;
 /// faster than their number.
 const LIMIT: usize = 20_000;
 
-/// The same values with fewer operations, where the pass finds a way.
-pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
-    let mut best = (graph, outputs);
-    let mut cost = count(&best.0, &best.1);
-    if cost.total() > LIMIT {
-        return best;
-    }
-    let mut improved = |best: &mut (Graph, Vec<Expr>), spread| {
-        let mut network = Network::new(&best.0, &best.1, spread);
+/// Operations up to which shared values are tried to be written out, one by one: each try is a
+/// round.
+const POLISHED: usize = 130;
+
+/// A function's graph and results, and what they cost.
+struct Best {
+    graph: Graph,
+    outputs: Vec<Expr>,
+    cost: Operations,
+}
+
+impl Best {
+    /// A round; `spread` is written out where it is read. Kept where it is cheaper.
+    fn improve(&mut self, spread: Option<NodeId>) -> bool {
+        let mut network = Network::new(&self.graph, &self.outputs, spread);
         Extraction::new(&mut network).run();
-        let made = rebuild::rebuild(&network, &best.1);
-        let made_cost = count(&made.0, &made.1);
-        let better = cheaper(&made_cost, &cost);
+        let (graph, outputs) = rebuild::rebuild(&network, &self.outputs);
+        let cost = count(&graph, &outputs);
+        let better = cheaper(&cost, &self.cost);
         if better {
-            (*best, cost) = (made, made_cost);
+            *self = Best {
+                graph,
+                outputs,
+                cost,
+            };
         }
         better
-    };
-    for _ in 0..ROUNDS {
-        if !improved(&mut best, None) {
-            break;
-        }
     }
-    let effort: usize = std::env::var("EFFORT").map_or(0, |s| s.parse().unwrap());
-    let mut tries = effort / best.0.len().max(1);
-    let mut i = 0;
-    let mut last = 0;
-    loop {
-        if tries == 0 {
-            break;
-        }
-        let n = best.0.len();
-        if i >= n { i = 0; }
-        let id = super::NodeId(i as u32);
-        if matches!(best.0.node(id), super::Node::Add(..) | super::Node::Mul(..)) {
-            tries -= 1;
-            if improved(&mut best, Some(id)) {
-                last = 0;
+
+    /// Writes out shared sums and products one by one, as long as a whole turn changes something.
+    fn polish(&mut self) {
+        let (mut i, mut unchanged) = (0, 0);
+        let mut tries = 4 * POLISHED;
+        while unchanged < self.graph.len() && tries > 0 {
+            let id = NodeId((i % self.graph.len()) as u32);
+            (i, unchanged) = (i + 1, unchanged + 1);
+            if matches!(self.graph.node(id), Node::Add(..) | Node::Mul(..)) {
+                tries -= 1;
+                if self.improve(Some(id)) {
+                    unchanged = 0;
+                }
             }
         }
-        i += 1;
-        last += 1;
-        if last > best.0.len() {
-            break;
+    }
+}
+
+/// The same values with fewer operations, where the pass finds a way.
+pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+    let cost = count(&graph, &outputs);
+    let mut best = Best {
+        graph,
+        outputs,
+        cost,
+    };
+    if cost.total() <= LIMIT {
+        for _ in 0..ROUNDS {
+            if !best.improve(None) {
+                break;
+            }
+        }
+        if best.cost.total() <= POLISHED {
+            best.polish();
         }
     }
-    best
+    (best.graph, best.outputs)
 }
 
 /// Fewer multiplications and additions, and no more of anything else.
 fn cheaper(a: &Operations, b: &Operations) -> bool {
     let rest = |o: &Operations| [o.div, o.sqrt, o.sincos, o.other];
-    let pairs = rest(a).into_iter().zip(rest(b));
-    a.mul + a.add < b.mul + b.add && pairs.into_iter().all(|(x, y)| x <= y)
+    let mut rests = rest(a).into_iter().zip(rest(b));
+    a.mul + a.add < b.mul + b.add && rests.all(|(x, y)| x <= y)
 }

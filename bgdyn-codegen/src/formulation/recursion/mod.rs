@@ -20,6 +20,9 @@ use crate::method::Method;
 use frames::{Frames, Plan};
 use geometry::Geometry;
 
+/// Plans, the cheapest ones before factoring, of which the cheapest one after it is taken.
+const FACTORED: usize = 4;
+
 /// The recursion.
 pub(super) struct Recursion;
 
@@ -39,22 +42,18 @@ impl Formulation for Recursion {
         }
         let cost = |plan: &Plan| {
             let (graph, outputs) = outputs(graph, &geometry, method, plan);
-            if std::env::var("FULL").is_ok() {
-                let (graph, outputs) = crate::expr::factored(graph, outputs);
-                return count(&graph, &outputs).total();
-            }
             count(&graph, &outputs).total()
         };
-        let most = std::env::var("PLANS").map_or(4, |s| s.parse().unwrap());
         let function = |plan: &Plan| {
             let (made, outputs) = outputs(graph, &geometry, method, plan);
             let name = format!("{}: {}", self.name(), plan::describe(&geometry, plan));
             Function::flat(graph, method, name, made, outputs)
         };
-        let plans = plan::search(&geometry, most, cost);
+        // Plans that cost about the same differ in what factoring makes of them.
+        let plans = plan::search(&geometry, FACTORED, cost);
         plans
             .iter()
-            .map(|p| function(p))
+            .map(function)
             .min_by_key(|f| f.clone().factored().operations().total())
     }
 }
