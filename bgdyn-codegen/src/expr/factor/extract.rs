@@ -1,7 +1,7 @@
 //! Taking common products and common two-term sums out of the sums of a network, greedily.
 
-use std::collections::BinaryHeap;
 use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 use bgdyn_runtime::Dd;
 
@@ -37,7 +37,11 @@ type NumberKey = (u64, i64);
 
 fn number_key(x: Dd) -> NumberKey {
     let unit = x.hi().abs() * (1.0 / (1u128 << 96) as f64);
-    let low = if unit > 0.0 { (x.lo() / unit).round() } else { 0.0 };
+    let low = if unit > 0.0 {
+        (x.lo() / unit).round()
+    } else {
+        0.0
+    };
     (x.hi().to_bits(), low as i64)
 }
 
@@ -220,7 +224,11 @@ impl<'a, 'g> Extraction<'a, 'g> {
         for var in self.places(id) {
             let terms = self.terms(var);
             let holds = |t: &Term| self.without(t, a, b).is_some();
-            found.extend((0..terms.len()).filter(|&t| holds(&terms[t])).map(|t| (var, t)));
+            found.extend(
+                (0..terms.len())
+                    .filter(|&t| holds(&terms[t]))
+                    .map(|t| (var, t)),
+            );
         }
         let saved = found.len() as isize - 1;
         if saved < bound || saved <= 0 {
@@ -249,17 +257,22 @@ impl<'a, 'g> Extraction<'a, 'g> {
                 self.define(vec![term])
             }
         };
-        self.substitute(found, |(var, _)| *var, |e, &(var, t)| {
-            let mut term = e.without(&e.terms(var)[t], a, b).expect("found");
-            insert(&mut term.factors, product);
-            (var != product).then_some((vec![t], term))
-        });
+        self.substitute(
+            found,
+            |(var, _)| *var,
+            |e, &(var, t)| {
+                let mut term = e.without(&e.terms(var)[t], a, b).expect("found");
+                insert(&mut term.factors, product);
+                (var != product).then_some((vec![t], term))
+            },
+        );
         0
     }
 
     /// The term divided by a · b.
     fn without(&self, term: &Term, a: Literal, b: Literal) -> Option<Term> {
-        let missing = |l| matches!(l, Literal::Factor(f) if term.factors.binary_search(&f).is_err());
+        let missing =
+            |l| matches!(l, Literal::Factor(f) if term.factors.binary_search(&f).is_err());
         if missing(a) || missing(b) {
             return None;
         }
@@ -310,7 +323,10 @@ impl<'a, 'g> Extraction<'a, 'g> {
 
     /// Takes a + r b out where that saves `bound`; else says what it would save.
     fn try_sum(&mut self, id: usize, a: u32, b: u32, r: u32, bound: isize) -> isize {
-        let (a, b) = (self.cubes[a as usize].clone(), self.cubes[b as usize].clone());
+        let (a, b) = (
+            self.cubes[a as usize].clone(),
+            self.cubes[b as usize].clone(),
+        );
         let r = self.numbers[r as usize];
         let mut found: Vec<Place> = Vec::new();
         for var in self.places(id) {
@@ -327,9 +343,8 @@ impl<'a, 'g> Extraction<'a, 'g> {
         if saved < bound || saved <= 0 {
             return saved;
         }
-        let whole = |p: &&Place| {
-            p.rest.is_empty() && near(p.k, scale) && self.terms(p.var).len() == 2
-        };
+        let whole =
+            |p: &&Place| p.rest.is_empty() && near(p.k, scale) && self.terms(p.var).len() == 2;
         let sum = match found.iter().find(whole) {
             Some(place) => place.var,
             None => self.define(vec![
@@ -343,12 +358,16 @@ impl<'a, 'g> Extraction<'a, 'g> {
                 },
             ]),
         };
-        self.substitute(found, |p| p.var, |_, p| {
-            let k = quotient_of(p.k, scale);
-            let mut factors = p.rest.clone();
-            insert(&mut factors, sum);
-            (p.var != sum).then_some((p.terms.to_vec(), Term { k, factors }))
-        });
+        self.substitute(
+            found,
+            |p| p.var,
+            |_, p| {
+                let k = quotient_of(p.k, scale);
+                let mut factors = p.rest.clone();
+                insert(&mut factors, sum);
+                (p.var != sum).then_some((p.terms.to_vec(), Term { k, factors }))
+            },
+        );
         0
     }
 

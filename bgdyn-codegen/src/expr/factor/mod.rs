@@ -14,12 +14,12 @@ mod extract;
 mod network;
 mod rebuild;
 
-use super::{Expr, Graph, Node, NodeId, Operations, count};
+use super::{Expr, Graph, Node, NodeId, Operations, count, reachable};
 use extract::Extraction;
 use network::Network;
 
 /// Rounds at the most; each one reads what the one before has made.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 3;
 
 /// Operations beyond which a function stays as it is: the pass takes time that grows a little
 /// faster than their number.
@@ -27,7 +27,7 @@ const LIMIT: usize = 20_000;
 
 /// Operations up to which shared values are tried to be written out, one by one: each try is a
 /// round.
-const POLISHED: usize = 130;
+const POLISHED: usize = 100;
 
 /// A function's graph and results, and what they cost.
 struct Best {
@@ -54,21 +54,39 @@ impl Best {
         better
     }
 
-    /// Writes out shared sums and products one by one, as long as a whole turn changes something.
+    /// Writes out sums and products that few others read, one by one, as long as a whole turn
+    /// changes something.
     fn polish(&mut self) {
+        let mut readers = readers(&self.graph, &self.outputs);
         let (mut i, mut unchanged) = (0, 0);
         let mut tries = 4 * POLISHED;
         while unchanged < self.graph.len() && tries > 0 {
-            let id = NodeId((i % self.graph.len()) as u32);
+            let place = i % self.graph.len();
             (i, unchanged) = (i + 1, unchanged + 1);
-            if matches!(self.graph.node(id), Node::Add(..) | Node::Mul(..)) {
+            if (1..=3).contains(&readers[place]) {
                 tries -= 1;
-                if self.improve(Some(id)) {
+                if self.improve(Some(NodeId(place as u32))) {
+                    readers = self::readers(&self.graph, &self.outputs);
                     unchanged = 0;
                 }
             }
         }
     }
+}
+
+/// For each sum and product how many nodes read it.
+fn readers(graph: &Graph, outputs: &[Expr]) -> Vec<usize> {
+    let needed = reachable(graph, outputs);
+    let ids = || (0..graph.len()).map(|i| NodeId(i as u32));
+    let mut readers = vec![0; graph.len()];
+    for id in ids().filter(|id| needed[id.0 as usize]) {
+        graph.node(id).for_each_operand(|operand| {
+            if matches!(graph.node(operand), Node::Add(..) | Node::Mul(..)) {
+                readers[operand.0 as usize] += 1;
+            }
+        });
+    }
+    readers
 }
 
 /// The same values with fewer operations, where the pass finds a way.
@@ -79,15 +97,13 @@ pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
         outputs,
         cost,
     };
-    if cost.total() <= LIMIT {
-        for _ in 0..ROUNDS {
-            if !best.improve(None) {
-                break;
-            }
+    for _ in 0..ROUNDS {
+        if cost.total() > LIMIT || !best.improve(None) {
+            break;
         }
-        if best.cost.total() <= POLISHED {
-            best.polish();
-        }
+    }
+    if best.cost.total() <= POLISHED {
+        best.polish();
     }
     (best.graph, best.outputs)
 }

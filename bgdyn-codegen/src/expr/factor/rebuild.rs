@@ -39,10 +39,7 @@ fn reachable(network: &Network<'_>, outputs: &[Expr]) -> Vec<bool> {
 fn for_each_operand(network: &Network<'_>, i: Var, mut f: impl FnMut(Var)) {
     match &network.sums[i as usize] {
         Some(terms) => terms.iter().flat_map(|t| &t.factors).for_each(|&v| f(v)),
-        None => network
-            .graph
-            .node(NodeId(i))
-            .for_each_operand(|id| f(id.0)),
+        None => network.graph.node(NodeId(i)).for_each_operand(|id| f(id.0)),
     }
 }
 

@@ -14,7 +14,7 @@ mod plan;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, count};
+use crate::expr::{Builder, Expr, Graph, count, factored};
 use crate::function::Function;
 use crate::method::Method;
 use frames::{Frames, Plan};
@@ -44,17 +44,17 @@ impl Formulation for Recursion {
             let (graph, outputs) = outputs(graph, &geometry, method, plan);
             count(&graph, &outputs).total()
         };
-        let function = |plan: &Plan| {
-            let (made, outputs) = outputs(graph, &geometry, method, plan);
-            let name = format!("{}: {}", self.name(), plan::describe(&geometry, plan));
-            Function::flat(graph, method, name, made, outputs)
-        };
         // Plans that cost about the same differ in what factoring makes of them.
+        let after = |plan: &Plan| {
+            let (made, outputs) = outputs(graph, &geometry, method, plan);
+            let (made, outputs) = factored(made, outputs);
+            count(&made, &outputs).total()
+        };
         let plans = plan::search(&geometry, FACTORED, cost);
-        plans
-            .iter()
-            .map(function)
-            .min_by_key(|f| f.clone().factored().operations().total())
+        let best = plans.iter().min_by_key(|plan| after(plan))?;
+        let (made, outputs) = outputs(graph, &geometry, method, best);
+        let name = format!("{}: {}", self.name(), plan::describe(&geometry, best));
+        Some(Function::flat(graph, method, name, made, outputs))
     }
 }
 

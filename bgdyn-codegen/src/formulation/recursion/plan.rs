@@ -14,11 +14,7 @@ const ROUNDS: usize = 2;
 const SEARCHED: usize = 16;
 
 /// The cheapest plans found, the cheapest one first; at least one, at most `most`.
-pub(super) fn search(
-    geometry: &Geometry,
-    most: usize,
-    cost: impl Fn(&Plan) -> usize,
-) -> Vec<Plan> {
+pub(super) fn search(geometry: &Geometry, most: usize, cost: impl Fn(&Plan) -> usize) -> Vec<Plan> {
     let n = geometry.bodies.len();
     let mut best: Vec<(usize, Plan)> = Vec::new();
     let mut keep = |c: usize, plan: &Plan| {
