@@ -19,7 +19,7 @@ use extract::Extraction;
 use network::Network;
 
 /// Rounds at the most; each one reads what the one before has made.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 
 /// Operations beyond which a function stays as it is: the pass takes time that grows a little
 /// faster than their number.
