@@ -99,7 +99,7 @@ impl Rebuild<'_> {
         self.made[i as usize] = Some(made);
     }
 
-    /// The terms in the order in which their factors are made, the number last.
+    /// The terms in the order in which their factors are made.
     fn sum(&mut self, terms: &[Term]) -> Expr {
         let mut sorted: Vec<(Vec<Expr>, Dd)> = terms
             .iter()
@@ -114,6 +114,15 @@ impl Rebuild<'_> {
             let last = factors.last().copied();
             (last.is_none(), last, factors.len())
         });
+        // A term that is added comes first, so that nothing starts with a sign.
+        let added = |(factors, k): &(Vec<Expr>, Dd)| {
+            factors
+                .iter()
+                .fold(*k > Dd::ZERO, |plus, f| plus ^ f.negative)
+        };
+        if let Some(first) = sorted.iter().position(added) {
+            sorted[..=first].rotate_right(1);
+        }
         let mut sum = self.graph.constant(Dd::ZERO);
         for (factors, k) in sorted {
             let mut product: Option<Expr> = None;
