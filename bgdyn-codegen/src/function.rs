@@ -3,7 +3,7 @@
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
-use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate};
+use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate, factored};
 use crate::method::{Method, Shape};
 
 /// A straight line of code: what it computes. Later blocks read its results as
@@ -23,6 +23,8 @@ pub struct Function {
     pub name: String,
     /// Name of the formulation that was chosen, with its variant.
     pub formulation: String,
+    /// Whether the order of its operations is what it is made for: it is not factored.
+    pub ordered: bool,
     /// Expressions of all blocks.
     pub graph: Graph,
     /// In the order of execution; at least one.
@@ -48,9 +50,28 @@ impl Function {
             method,
             name: method.name(&bond_graph.sites),
             formulation,
+            ordered: false,
             graph,
             blocks: vec![Block { outputs }],
         }
+    }
+
+    /// The same function, not to be factored.
+    pub(crate) fn in_order(self) -> Self {
+        Function {
+            ordered: true,
+            ..self
+        }
+    }
+
+    /// The same function with fewer operations, where factoring finds a way. A function that is cut
+    /// into blocks stays as it is.
+    pub(crate) fn factored(mut self) -> Self {
+        if let ([Block { outputs }], false) = (&mut self.blocks[..], self.ordered) {
+            let graph = std::mem::take(&mut self.graph);
+            (self.graph, *outputs) = factored(graph, std::mem::take(outputs));
+        }
+        self
     }
 
     /// Its name.

@@ -11,6 +11,7 @@ mod count;
 mod diff;
 mod error;
 mod eval;
+mod factor;
 mod fold;
 
 use std::collections::HashMap;
@@ -25,6 +26,7 @@ pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
+pub use factor::factored;
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

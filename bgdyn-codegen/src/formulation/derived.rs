@@ -137,5 +137,9 @@ fn finish(
     outputs: Vec<Expr>,
 ) -> Function {
     let formulation = format!("{}; differentiated", from.formulation);
-    Function::flat(graph, method, formulation, b.into_graph(), outputs)
+    let made = Function::flat(graph, method, formulation, b.into_graph(), outputs);
+    Function {
+        ordered: from.ordered,
+        ..made
+    }
 }

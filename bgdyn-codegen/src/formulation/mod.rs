@@ -56,16 +56,20 @@ pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
 /// The method's function by the formulation asked for, where it knows the method, else by the
 /// recursion, and for forward dynamics by the cheapest way that keeps its digits.
 ///
-/// The literal sum stands aside: its graph grows with the cube of the number of links.
+/// The literal sum stands aside: its graph grows with the cube of the number of links. It stays as
+/// equation (6) is written; functions whose order of operations is not what they are made for are
+/// factored.
 pub fn choose(
     graph: &BondGraph,
     method: Method,
     asked: Option<&dyn Formulation>,
 ) -> Option<Function> {
     if let Some(derived) = derived::function(graph, method, asked) {
-        return Some(derived);
+        return Some(derived.factored());
     }
-    candidates(graph, method, asked).into_iter().next()
+    let ways = candidates(graph, method, asked).into_iter();
+    ways.map(Function::factored)
+        .min_by_key(|f| f.operations().total())
 }
 
 /// The ways to a method that is not derived from another, the cheapest first.

@@ -54,12 +54,7 @@ impl Formulation for Literal {
             };
             outputs.into_iter().map(|e: Ex<'_>| e.expr()).collect()
         };
-        Some(Function::flat(
-            graph,
-            method,
-            NAME.into(),
-            b.into_graph(),
-            outputs,
-        ))
+        let name = NAME.into();
+        Some(Function::flat(graph, method, name, b.into_graph(), outputs).in_order())
     }
 }

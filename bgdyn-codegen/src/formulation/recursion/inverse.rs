@@ -303,19 +303,26 @@ fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Ex<'g>, Ex<'g>)) -> Spin<'g
     let sigma = rate * (total + z);
     let twice = rate * Dd::from_f64(2.0);
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = basis.u.0;
+    let [dzy, dxz, dyx] = basis.differences.0;
+    // A body that turns about z only has U_xx = U_yy = −ω_z².
+    let (xx, yy, dzy, dxz) = if x.is_zero() && y.is_zero() {
+        let square = total * total;
+        (-square, -square, zz + square, -square - zz)
+    } else {
+        (xx - sigma, yy - sigma, dzy + sigma, dxz - sigma)
+    };
     let u = Mat3([
-        [xx - sigma, xy - acceleration, xz],
-        [yx + acceleration, yy - sigma, yz],
+        [xx, xy - acceleration, xz],
+        [yx + acceleration, yy, yz],
         [zx + twice * x, zy + twice * y, zz],
     ]);
-    let d = basis.differences.0;
     // ω̇_x and ω̇_y in axes that stay behind: ω̇⁰ + Ω (ω⁰_y, −ω⁰_x)
     let omega_dot = Vec3([dx + rate * y, dy - rate * x, total_dot]);
     Spin {
         omega: Vec3([x, y, total]),
         omega_dot,
         u,
-        differences: Vec3([d[0] + sigma, d[1] - sigma, d[2]]),
+        differences: Vec3([dzy, dxz, dyx]),
     }
 }
 

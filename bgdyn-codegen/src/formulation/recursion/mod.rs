@@ -18,13 +18,16 @@ mod share;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, count};
+use crate::expr::{Builder, Expr, Graph, count, factored};
 use crate::function::Function;
 use crate::method::Method;
 pub(super) use articulated::Articulated;
 pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
+
+/// Plans, the cheapest ones before factoring, of which the cheapest one after it is taken.
+const FACTORED: usize = 4;
 
 /// The recursion.
 pub(super) struct Recursion;
@@ -48,11 +51,24 @@ impl Formulation for Recursion {
     }
 }
 
+/// The plan that costs least after factoring. Plans that cost about the same before it differ in
+/// what it makes of them.
 fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan {
-    plan::search(geometry, |plan| {
+    let plans = plan::search(geometry, FACTORED, |plan| {
         let (graph, outputs) = outputs(graph, geometry, method, plan);
         count(&graph, &outputs).total()
-    })
+    });
+    let after = |plan: &Plan| {
+        let (made, outputs) = outputs(graph, geometry, method, plan);
+        let (made, outputs) = factored(made, outputs);
+        count(&made, &outputs).total()
+    };
+    let mut plans = plans.into_iter();
+    match plans.len() {
+        1 => plans.next(),
+        _ => plans.min_by_key(after),
+    }
+    .expect("there is a plan to start from")
 }
 
 fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {

@@ -13,13 +13,21 @@ const ROUNDS: usize = 2;
 /// square of their number.
 pub(super) const SEARCHED: usize = 16;
 
-/// The cheapest plan found.
-pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan {
+/// The cheapest plans found, the cheapest one first; at least one, at most `most`.
+pub(super) fn search(geometry: &Geometry, most: usize, cost: impl Fn(&Plan) -> usize) -> Vec<Plan> {
     let n = geometry.bodies.len();
-    let mut best: Option<(usize, Plan)> = None;
+    let mut best: Vec<(usize, Plan)> = Vec::new();
+    let mut keep = |c: usize, plan: &Plan| {
+        let place = best.partition_point(|(other, _)| *other <= c);
+        if place < most && best.iter().all(|(_, other)| other != plan) {
+            best.insert(place, (c, plan.clone()));
+            best.truncate(most);
+        }
+    };
     for start in starts(geometry) {
         let mut plan = start;
         let mut least = cost(&plan);
+        keep(least, &plan);
         for _ in 0..if n <= SEARCHED { ROUNDS } else { 0 } {
             let before = least;
             for change in changes(geometry) {
@@ -29,6 +37,7 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan
                     continue;
                 }
                 let c = cost(&tried);
+                keep(c, &tried);
                 if c < least {
                     (least, plan) = (c, tried);
                 }
@@ -37,11 +46,8 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan
                 break;
             }
         }
-        if best.as_ref().is_none_or(|(c, _)| least < *c) {
-            best = Some((least, plan));
-        }
     }
-    best.expect("there is a plan to start from").1
+    best.into_iter().map(|(_, plan)| plan).collect()
 }
 
 /// Plans to start from: with and without groups.

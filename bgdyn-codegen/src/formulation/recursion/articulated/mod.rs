@@ -53,7 +53,8 @@ impl Formulation for Articulated {
             return None;
         }
         let geometry = geometry(graph);
-        let best = plan::search(&geometry, |plan| self.cost(graph, &geometry, plan));
+        let cost = |plan: &Plan| self.cost(graph, &geometry, plan);
+        let best = plan::search(&geometry, 1, cost).remove(0);
         // A pivot with a fair share of its own is never less than that.
         let guarded: Vec<bool> = own_shares(graph, &geometry)
             .iter()
@@ -61,7 +62,12 @@ impl Formulation for Articulated {
             .collect();
         let (made, outputs) = self.outputs(graph, &geometry, &best, &guarded);
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
-        Some(Function::flat(graph, method, name, made, outputs))
+        let function = Function::flat(graph, method, name, made, outputs);
+        Some(match self {
+            // Its pivots keep their digits by the order of what is subtracted in them.
+            Articulated::Own => function.in_order(),
+            Articulated::Base => function,
+        })
     }
 }
 

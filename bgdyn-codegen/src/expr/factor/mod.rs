@@ -1,0 +1,116 @@
+//! Algebraic factoring: a function with fewer operations and the same value.
+//!
+//! The graph is read as sums of products, Σ k·Π factors ([`network`]): single uses are written
+//! out, so that constants and equal terms meet across nesting, and cancel. Then common products
+//! and common two-term sums are taken out, the one that saves most first ([`extract`]; the two-cube
+//! divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
+//! Kastner 2006), and the graph is built again ([`rebuild`]). Whichever of before and after costs
+//! less is kept.
+//!
+//! Only sums are regrouped; no product of sums is multiplied out but by a number, so that no term
+//! is larger than one that was there before, and rounding errors keep their size.
+
+mod extract;
+mod network;
+mod rebuild;
+
+use super::{Expr, Graph, Node, NodeId, Operations, count, reachable};
+use extract::Extraction;
+use network::Network;
+
+/// Rounds at the most; each one reads what the one before has made.
+const ROUNDS: usize = 2;
+
+/// Operations beyond which a function stays as it is: the pass takes time that grows a little
+/// faster than their number.
+const LIMIT: usize = 20_000;
+
+/// Operations up to which shared values are tried to be written out, one by one: each try is a
+/// round.
+const POLISHED: usize = 100;
+
+/// A function's graph and results, and what they cost.
+struct Best {
+    graph: Graph,
+    outputs: Vec<Expr>,
+    cost: Operations,
+}
+
+impl Best {
+    /// A round; `spread` is written out where it is read. Kept where it is cheaper.
+    fn improve(&mut self, spread: Option<NodeId>) -> bool {
+        let mut network = Network::new(&self.graph, &self.outputs, spread);
+        Extraction::new(&mut network).run();
+        let (graph, outputs) = rebuild::rebuild(&network, &self.outputs);
+        let cost = count(&graph, &outputs);
+        let better = cheaper(&cost, &self.cost);
+        if better {
+            *self = Best {
+                graph,
+                outputs,
+                cost,
+            };
+        }
+        better
+    }
+
+    /// Writes out sums and products that few others read, one by one, as long as a whole turn
+    /// changes something.
+    fn polish(&mut self) {
+        let mut readers = readers(&self.graph, &self.outputs);
+        let (mut i, mut unchanged) = (0, 0);
+        let mut tries = 4 * POLISHED;
+        while unchanged < self.graph.len() && tries > 0 {
+            let place = i % self.graph.len();
+            (i, unchanged) = (i + 1, unchanged + 1);
+            if (1..=3).contains(&readers[place]) {
+                tries -= 1;
+                if self.improve(Some(NodeId(place as u32))) {
+                    readers = self::readers(&self.graph, &self.outputs);
+                    unchanged = 0;
+                }
+            }
+        }
+    }
+}
+
+/// For each sum and product how many nodes read it.
+fn readers(graph: &Graph, outputs: &[Expr]) -> Vec<usize> {
+    let needed = reachable(graph, outputs);
+    let ids = || (0..graph.len()).map(|i| NodeId(i as u32));
+    let mut readers = vec![0; graph.len()];
+    for id in ids().filter(|id| needed[id.0 as usize]) {
+        graph.node(id).for_each_operand(|operand| {
+            if matches!(graph.node(operand), Node::Add(..) | Node::Mul(..)) {
+                readers[operand.0 as usize] += 1;
+            }
+        });
+    }
+    readers
+}
+
+/// The same values with fewer operations, where the pass finds a way.
+pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+    let cost = count(&graph, &outputs);
+    let mut best = Best {
+        graph,
+        outputs,
+        cost,
+    };
+    for _ in 0..ROUNDS {
+        if cost.total() > LIMIT || !best.improve(None) {
+            break;
+        }
+    }
+    if best.cost.total() <= POLISHED {
+        best.polish();
+    }
+    (best.graph, best.outputs)
+}
+
+/// Fewer multiplications and additions, and no more of anything else.
+fn cheaper(a: &Operations, b: &Operations) -> bool {
+    let rest = |o: &Operations| [o.div, o.sqrt, o.sincos, o.other];
+    let mut rests = rest(a).into_iter().zip(rest(b));
+    a.mul + a.add < b.mul + b.add && rests.all(|(x, y)| x <= y)
+}

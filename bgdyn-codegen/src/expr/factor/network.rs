@@ -1,0 +1,279 @@
+//! A function as sums of products: Σ kᵢ · Π factors, read off the expression graph.
+
+use bgdyn_runtime::Dd;
+
+use crate::expr::fold::cancelling_sum;
+use crate::expr::{Expr, Graph, Node, NodeId, reachable};
+
+/// A value that terms refer to: a node of the graph, or a sum made by the pass, counted on from
+/// the last node.
+pub(super) type Var = u32;
+
+/// k · Π factors, the factors sorted; without factors a number.
+#[derive(Clone, Debug)]
+pub(super) struct Term {
+    pub k: Dd,
+    pub factors: Vec<Var>,
+}
+
+impl Term {
+    fn of(var: Var, k: Dd) -> Self {
+        Term {
+            k,
+            factors: vec![var],
+        }
+    }
+
+    /// Multiplications that it takes.
+    pub fn cost(&self) -> usize {
+        product_cost(self.k, self.factors.len())
+    }
+
+    fn times(&self, other: &Term) -> Term {
+        let mut factors = self.factors.clone();
+        factors.extend(&other.factors);
+        factors.sort_unstable();
+        Term {
+            k: self.k * other.k,
+            factors,
+        }
+    }
+}
+
+/// Multiplications of a product of so many factors with a number.
+pub(super) fn product_cost(k: Dd, factors: usize) -> usize {
+    match factors {
+        0 => 0,
+        n => n - 1 + usize::from(!is_unit(k)),
+    }
+}
+
+pub(super) fn is_unit(k: Dd) -> bool {
+    k == Dd::ONE || k == -Dd::ONE
+}
+
+/// Terms with equal factors become one, those that cancel none.
+pub(super) fn merged(mut terms: Vec<Term>) -> Vec<Term> {
+    terms.sort_by(|a, b| a.factors.cmp(&b.factors));
+    let mut merged: Vec<Term> = Vec::with_capacity(terms.len());
+    for term in terms {
+        match merged.last_mut() {
+            Some(last) if last.factors == term.factors => last.k = cancelling_sum(last.k, term.k),
+            _ => merged.push(term),
+        }
+    }
+    merged.retain(|t| t.k != Dd::ZERO);
+    merged
+}
+
+/// Multiplications and additions of a sum.
+pub(super) fn sum_cost(terms: &[Term]) -> usize {
+    terms.len().saturating_sub(1) + terms.iter().map(Term::cost).sum::<usize>()
+}
+
+/// The sums of a function.
+pub(super) struct Network<'a> {
+    pub graph: &'a Graph,
+    /// Which nodes the results need.
+    pub needed: Vec<bool>,
+    /// What each variable is; `None` for what is no sum or product.
+    pub sums: Vec<Option<Vec<Term>>>,
+    /// Nodes that stay as they are: magnitudes of pivots, which bound what is subtracted, and
+    /// products with a quotient, which could overflow in another order.
+    kept: Vec<bool>,
+    /// A sum or product to write out everywhere.
+    spread: Option<Var>,
+    /// How many terms, other nodes and results read each variable; never too low.
+    uses: Vec<usize>,
+}
+
+impl<'a> Network<'a> {
+    /// Reads the graph: single uses are written out where that costs nothing, equal terms meet.
+    /// `spread`, a sum or product, is written out wherever terms read it.
+    pub fn new(graph: &'a Graph, outputs: &[Expr], spread: Option<NodeId>) -> Self {
+        let needed = reachable(graph, outputs);
+        let mut network = Network {
+            graph,
+            sums: vec![None; graph.len()],
+            kept: vec![false; graph.len()],
+            uses: vec![0; graph.len()],
+            needed,
+            spread: spread.map(|id| id.0),
+        };
+        for i in network.nodes() {
+            network.read(i);
+        }
+        network.count_uses(outputs);
+        for i in network.nodes() {
+            network.write_out(i);
+        }
+        network.count_uses(outputs);
+        network
+    }
+
+    /// The nodes that the results need, operands first.
+    fn nodes(&self) -> Vec<Var> {
+        let all = 0..self.graph.len() as Var;
+        all.filter(|&i| self.needed[i as usize]).collect()
+    }
+
+    fn read(&mut self, i: Var) {
+        let node = self.graph.node(NodeId(i));
+        self.sums[i as usize] = match *node {
+            Node::Constant(c) => Some(vec![Term {
+                k: c.value(),
+                factors: Vec::new(),
+            }]),
+            Node::Add(a, b) => {
+                let second = if b.negative { -Dd::ONE } else { Dd::ONE };
+                let terms = vec![
+                    self.scaled(&Term::of(a.0, Dd::ONE)),
+                    self.scaled(&Term::of(b.node.0, second)),
+                ];
+                Some(merged(terms))
+            }
+            Node::Mul(a, b) => {
+                let quotient = |id| matches!(self.graph.node(id), Node::Div(..));
+                self.kept[i as usize] = quotient(a) || quotient(b);
+                let a = self.scaled(&Term::of(a.0, Dd::ONE));
+                Some(vec![a.times(&self.scaled(&Term::of(b.0, Dd::ONE)))])
+            }
+            Node::Pivot(_, magnitude, _) => {
+                self.kept[magnitude.node.0 as usize] = true;
+                None
+            }
+            _ => None,
+        };
+    }
+
+    /// The term with numbers and multiples by a number in place of the factors that are such.
+    fn scaled(&self, term: &Term) -> Term {
+        let mut made = Term {
+            k: term.k,
+            factors: Vec::new(),
+        };
+        for &f in &term.factors {
+            match self.sums[f as usize].as_deref() {
+                Some([only]) if only.factors.len() <= 1 => made = made.times(only),
+                Some([]) => made.k = Dd::ZERO,
+                _ => made.factors.push(f),
+            }
+        }
+        made.factors.sort_unstable();
+        made
+    }
+
+    fn count_uses(&mut self, outputs: &[Expr]) {
+        let mut live = vec![false; self.sums.len()];
+        self.uses.fill(0);
+        for e in outputs {
+            self.use_once(&mut live, e.node.0);
+        }
+        for i in (0..self.sums.len()).rev() {
+            if !live[i] {
+                continue;
+            }
+            match self.sums[i].clone() {
+                Some(terms) => {
+                    for f in terms.iter().flat_map(|t| &t.factors) {
+                        self.use_once(&mut live, *f);
+                    }
+                }
+                None => {
+                    let mut operands = Vec::new();
+                    let node = self.graph.node(NodeId(i as Var));
+                    node.for_each_operand(|id| operands.push(id.0));
+                    for operand in operands {
+                        self.use_once(&mut live, operand);
+                    }
+                }
+            }
+        }
+        self.needed = live;
+    }
+
+    fn use_once(&mut self, live: &mut [bool], var: Var) {
+        live[var as usize] = true;
+        self.uses[var as usize] += 1;
+    }
+
+    /// Whether it is to be written out: nothing but one term reads it.
+    fn read_once(&self, var: Var) -> bool {
+        let wanted = self.uses[var as usize] == 1 || self.spread == Some(var);
+        wanted && !self.kept[var as usize]
+    }
+
+    /// Writes products and sums that are read once, and multiples by numbers, out in their place.
+    fn write_out(&mut self, i: Var) {
+        let Some(terms) = self.sums[i as usize].take() else {
+            return;
+        };
+        let mut whole: Vec<Term> = Vec::new();
+        let mut inner: Vec<Term> = Vec::new();
+        for term in terms {
+            let term = self.flat(&term);
+            if term.k == Dd::ZERO {
+                continue;
+            }
+            match term.factors[..] {
+                [f] if self.read_once(f) && self.sums[f as usize].is_some() => inner.push(term),
+                _ => whole.push(term),
+            }
+        }
+        let mut whole = merged(whole);
+        for term in inner {
+            for f in self.factors_of(term.factors[0]) {
+                self.uses[f as usize] += usize::from(self.uses[term.factors[0] as usize] > 1);
+            }
+            let sum = self.sums[term.factors[0] as usize].as_deref();
+            let scaled = sum.into_iter().flatten().map(|t| Term {
+                k: t.k * term.k,
+                factors: t.factors.clone(),
+            });
+            let mut apart = whole.clone();
+            let spread = merged(whole.into_iter().chain(scaled).collect());
+            apart.push(term.clone());
+            let sum = sum.map_or(0, sum_cost);
+            let wanted = self.spread == Some(term.factors[0]);
+            whole = if wanted || sum_cost(&spread) <= sum_cost(&apart) + sum {
+                spread
+            } else {
+                merged(apart)
+            };
+        }
+        self.sums[i as usize] = Some(whole);
+    }
+
+    fn factors_of(&self, var: Var) -> Vec<Var> {
+        let terms = self.sums[var as usize].as_deref().unwrap_or(&[]);
+        terms.iter().flat_map(|t| t.factors.clone()).collect()
+    }
+
+    /// The term with products that are read once written out.
+    fn flat(&mut self, term: &Term) -> Term {
+        let mut made = Term {
+            k: term.k,
+            factors: Vec::new(),
+        };
+        for &f in &term.factors {
+            match self.sums[f as usize].as_deref() {
+                Some([]) => made.k = Dd::ZERO,
+                Some([only]) if only.factors.len() <= 1 || self.read_once(f) => {
+                    for &inner in &only.factors {
+                        self.uses[inner as usize] += 1;
+                    }
+                    // Its own use of them ends with it where it was the only reader.
+                    if self.uses[f as usize] == 1 {
+                        for &inner in &only.factors {
+                            self.uses[inner as usize] -= 1;
+                        }
+                    }
+                    made = made.times(only);
+                }
+                _ => made.factors.push(f),
+            }
+        }
+        made.factors.sort_unstable();
+        made
+    }
+}
