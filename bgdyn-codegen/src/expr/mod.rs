@@ -26,7 +26,7 @@ pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
-pub use factor::factored;
+pub use factor::{factored, factored_cost};
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -5,24 +5,14 @@ use std::collections::BinaryHeap;
 
 use bgdyn_runtime::Dd;
 
+use super::divisor::{
+    Key, Literal, NumberKey, Place, divide, insert, near, number_key, quotient, quotient_of, scales,
+};
 use super::network::{Network, Term, Var, is_unit, product_cost};
 use crate::expr::QuickMap;
 
-/// What may be taken out: a · b of two factors (or a number and a factor), or a + r b of two
-/// products without a common factor.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Key {
-    Product(Literal, Literal),
-    /// a, b, r as they are interned.
-    Sum(u32, u32, u32),
-}
-
-/// A factor, or the size of a term's number.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-enum Literal {
-    Number(u32),
-    Factor(Var),
-}
+/// How far apart two terms of a sum may stand to be taken out together: time grows with it.
+const WINDOW: usize = 32;
 
 /// Something that may be taken out, with the variables whose sums may hold it.
 struct Candidate {
@@ -30,31 +20,6 @@ struct Candidate {
     places: Vec<Var>,
     /// What taking it out saves at the most.
     bound: isize,
-}
-
-/// A number as a key: the last ten bits of a double-double are rounding errors.
-type NumberKey = (u64, i64);
-
-fn number_key(x: Dd) -> NumberKey {
-    let unit = x.hi().abs() * (1.0 / (1u128 << 96) as f64);
-    let low = if unit > 0.0 {
-        (x.lo() / unit).round()
-    } else {
-        0.0
-    };
-    (x.hi().to_bits(), low as i64)
-}
-
-fn near(x: Dd, y: Dd) -> bool {
-    number_key(x) == number_key(y)
-}
-
-/// Where k (a + r b) · rest stands in a sum: its two terms, and k.
-struct Place {
-    var: Var,
-    terms: [usize; 2],
-    k: Dd,
-    rest: Vec<Var>,
 }
 
 /// The greedy search.
@@ -117,7 +82,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         self.network.sums[var as usize].as_deref().unwrap_or(&[])
     }
 
-    /// Notes the pairs of factors in a term, and its pairs with the terms before it.
+    /// Notes the pairs of factors in a term, and its pairs with terms shortly before it.
     fn register(&mut self, var: Var, t: usize) {
         let term = self.terms(var)[t].clone();
         let mut literals: Vec<Literal> = Vec::new();
@@ -135,7 +100,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
                 }
             }
         }
-        for other in 0..t {
+        for other in t.saturating_sub(WINDOW)..t {
             self.register_pair(var, other, t);
         }
     }
@@ -413,65 +378,4 @@ impl<'a, 'g> Extraction<'a, 'g> {
         }
         saved
     }
-}
-
-/// Numbers by which a + r b may be multiplied: so that one of its own is 1, or one of those where
-/// it stands.
-fn scales(found: &[Place], r: Dd) -> Vec<Dd> {
-    let mut scales = vec![Dd::ONE, Dd::ONE / r];
-    for place in found {
-        if scales.len() < 8 && !scales.iter().any(|&s| near(s, place.k)) {
-            scales.push(place.k);
-        }
-    }
-    scales
-}
-
-/// x / y, ± 1 where they are equal.
-fn quotient_of(x: Dd, y: Dd) -> Dd {
-    if near(x, y) {
-        Dd::ONE
-    } else if near(x, -y) {
-        -Dd::ONE
-    } else {
-        x / y
-    }
-}
-
-fn insert(factors: &mut Vec<Var>, f: Var) {
-    let at = factors.partition_point(|&g| g <= f);
-    factors.insert(at, f);
-}
-
-/// The factors of x and of y that they do not share, and how many they share.
-fn divide(x: &[Var], y: &[Var], a: &mut Vec<Var>, b: &mut Vec<Var>) -> usize {
-    a.clear();
-    b.clear();
-    let (mut i, mut j) = (0, 0);
-    while i < x.len() && j < y.len() {
-        match x[i].cmp(&y[j]) {
-            std::cmp::Ordering::Less => {
-                a.push(x[i]);
-                i += 1;
-            }
-            std::cmp::Ordering::Greater => {
-                b.push(y[j]);
-                j += 1;
-            }
-            std::cmp::Ordering::Equal => (i, j) = (i + 1, j + 1),
-        }
-    }
-    a.extend(&x[i..]);
-    b.extend(&y[j..]);
-    x.len() - a.len()
-}
-
-/// x / a, where a divides x.
-fn quotient(x: &[Var], a: &[Var]) -> Option<Vec<Var>> {
-    if a.len() > x.len() || a.iter().any(|f| x.binary_search(f).is_err()) {
-        return None;
-    }
-    let (mut rest, mut missing) = (Vec::new(), Vec::new());
-    divide(x, a, &mut rest, &mut missing);
-    missing.is_empty().then_some(rest)
 }

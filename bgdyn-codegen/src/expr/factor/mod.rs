@@ -10,6 +10,7 @@
 //! Only sums are regrouped; no product of sums is multiplied out but by a number, so that no term
 //! is larger than one that was there before, and rounding errors keep their size.
 
+mod divisor;
 mod extract;
 mod network;
 mod rebuild;
@@ -23,7 +24,7 @@ const ROUNDS: usize = 2;
 
 /// Operations beyond which a function stays as it is: the pass takes time that grows a little
 /// faster than their number.
-const LIMIT: usize = 20_000;
+const LIMIT: usize = 8_000;
 
 /// Operations up to which shared values are tried to be written out, one by one: each try is a
 /// round.
@@ -91,13 +92,23 @@ fn readers(graph: &Graph, outputs: &[Expr]) -> Vec<usize> {
 
 /// The same values with fewer operations, where the pass finds a way.
 pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+    let best = rounds(graph, outputs, ROUNDS);
+    (best.graph, best.outputs)
+}
+
+/// About what [`factored`] makes of a function costs: of long ones, after a single round.
+pub fn factored_cost(graph: Graph, outputs: Vec<Expr>) -> Operations {
+    rounds(graph, outputs, 1).cost
+}
+
+fn rounds(graph: Graph, outputs: Vec<Expr>, most: usize) -> Best {
     let cost = count(&graph, &outputs);
     let mut best = Best {
         graph,
         outputs,
         cost,
     };
-    for _ in 0..ROUNDS {
+    for _ in 0..most {
         if cost.total() > LIMIT || !best.improve(None) {
             break;
         }
@@ -105,7 +116,7 @@ pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     if best.cost.total() <= POLISHED {
         best.polish();
     }
-    (best.graph, best.outputs)
+    best
 }
 
 /// Fewer multiplications and additions, and no more of anything else.

@@ -18,7 +18,7 @@ mod share;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, count, factored};
+use crate::expr::{Builder, Expr, Graph, count, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
 pub(super) use articulated::Articulated;
@@ -60,8 +60,7 @@ fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan
     });
     let after = |plan: &Plan| {
         let (made, outputs) = outputs(graph, geometry, method, plan);
-        let (made, outputs) = factored(made, outputs);
-        count(&made, &outputs).total()
+        factored_cost(made, outputs).total()
     };
     let mut plans = plans.into_iter();
     match plans.len() {

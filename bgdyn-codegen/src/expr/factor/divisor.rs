@@ -1,0 +1,107 @@
+//! What can be taken out of sums, and the arithmetic of products and numbers that finds it.
+
+use bgdyn_runtime::Dd;
+
+use super::network::Var;
+
+/// What may be taken out: a · b of two factors (or a number and a factor), or a + r b of two
+/// products without a common factor.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Key {
+    Product(Literal, Literal),
+    /// a, b, r as they are interned.
+    Sum(u32, u32, u32),
+}
+
+/// A factor, or the size of a term's number.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Literal {
+    Number(u32),
+    Factor(Var),
+}
+
+/// A number as a key: the last ten bits of a double-double are rounding errors.
+pub(super) type NumberKey = (u64, i64);
+
+pub(super) fn number_key(x: Dd) -> NumberKey {
+    let unit = x.hi().abs() * (1.0 / (1u128 << 96) as f64);
+    let low = if unit > 0.0 {
+        (x.lo() / unit).round()
+    } else {
+        0.0
+    };
+    (x.hi().to_bits(), low as i64)
+}
+
+pub(super) fn near(x: Dd, y: Dd) -> bool {
+    number_key(x) == number_key(y)
+}
+
+/// Where k (a + r b) · rest stands in a sum: its two terms, and k.
+pub(super) struct Place {
+    pub var: Var,
+    pub terms: [usize; 2],
+    pub k: Dd,
+    pub rest: Vec<Var>,
+}
+
+/// Numbers by which a + r b may be multiplied: so that one of its own is 1, or one of those where
+/// it stands.
+pub(super) fn scales(found: &[Place], r: Dd) -> Vec<Dd> {
+    let mut scales = vec![Dd::ONE, Dd::ONE / r];
+    for place in found {
+        if scales.len() < 8 && !scales.iter().any(|&s| near(s, place.k)) {
+            scales.push(place.k);
+        }
+    }
+    scales
+}
+
+/// x / y, ± 1 where they are equal.
+pub(super) fn quotient_of(x: Dd, y: Dd) -> Dd {
+    if near(x, y) {
+        Dd::ONE
+    } else if near(x, -y) {
+        -Dd::ONE
+    } else {
+        x / y
+    }
+}
+
+pub(super) fn insert(factors: &mut Vec<Var>, f: Var) {
+    let at = factors.partition_point(|&g| g <= f);
+    factors.insert(at, f);
+}
+
+/// The factors of x and of y that they do not share, and how many they share.
+pub(super) fn divide(x: &[Var], y: &[Var], a: &mut Vec<Var>, b: &mut Vec<Var>) -> usize {
+    a.clear();
+    b.clear();
+    let (mut i, mut j) = (0, 0);
+    while i < x.len() && j < y.len() {
+        match x[i].cmp(&y[j]) {
+            std::cmp::Ordering::Less => {
+                a.push(x[i]);
+                i += 1;
+            }
+            std::cmp::Ordering::Greater => {
+                b.push(y[j]);
+                j += 1;
+            }
+            std::cmp::Ordering::Equal => (i, j) = (i + 1, j + 1),
+        }
+    }
+    a.extend(&x[i..]);
+    b.extend(&y[j..]);
+    x.len() - a.len()
+}
+
+/// x / a, where a divides x.
+pub(super) fn quotient(x: &[Var], a: &[Var]) -> Option<Vec<Var>> {
+    if a.len() > x.len() || a.iter().any(|f| x.binary_search(f).is_err()) {
+        return None;
+    }
+    let (mut rest, mut missing) = (Vec::new(), Vec::new());
+    divide(x, a, &mut rest, &mut missing);
+    missing.is_empty().then_some(rest)
+}
