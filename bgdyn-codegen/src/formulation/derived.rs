@@ -26,6 +26,7 @@ pub(super) fn function(
             Some(finish(graph, method, &bias, b, outputs))
         }
         Method::InverseDynamicsDerivatives => {
+            if std::env::var("STRUCT").is_ok() { return super::recursion::Recursion.function(graph, method); }
             let inverse = choose(graph, Method::InverseDynamics, asked)?;
             let (b, x) = reopened(&inverse);
             let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));

@@ -15,39 +15,47 @@ use crate::mechanism::Motion;
 
 /// Angular motion in one set of axes.
 #[derive(Clone, Copy)]
-struct Spin<'g> {
-    omega: Vec3<Ex<'g>>,
+pub(super) struct Spin<'g> {
+    pub omega: Vec3<Ex<'g>>,
     omega_dot: Vec3<Ex<'g>>,
     /// U
-    u: Mat3<Ex<'g>>,
+    pub u: Mat3<Ex<'g>>,
     /// U_zz − U_yy, U_xx − U_zz, U_yy − U_xx
-    differences: Vec3<Ex<'g>>,
+    pub differences: Vec3<Ex<'g>>,
 }
 
 /// Motion of a body.
-struct Moving<'g> {
+pub(super) struct Moving<'g> {
     /// Of the twisted axes in which the basis began, before any angle of the group.
-    basis: Spin<'g>,
+    pub basis: Spin<'g>,
     /// Ω, Ω̇: summed rates of the group's joints.
     rate: (Ex<'g>, Ex<'g>),
     /// Angular motion of the body, in the basis's axes.
-    in_basis: Spin<'g>,
+    pub in_basis: Spin<'g>,
     /// Acceleration of the origin in the basis's axes.
-    a_basis: Vec3<Ex<'g>>,
+    pub a_basis: Vec3<Ex<'g>>,
     /// Angular motion of the body in its own axes.
-    own: Spin<'g>,
+    pub own: Spin<'g>,
     /// Acceleration of the origin in own axes.
-    a_own: Vec3<Ex<'g>>,
+    pub a_own: Vec3<Ex<'g>>,
 }
 
 /// Force and moment about the body's origin.
 #[derive(Clone, Copy)]
-struct Wrench<'g> {
-    force: Vec3<Ex<'g>>,
-    moment: Vec3<Ex<'g>>,
+pub(super) struct Wrench<'g> {
+    pub force: Vec3<Ex<'g>>,
+    pub moment: Vec3<Ex<'g>>,
 }
 
 impl<'g> Wrench<'g> {
+    /// Of nothing.
+    pub fn zero(b: &'g Builder) -> Self {
+        Wrench {
+            force: zero(b),
+            moment: zero(b),
+        }
+    }
+
     fn plus(self, b: Self) -> Self {
         Wrench {
             force: self.force + b.force,
@@ -55,7 +63,8 @@ impl<'g> Wrench<'g> {
         }
     }
 
-    fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+    /// In other axes.
+    pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
         Wrench {
             force: f(self.force),
             moment: f(self.moment),
@@ -63,10 +72,18 @@ impl<'g> Wrench<'g> {
     }
 
     /// About a point from which this one's origin is displaced by p.
-    fn carried(self, p: Vec3<Ex<'g>>) -> Self {
+    pub fn carried(self, p: Vec3<Ex<'g>>) -> Self {
         Wrench {
             force: self.force,
             moment: self.moment + p.cross(self.force),
+        }
+    }
+
+    /// Its share in the direction of a joint.
+    pub fn along(&self, frame: &Frame<'g>) -> Ex<'g> {
+        match frame.motion {
+            Motion::Rotation => self.moment.0[2],
+            _ => self.force.0[2],
         }
     }
 }
@@ -79,6 +96,16 @@ pub(super) fn efforts<'g>(
     short_moment: bool,
     active: bool,
 ) -> Vec<Ex<'g>> {
+    let moving = motions(b, frames, active);
+    let wrenches = wrenches(b, frames, &moving, in_basis, short_moment);
+    let effort = |(frame, wrench): (&Frame<'g>, &Wrench<'g>)| {
+        (wrench.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint))
+    };
+    frames.bodies.iter().zip(&wrenches).map(effort).collect()
+}
+
+/// Motion of every body for the rates and accelerations in `frames`.
+pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Vec<Moving<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
         let parent = frame.parent.map(|p| &moving[p]);
@@ -91,7 +118,7 @@ pub(super) fn efforts<'g>(
         name(frame, &step);
         moving.push(step);
     }
-    inwards(b, frames, &moving, in_basis, short_moment)
+    moving
 }
 
 fn zero(b: &Builder) -> Vec3<Ex<'_>> {
@@ -318,23 +345,21 @@ fn dynamics<'g>(
     }
 }
 
-/// Forces and moments summed from the tips, and the joints' share of them.
-fn inwards<'g>(
+/// For each joint, force and moment about the body's origin on all that it carries, in the axes of
+/// its basis: summed from the tips.
+pub(super) fn wrenches<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
     moving: &[Moving<'g>],
     in_basis: &[bool],
     short: bool,
-) -> Vec<Ex<'g>> {
+) -> Vec<Wrench<'g>> {
     let n = frames.bodies.len();
-    let nothing = Wrench {
-        force: zero(b),
-        moment: zero(b),
-    };
+    let nothing = Wrench::zero(b);
     // What the bodies beyond hand over: in own axes, and in the basis's.
     let mut own = vec![nothing; n];
     let mut basis = vec![nothing; n];
-    let mut efforts = vec![b.zero(); n];
+    let mut sums = vec![nothing; n];
     for j in (0..n).rev() {
         let (frame, motion) = (&frames.bodies[j], &moving[j]);
         b.section(format!(
@@ -357,11 +382,7 @@ fn inwards<'g>(
             own[j] = wrench.plus(own[j]);
         }
         let whole = basis[j].plus(own[j].map(|v| turn(v, frame.turn)));
-        let along = match frame.motion {
-            Motion::Rotation => whole.moment.0[2],
-            _ => whole.force.0[2],
-        };
-        efforts[j] = (along * frame.effort).named(|| format!("tau_{}", frame.joint));
+        sums[j] = whole;
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {
@@ -371,5 +392,5 @@ fn inwards<'g>(
             own[p] = own[p].plus(carried.map(|v| twist * v));
         }
     }
-    efforts
+    sums
 }

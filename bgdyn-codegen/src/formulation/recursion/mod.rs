@@ -4,6 +4,7 @@
 //! Its free choices are a [`Plan`]; the plan is searched for by counting, in a bounded number of
 //! steps, method by method.
 
+mod flow;
 mod frames;
 mod geometry;
 mod inertia;
@@ -11,6 +12,7 @@ mod inverse;
 mod kinematics;
 mod mass;
 mod plan;
+mod slopes;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
@@ -42,6 +44,7 @@ impl Formulation for Recursion {
             count(&graph, &outputs).total()
         };
         let best = plan::search(&geometry, cost);
+        if std::env::var("SHOW").is_ok() { eprintln!("{best:?}"); }
         let (made, outputs) = outputs(graph, &geometry, method, &best);
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
         Some(Function::flat(graph, method, name, made, outputs))
@@ -77,6 +80,14 @@ fn outputs(
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
             Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],
+            Method::InverseDynamicsDerivatives => {
+                let moving = inverse::motions(&b, &frames, true);
+                let wrenches =
+                    inverse::wrenches(&b, &frames, &moving, &plan.in_basis, plan.short_moment);
+                let slopes = slopes::slopes(&b, &frames, &moving, &wrenches);
+                let squares = slopes.by_position.into_iter().chain(slopes.by_rate);
+                squares.flatten().collect()
+            }
             other => unreachable!("{other:?} is no method of the recursion"),
         };
         outputs.into_iter().map(|e| e.expr).collect()
