@@ -56,7 +56,7 @@ impl<'g> Wrench<'g> {
         }
     }
 
-    fn plus(self, b: Self) -> Self {
+    pub fn plus(self, b: Self) -> Self {
         Wrench {
             force: self.force + b.force,
             moment: self.moment + b.moment,
@@ -308,7 +308,7 @@ fn own_spin<'g>(
 }
 
 /// F = m a + U h and N = skew(U D) + h × a of a body.
-fn dynamics<'g>(
+pub(super) fn dynamics<'g>(
     inertia: &Inertia<'g>,
     j_zz: Ex<'g>,
     spin: &Spin<'g>,
@@ -322,6 +322,8 @@ fn dynamics<'g>(
     let pair = |k1: Ex<'g>, x: Ex<'g>, k2: Ex<'g>, y: Ex<'g>| {
         if k1 == k2 {
             k1 * (x - y)
+        } else if k1 == -k2 {
+            k1 * (x + y)
         } else {
             k1 * x - k2 * y
         }

@@ -46,6 +46,17 @@ impl Formulation for Recursion {
         let best = plan::search(&geometry, cost);
         if std::env::var("SHOW").is_ok() { eprintln!("{best:?}"); }
         let (made, outputs) = outputs(graph, &geometry, method, &best);
+        if std::env::var("SHOW").is_ok() && method == Method::InverseDynamicsDerivatives {
+            let needed = crate::expr::reachable(&made, &outputs);
+            let mut counts: std::collections::BTreeMap<String, usize> = Default::default();
+            for i in 0..made.len() {
+                let id = crate::expr::NodeId(i as u32);
+                if needed[i] && matches!(made.node(id), crate::expr::Node::Add(..) | crate::expr::Node::Mul(..)) {
+                    *counts.entry(made.section(id).unwrap_or("").to_string()).or_default() += 1;
+                }
+            }
+            for (k, v) in counts { eprintln!("{v:5} {k}"); }
+        }
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
         Some(Function::flat(graph, method, name, made, outputs))
     }
