@@ -2,14 +2,34 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Formulation, choose, solve};
+use super::{FORMULATIONS, Formulation, choose, literal, solve};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::function::Function;
 use crate::method::{Method, Shape};
 
 /// The method, if it is one of these; the others come from a formulation.
+///
+/// A formulation may know the derivatives themselves; the chosen functions' graphs can always be
+/// differentiated. What costs less is taken.
 pub(super) fn function(
+    graph: &BondGraph,
+    method: Method,
+    asked: Option<&dyn Formulation>,
+) -> Option<Function> {
+    let differentiated = differentiated(graph, method, asked)?;
+    // The literal sum knows no derivatives.
+    let regrouped = FORMULATIONS.iter().filter(|f| {
+        f.name() != literal::NAME && asked.is_none_or(|asked| asked.name() == f.name())
+    });
+    regrouped
+        .filter_map(|f| f.function(graph, method))
+        .chain([differentiated])
+        .min_by_key(|f| f.operations().total())
+}
+
+/// The method by differentiating the graph of the function that it is a derivative of.
+fn differentiated(
     graph: &BondGraph,
     method: Method,
     asked: Option<&dyn Formulation>,
@@ -26,7 +46,6 @@ pub(super) fn function(
             Some(finish(graph, method, &bias, b, outputs))
         }
         Method::InverseDynamicsDerivatives => {
-            if std::env::var("STRUCT").is_ok() { return super::recursion::Recursion.function(graph, method); }
             let inverse = choose(graph, Method::InverseDynamics, asked)?;
             let (b, x) = reopened(&inverse);
             let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
@@ -74,15 +93,13 @@ fn forward_derivatives(
             _ => None,
         };
         let slopes = replaced(&b, &slopes, placed);
-        let solved = |column: &[Expr]| factor.solve(column.iter().map(|&e| -b.ex(e)).collect());
-        let columns: Vec<Vec<Ex<'_>>> = slopes.iter().map(|c| solved(c)).collect();
-        let unit = |j: usize| (0..n).map(|i| b.number(f64::from(i == j))).collect();
-        let inverse: Vec<Vec<Ex<'_>>> = (0..n).map(|j| factor.solve(unit(j))).collect();
-        let mut outputs: Vec<Expr> = accelerations.iter().map(|e| e.expr).collect();
-        for square in columns.chunks(n.max(1)).chain([inverse.as_slice()]) {
-            outputs.extend((0..n).flat_map(|i| square.iter().map(move |c| c[i].expr)));
-        }
-        outputs
+        let row = |square: &[Vec<Expr>], i: usize| square.iter().map(|c| b.ex(c[i])).collect();
+        let squares: Vec<Vec<Vec<Ex<'_>>>> = slopes
+            .chunks(n.max(1))
+            .map(|square| (0..n).map(|i| row(square, i)).collect())
+            .collect();
+        let results = factor.accelerations_and_slopes(accelerations, &squares);
+        results.into_iter().map(|e| e.expr).collect::<Vec<_>>()
     };
     debug_assert_eq!(outputs.len(), Shape::CheckedSquares.len(n));
     Some(finish(graph, method, &inverse, b, outputs))

@@ -73,6 +73,36 @@ impl<'g> Factor<'g> {
         }
         x
     }
+
+    /// M⁻¹, row by row.
+    fn inverse(&self) -> Vec<Vec<Ex<'g>>> {
+        let n = self.inverse.len();
+        let unit = |j: usize| (0..n).map(|i| self.b.number(f64::from(i == j))).collect();
+        let columns: Vec<Vec<Ex<'g>>> = (0..n).map(|j| self.solve(unit(j))).collect();
+        // The upper triangle needs no more than a part of the second substitution.
+        let entry = |i: usize, j: usize| columns[i.max(j)][i.min(j)];
+        (0..n)
+            .map(|i| (0..n).map(|j| entry(i, j)).collect())
+            .collect()
+    }
+
+    /// The results of the forward dynamics' derivatives: accelerations, −M⁻¹ ∂τ/∂x for each
+    /// square of derivatives of the efforts, M⁻¹.
+    pub(super) fn accelerations_and_slopes(
+        &self,
+        accelerations: Vec<Ex<'g>>,
+        squares: &[Vec<Vec<Ex<'g>>>],
+    ) -> Vec<Ex<'g>> {
+        let n = accelerations.len();
+        let mut results = accelerations;
+        for square in squares {
+            let column = |j: usize| self.solve(square.iter().map(|row| -row[j]).collect());
+            let columns: Vec<Vec<Ex<'g>>> = (0..n).map(column).collect();
+            results.extend((0..n).flat_map(|i| columns.iter().map(move |c| c[i])));
+        }
+        results.extend(self.inverse().into_iter().flatten());
+        results
+    }
 }
 
 /// Solves M x = f for one f.

@@ -16,12 +16,13 @@ use crate::mechanism::Motion;
 /// Angular motion in one set of axes.
 #[derive(Clone, Copy)]
 pub(super) struct Spin<'g> {
+    /// ω
     pub omega: Vec3<Ex<'g>>,
     omega_dot: Vec3<Ex<'g>>,
     /// U
     pub u: Mat3<Ex<'g>>,
     /// U_zz − U_yy, U_xx − U_zz, U_yy − U_xx
-    pub differences: Vec3<Ex<'g>>,
+    differences: Vec3<Ex<'g>>,
 }
 
 /// Motion of a body.
@@ -56,6 +57,7 @@ impl<'g> Wrench<'g> {
         }
     }
 
+    /// Of both.
     pub fn plus(self, b: Self) -> Self {
         Wrench {
             force: self.force + b.force,
@@ -97,14 +99,11 @@ pub(super) fn efforts<'g>(
     active: bool,
 ) -> Vec<Ex<'g>> {
     let moving = motions(b, frames, active);
-    let wrenches = wrenches(b, frames, &moving, in_basis, short_moment);
-    let effort = |(frame, wrench): (&Frame<'g>, &Wrench<'g>)| {
-        (wrench.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint))
-    };
-    frames.bodies.iter().zip(&wrenches).map(effort).collect()
+    inwards(b, frames, &moving, in_basis, short_moment)
 }
 
-/// Motion of every body for the rates and accelerations in `frames`.
+/// Motion of every body for the rates and accelerations in `frames`; where `active`, against
+/// gravity.
 pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Vec<Moving<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
@@ -318,7 +317,7 @@ pub(super) fn dynamics<'g>(
     let (u, h) = (&spin.u.0, inertia.first);
     let d = |i, j| inertia.d(i, j);
     let [dzy, dxz, dyx] = spin.differences.0;
-    // k₁ x − k₂ y, merged where k₁ = k₂
+    // k₁ x − k₂ y, merged where k₁ = ±k₂
     let pair = |k1: Ex<'g>, x: Ex<'g>, k2: Ex<'g>, y: Ex<'g>| {
         if k1 == k2 {
             k1 * (x - y)
@@ -347,21 +346,20 @@ pub(super) fn dynamics<'g>(
     }
 }
 
-/// For each joint, force and moment about the body's origin on all that it carries, in the axes of
-/// its basis: summed from the tips.
-pub(super) fn wrenches<'g>(
+/// Forces and moments summed from the tips, and the joints' share of them.
+fn inwards<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
     moving: &[Moving<'g>],
     in_basis: &[bool],
     short: bool,
-) -> Vec<Wrench<'g>> {
+) -> Vec<Ex<'g>> {
     let n = frames.bodies.len();
     let nothing = Wrench::zero(b);
     // What the bodies beyond hand over: in own axes, and in the basis's.
     let mut own = vec![nothing; n];
     let mut basis = vec![nothing; n];
-    let mut sums = vec![nothing; n];
+    let mut efforts = vec![b.zero(); n];
     for j in (0..n).rev() {
         let (frame, motion) = (&frames.bodies[j], &moving[j]);
         b.section(format!(
@@ -384,7 +382,7 @@ pub(super) fn wrenches<'g>(
             own[j] = wrench.plus(own[j]);
         }
         let whole = basis[j].plus(own[j].map(|v| turn(v, frame.turn)));
-        sums[j] = whole;
+        efforts[j] = (whole.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint));
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {
@@ -394,5 +392,5 @@ pub(super) fn wrenches<'g>(
             own[p] = own[p].plus(carried.map(|v| twist * v));
         }
     }
-    sums
+    efforts
 }

@@ -4,7 +4,8 @@
 //! Its free choices are a [`Plan`]; the plan is searched for by counting, in a bounded number of
 //! steps, method by method.
 
-mod flow;
+mod beyond;
+mod composite;
 mod frames;
 mod geometry;
 mod inertia;
@@ -13,6 +14,8 @@ mod kinematics;
 mod mass;
 mod plan;
 mod slopes;
+
+use bgdyn_runtime::Dd;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
@@ -43,22 +46,46 @@ impl Formulation for Recursion {
             let (graph, outputs) = outputs(graph, &geometry, method, plan);
             count(&graph, &outputs).total()
         };
-        let best = plan::search(&geometry, cost);
-        if std::env::var("SHOW").is_ok() { eprintln!("{best:?}"); }
-        let (made, outputs) = outputs(graph, &geometry, method, &best);
-        if std::env::var("SHOW").is_ok() && method == Method::InverseDynamicsDerivatives {
-            let needed = crate::expr::reachable(&made, &outputs);
-            let mut counts: std::collections::BTreeMap<String, usize> = Default::default();
-            for i in 0..made.len() {
-                let id = crate::expr::NodeId(i as u32);
-                if needed[i] && matches!(made.node(id), crate::expr::Node::Add(..) | crate::expr::Node::Mul(..)) {
-                    *counts.entry(made.section(id).unwrap_or("").to_string()).or_default() += 1;
-                }
+        let best = match method {
+            Method::InverseDynamicsDerivatives
+            | Method::ForwardDynamicsDerivatives
+            | Method::CoriolisMatrix
+                if std::env::var("FULL").is_err() =>
+            {
+                self.plan_for_derivatives(graph, &geometry, cost)
             }
-            for (k, v) in counts { eprintln!("{v:5} {k}"); }
-        }
+            _ => plan::search(&geometry, cost),
+        };
+        let (made, outputs) = outputs(graph, &geometry, method, &best);
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
         Some(Function::flat(graph, method, name, made, outputs))
+    }
+}
+
+impl Recursion {
+    /// The plan of the inverse dynamics or of the mass matrix, whichever is cheaper: they are small graphs; a search by
+    /// the derivatives' own graph takes too long.
+    fn plan_for_derivatives(
+        &self,
+        graph: &BondGraph,
+        geometry: &Geometry,
+        cost: impl Fn(&Plan) -> usize,
+    ) -> Plan {
+        let by = |method| {
+            plan::search(geometry, |plan| {
+                let (graph, outputs) = outputs(graph, geometry, method, plan);
+                count(&graph, &outputs).total()
+            })
+        };
+        let plans = [by(Method::InverseDynamics), by(Method::MassMatrix)];
+            eprintln!("plans {} {}", cost(&plans[0]), cost(&plans[1]));
+        }
+        let [first, second] = plans;
+        if cost(&second) < cost(&first) {
+            second
+        } else {
+            first
+        }
     }
 }
 
@@ -89,16 +116,33 @@ fn outputs(
                     .collect();
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
             }
+            Method::InverseDynamicsDerivatives => {
+                let slopes = slopes::slopes(&b, &frames, &inverse::motions(&b, &frames, x.active));
+                let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
+                rows.flatten().collect()
+            }
+            Method::CoriolisMatrix => {
+                // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
+                let slopes = slopes::slopes(&b, &frames, &inverse::motions(&b, &frames, false));
+                let rows = slopes.by_rate.into_iter().flatten();
+                rows.map(|e| e * Dd::from_f64(0.5)).collect()
+            }
+            Method::ForwardDynamicsDerivatives => {
+                let factor = solve::Factor::new(&b, mass::mass_matrix(&b, &frames));
+                let drive = x.tau.iter().zip(efforts());
+                let accelerations = factor.solve(drive.map(|(&tau, h)| tau - h).collect());
+                let driven = Arguments {
+                    a: accelerations.clone(),
+                    ..x
+                };
+                let frames = Frames::new(&b, graph, geometry, plan, &driven);
+                let moving = inverse::motions(&b, &frames, driven.active);
+                let slopes = slopes::slopes(&b, &frames, &moving);
+                factor
+                    .accelerations_and_slopes(accelerations, &[slopes.by_position, slopes.by_rate])
+            }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
             Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],
-            Method::InverseDynamicsDerivatives => {
-                let moving = inverse::motions(&b, &frames, true);
-                let wrenches =
-                    inverse::wrenches(&b, &frames, &moving, &plan.in_basis, plan.short_moment);
-                let slopes = slopes::slopes(&b, &frames, &moving, &wrenches);
-                let squares = slopes.by_position.into_iter().chain(slopes.by_rate);
-                squares.flatten().collect()
-            }
             other => unreachable!("{other:?} is no method of the recursion"),
         };
         outputs.into_iter().map(|e| e.expr).collect()
