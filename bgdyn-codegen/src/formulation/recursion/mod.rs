@@ -42,50 +42,25 @@ impl Formulation for Recursion {
         if let Some(site) = method.site() {
             return Some(kinematics::function(graph, &geometry, method, site));
         }
-        let cost = |plan: &Plan| {
+        let cost = |method, plan: &Plan| {
             let (graph, outputs) = outputs(graph, &geometry, method, plan);
             count(&graph, &outputs).total()
         };
+        let search = |method| plan::search(&geometry, |plan| cost(method, plan));
         let best = match method {
-            Method::InverseDynamicsDerivatives
-            | Method::ForwardDynamicsDerivatives
-            | Method::CoriolisMatrix
-                if std::env::var("FULL").is_err() =>
-            {
-                self.plan_for_derivatives(graph, &geometry, cost)
+            // Their graphs are too large for a whole search: the plans of two small methods, one of
+            // which the derivatives resemble.
+            Method::CoriolisMatrix
+            | Method::InverseDynamicsDerivatives
+            | Method::ForwardDynamicsDerivatives => {
+                let plans = [Method::InverseDynamics, Method::MassMatrix].map(search);
+                plan::refined(&geometry, plans, |plan| cost(method, plan))
             }
-            _ => plan::search(&geometry, cost),
+            _ => search(method),
         };
         let (made, outputs) = outputs(graph, &geometry, method, &best);
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
         Some(Function::flat(graph, method, name, made, outputs))
-    }
-}
-
-impl Recursion {
-    /// The plan of the inverse dynamics or of the mass matrix, whichever is cheaper: they are small graphs; a search by
-    /// the derivatives' own graph takes too long.
-    fn plan_for_derivatives(
-        &self,
-        graph: &BondGraph,
-        geometry: &Geometry,
-        cost: impl Fn(&Plan) -> usize,
-    ) -> Plan {
-        let by = |method| {
-            plan::search(geometry, |plan| {
-                let (graph, outputs) = outputs(graph, geometry, method, plan);
-                count(&graph, &outputs).total()
-            })
-        };
-        let plans = [by(Method::InverseDynamics), by(Method::MassMatrix)];
-            eprintln!("plans {} {}", cost(&plans[0]), cost(&plans[1]));
-        }
-        let [first, second] = plans;
-        if cost(&second) < cost(&first) {
-            second
-        } else {
-            first
-        }
     }
 }
 

@@ -44,6 +44,32 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan
     best.expect("there is a plan to start from").1
 }
 
+/// The cheapest of some plans, then with each origin and each unit of length tried once.
+pub(super) fn refined(
+    geometry: &Geometry,
+    plans: [Plan; 2],
+    cost: impl Fn(&Plan) -> usize,
+) -> Plan {
+    let costs = plans.each_ref().map(&cost);
+    let first = usize::from(costs[1] < costs[0]);
+    let (mut least, mut plan) = (costs[first], plans[first].clone());
+    if geometry.bodies.len() > SEARCHED || std::env::var("NOREF").is_ok() {
+        return plan;
+    }
+    for change in places(geometry) {
+        let mut tried = plan.clone();
+        change(&mut tried);
+        if tried == plan {
+            continue;
+        }
+        let c = cost(&tried);
+        if c < least {
+            (least, plan) = (c, tried);
+        }
+    }
+    plan
+}
+
 /// Plans to start from: with and without groups.
 fn starts(geometry: &Geometry) -> Vec<Plan> {
     let n = geometry.bodies.len();
@@ -66,11 +92,10 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
 
 type Change = Box<dyn Fn(&mut Plan)>;
 
-/// Every single choice, as a change of a plan.
-fn changes(geometry: &Geometry) -> Vec<Change> {
-    let n = geometry.bodies.len();
+/// Every place for an origin and every unit of length, as a change of a plan.
+fn places(geometry: &Geometry) -> Vec<Change> {
     let mut changes: Vec<Change> = Vec::new();
-    for j in 0..n {
+    for j in 0..geometry.bodies.len() {
         for h in slides(geometry, j) {
             changes.push(Box::new(move |plan| plan.slides[j] = h));
         }
@@ -78,6 +103,13 @@ fn changes(geometry: &Geometry) -> Vec<Change> {
     for unit in units(geometry) {
         changes.push(Box::new(move |plan| plan.unit = unit));
     }
+    changes
+}
+
+/// Every single choice, as a change of a plan.
+fn changes(geometry: &Geometry) -> Vec<Change> {
+    let n = geometry.bodies.len();
+    let mut changes = places(geometry);
     for j in 0..n {
         changes.push(Box::new(move |plan| plan.in_basis[j] ^= true));
     }

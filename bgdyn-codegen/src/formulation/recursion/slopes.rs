@@ -72,7 +72,7 @@ pub(super) fn slopes<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'
         beyond.push(unit.entered(b, frame.motion, diagonal));
 
         let Some(p) = frame.parent else { continue };
-        let twice_u = twice_velocity(b, frame, spin_before(frames, j, moving));
+        let twice_u = twice_velocity(frame, spin_before(frames, j, moving));
         let home = if frame.continues {
             &mut basis[p]
         } else {
@@ -206,7 +206,7 @@ fn zeros(spin: &Spin<'_>) -> usize {
 }
 
 /// Twice the velocity of a body's origin relative to its parent's, in the axes of the basis.
-fn twice_velocity<'g>(b: &'g Builder, frame: &Frame<'g>, before: &Spin<'g>) -> Vec3<Ex<'g>> {
+fn twice_velocity<'g>(frame: &Frame<'g>, before: &Spin<'g>) -> Vec3<Ex<'g>> {
     let two = Dd::from_f64(2.0);
     let mut twice = before.omega.map(|x| x * two).cross(frame.position);
     if frame.motion != Motion::Rotation {
