@@ -47,15 +47,14 @@ impl Formulation for Recursion {
             count(&graph, &outputs).total()
         };
         let search = |method| plan::search(&geometry, |plan| cost(method, plan));
+        let refined = |plan| plan::refined(&geometry, plan, |plan| cost(method, plan));
         let best = match method {
-            // Their graphs are too large for a whole search: the plans of two small methods, one of
-            // which the derivatives resemble.
-            Method::CoriolisMatrix
-            | Method::InverseDynamicsDerivatives
-            | Method::ForwardDynamicsDerivatives => {
-                let plans = [Method::InverseDynamics, Method::MassMatrix].map(search);
-                plan::refined(&geometry, plans, |plan| cost(method, plan))
+            // Their graphs are too large for a whole search: it starts from the plan of a small method
+            // that they resemble.
+            Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
+                refined(search(Method::MassMatrix))
             }
+            Method::ForwardDynamicsDerivatives => refined(search(Method::InverseDynamics)),
             _ => search(method),
         };
         let (made, outputs) = outputs(graph, &geometry, method, &best);

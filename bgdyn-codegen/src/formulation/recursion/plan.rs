@@ -44,18 +44,13 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan
     best.expect("there is a plan to start from").1
 }
 
-/// The cheapest of some plans, then with each origin and each unit of length tried once.
-pub(super) fn refined(
-    geometry: &Geometry,
-    plans: [Plan; 2],
-    cost: impl Fn(&Plan) -> usize,
-) -> Plan {
-    let costs = plans.each_ref().map(&cost);
-    let first = usize::from(costs[1] < costs[0]);
-    let (mut least, mut plan) = (costs[first], plans[first].clone());
-    if geometry.bodies.len() > SEARCHED || std::env::var("NOREF").is_ok() {
+/// A plan in which each place of an origin and each unit of length was tried once.
+pub(super) fn refined(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> usize) -> Plan {
+    let mut plan = start;
+    if geometry.bodies.len() > SEARCHED {
         return plan;
     }
+    let mut least = cost(&plan);
     for change in places(geometry) {
         let mut tried = plan.clone();
         change(&mut tried);
