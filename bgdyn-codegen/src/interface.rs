@@ -15,6 +15,8 @@ pub struct Interface {
     pub links: Vec<String>,
     /// Names of the frames; empty where the spec gives none.
     pub frames: Vec<String>,
+    /// Names of the run-time parameters.
+    pub parameters: Vec<String>,
     /// Whether the mended spec will surely have as many joints.
     pub certain: bool,
 }
@@ -35,6 +37,7 @@ impl Interface {
                 joints: vec![String::new(); moving_words(text)],
                 links: vec![],
                 frames: vec![],
+                parameters: parameter_words(text),
                 certain: false,
             });
         };
@@ -46,6 +49,7 @@ impl Interface {
                 .map(|l| l.name.value().cloned().unwrap_or_default())
                 .collect(),
             frames: spec.as_ref().map(frames).unwrap_or_default(),
+            parameters: parameter_words(text),
             certain: !faults.0.iter().any(|f| shapes_the_tree(&f.path)),
         })
     }
@@ -83,6 +87,22 @@ fn shapes_the_tree(path: &str) -> bool {
     }
     let rest: Vec<&str> = parts.collect();
     matches!(rest.as_slice(), [] | ["joint"] | ["joint", "type"])
+}
+
+/// The identifiers that stand behind a key `parameter`, each once: in the text, since a list with
+/// one bad number keeps none of its parameters.
+fn parameter_words(text: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let lines = text.lines().filter_map(|line| line.split('#').next());
+    for after in lines.flat_map(|line| line.split("parameter:").skip(1)) {
+        let after = after.trim_start().trim_start_matches(['"', '\'']);
+        let end = after.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+        let word = &after[..end.unwrap_or(after.len())];
+        if is_identifier(word) && !words.iter().any(|w| w == word) {
+            words.push(word.to_owned());
+        }
+    }
+    words
 }
 
 /// How many words of the text name a moving joint type: all there is to go by where the text is no

@@ -3,14 +3,28 @@
 
 mod common;
 
+use std::fmt::Write;
+
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::{Dd, Scalar};
+use common::hard::{cases, list};
 use common::random::Draft;
 use common::rng::Rng;
 use common::{Robot, State};
+use serde_json::Value;
 
-/// The literal sum is the reference in double-double; its digits in `f64` are nobody's promise.
-const FORMULATIONS: [&str; 1] = ["recursion"];
+/// What is generated when nothing is asked for, and the ways there are for it. The literal sum is
+/// the reference in double-double; its digits in `f64` are nobody's promise.
+const FORMULATIONS: [&str; 4] = [CHOSEN, "recursion", "articulated", "articulated_base"];
+const CHOSEN: &str = "";
+
+fn forward(robot: &Robot, formulation: &str) -> Function {
+    match formulation {
+        CHOSEN => robot.chosen(Method::ForwardDynamics),
+        name => robot.whole(name, Method::ForwardDynamics),
+    }
+}
 
 fn robot(links: &str) -> Robot {
     Robot::read(&format!("format: 1\nname: singular\nlinks:\n{links}"), None)
@@ -19,10 +33,9 @@ fn robot(links: &str) -> Robot {
 /// Name of the joint that is refused.
 fn refused<T: Scalar<Refused = Option<usize>>>(
     robot: &Robot,
-    formulation: &str,
+    f: &Function,
     s: &State,
 ) -> Option<String> {
-    let f = robot.function(formulation, Method::ForwardDynamics);
     let (_, refused) = f.evaluate(s.inputs::<T>());
     refused.map(|j| robot.joints()[j].clone())
 }
@@ -31,12 +44,13 @@ fn always_refuses(links: &str, joint: &str) {
     let robot = robot(links);
     let mut rng = Rng::new(7);
     for formulation in FORMULATIONS {
+        let f = forward(&robot, formulation);
         for _ in 0..40 {
             let s = State::random(&mut rng, &robot.motions());
             let place = || format!("{formulation}\n{links}{s:?}");
-            let rough = refused::<f64>(&robot, formulation, &s);
+            let rough = refused::<f64>(&robot, &f, &s);
             assert_eq!(rough.as_deref(), Some(joint), "f64, {}", place());
-            let fine = refused::<Dd>(&robot, formulation, &s);
+            let fine = refused::<Dd>(&robot, &f, &s);
             assert_eq!(fine.as_deref(), Some(joint), "double-double, {}", place());
         }
     }
@@ -103,13 +117,14 @@ fn massless_middle_of_a_gimbal() {
 ",
     );
     for formulation in FORMULATIONS {
-        let f = robot.function(formulation, Method::ForwardDynamics);
+        let f = forward(&robot, formulation);
         for angle in [0.0, 1e-8, 0.3, 1.5] {
             let s = State {
                 q: vec![0.25, angle],
                 v: vec![0.0, 0.0],
                 a: vec![0.0, 0.0],
                 tau: vec![1.0, 1.0],
+                parameters: vec![],
             };
             let found: Vec<f64> = s.value(&f);
             let exact: Vec<Dd> = s.value(&f);
@@ -154,9 +169,10 @@ fn tiny_inertia_between_two_joints() {
             v: vec![0.0; 2],
             a: vec![0.0; 2],
             tau: vec![1.5, 1.0],
+            parameters: vec![],
         };
         for formulation in FORMULATIONS {
-            let f = robot.function(formulation, Method::ForwardDynamics);
+            let f = forward(&robot, formulation);
             let found: Vec<f64> = s.value(&f);
             // M = [[1 + ε, 1], [1, 1]]: q̈₁ = 0.5 / ε, q̈₂ = 1 − q̈₁
             let expected = [0.5 / tiny, 1.0 - 0.5 / tiny];
@@ -192,7 +208,7 @@ fn two_joints_on_one_axis_of_random_mechanisms() {
         link.joint.xyz = front.joint.axis.map(|x| x * step);
         draft.links.insert(k, front);
         let robot = Robot::read(&draft.yaml(), None);
-        let function = robot.function("recursion", Method::ForwardDynamics);
+        let function = forward(&robot, CHOSEN);
         for _ in 0..5 {
             let s = State::random(&mut rng, &robot.motions());
             let (found, refused) = function.evaluate(s.inputs::<f64>());
@@ -204,4 +220,86 @@ fn two_joints_on_one_axis_of_random_mechanisms() {
     }
     assert!(tried > 4000);
     assert!(passed.is_empty(), "{} of {tried}: {passed:?}", passed.len());
+}
+
+/// The links of a hard case; joints have the names of their links.
+fn links_of(bodies: &[Value]) -> String {
+    let mut text = String::new();
+    for body in bodies {
+        let word = |key: &str| body[key].as_str().expect("a word").to_owned();
+        let numbers = |key: &str| list(&body[key]);
+        writeln!(text, "  - name: {}", word("name")).unwrap();
+        if word("parent") != "world" {
+            writeln!(text, "    parent: {}", word("parent")).unwrap();
+        }
+        let (name, joint) = (word("name"), word("joint"));
+        let (axis, origin) = (numbers("axis"), numbers("origin_in_parent"));
+        writeln!(
+            text,
+            "    joint: {{ name: {name}, type: {joint}, axis: {axis:?}, origin: {{ xyz: {origin:?} }} }}"
+        )
+        .unwrap();
+        let (mass, com) = (&body["mass"], numbers("com"));
+        writeln!(text, "    mass: {mass}\n    com: {com:?}").unwrap();
+        let moments = numbers("inertia_com");
+        let names = ["xx", "yy", "zz", "xy", "xz", "yz"].iter().zip(moments);
+        // A moment about one axis alone is no body's.
+        let terms: Vec<String> = names.map(|(name, x)| format!("{name}: {x:.110}")).collect();
+        writeln!(text, "    nonphysical: allow").unwrap();
+        writeln!(text, "    inertia: {{ {} }}", terms.join(", ")).unwrap();
+    }
+    text
+}
+
+fn solves(what: &str, robot: &Robot, case: &Value) {
+    let zero = || vec![0.0; robot.nv()];
+    let given = |key: &str| case.get(key).map_or_else(zero, list);
+    let s = State {
+        q: given("q"),
+        v: given("qd"),
+        a: zero(),
+        tau: given("tau"),
+        parameters: Vec::new(),
+    };
+    let found: Vec<f64> = s.value(&forward(robot, CHOSEN));
+    for (x, expected) in found.iter().zip(list(&case["qdd"])) {
+        let bar = 16.0 * f64::EPSILON * expected.abs();
+        assert!((x - expected).abs() <= bar, "{what}: {found:?}");
+    }
+}
+
+/// Exact answers: which joint is to be named, or the accelerations.
+#[test]
+fn exact_answers() {
+    let mut kinds = [0; 3];
+    for case in cases("singular_mass_matrix") {
+        let id = case["id"].as_str().expect("a name");
+        let expected = case["expect_forward"].as_str().expect("an expectation");
+        if let Some(items) = case["items"].as_array() {
+            for item in items {
+                let text: String = [("a", "mA"), ("b", "mB")]
+                    .map(|(name, mass)| {
+                        let parent = if name == "b" { "    parent: a\n" } else { "" };
+                        let mass = item[mass].as_f64().expect("a mass");
+                        format!("  - name: {name}\n{parent}    joint: {{ name: {name}, type: prismatic, axis: x }}\n    mass: {mass:.110}\n")
+                    })
+                    .concat();
+                solves(id, &robot(&text), item);
+                kinds[0] += 1;
+            }
+            continue;
+        }
+        let links = links_of(case["bodies"].as_array().expect("bodies"));
+        match expected.strip_prefix("error naming joint ") {
+            Some(rest) => {
+                always_refuses(&links, rest.split(' ').next().expect("a joint"));
+                kinds[1] += 1;
+            }
+            None => {
+                solves(id, &robot(&format!("{links}gravity: [0, 0, 0]\n")), &case);
+                kinds[2] += 1;
+            }
+        }
+    }
+    assert_eq!(kinds, [4, 4, 6]);
 }

@@ -193,6 +193,7 @@ fn the_torsos_right_arm_mirrors_the_left() {
             v: mirrored(&s.v),
             a: mirrored(&s.a),
             tau: mirrored(&s.tau),
+            parameters: vec![],
         };
         let efforts = s.value::<f64>(&function);
         let allowed = TOLERANCE * largest(&efforts);

@@ -6,13 +6,14 @@ use nalgebra::SVector;
 
 use crate::Scalar;
 
-/// The accelerations do not exist: the pivot of `joint` in the mass matrix is no larger than 64
-/// units of rounding error of the entry it was computed from, so that the matrix is singular or
-/// not distinguishable from a singular one; or the joint's acceleration is not finite, out of an
-/// input that is not or is too large.
+/// The accelerations do not exist: the pivot of `joint` in the mass matrix is no larger than the
+/// rounding error of the terms that were subtracted in it, so that the matrix is singular or not
+/// distinguishable from a singular one; or the joint's acceleration is not finite, out of an input
+/// that is not or is too large.
 ///
-/// Where several links without inertia of their own stand in a row, rounding can add up to more
-/// than that: such a mechanism is singular everywhere, yet some of its configurations pass.
+/// Where every body has a fair share of the inertia that its joint moves, M is never singular, and
+/// a factor of M is refused at 64 units of rounding of the entry it was computed from. Elsewhere
+/// (massless links, heavy loads on light links) a bound for the error is computed beside the pivot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Singular {
     /// Index of the joint, in the order of `JOINT_NAMES`.

@@ -6,7 +6,7 @@ use bgdyn::nalgebra::{SMatrix, SVector};
 use crate::robots::for_each_robot;
 
 /// Equally distributed numbers in (−1, 1): splitmix64.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     fn number(&mut self) -> f64 {
@@ -17,7 +17,7 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn vector<const N: usize>(&mut self, size: f64) -> SVector<f64, N> {
+    pub(crate) fn vector<const N: usize>(&mut self, size: f64) -> SVector<f64, N> {
         SVector::from_fn(|_, _| size * self.number())
     }
 }

@@ -4,4 +4,4 @@ mod double_double;
 mod duals;
 mod lanes;
 mod models;
-mod rounded;
+mod parameters;

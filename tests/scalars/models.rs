@@ -5,6 +5,7 @@ use bgdyn::{Dynamics, Scalar};
 
 bgdyn::bgdyn!("../golden/specs/puma560.yaml");
 bgdyn::bgdyn!("../golden/specs/scara4.yaml");
+bgdyn::bgdyn!("specs/lifter.yaml");
 bgdyn::bgdyn!("specs/massless_tip.yaml");
 bgdyn::bgdyn!("specs/spherical_pendulum.yaml");
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Severity};
+use bgdyn_codegen::mechanism::{Mechanism, Parameter};
 use clap::Args;
 use serde_json::{Value, json};
 
@@ -27,9 +28,7 @@ impl Check {
         let (mechanism, faults) = spec.read();
         if self.json {
             let found: Vec<Value> = faults.0.iter().map(finding).collect();
-            let model = mechanism
-                .as_ref()
-                .map(|m| json!({ "name": m.name(), "nq": m.nq(), "nv": m.nv() }));
+            let model = mechanism.as_ref().map(model);
             let report = json!({ "ok": model.is_some(), "model": model, "findings": found });
             print(&format!("{report:#}\n"))?;
         } else {
@@ -44,6 +43,24 @@ impl Check {
         }
         Ok(())
     }
+}
+
+fn model(mechanism: &Mechanism) -> Value {
+    let parameter = |p: &Parameter| {
+        json!({
+            "name": p.name,
+            "meaning": p.meaning,
+            "default": p.default.to_f64(),
+            "unit": p.unit,
+        })
+    };
+    let parameters: Vec<Value> = mechanism.parameters().iter().map(parameter).collect();
+    json!({
+        "name": mechanism.name(),
+        "nq": mechanism.nq(),
+        "nv": mechanism.nv(),
+        "parameters": parameters,
+    })
 }
 
 fn finding(fault: &Fault) -> Value {

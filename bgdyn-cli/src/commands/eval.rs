@@ -18,7 +18,7 @@ use crate::usage::Usage;
 /// Evaluate a method at the states of a file, without a compiler
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}"
+    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n  bgdyn eval arm.yaml gravity --states states.json --parameter payload=2.5\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}"
 )]
 pub(crate) struct Eval {
     /// The spec
@@ -31,6 +31,9 @@ pub(crate) struct Eval {
     /// Use one formulation
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
+    /// Set a run-time parameter, in SI units; the spec's value otherwise. May be repeated
+    #[arg(long = "parameter", value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
 }
 
 /// What is printed.
@@ -64,6 +67,7 @@ impl Eval {
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let graph = bgdyn_codegen::bond_graph::build(&mechanism);
         let method = Method::named(&graph.sites, &self.method).map_err(Usage)?;
+        let parameters = parameters(&mechanism, &self.parameters)?;
         let states = states(&self.states)?;
         let function = bgdyn_codegen::model::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
@@ -73,7 +77,8 @@ impl Eval {
             errors: Vec::new(),
         };
         for (i, state) in states.iter().enumerate() {
-            let value = evaluate(&mechanism, &function, state).unwrap_or_else(|failure| {
+            let value = evaluate(&mechanism, &function, &parameters, state);
+            let value = value.unwrap_or_else(|failure| {
                 report.errors.push(Refused { state: i, failure });
                 Value::Null
             });
@@ -85,6 +90,37 @@ impl Eval {
             failed => bail!("{failed} of {} states failed", states.len()),
         }
     }
+}
+
+/// The spec's values of the run-time parameters, but for those set as `NAME=VALUE`.
+fn parameters(mechanism: &Mechanism, set: &[String]) -> Result<Vec<f64>, Usage> {
+    let all = mechanism.parameters();
+    let mut values: Vec<f64> = all.iter().map(|p| p.default.to_f64()).collect();
+    let mut done: Vec<&str> = Vec::new();
+    for text in set {
+        let (name, value) = text
+            .split_once('=')
+            .ok_or_else(|| Usage(format!("`--parameter {text}`: write NAME=VALUE")))?;
+        let found = all.iter().position(|p| p.name == name).ok_or_else(|| {
+            let known: Vec<&str> = all.iter().map(|p| p.name.as_str()).collect();
+            Usage(match known.as_slice() {
+                [] => format!("no parameter `{name}`: the spec has none"),
+                known => format!("no parameter `{name}`; there are {}", known.join(", ")),
+            })
+        })?;
+        if done.contains(&name) {
+            return Err(Usage(format!("the parameter `{name}` is set twice")));
+        }
+        done.push(name);
+        let number = value.trim().parse().ok().filter(|x: &f64| x.is_finite());
+        values[found] = number.ok_or_else(|| {
+            let unit = all[found].unit;
+            Usage(format!(
+                "`{value}` is no value of `{name}`: write a finite number, in {unit}"
+            ))
+        })?;
+    }
+    Ok(values)
 }
 
 fn states(path: &std::path::Path) -> Result<Vec<Value>> {
@@ -132,17 +168,18 @@ fn field(argument: Argument) -> &'static str {
     }
 }
 
-fn evaluate(mechanism: &Mechanism, function: &Function, state: &Value) -> Result<Value, Failure> {
+fn evaluate(
+    mechanism: &Mechanism,
+    function: &Function,
+    parameters: &[f64],
+    state: &Value,
+) -> Result<Value, Failure> {
     let plain = |message: String| Failure {
         joint: None,
         message,
     };
     let mut inputs = Inputs {
-        parameters: mechanism
-            .parameters()
-            .iter()
-            .map(|p| p.default.to_f64())
-            .collect(),
+        parameters: parameters.to_vec(),
         ..Inputs::default()
     };
     for &argument in function.method.arguments() {

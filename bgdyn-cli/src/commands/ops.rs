@@ -122,14 +122,14 @@ fn table(model: &Model) -> String {
 fn explain(mechanism: &Mechanism, model: &Model) {
     for f in &model.functions {
         tell(&format!("{}: {}\n", f.name(), f.formulation));
-        for formulation in FORMULATIONS {
+        for formulation in FORMULATIONS.iter().filter(|known| known.knows(f.method)) {
             let asked = Options {
-                formulation: Some(formulation),
+                formulation: Some(*formulation),
                 ..Options::default()
             };
             if let Some(other) = count_with(mechanism, f.method, &asked) {
                 tell(&format!(
-                    "  {:<12} {}  ({})\n",
+                    "  {:<16} {}  ({})\n",
                     formulation.name(),
                     other,
                     formulation.summary()

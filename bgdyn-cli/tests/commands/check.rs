@@ -99,7 +99,7 @@ fn findings_as_json() {
 
     let good = bgdyn(&["check", "tests/golden/specs/dpend2.yaml", "--json"]).good();
     let good: Value = serde_json::from_str(&good).expect("JSON");
-    let model = serde_json::json!({ "name": "dpend2", "nq": 2, "nv": 2 });
+    let model = serde_json::json!({ "name": "dpend2", "nq": 2, "nv": 2, "parameters": [] });
     assert_eq!(good["model"], model);
     assert_eq!(good["ok"], true);
     assert_eq!(good["findings"], Value::Array(vec![]));
@@ -118,4 +118,23 @@ fn files_that_cannot_be_read() {
         stderr.starts_with(&format!("bgdyn: {file}:2:1: this line is not UTF-8")),
         "{stderr}"
     );
+}
+
+#[test]
+fn parameters_are_listed() {
+    let text = "\
+format: 1
+links:
+  - name: arm
+    joint: { name: shoulder, type: revolute }
+    mass: { parameter: payload, value: 1500 g }
+";
+    let file = scratch("check_parameters", "arm.yaml", text);
+    assert_eq!(bgdyn(&["check", &file]).good(), "ok: arm, NQ 1, NV 1\n");
+    let report = bgdyn(&["check", &file, "--json"]).good();
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    let payload = serde_json::json!([{
+        "name": "payload", "meaning": "mass of link `arm`", "default": 1.5, "unit": "kg",
+    }]);
+    assert_eq!(report["model"]["parameters"], payload);
 }

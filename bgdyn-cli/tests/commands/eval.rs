@@ -192,3 +192,65 @@ fn files_that_hold_no_states() {
         assert!(run.bad_input().starts_with("bgdyn: "), "{text}");
     }
 }
+
+const LIFT: &str = "\
+format: 1
+links:
+  - name: platform
+    joint: { name: slide, type: prismatic }
+    mass: { parameter: load, value: 2 kg }
+    com: [{ parameter: reach, value: 0 }, 0, 0]
+";
+
+#[test]
+fn parameters_have_the_specs_values_or_those_given() {
+    let spec = scratch("eval_parameters", "model.yaml", LIFT);
+    let states = scratch(
+        "eval_parameters",
+        "states.json",
+        "{\"states\": [{\"q\": [0]}]}",
+    );
+    let call = |more: &[&str]| {
+        let mut arguments = vec!["eval", &spec, "mass_matrix", "--states", &states];
+        arguments.extend(more);
+        bgdyn(&arguments)
+    };
+    let mass = |more: &[&str]| parsed(&call(more).good())["results"][0][0][0].clone();
+    assert_eq!(mass(&[]), json!(2.0));
+    assert_eq!(mass(&["--parameter", "load=2.5"]), json!(2.5));
+    assert_eq!(
+        mass(&["--parameter", "load=5e-1", "--parameter", "reach=-3"]),
+        json!(0.5)
+    );
+
+    let usage = |value: &str| call(&["--parameter", value]).bad_usage();
+    assert_eq!(
+        usage("lod=1"),
+        "bgdyn: no parameter `lod`; there are load, reach\n"
+    );
+    assert_eq!(
+        usage("load"),
+        "bgdyn: `--parameter load`: write NAME=VALUE\n"
+    );
+    for value in ["load=", "load=2 kg", "load=nan", "load=1e999"] {
+        let number = value.trim_start_matches("load=");
+        let wanted =
+            format!("bgdyn: `{number}` is no value of `load`: write a finite number, in kg\n");
+        assert_eq!(usage(value), wanted);
+    }
+    let twice = call(&["--parameter", "load=1", "--parameter", "load=2"]).bad_usage();
+    assert_eq!(twice, "bgdyn: the parameter `load` is set twice\n");
+    let none = bgdyn(&[
+        "eval",
+        SCARA,
+        "gravity",
+        "--states",
+        VALUES,
+        "--parameter",
+        "load=1",
+    ]);
+    assert_eq!(
+        none.bad_usage(),
+        "bgdyn: no parameter `load`: the spec has none\n"
+    );
+}

@@ -1,9 +1,10 @@
 //! `bgdyn ops`.
 
 use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{Model, Options, stem};
 use serde_json::Value;
 
-use crate::bgdyn;
+use crate::{bgdyn, root};
 
 const SCARA: &str = "tests/golden/specs/scara4.yaml";
 
@@ -47,6 +48,40 @@ fn one_entry_for_each_function() {
     }
 }
 
+/// What `tests/compiled` finds to be executed.
+#[test]
+fn counts_of_every_spec_are_the_models() {
+    let mut specs = 0;
+    for entry in root().join("specs").read_dir().expect("the folder") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|ending| ending != "yaml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("a spec");
+        let (mechanism, _) = bgdyn_codegen::read(&text, Some(&stem(&path)));
+        let options = Options {
+            derivatives: true,
+            ..Options::default()
+        };
+        let model = Model::new(mechanism.expect("no fault"), &options).expect("no names");
+        let shown = path.display().to_string();
+        let json = bgdyn(&["ops", &shown, "--json", "--derivatives"]).good();
+        let json: Value = serde_json::from_str(&json).expect("JSON");
+        let functions = json["functions"].as_object().expect("a map");
+        assert_eq!(functions.len(), model.functions.len(), "{shown}");
+        for function in &model.functions {
+            let (name, x) = (function.name(), function.operations());
+            let wanted = serde_json::json!({
+                "mul": x.mul, "add": x.add, "div": x.div,
+                "sqrt": x.sqrt, "sincos": x.sincos, "other": x.other,
+            });
+            assert_eq!(functions[name], wanted, "{shown}, {name}");
+        }
+        specs += 1;
+    }
+    assert!(specs >= 9, "{specs}");
+}
+
 #[test]
 fn the_json_is_in_the_order_of_the_module() {
     let text = bgdyn(&["ops", SCARA, "--json"]).good();
@@ -68,14 +103,27 @@ fn one_formulation_for_every_function() {
             "{method}"
         );
     }
-    assert_eq!(cheapest, counts(&["--formulation", "recursion"]));
+    // What a formulation does not know is made as if nothing was asked for.
+    let bodies = counts(&["--formulation", "articulated_base"]);
+    assert_eq!(cheapest, bodies);
+    let recursion = counts(&["--formulation", "recursion"]);
+    let forward = "forward_dynamics";
+    assert!(total(&cheapest, forward) < total(&recursion, forward));
+    for method in ["inverse_dynamics", "mass_matrix", "bias"] {
+        assert_eq!(total(&cheapest, method), total(&recursion, method));
+    }
 }
 
 #[test]
 fn explanations_stand_beside_the_json() {
     let run = bgdyn(&["ops", SCARA, "--json", "--explain"]);
     assert!(run.stderr.contains("inverse_dynamics: "), "{}", run.stderr);
-    assert!(run.stderr.contains("  literal "), "{}", run.stderr);
+    for way in ["literal", "recursion", "articulated", "articulated_base"] {
+        let line = format!("  {way} ");
+        assert!(run.stderr.contains(&line), "{way}: {}", run.stderr);
+    }
+    let chosen = "forward_dynamics: articulated_base";
+    assert!(run.stderr.contains(chosen), "{}", run.stderr);
     assert!(serde_json::from_str::<Value>(&run.good()).is_ok());
 }
 

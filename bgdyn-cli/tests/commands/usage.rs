@@ -37,7 +37,7 @@ fn bad_usage_exits_with_two() {
         assert!(!stderr.is_empty(), "{arguments:?}");
     }
     let stderr = bgdyn(&["ops", SCARA, "--formulation", "fastest"]).bad_usage();
-    let told = "bgdyn: no formulation is called `fastest`; there are literal, recursion\n";
+    let told = "bgdyn: no formulation is called `fastest`; there are literal, recursion, articulated, articulated_base\n";
     assert_eq!(stderr, told);
 }
 

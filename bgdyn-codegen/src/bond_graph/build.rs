@@ -77,6 +77,7 @@ fn frame(link: &Link) -> LinkFrame {
         axis: link.joint.axis,
         coordinate: link.joint.coordinate,
         com: link.inertial.com,
+        tensor_axes: link.inertial.inertia.axes,
     }
 }
 
@@ -94,7 +95,7 @@ fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
         },
         Store {
             junction: rotation,
-            inertia: Inertia::Tensor(link.inertial.inertia),
+            inertia: Inertia::Tensor(link.inertial.inertia.entries),
         },
     ]);
     let weight = Effort::Weight {

@@ -11,8 +11,8 @@ mod pattern;
 
 use bgdyn_runtime::Dd;
 
-use crate::math::Vec3;
-use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Value};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Tensor, Value};
 
 pub use build::build;
 pub use pattern::Modulus;
@@ -55,7 +55,8 @@ pub enum Junction {
 pub enum Inertia {
     /// Mass m_i, kg.
     Mass(Value),
-    /// Tensor J_i⁰ about the centre of mass in link axes, kg·m²: xx, yy, zz, xy, xz, yz.
+    /// Tensor J_i⁰ about the centre of mass in [`LinkFrame::tensor_axes`], kg·m²: xx, yy, zz, xy,
+    /// xz, yz.
     Tensor([Value; 6]),
 }
 
@@ -117,6 +118,8 @@ pub struct LinkFrame {
     pub coordinate: Option<CoordinateId>,
     /// Centre of mass in link axes, m.
     pub com: Vec3<Value>,
+    /// Columns: axes of the inertia tensor's entries in the link's.
+    pub tensor_axes: Mat3<Dd>,
 }
 
 /// A generalized coordinate.
@@ -176,12 +179,15 @@ impl BondGraph {
         let mut inertial = Inertial {
             mass: zero,
             com: self.frames[i.0].com,
-            inertia: [zero; 6],
+            inertia: Tensor {
+                entries: [zero; 6],
+                axes: self.frames[i.0].tensor_axes,
+            },
         };
         for store in at(self.translation(i)).chain(at(self.rotation(i))) {
             match store.inertia {
                 Inertia::Mass(mass) => inertial.mass = mass,
-                Inertia::Tensor(tensor) => inertial.inertia = tensor,
+                Inertia::Tensor(entries) => inertial.inertia.entries = entries,
             }
         }
         inertial

@@ -105,7 +105,7 @@ fn separate_block(function: &Function, model: &Model, b: usize) -> (TokenStream,
     (block, quote! { self.#name(#(#arguments),*) })
 }
 
-/// The arguments that a function does not read, as `q[joint]`.
+/// What a function does not read: arguments, as `q[joint]`, and run-time parameters.
 pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
     let read: BTreeSet<Leaf> = function.blocks.iter().flat_map(of_block).collect();
@@ -121,6 +121,9 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
             unread.extend(missing.iter().map(name));
         }
     }
+    let parameters = model.mechanism.parameters().iter().enumerate();
+    let missing = parameters.filter(|(p, _)| !read.contains(&Leaf::Parameter(*p)));
+    unread.extend(missing.map(|(_, parameter)| format!("the parameter `{}`", parameter.name)));
     unread
 }
 

@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constants::{operations, size};
-use super::{Place, argument_type, ident, rebuild, return_type, struct_ident};
+use super::{Place, argument_type, fields, ident, rebuild, return_type, struct_ident};
 use crate::bond_graph::Site;
 use crate::expr::Operations;
 use crate::interface::Interface;
@@ -24,6 +24,11 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
     let rebuild = rebuild(place);
     let doc = format!(" The spec {} was refused: see the error.", place.source);
     let constants = constants(interface);
+    let parameters = interface.parameters.iter();
+    let fields = fields(
+        parameters.clone().map(String::as_str),
+        parameters.map(|_| doc.clone()),
+    );
     let sites = sites(interface);
     let possible = Method::possible(&sites);
     let methods = possible.iter();
@@ -43,12 +48,10 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
             #constants
             #[doc = #doc]
             #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct #model<T = f64> {
-                scalar: ::core::marker::PhantomData<T>,
-            }
+            pub struct #model<T = f64> { #fields }
             impl<T: __Scalar> ::core::default::Default for #model<T> {
                 fn default() -> Self {
-                    Self { scalar: ::core::marker::PhantomData }
+                    ::core::unreachable!()
                 }
             }
             impl<T: __Scalar> #model<T> {

@@ -164,6 +164,14 @@ fn module_docs(model: &Model, place: &Place) -> Vec<String> {
         docs.extend(text.lines().map(|line| format!(" {}", line.trim_end())));
     }
     docs.push(String::new());
+    docs.push(" | coordinate | joint | carries | unit |".into());
+    docs.push(" |---|---|---|---|".into());
+    for (j, c) in model.bond_graph.coordinates.iter().enumerate() {
+        let link = &mechanism.links()[c.link.0].name;
+        let unit = c.motion.unit();
+        docs.push(format!(" | {j} | `{}` | `{link}` | {unit} |", c.name));
+    }
+    docs.push(String::new());
     docs.push(" | method | operations | formulation |".into());
     docs.push(" |---|---|---|".into());
     for f in &model.functions {
@@ -180,29 +188,49 @@ fn module_docs(model: &Model, place: &Place) -> Vec<String> {
 /// The struct: one public field per run-time parameter, otherwise zero-sized.
 fn structure(model: &Model) -> TokenStream {
     let name = struct_name(model);
-    let doc = format!(" The mechanism `{}`.", model.mechanism.name());
+    let mut docs = vec![format!(" The mechanism `{}`.", model.mechanism.name())];
     let parameters = model.mechanism.parameters();
-    let fields: Vec<_> = parameters.iter().map(|p| ident(&p.name)).collect();
-    let docs = parameters
-        .iter()
-        .map(|p| format!(" Run-time parameter, {}.", p.unit));
-    let defaults = parameters.iter().map(|p| number(p.default.to_f64()));
+    if !parameters.is_empty() {
+        docs.push(String::new());
+        docs.push(" Its fields are run-time parameters; `default()` has the spec's values.".into());
+    }
+    let names = parameters.iter().map(|p| p.name.as_str());
+    let field_docs = parameters.iter().map(|p| {
+        let default = p.default.to_f64();
+        format!(" Run-time parameter: {p}. Default {default:?}.")
+    });
+    let fields = fields(names, field_docs);
+    let defaults = parameters.iter().map(|p| {
+        let (name, size) = (ident(&p.name), number(p.default.to_f64().abs()));
+        let sign = (p.default.to_f64() < 0.0).then(|| quote! { - });
+        quote! { #name: T::from_f64(#sign #size) }
+    });
+    let scalar = parameters
+        .is_empty()
+        .then(|| quote! { scalar: ::core::marker::PhantomData });
     quote! {
-        #[doc = #doc]
+        #(#[doc = #docs])*
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct #name<T = f64> {
-            #(#[doc = #docs] pub #fields: T,)*
-            scalar: ::core::marker::PhantomData<T>,
-        }
+        pub struct #name<T = f64> { #fields }
         impl<T: __Scalar> ::core::default::Default for #name<T> {
             fn default() -> Self {
-                Self {
-                    #(#fields: T::from_f64(#defaults),)*
-                    scalar: ::core::marker::PhantomData,
-                }
+                Self { #(#defaults,)* #scalar }
             }
         }
     }
+}
+
+/// Public fields, so that a struct literal can set them; without any, one that takes no space and
+/// uses the scalar type.
+fn fields<'a>(
+    names: impl ExactSizeIterator<Item = &'a str>,
+    docs: impl Iterator<Item = String>,
+) -> TokenStream {
+    if names.len() == 0 {
+        return quote! { scalar: ::core::marker::PhantomData<T>, };
+    }
+    let names = names.map(ident);
+    quote! { #(#[doc = #docs] pub #names: T,)* }
 }
 
 fn number(x: f64) -> Literal {

@@ -9,6 +9,7 @@ mod build;
 mod copy;
 mod count;
 mod diff;
+mod error;
 mod eval;
 mod fold;
 
@@ -22,6 +23,7 @@ pub use build::{Builder, Ex};
 pub use copy::copy_into;
 pub use count::{count, reachable};
 pub use diff::Tangent;
+pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
 
 /// A node of a [`Graph`].

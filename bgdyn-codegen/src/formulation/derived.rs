@@ -2,107 +2,108 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{FORMULATIONS, Formulation, choose, literal, solve};
+use super::{Formulation, candidates, choose, literal, recursion};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::function::Function;
 use crate::method::{Method, Shape};
 
 /// The method, if it is one of these; the others come from a formulation.
-///
-/// A formulation may know the derivatives themselves; the chosen functions' graphs can always be
-/// differentiated. What costs less is taken.
 pub(super) fn function(
     graph: &BondGraph,
     method: Method,
     asked: Option<&dyn Formulation>,
 ) -> Option<Function> {
-    let differentiated = differentiated(graph, method, asked)?;
-    // The literal sum knows no derivatives.
-    let regrouped = FORMULATIONS.iter().filter(|f| {
-        f.name() != literal::NAME && asked.is_none_or(|asked| asked.name() == f.name())
-    });
-    regrouped
-        .filter_map(|f| f.function(graph, method))
-        .chain([differentiated])
-        .min_by_key(|f| f.operations().total())
+    match method {
+        Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
+            let differentiated = differentiated(graph, method, asked);
+            // The recursion may know a cheaper way.
+            let regrouped = match asked {
+                Some(asked) if asked.name() == literal::NAME => None,
+                _ => recursion::Recursion.function(graph, method),
+            };
+            let ways = regrouped.into_iter().chain(differentiated);
+            ways.min_by_key(|f| f.operations().total())
+        }
+        Method::ForwardDynamicsDerivatives => {
+            let slopes = function(graph, Method::InverseDynamicsDerivatives, asked)?;
+            candidates(graph, Method::ForwardDynamics, asked)
+                .iter()
+                .map(|forward| forward_derivatives(graph, method, &slopes, forward))
+                .min_by_key(|f| f.operations().total())
+        }
+        _ => None,
+    }
 }
 
-/// The method by differentiating the graph of the function that it is a derivative of.
+/// The method by differentiating the graph of what it is a derivative of.
 fn differentiated(
     graph: &BondGraph,
     method: Method,
     asked: Option<&dyn Formulation>,
 ) -> Option<Function> {
     let n = graph.coordinates.len();
-    match method {
-        Method::CoriolisMatrix => {
-            // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
-            let bias = choose(graph, Method::Bias, asked)?;
-            let (b, x) = reopened(&bias);
-            let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr;
-            let columns = derivatives(&b, &x, n, Leaf::Velocity);
-            let outputs = rows(&columns).into_iter().map(|e| half(b.ex(e))).collect();
-            Some(finish(graph, method, &bias, b, outputs))
-        }
-        Method::InverseDynamicsDerivatives => {
-            let inverse = choose(graph, Method::InverseDynamics, asked)?;
-            let (b, x) = reopened(&inverse);
-            let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
-            outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
-            Some(finish(graph, method, &inverse, b, outputs))
-        }
-        Method::ForwardDynamicsDerivatives => forward_derivatives(graph, method, asked),
-        _ => None,
+    if method == Method::CoriolisMatrix {
+        // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
+        let bias = choose(graph, Method::Bias, asked)?;
+        let (b, x) = reopened(&bias);
+        let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr;
+        let columns = derivatives(&b, &x, n, Leaf::Velocity);
+        let outputs = rows(&columns).into_iter().map(|e| half(b.ex(e))).collect();
+        return Some(finish(graph, method, &bias, b, outputs));
     }
+    let inverse = choose(graph, Method::InverseDynamics, asked)?;
+    let (b, x) = reopened(&inverse);
+    let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
+    outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
+    Some(finish(graph, method, &inverse, b, outputs))
 }
 
 /// ∂q̈/∂x = −M⁻¹ ∂τ/∂x at τ = inverse dynamics(q, v, q̈), and ∂q̈/∂τ = M⁻¹.
+///
+/// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by whatever way it was
+/// found to be stable and cheap.
 fn forward_derivatives(
     graph: &BondGraph,
     method: Method,
-    asked: Option<&dyn Formulation>,
-) -> Option<Function> {
+    slopes: &Function,
+    forward: &Function,
+) -> Function {
     let n = graph.coordinates.len();
-    let inverse = choose(graph, Method::InverseDynamics, asked)?;
-    let mass = choose(graph, Method::MassMatrix, asked)?;
-    let bias = choose(graph, Method::Bias, asked)?;
-    let (b, tau) = reopened(&inverse);
-    let mut slopes = derivatives(&b, &tau, n, Leaf::Position);
-    slopes.extend(derivatives(&b, &tau, n, Leaf::Velocity));
-    let keep = |_: &mut Graph, _: Leaf| None;
-    let copied = |f: &Function| -> Vec<Expr> {
-        let outputs = &f.blocks[0].outputs;
-        b.with_graph(|g| copy_into(g, &f.graph, outputs, keep))
+    // The copy takes over the accelerations in place of their leaves.
+    let (b, accelerations) = reopened(forward);
+    let placed = |_: &mut Graph, leaf: Leaf| match leaf {
+        Leaf::Acceleration(j) => Some(accelerations[j]),
+        _ => None,
     };
-    let (mass, bias) = (copied(&mass), copied(&bias));
-    let outputs = {
-        let triangle = (0..n).map(|i| {
-            (0..=i)
-                .map(|j| b.ex(mass[i * (i + 1) / 2 + j]))
-                .collect::<Vec<_>>()
-        });
-        let factor = solve::Factor::new(&b, triangle.collect());
-        let drive = (0..n)
-            .map(|j| b.leaf(Leaf::Input(j)) - b.ex(bias[j]))
-            .collect();
-        let accelerations = factor.solve(drive);
-        // The accelerations take the place of their leaves.
-        let placed = |_: &mut Graph, leaf: Leaf| match leaf {
-            Leaf::Acceleration(j) => Some(accelerations[j].expr),
+    let slopes = {
+        let results = &slopes.blocks[0].outputs;
+        b.with_graph(|g| copy_into(g, &slopes.graph, results, placed))
+    };
+    let along = |drive: &[Expr]| -> Vec<Expr> {
+        let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
+            Leaf::Input(j) => Some(drive[j]),
             _ => None,
-        };
-        let slopes = replaced(&b, &slopes, placed);
-        let row = |square: &[Vec<Expr>], i: usize| square.iter().map(|c| b.ex(c[i])).collect();
-        let squares: Vec<Vec<Vec<Ex<'_>>>> = slopes
-            .chunks(n.max(1))
-            .map(|square| (0..n).map(|i| row(square, i)).collect())
-            .collect();
-        let results = factor.accelerations_and_slopes(accelerations, &squares);
-        results.into_iter().map(|e| e.expr).collect::<Vec<_>>()
+        });
+        b.with_graph(|g| accelerations.iter().map(|&e| tangent.of(g, e)).collect())
     };
+    let mut outputs = accelerations.clone();
+    for square in slopes.chunks((n * n).max(1)) {
+        let minus = |row: &[Expr], j: usize| (-b.ex(row[j])).expr;
+        let drive = |j: usize| -> Vec<Expr> { square.chunks(n).map(|r| minus(r, j)).collect() };
+        let columns: Vec<Vec<Expr>> = (0..n).map(|j| along(&drive(j))).collect();
+        outputs.extend(rows(&columns));
+    }
+    // Of two equal entries of M⁻¹ the one nearer to the base takes less.
+    let inverse = derivatives(&b, &accelerations, n, Leaf::Input);
+    let nearer = |i: usize, j: usize| inverse[i.max(j)][i.min(j)];
+    outputs.extend(
+        (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i, j)))
+            .map(|(i, j)| nearer(i, j)),
+    );
     debug_assert_eq!(outputs.len(), Shape::CheckedSquares.len(n));
-    Some(finish(graph, method, &inverse, b, outputs))
+    finish(graph, method, forward, b, outputs)
 }
 
 /// A function's graph, open for more, and its results.
@@ -123,21 +124,6 @@ fn derivatives(b: &Builder, x: &[Expr], n: usize, leaf: fn(usize) -> Leaf) -> Ve
             .collect()
     };
     (0..n).map(column).collect()
-}
-
-/// The columns with leaves replaced.
-fn replaced(
-    b: &Builder,
-    columns: &[Vec<Expr>],
-    mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Expr>,
-) -> Vec<Vec<Expr>> {
-    let all: Vec<Expr> = columns.iter().flatten().copied().collect();
-    let copies = b.with_graph(|g| {
-        let from = g.clone();
-        copy_into(g, &from, &all, &mut leaf)
-    });
-    let n = columns.first().map_or(1, |c| c.len().max(1));
-    copies.chunks(n).map(<[Expr]>::to_vec).collect()
 }
 
 /// Columns as one matrix, row by row.

@@ -25,6 +25,11 @@ pub trait Formulation: Sync {
     /// One line: how it groups equation (6).
     fn summary(&self) -> &'static str;
 
+    /// Whether it knows the method, or what the method is derived from.
+    fn knows(&self, _: Method) -> bool {
+        true
+    }
+
     /// The method's function; `None` where this formulation does not know the method.
     fn function(&self, graph: &BondGraph, method: Method) -> Option<Function>;
 }
@@ -36,17 +41,22 @@ impl std::fmt::Debug for dyn Formulation {
 }
 
 /// Every formulation there is.
-pub static FORMULATIONS: [&dyn Formulation; 2] = [&literal::Literal, &recursion::Recursion];
+pub static FORMULATIONS: [&dyn Formulation; 4] = [
+    &literal::Literal,
+    &recursion::Recursion,
+    &recursion::Articulated::Own,
+    &recursion::Articulated::Base,
+];
 
 /// The formulation with this name.
 pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
     FORMULATIONS.into_iter().find(|f| f.name() == name)
 }
 
-/// The method's function by the formulation asked for, else by the cheapest.
+/// The method's function by the formulation asked for, where it knows the method, else by the
+/// recursion, and for forward dynamics by the cheapest way that keeps its digits.
 ///
-/// The literal sum stands aside as long as another formulation knows the method: its graph grows
-/// with the cube of the number of links.
+/// The literal sum stands aside: its graph grows with the cube of the number of links.
 pub fn choose(
     graph: &BondGraph,
     method: Method,
@@ -55,14 +65,21 @@ pub fn choose(
     if let Some(derived) = derived::function(graph, method, asked) {
         return Some(derived);
     }
-    if let Some(formulation) = asked {
-        return formulation.function(graph, method);
+    candidates(graph, method, asked).into_iter().next()
+}
+
+/// The ways to a method that is not derived from another, the cheapest first.
+fn candidates(graph: &BondGraph, method: Method, asked: Option<&dyn Formulation>) -> Vec<Function> {
+    if let Some(function) = asked.and_then(|f| f.function(graph, method)) {
+        return vec![function];
     }
-    let regrouped = FORMULATIONS.iter().filter(|f| f.name() != literal::NAME);
-    regrouped
-        .filter_map(|f| f.function(graph, method))
-        .min_by_key(|f| f.operations().total())
-        .or_else(|| literal::Literal.function(graph, method))
+    match method {
+        Method::ForwardDynamics => recursion::forward_dynamics(graph),
+        _ => recursion::Recursion
+            .function(graph, method)
+            .into_iter()
+            .collect(),
+    }
 }
 
 /// The arguments of a method as expressions; what it does not take is zero.

@@ -6,7 +6,7 @@ use crate::expr::{Builder, Ex};
 
 /// The factors of M = Lᵀ D L, from the last coordinate to the first, which keeps the zeros of a
 /// branching mechanism (Featherstone 2005). Every pivot is checked.
-pub(super) struct Factor<'g> {
+struct Factor<'g> {
     b: &'g Builder,
     /// L below its unit diagonal.
     l: Vec<Vec<Ex<'g>>>,
@@ -16,7 +16,7 @@ pub(super) struct Factor<'g> {
 
 impl<'g> Factor<'g> {
     /// Factors the lower triangle of M.
-    pub(super) fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
+    fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
         let n = mass.len();
         let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
@@ -57,7 +57,7 @@ impl<'g> Factor<'g> {
     }
 
     /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
-    pub(super) fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+    fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
         let n = x.len();
         self.b.section("Lᵀ y = f, L x = D⁻¹ y");
         for k in (0..n).rev() {
@@ -72,36 +72,6 @@ impl<'g> Factor<'g> {
             }
         }
         x
-    }
-
-    /// M⁻¹, row by row.
-    fn inverse(&self) -> Vec<Vec<Ex<'g>>> {
-        let n = self.inverse.len();
-        let unit = |j: usize| (0..n).map(|i| self.b.number(f64::from(i == j))).collect();
-        let columns: Vec<Vec<Ex<'g>>> = (0..n).map(|j| self.solve(unit(j))).collect();
-        // The upper triangle needs no more than a part of the second substitution.
-        let entry = |i: usize, j: usize| columns[i.max(j)][i.min(j)];
-        (0..n)
-            .map(|i| (0..n).map(|j| entry(i, j)).collect())
-            .collect()
-    }
-
-    /// The results of the forward dynamics' derivatives: accelerations, −M⁻¹ ∂τ/∂x for each
-    /// square of derivatives of the efforts, M⁻¹.
-    pub(super) fn accelerations_and_slopes(
-        &self,
-        accelerations: Vec<Ex<'g>>,
-        squares: &[Vec<Vec<Ex<'g>>>],
-    ) -> Vec<Ex<'g>> {
-        let n = accelerations.len();
-        let mut results = accelerations;
-        for square in squares {
-            let column = |j: usize| self.solve(square.iter().map(|row| -row[j]).collect());
-            let columns: Vec<Vec<Ex<'g>>> = (0..n).map(column).collect();
-            results.extend((0..n).flat_map(|i| columns.iter().map(move |c| c[i])));
-        }
-        results.extend(self.inverse().into_iter().flatten());
-        results
     }
 }
 

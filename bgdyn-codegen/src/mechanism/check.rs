@@ -5,15 +5,17 @@ mod inertia;
 mod joint;
 mod names;
 mod order;
+mod parameters;
 
 use bgdyn_runtime::Dd;
 
 use super::{CoordinateId, Frame, Inertial, Joint, Link, LinkId, Mechanism, Motion, Value};
 use crate::fault::{Faults, wording};
 use crate::math::Vec3;
-use crate::spec::{self, Field, Located, Number, Spec, Vector};
+use crate::spec::{self, Dimension, Field, Spec, Vector};
 use direction::Directions;
 use order::Tree;
+use parameters::Parameters;
 
 /// The only version of the format there is.
 const FORMAT: u32 = 1;
@@ -41,9 +43,10 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
     }
     names::check(links, frames, faults);
     let tree = Tree::new(links, frames, faults);
+    let mut parameters = Parameters::default();
     let bodies = links
         .iter()
-        .map(|link| body(link, &directions, faults))
+        .map(|link| body(link, &directions, &mut parameters, faults))
         .collect();
     let frames = frames
         .iter()
@@ -58,7 +61,7 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
         gravity: gravity?,
         links,
         frames: all(frames)?,
-        parameters: Vec::new(),
+        parameters: parameters.into_all(),
         coordinates,
     })
 }
@@ -88,9 +91,14 @@ struct Body {
     inertial: Inertial,
 }
 
-fn body(link: &spec::Link, directions: &Directions, faults: &mut Faults) -> Option<Body> {
+fn body(
+    link: &spec::Link,
+    directions: &Directions,
+    parameters: &mut Parameters,
+    faults: &mut Faults,
+) -> Option<Body> {
     let joint = joint::joint(link, directions, faults);
-    let inertial = inertial(link, directions, faults);
+    let inertial = inertial(link, directions, parameters, faults);
     Some(Body {
         name: link.name.value()?.clone(),
         label: text(&link.label),
@@ -99,19 +107,39 @@ fn body(link: &spec::Link, directions: &Directions, faults: &mut Faults) -> Opti
     })
 }
 
-fn inertial(link: &spec::Link, directions: &Directions, faults: &mut Faults) -> Option<Inertial> {
+/// Where a number may be a run-time parameter. Its default obeys the rules for numbers.
+fn inertial(
+    link: &spec::Link,
+    directions: &Directions,
+    parameters: &mut Parameters,
+    faults: &mut Faults,
+) -> Option<Inertial> {
     if let Some(mass) = link.mass.given().filter(|mass| mass.value.value < Dd::ZERO) {
         faults.push(wording::negative_mass(&mass.place, &mass.value.text));
     }
-    let inertia = inertia::tensor(link, directions, faults);
-    let zero = Vec3([Value::Fixed(Dd::ZERO); 3]);
+    let name = link.name.value().map_or("", String::as_str);
+    let zero = Value::Fixed(Dd::ZERO);
+    let mass = match &link.mass {
+        Field::Absent => Some(zero),
+        Field::Broken => None,
+        Field::Given(mass) => {
+            let meaning = || format!("mass of link `{name}`");
+            Some(parameters.value(mass, Dimension::Mass, meaning, faults))
+        }
+    };
+    let com = match &link.com {
+        Field::Absent => Some(Vec3([zero; 3])),
+        Field::Broken => None,
+        Field::Given(com) => Some(Vec3(std::array::from_fn(|k| {
+            let axis = ["x", "y", "z"][k];
+            let meaning = || format!("{axis} of the centre of mass of link `{name}`");
+            parameters.value(&com.value[k], Dimension::Length, meaning, faults)
+        }))),
+    };
+    let inertia = inertia::tensor(link, directions, parameters, faults);
     Some(Inertial {
-        mass: number_or(&link.mass, Value::Fixed(Dd::ZERO))?,
-        com: match &link.com {
-            Field::Absent => zero,
-            Field::Broken => return None,
-            Field::Given(com) => Vec3(com.value.each_ref().map(value)),
-        },
+        mass: mass?,
+        com: com?,
         inertia: inertia?,
     })
 }
@@ -155,19 +183,6 @@ fn assemble(mut bodies: Vec<Option<Body>>, tree: &Tree<'_>) -> Option<(Vec<Link>
         });
     }
     Some((links, coordinates))
-}
-
-/// A number's value: the one place where a run-time parameter would become one.
-fn value(number: &Located<Number>) -> Value {
-    Value::Fixed(number.value.value)
-}
-
-fn number_or(field: &Field<Number>, default: Value) -> Option<Value> {
-    match field {
-        Field::Absent => Some(default),
-        Field::Broken => None,
-        Field::Given(number) => Some(value(number)),
-    }
 }
 
 fn vector_or(field: &Field<Vector>, default: Vec3<Dd>) -> Option<Vec3<Dd>> {

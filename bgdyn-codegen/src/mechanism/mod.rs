@@ -7,6 +7,8 @@ mod check;
 pub mod joint;
 pub mod name;
 
+use std::fmt;
+
 use bgdyn_runtime::Dd;
 
 use crate::math::{Mat3, Vec3};
@@ -41,10 +43,18 @@ pub enum Value {
 pub struct Parameter {
     /// Field name in the generated struct.
     pub name: String,
+    /// What it stands for: "mass of link `tool`"; several places with "and".
+    pub meaning: String,
     /// The spec's value, which `Default` takes.
     pub default: Dd,
     /// SI unit, for the docs (`kg`, `m`, …).
     pub unit: &'static str,
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}", self.meaning, self.unit)
+    }
 }
 
 /// A fixed placement: axes and origin of one frame in another.
@@ -68,15 +78,34 @@ impl Pose {
     };
 }
 
-/// Inertial parameters of a link, in link axes.
+/// Inertial parameters of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertial {
     /// Mass, kg.
     pub mass: Value,
-    /// Centre of mass, m.
+    /// Centre of mass in link axes, m.
     pub com: Vec3<Value>,
-    /// Tensor about the centre of mass, kg·m²: xx, yy, zz, xy, xz, yz (tensor entries).
-    pub inertia: [Value; 6],
+    /// Tensor about the centre of mass.
+    pub inertia: Tensor,
+}
+
+impl Inertial {
+    /// Whether any of it is a run-time parameter.
+    pub fn varies(&self) -> bool {
+        let mut values = self.com.0.iter().chain(&self.inertia.entries);
+        let varies = |value: &Value| matches!(value, Value::Parameter(_));
+        varies(&self.mass) || values.any(varies)
+    }
+}
+
+/// An inertia tensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tensor {
+    /// xx, yy, zz, xy, xz, yz (tensor entries), kg·m².
+    pub entries: [Value; 6],
+    /// Columns: the entries' axes in the link's. The identity unless an entry is a run-time
+    /// parameter: numbers are turned in the check.
+    pub axes: Mat3<Dd>,
 }
 
 /// Limits of a joint as the spec states them; nothing is clipped.

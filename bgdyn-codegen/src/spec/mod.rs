@@ -19,7 +19,7 @@ pub(crate) use number::misfit;
 pub use parse::parse;
 pub use unit::{Dimension, Unit};
 
-/// A number as written. (A run-time parameter's name will stand here beside its value.)
+/// A number as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
     /// Its value in SI units, read as a decimal.
@@ -28,6 +28,8 @@ pub struct Number {
     pub unit: Option<&'static Unit>,
     /// As it stands in the file.
     pub text: String,
+    /// Name of the run-time parameter whose default it is, if it is written as one.
+    pub parameter: Option<Located<String>>,
 }
 
 /// Three numbers.

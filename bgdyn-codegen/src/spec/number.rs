@@ -42,6 +42,7 @@ pub(super) fn number(
         value,
         unit,
         text: text.to_owned(),
+        parameter: None,
     })
 }
 

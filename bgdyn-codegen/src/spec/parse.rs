@@ -93,8 +93,10 @@ impl Reader {
             label: self.text_field(&map, "label"),
             parent: self.text_field(&map, "parent"),
             joint: self.field(&map, "joint", Self::joint),
-            mass: self.number_field(&map, "mass", &[Dimension::Mass]),
-            com: self.vector_field(&map, "com", &[Dimension::Length]),
+            mass: self.field(&map, "mass", |r, at| r.value(at, &[Dimension::Mass])),
+            com: self.field(&map, "com", |r, at| {
+                r.triple(at, |r, at| r.value(at, &[Dimension::Length]))
+            }),
             inertia: self.field(&map, "inertia", Self::inertia),
             nonphysical: self.text_field(&map, "nonphysical"),
             place: map.place,
@@ -142,6 +144,7 @@ impl Reader {
                 value,
                 unit: None,
                 text: text.clone(),
+                parameter: None,
             };
             Located {
                 value,
@@ -193,7 +196,7 @@ impl Reader {
         let map = self.mapping(at, ("a tensor", "`{ xx: …, yy: …, zz: … }`"), &keys)?;
         Some(Inertia {
             entries: std::array::from_fn(|i| {
-                self.number_field(&map, keys[i], &[Dimension::Inertia])
+                self.field(&map, keys[i], |r, at| r.value(at, &[Dimension::Inertia]))
             }),
             rpy: self.vector_field(&map, "rpy", &[Dimension::Angle]),
         })

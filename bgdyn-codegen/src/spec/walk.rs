@@ -8,6 +8,9 @@ use super::{Field, Located, Number, Vector};
 use crate::fault::wording::Wanted;
 use crate::fault::{Faults, Place, wording};
 
+/// The key that makes a mapping a run-time parameter.
+const PARAMETER: &str = "parameter";
+
 /// A value and its path.
 #[derive(Clone, Debug)]
 pub(super) struct At<'t> {
@@ -92,6 +95,9 @@ impl Reader {
                 .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
             return None;
         };
+        if !keys.contains(&PARAMETER) && self.refuse_parameter(at) {
+            return None;
+        }
         let mut mapping = Mapping {
             place: at.place.clone(),
             entries: Vec::new(),
@@ -175,6 +181,9 @@ impl Reader {
     /// The items of a list.
     pub(super) fn list<'t>(&mut self, at: &At<'t>, what: Wanted<'_>) -> Option<Vec<At<'t>>> {
         self.refuse_tag(at);
+        if self.refuse_parameter(at) {
+            return None;
+        }
         let Data::List(items) = &at.tree.data else {
             self.faults
                 .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
@@ -192,6 +201,9 @@ impl Reader {
     /// A text; a number or a truth value is none.
     pub(super) fn text(&mut self, at: &At<'_>) -> Option<String> {
         self.refuse_tag(at);
+        if self.refuse_parameter(at) {
+            return None;
+        }
         match &at.tree.data {
             Data::Scalar {
                 kind: Kind::Text { .. },
@@ -211,6 +223,9 @@ impl Reader {
     /// A number of one of the dimensions `fit`.
     pub(super) fn number(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Number> {
         self.refuse_tag(at);
+        if self.refuse_parameter(at) {
+            return None;
+        }
         let Data::Scalar {
             kind: kind @ (Kind::Number | Kind::Text { .. }),
             text,
@@ -228,14 +243,48 @@ impl Reader {
             .ok()
     }
 
+    /// A number of one of the dimensions `fit`, or a run-time parameter that has it as its default.
+    pub(super) fn value(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Number> {
+        if !matches!(at.tree.data, Data::Map(_)) {
+            return self.number(at, fit);
+        }
+        let what = ("a parameter", "`{ parameter: payload, value: 1.5 }`");
+        let map = self.mapping(at, what, &[PARAMETER, "value"])?;
+        let name = self.needed(
+            &map,
+            PARAMETER,
+            "`parameter: …`, the parameter's name",
+            Self::text,
+        );
+        let value = self.needed(
+            &map,
+            "value",
+            "`value: …`, the value that `Default` takes",
+            |r, at| r.number(at, fit),
+        );
+        Some(Number {
+            parameter: Some(name.given()?.clone()),
+            ..value.value()?.clone()
+        })
+    }
+
     /// Three numbers.
     pub(super) fn vector(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Vector> {
+        self.triple(at, |r, at| r.number(at, fit))
+    }
+
+    /// Three numbers, each read by `read`.
+    pub(super) fn triple(
+        &mut self,
+        at: &At<'_>,
+        mut read: impl FnMut(&mut Self, &At<'_>) -> Option<Number>,
+    ) -> Option<Vector> {
         let items = self.list(at, ("a list of three numbers", "`[x, y, z]`"))?;
         let count = items.len();
         let numbers: Vec<Option<Located<Number>>> = items
             .into_iter()
             .map(|item| {
-                let value = self.number(&item, fit)?;
+                let value = read(self, &item)?;
                 Some(Located {
                     value,
                     place: item.place,
@@ -253,11 +302,26 @@ impl Reader {
             .ok()
     }
 
+    /// Notes a run-time parameter where none may stand, and says whether there is one.
+    fn refuse_parameter(&mut self, at: &At<'_>) -> bool {
+        let found = is_parameter(at.tree);
+        if found {
+            self.faults.push(wording::misplaced_parameter(&at.place));
+        }
+        found
+    }
+
     fn refuse_tag(&mut self, at: &At<'_>) {
         if let Some(tag) = &at.tree.tag {
             self.faults.push(wording::tag(&at.place, tag));
         }
     }
+}
+
+/// Whether the tree is written as a run-time parameter.
+fn is_parameter(tree: &Tree) -> bool {
+    let named = |entry: &Entry| entry.key.as_deref() == Some(PARAMETER);
+    matches!(&tree.data, Data::Map(entries) if entries.iter().any(named))
 }
 
 /// What stands at a place, for messages.

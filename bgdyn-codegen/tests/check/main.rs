@@ -1,6 +1,7 @@
 //! The check: what a sound spec becomes, and which rule a slip breaks.
 
 mod directions;
+mod parameters;
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::math::{Mat3, Vec3};
@@ -44,6 +45,7 @@ fn tensor(text: &str) -> [Dd; 6] {
     mechanism.links()[0]
         .inertial
         .inertia
+        .entries
         .map(|value| match value {
             Value::Fixed(number) => number,
             Value::Parameter(_) => panic!("no parameter was written"),

@@ -88,7 +88,7 @@ pub fn places<D: Number>(mechanism: &Mechanism, q: &[D]) -> Vec<Place<D>> {
                 Motion::None => unreachable!("a fixed joint has no coordinate"),
             }
         }
-        let com = v3(|i| D::from(fixed(link.inertial.com.0[i])));
+        let com = v3(|i| D::from(fixed(link.inertial.com.0[i], &[])));
         places.push(Place {
             rotation,
             origin,
@@ -115,9 +115,9 @@ fn rodrigues<D: Number>(n: V3<D>, q: D) -> M3<D> {
 /// Mass and tensor J_i⁰ about the centre of mass in link axes.
 pub fn inertial(mechanism: &Mechanism, link: usize) -> (f64, M3<f64>) {
     let inertial = &mechanism.links()[link].inertial;
-    let [xx, yy, zz, xy, xz, yz] = inertial.inertia.map(fixed);
+    let [xx, yy, zz, xy, xz, yz] = inertial.inertia.entries.map(|x| fixed(x, &[]));
     let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    (fixed(inertial.mass), tensor)
+    (fixed(inertial.mass, &[]), tensor)
 }
 
 /// Gravity in fixed axes.

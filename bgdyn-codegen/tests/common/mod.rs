@@ -4,7 +4,10 @@
 #![allow(dead_code)] // each test file uses a part
 
 pub mod golden;
+pub mod hard;
 pub mod kinematics;
+pub mod laws;
+pub mod parameters;
 pub mod random;
 pub mod rng;
 pub mod values;
@@ -67,6 +70,11 @@ impl Robot {
         made.expect("every formulation knows every method")
     }
 
+    /// The function of a method that is generated when nothing is asked for, in one piece.
+    pub fn chosen(&self, method: Method) -> Function {
+        formulation::choose(&self.graph, method, None).expect("every method is known")
+    }
+
     /// The same before long functions are cut into blocks: one graph, to be differentiated.
     pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
@@ -75,13 +83,14 @@ impl Robot {
     }
 }
 
-/// Positions, velocities, accelerations, efforts.
+/// Positions, velocities, accelerations, efforts, and what the run-time parameters are set to.
 #[derive(Clone, Debug)]
 pub struct State {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub a: Vec<f64>,
     pub tau: Vec<f64>,
+    pub parameters: Vec<f64>,
 }
 
 impl State {
@@ -100,6 +109,7 @@ impl State {
             v: motions.iter().map(|_| some(2.0)).collect(),
             a: motions.iter().map(|_| some(3.0)).collect(),
             tau: motions.iter().map(|_| some(20.0)).collect(),
+            parameters: vec![],
         }
     }
 
@@ -113,7 +123,7 @@ impl State {
             u: all(&self.tau),
             x: vec![],
             modes: vec![],
-            parameters: vec![],
+            parameters: all(&self.parameters),
             passed: vec![],
         }
     }
@@ -164,11 +174,11 @@ pub fn assert_close<T: Into<Dd> + Copy>(
     }
 }
 
-/// A number of the spec.
-pub fn fixed(value: Value) -> f64 {
+/// A number of the spec, or what its run-time parameter is set to.
+pub fn fixed(value: Value, parameters: &[f64]) -> f64 {
     match value {
         Value::Fixed(x) => x.to_f64(),
-        Value::Parameter(_) => panic!("the tests' mechanisms have no run-time parameters"),
+        Value::Parameter(p) => parameters[p.0],
     }
 }
 
@@ -183,6 +193,7 @@ pub fn natural_effort(robot: &Robot, s: &State) -> f64 {
 /// (Σ m_i |g| L, W) of [`natural_effort`].
 pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
     let links = robot.mechanism.links();
+    let fixed = |x| fixed(x, &s.parameters);
     let mut length = 1.0;
     for link in links {
         if link.parent.is_some() {
@@ -198,9 +209,42 @@ pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
         }
     }
     let mass: f64 = links.iter().map(|l| fixed(l.inertial.mass)).sum();
-    let tensors = links.iter().flat_map(|l| l.inertial.inertia);
+    let tensors = links.iter().flat_map(|l| l.inertial.inertia.entries);
     let inertia = mass * length * length + tensors.map(|x| fixed(x).abs()).sum::<f64>();
     let g = robot.mechanism.gravity().0;
     let gravity: f64 = g.iter().map(|x| x.to_f64().abs()).sum();
     (mass * gravity * length, inertia)
+}
+
+/// A size that no single term of the method's result exceeds in this state.
+pub fn natural_size(robot: &Robot, s: &State, method: Method) -> f64 {
+    let speed = sum_abs(&s.v);
+    let (_, inertia) = natural_inertia(robot, s);
+    match method {
+        Method::MassMatrix => inertia,
+        Method::KineticEnergy => inertia * speed * speed,
+        Method::PotentialEnergy => natural_effort(robot, s) * reach(robot, s),
+        Method::CoriolisMatrix => inertia * speed,
+        Method::Pose(_) | Method::Jacobian(_) => reach(robot, s),
+        Method::Velocity(_) => reach(robot, s) * speed,
+        Method::JacobianDotV(_) => reach(robot, s) * speed * speed,
+        _ => natural_effort(robot, s),
+    }
+}
+
+/// How far any centre of mass and any frame may be from the world's origin, m; at least 1.
+pub fn reach(robot: &Robot, s: &State) -> f64 {
+    let links = robot.mechanism.links().iter();
+    let coms = links.clone().flat_map(|l| l.inertial.com.0);
+    let coms = coms.map(|x| fixed(x, &s.parameters));
+    let frames = robot.mechanism.frames().iter();
+    let steps = links
+        .map(|l| l.joint.origin)
+        .chain(frames.map(|f| f.origin))
+        .flat_map(|origin| origin.translation.0)
+        .map(Dd::to_f64);
+    let slides = s.q.iter().zip(robot.motions());
+    let slides = slides.filter(|(_, m)| *m == Motion::Translation);
+    let all = coms.chain(steps).chain(slides.map(|(q, _)| *q));
+    1.0 + all.map(f64::abs).sum::<f64>()
 }

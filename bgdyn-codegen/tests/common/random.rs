@@ -37,6 +37,11 @@ impl Draft {
     /// A random mechanism with 1 to `most` moving joints.
     pub fn random(rng: &mut Rng, most: usize) -> Self {
         let moving = 1 + rng.below(most);
+        Draft::moving(rng, moving)
+    }
+
+    /// A random mechanism with that many moving joints.
+    pub fn moving(rng: &mut Rng, moving: usize) -> Self {
         let gravity = match rng.below(10) {
             0 => Some([0.0; 3]),
             1 | 2 => Some([rng.within(9.0), rng.within(9.0), rng.within(9.0)]),
@@ -76,7 +81,12 @@ impl Draft {
 
     /// As a spec.
     pub fn yaml(&self) -> String {
-        let mut text = String::from("format: 1\nname: random\n");
+        self.named("random")
+    }
+
+    /// As a spec of that name.
+    pub fn named(&self, name: &str) -> String {
+        let mut text = format!("format: 1\nname: {name}\n");
         if let Some(g) = self.gravity {
             writeln!(text, "gravity: {g:?}").unwrap();
         }

@@ -37,26 +37,30 @@ impl Methods {
 
     /// The method's result differentiated along a direction of (q, v, a), in double-double.
     pub fn derivative(&self, method: Method, s: &State, along: &Direction<'_>) -> Vec<Dd> {
-        let function = self.function(method);
-        assert_eq!(function.blocks.len(), 1);
-        let mut graph = function.graph.clone();
-        let seed = |g: &mut Graph, leaf| {
-            let x = match leaf {
-                Leaf::Position(j) => along.q?[j],
-                Leaf::Velocity(j) => along.v?[j],
-                Leaf::Acceleration(j) => along.a?[j],
-                _ => return None,
-            };
-            Some(g.constant(Dd::from_f64(x)))
-        };
-        let mut tangent = Tangent::new(seed);
-        let outputs: Vec<Expr> = function.blocks[0]
-            .outputs
-            .iter()
-            .map(|&e| tangent.of(&mut graph, e))
-            .collect();
-        evaluate(&graph, &outputs, &s.inputs(), &mut None)
+        derivative(self.function(method), s, along)
     }
+}
+
+/// A function of one block differentiated along a direction of (q, v, a), in double-double.
+pub fn derivative(function: &Function, s: &State, along: &Direction<'_>) -> Vec<Dd> {
+    assert_eq!(function.blocks.len(), 1);
+    let mut graph = function.graph.clone();
+    let seed = |g: &mut Graph, leaf| {
+        let x = match leaf {
+            Leaf::Position(j) => along.q?[j],
+            Leaf::Velocity(j) => along.v?[j],
+            Leaf::Acceleration(j) => along.a?[j],
+            _ => return None,
+        };
+        Some(g.constant(Dd::from_f64(x)))
+    };
+    let mut tangent = Tangent::new(seed);
+    let outputs: Vec<Expr> = function.blocks[0]
+        .outputs
+        .iter()
+        .map(|&e| tangent.of(&mut graph, e))
+        .collect();
+    evaluate(&graph, &outputs, &s.inputs(), &mut None)
 }
 
 /// Rates of q, v and a; what is not given stands still.

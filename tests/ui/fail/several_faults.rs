@@ -21,5 +21,7 @@ fn main() -> Result<(), Singular> {
     let single = broken_arm::BrokenArm::<f32>::default();
     println!("{:?} {single:?}", single.gravity(&SVector::zeros()).norm());
     println!("{:?}", arm.joint_names());
+    let hanging = broken_arm::BrokenArm { drop: -0.1, ..arm };
+    println!("{}", hanging.drop);
     Ok(())
 }

@@ -5,6 +5,7 @@
 use bgdyn::nalgebra::Vector2;
 
 bgdyn::bgdyn!("arm.yaml");
+bgdyn::bgdyn!("robots/lift.yaml");
 
 fn main() {
     let model = arm::Arm::<f64>::default();
@@ -15,4 +16,8 @@ fn main() {
     assert_eq!(arm::LINK_NAMES.len(), 2);
     assert_eq!((arm::NQ, arm::NV), (2, 2));
     assert_eq!(core::mem::size_of_val(&model), 0);
+    let loaded = lift::Lift { load: 12.0 };
+    assert_eq!(core::mem::size_of_val(&loaded), 8);
+    let (empty, rest) = (lift::Lift::default(), bgdyn::nalgebra::Vector1::zeros());
+    assert_eq!(loaded.gravity(&rest)[0], 4.0 * empty.gravity(&rest)[0]);
 }

@@ -3,6 +3,7 @@
 use super::{figure, figures, listed, meant, quote};
 use crate::fault::{Fault, Place};
 use crate::mechanism::name::{is_keyword, to_identifier};
+use crate::spec::Dimension;
 
 // Names
 
@@ -91,6 +92,52 @@ pub(crate) fn name_differs_from_file(place: &Place, name: &str, stem: &str) -> F
     Fault::new(place, "name-differs-from-file", message).with_help(format!(
         "rename the file to `{name}.yaml`, or leave `name` out"
     ))
+}
+
+// Run-time parameters
+
+pub(crate) fn parameter_not_identifier(place: &Place, name: &str) -> Fault {
+    let fault = not_identifier(place, name);
+    match to_identifier(name) {
+        Some(better) => fault.with_help(format!("call it {}", quote(&better))),
+        None => fault,
+    }
+}
+
+pub(crate) fn parameter_is_method(place: &Place, name: &str) -> Fault {
+    let message = format!("{} is a method of the generated struct", quote(name));
+    Fault::new(place, "reserved-name", message)
+        .with_help("a parameter becomes a field beside the methods: choose another name")
+}
+
+pub(crate) fn parameter_has_two_values(
+    place: &Place,
+    name: &str,
+    (here, there): (&str, &str),
+    first: &Place,
+) -> Fault {
+    let (path, line) = (&first.path, first.position.line);
+    let message = format!(
+        "the parameter {} is {here} here and {there} at `{path}` on line {line}",
+        quote(name)
+    );
+    Fault::new(place, "parameter-conflict", message)
+        .with_help("one name is one number: write the same value, or choose another name")
+}
+
+pub(crate) fn parameter_measures_two(
+    place: &Place,
+    name: &str,
+    (here, there): (Dimension, Dimension),
+    first: &Place,
+) -> Fault {
+    let (path, line) = (&first.path, first.position.line);
+    let message = format!(
+        "the parameter {} is {here} here and {there} at `{path}` on line {line}",
+        quote(name)
+    );
+    Fault::new(place, "parameter-conflict", message)
+        .with_help("one name is one number: choose another name")
 }
 
 // The tree

@@ -216,6 +216,20 @@ fn wanted(fit: &[Dimension]) -> String {
     )
 }
 
+// Run-time parameters
+
+pub(crate) fn misplaced_parameter(place: &Place) -> Fault {
+    Fault::new(
+        place,
+        "misplaced-parameter",
+        "no run-time parameter may stand here",
+    )
+    .with_help(
+        "write the number; a link's `mass`, each component of its `com` and each entry of its \
+         `inertia` may be one: `mass: { parameter: payload, value: 1.5 }`",
+    )
+}
+
 pub(crate) fn unknown_format(place: &Place, text: &str, known: u32) -> Fault {
     let message = format!(
         "this spec is of format {}; only format {known} is known",

@@ -7,7 +7,7 @@ use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
 use crate::formulation::placement::Placement;
 use crate::formulation::{Arguments, value};
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{CoordinateId, LinkId, Motion};
+use crate::mechanism::{CoordinateId, LinkId, Motion, Tensor};
 
 /// Transformer moduli of one link: ∂r_i/∂q_j and ρ_j^i for the coordinates that move it.
 struct Moduli<'g> {
@@ -95,13 +95,11 @@ impl<'a, 'g> Sum<'a, 'g> {
 
     /// J_i = A_i J_i⁰ A_iᵀ in fixed axes.
     fn tensor(&self, i: usize) -> Mat3<Ex<'g>> {
-        let [xx, yy, zz, xy, xz, yz] = self
-            .graph
-            .inertial(LinkId(i))
-            .inertia
-            .map(|x| value(self.b, x));
+        let Tensor { entries, axes } = self.graph.inertial(LinkId(i)).inertia;
+        let [xx, yy, zz, xy, xz, yz] = entries.map(|x| value(self.b, x));
         let tensor = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-        self.placement.rotations[i] * tensor * self.placement.rotations[i].transpose()
+        let axes = self.placement.rotations[i] * axes.map(|x| self.b.constant(x));
+        axes * tensor * axes.transpose()
     }
 
     fn mass(&self, i: usize) -> Ex<'g> {

@@ -3,13 +3,14 @@
 
 use bgdyn_runtime::Dd;
 
+use super::base::{Parts, regrouped};
 use super::geometry::{Body, Geometry, angle_of};
-use super::inertia::{Inertia, turn};
+use super::inertia::{Inertia, Point, turn};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
-use crate::formulation::{Arguments, value};
+use crate::formulation::Arguments;
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{LinkId, Motion, Pose};
+use crate::mechanism::Motion;
 
 /// The free choices of the recursion: none changes the result, all change the count.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,13 @@ pub(super) struct Plan {
     pub in_basis: Vec<bool>,
     /// Bodies at the tips whose x axis points at their centre of mass.
     pub aimed: Vec<bool>,
+    /// By how many joints inwards the base parameters of a body's run-time parameters move.
+    pub carried: Vec<usize>,
+    /// Bodies whose point masses with run-time parameters have a force of their own each, where
+    /// the others' are merged with the body.
+    pub apart: Vec<bool>,
+    /// Whether inertia is regrouped into base parameters; otherwise every body keeps its own.
+    pub base_parameters: bool,
     /// N_z = J_zz ω̇_z + (D_xx − D_yy) ω_x ω_y + … instead of the skew part of U·D.
     pub short_moment: bool,
 }
@@ -39,6 +47,9 @@ impl Plan {
             grouped,
             in_basis: vec![false; n],
             aimed: vec![false; n],
+            carried: vec![0; n],
+            apart: vec![false; n],
+            base_parameters: true,
             short_moment: false,
         }
     }
@@ -70,6 +81,10 @@ pub(super) struct Frame<'g> {
     pub acceleration: Ex<'g>,
     /// Base parameters about the origin, in own axes.
     pub inertia: Inertia<'g>,
+    /// The same without the point masses that are kept apart.
+    pub rest: Inertia<'g>,
+    /// Those.
+    pub points: Vec<Point<'g>>,
     /// Factor from a moment or force along z to the joint's effort.
     pub effort: Dd,
 }
@@ -93,19 +108,13 @@ impl<'g> Frames<'g> {
         plan: &Plan,
         x: &Arguments<'g>,
     ) -> Self {
-        let mut inertias: Vec<Inertia<'g>> = geometry
-            .bodies
-            .iter()
-            .zip(&plan.slides)
-            .map(|(body, &slide)| inertia(b, graph, body, slide))
-            .collect();
-        let mut energy = constant_energy(b, graph, geometry, &inertias, plan);
-        regroup(b, graph, geometry, plan, &mut inertias, &mut energy);
+        let (parts, energy) = regrouped(b, graph, geometry, plan);
         let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<Frame<'g>> = Vec::new();
         for (j, body) in geometry.bodies.iter().enumerate() {
             b.section(format!("{}: place and inertia", body.name));
-            let (inertia, phase) = aim(b, body, plan.aimed[j], inertias[j]);
+            let parts = parts[j].in_units_of(plan.unit);
+            let (weight, phase) = aim(b, body, plan.aimed[j], &parts);
             let continues = plan.grouped && body.parallel();
             let (mut terms, start) = match body.parent {
                 Some(p) if continues => angles[p].clone(),
@@ -144,7 +153,9 @@ impl<'g> Frames<'g> {
                 turn: cos_sin(b, &terms, phase),
                 rate: signed(x.v[j]) * scale,
                 acceleration: signed(x.a[j]) * scale,
-                inertia: inertia.in_units_of(plan.unit),
+                inertia: weight.inertia,
+                rest: weight.rest,
+                points: weight.points,
                 effort: if body.opposite { -scale } else { scale },
             });
             angles.push((terms, phase));
@@ -162,7 +173,7 @@ impl<'g> Frames<'g> {
 
 /// Where the origin of body j is from its parent's, in twisted axes, after the slides, m. The
 /// base's place enters nothing but the potential energy.
-fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<Dd> {
+pub(super) fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<Dd> {
     let body = &geometry.bodies[j];
     let Some(p) = body.parent else {
         return Vec3([Dd::ZERO; 3]);
@@ -185,142 +196,45 @@ fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<Dd> {
     })
 }
 
-/// Inertia of all links of a body about its origin, in its axes.
-fn inertia<'g>(b: &'g Builder, graph: &BondGraph, body: &Body, slide: Dd) -> Inertia<'g> {
-    let to_body = body.axes.transpose();
-    let mut sum = Inertia::zero(b);
-    for (link, place) in &body.links {
-        let mut placed = placed_inertia(b, graph, *link, place);
-        placed = placed.rotated(b, to_body);
-        placed = placed.shifted(b.vector(Vec3([Dd::ZERO, Dd::ZERO, -slide])));
-        sum = sum.plus(&placed);
-    }
-    sum
+/// Inertia of a body: all of it, and what is left of it without the points.
+struct Weight<'g> {
+    inertia: Inertia<'g>,
+    rest: Inertia<'g>,
+    points: Vec<Point<'g>>,
 }
 
-/// Inertia of a link about the origin of the axes in which it is placed.
-fn placed_inertia<'g>(
-    b: &'g Builder,
-    graph: &BondGraph,
-    link: LinkId,
-    place: &Pose,
-) -> Inertia<'g> {
-    let inertial = graph.inertial(link);
-    let tensor = inertial.inertia.map(|x| value(b, x));
-    Inertia::at_centre(b, value(b, inertial.mass), tensor)
-        .shifted(inertial.com.map(|x| value(b, x)))
-        .rotated(b, place.rotation)
-        .shifted(b.vector(place.translation))
-}
-
-/// −g·r of what hangs on the base at its origin, and of the links that never move.
-fn constant_energy<'g>(
-    b: &'g Builder,
-    graph: &BondGraph,
-    geometry: &Geometry,
-    inertias: &[Inertia<'g>],
-    plan: &Plan,
-) -> Ex<'g> {
-    let gravity = b.vector(graph.gravity);
-    let mut moment = Vec3([b.zero(); 3]);
-    for (link, place) in &geometry.fixed {
-        moment = moment + placed_inertia(b, graph, *link, place).first;
-    }
-    for (j, body) in geometry.bodies.iter().enumerate() {
-        let mut root = j;
-        while let Some(p) = geometry.bodies[root].parent {
-            root = p;
-        }
-        let base = &geometry.bodies[root];
-        let slid = Vec3([Dd::ZERO, Dd::ZERO, plan.slides[root]]);
-        let origin = base.twist * (base.offset + slid);
-        let _ = body;
-        moment = moment + b.vector(origin).scale(inertias[j].mass);
-    }
-    -gravity.dot(moment)
-}
-
-/// Moves what lies on a joint's axis to the parent, from the tips to the base: it moves as if it
-/// belonged there. What reaches the base is dropped, but for its energy. Run-time parameters stay where they are.
-fn regroup<'g>(
-    b: &'g Builder,
-    graph: &BondGraph,
-    geometry: &Geometry,
-    plan: &Plan,
-    inertias: &mut [Inertia<'g>],
-    energy: &mut Ex<'g>,
-) {
-    for j in (0..geometry.bodies.len()).rev() {
-        let body = &geometry.bodies[j];
-        if !inertias[j].is_constant() || body.parent.is_some_and(|p| !inertias[p].is_constant()) {
-            continue;
-        }
-        let moved = match body.motion {
-            Motion::Rotation => take_from_rotation(b, &mut inertias[j]),
-            _ => {
-                let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
-                take_from_translation(b, &mut inertias[j], body.planar).turned(phase)
-            }
-        };
-        // What moved is the same in twisted as in own axes, about the same origin.
-        let at_parent = moved
-            .shifted(b.vector(origin_offset(geometry, plan, j)))
-            .rotated(b, body.twist);
-        match body.parent {
-            Some(p) => inertias[p] = inertias[p].plus(&at_parent),
-            None => *energy = *energy - b.vector(graph.gravity).dot(at_parent.first),
+impl<'g> Weight<'g> {
+    fn new(b: &'g Builder, rest: Inertia<'g>, points: Vec<Point<'g>>) -> Self {
+        let all = |sum: Inertia<'g>, point| sum.plus(&Inertia::of_point(b, point));
+        Weight {
+            inertia: points.iter().fold(rest, all),
+            rest,
+            points,
         }
     }
-}
-
-/// What lies on the axis of a rotation: mass, axial first moment, D_zz.
-fn take_from_rotation<'g>(b: &'g Builder, own: &mut Inertia<'g>) -> Inertia<'g> {
-    let mut moved = Inertia::zero(b);
-    (moved.mass, moved.axial) = (own.mass, own.axial);
-    moved.first.0[2] = own.first.0[2];
-    moved.pseudo[2] = own.pseudo[2];
-    (own.mass, own.axial) = (b.zero(), b.zero());
-    own.first.0[2] = b.zero();
-    own.pseudo[2] = b.zero();
-    moved
-}
-
-/// What a translation shares with its parent: D, as both turn alike. A planar body also moves
-/// like its parent across the axis, so that only its mass along the axis is its own.
-fn take_from_translation<'g>(b: &'g Builder, own: &mut Inertia<'g>, planar: bool) -> Inertia<'g> {
-    let mut moved = Inertia::zero(b);
-    moved.pseudo = own.pseudo;
-    own.pseudo = [b.zero(); 6];
-    if planar {
-        moved.mass = own.mass;
-        moved.first = Vec3([own.first.0[0], own.first.0[1], b.zero()]);
-        own.mass = b.zero();
-        own.first = Vec3([b.zero(), b.zero(), own.first.0[2]]);
-    }
-    moved
 }
 
 /// Turns the axes of a tip about z so that x points at its centre of mass; gives its inertia in
 /// the new axes and the new phase.
-fn aim<'g>(
-    b: &'g Builder,
-    body: &Body,
-    aimed: bool,
-    inertia: Inertia<'g>,
-) -> (Inertia<'g>, (Dd, Dd)) {
-    let [x, y, _] = inertia.first.0.map(Ex::as_constant);
-    let (Some(x), Some(y), true) = (x, y, aimed && inertia.is_constant()) else {
-        return (inertia, body.phase);
+fn aim<'g>(b: &'g Builder, body: &Body, aimed: bool, parts: &Parts<'g>) -> (Weight<'g>, (Dd, Dd)) {
+    let rest = parts.sum();
+    let straight = || (Weight::new(b, rest, parts.points.clone()), body.phase);
+    let [x, y, _] = rest.first.0.map(Ex::as_constant);
+    let (Some(x), Some(y), true) = (x, y, aimed && rest.is_constant()) else {
+        return straight();
     };
     let length = (x * x + y * y).sqrt();
     if length == Dd::ZERO {
-        return (inertia, body.phase);
+        return straight();
     }
     let (c, s) = (x / length, y / length);
-    let mut turned = inertia.turned((b.constant(c), b.constant(-s)));
+    let back = (b.constant(c), b.constant(-s));
+    let mut turned = rest.turned(back);
     turned.first.0[1] = b.zero();
+    let points = parts.points.iter().map(|p| p.turned(back)).collect();
     let (cos, sin) = body.phase;
-    (turned, (cos * c - sin * s, sin * c + cos * s))
+    let phase = (cos * c - sin * s, sin * c + cos * s);
+    (Weight::new(b, turned, points), phase)
 }
 
 /// Cosine and sine of Σ terms + phase; quarter turns cost nothing.

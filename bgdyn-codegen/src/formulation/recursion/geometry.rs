@@ -45,6 +45,8 @@ pub(super) struct Body {
     pub free_x: bool,
     /// Links of the body with their place in the carrying link's axes.
     pub links: Vec<(LinkId, Pose)>,
+    /// Whether one of them has a run-time parameter.
+    pub varying: bool,
 }
 
 impl Body {
@@ -79,6 +81,13 @@ pub(super) struct Geometry {
     pub bodies: Vec<Body>,
     /// Links that never move, with their place in the world.
     pub fixed: Vec<(LinkId, Pose)>,
+}
+
+impl Geometry {
+    /// Which body carries each body.
+    pub fn parents(&self) -> Vec<Option<usize>> {
+        self.bodies.iter().map(|body| body.parent).collect()
+    }
 }
 
 /// The bodies of a bond graph.
@@ -124,9 +133,13 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
             axes: basis_with_z(frame.axis),
             free_x: true,
             links: vec![(LinkId(i), still)],
+            varying: false,
         });
     }
     align_parallel_axes(&mut made.bodies, &placed);
+    for body in &mut made.bodies {
+        body.varying = (body.links.iter()).any(|(link, _)| graph.inertial(*link).varies());
+    }
     for j in 0..made.bodies.len() {
         orient(&mut made.bodies, &placed, j);
     }

@@ -28,6 +28,39 @@ pub(super) struct Inertia<'g> {
     pub pseudo: Symmetric<'g>,
 }
 
+/// A point mass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point<'g> {
+    /// m, kg
+    pub mass: Ex<'g>,
+    /// s, m
+    pub place: Vec3<Ex<'g>>,
+}
+
+impl<'g> Point<'g> {
+    /// Whether everything is known at generation time.
+    pub fn is_constant(&self) -> bool {
+        let mut entries = self.place.0.iter().chain([&self.mass]);
+        entries.all(|e| e.as_constant().is_some())
+    }
+
+    /// Turned by Rz.
+    pub fn turned(&self, angle: (Ex<'g>, Ex<'g>)) -> Self {
+        Point {
+            place: turn(self.place, angle),
+            ..*self
+        }
+    }
+
+    /// In units of `length`: moments keep their value.
+    pub fn in_units_of(&self, length: Dd) -> Self {
+        Point {
+            mass: self.mass * (length * length),
+            place: self.place.map(|s| s * (Dd::ONE / length)),
+        }
+    }
+}
+
 impl<'g> Inertia<'g> {
     /// Of nothing.
     pub fn zero(b: &'g Builder) -> Self {
@@ -40,8 +73,18 @@ impl<'g> Inertia<'g> {
         }
     }
 
-    /// About the centre of mass, from the tensor J there.
-    pub fn at_centre(b: &'g Builder, mass: Ex<'g>, tensor: Symmetric<'g>) -> Self {
+    /// Of a point mass.
+    pub fn of_point(b: &'g Builder, point: &Point<'g>) -> Self {
+        Inertia {
+            mass: point.mass,
+            axial: point.mass,
+            ..Inertia::zero(b)
+        }
+        .shifted(point.place)
+    }
+
+    /// About the centre of mass, without the mass, from the tensor J there.
+    pub fn of_tensor(b: &'g Builder, tensor: Symmetric<'g>) -> Self {
         let [xx, yy, zz, xy, xz, yz] = tensor;
         let half = Dd::from_f64(0.5);
         let diagonal = |a: Ex<'g>, b: Ex<'g>, c: Ex<'g>| (a + b - c) * half;
@@ -54,10 +97,8 @@ impl<'g> Inertia<'g> {
             -yz,
         ];
         Inertia {
-            mass,
-            axial: mass,
-            first: Vec3([b.zero(); 3]),
             pseudo,
+            ..Inertia::zero(b)
         }
     }
 
@@ -137,15 +178,29 @@ impl<'g> Inertia<'g> {
         }
     }
 
+    /// Each entry through `f`.
+    fn map(&self, f: impl Fn(Ex<'g>) -> Ex<'g>) -> Self {
+        Inertia {
+            mass: f(self.mass),
+            axial: f(self.axial),
+            first: self.first.map(&f),
+            pseudo: self.pseudo.map(&f),
+        }
+    }
+
+    /// The entries known at generation time, and the others if there are any; 0 in their stead.
+    pub fn split(&self, b: &'g Builder) -> (Self, Option<Self>) {
+        let known = |e: Ex<'g>| e.as_constant().is_some();
+        let constant = self.map(|e| if known(e) { e } else { b.zero() });
+        let varying = self.map(|e| if known(e) { b.zero() } else { e });
+        (constant, (!self.is_constant()).then_some(varying))
+    }
+
     /// Whether every entry is known at generation time.
     pub fn is_constant(&self) -> bool {
-        let entries = self
-            .first
-            .0
-            .iter()
-            .chain(&self.pseudo)
-            .chain([&self.mass, &self.axial]);
-        entries.into_iter().all(|e| e.as_constant().is_some())
+        let entries = self.first.0.iter().chain(&self.pseudo);
+        let mut entries = entries.chain([&self.mass, &self.axial]);
+        entries.all(|e| e.as_constant().is_some())
     }
 
     /// Whether turning it about z changes nothing.

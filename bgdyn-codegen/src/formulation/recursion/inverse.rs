@@ -7,8 +7,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Frame, Frames};
-use super::inertia::{Inertia, turn, turn_back};
+use super::frames::{Frame, Frames, Plan};
+use super::inertia::{Inertia, Point, turn, turn_back};
 use crate::expr::{Builder, Ex};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -44,12 +44,14 @@ pub(super) struct Moving<'g> {
 /// Force and moment about the body's origin.
 #[derive(Clone, Copy)]
 pub(super) struct Wrench<'g> {
+    /// N in units of the plan.
     pub force: Vec3<Ex<'g>>,
+    /// N·m
     pub moment: Vec3<Ex<'g>>,
 }
 
 impl<'g> Wrench<'g> {
-    /// Of nothing.
+    /// No force, no moment.
     pub fn zero(b: &'g Builder) -> Self {
         Wrench {
             force: zero(b),
@@ -90,19 +92,40 @@ impl<'g> Wrench<'g> {
     }
 }
 
+/// What a body's motion takes, by equation (6): computed in its own axes or in its basis's.
+#[derive(Clone, Copy)]
+pub(super) struct Load<'g> {
+    /// In own axes.
+    pub own: Wrench<'g>,
+    /// In the basis's axes.
+    pub basis: Wrench<'g>,
+}
+
 /// Joint efforts for the rates and accelerations in `frames`.
 pub(super) fn efforts<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    in_basis: &[bool],
-    short_moment: bool,
+    plan: &Plan,
     active: bool,
 ) -> Vec<Ex<'g>> {
-    let moving = motions(b, frames, active);
-    inwards(b, frames, &moving, in_basis, short_moment)
+    inwards(b, frames, &loads(b, frames, plan, active))
 }
 
-/// Motion of every body for the rates and accelerations in `frames`; where `active`, against
+/// Forces and moments that move each body with the rates and accelerations in `frames`.
+pub(super) fn loads<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    plan: &Plan,
+    active: bool,
+) -> Vec<Load<'g>> {
+    let moving = motions(b, frames, active);
+    let bodies = frames.bodies.iter().zip(&moving).zip(&plan.in_basis);
+    bodies
+        .map(|((frame, motion), &in_basis)| load(b, frame, motion, in_basis, plan.short_moment))
+        .collect()
+}
+
+/// Motion of every body with the rates and accelerations in `frames`; where `active`, against
 /// gravity.
 pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Vec<Moving<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
@@ -118,6 +141,45 @@ pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> 
         moving.push(step);
     }
     moving
+}
+
+fn load<'g>(
+    b: &'g Builder,
+    frame: &Frame<'g>,
+    motion: &Moving<'g>,
+    in_basis: bool,
+    short: bool,
+) -> Load<'g> {
+    b.section(format!(
+        "{}: F = m a + U h, N = h × a + skew(U D)",
+        frame.name
+    ));
+    // Turning about z leaves J_zz as it is.
+    let rest = &frame.rest;
+    let j_zz = rest.d(0, 0) + rest.d(1, 1);
+    let points = frame.points.iter();
+    if in_basis {
+        let inertia = if rest.round() {
+            *rest
+        } else {
+            rest.turned(frame.turn)
+        };
+        let (spin, a) = (&motion.in_basis, motion.a_basis);
+        let load = dynamics(&inertia, j_zz, spin, a, short);
+        let turned = points.map(|p| dynamics_of_point(&p.turned(frame.turn), spin, a));
+        Load {
+            own: Wrench::zero(b),
+            basis: turned.fold(load, |sum, p| p.plus(sum)),
+        }
+    } else {
+        let (spin, a) = (&motion.own, motion.a_own);
+        let load = dynamics(rest, j_zz, spin, a, short);
+        let own = points.map(|p| dynamics_of_point(p, spin, a));
+        Load {
+            own: own.fold(load, |sum, p| p.plus(sum)),
+            basis: Wrench::zero(b),
+        }
+    }
 }
 
 fn zero(b: &Builder) -> Vec3<Ex<'_>> {
@@ -346,42 +408,30 @@ pub(super) fn dynamics<'g>(
     }
 }
 
+/// F = m (a + U s) and N = s × F of a point mass.
+fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Ex<'g>>) -> Wrench<'g> {
+    let force = (a + spin.u * point.place).scale(point.mass);
+    Wrench {
+        force,
+        moment: point.place.cross(force),
+    }
+}
+
 /// Forces and moments summed from the tips, and the joints' share of them.
-fn inwards<'g>(
-    b: &'g Builder,
-    frames: &Frames<'g>,
-    moving: &[Moving<'g>],
-    in_basis: &[bool],
-    short: bool,
-) -> Vec<Ex<'g>> {
+fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<Ex<'g>> {
     let n = frames.bodies.len();
-    let nothing = Wrench::zero(b);
     // What the bodies beyond hand over: in own axes, and in the basis's.
-    let mut own = vec![nothing; n];
-    let mut basis = vec![nothing; n];
+    let mut own = vec![Wrench::zero(b); n];
+    let mut basis = own.clone();
     let mut efforts = vec![b.zero(); n];
     for j in (0..n).rev() {
-        let (frame, motion) = (&frames.bodies[j], &moving[j]);
+        let frame = &frames.bodies[j];
         b.section(format!(
-            "{}: F = m a + U h, N = h × a + skew(U D), summed from the tips; effort of `{}`",
+            "{}: forces and moments summed from the tips; effort of `{}`",
             frame.name, frame.joint
         ));
-        // Turning about z leaves J_zz as it is.
-        let j_zz = frame.inertia.d(0, 0) + frame.inertia.d(1, 1);
-        if in_basis[j] {
-            let round = frame.inertia.round();
-            let inertia = if round {
-                frame.inertia
-            } else {
-                frame.inertia.turned(frame.turn)
-            };
-            let wrench = dynamics(&inertia, j_zz, &motion.in_basis, motion.a_basis, short);
-            basis[j] = wrench.plus(basis[j]);
-        } else {
-            let wrench = dynamics(&frame.inertia, j_zz, &motion.own, motion.a_own, short);
-            own[j] = wrench.plus(own[j]);
-        }
-        let whole = basis[j].plus(own[j].map(|v| turn(v, frame.turn)));
+        let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
+        let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
         efforts[j] = (whole.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint));
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);

@@ -4,8 +4,11 @@
 //! Its free choices are a [`Plan`]; the plan is searched for by counting, in a bounded number of
 //! steps, method by method.
 
+mod articulated;
+mod base;
 mod beyond;
 mod composite;
+mod forward;
 mod frames;
 mod geometry;
 mod inertia;
@@ -13,6 +16,7 @@ mod inverse;
 mod kinematics;
 mod mass;
 mod plan;
+mod share;
 mod slopes;
 
 use bgdyn_runtime::Dd;
@@ -22,6 +26,8 @@ use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, count};
 use crate::function::Function;
 use crate::method::Method;
+pub(super) use articulated::Articulated;
+pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
 
@@ -42,25 +48,34 @@ impl Formulation for Recursion {
         if let Some(site) = method.site() {
             return Some(kinematics::function(graph, &geometry, method, site));
         }
-        let cost = |method, plan: &Plan| {
-            let (graph, outputs) = outputs(graph, &geometry, method, plan);
-            count(&graph, &outputs).total()
-        };
-        let search = |method| plan::search(&geometry, |plan| cost(method, plan));
-        let refined = |plan| plan::refined(&geometry, plan, |plan| cost(method, plan));
+        let cost = |plan: &Plan| cost(graph, &geometry, method, plan);
         let best = match method {
-            // Their graphs are too large for a whole search: it starts from the plan of a small method
-            // that they resemble.
+            // Their graphs are too large for a whole search: it starts from the plan of a small
+            // method that they resemble.
             Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-                refined(search(Method::MassMatrix))
+                let start = cheapest_plan(graph, &geometry, Method::MassMatrix);
+                plan::refined(&geometry, start, cost)
             }
-            Method::ForwardDynamicsDerivatives => refined(search(Method::InverseDynamics)),
-            _ => search(method),
+            Method::ForwardDynamicsDerivatives => return None,
+            _ => plan::search(&geometry, cost),
         };
-        let (made, outputs) = outputs(graph, &geometry, method, &best);
-        let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
-        Some(Function::flat(graph, method, name, made, outputs))
+        Some(with_plan(graph, &geometry, method, &best))
     }
+}
+
+fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan {
+    plan::search(geometry, |plan| cost(graph, geometry, method, plan))
+}
+
+fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
+    let (graph, outputs) = outputs(graph, geometry, method, plan);
+    count(&graph, &outputs).total()
+}
+
+fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {
+    let (made, outputs) = outputs(graph, geometry, method, plan);
+    let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
+    Function::flat(graph, method, name, made, outputs)
 }
 
 /// The method's expressions under a plan.
@@ -74,7 +89,7 @@ fn outputs(
     let outputs: Vec<Expr> = {
         let x = Arguments::new(&b, graph, method);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
-        let efforts = || inverse::efforts(&b, &frames, &plan.in_basis, plan.short_moment, x.active);
+        let efforts = || inverse::efforts(&b, &frames, plan, x.active);
         let outputs = match method {
             Method::InverseDynamics | Method::Bias | Method::Gravity => efforts(),
             Method::MassMatrix => mass::mass_matrix(&b, &frames)
@@ -91,7 +106,8 @@ fn outputs(
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
             }
             Method::InverseDynamicsDerivatives => {
-                let slopes = slopes::slopes(&b, &frames, &inverse::motions(&b, &frames, x.active));
+                let moving = inverse::motions(&b, &frames, x.active);
+                let slopes = slopes::slopes(&b, &frames, &moving);
                 let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
                 rows.flatten().collect()
             }
@@ -100,20 +116,6 @@ fn outputs(
                 let slopes = slopes::slopes(&b, &frames, &inverse::motions(&b, &frames, false));
                 let rows = slopes.by_rate.into_iter().flatten();
                 rows.map(|e| e * Dd::from_f64(0.5)).collect()
-            }
-            Method::ForwardDynamicsDerivatives => {
-                let factor = solve::Factor::new(&b, mass::mass_matrix(&b, &frames));
-                let drive = x.tau.iter().zip(efforts());
-                let accelerations = factor.solve(drive.map(|(&tau, h)| tau - h).collect());
-                let driven = Arguments {
-                    a: accelerations.clone(),
-                    ..x
-                };
-                let frames = Frames::new(&b, graph, geometry, plan, &driven);
-                let moving = inverse::motions(&b, &frames, driven.active);
-                let slopes = slopes::slopes(&b, &frames, &moving);
-                factor
-                    .accelerations_and_slopes(accelerations, &[slopes.by_position, slopes.by_rate])
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
             Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],

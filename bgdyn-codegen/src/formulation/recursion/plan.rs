@@ -11,7 +11,7 @@ const ROUNDS: usize = 2;
 
 /// Bodies beyond which the choices are not tried one by one: the cost of a search grows with the
 /// square of their number.
-const SEARCHED: usize = 16;
+pub(super) const SEARCHED: usize = 16;
 
 /// The cheapest plan found.
 pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> usize) -> Plan {
@@ -75,6 +75,9 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         grouped,
         in_basis: (0..n).map(tip).collect(),
         aimed: (0..n).map(tip).collect(),
+        carried: vec![0; n],
+        apart: vec![false; n],
+        base_parameters: true,
         short_moment: false,
     };
     let groups = geometry.bodies.iter().any(|b| b.parallel());
@@ -111,8 +114,26 @@ fn changes(geometry: &Geometry) -> Vec<Change> {
     for j in (0..n).filter(|&j| geometry.bodies.iter().all(|b| b.parent != Some(j))) {
         changes.push(Box::new(move |plan| plan.aimed[j] ^= true));
     }
+    for j in (0..n).filter(|&j| geometry.bodies[j].varying) {
+        for joints in 0..=joints_to_base(geometry, j) {
+            for apart in [false, true] {
+                changes.push(Box::new(move |plan| {
+                    (plan.carried[j], plan.apart[j]) = (joints, apart);
+                }));
+            }
+        }
+    }
     changes.push(Box::new(|plan| plan.short_moment ^= true));
     changes
+}
+
+/// How many joints are between the body and the base.
+fn joints_to_base(geometry: &Geometry, mut j: usize) -> usize {
+    let mut joints = 1;
+    while let Some(p) = geometry.bodies[j].parent {
+        (j, joints) = (p, joints + 1);
+    }
+    joints
 }
 
 /// Where the origin of body j may go along its axis: the feet of the common normals with its
@@ -170,6 +191,19 @@ pub(super) fn describe(geometry: &Geometry, plan: &Plan) -> String {
     }
     if plan.in_basis.contains(&true) {
         words.push(format!("inertia turned for {}", named(&plan.in_basis)));
+    }
+    let carried: Vec<String> = geometry
+        .bodies
+        .iter()
+        .zip(&plan.carried)
+        .filter(|(body, joints)| body.varying && **joints > 0)
+        .map(|(body, joints)| format!("{} by {joints}", body.name))
+        .collect();
+    if !carried.is_empty() {
+        words.push(format!("parameters moved inwards: {}", carried.join(", ")));
+    }
+    if plan.apart.contains(&true) {
+        words.push(format!("point masses apart on {}", named(&plan.apart)));
     }
     if words.is_empty() {
         "plain".into()

@@ -4,10 +4,11 @@ use bgdyn_runtime::Dd;
 use bgdyn_runtime::nalgebra::Matrix3;
 
 use super::direction::Directions;
+use super::parameters::Parameters;
 use crate::fault::{Faults, wording};
 use crate::math::Mat3;
-use crate::mechanism::Value;
-use crate::spec::{Field, Inertia, Link, Located};
+use crate::mechanism::{Pose, Tensor, Value};
+use crate::spec::{Dimension, Field, Inertia, Link, Located};
 
 /// How far, relative to the largest principal moment, a tensor may miss a rule.
 const TOLERANCE: f64 = 1e-9;
@@ -16,27 +17,44 @@ const NOISE: f64 = 1e-28;
 /// Rows and columns of xx, yy, zz, xy, xz, yz.
 const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// The tensor of `link` in its axes: xx, yy, zz, xy, xz, yz.
+/// The tensor of `link`: in its axes, or, where an entry is a run-time parameter, as written.
 pub(super) fn tensor(
     link: &Link,
     directions: &Directions,
+    parameters: &mut Parameters,
     faults: &mut Faults,
-) -> Option<[Value; 6]> {
+) -> Option<Tensor> {
     let allowed = allows_nonphysical(link, faults);
+    let straight = Pose::IDENTITY.rotation;
     let inertia = match &link.inertia {
-        Field::Absent => return Some([Value::Fixed(Dd::ZERO); 6]),
+        Field::Absent => {
+            return Some(Tensor {
+                entries: [Value::Fixed(Dd::ZERO); 6],
+                axes: straight,
+            });
+        }
         Field::Broken => return None,
         Field::Given(inertia) => inertia,
     };
     let rotation = directions.rotation(&inertia.value.rpy, faults);
-    let entries = entries(&inertia.value)?;
-    physical(inertia, &entries, allowed, faults);
-    let turned = if inertia.value.rpy.is_absent() {
-        entries
-    } else {
-        turned(entries, rotation?)
-    };
-    Some(turned.map(Value::Fixed))
+    let entries = entries(link, &inertia.value, parameters, faults)?;
+    let numbers = entries.map(|entry| parameters.default_of(entry));
+    physical(inertia, &numbers, allowed, faults);
+    let known = entries.iter().all(|e| matches!(e, Value::Fixed(_)));
+    Some(match (inertia.value.rpy.is_absent(), known) {
+        (true, _) => Tensor {
+            entries,
+            axes: straight,
+        },
+        (false, true) => Tensor {
+            entries: turned(numbers, rotation?).map(Value::Fixed),
+            axes: straight,
+        },
+        (false, false) => Tensor {
+            entries,
+            axes: rotation?,
+        },
+    })
 }
 
 fn allows_nonphysical(link: &Link, faults: &mut Faults) -> bool {
@@ -53,16 +71,27 @@ fn allows_nonphysical(link: &Link, faults: &mut Faults) -> bool {
     }
 }
 
-fn entries(inertia: &Inertia) -> Option<[Dd; 6]> {
-    let mut entries = [Dd::ZERO; 6];
-    for (entry, field) in entries.iter_mut().zip(&inertia.entries) {
+fn entries(
+    link: &Link,
+    inertia: &Inertia,
+    parameters: &mut Parameters,
+    faults: &mut Faults,
+) -> Option<[Value; 6]> {
+    let link = link.name.value().map_or("", String::as_str);
+    let mut entries = [Value::Fixed(Dd::ZERO); 6];
+    let mut whole = true;
+    let names = ["xx", "yy", "zz", "xy", "xz", "yz"];
+    for ((entry, field), name) in entries.iter_mut().zip(&inertia.entries).zip(names) {
         match field {
             Field::Absent => {}
-            Field::Broken => return None,
-            Field::Given(number) => *entry = number.value.value,
+            Field::Broken => whole = false,
+            Field::Given(number) => {
+                let meaning = || format!("entry {name} of the inertia tensor of link `{link}`");
+                *entry = parameters.value(number, Dimension::Inertia, meaning, faults);
+            }
         }
     }
-    Some(entries)
+    whole.then_some(entries)
 }
 
 fn physical(inertia: &Located<Inertia>, entries: &[Dd; 6], allowed: bool, faults: &mut Faults) {

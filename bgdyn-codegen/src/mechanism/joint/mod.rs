@@ -16,6 +16,17 @@ pub enum Motion {
     Translation,
 }
 
+impl Motion {
+    /// Unit of the coordinate.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Motion::None => "none",
+            Motion::Rotation => "rad",
+            Motion::Translation => "m",
+        }
+    }
+}
+
 /// What the spec can say in a joint's `type`, and what it means.
 #[derive(Debug, PartialEq, Eq)]
 pub struct JointType {

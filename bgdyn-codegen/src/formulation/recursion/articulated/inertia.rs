@@ -1,0 +1,241 @@
+//! Articulated-body inertia: the symmetric 6 × 6 matrix that gives the wrench a body needs for an
+//! acceleration, with the joints beyond it free to move.
+//!
+//! About the body's origin: moment n = J α + H a, force F = Hᵀ α + M a for the angular
+//! acceleration α and the acceleration a of the origin.
+
+use bgdyn_runtime::Dd;
+
+use crate::expr::{Builder, Ex};
+use crate::formulation::recursion::inertia::Inertia;
+use crate::formulation::recursion::inverse::Wrench;
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::Motion;
+
+/// Articulated-body inertia about one point, in one set of axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ArticulatedInertia<'g> {
+    /// J, symmetric.
+    angular: Mat3<Ex<'g>>,
+    /// H: moment of a unit acceleration.
+    coupling: Mat3<Ex<'g>>,
+    /// M, symmetric.
+    linear: Mat3<Ex<'g>>,
+}
+
+/// What a unit acceleration of the joint takes, and each part's share of the joint's own.
+#[derive(Clone, Copy)]
+pub(super) struct Column<'g> {
+    /// Wrench of a unit acceleration along the joint.
+    pub wrench: Wrench<'g>,
+    /// The same over its part along the joint.
+    pub share: Wrench<'g>,
+    /// One over its part along the joint.
+    pub inverse: Ex<'g>,
+}
+
+impl<'g> Column<'g> {
+    /// In other axes.
+    pub fn map(&self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+        Column {
+            wrench: self.wrench.map(&f),
+            share: self.share.map(&f),
+            inverse: self.inverse,
+        }
+    }
+}
+
+impl<'g> ArticulatedInertia<'g> {
+    /// Of nothing.
+    pub fn zero(b: &'g Builder) -> Self {
+        let zero = Mat3([[b.zero(); 3]; 3]);
+        ArticulatedInertia {
+            angular: zero,
+            coupling: zero,
+            linear: zero,
+        }
+    }
+
+    /// Of a rigid body: J = tr(D)·1 − D, H = [h]×, M = m·1.
+    pub fn rigid(b: &'g Builder, inertia: &Inertia<'g>) -> Self {
+        let [xx, yy, zz, xy, xz, yz] = inertia.pseudo;
+        let ([x, y, z], o) = (inertia.first.0, b.zero());
+        ArticulatedInertia {
+            angular: Mat3([
+                [yy + zz, -xy, -xz],
+                [-xy, zz + xx, -yz],
+                [-xz, -yz, xx + yy],
+            ]),
+            coupling: Mat3([[o, -z, y], [z, o, -x], [-y, x, o]]),
+            linear: Mat3([
+                [inertia.mass, o, o],
+                [o, inertia.mass, o],
+                [o, o, inertia.axial],
+            ]),
+        }
+    }
+
+    /// Of both.
+    pub fn plus(&self, other: &Self) -> Self {
+        ArticulatedInertia {
+            angular: self.angular + other.angular,
+            coupling: self.coupling + other.coupling,
+            linear: self.linear + other.linear,
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_zero(&self) -> bool {
+        [self.angular, self.coupling, self.linear]
+            .iter()
+            .all(|m| m.0.iter().flatten().all(|e| e.is_zero()))
+    }
+
+    /// What the joint feels of an acceleration along itself: S ᵀ I S.
+    pub fn along(&self, motion: Motion) -> Ex<'g> {
+        match motion {
+            Motion::Rotation => self.angular.0[2][2],
+            _ => self.linear.0[2][2],
+        }
+    }
+
+    /// I S: the wrench of a unit acceleration along the joint, with I S / `pivot`.
+    pub fn column(&self, b: &'g Builder, motion: Motion, pivot: Ex<'g>) -> Column<'g> {
+        let wrench = match motion {
+            Motion::Rotation => Wrench {
+                moment: self.angular.row(2),
+                force: self.coupling.row(2),
+            },
+            _ => Wrench {
+                moment: self.coupling.column(2),
+                force: self.linear.row(2),
+            },
+        };
+        let inverse = b.constant(Dd::ONE) / pivot;
+        let along = self.along(motion);
+        // What equals the pivot has a share of one, exactly.
+        let share = |x: Ex<'g>| {
+            if x == along {
+                b.number(1.0)
+            } else if x == -along {
+                b.number(-1.0)
+            } else {
+                x * inverse
+            }
+        };
+        Column {
+            wrench,
+            share: wrench.map(|v| v.map(share)),
+            inverse,
+        }
+    }
+
+    /// Without what the joint gives way to: I − I S (SᵀI S)⁻¹ SᵀI. The row and the column along
+    /// the joint are zero, and said to be so.
+    pub fn projected(&self, b: &'g Builder, motion: Motion, column: &Column<'g>) -> Self {
+        let Column { wrench, share, .. } = column;
+        let (angular, linear) = match motion {
+            Motion::Rotation => (Some(2), None),
+            _ => (None, Some(2)),
+        };
+        let less = |m: &Mat3<Ex<'g>>,
+                    row: (Vec3<Ex<'g>>, Option<usize>),
+                    column: (Vec3<Ex<'g>>, Option<usize>)| {
+            Mat3::from_fn(|i, j| {
+                if row.1 == Some(i) || column.1 == Some(j) {
+                    b.zero()
+                } else {
+                    m.0[i][j] - row.0.0[i] * column.0.0[j]
+                }
+            })
+        };
+        let (moment, force) = ((wrench.moment, angular), (wrench.force, linear));
+        let share = ((share.moment, angular), (share.force, linear));
+        ArticulatedInertia {
+            angular: mirrored(less(&self.angular, share.0, moment)),
+            coupling: less(&self.coupling, share.0, force),
+            linear: mirrored(less(&self.linear, share.1, force)),
+        }
+    }
+
+    /// Turned by Rz.
+    pub fn turned(&self, turn: (Ex<'g>, Ex<'g>), careful: bool) -> Self {
+        ArticulatedInertia {
+            angular: mirrored(turned(&self.angular, 2, turn, careful)),
+            coupling: turned(&self.coupling, 2, turn, careful),
+            linear: mirrored(turned(&self.linear, 2, turn, careful)),
+        }
+    }
+
+    /// In axes in which the present ones have the columns of the constant `r`, which is a turn
+    /// about x and then one about z: a twist.
+    pub fn twisted(&self, b: &'g Builder, r: Mat3<Dd>, careful: bool) -> Self {
+        let [about_x, about_z] = [(r.0[2][2], r.0[2][1]), (r.0[0][0], r.0[1][0])];
+        self.turned_by(b, 0, about_x, careful)
+            .turned_by(b, 2, about_z, careful)
+    }
+
+    /// Turned about an axis by a constant angle; quarter turns cost nothing.
+    fn turned_by(&self, b: &'g Builder, axis: usize, (c, s): (Dd, Dd), careful: bool) -> Self {
+        let careful = careful || c == Dd::ZERO || s == Dd::ZERO;
+        let turn = (b.constant(c), b.constant(s));
+        let turned = |m: &Mat3<Ex<'g>>| turned(m, axis, turn, careful);
+        ArticulatedInertia {
+            angular: mirrored(turned(&self.angular)),
+            coupling: turned(&self.coupling),
+            linear: mirrored(turned(&self.linear)),
+        }
+    }
+
+    /// About a point from which this one's origin is displaced by p:
+    /// H' = H + [p]× M, J' = J − H [p]× + [p]× H'ᵀ.
+    pub fn shifted(&self, b: &'g Builder, p: Vec3<Ex<'g>>) -> Self {
+        let [x, y, z] = p.0;
+        let o = b.zero();
+        let cross = Mat3([[o, -z, y], [z, o, -x], [-y, x, o]]);
+        let coupling = self.coupling + cross * self.linear;
+        let angular = (self.angular - self.coupling * cross) + cross * coupling.transpose();
+        ArticulatedInertia {
+            angular: mirrored(angular),
+            coupling,
+            linear: self.linear,
+        }
+    }
+}
+
+/// The symmetric matrix with this upper triangle.
+fn mirrored<'g>(m: Mat3<Ex<'g>>) -> Mat3<Ex<'g>> {
+    Mat3::from_fn(|i, j| m.0[i.min(j)][i.max(j)])
+}
+
+/// R m Rᵀ for a turn about an axis k, with i and j the axes after it. By
+/// e = s (m_ii − m_jj) + c (m_ij + m_ji) for the 2 × 2 block, or as two products, which takes more
+/// operations and subtracts nothing large where one of the entries is zero.
+fn turned<'g>(m: &Mat3<Ex<'g>>, k: usize, (c, s): (Ex<'g>, Ex<'g>), careful: bool) -> Mat3<Ex<'g>> {
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let [[ii, ij], [ji, jj]] = [[m.0[i][i], m.0[i][j]], [m.0[j][i], m.0[j][j]]];
+    let mut to = *m;
+    if careful && !(ii == jj && (ij + ji).is_zero()) {
+        let [[p, q], [r, t]] = [
+            [c * ii - s * ji, c * ij - s * jj],
+            [s * ii + c * ji, s * ij + c * jj],
+        ];
+        (to.0[i][i], to.0[i][j]) = (p * c - q * s, p * s + q * c);
+        (to.0[j][i], to.0[j][j]) = (r * c - t * s, r * s + t * c);
+    } else {
+        // 2 c is the same for every symmetric block of the body.
+        let across = if ij == ji {
+            (c * Dd::from_f64(2.0)) * ij
+        } else {
+            c * (ij + ji)
+        };
+        let e = s * (ii - jj) + across;
+        let (se, ce) = (s * e, c * e);
+        (to.0[i][i], to.0[i][j]) = (ii - se, ce - ji);
+        (to.0[j][i], to.0[j][j]) = (ce - ij, jj + se);
+    }
+    let turn = |x: Ex<'g>, y: Ex<'g>| (c * x - s * y, s * x + c * y);
+    (to.0[i][k], to.0[j][k]) = turn(m.0[i][k], m.0[j][k]);
+    (to.0[k][i], to.0[k][j]) = turn(m.0[k][i], m.0[k][j]);
+    to
+}

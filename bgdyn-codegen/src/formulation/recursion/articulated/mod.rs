@@ -1,0 +1,100 @@
+//! Forward dynamics by articulated bodies (Featherstone 2008, *Rigid Body Dynamics Algorithms*,
+//! ch. 7), over the frames and the bias of the recursion.
+//!
+//! The work grows with the number of bodies, not with its cube. And small pivots keep their
+//! digits: what a joint gives way to is taken away before the inertia of its carrier is added, so
+//! that large terms do not cancel in the carrier's pivot. That holds while each body keeps its own
+//! inertia. Over base parameters, which give part of it to the carrier beforehand, there are fewer
+//! operations and the digits of an elimination of M.
+
+mod inertia;
+mod sweep;
+
+use super::frames::{Frames, Plan};
+use super::geometry::{Geometry, geometry};
+use super::share::{FAIR, own_shares};
+use super::{inverse, plan};
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Expr, Graph, count};
+use crate::formulation::{Arguments, Formulation};
+use crate::function::Function;
+use crate::method::Method;
+use sweep::Sweep;
+
+/// Forward dynamics by articulated bodies.
+pub(in crate::formulation) enum Articulated {
+    /// Each body with its own inertia: small pivots keep their digits.
+    Own,
+    /// Over base parameters.
+    Base,
+}
+
+impl Formulation for Articulated {
+    fn name(&self) -> &'static str {
+        match self {
+            Articulated::Own => "articulated",
+            Articulated::Base => "articulated_base",
+        }
+    }
+
+    fn summary(&self) -> &'static str {
+        match self {
+            Articulated::Own => "articulated bodies: small pivots keep their digits",
+            Articulated::Base => "articulated bodies over base parameters",
+        }
+    }
+
+    fn knows(&self, method: Method) -> bool {
+        method.shape().checked()
+    }
+
+    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
+        if method != Method::ForwardDynamics {
+            return None;
+        }
+        let geometry = geometry(graph);
+        let best = plan::search(&geometry, |plan| self.cost(graph, &geometry, plan));
+        // A pivot with a fair share of its own is never less than that.
+        let guarded: Vec<bool> = own_shares(graph, &geometry)
+            .iter()
+            .map(|&share| share < FAIR)
+            .collect();
+        let (made, outputs) = self.outputs(graph, &geometry, &best, &guarded);
+        let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
+        Some(Function::flat(graph, method, name, made, outputs))
+    }
+}
+
+impl Articulated {
+    /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
+    pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> usize {
+        let unguarded = vec![false; geometry.bodies.len()];
+        let (graph, outputs) = self.outputs(graph, geometry, plan, &unguarded);
+        count(&graph, &outputs).total()
+    }
+
+    /// The accelerations under a plan.
+    fn outputs(
+        &self,
+        graph: &BondGraph,
+        geometry: &Geometry,
+        plan: &Plan,
+        guarded: &[bool],
+    ) -> (Graph, Vec<Expr>) {
+        let careful = matches!(self, Articulated::Own);
+        let plan = &Plan {
+            base_parameters: !careful,
+            ..plan.clone()
+        };
+        let b = Builder::new();
+        let outputs: Vec<Expr> = {
+            let x = Arguments::new(&b, graph, Method::ForwardDynamics);
+            let frames = Frames::new(&b, graph, geometry, plan, &x);
+            let sweep = Sweep::new(&b, &frames, careful, guarded);
+            let loads = inverse::loads(&b, &frames, plan, x.active);
+            let found = sweep.accelerations(&loads, &x.tau);
+            found.into_iter().map(|e| e.expr).collect()
+        };
+        (b.into_graph(), outputs)
+    }
+}

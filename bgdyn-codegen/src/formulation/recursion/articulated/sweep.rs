@@ -1,0 +1,213 @@
+//! Forward dynamics by articulated bodies: inertia and wrenches inwards, accelerations outwards.
+//!
+//! Accelerations are taken relative to those of the motion with q̈ = 0, whose wrenches are known
+//! from the recursion: so no velocity enters here, and what the joints do is linear in what acts.
+
+use bgdyn_runtime::Dd;
+
+use super::inertia::{ArticulatedInertia, Column};
+use crate::expr::{Bound, Builder, ErrorBound, Ex};
+use crate::formulation::recursion::frames::{Frame, Frames};
+use crate::formulation::recursion::inertia::{turn, turn_back};
+use crate::formulation::recursion::inverse::{Load, Wrench};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::Motion;
+
+/// A pivot's rounding error in units of eps/2, times this, is the magnitude that
+/// [`bgdyn_runtime::Scalar::checked_pivot`] compares with: the least pivot is 64 eps of it, which
+/// leaves a factor of four for what the bound leaves out.
+const MAGNITUDE: f64 = 1.0 / 32.0;
+
+/// The size of what was really subtracted in a pivot, by the rounding error it carries; nothing
+/// where the error is a small part of the pivot whatever it is.
+fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Ex<'g>) -> Ex<'g> {
+    match b.with_graph(|g| bounds.of(g, pivot.expr)) {
+        Bound::Relative(_) => b.zero(),
+        Bound::Absolute(bound) => b.ex(bound) * Dd::from_f64(MAGNITUDE),
+    }
+}
+
+/// A joint between the body and what carries it.
+struct Hinge<'g> {
+    column: Column<'g>,
+    /// Whether the column is in the body's own axes; otherwise in its basis's.
+    own: bool,
+}
+
+/// The joints' columns, from the tips to the base (Featherstone 2008, ch. 7).
+pub(super) struct Sweep<'g, 'f> {
+    b: &'g Builder,
+    frames: &'f Frames<'g>,
+    hinges: Vec<Hinge<'g>>,
+}
+
+/// Acceleration of a body relative to that of the motion with q̈ = 0.
+#[derive(Clone, Copy)]
+struct Acceleration<'g> {
+    angular: Vec3<Ex<'g>>,
+    /// Of the origin.
+    linear: Vec3<Ex<'g>>,
+}
+
+impl<'g> Acceleration<'g> {
+    fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+        Acceleration {
+            angular: f(self.angular),
+            linear: f(self.linear),
+        }
+    }
+
+    /// Of the body's point p.
+    fn at(self, p: Vec3<Ex<'g>>) -> Self {
+        Acceleration {
+            linear: self.linear + self.angular.cross(p),
+            ..self
+        }
+    }
+
+    /// With the joint's own.
+    fn with(mut self, motion: Motion, along: Ex<'g>) -> Self {
+        let part = match motion {
+            Motion::Rotation => &mut self.angular,
+            _ => &mut self.linear,
+        };
+        part.0[2] = part.0[2] + along;
+        self
+    }
+
+    /// Power of a wrench at this acceleration.
+    fn under(self, wrench: &Wrench<'g>) -> Ex<'g> {
+        self.angular.dot(wrench.moment) + self.linear.dot(wrench.force)
+    }
+}
+
+impl<'g, 'f> Sweep<'g, 'f> {
+    /// Articulated-body inertias from the tips to the base; `careful`ly without subtractions that
+    /// can be avoided. The pivots of the joints that are `guarded` must exceed their rounding
+    /// error.
+    pub fn new(b: &'g Builder, frames: &'f Frames<'g>, careful: bool, guarded: &[bool]) -> Self {
+        let n = frames.bodies.len();
+        let mut bounds = ErrorBound::default();
+        // What the bodies beyond hand over: in own axes, and in the basis's.
+        let mut own = vec![ArticulatedInertia::zero(b); n];
+        let mut basis = own.clone();
+        let mut hinges = Vec::new();
+        for j in (0..n).rev() {
+            let frame = &frames.bodies[j];
+            let inner = ArticulatedInertia::rigid(b, &frame.inertia).plus(&own[j]);
+            let along = inner.along(frame.motion) + basis[j].along(frame.motion);
+            let magnitude = if guarded[j] {
+                magnitude(b, &mut bounds, along)
+            } else {
+                b.zero()
+            };
+            let pivot = along.pivot(magnitude, j);
+            let (hinge, rest) = if basis[j].is_zero() {
+                // Turning about the joint's axis and giving way along it can change places: the
+                // latter first, which leaves a row and a column of zeros.
+                let column = inner.column(b, frame.motion, pivot);
+                let rest = inner.projected(b, frame.motion, &column);
+                // A rigid body's column is constant and turned once; another's stays where it is.
+                let hinge = if own[j].is_zero() {
+                    let column = column.map(|v| turn(v, frame.turn));
+                    Hinge { column, own: false }
+                } else {
+                    Hinge { column, own: true }
+                };
+                (hinge, rest.turned(frame.turn, careful))
+            } else {
+                let whole = inner.turned(frame.turn, careful).plus(&basis[j]);
+                let column = whole.column(b, frame.motion, pivot);
+                let rest = whole.projected(b, frame.motion, &column);
+                (Hinge { column, own: false }, rest)
+            };
+            hinges.push(hinge);
+            let Some(p) = frame.parent else { continue };
+            let rest = rest.shifted(b, frame.position);
+            if frame.continues {
+                basis[p] = basis[p].plus(&rest);
+            } else {
+                own[p] = own[p].plus(&rest.twisted(b, frame.twist, careful));
+            }
+        }
+        hinges.reverse();
+        Sweep { b, frames, hinges }
+    }
+
+    /// The joints' accelerations under the efforts `tau`, where the motion with q̈ = 0 takes
+    /// `loads`.
+    pub fn accelerations(&self, loads: &[Load<'g>], tau: &[Ex<'g>]) -> Vec<Ex<'g>> {
+        let drives = self.inwards(loads, tau);
+        self.outwards(&drives)
+    }
+
+    /// What is left of each joint's effort for its own acceleration, over its pivot.
+    fn inwards(&self, loads: &[Load<'g>], tau: &[Ex<'g>]) -> Vec<Ex<'g>> {
+        let n = self.hinges.len();
+        let mut own = vec![Wrench::zero(self.b); n];
+        let mut basis = own.clone();
+        let mut drives = vec![self.b.zero(); n];
+        for j in (0..n).rev() {
+            let (frame, hinge) = (&self.frames.bodies[j], &self.hinges[j]);
+            let (mut inner, mut outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
+            let along = match frame.motion {
+                Motion::Rotation => inner.moment.0[2] + outer.moment.0[2],
+                _ => inner.force.0[2] + outer.force.0[2],
+            };
+            let drive = tau[j] * (self.b.number(1.0) / self.b.constant(frame.effort)) - along;
+            drives[j] = drive * hinge.column.inverse;
+            let Some(p) = frame.parent else { continue };
+            // The joint carries the drive whole; the rest of the wrench in proportion to it.
+            let given = |w: Vec3<Ex<'g>>| w.scale(drive);
+            let given = hinge.column.share.map(given);
+            if hinge.own {
+                inner = inner.plus(given);
+            } else {
+                outer = outer.plus(given);
+            }
+            let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
+            let carried = whole.carried(frame.position);
+            if frame.continues {
+                basis[p] = basis[p].plus(carried);
+            } else {
+                let twist = frame.twist.map(|x| self.b.constant(x));
+                own[p] = own[p].plus(carried.map(|v| twist * v));
+            }
+        }
+        drives
+    }
+
+    fn outwards(&self, drives: &[Ex<'g>]) -> Vec<Ex<'g>> {
+        // In own axes, and in the basis's.
+        let mut own: Vec<Acceleration<'g>> = Vec::new();
+        let mut basis: Vec<Acceleration<'g>> = Vec::new();
+        let mut found = Vec::new();
+        for (j, hinge) in self.hinges.iter().enumerate() {
+            let frame = &self.frames.bodies[j];
+            let carried = match frame.parent {
+                None => {
+                    let still = Vec3([self.b.zero(); 3]);
+                    Acceleration {
+                        angular: still,
+                        linear: still,
+                    }
+                }
+                Some(p) if frame.continues => basis[p].at(frame.position),
+                Some(p) => self.twisted(frame, own[p]),
+            };
+            let turned = carried.map(|v| turn_back(v, frame.turn));
+            let felt = if hinge.own { turned } else { carried };
+            let along = drives[j] - felt.under(&hinge.column.share);
+            own.push(turned.with(frame.motion, along));
+            basis.push(carried.with(frame.motion, along));
+            found.push(along * (self.b.number(1.0) / self.b.constant(frame.effort)));
+        }
+        found
+    }
+
+    /// The parent's acceleration at the body's origin, in twisted axes.
+    fn twisted(&self, frame: &Frame<'g>, parent: Acceleration<'g>) -> Acceleration<'g> {
+        let back: Mat3<Ex<'g>> = frame.twist.transpose().map(|x| self.b.constant(x));
+        parent.at(frame.position_in_parent).map(|v| back * v)
+    }
+}

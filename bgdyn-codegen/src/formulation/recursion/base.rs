@@ -1,0 +1,218 @@
+//! Base parameters: inertia moved to where it costs least, and run-time parameters on its way.
+//!
+//! Inertia is linear: that of a body is a sum of parts, and every part may move from body to body
+//! by itself. What is known at generation time moves as far as it can and costs nothing. A part
+//! with a run-time parameter costs operations wherever it is added to something; how far it moves
+//! is a choice of the plan.
+
+use bgdyn_runtime::Dd;
+
+use super::frames::{Plan, origin_offset};
+use super::geometry::{Body, Geometry};
+use super::inertia::{Inertia, Point};
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Ex};
+use crate::formulation::value;
+use crate::math::Vec3;
+use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
+
+/// Inertia of a body about its origin, in its axes.
+pub(super) struct Parts<'g> {
+    /// What is known at generation time.
+    pub known: Inertia<'g>,
+    /// Parts with run-time parameters, each with the number of joints by which it may still move.
+    varying: Vec<(Inertia<'g>, usize)>,
+    /// Point masses with run-time parameters that are to be kept apart.
+    pub points: Vec<Point<'g>>,
+}
+
+impl<'g> Parts<'g> {
+    fn add(&mut self, known: &Inertia<'g>, varying: Option<Inertia<'g>>, joints: usize) {
+        self.known = self.known.plus(known);
+        self.varying.extend(varying.map(|part| (part, joints)));
+    }
+
+    /// In units of `length`: every part by itself, where factors fold.
+    pub fn in_units_of(&self, length: Dd) -> Self {
+        let varying = self.varying.iter();
+        Parts {
+            known: self.known.in_units_of(length),
+            varying: varying
+                .map(|(part, k)| (part.in_units_of(length), *k))
+                .collect(),
+            points: self.points.iter().map(|p| p.in_units_of(length)).collect(),
+        }
+    }
+
+    /// The sum without the points.
+    pub fn sum(&self) -> Inertia<'g> {
+        let parts = self.varying.iter();
+        parts.fold(self.known, |sum, (part, _)| sum.plus(part))
+    }
+}
+
+/// Inertia of every body after the regrouping, and the potential energy that no longer depends on
+/// q.
+pub(super) fn regrouped<'g>(
+    b: &'g Builder,
+    graph: &BondGraph,
+    geometry: &Geometry,
+    plan: &Plan,
+) -> (Vec<Parts<'g>>, Ex<'g>) {
+    let parts = |j: usize| parts(b, graph, &geometry.bodies[j], plan, j);
+    let mut bodies: Vec<Parts<'g>> = (0..geometry.bodies.len()).map(parts).collect();
+    let mut energy = constant_energy(b, graph, geometry, plan);
+    if !plan.base_parameters {
+        return (bodies, energy);
+    }
+    for j in (0..bodies.len()).rev() {
+        let body = &geometry.bodies[j];
+        let offset = b.vector(origin_offset(geometry, plan, j));
+        let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
+        // What moved is the same in twisted as in own axes, about the same origin.
+        let mut take = |own: &mut Inertia<'g>| {
+            let moved = match body.motion {
+                Motion::Rotation => take_from_rotation(b, own),
+                _ => take_from_translation(b, own, body.planar).turned(phase),
+            };
+            let at_parent = moved.shifted(offset).rotated(b, body.twist);
+            if body.parent.is_none() {
+                energy = energy - b.vector(graph.gravity).dot(at_parent.first);
+            }
+            at_parent
+        };
+        let known = take(&mut bodies[j].known);
+        let mut varying = Vec::new();
+        for (part, joints) in &mut bodies[j].varying {
+            if *joints > 0 {
+                varying.push((take(part), *joints - 1));
+            }
+        }
+        if let Some(p) = body.parent {
+            bodies[p].known = bodies[p].known.plus(&known);
+            bodies[p].varying.extend(varying);
+        }
+    }
+    (bodies, energy)
+}
+
+/// The parts of body j as the spec has them. A tensor is taken apart into its parameters:
+/// multiples of one parameter stay that wherever they move, and their factors fold.
+fn parts<'g>(b: &'g Builder, graph: &BondGraph, body: &Body, plan: &Plan, j: usize) -> Parts<'g> {
+    let mut parts = Parts {
+        known: Inertia::zero(b),
+        varying: Vec::new(),
+        points: Vec::new(),
+    };
+    let to_body = body.axes.transpose();
+    let slide = b.vector(Vec3([Dd::ZERO, Dd::ZERO, plan.slides[j]]));
+    for (link, place) in &body.links {
+        let inertial = graph.inertial(*link);
+        let point = point(b, &inertial, place);
+        let point = Point {
+            place: to_body.map(|x| b.constant(x)) * point.place - slide,
+            ..point
+        };
+        if plan.apart[j] && !point.is_constant() {
+            parts.points.push(point);
+        } else {
+            let (known, varying) = Inertia::of_point(b, &point).split(b);
+            parts.add(&known, varying, plan.carried[j]);
+        }
+        let tensor = inertial.inertia;
+        let turned = |entries| {
+            Inertia::of_tensor(b, entries).rotated(b, to_body * place.rotation * tensor.axes)
+        };
+        let only = |wanted: Option<ParameterId>| {
+            tensor.entries.map(|x| match (x, wanted) {
+                (Value::Fixed(_), None) => value(b, x),
+                (Value::Parameter(p), Some(w)) if p == w => value(b, x),
+                _ => b.zero(),
+            })
+        };
+        parts.known = parts.known.plus(&turned(only(None)));
+        for parameter in parameters(&tensor) {
+            let varying = (turned(only(Some(parameter))), plan.carried[j]);
+            parts.varying.push(varying);
+        }
+    }
+    parts
+}
+
+/// The distinct run-time parameters of a tensor.
+fn parameters(tensor: &Tensor) -> Vec<ParameterId> {
+    let mut found = Vec::new();
+    for entry in tensor.entries {
+        if let Value::Parameter(p) = entry
+            && !found.contains(&p)
+        {
+            found.push(p);
+        }
+    }
+    found
+}
+
+/// A link's mass at its centre, in the axes in which the link is placed.
+fn point<'g>(b: &'g Builder, inertial: &Inertial, place: &Pose) -> Point<'g> {
+    let com = inertial.com.map(|x| value(b, x));
+    Point {
+        mass: value(b, inertial.mass),
+        place: place.rotation.map(|x| b.constant(x)) * com + b.vector(place.translation),
+    }
+}
+
+/// −g·r of what hangs on the base at its origin, and of the links that never move.
+fn constant_energy<'g>(
+    b: &'g Builder,
+    graph: &BondGraph,
+    geometry: &Geometry,
+    plan: &Plan,
+) -> Ex<'g> {
+    let gravity = b.vector(graph.gravity);
+    let weigh = |mass: Ex<'g>, place: Vec3<Ex<'g>>| gravity.dot(place.scale(mass));
+    let mut energy = b.zero();
+    for (link, place) in &geometry.fixed {
+        let point = point(b, &graph.inertial(*link), place);
+        energy = energy - weigh(point.mass, point.place);
+    }
+    for (j, body) in geometry.bodies.iter().enumerate() {
+        let mut root = j;
+        while let Some(p) = geometry.bodies[root].parent {
+            root = p;
+        }
+        let base = &geometry.bodies[root];
+        let slid = Vec3([Dd::ZERO, Dd::ZERO, plan.slides[root]]);
+        let origin = b.vector(base.twist * (base.offset + slid));
+        for (link, _) in &body.links {
+            energy = energy - weigh(value(b, graph.inertial(*link).mass), origin);
+        }
+    }
+    energy
+}
+
+/// What lies on the axis of a rotation: mass, axial first moment, D_zz.
+fn take_from_rotation<'g>(b: &'g Builder, own: &mut Inertia<'g>) -> Inertia<'g> {
+    let mut moved = Inertia::zero(b);
+    (moved.mass, moved.axial) = (own.mass, own.axial);
+    moved.first.0[2] = own.first.0[2];
+    moved.pseudo[2] = own.pseudo[2];
+    (own.mass, own.axial) = (b.zero(), b.zero());
+    own.first.0[2] = b.zero();
+    own.pseudo[2] = b.zero();
+    moved
+}
+
+/// What a translation shares with its parent: D, as both turn alike. A planar body also moves
+/// like its parent across the axis, so that only its mass along the axis is its own.
+fn take_from_translation<'g>(b: &'g Builder, own: &mut Inertia<'g>, planar: bool) -> Inertia<'g> {
+    let mut moved = Inertia::zero(b);
+    moved.pseudo = own.pseudo;
+    own.pseudo = [b.zero(); 6];
+    if planar {
+        moved.mass = own.mass;
+        moved.first = Vec3([own.first.0[0], own.first.0[1], b.zero()]);
+        own.mass = b.zero();
+        own.first = Vec3([b.zero(), b.zero(), own.first.0[2]]);
+    }
+    moved
+}

@@ -1,0 +1,104 @@
+//! How much of what a joint moves is its own body's: where that is next to nothing, the joint's
+//! pivot in the forward dynamics is a small rest of large terms, or of nothing at all.
+
+use super::geometry::{Body, Geometry};
+use crate::bond_graph::BondGraph;
+use crate::mechanism::{LinkId, Motion, Pose, Value};
+
+/// A share that is fair: with less, elimination could lose half the digits of `f64`, and all of
+/// those of `f32`, so that a pivot's check has to know how large its rounding error is. Chains of a
+/// hundred like links are above it, a load of a million times a link's mass below.
+pub(super) const FAIR: f64 = 1e-7;
+
+/// Travel of a prismatic joint that its spec leaves open, m.
+const TRAVEL: f64 = 1.0;
+
+/// For each joint, its own body's inertia about the axis (its mass along it) over a bound for that
+/// of everything beyond the joint, in any position. A pivot lies between the two. Run-time
+/// parameters count with their default.
+pub(super) fn own_shares(graph: &BondGraph, geometry: &Geometry) -> Vec<f64> {
+    let bodies = &geometry.bodies;
+    let lumps: Vec<Lump> = bodies.iter().map(|body| Lump::new(graph, body)).collect();
+    (0..bodies.len())
+        .map(|j| {
+            let beyond: f64 = (j..bodies.len())
+                .filter_map(|i| Some(lumps[i].at_most(bodies[j].motion, distance(bodies, j, i)?)))
+                .sum();
+            let own = match bodies[j].motion {
+                Motion::Rotation => lumps[j].about_axis,
+                _ => lumps[j].mass,
+            };
+            if own > 0.0 { own / beyond } else { 0.0 }
+        })
+        .collect()
+}
+
+/// How far the origin of body i can be from that of body j, which carries it; `None` where it does
+/// not.
+fn distance(bodies: &[Body], j: usize, i: usize) -> Option<f64> {
+    let (mut at, mut sum) = (i, 0.0);
+    while at != j {
+        let offset = bodies[at].offset;
+        sum += offset.dot(offset).to_f64().sqrt();
+        if bodies[at].motion != Motion::Rotation {
+            sum += TRAVEL;
+        }
+        at = bodies[at].parent?;
+    }
+    Some(sum)
+}
+
+/// A body's mass and its spread.
+#[derive(Default)]
+struct Lump {
+    /// kg
+    mass: f64,
+    /// Moment of inertia about the joint's axis, kg·m².
+    about_axis: f64,
+    /// Σ m |r| and a bound for the moment of inertia about any axis through the origin.
+    first: f64,
+    second: f64,
+}
+
+impl Lump {
+    fn new(graph: &BondGraph, body: &Body) -> Self {
+        let mut sum = Lump::default();
+        for (link, place) in &body.links {
+            sum.add(graph, body, *link, place);
+        }
+        sum
+    }
+
+    fn add(&mut self, graph: &BondGraph, body: &Body, link: LinkId, place: &Pose) {
+        let inertial = graph.inertial(link);
+        let number = |x: Value| match x {
+            Value::Fixed(x) => x,
+            Value::Parameter(p) => graph.parameters[p.0].default,
+        };
+        let r = place.translation + place.rotation * inertial.com.map(number);
+        let z = body.axes.column(2);
+        let mass = number(inertial.mass).to_f64();
+        let tensor = &inertial.inertia;
+        let [xx, yy, zz, xy, xz, yz] = tensor.entries.map(|x| number(x).to_f64());
+        let in_tensor_axes = tensor.axes.transpose() * (place.rotation.transpose() * z);
+        let [u, v, w] = in_tensor_axes.0.map(|x| x.to_f64());
+        let across = z.cross(r);
+        self.mass += mass;
+        self.about_axis += mass * across.dot(across).to_f64()
+            + (xx * u * u + yy * v * v + zz * w * w)
+            + 2.0 * (xy * u * v + xz * u * w + yz * v * w);
+        let square = r.dot(r).to_f64();
+        self.first += mass * square.sqrt();
+        self.second += mass * square + (xx + yy + zz);
+    }
+
+    /// What a joint feels of it at the most, from a distance.
+    fn at_most(&self, motion: Motion, distance: f64) -> f64 {
+        match motion {
+            Motion::Rotation => {
+                self.second + 2.0 * self.first * distance + self.mass * distance * distance
+            }
+            _ => self.mass,
+        }
+    }
+}

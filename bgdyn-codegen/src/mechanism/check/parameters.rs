@@ -1,0 +1,113 @@
+//! Run-time parameters: names that can be fields, and one value behind each name.
+
+use bgdyn_runtime::Dd;
+
+use crate::fault::{Faults, Place, wording};
+use crate::mechanism::name::is_identifier;
+use crate::mechanism::{Parameter, ParameterId, Value};
+use crate::method::Method;
+use crate::spec::{Dimension, Located, Number};
+
+/// The parameters found so far, in the file's order.
+#[derive(Default)]
+pub(super) struct Parameters {
+    found: Vec<Found>,
+}
+
+struct Found {
+    parameter: Parameter,
+    dimension: Dimension,
+    /// The value as it was written first, and where.
+    text: String,
+    first: Place,
+}
+
+impl Parameters {
+    /// A number of the spec, or the parameter that it is the default of. `meaning` says what it
+    /// stands for.
+    pub(super) fn value(
+        &mut self,
+        number: &Located<Number>,
+        dimension: Dimension,
+        meaning: impl FnOnce() -> String,
+        faults: &mut Faults,
+    ) -> Value {
+        let Some(name) = &number.value.parameter else {
+            return Value::Fixed(number.value.value);
+        };
+        let known = |found: &Found| found.parameter.name == name.value;
+        if let Some(p) = self.found.iter().position(known) {
+            self.found[p].meet_again(number, dimension, meaning(), faults);
+            return Value::Parameter(ParameterId(p));
+        }
+        if !is_identifier(&name.value) {
+            faults.push(wording::parameter_not_identifier(&name.place, &name.value));
+        }
+        if is_method(&name.value) {
+            faults.push(wording::parameter_is_method(&name.place, &name.value));
+        }
+        self.found.push(Found {
+            parameter: Parameter {
+                name: name.value.clone(),
+                meaning: meaning(),
+                default: number.value.value,
+                unit: dimension.si(),
+            },
+            dimension,
+            text: number.value.text.clone(),
+            first: number.place.clone(),
+        });
+        Value::Parameter(ParameterId(self.found.len() - 1))
+    }
+
+    /// The default behind a value.
+    pub(super) fn default_of(&self, value: Value) -> Dd {
+        match value {
+            Value::Fixed(x) => x,
+            Value::Parameter(ParameterId(p)) => self.found[p].parameter.default,
+        }
+    }
+
+    /// All of them.
+    pub(super) fn into_all(self) -> Vec<Parameter> {
+        self.found.into_iter().map(|f| f.parameter).collect()
+    }
+}
+
+impl Found {
+    /// The same name once more: it must stand for the same number.
+    fn meet_again(
+        &mut self,
+        number: &Located<Number>,
+        dimension: Dimension,
+        meaning: String,
+        faults: &mut Faults,
+    ) {
+        let (place, name) = (&number.place, &self.parameter.name);
+        if dimension != self.dimension {
+            let dimensions = (dimension, self.dimension);
+            faults.push(wording::parameter_measures_two(
+                place,
+                name,
+                dimensions,
+                &self.first,
+            ));
+        } else if number.value.value != self.parameter.default {
+            let texts = (number.value.text.as_str(), self.text.as_str());
+            faults.push(wording::parameter_has_two_values(
+                place,
+                name,
+                texts,
+                &self.first,
+            ));
+        }
+        self.parameter.meaning += " and ";
+        self.parameter.meaning += &meaning;
+    }
+}
+
+/// Whether a method of every generated struct has this name. A field may have it in Rust, but
+/// `arm.gravity` and `arm.gravity(q)` would be two things.
+fn is_method(name: &str) -> bool {
+    Method::possible(&[]).iter().any(|m| m.name(&[]) == name)
+}

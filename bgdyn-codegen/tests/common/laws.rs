@@ -1,0 +1,367 @@
+//! The laws of mechanics, and the equality of the two formulations, for one mechanism in one state.
+//!
+//! In double-double the regrouped recursion must equal the literal sum to 1e-28 of the natural
+//! size of the result (see [`super::natural_size`]), so every regrouping is shown to be exact.
+//! Rounding is 1e-32, but folded constants are known to 2⁻⁹⁸ = 3e-30 of the terms that they were
+//! summed from.
+
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Method;
+use bgdyn_runtime::Dd;
+use nalgebra::{DMatrix, DVector};
+
+use super::parameters::{parametrised, values};
+use super::random::Draft;
+use super::rng::Rng;
+use super::values::{Direction, Methods, dot};
+use super::{
+    Robot, State, assert_close, full, natural_effort, natural_inertia, natural_size, reach, sum_abs,
+};
+
+const FORWARD: Method = Method::ForwardDynamics;
+
+/// Of double-double results, relative to their natural size.
+pub const EXACT: f64 = 1e-28;
+/// Of `f64` results, relative to their natural size.
+pub const ROUNDED: f64 = 1e-15;
+
+/// A random mechanism with both formulations and a state.
+pub struct Case {
+    pub what: String,
+    pub draft: Draft,
+    pub robot: Robot,
+    pub literal: Methods,
+    pub recursion: Methods,
+    /// Forward dynamics by articulated bodies, and what is generated.
+    pub bodies: [Function; 3],
+    pub state: State,
+    /// Natural size of an effort, of an entry of M.
+    pub effort: f64,
+    pub inertia: f64,
+}
+
+impl Case {
+    /// The case of a seed, with up to `most` moving joints; with run-time parameters or without.
+    pub fn of_seed(seed: u64, most: usize, parameters: bool) -> Self {
+        let mut rng = Rng::new(seed);
+        let mut draft = Draft::random(&mut rng, most);
+        if parameters {
+            draft = parametrised(&draft, &mut rng);
+        }
+        Case::new(&format!("seed {seed}"), draft, |robot| {
+            let mut state = State::random(&mut rng, &robot.motions());
+            state.parameters = values(&robot.mechanism, &mut rng);
+            state
+        })
+    }
+
+    /// A mechanism in the state that is chosen for it.
+    pub fn new(name: &str, draft: Draft, state: impl FnOnce(&Robot) -> State) -> Self {
+        let text = draft.yaml();
+        let robot = Robot::read(&text, None);
+        let state = state(&robot);
+        Case {
+            what: format!("{name}\n{text}{state:?}"),
+            bodies: [
+                robot.whole("articulated", FORWARD),
+                robot.whole("articulated_base", FORWARD),
+                robot.chosen(FORWARD),
+            ],
+            literal: Methods::new(&robot, "literal"),
+            recursion: Methods::new(&robot, "recursion"),
+            effort: natural_effort(&robot, &state),
+            inertia: natural_inertia(&robot, &state).1,
+            draft,
+            robot,
+            state,
+        }
+    }
+
+    pub fn place(&self, law: &str) -> impl Fn() -> String + use<> {
+        let text = format!("{law}\n{}\n{law}", self.what);
+        move || text.clone()
+    }
+
+    /// How far every centre of mass may be from the world's origin, m.
+    pub fn reach(&self) -> f64 {
+        reach(&self.robot, &self.state)
+    }
+
+    /// Natural size of a method's result.
+    pub fn size(&self, method: Method) -> f64 {
+        natural_size(&self.robot, &self.state, method)
+    }
+
+    /// recursion = literal, for every method but the solved one. Gives the worst difference,
+    /// relative to natural size.
+    pub fn formulations_agree(&self) -> f64 {
+        let mut worst = 0.0_f64;
+        for method in Method::OF_TRAIT {
+            if method == Method::ForwardDynamics {
+                continue;
+            }
+            let x: Vec<Dd> = self.recursion.value(method, &self.state);
+            let y: Vec<Dd> = self.literal.value(method, &self.state);
+            let tolerance = EXACT * self.size(method);
+            assert_close(&x, &y, tolerance, self.place(&format!("{method:?}")));
+            let off = x.iter().zip(&y).map(|(x, y)| (*x - *y).abs().to_f64());
+            let off = off.fold(0.0, f64::max);
+            worst = worst.max(off / self.size(method).max(f64::MIN_POSITIVE));
+        }
+        worst
+    }
+
+    /// M is symmetric (one triangle is all there is), positive semidefinite, = ∂τ/∂a, and gives T
+    /// and the linear part of the inverse dynamics.
+    pub fn mass_matrix(&self) {
+        let n = self.state.q.len();
+        let rows: Vec<Vec<Dd>> = self.recursion.mass(&self.state);
+        let rounded = DMatrix::from_fn(n, n, |i, j| rows[i][j].to_f64());
+        let moments = rounded.symmetric_eigenvalues();
+        assert!(
+            moments.min() >= -ROUNDED * self.inertia,
+            "{}: eigenvalues {moments}",
+            self.place("positive semidefinite")()
+        );
+        let momenta: Vec<Dd> = rows.iter().map(|row| dot(row, &self.state.v)).collect();
+        let twice = dot(&momenta, &self.state.v);
+        let kinetic: Vec<Dd> = self.recursion.value(Method::KineticEnergy, &self.state);
+        let half = Dd::from_f64(0.5);
+        let tolerance = EXACT * self.size(Method::KineticEnergy);
+        assert_close(
+            &[half * twice],
+            &kinetic,
+            tolerance,
+            self.place("½vᵀMv = T"),
+        );
+
+        let inverse: Vec<Dd> = self.recursion.value(Method::InverseDynamics, &self.state);
+        let bias: Vec<Dd> = self.recursion.value(Method::Bias, &self.state);
+        let sum: Vec<Dd> = (0..n)
+            .map(|j| dot(&rows[j], &self.state.a) + bias[j])
+            .collect();
+        let tolerance = EXACT * self.effort;
+        assert_close(
+            &sum,
+            &inverse,
+            tolerance,
+            self.place("M a + bias = inverse dynamics"),
+        );
+
+        let mut still = self.state.clone();
+        still.v.fill(0.0);
+        let weight: Vec<Dd> = self.recursion.value(Method::Gravity, &self.state);
+        let at_rest: Vec<Dd> = self.recursion.value(Method::Bias, &still);
+        assert_close(
+            &weight,
+            &at_rest,
+            tolerance,
+            self.place("bias at rest = gravity"),
+        );
+
+        for k in 0..n {
+            let unit: Vec<f64> = (0..n).map(|j| f64::from(u8::from(j == k))).collect();
+            let along = Direction {
+                a: Some(&unit),
+                ..Direction::default()
+            };
+            let column = self
+                .recursion
+                .derivative(Method::InverseDynamics, &self.state, &along);
+            let tolerance = EXACT * self.inertia;
+            assert_close(&column, &rows[k], tolerance, self.place("M = ∂τ/∂a"));
+        }
+    }
+
+    /// gravity = ∂V/∂q, and v·τ = d/dt (T + V), which is Ṁ − 2C skew.
+    pub fn energy(&self) {
+        let n = self.state.q.len();
+        for methods in [&self.literal, &self.recursion] {
+            let slope = |k: usize| {
+                let unit: Vec<f64> = (0..n).map(|j| f64::from(u8::from(j == k))).collect();
+                let along = Direction {
+                    q: Some(&unit),
+                    ..Direction::default()
+                };
+                methods.derivative(Method::PotentialEnergy, &self.state, &along)[0]
+            };
+            let slopes: Vec<Dd> = (0..n).map(slope).collect();
+            let gravity: Vec<Dd> = methods.value(Method::Gravity, &self.state);
+            let tolerance = EXACT * self.size(Method::PotentialEnergy);
+            assert_close(&gravity, &slopes, tolerance, self.place("gravity = ∂V/∂q"));
+
+            let along = Direction {
+                q: Some(&self.state.v),
+                v: Some(&self.state.a),
+                a: None,
+            };
+            let rate = |m| methods.derivative(m, &self.state, &along)[0];
+            let growth = rate(Method::KineticEnergy) + rate(Method::PotentialEnergy);
+            let efforts: Vec<Dd> = methods.value(Method::InverseDynamics, &self.state);
+            let power = dot(&efforts, &self.state.v);
+            let speed = 1.0 + sum_abs(&self.state.v);
+            let tolerance = EXACT * (self.effort * self.reach()) * speed;
+            assert_close(&[power], &[growth], tolerance, self.place("power = dE/dt"));
+        }
+    }
+
+    /// In `f64` every method is the double-double one, rounded.
+    pub fn rounding(&self) {
+        for methods in [&self.literal, &self.recursion] {
+            for method in Method::OF_TRAIT {
+                if method == Method::ForwardDynamics {
+                    continue;
+                }
+                let x: Vec<f64> = methods.value(method, &self.state);
+                let y: Vec<Dd> = methods.value(method, &self.state);
+                let x: Vec<Dd> = x.into_iter().map(Dd::from_f64).collect();
+                let tolerance = ROUNDED * self.size(method);
+                assert_close(&x, &y, tolerance, self.place(&format!("{method:?}, f64")));
+            }
+        }
+    }
+
+    /// Forward undoes inverse; a mass matrix that is singular is refused, never a wild number.
+    /// Gives the regular case's error in units of the bar.
+    pub fn forward(&self) -> Option<f64> {
+        let n = self.state.q.len();
+        let efforts: Vec<f64> = self.literal.value(Method::InverseDynamics, &self.state);
+        let bias: Vec<f64> = self.literal.value(Method::Bias, &self.state);
+        let rows: Vec<Vec<f64>> = full(&self.literal.value(Method::MassMatrix, &self.state), n);
+        let mass = DMatrix::from_fn(n, n, |i, j| rows[i][j]);
+        let moments = mass.symmetric_eigenvalues();
+        let (least, most) = (moments.min(), moments.max());
+        let state = State {
+            tau: efforts,
+            ..self.state.clone()
+        };
+        let pivot = least_pivot(self.literal.mass(&self.state));
+        let mut worst = 0.0_f64;
+        let a = DVector::from_row_slice(&self.state.a);
+        // The literal M does not fold enough to be sure of a singular one, and an elimination may
+        // miss massless links in a row; they are not generated where that may be.
+        let factors = [&self.literal, &self.recursion].map(|m| m.function(FORWARD));
+        let ways = factors.map(|f| (f, false)).into_iter();
+        for (function, sure) in ways.chain(self.bodies.iter().map(|f| (f, true))) {
+            let (found, refused) = function.evaluate(state.inputs::<f64>());
+            let place = self.place(&format!("forward dynamics, {}", function.formulation));
+            let finite = found.iter().all(|x| x.is_finite());
+            assert!(finite, "{}: {found:?}", place());
+            if pivot < 1e-25 {
+                // Singular at this q, whatever the digits.
+                assert!(refused.is_some() || !sure, "{}: {found:?}", place());
+                continue;
+            }
+            if least <= 1e-13 * most {
+                continue; // regular, but beyond the digits of `f64`: may be refused or solved
+            }
+            assert_eq!(refused, None, "{}: eigenvalues {moments}", place());
+            // ‖FD(ID(a)) − a‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖), and where terms of h cancel to less
+            // than their rounding, that.
+            let h = DVector::from_row_slice(&bias);
+            let size = 8.0 * n as f64 * (most * a.norm() + h.norm()) + self.effort;
+            let bar = f64::EPSILON * size / least;
+            let off = (DVector::from_vec(found) - &a).norm();
+            assert!(off <= bar, "{}: off by {off:e}, bar {bar:e}", place());
+            worst = worst.max(off / bar.max(f64::MIN_POSITIVE));
+            // In double-double it undoes the literal sum, for which the efforts keep their tails.
+            let mut inputs = state.inputs::<Dd>();
+            inputs.u = self.literal.value(Method::InverseDynamics, &self.state);
+            let (found, _) = function.evaluate(inputs);
+            let off = found.iter().zip(&self.state.a);
+            let off = off.map(|(&x, &a)| (x - Dd::from_f64(a)).to_f64());
+            let off = DVector::from_iterator(n, off).norm();
+            let bar = EXACT * size / least;
+            assert!(off <= bar, "{}: off by {off:e}, bar {bar:e}", place());
+        }
+        (least > 1e-13 * most).then_some(worst)
+    }
+
+    /// The base's place enters nothing: efforts are the same to the last bit, and so is the plan.
+    pub fn moved_base(&self) {
+        let moved = self.draft.moved([1e6, -1e9, 3.0]);
+        let moved = Robot::read(&moved.yaml(), None);
+        for method in [Method::InverseDynamics, Method::ForwardDynamics] {
+            let (here, there) = (
+                self.recursion.function(method),
+                moved.whole("recursion", method),
+            );
+            assert_eq!(here.formulation, there.formulation, "{}", self.what);
+            let (x, _) = here.evaluate(self.state.inputs::<f64>());
+            let (y, _) = there.evaluate(self.state.inputs::<f64>());
+            let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&x), bits(&y), "{}", self.place("moved base")());
+        }
+    }
+
+    /// The order of the links in the file names the coordinates, and changes nothing else.
+    pub fn other_order(&self, rng: &mut Rng) {
+        let other = Robot::read(&self.draft.shuffled(rng).yaml(), None);
+        let (joints, theirs) = (self.robot.joints(), other.joints());
+        let place = |j: &String| joints.iter().position(|k| k == j).expect("the same joints");
+        let order: Vec<usize> = theirs.iter().map(place).collect();
+        let reordered = |x: &[f64]| order.iter().map(|&k| x[k]).collect::<Vec<f64>>();
+        let s = &self.state;
+        let state = State {
+            q: reordered(&s.q),
+            v: reordered(&s.v),
+            a: reordered(&s.a),
+            tau: reordered(&s.tau),
+            parameters: of_names(&other, |name| s.parameters[place_of(&self.robot, name)]),
+        };
+        let own: Vec<Dd> = self.recursion.value(Method::InverseDynamics, s);
+        let own: Vec<Dd> = order.iter().map(|&k| own[k]).collect();
+        let f = other.whole("recursion", Method::InverseDynamics);
+        let theirs: Vec<Dd> = state.value(&f);
+        assert_close(
+            &theirs,
+            &own,
+            EXACT * self.effort,
+            self.place("another order"),
+        );
+    }
+}
+
+/// Place of the run-time parameter of this name.
+fn place_of(robot: &Robot, name: &str) -> usize {
+    let mut names = robot.mechanism.parameters().iter().map(|p| p.name.as_str());
+    names.position(|n| n == name).expect("the same parameters")
+}
+
+/// A number for each run-time parameter, by its name.
+fn of_names(robot: &Robot, number: impl Fn(&str) -> f64) -> Vec<f64> {
+    let parameters = robot.mechanism.parameters().iter();
+    parameters.map(|p| number(&p.name)).collect()
+}
+
+/// The least pivot of M = LᵀDL in double-double, beside the diagonal entry it came from.
+fn least_pivot(mut mass: Vec<Vec<Dd>>) -> f64 {
+    let diagonal: Vec<Dd> = (0..mass.len()).map(|k| mass[k][k]).collect();
+    let mut least = f64::INFINITY;
+    for k in (0..mass.len()).rev() {
+        let pivot = mass[k][k];
+        let share = (pivot / diagonal[k]).to_f64();
+        if share.is_nan() || share < 1e-25 {
+            return 0.0;
+        }
+        least = least.min(share);
+        for i in 0..k {
+            for j in 0..k {
+                mass[i][j] = mass[i][j] - mass[k][i] / pivot * mass[k][j];
+            }
+        }
+    }
+    least
+}
+
+/// All laws; what was seen of [`Case::formulations_agree`] and [`Case::forward`].
+pub fn all(case: &Case, rng: &mut Rng) -> (f64, Option<f64>) {
+    let worst = case.formulations_agree();
+    case.mass_matrix();
+    case.energy();
+    case.rounding();
+    let solved = case.forward();
+    case.moved_base();
+    case.other_order(rng);
+    (worst, solved)
+}

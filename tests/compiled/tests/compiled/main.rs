@@ -1,0 +1,16 @@
+//! Compiled code against the evaluator, against equation (6) as it stands, against its own counts
+//! and its own text: every spec of the repository and random trees.
+
+mod agreement;
+#[path = "../../../../bgdyn-codegen/tests/common/mod.rs"]
+mod common;
+#[path = "../../../numeric/counted.rs"]
+mod counted;
+mod counting;
+#[path = "../../generate.rs"]
+mod generate;
+mod literal;
+mod rounded;
+mod scalars;
+mod specs;
+mod tested;

@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# Each layer of the tests must fail where a sign is flipped or a term dropped.
+#
+# Applies one change at a time to a copy of the tree, runs the tests of one layer, demands that they
+# fail, and prints a table. Takes a quarter of an hour; not part of CI.
+#
+#   tests/mutations/run.sh            every mutation
+#   tests/mutations/run.sh 3 7        those with these numbers
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/../.." && pwd)
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
+copy=$CARGO_TARGET_DIR/mutations
+log=$CARGO_TARGET_DIR/mutations.log
+wanted=" $* "
+number=0
+survivors=0
+
+# The tree as it is, the changes not yet committed with it. Contents only: what did not change is
+# not compiled again.
+(cd "$root" && git ls-files -z --cached --others --exclude-standard) |
+    while IFS= read -r -d '' file; do
+        if [[ -f $root/$file ]] && ! cmp --quiet "$root/$file" "$copy/$file"; then
+            mkdir -p "$(dirname "$copy/$file")"
+            cp "$root/$file" "$copy/$file"
+        fi
+    done
+
+# mutate LAYER FILE OLD NEW TEST…: replaces OLD, which must stand in FILE once, and runs
+# `cargo test TEST…`.
+mutate() {
+    local layer=$1 file=$2 old=$3 new=$4
+    shift 4
+    number=$((number + 1))
+    if [[ $wanted != "  " && $wanted != *" $number "* ]]; then return; fi
+    local text rest
+    text=$(cat "$root/$file")
+    rest=${text#*"$old"}
+    if [[ $rest == "$text" || $rest == *"$old"* ]]; then
+        echo "$number: this must stand in $file exactly once: $old" >&2
+        exit 2
+    fi
+    printf '%s\n' "${text/"$old"/"$new"}" >"$copy/$file"
+    local verdict
+    if ! (cd "$copy" && cargo test --quiet --no-run "$@") >"$log" 2>&1; then
+        # A change of the generator may show in a build script already, which is no test.
+        verdict="does not compile: see $log"
+        survivors=$((survivors + 1))
+    elif (cd "$copy" && INSTA_UPDATE=no cargo test --quiet "$@") >"$log" 2>&1; then
+        verdict=SURVIVED
+        survivors=$((survivors + 1))
+    else
+        verdict="caught by $(grep -c '^    [a-z_:]*$' "$log" || true) tests"
+    fi
+    cp "$root/$file" "$copy/$file"
+    touch "$copy/$file"
+    printf '%2d | %-36s | %-40s | %s → %s | %s\n' \
+        "$number" "$layer" "${file#bgdyn-codegen/src/}" "$old" "$new" "$verdict"
+}
+
+src=bgdyn-codegen/src
+recursion=$src/formulation/recursion
+codegen=(-p bgdyn-codegen --test)
+
+mutate "paper oracle" $src/formulation/literal/sum.rs \
+    '+ omega.cross(tensor * omega)' '- omega.cross(tensor * omega)' "${codegen[@]}" paper_oracle
+mutate "Lagrange oracle" $recursion/inverse.rs \
+    'self.moment + p.cross(self.force)' 'self.moment - p.cross(self.force)' \
+    "${codegen[@]}" lagrange_oracle
+mutate "golden values" $recursion/inverse.rs \
+    'rate * (total + z)' 'rate * (total - z)' "${codegen[@]}" golden
+mutate "golden values" $src/expr/eval.rs \
+    'if b.negative => at(a) - at(&b.node)' 'if b.negative => at(a) + at(&b.node)' \
+    "${codegen[@]}" golden
+mutate "laws: formulations equal" $recursion/mass.rs \
+    'linear: Vec3([-y, x, b.zero()])' 'linear: Vec3([y, x, b.zero()])' "${codegen[@]}" laws
+mutate "laws: forward undoes inverse" $src/formulation/solve.rs \
+    'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" laws
+mutate "laws: gravity = dV/dq" $recursion/mass.rs \
+    'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" laws
+mutate "properties: T" $recursion/mass.rs \
+    '(squares - products)' '(squares + products)' "${codegen[@]}" properties
+mutate "properties: rates" $recursion/kinematics.rs \
+    '(y.scale(c) - x.scale(s))' '(y.scale(c) + x.scale(s))' "${codegen[@]}" properties rates
+mutate "derivatives" $src/expr/diff.rs \
+    'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
+mutate "derivatives, solved" $src/formulation/derived.rs \
+    '|&e| -b.ex(e)' '|&e| b.ex(e)' "${codegen[@]}" motions derivatives
+mutate "generated text" $src/emit/writer.rs \
+    'quote! { #left - #right }' 'quote! { #left + #right }' "${codegen[@]}" text
+mutate "compiled = evaluator" $src/emit/writer.rs \
+    'quote! { #left - #right }' 'quote! { #left + #right }' -p compiled -- agreement::
+mutate "compiled = evaluator, every scalar" $src/emit/writer.rs \
+    'quote! { #left / #right }' 'quote! { #right / #left }' -p compiled -- scalars::
+mutate "compiled = equation (6)" $recursion/inverse.rs \
+    'force: spin.u * h + inertia' 'force: spin.u * h - inertia' -p compiled -- literal::
+mutate "executed = counted operations" $src/expr/count.rs \
+    'Node::Add(..) => operations.add += 1' 'Node::Add(..) => operations.add += 2' \
+    -p compiled -- counting::
+
+if [[ $survivors -gt 0 ]]; then
+    echo "$survivors mutations were not caught" >&2
+    exit 1
+fi
