@@ -15,6 +15,7 @@ pub mod fault;
 pub mod formulation;
 pub mod function;
 pub mod interface;
+pub mod loss;
 pub mod math;
 pub mod mechanism;
 pub mod method;

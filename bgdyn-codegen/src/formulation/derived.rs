@@ -2,11 +2,15 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Formulation, candidates, choose};
+use super::{Formulation, candidates, choose, literal, recursion};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::function::Function;
 use crate::method::{Method, Shape};
+
+/// Velocities up to which expressions are differentiated to see whether that costs less than
+/// composite bodies.
+const SMALL: usize = 4;
 
 /// The method, if it is one of these; the others come from a formulation.
 pub(super) fn function(
@@ -14,33 +18,50 @@ pub(super) fn function(
     method: Method,
     asked: Option<&dyn Formulation>,
 ) -> Option<Function> {
-    let n = graph.coordinates.len();
     match method {
-        Method::CoriolisMatrix => {
-            // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
-            let bias = choose(graph, Method::Bias, asked)?;
-            let (b, x) = reopened(&bias);
-            let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr();
-            let columns = derivatives(&b, &x, n, Leaf::Velocity);
-            let outputs = rows(&columns).into_iter().map(|e| half(b.ex(e))).collect();
-            Some(finish(graph, method, &bias, b, outputs))
-        }
-        Method::InverseDynamicsDerivatives => {
-            let inverse = choose(graph, Method::InverseDynamics, asked)?;
-            let (b, x) = reopened(&inverse);
-            let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
-            outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
-            Some(finish(graph, method, &inverse, b, outputs))
+        Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
+            let literal = asked.is_some_and(|f| f.name() == literal::NAME);
+            let regrouped = (!literal).then(|| recursion::Recursion.function(graph, method));
+            let regrouped = regrouped.flatten();
+            // Differentiating is cheaper for a few joints at most, and slow for many.
+            let small = graph.coordinates.len() <= SMALL;
+            let differentiated = (literal || small).then(|| differentiated(graph, method, asked));
+            let ways = regrouped.into_iter().chain(differentiated.flatten());
+            ways.map(Function::factored)
+                .min_by_key(|f| f.operations().total())
         }
         Method::ForwardDynamicsDerivatives => {
-            let inverse = choose(graph, Method::InverseDynamics, asked)?;
+            let slopes = function(graph, Method::InverseDynamicsDerivatives, asked)?;
             candidates(graph, Method::ForwardDynamics, asked)
                 .iter()
-                .map(|forward| forward_derivatives(graph, method, &inverse, forward))
+                .map(|forward| forward_derivatives(graph, method, &slopes, forward))
                 .min_by_key(|f| f.operations().total())
         }
         _ => None,
     }
+}
+
+/// The method by differentiating the graph of what it is a derivative of.
+fn differentiated(
+    graph: &BondGraph,
+    method: Method,
+    asked: Option<&dyn Formulation>,
+) -> Option<Function> {
+    let n = graph.coordinates.len();
+    if method == Method::CoriolisMatrix {
+        // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
+        let bias = choose(graph, Method::Bias, asked)?;
+        let (b, x) = reopened(&bias);
+        let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr();
+        let columns = derivatives(&b, &x, n, Leaf::Velocity);
+        let outputs = rows(&columns).into_iter().map(|e| half(b.ex(e))).collect();
+        return Some(finish(graph, method, &bias, b, outputs));
+    }
+    let inverse = choose(graph, Method::InverseDynamics, asked)?;
+    let (b, x) = reopened(&inverse);
+    let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
+    outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
+    Some(finish(graph, method, &inverse, b, outputs))
 }
 
 /// ∂q̈/∂x = −M⁻¹ ∂τ/∂x at τ = inverse dynamics(q, v, q̈), and ∂q̈/∂τ = M⁻¹.
@@ -50,39 +71,42 @@ pub(super) fn function(
 fn forward_derivatives(
     graph: &BondGraph,
     method: Method,
-    inverse: &Function,
+    slopes: &Function,
     forward: &Function,
 ) -> Function {
     let n = graph.coordinates.len();
-    let (b, tau) = reopened(inverse);
-    let mut slopes = derivatives(&b, &tau, n, Leaf::Position);
-    slopes.extend(derivatives(&b, &tau, n, Leaf::Velocity));
-    let results = &forward.blocks[0].outputs;
-    let accelerations = b.with_graph(|g| copy_into(g, &forward.graph, results, |_, _| None));
-    // The accelerations take the place of their leaves.
+    // The copy takes over the accelerations in place of their leaves.
+    let (b, accelerations) = reopened(forward);
     let placed = |_: &mut Graph, leaf: Leaf| match leaf {
         Leaf::Acceleration(j) => Some(accelerations[j]),
         _ => None,
     };
-    let slopes = replaced(&b, &slopes, placed);
-    let along = |drive: &[Expr]| {
+    let slopes = {
+        let results = &slopes.blocks[0].outputs;
+        b.with_graph(|g| copy_into(g, &slopes.graph, results, placed))
+    };
+    let along = |drive: &[Expr]| -> Vec<Expr> {
         let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
             Leaf::Input(j) => Some(drive[j]),
             _ => None,
         });
         b.with_graph(|g| accelerations.iter().map(|&e| tangent.of(g, e)).collect())
     };
-    let minus = |column: &Vec<Expr>| column.iter().map(|&e| (-b.ex(e)).expr()).collect();
-    let columns: Vec<Vec<Expr>> = slopes
-        .iter()
-        .map(minus)
-        .map(|c: Vec<_>| along(&c))
-        .collect();
-    let inertia = derivatives(&b, &accelerations, n, Leaf::Input);
     let mut outputs = accelerations.clone();
-    for square in columns.chunks(n.max(1)).chain([inertia.as_slice()]) {
-        outputs.extend(rows(square));
+    for square in slopes.chunks((n * n).max(1)) {
+        let minus = |row: &[Expr], j: usize| (-b.ex(row[j])).expr();
+        let drive = |j: usize| -> Vec<Expr> { square.chunks(n).map(|r| minus(r, j)).collect() };
+        let columns: Vec<Vec<Expr>> = (0..n).map(|j| along(&drive(j))).collect();
+        outputs.extend(rows(&columns));
     }
+    // Of two equal entries of M⁻¹ the one nearer to the base takes less.
+    let inverse = derivatives(&b, &accelerations, n, Leaf::Input);
+    let nearer = |i: usize, j: usize| inverse[i.max(j)][i.min(j)];
+    outputs.extend(
+        (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i, j)))
+            .map(|(i, j)| nearer(i, j)),
+    );
     debug_assert_eq!(outputs.len(), Shape::CheckedSquares.len(n));
     finish(graph, method, forward, b, outputs)
 }
@@ -105,21 +129,6 @@ fn derivatives(b: &Builder, x: &[Expr], n: usize, leaf: fn(usize) -> Leaf) -> Ve
             .collect()
     };
     (0..n).map(column).collect()
-}
-
-/// The columns with leaves replaced.
-fn replaced(
-    b: &Builder,
-    columns: &[Vec<Expr>],
-    mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Expr>,
-) -> Vec<Vec<Expr>> {
-    let all: Vec<Expr> = columns.iter().flatten().copied().collect();
-    let copies = b.with_graph(|g| {
-        let from = g.clone();
-        copy_into(g, &from, &all, &mut leaf)
-    });
-    let n = columns.first().map_or(1, |c| c.len().max(1));
-    copies.chunks(n).map(<[Expr]>::to_vec).collect()
 }
 
 /// Columns as one matrix, row by row.

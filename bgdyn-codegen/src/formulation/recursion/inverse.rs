@@ -15,29 +15,30 @@ use crate::mechanism::Motion;
 
 /// Angular motion in one set of axes.
 #[derive(Clone, Copy)]
-struct Spin<'g> {
-    omega: Vec3<Ex<'g>>,
+pub(super) struct Spin<'g> {
+    /// ω
+    pub omega: Vec3<Ex<'g>>,
     omega_dot: Vec3<Ex<'g>>,
     /// U
-    u: Mat3<Ex<'g>>,
+    pub u: Mat3<Ex<'g>>,
     /// U_zz − U_yy, U_xx − U_zz, U_yy − U_xx
     differences: Vec3<Ex<'g>>,
 }
 
 /// Motion of a body.
-struct Moving<'g> {
+pub(super) struct Moving<'g> {
     /// Of the twisted axes in which the basis began, before any angle of the group.
-    basis: Spin<'g>,
+    pub basis: Spin<'g>,
     /// Ω, Ω̇: summed rates of the group's joints.
     rate: (Ex<'g>, Ex<'g>),
     /// Angular motion of the body, in the basis's axes.
-    in_basis: Spin<'g>,
+    pub in_basis: Spin<'g>,
     /// Acceleration of the origin in the basis's axes.
-    a_basis: Vec3<Ex<'g>>,
+    pub a_basis: Vec3<Ex<'g>>,
     /// Angular motion of the body in its own axes.
-    own: Spin<'g>,
+    pub own: Spin<'g>,
     /// Acceleration of the origin in own axes.
-    a_own: Vec3<Ex<'g>>,
+    pub a_own: Vec3<Ex<'g>>,
 }
 
 /// Force and moment about the body's origin.
@@ -81,6 +82,14 @@ impl<'g> Wrench<'g> {
             moment: self.moment + p.cross(self.force),
         }
     }
+
+    /// Its share in the direction of a joint.
+    pub fn along(&self, frame: &Frame<'g>) -> Ex<'g> {
+        match frame.motion {
+            Motion::Rotation => self.moment.0[2],
+            _ => self.force.0[2],
+        }
+    }
 }
 
 /// What a body's motion takes, by equation (6): computed in its own axes or in its basis's.
@@ -109,6 +118,16 @@ pub(super) fn loads<'g>(
     plan: &Plan,
     active: bool,
 ) -> Vec<Load<'g>> {
+    let moving = motions(b, frames, active);
+    let bodies = frames.bodies.iter().zip(&moving).zip(&plan.in_basis);
+    bodies
+        .map(|((frame, motion), &in_basis)| load(b, frame, motion, in_basis, plan.short_moment))
+        .collect()
+}
+
+/// Motion of every body with the rates and accelerations in `frames`; where `active`, against
+/// gravity.
+pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Vec<Moving<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
         let parent = frame.parent.map(|p| &moving[p]);
@@ -121,10 +140,7 @@ pub(super) fn loads<'g>(
         name(frame, &step);
         moving.push(step);
     }
-    let bodies = frames.bodies.iter().zip(&moving).zip(&plan.in_basis);
-    bodies
-        .map(|((frame, motion), &in_basis)| load(b, frame, motion, in_basis, plan.short_moment))
-        .collect()
+    moving
 }
 
 fn load<'g>(
@@ -360,7 +376,7 @@ fn own_spin<'g>(
 }
 
 /// F = m a + U h and N = skew(U D) + h × a of a body.
-fn dynamics<'g>(
+pub(super) fn dynamics<'g>(
     inertia: &Inertia<'g>,
     j_zz: Ex<'g>,
     spin: &Spin<'g>,
@@ -370,10 +386,12 @@ fn dynamics<'g>(
     let (u, h) = (&spin.u.0, inertia.first);
     let d = |i, j| inertia.d(i, j);
     let [dzy, dxz, dyx] = spin.differences.0;
-    // k₁ x − k₂ y, merged where k₁ = k₂
+    // k₁ x − k₂ y, merged where k₁ = ±k₂
     let pair = |k1: Ex<'g>, x: Ex<'g>, k2: Ex<'g>, y: Ex<'g>| {
         if k1 == k2 {
             k1 * (x - y)
+        } else if k1 == -k2 {
+            k1 * (x + y)
         } else {
             k1 * x - k2 * y
         }
@@ -421,11 +439,7 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
         ));
         let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
         let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
-        let along = match frame.motion {
-            Motion::Rotation => whole.moment.0[2],
-            _ => whole.force.0[2],
-        };
-        efforts[j] = (along * frame.effort).named(|| format!("tau_{}", frame.joint));
+        efforts[j] = (whole.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint));
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {

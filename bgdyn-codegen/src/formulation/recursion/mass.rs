@@ -15,14 +15,15 @@ use crate::mechanism::Motion;
 
 /// Momentum that a unit rate of a joint gives to everything beyond it.
 #[derive(Clone, Copy)]
-struct Momentum<'g> {
-    joint: usize,
-    linear: Vec3<Ex<'g>>,
-    angular: Vec3<Ex<'g>>,
+pub(super) struct Momentum<'g> {
+    pub joint: usize,
+    pub linear: Vec3<Ex<'g>>,
+    pub angular: Vec3<Ex<'g>>,
 }
 
 impl<'g> Momentum<'g> {
-    fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+    /// In other axes.
+    pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
         Momentum {
             linear: f(self.linear),
             angular: f(self.angular),
@@ -31,7 +32,7 @@ impl<'g> Momentum<'g> {
     }
 
     /// About a point from which this one's origin is displaced by p.
-    fn carried(self, p: Vec3<Ex<'g>>) -> Self {
+    pub fn carried(self, p: Vec3<Ex<'g>>) -> Self {
         Momentum {
             angular: self.angular + p.cross(self.linear),
             ..self
@@ -39,7 +40,7 @@ impl<'g> Momentum<'g> {
     }
 
     /// Its share in the direction of a joint.
-    fn along(&self, frame: &Frame<'g>) -> Ex<'g> {
+    pub fn along(&self, frame: &Frame<'g>) -> Ex<'g> {
         match frame.motion {
             Motion::Rotation => self.angular.0[2],
             _ => self.linear.0[2],
@@ -111,7 +112,8 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
     mass
 }
 
-fn unit_momentum<'g>(
+/// The momentum that a unit rate of `joint` gives to `whole`, in the axes of its basis.
+pub(super) fn unit_momentum<'g>(
     b: &'g Builder,
     joint: usize,
     frame: &Frame<'g>,

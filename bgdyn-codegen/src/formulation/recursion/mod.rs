@@ -6,6 +6,8 @@
 
 mod articulated;
 mod base;
+mod beyond;
+mod composite;
 mod forward;
 mod frames;
 mod geometry;
@@ -15,6 +17,9 @@ mod kinematics;
 mod mass;
 mod plan;
 mod share;
+mod slopes;
+
+use bgdyn_runtime::Dd;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
@@ -26,8 +31,13 @@ pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
 
-/// Plans, the cheapest ones before factoring, of which the cheapest one after it is taken.
+/// Plans of small mechanisms, the cheapest ones before factoring, of which the cheapest one after
+/// it is taken. For larger ones it would take more time than it saves operations: on arms of six
+/// and seven axes 16 of 8,000, for twice the time of expansion.
 const FACTORED: usize = 4;
+
+/// Bodies up to which a mechanism is small.
+const SMALL: usize = 4;
 
 /// The recursion.
 pub(super) struct Recursion;
@@ -46,7 +56,17 @@ impl Formulation for Recursion {
         if let Some(site) = method.site() {
             return Some(kinematics::function(graph, &geometry, method, site));
         }
-        let best = cheapest_plan(graph, &geometry, method);
+        let cost = |plan: &Plan| cost(graph, &geometry, method, plan);
+        let best = match method {
+            // Their graphs are too large for a whole search: it starts from the plan of a small
+            // method that they resemble.
+            Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
+                let start = cheapest_plan(graph, &geometry, Method::MassMatrix);
+                plan::refined(&geometry, start, cost)
+            }
+            Method::ForwardDynamicsDerivatives => return None,
+            _ => cheapest_plan(graph, &geometry, method),
+        };
         Some(with_plan(graph, &geometry, method, &best))
     }
 }
@@ -54,10 +74,9 @@ impl Formulation for Recursion {
 /// The plan that costs least after factoring. Plans that cost about the same before it differ in
 /// what it makes of them.
 fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan {
-    let plans = plan::search(geometry, FACTORED, |plan| {
-        let (graph, outputs) = outputs(graph, geometry, method, plan);
-        count(&graph, &outputs).total()
-    });
+    let cost = |plan: &Plan| cost(graph, geometry, method, plan);
+    let small = geometry.bodies.len() <= SMALL;
+    let plans = plan::search(geometry, if small { FACTORED } else { 1 }, cost);
     let after = |plan: &Plan| {
         let (made, outputs) = outputs(graph, geometry, method, plan);
         factored_cost(made, outputs).total()
@@ -68,6 +87,11 @@ fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan
         _ => plans.min_by_key(after),
     }
     .expect("there is a plan to start from")
+}
+
+fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
+    let (graph, outputs) = outputs(graph, geometry, method, plan);
+    count(&graph, &outputs).total()
 }
 
 fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {
@@ -102,6 +126,18 @@ fn outputs(
                     .map(|(&tau, h)| tau - h)
                     .collect();
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
+            }
+            Method::InverseDynamicsDerivatives => {
+                let moving = inverse::motions(&b, &frames, x.active);
+                let slopes = slopes::slopes(&b, &frames, &moving);
+                let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
+                rows.flatten().collect()
+            }
+            Method::CoriolisMatrix => {
+                // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
+                let slopes = slopes::slopes(&b, &frames, &inverse::motions(&b, &frames, false));
+                let rows = slopes.by_rate.into_iter().flatten();
+                rows.map(|e| e * Dd::from_f64(0.5)).collect()
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
             Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],

@@ -50,6 +50,27 @@ pub(super) fn search(geometry: &Geometry, most: usize, cost: impl Fn(&Plan) -> u
     best.into_iter().map(|(_, plan)| plan).collect()
 }
 
+/// A plan in which each place of an origin and each unit of length was tried once.
+pub(super) fn refined(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> usize) -> Plan {
+    let mut plan = start;
+    if geometry.bodies.len() > SEARCHED {
+        return plan;
+    }
+    let mut least = cost(&plan);
+    for change in places(geometry) {
+        let mut tried = plan.clone();
+        change(&mut tried);
+        if tried == plan {
+            continue;
+        }
+        let c = cost(&tried);
+        if c < least {
+            (least, plan) = (c, tried);
+        }
+    }
+    plan
+}
+
 /// Plans to start from: with and without groups.
 fn starts(geometry: &Geometry) -> Vec<Plan> {
     let n = geometry.bodies.len();
@@ -75,11 +96,10 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
 
 type Change = Box<dyn Fn(&mut Plan)>;
 
-/// Every single choice, as a change of a plan.
-fn changes(geometry: &Geometry) -> Vec<Change> {
-    let n = geometry.bodies.len();
+/// Every place for an origin and every unit of length, as a change of a plan.
+fn places(geometry: &Geometry) -> Vec<Change> {
     let mut changes: Vec<Change> = Vec::new();
-    for j in 0..n {
+    for j in 0..geometry.bodies.len() {
         for h in slides(geometry, j) {
             changes.push(Box::new(move |plan| plan.slides[j] = h));
         }
@@ -87,6 +107,13 @@ fn changes(geometry: &Geometry) -> Vec<Change> {
     for unit in units(geometry) {
         changes.push(Box::new(move |plan| plan.unit = unit));
     }
+    changes
+}
+
+/// Every single choice, as a change of a plan.
+fn changes(geometry: &Geometry) -> Vec<Change> {
+    let n = geometry.bodies.len();
+    let mut changes = places(geometry);
     for j in 0..n {
         changes.push(Box::new(move |plan| plan.in_basis[j] ^= true));
     }

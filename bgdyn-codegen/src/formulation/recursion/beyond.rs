@@ -1,0 +1,278 @@
+//! A joint as the joints before it see it: what differentiating needs of it.
+
+use bgdyn_runtime::Dd;
+
+use super::composite::Composite;
+use super::frames::Frame;
+use super::inertia::Inertia;
+use super::inverse::{Spin, Wrench, dynamics};
+use super::mass::Momentum;
+use crate::expr::{Builder, Ex};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::Motion;
+
+/// A joint, seen from a body before it.
+#[derive(Clone, Copy)]
+pub(super) struct Beyond<'g> {
+    /// Momentum that a unit rate gives to all beyond it.
+    pub momentum: Momentum<'g>,
+    /// 2 ∫ v × δ dm, with δ the velocity of a unit rate and v the true one relative to the point
+    /// that this is about, in axes that do not turn.
+    swirl: Vec3<Ex<'g>>,
+    /// ∂/∂q of force and moment on all beyond it.
+    by_position: Wrench<'g>,
+    /// ∂/∂v of the same.
+    by_rate: Wrench<'g>,
+    /// From the body's origin to the point that all this is about, and twice the velocity of that
+    /// point relative to the origin: not zero inside a group of parallel axes only.
+    offset: Vec3<Ex<'g>>,
+    twice_u: Vec3<Ex<'g>>,
+    /// Entries with the last rotation passed in the group, and where its origin is from this one.
+    last: Option<(Entries<'g>, Vec3<Ex<'g>>)>,
+}
+
+/// The four derivatives that tie a joint to one beyond it.
+#[derive(Clone, Copy)]
+pub(super) struct Entries<'g> {
+    /// Of the joint's effort, by position and rate of the one beyond.
+    pub own: (Ex<'g>, Ex<'g>),
+    /// Of the effort of the one beyond, by the joint's position and rate.
+    pub beyond: (Ex<'g>, Ex<'g>),
+}
+
+/// How a joint's axis moves, in one set of axes.
+pub(super) struct Axis<'g> {
+    /// Motion of the body.
+    pub spin: Spin<'g>,
+    /// Acceleration of the origin.
+    pub a: Vec3<Ex<'g>>,
+}
+
+impl<'g> Axis<'g> {
+    /// ω × z
+    fn rate(&self, b: &'g Builder) -> Vec3<Ex<'g>> {
+        let [x, y, _] = self.spin.omega.0;
+        Vec3([y, -x, b.zero()])
+    }
+
+    /// z̈ = U z
+    fn second_rate(&self) -> Vec3<Ex<'g>> {
+        self.spin.u.column(2)
+    }
+}
+
+impl<'g> Beyond<'g> {
+    /// What the joint itself hands on: from all beyond it as one body, seen from a body with the
+    /// motion `spin`, and from the force `force` on it.
+    pub fn new(
+        b: &'g Builder,
+        motion: Motion,
+        momentum: Momentum<'g>,
+        axis: &Axis<'g>,
+        (spin, whole): (&Spin<'g>, &Composite<'g>),
+        force: Vec3<Ex<'g>>,
+    ) -> Self {
+        let zero = Vec3([b.zero(); 3]);
+        let (swirl, by_position, by_rate) = match motion {
+            Motion::Rotation => (
+                rotation_swirl(b, whole, axis),
+                rotation_by_position(b, whole, spin, axis),
+                rotation_by_rate(b, whole, spin, &momentum),
+            ),
+            _ => translation(b, whole, axis, force),
+        };
+        Beyond {
+            momentum,
+            swirl,
+            by_position,
+            by_rate,
+            offset: zero,
+            twice_u: zero,
+            last: None,
+        }
+    }
+
+    /// In other axes.
+    pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+        Beyond {
+            momentum: self.momentum.map(&f),
+            swirl: f(self.swirl),
+            by_position: self.by_position.map(&f),
+            by_rate: self.by_rate.map(&f),
+            ..self
+        }
+    }
+
+    /// Seen from an origin from which the present one is displaced by r and relative to which it
+    /// moves at half of `twice_u`; what follows from it is left for [`Beyond::settled`].
+    pub fn moved(self, r: Vec3<Ex<'g>>, twice_u: Vec3<Ex<'g>>) -> Self {
+        Beyond {
+            offset: self.offset + r,
+            twice_u: self.twice_u + twice_u,
+            last: self.last.map(|(entries, since)| (entries, since + r)),
+            ..self
+        }
+    }
+
+    /// About the body's origin.
+    pub fn settled(self, b: &'g Builder) -> Self {
+        let zero = Vec3([b.zero(); 3]);
+        Beyond {
+            momentum: self.momentum.carried(self.offset),
+            swirl: self.swirl + self.twice_u.cross(self.momentum.linear),
+            by_position: self.by_position.carried(self.offset),
+            by_rate: self.by_rate.carried(self.offset),
+            offset: zero,
+            twice_u: zero,
+            last: None,
+        }
+    }
+
+    /// The same, after its entries with a joint whose axis may go on.
+    pub fn entered(self, b: &'g Builder, motion: Motion, entries: Entries<'g>) -> Self {
+        let here = Vec3([b.zero(); 3]);
+        let last = match motion {
+            Motion::Rotation => Some((entries, here)),
+            _ => self.last,
+        };
+        Beyond { last, ..self }
+    }
+
+    /// Entries with itself.
+    pub fn diagonal(&self, frame: &Frame<'g>) -> Entries<'g> {
+        let own = (self.by_position.along(frame), self.by_rate.along(frame));
+        Entries { own, beyond: own }
+    }
+
+    /// Entries with a joint before it, about whose origin this is.
+    pub fn entries(&self, b: &'g Builder, frame: &Frame<'g>, axis: &Axis<'g>) -> Entries<'g> {
+        let (p, l) = (self.momentum.linear, self.momentum.angular);
+        let (rate, second_rate) = (axis.rate(b), axis.second_rate());
+        let twice = rate.map(|x| x * Dd::from_f64(2.0));
+        let beyond = match frame.motion {
+            Motion::Rotation => {
+                let pull = p.0[0] * axis.a.0[1] - p.0[1] * axis.a.0[0];
+                (
+                    l.dot(second_rate) + pull + self.swirl.dot(rate),
+                    l.dot(twice) + self.swirl.0[2],
+                )
+            }
+            _ => (p.dot(second_rate), p.dot(twice)),
+        };
+        let own = (self.by_position.along(frame), self.by_rate.along(frame));
+        Entries { own, beyond }
+    }
+
+    /// Entries with a rotation of the same group as the last one passed, whose field differs by
+    /// the translation z × r; `None` where there was no such joint.
+    pub fn entries_from_last(&self, b: &'g Builder, axis: &Axis<'g>) -> Option<Entries<'g>> {
+        let (last, since) = self.last?;
+        let [x, y, _] = since.0;
+        let step = Vec3([-y, x, b.zero()]);
+        let step_rate = axis.spin.omega.map(|x| x * Dd::from_f64(2.0)).cross(step);
+        let p = self.momentum.linear;
+        Some(Entries {
+            own: (
+                last.own.0 + step.dot(self.by_position.force),
+                last.own.1 + step.dot(self.by_rate.force),
+            ),
+            beyond: (
+                last.beyond.0 + p.dot(axis.spin.u * step),
+                last.beyond.1 + p.dot(step_rate),
+            ),
+        })
+    }
+}
+
+/// z ×
+fn across<'g>(b: &'g Builder, v: Vec3<Ex<'g>>) -> Vec3<Ex<'g>> {
+    Vec3([-v.0[1], v.0[0], b.zero()])
+}
+
+/// Row i of D times v.
+fn d_row<'g>(inertia: &Inertia<'g>, i: usize, v: Vec3<Ex<'g>>) -> Ex<'g> {
+    Vec3(std::array::from_fn(|k| inertia.d(i, k))).dot(v)
+}
+
+/// 2 ∫ v × (z × s) dm = row z of E + 2 D (ω × z).
+fn rotation_swirl<'g>(b: &'g Builder, whole: &Composite<'g>, axis: &Axis<'g>) -> Vec3<Ex<'g>> {
+    let twice = axis.rate(b).map(|x| x * Dd::from_f64(2.0));
+    let turning = Vec3(std::array::from_fn(|i| d_row(&whole.inertia, i, twice)));
+    whole.flow.moment.row(2) + turning
+}
+
+/// 2 ω × (z × h) + z × p, and about the origin 2 (D ω) × z + column z of E.
+fn rotation_by_rate<'g>(
+    b: &'g Builder,
+    whole: &Composite<'g>,
+    spin: &Spin<'g>,
+    momentum: &Momentum<'g>,
+) -> Wrench<'g> {
+    let twice = spin.omega.map(|x| x * Dd::from_f64(2.0));
+    let [x, y] = [0, 1].map(|i| d_row(&whole.inertia, i, twice));
+    Wrench {
+        force: twice.cross(momentum.linear) + across(b, whole.flow.linear),
+        moment: Vec3([y, -x, b.zero()]) + whole.flow.moment.column(2),
+    }
+}
+
+/// As the composite turns about z, its inertia P and its flow change by Z P + P Zᵀ and
+/// Z Q + Q Zᵀ, and with them the force and moment; those of the relative accelerations turn along.
+fn rotation_by_position<'g>(
+    b: &'g Builder,
+    whole: &Composite<'g>,
+    spin: &Spin<'g>,
+    axis: &Axis<'g>,
+) -> Wrench<'g> {
+    let zero = b.zero();
+    let d = |i, j| whole.inertia.d(i, j);
+    let twice_xy = d(0, 1) * Dd::from_f64(2.0);
+    let inertia = Inertia {
+        mass: zero,
+        axial: zero,
+        first: across(b, whole.inertia.first),
+        pseudo: [
+            -twice_xy,
+            twice_xy,
+            zero,
+            d(0, 0) - d(1, 1),
+            -d(1, 2),
+            d(0, 2),
+        ],
+    };
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, _]] = whole.flow.moment.0;
+    let (sum, difference) = (xy + yx, xx - yy);
+    let flow = Mat3([
+        [-sum, difference, -yz],
+        [difference, sum, xz],
+        [-zy, zx, zero],
+    ]);
+    let of_flow = Wrench {
+        force: spin.omega.cross(across(b, whole.flow.linear)),
+        moment: flow * spin.omega,
+    };
+    // J_zz stays as it is.
+    dynamics(&inertia, zero, spin, axis.a, false)
+        .plus(of_flow)
+        .plus(whole.rest.map(|v| across(b, v)))
+}
+
+/// Swirl, ∂/∂q and ∂/∂v of a translation along z.
+fn translation<'g>(
+    b: &'g Builder,
+    whole: &Composite<'g>,
+    axis: &Axis<'g>,
+    force: Vec3<Ex<'g>>,
+) -> (Vec3<Ex<'g>>, Wrench<'g>, Wrench<'g>) {
+    let h = whole.inertia.first;
+    let twice = |v: Vec3<Ex<'g>>| v.map(|x| x * Dd::from_f64(2.0));
+    let field = |v: Vec3<Ex<'g>>| Wrench {
+        force: whole.inertia.weigh(v),
+        moment: h.cross(v),
+    };
+    let drift = whole.flow.linear + twice(axis.spin.omega).cross(h);
+    // The force acts at another place.
+    let mut by_position = field(axis.second_rate());
+    by_position.moment = by_position.moment + across(b, force);
+    (-across(b, drift), by_position, field(twice(axis.rate(b))))
+}

@@ -1,0 +1,198 @@
+//! Everything beyond a joint as one body: its inertia, how its mass moves relative to a body that
+//! carries it, and what force and moment that relative motion takes.
+
+use bgdyn_runtime::Dd;
+
+use super::frames::Frame;
+use super::inertia::{Inertia, turn};
+use super::inverse::Wrench;
+use super::mass::Momentum;
+use crate::expr::{Builder, Ex};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::Motion;
+
+/// All that a body carries, about one point and in one set of axes; velocities and accelerations
+/// are relative to that body and its axes.
+#[derive(Clone, Copy)]
+pub(super) struct Composite<'g> {
+    pub inertia: Inertia<'g>,
+    /// Twice the flow of its mass.
+    pub flow: Flow<'g>,
+    /// Force and moment of its relative accelerations.
+    pub rest: Wrench<'g>,
+}
+
+impl<'g> Composite<'g> {
+    /// Of nothing.
+    pub fn zero(b: &'g Builder) -> Self {
+        Composite {
+            inertia: Inertia::zero(b),
+            flow: Flow::zero(b),
+            rest: Wrench::zero(b),
+        }
+    }
+
+    /// Of both.
+    pub fn plus(&self, other: &Self) -> Self {
+        Composite {
+            inertia: self.inertia.plus(&other.inertia),
+            flow: self.flow.plus(&other.flow),
+            rest: self.rest.plus(other.rest),
+        }
+    }
+
+    /// Turned by Rz.
+    pub fn turned(&self, angle: (Ex<'g>, Ex<'g>)) -> Self {
+        let round = self.inertia.round();
+        Composite {
+            inertia: if round {
+                self.inertia
+            } else {
+                self.inertia.turned(angle)
+            },
+            flow: self.flow.turned(angle),
+            rest: self.rest.map(|v| turn(v, angle)),
+        }
+    }
+
+    /// Relative to the body before the joint, after a joint with this momentum of a unit rate:
+    /// with Z the field of a unit rate, Q grows by q̇ Z P and the rest by q̈ Z P + q̇² Z Z P + 2 q̇ Z Q.
+    pub fn before(&self, b: &'g Builder, frame: &Frame<'g>, momentum: &Momentum<'g>) -> Self {
+        let step = Flow::of_joint(b, frame.motion, frame.rate, &self.inertia);
+        let mid = self.flow.plus(&step);
+        let mut rest = self.rest.plus(Wrench {
+            force: momentum.linear.scale(frame.acceleration),
+            moment: momentum.angular.scale(frame.acceleration),
+        });
+        // Z Z and Z Q vanish for a translation.
+        if frame.motion == Motion::Rotation {
+            let [x, y, _] = mid.linear.0;
+            rest = rest.plus(Wrench {
+                force: Vec3([-y, x, b.zero()]).scale(frame.rate),
+                moment: mid.moment.column(2).scale(frame.rate),
+            });
+        }
+        Composite {
+            inertia: self.inertia,
+            flow: mid.plus(&step),
+            rest,
+        }
+    }
+
+    /// About the origin of the body before, in its axes or in the basis that continues.
+    pub fn handed_on(&self, b: &'g Builder, frame: &Frame<'g>) -> Self {
+        let shifted = Composite {
+            inertia: self.inertia.shifted(frame.position),
+            flow: self.flow.shifted(frame.position),
+            rest: self.rest.carried(frame.position),
+        };
+        if frame.continues {
+            return shifted;
+        }
+        let twist = frame.twist.map(|x| b.constant(x));
+        Composite {
+            inertia: shifted.inertia.rotated(b, frame.twist),
+            flow: shifted.flow.rotated(b, frame.twist),
+            rest: shifted.rest.map(|v| twist * v),
+        }
+    }
+
+    /// Number of entries of flow and rest that vanish.
+    pub fn zeros(&self) -> usize {
+        let flow = self.flow.moment.0.into_iter().flatten();
+        let flow = flow.chain(self.flow.linear.0);
+        let rest = self.rest.force.0.into_iter().chain(self.rest.moment.0);
+        flow.chain(rest).filter(|e| e.is_zero()).count()
+    }
+}
+
+/// How mass moves: with Q = ∫ v sᵀ dm about a point, E = tr(Q)·1 − Q and p = ∫ v dm.
+#[derive(Clone, Copy)]
+pub(super) struct Flow<'g> {
+    /// E
+    pub moment: Mat3<Ex<'g>>,
+    /// p
+    pub linear: Vec3<Ex<'g>>,
+}
+
+impl<'g> Flow<'g> {
+    /// Of nothing.
+    pub fn zero(b: &'g Builder) -> Self {
+        Flow {
+            moment: Mat3([[b.zero(); 3]; 3]),
+            linear: Vec3([b.zero(); 3]),
+        }
+    }
+
+    /// Of both.
+    pub fn plus(&self, other: &Self) -> Self {
+        Flow {
+            moment: self.moment + other.moment,
+            linear: self.linear + other.linear,
+        }
+    }
+
+    /// Of mass that moves at a joint's `rate` along or about z.
+    pub fn of_joint(b: &'g Builder, motion: Motion, rate: Ex<'g>, inertia: &Inertia<'g>) -> Self {
+        let d = |i, j| rate * inertia.d(i, j);
+        let [x, y, z] = inertia.first.map(|h| rate * h).0;
+        let zero = b.zero();
+        match motion {
+            Motion::Rotation => Flow {
+                moment: Mat3([
+                    [d(0, 1), d(1, 1), d(1, 2)],
+                    [-d(0, 0), -d(0, 1), -d(0, 2)],
+                    [zero; 3],
+                ]),
+                linear: Vec3([-y, x, zero]),
+            },
+            _ => Flow {
+                moment: Mat3([[z, zero, zero], [zero, z, zero], [-x, -y, zero]]),
+                linear: Vec3([zero, zero, rate * inertia.axial]),
+            },
+        }
+    }
+
+    /// The same seen from a point from which this one's origin is displaced by r:
+    /// E + (p·r)·1 − p rᵀ.
+    pub fn shifted(&self, r: Vec3<Ex<'g>>) -> Self {
+        let products = Mat3::from_fn(|i, j| self.linear.0[i] * r.0[j]);
+        let entry = |i: usize, j: usize| {
+            if i == j {
+                let (k, l) = ((i + 1) % 3, (i + 2) % 3);
+                self.moment.0[i][i] + (products.0[k][k] + products.0[l][l])
+            } else {
+                self.moment.0[i][j] - products.0[i][j]
+            }
+        };
+        Flow {
+            moment: Mat3::from_fn(entry),
+            linear: self.linear,
+        }
+    }
+
+    /// In axes in which the present ones have the columns of the constant `r`: R E Rᵀ, R p.
+    pub fn rotated(&self, b: &'g Builder, r: Mat3<Dd>) -> Self {
+        let r = r.map(|x| b.constant(x));
+        Flow {
+            moment: r * self.moment * r.transpose(),
+            linear: r * self.linear,
+        }
+    }
+
+    /// Turned by Rz: four multiplications for the 2 × 2 block, with
+    /// e = s (E_xx − E_yy) + c (E_xy + E_yx).
+    pub fn turned(&self, (c, s): (Ex<'g>, Ex<'g>)) -> Self {
+        let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = self.moment.0;
+        let e = s * (xx - yy) + c * (xy + yx);
+        let (se, ce) = (s * e, c * e);
+        Flow {
+            moment: Mat3([
+                [xx - se, ce - yx, c * xz - s * yz],
+                [ce - xy, yy + se, s * xz + c * yz],
+                [c * zx - s * zy, s * zx + c * zy, zz],
+            ]),
+            linear: turn(self.linear, (c, s)),
+        }
+    }
+}

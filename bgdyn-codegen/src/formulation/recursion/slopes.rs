@@ -1,0 +1,216 @@
+//! Derivatives of the joint efforts by positions and rates, from composite bodies.
+//!
+//! A change of q_k moves everything beyond joint k as one rigid body. So ∂τ/∂q_k and ∂τ/∂v_k need
+//! no derivative of any body's own motion: what they need of all beyond joint k is its inertia P as
+//! of one body, the flow Q of its mass relative to the body before the joint, and the force and
+//! moment R of its relative accelerations. With W = (U, a) the motion of the body before the joint
+//! and V its velocity, both as 4 × 4 matrices, force and moment are those of W P + 2 V Q + R; with
+//! Z the field of a unit rate of joint k
+//! - q_k changes them by those of W (Z P + P Zᵀ) + 2 V (Z Q + Q Zᵀ) + Z R + R Zᵀ,
+//! - v_k by those of 2 (V Z P + Z Q).
+//!
+//! Carried to the base like the momenta that give the mass matrix, these two give column k of the
+//! derivatives from its diagonal upwards. Below it stand the efforts of joints i beyond k. Those
+//! change by the fields Z̈_k s + 2 Ż_k v and 2 (Ż_k s + Z_k v) of accelerations: with the axis's
+//! rates ω × z and U z they are dot products with the momentum of a unit rate of joint i, and with
+//! 2 ∫ v × δ_i dm of the same rate (see [`super::beyond`]).
+//!
+//! Inside a group of parallel axes the fields of two joints differ by a translation, and so do
+//! their entries.
+//!
+//! Carpentier and Mansard (2018), and Singh, Russell and Wensing (2022), order the derivatives of
+//! the Newton-Euler recursion by composites as well, in spatial vectors.
+
+use bgdyn_runtime::Dd;
+
+use super::beyond::{Axis, Beyond, Entries};
+use super::composite::Composite;
+use super::frames::{Frame, Frames};
+use super::inertia::turn;
+use super::inverse::{Moving, Spin};
+use super::mass::unit_momentum;
+use crate::expr::{Builder, Ex};
+use crate::math::Vec3;
+use crate::mechanism::Motion;
+
+/// (∂τ/∂q, ∂τ/∂v), row by row: entry (i, j) is the derivative of effort i by coordinate j.
+pub(super) struct Slopes<'g> {
+    pub by_position: Vec<Vec<Ex<'g>>>,
+    pub by_rate: Vec<Vec<Ex<'g>>>,
+}
+
+/// What a body has gathered from those beyond it.
+#[derive(Clone)]
+struct Gathered<'g> {
+    whole: Composite<'g>,
+    beyond: Vec<Beyond<'g>>,
+}
+
+/// The derivatives at the motion `moving`.
+pub(super) fn slopes<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'g>]) -> Slopes<'g> {
+    let n = frames.bodies.len();
+    let nothing = Gathered {
+        whole: Composite::zero(b),
+        beyond: Vec::new(),
+    };
+    let mut own = vec![nothing.clone(); n];
+    let mut basis = vec![nothing; n];
+    let mut slopes = Slopes {
+        by_position: vec![vec![b.zero(); n]; n],
+        by_rate: vec![vec![b.zero(); n]; n],
+    };
+    for j in (0..n).rev() {
+        let frame = &frames.bodies[j];
+        b.section(format!(
+            "{}: all it carries as one body; derivatives by `{}` and by the joints beyond",
+            frame.name, frame.joint
+        ));
+        let mut beyond = slopes.enter_beyond(b, frames, j, &moving[j], &own[j], &basis[j]);
+        let (unit, before) = unit(b, frames, j, moving, &own[j].whole, &basis[j].whole);
+        let diagonal = unit.diagonal(frame);
+        slopes.enter(frames, j, &unit, &diagonal);
+        beyond.push(unit.entered(b, frame.motion, diagonal));
+
+        let Some(p) = frame.parent else { continue };
+        let twice_u = twice_velocity(frame, spin_before(frames, j, moving));
+        let home = if frame.continues {
+            &mut basis[p]
+        } else {
+            &mut own[p]
+        };
+        home.whole = home.whole.plus(&before.handed_on(b, frame));
+        let twist = frame.twist.map(|x| b.constant(x));
+        home.beyond.extend(beyond.into_iter().map(|joint| {
+            let moved = joint.moved(frame.position, twice_u);
+            if frame.continues {
+                moved
+            } else {
+                moved.settled(b).map(|v| twist * v)
+            }
+        }));
+    }
+    slopes
+}
+
+impl<'g> Slopes<'g> {
+    /// Entries of joint j with all beyond it, and these in the axes of its basis.
+    fn enter_beyond(
+        &mut self,
+        b: &'g Builder,
+        frames: &Frames<'g>,
+        j: usize,
+        moving: &Moving<'g>,
+        inner: &Gathered<'g>,
+        outer: &Gathered<'g>,
+    ) -> Vec<Beyond<'g>> {
+        let frame = &frames.bodies[j];
+        let own = Axis {
+            spin: moving.own,
+            a: moving.a_own,
+        };
+        let basis = axis_in_basis(moving);
+        let mut beyond = Vec::new();
+        for joint in &inner.beyond {
+            let entries = joint.entries(b, frame, &own);
+            self.enter(frames, j, joint, &entries);
+            let turned = joint.map(|v| turn(v, frame.turn));
+            beyond.push(turned.entered(b, frame.motion, entries));
+        }
+        for &joint in &outer.beyond {
+            let (joint, entries) = match (frame.motion, joint.entries_from_last(b, &basis)) {
+                (Motion::Rotation, Some(entries)) => (joint, entries),
+                (Motion::Rotation, None) => {
+                    let joint = joint.settled(b);
+                    (joint, joint.entries(b, frame, &basis))
+                }
+                // Forces are the same about every point.
+                _ => (joint, joint.entries(b, frame, &basis)),
+            };
+            self.enter(frames, j, &joint, &entries);
+            beyond.push(joint.entered(b, frame.motion, entries));
+        }
+        beyond
+    }
+
+    fn enter(&mut self, frames: &Frames<'g>, j: usize, joint: &Beyond<'g>, entries: &Entries<'g>) {
+        let k = joint.momentum.joint;
+        let factor = frames.bodies[j].effort * frames.bodies[k].effort;
+        let name = |i: usize, j: usize, by: &str| {
+            let joint = |i: usize| &frames.bodies[i].joint;
+            format!("tau_{}_by_{by}_{}", joint(i), joint(j))
+        };
+        for (i, j, (by_position, by_rate)) in [(k, j, entries.beyond), (j, k, entries.own)] {
+            self.by_position[i][j] = (by_position * factor).named(|| name(i, j, "q"));
+            self.by_rate[i][j] = (by_rate * factor).named(|| name(i, j, "v"));
+        }
+    }
+}
+
+/// What joint j hands on, and all beyond it as seen from the body before it.
+fn unit<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    j: usize,
+    moving: &[Moving<'g>],
+    inner: &Composite<'g>,
+    outer: &Composite<'g>,
+) -> (Beyond<'g>, Composite<'g>) {
+    let (frame, axis) = (&frames.bodies[j], axis_in_basis(&moving[j]));
+    let carried = Composite {
+        inertia: frame.inertia.plus(&inner.inertia),
+        ..*inner
+    };
+    let after = carried.turned(frame.turn).plus(outer);
+    // Turning about z leaves J_zz as it is.
+    let j_zz = (carried.inertia.d(0, 0) + carried.inertia.d(1, 1))
+        + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
+    let momentum = unit_momentum(b, j, frame, &after.inertia, j_zz);
+    let before = after.before(b, frame, &momentum);
+    let (spin, h) = (&moving[j].in_basis, after.inertia.first);
+    let force = spin.u * h
+        + after.inertia.weigh(axis.a)
+        + spin.omega.cross(after.flow.linear)
+        + after.rest.force;
+    // The body before the joint and the one after it serve equally well: the one with more zeros.
+    let spin_before = spin_before(frames, j, moving);
+    let better =
+        frame.continues || after.zeros() + zeros(spin) > before.zeros() + zeros(spin_before);
+    let seen = if better {
+        (spin, &after)
+    } else {
+        (spin_before, &before)
+    };
+    let unit = Beyond::new(b, frame.motion, momentum, &axis, seen, force);
+    (unit, before)
+}
+
+fn axis_in_basis<'g>(moving: &Moving<'g>) -> Axis<'g> {
+    Axis {
+        spin: moving.in_basis,
+        a: moving.a_basis,
+    }
+}
+
+/// Angular motion of the body before joint j, in the axes of the joint's basis.
+fn spin_before<'m, 'g>(frames: &Frames<'g>, j: usize, moving: &'m [Moving<'g>]) -> &'m Spin<'g> {
+    match frames.bodies[j].parent {
+        Some(p) if frames.bodies[j].continues => &moving[p].in_basis,
+        _ => &moving[j].basis,
+    }
+}
+
+/// Number of entries of ω and U that vanish.
+fn zeros(spin: &Spin<'_>) -> usize {
+    let all = spin.u.0.into_iter().flatten().chain(spin.omega.0);
+    all.filter(|e| e.is_zero()).count()
+}
+
+/// Twice the velocity of a body's origin relative to its parent's, in the axes of the basis.
+fn twice_velocity<'g>(frame: &Frame<'g>, before: &Spin<'g>) -> Vec3<Ex<'g>> {
+    let two = Dd::from_f64(2.0);
+    let mut twice = before.omega.map(|x| x * two).cross(frame.position);
+    if frame.motion != Motion::Rotation {
+        twice.0[2] = twice.0[2] + frame.rate * two;
+    }
+    twice
+}

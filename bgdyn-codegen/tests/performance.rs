@@ -1,0 +1,158 @@
+//! The counts of `docs/performance.md` are what the generator makes, and none is above the best
+//! known one.
+//!
+//! After a wanted change: `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test performance`.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use bgdyn_codegen::expr::Operations;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{Options, function, stem};
+use bgdyn_codegen::read;
+
+/// The methods compared, with the head of their column.
+const METHODS: [(Method, &str); 4] = [
+    (Method::InverseDynamics, "inverse dynamics"),
+    (Method::MassMatrix, "mass matrix"),
+    (Method::ForwardDynamics, "forward dynamics"),
+    (Method::InverseDynamicsDerivatives, "∂τ/∂q, ∂τ/∂v"),
+];
+
+/// A robot, and the fewest multiplications/additions known for each method before bgdyn; sine
+/// pairs, divisions and roots of inverse and forward dynamics there.
+struct Robot {
+    name: &'static str,
+    what: &'static str,
+    best: [(usize, usize); 4],
+    pairs: [usize; 2],
+    divisions: usize,
+}
+
+#[rustfmt::skip]
+const ROBOTS: [Robot; 7] = [
+    Robot { name: "scara_rrpr", what: "SCARA RRPR", best: [(29, 25), (18, 30), (57, 59), (75, 64)], pairs: [3, 2], divisions: 2 },
+    Robot { name: "stanford_gen", what: "Stanford arm", best: [(202, 185), (89, 88), (348, 306), (1152, 987)], pairs: [4, 4], divisions: 5 },
+    Robot { name: "puma_gen", what: "PUMA 560", best: [(220, 202), (128, 123), (407, 351), (1188, 1083)], pairs: [5, 6], divisions: 5 },
+    Robot { name: "puma_arm", what: "PUMA 560, Armstrong 1986", best: [(146, 123), (80, 70), (275, 216), (692, 561)], pairs: [4, 5], divisions: 4 },
+    Robot { name: "ur5_gen", what: "UR5", best: [(209, 189), (119, 116), (376, 323), (842, 819)], pairs: [5, 7], divisions: 5 },
+    Robot { name: "panda_gen", what: "Panda", best: [(279, 256), (169, 160), (555, 495), (2280, 2085)], pairs: [6, 6], divisions: 6 },
+    Robot { name: "iiwa_gen", what: "iiwa", best: [(261, 238), (134, 129), (499, 444), (2123, 1900)], pairs: [6, 6], divisions: 6 },
+];
+
+/// Of the best known count of derivatives, which is plain forward differentiation. Armstrong's
+/// PUMA, whose zeros help differentiation more than composites, is allowed a little more.
+fn structured(robot: &str) -> f64 {
+    if robot == "puma_arm" { 0.76 } else { 0.7 }
+}
+
+fn folder(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
+
+fn count(path: &Path, method: Method) -> Operations {
+    let text = fs::read_to_string(path).expect("a spec");
+    let (mechanism, faults) = read(&text, Some(&stem(path)));
+    let mechanism = mechanism.unwrap_or_else(|| panic!("{faults:?}"));
+    let made = function(&mechanism, method, &Options::default());
+    made.expect("a function of every method").operations()
+}
+
+fn records(text: &mut String) {
+    let heads: Vec<&str> = METHODS.iter().map(|(_, head)| *head).collect();
+    writeln!(
+        text,
+        "| robot | {} |",
+        heads.join(" | best known | ") + " | best known"
+    )
+    .unwrap();
+    writeln!(text, "|---|{}", "---|---|".repeat(METHODS.len())).unwrap();
+    let (mut ours, mut best) = (0, 0);
+    for robot in &ROBOTS {
+        let path = folder("tests/golden/specs").join(format!("{}.yaml", robot.name));
+        let mut row = format!("| {} |", robot.what);
+        for (m, &(method, head)) in METHODS.iter().enumerate() {
+            let (o, (mul, add)) = (count(&path, method), robot.best[m]);
+            let derivative = method == Method::InverseDynamicsDerivatives;
+            let share = if derivative {
+                structured(robot.name)
+            } else {
+                1.0
+            };
+            let bound = share * (mul + add) as f64;
+            let place = format!("{}, {head}: {o}", robot.name);
+            assert!(o.total() as f64 <= bound, "{place}: above {bound}");
+            match method {
+                Method::InverseDynamics => assert!(o.sincos <= robot.pairs[0], "{place}"),
+                Method::ForwardDynamics => {
+                    assert!(
+                        o.sincos <= robot.pairs[1] && o.div <= robot.divisions,
+                        "{place}"
+                    );
+                }
+                _ => assert_eq!(o.div + o.sqrt, 0, "{place}"),
+            }
+            if !derivative {
+                (ours, best) = (ours + o.total(), best + mul + add);
+            }
+            let (m, a, sum) = (o.mul, o.add, o.total());
+            write!(row, " **{sum}** ({m}/{a}) | {} ({mul}/{add}) |", mul + add).unwrap();
+        }
+        writeln!(text, "{row}").unwrap();
+    }
+    let less = 100.0 * (1.0 - ours as f64 / best as f64);
+    assert!(less >= 3.0, "{less}");
+    let sums = "inverse dynamics, mass matrix and forward dynamics of all robots";
+    writeln!(
+        text,
+        "\nIn the sum over {sums}: {ours} against {best}, {less:.1} % fewer."
+    )
+    .unwrap();
+}
+
+fn own_specs(text: &mut String) {
+    let heads: Vec<&str> = METHODS.iter().map(|(_, head)| *head).collect();
+    writeln!(text, "| spec | {} |", heads.join(" | ")).unwrap();
+    writeln!(text, "|---|{}", "---|".repeat(METHODS.len())).unwrap();
+    let entries = fs::read_dir(folder("specs")).expect("a folder");
+    let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
+    paths.retain(|p| p.extension().is_some_and(|e| e == "yaml"));
+    paths.sort();
+    for path in paths {
+        let counts = METHODS.map(|(method, _)| format!("{}", count(&path, method)));
+        writeln!(text, "| `{}` | {} |", stem(&path), counts.join(" | ")).unwrap();
+    }
+}
+
+#[test]
+fn the_page_holds_what_is_generated() {
+    let mut text = String::from(
+        "# Performance\n\n\
+         ## How few operations\n\n\
+         Multiplications and additions of one call, as the compiled code executes them: each distinct \
+         product and each sum once, negation and arithmetic on the mechanism's own numbers free, \
+         the sine and cosine of an angle counted as a pair apart. All ten inertial parameters of \
+         every link are random, but for Armstrong's PUMA, which has his zeros. \"Best known\" is the \
+         least that was found for the same robot with any other generator, published or run, or \
+         in the studies that came before this one, counted by the same rule; its derivatives are \
+         plain forward differentiation of the best inverse dynamics.\n\n",
+    );
+    records(&mut text);
+    text += "\nSine pairs, divisions and roots are never more than there.\n\n\
+             The mechanisms of [`specs/`](../specs):\n\n";
+    own_specs(&mut text);
+    text += "\nTo get these numbers again: `bgdyn ops FILE --derivatives`, for all of them \
+             `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test performance`, which writes this page; \
+             without `BGDYN_WRITE` the test fails where the page is not up to date, or a count is \
+             above the best known one.\n";
+    let page = folder("docs/performance.md");
+    if std::env::var_os("BGDYN_WRITE").is_some() {
+        fs::write(&page, &text).expect("the page is written");
+    }
+    let found = fs::read_to_string(&page).expect("docs/performance.md");
+    assert!(
+        found == text,
+        "docs/performance.md is not up to date:\n{text}"
+    );
+}
