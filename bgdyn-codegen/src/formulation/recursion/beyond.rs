@@ -2,6 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
+// Every acceleration by a velocity has the factor 2. The Coriolis matrix is half of ∂τ/∂v: for it
+// the factor is 1 throughout, and ∂τ/∂q means nothing.
+
 use super::composite::Composite;
 use super::frames::Frame;
 use super::inertia::Inertia;
@@ -16,17 +19,17 @@ use crate::mechanism::Motion;
 pub(super) struct Beyond<'g> {
     /// Momentum that a unit rate gives to all beyond it.
     pub momentum: Momentum<'g>,
-    /// 2 ∫ v × δ dm, with δ the velocity of a unit rate and v the true one relative to the point
+    /// Factor · ∫ v × δ dm, with δ the velocity of a unit rate and v the true one relative to the point
     /// that this is about, in axes that do not turn.
     swirl: Vec3<Ex<'g>>,
     /// ∂/∂q of force and moment on all beyond it.
     by_position: Wrench<'g>,
-    /// ∂/∂v of the same.
+    /// Factor / 2 · ∂/∂v of the same.
     by_rate: Wrench<'g>,
-    /// From the body's origin to the point that all this is about, and twice the velocity of that
-    /// point relative to the origin: not zero inside a group of parallel axes only.
+    /// From the body's origin to the point that all this is about, and factor times the velocity
+    /// of that point relative to the origin: not zero inside a group of parallel axes only.
     offset: Vec3<Ex<'g>>,
-    twice_u: Vec3<Ex<'g>>,
+    drift: Vec3<Ex<'g>>,
     /// Entries with the last rotation passed in the group, and where its origin is from this one.
     last: Option<(Entries<'g>, Vec3<Ex<'g>>)>,
 }
@@ -46,6 +49,8 @@ pub(super) struct Axis<'g> {
     pub spin: Spin<'g>,
     /// Acceleration of the origin.
     pub a: Vec3<Ex<'g>>,
+    /// 2, or 1 for the Coriolis matrix.
+    pub factor: Dd,
 }
 
 impl<'g> Axis<'g> {
@@ -77,7 +82,7 @@ impl<'g> Beyond<'g> {
             Motion::Rotation => (
                 rotation_swirl(b, whole, axis),
                 rotation_by_position(b, whole, spin, axis),
-                rotation_by_rate(b, whole, spin, &momentum),
+                rotation_by_rate(b, whole, spin, axis.factor, &momentum),
             ),
             _ => translation(b, whole, axis, force),
         };
@@ -87,7 +92,7 @@ impl<'g> Beyond<'g> {
             by_position,
             by_rate,
             offset: zero,
-            twice_u: zero,
+            drift: zero,
             last: None,
         }
     }
@@ -104,11 +109,11 @@ impl<'g> Beyond<'g> {
     }
 
     /// Seen from an origin from which the present one is displaced by r and relative to which it
-    /// moves at half of `twice_u`; what follows from it is left for [`Beyond::settled`].
-    pub fn moved(self, r: Vec3<Ex<'g>>, twice_u: Vec3<Ex<'g>>) -> Self {
+    /// moves, factor times, at `drift`; what follows from it is left for [`Beyond::settled`].
+    pub fn moved(self, r: Vec3<Ex<'g>>, drift: Vec3<Ex<'g>>) -> Self {
         Beyond {
             offset: self.offset + r,
-            twice_u: self.twice_u + twice_u,
+            drift: self.drift + drift,
             last: self.last.map(|(entries, since)| (entries, since + r)),
             ..self
         }
@@ -119,11 +124,11 @@ impl<'g> Beyond<'g> {
         let zero = Vec3([b.zero(); 3]);
         Beyond {
             momentum: self.momentum.carried(self.offset),
-            swirl: self.swirl + self.twice_u.cross(self.momentum.linear),
+            swirl: self.swirl + self.drift.cross(self.momentum.linear),
             by_position: self.by_position.carried(self.offset),
             by_rate: self.by_rate.carried(self.offset),
             offset: zero,
-            twice_u: zero,
+            drift: zero,
             last: None,
         }
     }
@@ -148,16 +153,16 @@ impl<'g> Beyond<'g> {
     pub fn entries(&self, b: &'g Builder, frame: &Frame<'g>, axis: &Axis<'g>) -> Entries<'g> {
         let (p, l) = (self.momentum.linear, self.momentum.angular);
         let (rate, second_rate) = (axis.rate(b), axis.second_rate());
-        let twice = rate.map(|x| x * Dd::from_f64(2.0));
+        let rates = rate.map(|x| x * axis.factor);
         let beyond = match frame.motion {
             Motion::Rotation => {
                 let pull = p.0[0] * axis.a.0[1] - p.0[1] * axis.a.0[0];
                 (
                     l.dot(second_rate) + pull + self.swirl.dot(rate),
-                    l.dot(twice) + self.swirl.0[2],
+                    l.dot(rates) + self.swirl.0[2],
                 )
             }
-            _ => (p.dot(second_rate), p.dot(twice)),
+            _ => (p.dot(second_rate), p.dot(rates)),
         };
         let own = (self.by_position.along(frame), self.by_rate.along(frame));
         Entries { own, beyond }
@@ -169,7 +174,7 @@ impl<'g> Beyond<'g> {
         let (last, since) = self.last?;
         let [x, y, _] = since.0;
         let step = Vec3([-y, x, b.zero()]);
-        let step_rate = axis.spin.omega.map(|x| x * Dd::from_f64(2.0)).cross(step);
+        let step_rate = axis.spin.omega.map(|x| x * axis.factor).cross(step);
         let p = self.momentum.linear;
         Some(Entries {
             own: (
@@ -194,24 +199,25 @@ fn d_row<'g>(inertia: &Inertia<'g>, i: usize, v: Vec3<Ex<'g>>) -> Ex<'g> {
     Vec3(std::array::from_fn(|k| inertia.d(i, k))).dot(v)
 }
 
-/// 2 ∫ v × (z × s) dm = row z of E + 2 D (ω × z).
+/// Factor · ∫ v × (z × s) dm = row z of E + factor · D (ω × z).
 fn rotation_swirl<'g>(b: &'g Builder, whole: &Composite<'g>, axis: &Axis<'g>) -> Vec3<Ex<'g>> {
-    let twice = axis.rate(b).map(|x| x * Dd::from_f64(2.0));
-    let turning = Vec3(std::array::from_fn(|i| d_row(&whole.inertia, i, twice)));
+    let rate = axis.rate(b).map(|x| x * axis.factor);
+    let turning = Vec3(std::array::from_fn(|i| d_row(&whole.inertia, i, rate)));
     whole.flow.moment.row(2) + turning
 }
 
-/// 2 ω × (z × h) + z × p, and about the origin 2 (D ω) × z + column z of E.
+/// Factor · ω × (z × h) + z × p, and about the origin factor · (D ω) × z + column z of E.
 fn rotation_by_rate<'g>(
     b: &'g Builder,
     whole: &Composite<'g>,
     spin: &Spin<'g>,
+    factor: Dd,
     momentum: &Momentum<'g>,
 ) -> Wrench<'g> {
-    let twice = spin.omega.map(|x| x * Dd::from_f64(2.0));
-    let [x, y] = [0, 1].map(|i| d_row(&whole.inertia, i, twice));
+    let omega = spin.omega.map(|x| x * factor);
+    let [x, y] = [0, 1].map(|i| d_row(&whole.inertia, i, omega));
     Wrench {
-        force: twice.cross(momentum.linear) + across(b, whole.flow.linear),
+        force: omega.cross(momentum.linear) + across(b, whole.flow.linear),
         moment: Vec3([y, -x, b.zero()]) + whole.flow.moment.column(2),
     }
 }
@@ -265,14 +271,14 @@ fn translation<'g>(
     force: Vec3<Ex<'g>>,
 ) -> (Vec3<Ex<'g>>, Wrench<'g>, Wrench<'g>) {
     let h = whole.inertia.first;
-    let twice = |v: Vec3<Ex<'g>>| v.map(|x| x * Dd::from_f64(2.0));
+    let times = |v: Vec3<Ex<'g>>| v.map(|x| x * axis.factor);
     let field = |v: Vec3<Ex<'g>>| Wrench {
         force: whole.inertia.weigh(v),
         moment: h.cross(v),
     };
-    let drift = whole.flow.linear + twice(axis.spin.omega).cross(h);
+    let drift = whole.flow.linear + times(axis.spin.omega).cross(h);
     // The force acts at another place.
     let mut by_position = field(axis.second_rate());
     by_position.moment = by_position.moment + across(b, force);
-    (-across(b, drift), by_position, field(twice(axis.rate(b))))
+    (-across(b, drift), by_position, field(times(axis.rate(b))))
 }

@@ -16,7 +16,7 @@ use crate::mechanism::Motion;
 #[derive(Clone, Copy)]
 pub(super) struct Composite<'g> {
     pub inertia: Inertia<'g>,
-    /// Twice the flow of its mass.
+    /// Twice the flow of its mass; once for the Coriolis matrix.
     pub flow: Flow<'g>,
     /// Force and moment of its relative accelerations.
     pub rest: Wrench<'g>,
@@ -57,7 +57,14 @@ impl<'g> Composite<'g> {
 
     /// Relative to the body before the joint, after a joint with this momentum of a unit rate:
     /// with Z the field of a unit rate, Q grows by q̇ Z P and the rest by q̈ Z P + q̇² Z Z P + 2 q̇ Z Q.
-    pub fn before(&self, b: &'g Builder, frame: &Frame<'g>, momentum: &Momentum<'g>) -> Self {
+    /// With `twice` unset the flow counts once, and the rest means nothing.
+    pub fn before(
+        &self,
+        b: &'g Builder,
+        frame: &Frame<'g>,
+        momentum: &Momentum<'g>,
+        twice: bool,
+    ) -> Self {
         let step = Flow::of_joint(b, frame.motion, frame.rate, &self.inertia);
         let mid = self.flow.plus(&step);
         let mut rest = self.rest.plus(Wrench {
@@ -74,7 +81,7 @@ impl<'g> Composite<'g> {
         }
         Composite {
             inertia: self.inertia,
-            flow: mid.plus(&step),
+            flow: if twice { mid.plus(&step) } else { mid },
             rest,
         }
     }

@@ -19,8 +19,6 @@ mod plan;
 mod share;
 mod slopes;
 
-use bgdyn_runtime::Dd;
-
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, count, factored_cost};
@@ -128,16 +126,13 @@ fn outputs(
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
             }
             Method::InverseDynamicsDerivatives => {
-                let moving = inverse::motions(&b, &frames, x.active);
-                let slopes = slopes::slopes(&b, &frames, &moving);
+                let slopes = slopes::slopes(&b, &frames, x.active);
                 let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
                 rows.flatten().collect()
             }
             Method::CoriolisMatrix => {
-                // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
-                let slopes = slopes::slopes(&b, &frames, &inverse::motions(&b, &frames, false));
-                let rows = slopes.by_rate.into_iter().flatten();
-                rows.map(|e| e * Dd::from_f64(0.5)).collect()
+                let rows = slopes::coriolis_matrix(&b, &frames);
+                rows.into_iter().flatten().collect()
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
             Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],

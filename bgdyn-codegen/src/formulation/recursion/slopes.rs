@@ -27,7 +27,7 @@ use super::beyond::{Axis, Beyond, Entries};
 use super::composite::Composite;
 use super::frames::{Frame, Frames};
 use super::inertia::turn;
-use super::inverse::{Moving, Spin};
+use super::inverse::{Moving, Spin, motions};
 use super::mass::unit_momentum;
 use crate::expr::{Builder, Ex};
 use crate::math::Vec3;
@@ -46,8 +46,20 @@ struct Gathered<'g> {
     beyond: Vec<Beyond<'g>>,
 }
 
-/// The derivatives at the motion `moving`.
-pub(super) fn slopes<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'g>]) -> Slopes<'g> {
+/// The matrix C of Christoffel's symbols, half of ∂bias/∂v as the bias is quadratic in v, row by
+/// row.
+pub(super) fn coriolis_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
+    pass(b, frames, &motions(b, frames, false), Dd::ONE).by_rate
+}
+
+/// The derivatives with the rates and accelerations in `frames`; where `active`, against gravity.
+pub(super) fn slopes<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Slopes<'g> {
+    let moving = motions(b, frames, active);
+    pass(b, frames, &moving, Dd::from_f64(2.0))
+}
+
+/// From the tips to the base; `factor` is that of [`Axis`].
+fn pass<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'g>], factor: Dd) -> Slopes<'g> {
     let n = frames.bodies.len();
     let nothing = Gathered {
         whole: Composite::zero(b),
@@ -65,14 +77,22 @@ pub(super) fn slopes<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'
             "{}: all it carries as one body; derivatives by `{}` and by the joints beyond",
             frame.name, frame.joint
         ));
-        let mut beyond = slopes.enter_beyond(b, frames, j, &moving[j], &own[j], &basis[j]);
-        let (unit, before) = unit(b, frames, j, moving, &own[j].whole, &basis[j].whole);
+        let mut beyond =
+            slopes.enter_beyond(b, frames, (j, factor), &moving[j], &own[j], &basis[j]);
+        let (unit, before) = unit(
+            b,
+            frames,
+            (j, factor),
+            moving,
+            &own[j].whole,
+            &basis[j].whole,
+        );
         let diagonal = unit.diagonal(frame);
         slopes.enter(frames, j, &unit, &diagonal);
         beyond.push(unit.entered(b, frame.motion, diagonal));
 
         let Some(p) = frame.parent else { continue };
-        let twice_u = twice_velocity(frame, spin_before(frames, j, moving));
+        let drift = drift(frame, spin_before(frames, j, moving), factor);
         let home = if frame.continues {
             &mut basis[p]
         } else {
@@ -81,7 +101,7 @@ pub(super) fn slopes<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'
         home.whole = home.whole.plus(&before.handed_on(b, frame));
         let twist = frame.twist.map(|x| b.constant(x));
         home.beyond.extend(beyond.into_iter().map(|joint| {
-            let moved = joint.moved(frame.position, twice_u);
+            let moved = joint.moved(frame.position, drift);
             if frame.continues {
                 moved
             } else {
@@ -98,7 +118,7 @@ impl<'g> Slopes<'g> {
         &mut self,
         b: &'g Builder,
         frames: &Frames<'g>,
-        j: usize,
+        (j, factor): (usize, Dd),
         moving: &Moving<'g>,
         inner: &Gathered<'g>,
         outer: &Gathered<'g>,
@@ -107,8 +127,9 @@ impl<'g> Slopes<'g> {
         let own = Axis {
             spin: moving.own,
             a: moving.a_own,
+            factor,
         };
-        let basis = axis_in_basis(moving);
+        let basis = axis_in_basis(moving, factor);
         let mut beyond = Vec::new();
         for joint in &inner.beyond {
             let entries = joint.entries(b, frame, &own);
@@ -135,13 +156,9 @@ impl<'g> Slopes<'g> {
     fn enter(&mut self, frames: &Frames<'g>, j: usize, joint: &Beyond<'g>, entries: &Entries<'g>) {
         let k = joint.momentum.joint;
         let factor = frames.bodies[j].effort * frames.bodies[k].effort;
-        let name = |i: usize, j: usize, by: &str| {
-            let joint = |i: usize| &frames.bodies[i].joint;
-            format!("tau_{}_by_{by}_{}", joint(i), joint(j))
-        };
         for (i, j, (by_position, by_rate)) in [(k, j, entries.beyond), (j, k, entries.own)] {
-            self.by_position[i][j] = (by_position * factor).named(|| name(i, j, "q"));
-            self.by_rate[i][j] = (by_rate * factor).named(|| name(i, j, "v"));
+            self.by_position[i][j] = by_position * factor;
+            self.by_rate[i][j] = by_rate * factor;
         }
     }
 }
@@ -150,12 +167,12 @@ impl<'g> Slopes<'g> {
 fn unit<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    j: usize,
+    (j, factor): (usize, Dd),
     moving: &[Moving<'g>],
     inner: &Composite<'g>,
     outer: &Composite<'g>,
 ) -> (Beyond<'g>, Composite<'g>) {
-    let (frame, axis) = (&frames.bodies[j], axis_in_basis(&moving[j]));
+    let (frame, axis) = (&frames.bodies[j], axis_in_basis(&moving[j], factor));
     let carried = Composite {
         inertia: frame.inertia.plus(&inner.inertia),
         ..*inner
@@ -165,7 +182,7 @@ fn unit<'g>(
     let j_zz = (carried.inertia.d(0, 0) + carried.inertia.d(1, 1))
         + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
     let momentum = unit_momentum(b, j, frame, &after.inertia, j_zz);
-    let before = after.before(b, frame, &momentum);
+    let before = after.before(b, frame, &momentum, factor != Dd::ONE);
     let (spin, h) = (&moving[j].in_basis, after.inertia.first);
     let force = spin.u * h
         + after.inertia.weigh(axis.a)
@@ -184,10 +201,11 @@ fn unit<'g>(
     (unit, before)
 }
 
-fn axis_in_basis<'g>(moving: &Moving<'g>) -> Axis<'g> {
+fn axis_in_basis<'g>(moving: &Moving<'g>, factor: Dd) -> Axis<'g> {
     Axis {
         spin: moving.in_basis,
         a: moving.a_basis,
+        factor,
     }
 }
 
@@ -205,12 +223,11 @@ fn zeros(spin: &Spin<'_>) -> usize {
     all.filter(|e| e.is_zero()).count()
 }
 
-/// Twice the velocity of a body's origin relative to its parent's, in the axes of the basis.
-fn twice_velocity<'g>(frame: &Frame<'g>, before: &Spin<'g>) -> Vec3<Ex<'g>> {
-    let two = Dd::from_f64(2.0);
-    let mut twice = before.omega.map(|x| x * two).cross(frame.position);
+/// Factor times the velocity of a body's origin relative to its parent's, in the axes of the basis.
+fn drift<'g>(frame: &Frame<'g>, before: &Spin<'g>, factor: Dd) -> Vec3<Ex<'g>> {
+    let mut drift = before.omega.map(|x| x * factor).cross(frame.position);
     if frame.motion != Motion::Rotation {
-        twice.0[2] = twice.0[2] + frame.rate * two;
+        drift.0[2] = drift.0[2] + frame.rate * factor;
     }
-    twice
+    drift
 }
