@@ -1,10 +1,14 @@
 //! Operators on expressions, so that a formulation reads like its equations.
+//!
+//! Arithmetic on numbers stays outside the graph: a number becomes a node where it meets something
+//! that is none.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use bgdyn_runtime::Dd;
 
+use super::fold::cancelling_sum;
 use super::{Expr, Graph, Leaf};
 use crate::math::Vec3;
 
@@ -27,8 +31,16 @@ impl From<Graph> for Builder {
 #[derive(Clone, Copy)]
 pub struct Ex<'g> {
     builder: &'g Builder,
-    /// The expression.
-    pub expr: Expr,
+    value: Value,
+}
+
+/// What an expression is.
+#[derive(Clone, Copy, PartialEq)]
+enum Value {
+    /// A number; no node of its own yet.
+    Number(Dd),
+    /// A node that is no constant.
+    Node(Expr),
 }
 
 impl Builder {
@@ -43,18 +55,21 @@ impl Builder {
     }
 
     fn make(&self, f: impl FnOnce(&mut Graph) -> Expr) -> Ex<'_> {
+        let mut graph = self.graph.borrow_mut();
+        let expr = f(&mut graph);
+        let value = match graph.constant_of(expr) {
+            Some(x) => Value::Number(x),
+            None => Value::Node(expr),
+        };
         Ex {
             builder: self,
-            expr: f(&mut self.graph.borrow_mut()),
+            value,
         }
     }
 
     /// An expression made in this graph.
     pub fn ex(&self, expr: Expr) -> Ex<'_> {
-        Ex {
-            builder: self,
-            expr,
-        }
+        self.make(|_| expr)
     }
 
     /// A pass over the graph under construction.
@@ -69,7 +84,10 @@ impl Builder {
 
     /// A number.
     pub fn constant(&self, x: Dd) -> Ex<'_> {
-        self.make(|g| g.constant(x))
+        Ex {
+            builder: self,
+            value: Value::Number(x),
+        }
     }
 
     /// Zero.
@@ -94,16 +112,31 @@ impl Builder {
 
     /// Cosine and sine of the exact sum of angles and a constant.
     pub fn cos_sin(&self, angles: &[Ex<'_>], offset: Dd) -> (Ex<'_>, Ex<'_>) {
-        let terms: Vec<Expr> = angles.iter().map(|a| a.expr).collect();
+        let terms: Vec<Expr> = angles.iter().map(|a| a.expr()).collect();
         let angle = self.graph.borrow_mut().angle(&terms, offset);
         (self.make(|g| g.cos(angle)), self.make(|g| g.sin(angle)))
     }
 }
 
 impl<'g> Ex<'g> {
+    /// The expression in the graph.
+    pub fn expr(self) -> Expr {
+        match self.value {
+            Value::Number(x) => self.builder.graph.borrow_mut().constant(x),
+            Value::Node(expr) => expr,
+        }
+    }
+
+    fn number(self, x: Dd) -> Self {
+        self.builder.constant(x)
+    }
+
     /// Its value, if it is a constant.
     pub fn as_constant(self) -> Option<Dd> {
-        self.builder.graph.borrow().constant_of(self.expr)
+        match self.value {
+            Value::Number(x) => Some(x),
+            Value::Node(_) => None,
+        }
     }
 
     /// Whether it is the constant 0.
@@ -113,41 +146,68 @@ impl<'g> Ex<'g> {
 
     /// Names its node for readers of the output.
     pub fn named(self, name: impl FnOnce() -> String) -> Self {
-        self.builder
-            .graph
-            .borrow_mut()
-            .set_name(self.expr.node, name);
+        if let Value::Node(expr) = self.value {
+            let mut graph = self.builder.graph.borrow_mut();
+            graph.set_name(expr.node, name);
+        }
         self
     }
 
     /// Its value as a checked pivot of `joint`; see [`super::Node::Pivot`].
     pub fn pivot(self, magnitude: Self, joint: usize) -> Self {
-        self.builder
-            .make(|g| g.pivot(self.expr, magnitude.expr, joint))
+        let (value, magnitude) = (self.expr(), magnitude.expr());
+        self.builder.make(|g| g.pivot(value, magnitude, joint))
     }
 
     /// Its square root.
     pub fn sqrt(self) -> Self {
-        self.builder.make(|g| g.sqrt(self.expr))
+        let value = self.expr();
+        self.builder.make(|g| g.sqrt(value))
+    }
+
+    /// k times it.
+    fn times(self, k: Dd) -> Self {
+        match self.value {
+            Value::Number(x) => self.number(k * x),
+            Value::Node(_) if k == Dd::ZERO => self.number(k),
+            Value::Node(_) if k == Dd::ONE => self,
+            Value::Node(x) => self.builder.make(|g| g.times(k, x)),
+        }
+    }
+
+    /// It and k.
+    fn and(self, k: Dd) -> Self {
+        match self.value {
+            Value::Number(x) => self.number(cancelling_sum(x, k)),
+            Value::Node(_) if k == Dd::ZERO => self,
+            Value::Node(x) => self.builder.make(|g| g.add_constant(x, k)),
+        }
     }
 }
 
 impl PartialEq for Ex<'_> {
     fn eq(&self, other: &Self) -> bool {
-        self.expr == other.expr
+        self.value == other.value
     }
 }
 
 impl std::fmt::Debug for Ex<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.expr.fmt(f)
+        match self.value {
+            Value::Number(x) => x.fmt(f),
+            Value::Node(expr) => expr.fmt(f),
+        }
     }
 }
 
 impl Add for Ex<'_> {
     type Output = Self;
     fn add(self, b: Self) -> Self {
-        self.builder.make(|g| g.add(self.expr, b.expr))
+        match (self.value, b.value) {
+            (_, Value::Number(k)) => self.and(k),
+            (Value::Number(k), _) => b.and(k),
+            (Value::Node(x), Value::Node(y)) => self.builder.make(|g| g.add(x, y)),
+        }
     }
 }
 
@@ -161,33 +221,41 @@ impl Sub for Ex<'_> {
 impl Mul for Ex<'_> {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
-        self.builder.make(|g| g.mul(self.expr, b.expr))
+        match (self.value, b.value) {
+            (_, Value::Number(k)) => self.times(k),
+            (Value::Number(k), _) => b.times(k),
+            (Value::Node(x), Value::Node(y)) => self.builder.make(|g| g.mul(x, y)),
+        }
     }
 }
 
 impl Div for Ex<'_> {
     type Output = Self;
     fn div(self, b: Self) -> Self {
-        self.builder.make(|g| g.div(self.expr, b.expr))
+        match b.value {
+            Value::Number(k) if k != Dd::ZERO => self.times(Dd::ONE / k),
+            _ => {
+                let (x, y) = (self.expr(), b.expr());
+                self.builder.make(|g| g.div(x, y))
+            }
+        }
     }
 }
 
 impl Neg for Ex<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        Ex {
-            expr: self.expr.flipped(true),
-            ..self
-        }
+        let value = match self.value {
+            Value::Number(x) => Value::Number(-x),
+            Value::Node(expr) => Value::Node(expr.flipped(true)),
+        };
+        Ex { value, ..self }
     }
 }
 
 impl Mul<Dd> for Ex<'_> {
     type Output = Self;
     fn mul(self, k: Dd) -> Self {
-        self.builder.make(|g| {
-            let k = g.constant(k);
-            g.mul(self.expr, k)
-        })
+        self.times(k)
     }
 }

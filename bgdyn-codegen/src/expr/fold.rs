@@ -40,7 +40,7 @@ impl Graph {
     }
 
     /// x + k for a constant k: (y + k₀) + k = y + (k₀ + k).
-    fn add_constant(&mut self, x: Expr, k: Dd) -> Expr {
+    pub(super) fn add_constant(&mut self, x: Expr, k: Dd) -> Expr {
         if let Node::Add(p, q) = *self.node(x.node) {
             let (p, q) = (Expr::plus(p).flipped(x.negative), q.flipped(x.negative));
             for (constant, rest) in [(p, q), (q, p)] {
@@ -91,6 +91,13 @@ impl Graph {
             }
         };
         self.scale(k, x).flipped(negative)
+    }
+
+    /// k · x for a constant k.
+    pub(super) fn times(&mut self, k: Dd, x: Expr) -> Expr {
+        let negative = k < Dd::ZERO;
+        let size = if negative { -k } else { k };
+        self.scale(size, x.node).flipped(negative ^ x.negative)
     }
 
     /// k · x for a constant k ≥ 0; the constant is the first operand, and there is only one.
@@ -279,7 +286,7 @@ impl Graph {
 }
 
 /// x + y, and 0 where nothing but rounding errors of double-double is left of it.
-fn cancelling_sum(x: Dd, y: Dd) -> Dd {
+pub(super) fn cancelling_sum(x: Dd, y: Dd) -> Dd {
     let sum = x + y;
     let terms = x.hi().abs().max(y.hi().abs());
     if sum.hi().abs() <= CANCELLED * terms {

@@ -20,7 +20,7 @@ pub(super) fn function(
             // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
             let bias = choose(graph, Method::Bias, asked)?;
             let (b, x) = reopened(&bias);
-            let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr;
+            let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr();
             let columns = derivatives(&b, &x, n, Leaf::Velocity);
             let outputs = rows(&columns).into_iter().map(|e| half(b.ex(e))).collect();
             Some(finish(graph, method, &bias, b, outputs))
@@ -72,7 +72,7 @@ fn forward_derivatives(
         });
         b.with_graph(|g| accelerations.iter().map(|&e| tangent.of(g, e)).collect())
     };
-    let minus = |column: &Vec<Expr>| column.iter().map(|&e| (-b.ex(e)).expr).collect();
+    let minus = |column: &Vec<Expr>| column.iter().map(|&e| (-b.ex(e)).expr()).collect();
     let columns: Vec<Vec<Expr>> = slopes
         .iter()
         .map(minus)

@@ -71,11 +71,13 @@ impl<'g> SiteMotion<'g> {
 
 /// Rates of change along the motion, the velocities held.
 fn rates<'g>(b: &'g Builder, x: &[Ex<'g>], v: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    let velocities: Vec<_> = v.iter().map(|v| v.expr()).collect();
     let mut rate = Tangent::new(|_: &mut Graph, leaf| match leaf {
-        Leaf::Position(j) => Some(v[j].expr),
+        Leaf::Position(j) => Some(velocities[j]),
         _ => None,
     });
-    x.iter()
-        .map(|e| b.ex(b.with_graph(|g| rate.of(g, e.expr))))
+    let x: Vec<_> = x.iter().map(|e| e.expr()).collect();
+    x.into_iter()
+        .map(|e| b.ex(b.with_graph(|g| rate.of(g, e))))
         .collect()
 }

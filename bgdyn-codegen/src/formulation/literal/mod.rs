@@ -52,7 +52,7 @@ impl Formulation for Literal {
                 Method::PotentialEnergy => vec![sum.potential_energy()],
                 method => sites::outputs(&b, graph, method, &arguments)?,
             };
-            outputs.into_iter().map(|e: Ex<'_>| e.expr).collect()
+            outputs.into_iter().map(|e: Ex<'_>| e.expr()).collect()
         };
         Some(Function::flat(
             graph,

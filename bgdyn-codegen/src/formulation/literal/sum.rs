@@ -121,13 +121,18 @@ impl<'a, 'g> Sum<'a, 'g> {
 
     /// P_j for the given velocities and accelerations.
     pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Ex<'g>> {
+        let velocities: Vec<_> = x.v.iter().map(|v| v.expr()).collect();
         let seed = |_: &mut Graph, leaf| match leaf {
-            Leaf::Position(l) => Some(x.v[l].expr),
+            Leaf::Position(l) => Some(velocities[l]),
             _ => None,
         };
         let mut rate = Tangent::new(seed);
-        let mut rate_of =
-            |m: &Vec3<Ex<'g>>| m.map(|e| self.b.ex(self.b.with_graph(|g| rate.of(g, e.expr))));
+        let mut rate_of = |m: &Vec3<Ex<'g>>| {
+            m.map(|e| {
+                let e = e.expr();
+                self.b.ex(self.b.with_graph(|g| rate.of(g, e)))
+            })
+        };
         let mut efforts = vec![self.b.zero(); self.graph.coordinates.len()];
         for i in 0..self.graph.frames.len() {
             let moduli = &self.moduli[i];

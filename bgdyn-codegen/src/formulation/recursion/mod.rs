@@ -92,7 +92,7 @@ fn outputs(
             Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],
             other => unreachable!("{other:?} is no method of the recursion"),
         };
-        outputs.into_iter().map(|e| e.expr).collect()
+        outputs.into_iter().map(|e| e.expr()).collect()
     };
     (b.into_graph(), outputs)
 }

@@ -93,7 +93,7 @@ impl Articulated {
             let sweep = Sweep::new(&b, &frames, careful, guarded);
             let loads = inverse::loads(&b, &frames, plan, x.active);
             let found = sweep.accelerations(&loads, &x.tau);
-            found.into_iter().map(|e| e.expr).collect()
+            found.into_iter().map(|e| e.expr()).collect()
         };
         (b.into_graph(), outputs)
     }

@@ -21,7 +21,8 @@ const MAGNITUDE: f64 = 1.0 / 32.0;
 /// The size of what was really subtracted in a pivot, by the rounding error it carries; nothing
 /// where the error is a small part of the pivot whatever it is.
 fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Ex<'g>) -> Ex<'g> {
-    match b.with_graph(|g| bounds.of(g, pivot.expr)) {
+    let pivot = pivot.expr();
+    match b.with_graph(|g| bounds.of(g, pivot)) {
         Bound::Relative(_) => b.zero(),
         Bound::Absolute(bound) => b.ex(bound) * Dd::from_f64(MAGNITUDE),
     }
