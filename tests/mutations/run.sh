@@ -2,18 +2,20 @@
 # Each layer of the tests must fail where a sign is flipped or a term dropped.
 #
 # Applies one change at a time to a copy of the tree, runs the tests of one layer, demands that they
-# fail, and prints a table. Takes a quarter of an hour; not part of CI.
+# fail, and prints a table. Takes twenty minutes; not part of CI.
 #
 #   tests/mutations/run.sh            every mutation
 #   tests/mutations/run.sh 3 7        those with these numbers
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
-export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
+# A folder of its own for what is compiled: cargo would take the copy's results for the tree's.
+copy=$root/target/mutations/tree
+log=$root/target/mutations/log
+export CARGO_TARGET_DIR=$root/target/mutations/target
 # An interrupted run must not leave half a cache behind.
 export CARGO_INCREMENTAL=0
-copy=$CARGO_TARGET_DIR/mutations
-log=$CARGO_TARGET_DIR/mutations.log
+mkdir -p "$copy"
 wanted=" $* "
 number=0
 survivors=0
