@@ -85,7 +85,7 @@ fn a_payload_is_cheap() {
             let (mass, whole) = (count(&mass, method), count(&whole, method));
             println!("{spec} {method:?}: {plain}, payload mass {mass}, payload {whole}");
             assert!(
-                mass <= plain + plain / 8,
+                mass <= plain + plain / 6,
                 "{spec} {method:?}: {plain}, {mass}"
             );
             assert!(
@@ -105,7 +105,7 @@ fn blocks_read_parameters_as_fields() {
     assert!(cut.blocks.len() > 1, "{} blocks", cut.blocks.len());
     let mut s = State::random(&mut Rng::new(8), &robot.motions());
     s.parameters = vec![1.5, 0.1, -0.2, 0.05];
-    let (x, y): (Vec<f64>, Vec<f64>) = (s.value(&cut), s.value(&robot.whole("recursion", method)));
+    let (x, y): (Vec<f64>, Vec<f64>) = (s.value(&cut), s.value(&robot.chosen(method)));
     assert_eq!(x, y);
     let place = Place::source_text("chain32.yaml".into());
     let module = generate(&text, "chain32", &place, &Default::default()).expect("a sound spec");
