@@ -1,4 +1,7 @@
 //! A joint as the joints before it see it: what differentiating needs of it.
+//!
+//! Accelerations by velocities carry a factor of 2. The Coriolis matrix is half of ∂τ/∂v: for it the
+//! factor is 1 throughout, and ∂τ/∂q means nothing.
 
 use bgdyn_runtime::Dd;
 

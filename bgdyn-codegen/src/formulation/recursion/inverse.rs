@@ -276,7 +276,9 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
 
 /// For a rotation by quarter turns: which of the parent's axes each new one lies along.
 fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
-    let place = |k: usize| (0..3).find(|&i| twist.0[i][k] == Dd::ONE || twist.0[i][k] == -Dd::ONE);
+    // A turn of 1e-17 from a quarter has ones, but no zeros.
+    let only = |k: usize, i: usize| (0..3).all(|l| l == i || twist.0[l][k] == Dd::ZERO);
+    let place = |k: usize| (0..3).find(|&i| only(k, i));
     Some([place(0)?, place(1)?, place(2)?])
 }
 
