@@ -16,10 +16,11 @@ const STATES: u64 = 24;
 /// The worst error of a function in `f64`, in units of the rounding (2⁻⁵²) of the largest component
 /// of its result: 1 is as good as rounding the exact result, 1,000 is three digits lost. Positions
 /// anywhere within a turn, or a metre; velocities, accelerations and efforts of a few units;
-/// run-time parameters as the spec has them. States in which a pivot is refused do not count.
-pub fn loss(function: &Function, graph: &BondGraph) -> f64 {
+/// run-time parameters as the spec has them. States in which a pivot is refused do not count;
+/// nothing where that is every one.
+pub fn loss(function: &Function, graph: &BondGraph) -> Option<f64> {
     let errors = (0..STATES).filter_map(|seed| error(function, &state(graph, seed)));
-    errors.fold(0.0, f64::max)
+    errors.reduce(f64::max)
 }
 
 fn error(function: &Function, state: &Inputs<Dd>) -> Option<f64> {

@@ -6,9 +6,9 @@ use anyhow::Result;
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
+use bgdyn_codegen::loss::loss;
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Model, Options};
+use bgdyn_codegen::model::{Model, Options, function};
 use clap::Args;
 use serde::{Serialize, Serializer};
 
@@ -121,17 +121,19 @@ fn table(model: &Model) -> String {
 /// Goes to stderr, so that it can stand beside `--json`.
 fn explain(mechanism: &Mechanism, model: &Model) {
     for f in &model.functions {
-        tell(&format!("{}: {}\n", f.name(), f.formulation));
+        let lost = told(loss(f, &model.bond_graph));
+        tell(&format!("{}: {}; {lost}\n", f.name(), f.formulation));
         for formulation in FORMULATIONS.iter().filter(|known| known.knows(f.method)) {
             let asked = Options {
                 formulation: Some(*formulation),
                 ..Options::default()
             };
-            if let Some(other) = count_with(mechanism, f.method, &asked) {
+            if let Some(other) = function(mechanism, f.method, &asked) {
                 tell(&format!(
-                    "  {:<16} {}  ({})\n",
+                    "  {:<16} {}; {}  ({})\n",
                     formulation.name(),
-                    other,
+                    other.operations(),
+                    told(loss(&other, &model.bond_graph)),
                     formulation.summary()
                 ));
             }
@@ -139,6 +141,10 @@ fn explain(mechanism: &Mechanism, model: &Model) {
     }
 }
 
-fn count_with(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Operations> {
-    bgdyn_codegen::model::function(mechanism, method, options).map(|f| f.operations())
+/// A loss of digits in words.
+fn told(loss: Option<f64>) -> String {
+    match loss {
+        Some(loss) => format!("error in f64 up to {loss:.1} roundings of the largest component"),
+        None => "refused in every state tried".into(),
+    }
 }

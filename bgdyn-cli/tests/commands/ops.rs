@@ -124,6 +124,11 @@ fn explanations_stand_beside_the_json() {
         let line = format!("  {way} ");
         assert!(run.stderr.contains(&line), "{way}: {}", run.stderr);
     }
+    assert!(
+        run.stderr.contains("; error in f64 up to "),
+        "{}",
+        run.stderr
+    );
     let chosen = "forward_dynamics: recursion: ";
     assert!(run.stderr.contains(chosen), "{}", run.stderr);
     assert!(serde_json::from_str::<Value>(&run.good()).is_ok());
