@@ -71,7 +71,7 @@ mutate "paper oracle" $src/formulation/literal/sum.rs \
 mutate "Lagrange oracle" $recursion/inverse.rs \
     'self.moment + p.cross(self.force)' 'self.moment - p.cross(self.force)' \
     "${codegen[@]}" lagrange_oracle
-mutate "golden values" $recursion/inverse.rs \
+mutate "golden values" $recursion/motion.rs \
     'rate * (total + z)' 'rate * (total - z)' "${codegen[@]}" golden
 mutate "golden values" $src/expr/eval.rs \
     'if b.negative => at(a) - at(&b.node)' 'if b.negative => at(a) + at(&b.node)' \

@@ -1,45 +1,15 @@
 //! Inverse dynamics in link axes: accelerations outwards, forces and moments inwards.
 //!
-//! A body's motion is ω, the acceleration `a` of its origin less gravity, and
-//! U = [ω̇]× + [ω]×[ω]×: the point s of the body accelerates by a + U s. So its force is
-//! F = m a + U h and its moment about the origin N = h × a + the skew part of U·D, which is
-//! K̇ = J ω̇ + ω × J ω of equation (6), term for term.
-
-use bgdyn_runtime::Dd;
+//! With a body's motion ω, a, U of [`super::motion`], its force is F = m a + U h and its moment
+//! about the origin N = h × a + the skew part of U·D, which is K̇ = J ω̇ + ω × J ω of equation (6),
+//! term for term.
 
 use super::frames::{Frame, Frames, Plan};
-use super::inertia::{Inertia, Point, turn, turn_back};
+use super::inertia::{Inertia, Point, turn};
+use super::motion::{Moving, Spin, motions, zero};
 use crate::expr::{Builder, Ex};
-use crate::math::{Mat3, Vec3};
+use crate::math::Vec3;
 use crate::mechanism::Motion;
-
-/// Angular motion in one set of axes.
-#[derive(Clone, Copy)]
-pub(super) struct Spin<'g> {
-    /// ω
-    pub omega: Vec3<Ex<'g>>,
-    omega_dot: Vec3<Ex<'g>>,
-    /// U
-    pub u: Mat3<Ex<'g>>,
-    /// U_zz − U_yy, U_xx − U_zz, U_yy − U_xx
-    differences: Vec3<Ex<'g>>,
-}
-
-/// Motion of a body.
-pub(super) struct Moving<'g> {
-    /// Of the twisted axes in which the basis began, before any angle of the group.
-    pub basis: Spin<'g>,
-    /// Ω, Ω̇: summed rates of the group's joints.
-    rate: (Ex<'g>, Ex<'g>),
-    /// Angular motion of the body, in the basis's axes.
-    pub in_basis: Spin<'g>,
-    /// Acceleration of the origin in the basis's axes.
-    pub a_basis: Vec3<Ex<'g>>,
-    /// Angular motion of the body in its own axes.
-    pub own: Spin<'g>,
-    /// Acceleration of the origin in own axes.
-    pub a_own: Vec3<Ex<'g>>,
-}
 
 /// Force and moment about the body's origin.
 #[derive(Clone, Copy)]
@@ -125,24 +95,6 @@ pub(super) fn loads<'g>(
         .collect()
 }
 
-/// Motion of every body with the rates and accelerations in `frames`; where `active`, against
-/// gravity.
-pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Vec<Moving<'g>> {
-    let mut moving: Vec<Moving<'g>> = Vec::new();
-    for (j, frame) in frames.bodies.iter().enumerate() {
-        let parent = frame.parent.map(|p| &moving[p]);
-        let gravity = if active { frames.gravity[j] } else { zero(b) };
-        b.section(format!(
-            "{}: ω, U = [ω̇]× + [ω]×[ω]×, acceleration a of its origin less gravity",
-            frame.name
-        ));
-        let step = outwards(b, frame, parent, gravity);
-        name(frame, &step);
-        moving.push(step);
-    }
-    moving
-}
-
 fn load<'g>(
     b: &'g Builder,
     frame: &Frame<'g>,
@@ -179,201 +131,6 @@ fn load<'g>(
             own: own.fold(load, |sum, p| p.plus(sum)),
             basis: Wrench::zero(b),
         }
-    }
-}
-
-fn zero(b: &Builder) -> Vec3<Ex<'_>> {
-    Vec3([b.zero(); 3])
-}
-
-fn name(frame: &Frame<'_>, step: &Moving<'_>) {
-    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        step.own.omega.0[k].named(|| format!("omega_{axis}_{}", frame.name));
-        step.a_own.0[k].named(|| format!("a_{axis}_{}", frame.name));
-    }
-}
-
-/// Motion of a body from its parent's.
-fn outwards<'g>(
-    b: &'g Builder,
-    frame: &Frame<'g>,
-    parent: Option<&Moving<'g>>,
-    gravity: Vec3<Ex<'g>>,
-) -> Moving<'g> {
-    let (basis, mut rate, mut a_basis) = match parent {
-        // The base stands still; gravity acts as an acceleration of the base upwards.
-        None => (still(b), (b.zero(), b.zero()), -gravity),
-        Some(p) if frame.continues => (p.basis, p.rate, p.a_basis + p.in_basis.u * frame.position),
-        Some(p) => {
-            let basis = twisted(b, &p.own, frame.twist);
-            (
-                basis,
-                (b.zero(), b.zero()),
-                twisted_acceleration(b, p, frame, &basis),
-            )
-        }
-    };
-    match frame.motion {
-        Motion::Rotation => rate = (rate.0 + frame.rate, rate.1 + frame.acceleration),
-        // 2 ω × ẑ ṡ + ẑ s̈
-        _ => {
-            let twice = frame.rate * Dd::from_f64(2.0);
-            let [x, y, _] = basis.omega.0;
-            a_basis = a_basis + Vec3([y * twice, -(x * twice), frame.acceleration]);
-        }
-    }
-    let in_basis = spun(&basis, rate);
-    let own = own_spin(&basis, rate, frame.turn);
-    let a_own = turn_back(a_basis, frame.turn);
-    Moving {
-        basis,
-        rate,
-        in_basis,
-        a_basis,
-        own,
-        a_own,
-    }
-}
-
-fn still(b: &Builder) -> Spin<'_> {
-    Spin {
-        omega: zero(b),
-        omega_dot: zero(b),
-        u: Mat3([[b.zero(); 3]; 3]),
-        differences: zero(b),
-    }
-}
-
-/// The parent's angular motion in twisted axes.
-fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
-    let back = twist.transpose().map(|x| b.constant(x));
-    let (omega, omega_dot) = (back * parent.omega, back * parent.omega_dot);
-    let Some(places) = permutation(twist) else {
-        // In general directions U is cheaper made anew than turned.
-        let u = u_of(omega, omega_dot);
-        return Spin {
-            omega,
-            omega_dot,
-            u,
-            differences: differences(&u),
-        };
-    };
-    let u = back * parent.u * back.transpose();
-    // Each difference is one of the parent's, with the sign of the permutation of its two axes.
-    let difference = |k: usize| {
-        let (upper, lower) = (places[(k + 2) % 3], places[(k + 1) % 3]);
-        let kept = (lower + 1) % 3 == upper;
-        let d = parent.differences.0[places[k]];
-        if kept { d } else { -d }
-    };
-    Spin {
-        omega,
-        omega_dot,
-        u,
-        differences: Vec3(std::array::from_fn(difference)),
-    }
-}
-
-/// For a rotation by quarter turns: which of the parent's axes each new one lies along.
-fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
-    // A turn of 1e-17 from a quarter has ones, but no zeros.
-    let only = |k: usize, i: usize| (0..3).all(|l| l == i || twist.0[l][k] == Dd::ZERO);
-    let place = |k: usize| (0..3).find(|&i| only(k, i));
-    Some([place(0)?, place(1)?, place(2)?])
-}
-
-/// Acceleration of the new origin in twisted axes: the product U p where it costs less.
-fn twisted_acceleration<'g>(
-    b: &'g Builder,
-    parent: &Moving<'g>,
-    frame: &Frame<'g>,
-    basis: &Spin<'g>,
-) -> Vec3<Ex<'g>> {
-    let back = frame.twist.transpose().map(|x| b.constant(x));
-    if permutation(frame.twist).is_some() {
-        back * parent.a_own + basis.u * frame.position
-    } else {
-        back * (parent.a_own + parent.own.u * frame.position_in_parent)
-    }
-}
-
-/// U = [ω̇]× + [ω]×[ω]×
-fn u_of<'g>(omega: Vec3<Ex<'g>>, omega_dot: Vec3<Ex<'g>>) -> Mat3<Ex<'g>> {
-    let ([x, y, z], [dx, dy, dz]) = (omega.0, omega_dot.0);
-    let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
-    Mat3([
-        [-(yy + zz), xy - dz, xz + dy],
-        [xy + dz, -(xx + zz), yz - dx],
-        [xz - dy, yz + dx, -(xx + yy)],
-    ])
-}
-
-fn differences<'g>(u: &Mat3<Ex<'g>>) -> Vec3<Ex<'g>> {
-    let [xx, yy, zz] = [u.0[0][0], u.0[1][1], u.0[2][2]];
-    Vec3([zz - yy, xx - zz, yy - xx])
-}
-
-/// Angular motion after the group's rates Ω, Ω̇ about z, in axes that do not turn with them:
-/// with σ = Ω (2 ω⁰_z + Ω), U = U⁰ + [[−σ, −Ω̇, 0], [Ω̇, −σ, 0], [2Ω ω⁰_x, 2Ω ω⁰_y, 0]].
-fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Ex<'g>, Ex<'g>)) -> Spin<'g> {
-    let ([x, y, z], [dx, dy, dz]) = (basis.omega.0, basis.omega_dot.0);
-    let (total, total_dot) = (z + rate, dz + acceleration);
-    let sigma = rate * (total + z);
-    let twice = rate * Dd::from_f64(2.0);
-    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = basis.u.0;
-    let [dzy, dxz, dyx] = basis.differences.0;
-    // A body that turns about z only has U_xx = U_yy = −ω_z².
-    let (xx, yy, dzy, dxz) = if x.is_zero() && y.is_zero() {
-        let square = total * total;
-        (-square, -square, zz + square, -square - zz)
-    } else {
-        (xx - sigma, yy - sigma, dzy + sigma, dxz - sigma)
-    };
-    let u = Mat3([
-        [xx, xy - acceleration, xz],
-        [yx + acceleration, yy, yz],
-        [zx + twice * x, zy + twice * y, zz],
-    ]);
-    // ω̇_x and ω̇_y in axes that stay behind: ω̇⁰ + Ω (ω⁰_y, −ω⁰_x)
-    let omega_dot = Vec3([dx + rate * y, dy - rate * x, total_dot]);
-    Spin {
-        omega: Vec3([x, y, total]),
-        omega_dot,
-        u,
-        differences: Vec3([dzy, dxz, dyx]),
-    }
-}
-
-/// Angular motion in own axes by the common-axis trick: the points of the joint's axis have the
-/// same acceleration in both bodies, so the column of U along it is shared, and rotated where the
-/// usual recursion rotates ω̇ and forms U anew.
-fn own_spin<'g>(
-    basis: &Spin<'g>,
-    (rate, acceleration): (Ex<'g>, Ex<'g>),
-    angle: (Ex<'g>, Ex<'g>),
-) -> Spin<'g> {
-    let straight = angle.0.as_constant() == Some(Dd::ONE);
-    if rate.is_zero() && acceleration.is_zero() && straight {
-        return *basis;
-    }
-    let [x, y, _] = turn_back(basis.omega, angle).0;
-    let z = basis.omega.0[2] + rate;
-    let [ux, uy, uz] = turn_back(basis.u.column(2), angle).0;
-    let (xy, xz, yz) = (x * y, x * z, y * z);
-    // ω̇_x = ω_y ω_z − u_y, ω̇_y = u_x − ω_x ω_z
-    let (dx, dy, dz) = (yz - uy, ux - xz, basis.omega_dot.0[2] + acceleration);
-    let (xx, zz) = (x * x, z * z);
-    let across = xx - zz;
-    let (u_yy, u_xx) = (-(xx + zz), uz + across);
-    Spin {
-        omega: Vec3([x, y, z]),
-        omega_dot: Vec3([dx, dy, dz]),
-        u: Mat3([
-            [u_xx, xy - dz, ux],
-            [xy + dz, u_yy, uy],
-            [xz - dy, yz + dx, uz],
-        ]),
-        differences: Vec3([uz - u_yy, across, u_yy - u_xx]),
     }
 }
 

@@ -15,6 +15,7 @@ mod inertia;
 mod inverse;
 mod kinematics;
 mod mass;
+mod motion;
 mod plan;
 mod share;
 mod slopes;
