@@ -89,7 +89,7 @@ mutate "properties: rates" $recursion/kinematics.rs \
 mutate "derivatives" $src/expr/diff.rs \
     'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
 mutate "derivatives, solved" $src/formulation/derived.rs \
-    '(-b.ex(e)).expr' 'b.ex(e).expr' "${codegen[@]}" motions derivatives
+    '(-b.ex(row[j])).expr()' 'b.ex(row[j]).expr()' "${codegen[@]}" motions derivatives
 mutate "generated text" $src/emit/writer.rs \
     'quote! { #left - #right }' 'quote! { #left + #right }' "${codegen[@]}" text
 mutate "compiled = evaluator" $src/emit/writer.rs \

@@ -16,6 +16,8 @@ use crate::math::Vec3;
 #[derive(Default)]
 pub struct Builder {
     graph: RefCell<Graph>,
+    /// Whether nobody will read it: no names, no titles.
+    silent: bool,
 }
 
 impl From<Graph> for Builder {
@@ -23,6 +25,7 @@ impl From<Graph> for Builder {
     fn from(graph: Graph) -> Self {
         Builder {
             graph: RefCell::new(graph),
+            silent: false,
         }
     }
 }
@@ -47,6 +50,14 @@ impl Builder {
     /// An empty graph.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// An empty graph that is only to be counted.
+    pub fn silent() -> Self {
+        Builder {
+            silent: true,
+            ..Builder::default()
+        }
     }
 
     /// The graph made.
@@ -78,8 +89,10 @@ impl Builder {
     }
 
     /// What is made from now on belongs under this title, for readers of the output.
-    pub fn section(&self, title: impl Into<String>) {
-        self.graph.borrow_mut().begin_section(title.into());
+    pub fn section(&self, title: impl FnOnce() -> String) {
+        if !self.silent {
+            self.graph.borrow_mut().begin_section(title());
+        }
     }
 
     /// A number.
@@ -146,7 +159,7 @@ impl<'g> Ex<'g> {
 
     /// Names its node for readers of the output.
     pub fn named(self, name: impl FnOnce() -> String) -> Self {
-        if let Value::Node(expr) = self.value {
+        if let (Value::Node(expr), false) = (self.value, self.builder.silent) {
             let mut graph = self.builder.graph.borrow_mut();
             graph.set_name(expr.node, name);
         }

@@ -20,7 +20,7 @@ impl<'g> Factor<'g> {
         let n = mass.len();
         let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
-        b.section("M = Lᵀ D L, from the last joint to the first");
+        b.section(|| "M = Lᵀ D L, from the last joint to the first".into());
         for k in (0..n).rev() {
             // Only what was really subtracted can have lost digits; what folded to a number was
             // subtracted in double-double, which tells a small rest from nothing.
@@ -59,7 +59,7 @@ impl<'g> Factor<'g> {
     /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
     fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
         let n = x.len();
-        self.b.section("Lᵀ y = f, L x = D⁻¹ y");
+        self.b.section(|| "Lᵀ y = f, L x = D⁻¹ y".into());
         for k in (0..n).rev() {
             for i in 0..k {
                 x[i] = x[i] - self.l[k][i] * x[k];

@@ -112,7 +112,7 @@ impl<'g> Frames<'g> {
         let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<Frame<'g>> = Vec::new();
         for (j, body) in geometry.bodies.iter().enumerate() {
-            b.section(format!("{}: place and inertia", body.name));
+            b.section(|| format!("{}: place and inertia", body.name));
             let parts = parts[j].in_units_of(plan.unit);
             let (weight, phase) = aim(b, body, plan.aimed[j], &parts);
             let continues = plan.grouped && body.parallel();

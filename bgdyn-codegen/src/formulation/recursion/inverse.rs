@@ -102,10 +102,7 @@ fn load<'g>(
     in_basis: bool,
     short: bool,
 ) -> Load<'g> {
-    b.section(format!(
-        "{}: F = m a + U h, N = h × a + skew(U D)",
-        frame.name
-    ));
+    b.section(|| format!("{}: F = m a + U h, N = h × a + skew(U D)", frame.name));
     // Turning about z leaves J_zz as it is.
     let rest = &frame.rest;
     let j_zz = rest.d(0, 0) + rest.d(1, 1);
@@ -192,10 +189,12 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
     let mut efforts = vec![b.zero(); n];
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
-        b.section(format!(
-            "{}: forces and moments summed from the tips; effort of `{}`",
-            frame.name, frame.joint
-        ));
+        b.section(|| {
+            format!(
+                "{}: forces and moments summed from the tips; effort of `{}`",
+                frame.name, frame.joint
+            )
+        });
         let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
         let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
         efforts[j] = (whole.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint));

@@ -80,7 +80,7 @@ fn motion<'g>(
 ) -> SiteMotion<'g> {
     let placed = placed(b, geometry, frames);
     let site = &graph.sites[site.0];
-    b.section(format!("{}: its axes and place in the world", site.name));
+    b.section(|| format!("{}: its axes and place in the world", site.name));
     let mut columns: Vec<Option<Column<'g>>> = vec![None; frames.bodies.len()];
     let (body, in_body) = home(geometry, site.link, &site.place);
     let (rotation, origin) = in_body;
@@ -119,7 +119,7 @@ fn motion<'g>(
 fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<Placed<'g>> {
     let mut placed: Vec<Placed<'g>> = Vec::new();
     for (body, frame) in geometry.bodies.iter().zip(&frames.bodies) {
-        b.section(format!("{}: its axes and origin in the world", frame.name));
+        b.section(|| format!("{}: its axes and origin in the world", frame.name));
         let twist = frame.twist.map(|x| b.constant(x));
         let (basis, origin) = match frame.parent {
             // The place of the base enters here, and nowhere in the dynamics.

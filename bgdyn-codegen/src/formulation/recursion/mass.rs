@@ -66,10 +66,12 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
     let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![b.zero(); j + 1]).collect();
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
-        b.section(format!(
-            "{}: inertia with all it carries; row of `{}`: momenta of the joints beyond",
-            frame.name, frame.joint
-        ));
+        b.section(|| {
+            format!(
+                "{}: inertia with all it carries; row of `{}`: momenta of the joints beyond",
+                frame.name, frame.joint
+            )
+        });
         let (inner, outer) = (&own[j], &basis[j]);
         let composite = frame.inertia.plus(&inner.inertia);
         let turned = if composite.round() {
@@ -143,10 +145,12 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> 
     let mut basis: Vec<(Vec3<Ex<'g>>, Vec3<Ex<'g>>)> = Vec::new();
     let mut twice = b.zero();
     for frame in &frames.bodies {
-        b.section(format!(
-            "{}: ω, velocity u of its origin; m u·u + 2 u·(ω × h) + ω·J ω",
-            frame.name
-        ));
+        b.section(|| {
+            format!(
+                "{}: ω, velocity u of its origin; m u·u + 2 u·(ω × h) + ω·J ω",
+                frame.name
+            )
+        });
         let (mut omega, mut u) = match frame.parent {
             None => (zero, zero),
             Some(p) if frame.continues => {
@@ -194,7 +198,7 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g
     let mut energy = frames.constant_energy;
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
-        b.section(format!("{}: first moment with all it carries", frame.name));
+        b.section(|| format!("{}: first moment with all it carries", frame.name));
         // Masses and first moments only: D has no weight.
         let mut whole = frame.inertia.plus(&own[j]);
         whole.first = turn(whole.first, frame.turn);

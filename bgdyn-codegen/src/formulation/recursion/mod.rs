@@ -77,7 +77,7 @@ fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan
     let small = geometry.bodies.len() <= SMALL;
     let plans = plan::search(geometry, if small { FACTORED } else { 1 }, cost);
     let after = |plan: &Plan| {
-        let (made, outputs) = outputs(graph, geometry, method, plan);
+        let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
         factored_cost(made, outputs).total()
     };
     let mut plans = plans.into_iter();
@@ -89,24 +89,24 @@ fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan
 }
 
 fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
-    let (graph, outputs) = outputs(graph, geometry, method, plan);
+    let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
     count(&graph, &outputs).total()
 }
 
 fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {
-    let (made, outputs) = outputs(graph, geometry, method, plan);
+    let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);
     let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
     Function::flat(graph, method, name, made, outputs)
 }
 
 /// The method's expressions under a plan.
 fn outputs(
+    b: Builder,
     graph: &BondGraph,
     geometry: &Geometry,
     method: Method,
     plan: &Plan,
 ) -> (Graph, Vec<Expr>) {
-    let b = Builder::new();
     let outputs: Vec<Expr> = {
         let x = Arguments::new(&b, graph, method);
         let frames = Frames::new(&b, graph, geometry, plan, &x);

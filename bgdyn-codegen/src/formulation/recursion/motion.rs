@@ -46,10 +46,12 @@ pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> 
     for (j, frame) in frames.bodies.iter().enumerate() {
         let parent = frame.parent.map(|p| &moving[p]);
         let gravity = if active { frames.gravity[j] } else { zero(b) };
-        b.section(format!(
-            "{}: ω, U = [ω̇]× + [ω]×[ω]×, acceleration a of its origin less gravity",
-            frame.name
-        ));
+        b.section(|| {
+            format!(
+                "{}: ω, U = [ω̇]× + [ω]×[ω]×, acceleration a of its origin less gravity",
+                frame.name
+            )
+        });
         let step = outwards(b, frame, parent, gravity);
         name(frame, &step);
         moving.push(step);

@@ -73,10 +73,12 @@ fn pass<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'g>], factor: 
     };
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
-        b.section(format!(
-            "{}: all it carries as one body; derivatives by `{}` and by the joints beyond",
-            frame.name, frame.joint
-        ));
+        b.section(|| {
+            format!(
+                "{}: all it carries as one body; derivatives by `{}` and by the joints beyond",
+                frame.name, frame.joint
+            )
+        });
         let mut beyond =
             slopes.enter_beyond(b, frames, (j, factor), &moving[j], &own[j], &basis[j]);
         let (unit, before) = unit(

@@ -60,7 +60,7 @@ impl Formulation for Articulated {
             .iter()
             .map(|&share| share < FAIR)
             .collect();
-        let (made, outputs) = self.outputs(graph, &geometry, &best, &guarded);
+        let (made, outputs) = self.outputs(Builder::new(), graph, &geometry, &best, &guarded);
         let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
         let function = Function::flat(graph, method, name, made, outputs);
         Some(match self {
@@ -75,13 +75,14 @@ impl Articulated {
     /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
     pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> usize {
         let unguarded = vec![false; geometry.bodies.len()];
-        let (graph, outputs) = self.outputs(graph, geometry, plan, &unguarded);
+        let (graph, outputs) = self.outputs(Builder::silent(), graph, geometry, plan, &unguarded);
         count(&graph, &outputs).total()
     }
 
     /// The accelerations under a plan.
     fn outputs(
         &self,
+        b: Builder,
         graph: &BondGraph,
         geometry: &Geometry,
         plan: &Plan,
@@ -92,7 +93,6 @@ impl Articulated {
             base_parameters: !careful,
             ..plan.clone()
         };
-        let b = Builder::new();
         let outputs: Vec<Expr> = {
             let x = Arguments::new(&b, graph, Method::ForwardDynamics);
             let frames = Frames::new(&b, graph, geometry, plan, &x);
