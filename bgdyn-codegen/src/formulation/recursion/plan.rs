@@ -28,22 +28,24 @@ pub(super) fn search(geometry: &Geometry, most: usize, cost: impl Fn(&Plan) -> u
         let mut plan = start;
         let mut least = cost(&plan);
         keep(least, &plan);
-        for _ in 0..if n <= SEARCHED { ROUNDS } else { 0 } {
-            let before = least;
-            for change in changes(geometry) {
-                let mut tried = plan.clone();
-                change(&mut tried);
-                if tried == plan {
-                    continue;
-                }
-                let c = cost(&tried);
-                keep(c, &tried);
-                if c < least {
-                    (least, plan) = (c, tried);
-                }
-            }
-            if least == before {
+        let rounds = if n <= SEARCHED { ROUNDS } else { 0 };
+        let changes = changes(geometry);
+        // Once round without a gain, every choice was tried on the plan as it stands.
+        let mut in_vain = 0;
+        for change in std::iter::repeat_n(&changes, rounds).flatten() {
+            in_vain += 1;
+            if in_vain > changes.len() {
                 break;
+            }
+            let mut tried = plan.clone();
+            change(&mut tried);
+            if tried == plan {
+                continue;
+            }
+            let c = cost(&tried);
+            keep(c, &tried);
+            if c < least {
+                (least, plan, in_vain) = (c, tried, 0);
             }
         }
     }
