@@ -144,13 +144,13 @@ fn forward_derivatives_undo_the_inverse() {
 #[test]
 fn counts_stay() {
     let bounds = [
-        ("scara_rrpr", [89, 265, 36]),
-        ("stanford_gen", [1238, 2516, 549]),
-        ("puma_gen", [1443, 2762, 653]),
-        ("puma_arm", [975, 1954, 410]),
-        ("ur5_gen", [1161, 2433, 476]),
-        ("panda_gen", [2093, 4098, 1014]),
-        ("iiwa_gen", [1890, 3866, 877]),
+        ("scara_rrpr", [84, 234, 32]),
+        ("stanford_gen", [1185, 2463, 540]),
+        ("puma_gen", [1400, 2721, 644]),
+        ("puma_arm", [940, 1889, 400]),
+        ("ur5_gen", [1115, 2381, 468]),
+        ("panda_gen", [2048, 4093, 1002]),
+        ("iiwa_gen", [1833, 3851, 861]),
     ];
     let methods = [
         Method::InverseDynamicsDerivatives,
