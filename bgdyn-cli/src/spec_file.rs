@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::model::{Options, Unknown, formulation_named, stem};
+use bgdyn_codegen::model::{
+    Options, Refusal, Unknown, beside, formulation_named, read_scene, stem,
+};
+use bgdyn_codegen::system::System;
 use clap::Args;
 
 use crate::output::tell;
@@ -32,6 +35,45 @@ impl SpecFile {
     /// The mechanism, if the spec passes, and all that was found.
     pub(crate) fn read(&self) -> (Option<Mechanism>, Faults) {
         bgdyn_codegen::read(&self.text, Some(&self.stem))
+    }
+
+    /// Whether it is a scene's file.
+    pub(crate) fn is_scene(&self) -> bool {
+        bgdyn_codegen::spec::is_scene(&self.text)
+    }
+
+    /// The text of a file named from this one.
+    pub(crate) fn load(&self, path: &str) -> Result<String, String> {
+        std::fs::read_to_string(beside(&self.path, path)).map_err(|e| e.to_string())
+    }
+
+    /// The scene, if it and its mechanism pass, and all that was found.
+    pub(crate) fn read_scene(&self) -> Result<(System, Faults), Refusal> {
+        read_scene(&self.text, &self.stem, |path| self.load(path))
+    }
+
+    /// The scene; what was found goes to stderr.
+    pub(crate) fn scene(&self) -> Result<System> {
+        let (system, warnings) = self.read_scene().map_err(|r| self.refused(r))?;
+        tell(&self.render(&warnings));
+        Ok(system)
+    }
+
+    /// A refusal as an error; its faults go to stderr.
+    pub(crate) fn refused(&self, refusal: Refusal) -> anyhow::Error {
+        let shown = self.path.display();
+        match refusal {
+            Refusal::Spec(faults) => {
+                tell(&self.render(&faults));
+                anyhow!("{shown} has {} faults", faults.count())
+            }
+            Refusal::Mechanism { path, text, faults } => {
+                let file = beside(&self.path, &path);
+                tell(&faults.render(&file.display().to_string(), &text));
+                anyhow!("{} has {} faults", file.display(), faults.count())
+            }
+            Refusal::Options(names) => unknown(names).into(),
+        }
     }
 
     /// What was found, for people.

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 
 use crate::emit::{Place, source_text};
 use crate::fault::{Faults, Severity};
-use crate::model::{Options, Refusal, generate, stem};
+use crate::model::{Options, Refusal, beside, generate_file, stem};
 use crate::options::formulation_named;
 
 /// Writes the module of a spec to `OUT_DIR`: [`Build`] with nothing asked for in particular.
@@ -145,7 +145,8 @@ impl Build {
         let stem = stem(&self.spec);
         let (place, options) = (self.place()?, self.options()?);
         let (tokens, findings) =
-            generate(&text, &stem, &place, &options).map_err(|r| self.refused(r, &text))?;
+            generate_file(&text, &stem, &place, &options, |path| self.load(path))
+                .map_err(|r| self.refused(r, &text))?;
         Ok(Source {
             module: self.module.clone().unwrap_or(stem),
             text: source_text(tokens),
@@ -172,6 +173,13 @@ impl Build {
         Ok(path)
     }
 
+    /// The text of a scene's mechanism, from the path that the scene writes.
+    fn load(&self, path: &str) -> Result<String, String> {
+        let path = beside(&self.spec, path);
+        println!("cargo::rerun-if-changed={}", path.display());
+        std::fs::read_to_string(path).map_err(|e| e.to_string())
+    }
+
     fn options(&self) -> Result<Options, Error> {
         let named = self.formulation.as_deref().map(formulation_named);
         Ok(Options {
@@ -196,6 +204,14 @@ impl Build {
         Error(match refusal {
             Refusal::Spec(faults) => {
                 format!("{}\n{} faults", faults.render(&shown, text), faults.count())
+            }
+            Refusal::Mechanism { path, text, faults } => {
+                let shown = beside(&self.spec, &path).display().to_string();
+                format!(
+                    "{}\n{} faults",
+                    faults.render(&shown, &text),
+                    faults.count()
+                )
             }
             Refusal::Options(unknown) => {
                 let lines = unknown.iter().map(|u| format!("{shown}: {u}"));

@@ -9,6 +9,7 @@ pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
 mod cut;
+pub mod effect;
 pub mod emit;
 pub mod expr;
 pub mod fault;
@@ -22,7 +23,9 @@ pub mod method;
 pub mod model;
 mod options;
 mod read;
+pub mod scene;
 pub mod spec;
+pub mod system;
 
 #[cfg(feature = "source")]
 pub use build_script::{Build, build};

@@ -15,6 +15,14 @@ pub enum Argument {
     A,
     /// Joint efforts tau: N·m, N.
     Tau,
+    /// State of a scene.
+    State,
+    /// Inputs of a scene.
+    Input,
+    /// Accelerations of a scene's coordinates.
+    Accelerations,
+    /// Time, s.
+    Time,
 }
 
 impl Argument {
@@ -25,6 +33,10 @@ impl Argument {
             Argument::V => "v",
             Argument::A => "a",
             Argument::Tau => "tau",
+            Argument::State => "state",
+            Argument::Input => "input",
+            Argument::Accelerations => "acceleration",
+            Argument::Time => "t",
         }
     }
 }
@@ -53,10 +65,14 @@ pub enum Shape {
     Spatial,
     /// A 6 × NV matrix, row by row, angular part first.
     Jacobian,
+    /// The named parts of a scene's result.
+    Parts,
+    /// The same, or the error that names a coordinate.
+    CheckedParts,
 }
 
 impl Shape {
-    /// How many expressions make the result.
+    /// How many expressions make the result; 0 for parts, whose number their scene knows.
     pub fn len(self, nv: usize) -> usize {
         match self {
             Shape::Scalar => 1,
@@ -68,12 +84,16 @@ impl Shape {
             Shape::Pose => 12,
             Shape::Spatial => 6,
             Shape::Jacobian => 6 * nv,
+            Shape::Parts | Shape::CheckedParts => 0,
         }
     }
 
     /// Whether a singular mass matrix is an error.
     pub fn checked(self) -> bool {
-        matches!(self, Shape::CheckedVector | Shape::CheckedSquares)
+        matches!(
+            self,
+            Shape::CheckedVector | Shape::CheckedSquares | Shape::CheckedParts
+        )
     }
 }
 
@@ -108,6 +128,79 @@ pub enum Method {
     Jacobian(SiteId),
     /// Its acceleration where the joints' accelerations are zero.
     JacobianDotV(SiteId),
+    /// A function of a scene.
+    Scene(Role),
+}
+
+/// What a function of a scene is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// v̇ and ẋ.
+    Derivative,
+    /// Efforts at the coordinates behind given accelerations.
+    Inverse,
+    /// The inputs that the scene itself drives.
+    Inputs,
+    /// Values whose fall through zero is an event.
+    Events,
+    /// Slip, its acceleration, holding effort and limit of each mode.
+    Contacts,
+    /// Power supplied, stored and dissipated by each effect.
+    Power,
+    /// Energy stored by each effect.
+    Energy,
+    /// The outputs asked for.
+    Outputs,
+}
+
+impl Role {
+    /// Every role.
+    pub const ALL: [Role; 8] = [
+        Role::Derivative,
+        Role::Inverse,
+        Role::Inputs,
+        Role::Events,
+        Role::Contacts,
+        Role::Power,
+        Role::Energy,
+        Role::Outputs,
+    ];
+
+    /// The method's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Role::Derivative => "derivative",
+            Role::Inverse => "inverse",
+            Role::Inputs => "input",
+            Role::Events => "events",
+            Role::Contacts => "contacts",
+            Role::Power => "power",
+            Role::Energy => "energy",
+            Role::Outputs => "output",
+        }
+    }
+
+    /// What the result is: one line of documentation.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Role::Derivative => {
+                "Rates of the state: accelerations, and rates of first-order states."
+            }
+            Role::Inverse => {
+                "Efforts at the coordinates that produce these accelerations, as if no coordinate had an effort of its own: a force or torque at a joint, a voltage at a winding."
+            }
+            Role::Inputs => "The inputs: what the scene drives itself, and what is `given`.",
+            Role::Events => "Values whose fall through zero is an event.",
+            Role::Contacts => {
+                "For each mode: slip, its acceleration, the effort that holds, the most that can hold."
+            }
+            Role::Power => {
+                "Balance of power, W: Σ supplied = Σ rate of the energy stored + Σ dissipated."
+            }
+            Role::Energy => "Energy stored, J, effect by effect.",
+            Role::Outputs => "The outputs that the scene asks for.",
+        }
+    }
 }
 
 impl Method {
@@ -202,6 +295,7 @@ impl Method {
             Method::Velocity(s) => site("velocity", s),
             Method::Jacobian(s) => site("jacobian_world", s),
             Method::JacobianDotV(s) => site("jacobian_dot_v_world", s),
+            Method::Scene(role) => role.name().into(),
         }
     }
 
@@ -215,6 +309,14 @@ impl Method {
             Method::Bias | Method::KineticEnergy | Method::CoriolisMatrix => &[Q, V],
             Method::Velocity(_) | Method::JacobianDotV(_) => &[Q, V],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
+            Method::Scene(Role::Energy) => &[Argument::State],
+            Method::Scene(Role::Inverse) => &[
+                Argument::State,
+                Argument::Accelerations,
+                Argument::Input,
+                Argument::Time,
+            ],
+            Method::Scene(_) => &[Argument::State, Argument::Input, Argument::Time],
         }
     }
 
@@ -231,6 +333,10 @@ impl Method {
             Method::Pose(_) => Shape::Pose,
             Method::Velocity(_) | Method::JacobianDotV(_) => Shape::Spatial,
             Method::Jacobian(_) => Shape::Jacobian,
+            Method::Scene(Role::Energy | Role::Inverse | Role::Inputs | Role::Outputs) => {
+                Shape::Parts
+            }
+            Method::Scene(_) => Shape::CheckedParts,
         }
     }
 
@@ -275,6 +381,7 @@ impl Method {
                 "J̇ v of {}: its acceleration, angular part first, where the joints' is zero; world axes.",
                 of(s)
             ),
+            Method::Scene(role) => role.summary().into(),
         }
     }
 
@@ -296,6 +403,7 @@ impl Method {
             Method::Velocity(_) => "rad/s, m/s",
             Method::Jacobian(_) => "rad and m per unit of each joint",
             Method::JacobianDotV(_) => "rad/s², m/s²",
+            Method::Scene(_) => "as its parts say",
         }
     }
 }

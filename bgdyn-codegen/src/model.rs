@@ -7,13 +7,16 @@ use proc_macro2::TokenStream;
 use crate::bond_graph::{self, BondGraph};
 use crate::cut::cut;
 use crate::emit;
-use crate::fault::Faults;
+use crate::fault::{Fault, Faults};
 use crate::formulation;
 use crate::function::Function;
 use crate::interface::Interface;
 use crate::mechanism::Mechanism;
 use crate::method::Method;
 pub use crate::options::{DYNAMICS, List, Options, Unknown, formulation_named};
+use crate::scene;
+use crate::spec::{is_scene, parse_scene};
+use crate::system::System;
 
 /// A mechanism with the functions generated for it.
 pub struct Model {
@@ -57,11 +60,69 @@ fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<F
     formulation::choose(graph, method, options.formulation).map(cut)
 }
 
+/// Reads a scene and the mechanism it names. `load` gives the text of a file from the path that
+/// the scene writes.
+///
+/// # Errors
+/// What is wrong with the scene or with its mechanism.
+pub fn read_scene(
+    text: &str,
+    stem: &str,
+    load: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<(System, Faults), Refusal> {
+    let (spec, mut faults) = parse_scene(text);
+    let Some(spec) = spec else {
+        return Err(Refusal::Spec(faults));
+    };
+    let Some(path) = spec.mechanism.given() else {
+        return Err(Refusal::Spec(faults));
+    };
+    let loaded = load(&path.value).map_err(|why| {
+        let message = format!("the mechanism `{}` cannot be read: {why}", path.value);
+        let fault = Fault::new(&path.place, "no-mechanism", message);
+        faults.push(fault.with_help("write its path from the scene's own folder"));
+        Refusal::Spec(faults.clone())
+    })?;
+    let name = self::stem(Path::new(&path.value));
+    let (mechanism, found) = crate::read(&loaded, Some(&name));
+    let Some(mechanism) = mechanism else {
+        let path = path.value.clone();
+        return Err(Refusal::Mechanism {
+            path,
+            text: loaded,
+            faults: found,
+        });
+    };
+    let (scene, more) = scene::check(&spec, Some(stem), &mechanism);
+    faults.0.extend(more.0);
+    faults.sort();
+    let Some(scene) = scene else {
+        return Err(Refusal::Spec(faults));
+    };
+    let system = System::new(scene).map_err(Refusal::Spec)?;
+    Ok((system, faults))
+}
+
+/// The functions of a scene.
+pub fn scene_functions(system: &System) -> Vec<Function> {
+    let roles = system.roles().into_iter();
+    roles.map(|role| system.function(role)).collect()
+}
+
 /// Why there is no module.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// What is wrong with the spec.
     Spec(Faults),
+    /// What is wrong with the mechanism that a scene names.
+    Mechanism {
+        /// Its path, as the scene writes it.
+        path: String,
+        /// Its text.
+        text: String,
+        /// What is wrong with it.
+        faults: Faults,
+    },
     /// Names asked for that the mechanism does not have.
     Options(Vec<Unknown>),
 }
@@ -85,6 +146,26 @@ pub fn generate(
     Ok((emit::module(&model, place), findings))
 }
 
+/// The same for a file that may be a mechanism's or a scene's. A scene's mechanism is read by
+/// `load`, from the path that the scene writes.
+///
+/// # Errors
+/// As [`generate`], and as [`read_scene`].
+pub fn generate_file(
+    text: &str,
+    stem: &str,
+    place: &emit::Place,
+    options: &Options,
+    load: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<(TokenStream, Faults), Refusal> {
+    if !is_scene(text) {
+        return generate(text, stem, place, options);
+    }
+    let (system, findings) = read_scene(text, stem, load)?;
+    let functions = scene_functions(&system);
+    Ok((emit::scene_module(&system, &functions, place), findings))
+}
+
 /// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
 /// caller can name, nothing that runs. Nothing where the stem cannot name a module.
 pub fn fallback(text: &str, stem: &str, place: &emit::Place) -> Option<TokenStream> {
@@ -96,4 +177,15 @@ pub fn stem(path: &Path) -> String {
     let name = path.file_name().map(|n| n.to_string_lossy());
     let stem = name.as_deref().and_then(|n| n.split('.').next());
     stem.unwrap_or_default().to_string()
+}
+
+/// The path of a file that is named by its path from another file.
+pub fn beside(file: &Path, path: &str) -> std::path::PathBuf {
+    file.parent().unwrap_or(Path::new("")).join(path)
+}
+
+/// The mechanism that a scene's text names, if it is a scene's and names one.
+pub fn mechanism_of(text: &str) -> Option<String> {
+    let scene = is_scene(text).then(|| parse_scene(text).0).flatten()?;
+    scene.mechanism.value().cloned()
 }

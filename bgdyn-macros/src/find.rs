@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use proc_macro2::Span;
 
 /// The file meant by `written`: beside the calling source file, in the package's directory, or in
-/// its `specs/`. Two different files of that name are an error, and so is none.
+/// its `specs/` and `specs/scenes/`. Two different files of that name are an error, and so is none.
 pub(crate) fn find(written: &str, span: Span) -> Result<PathBuf, String> {
     choose(written, &places(span), &here())
 }
@@ -62,8 +62,8 @@ fn places(span: Span) -> Vec<PathBuf> {
     if let Some(manifest) = std::env::var_os("CARGO_MANIFEST_DIR") {
         let manifest = PathBuf::from(manifest);
         let specs = manifest.join("specs");
-        places.push(manifest);
-        places.push(specs);
+        let scenes = specs.join("scenes");
+        places.extend([manifest, specs, scenes]);
     }
     places
 }

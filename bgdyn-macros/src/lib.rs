@@ -20,7 +20,8 @@ use input::Input;
 /// ```
 ///
 /// The path is looked up beside the calling source file, then in the package's directory, then in
-/// its `specs/`. The module is called after the file, up to its first dot. A change of the file
+/// its `specs/` and `specs/scenes/`. A file whose first key is `scene` is a scene: a mechanism with
+/// the effects that a run calls for. The module is called after the file, up to its first dot. A change of the file
 /// rebuilds the crate.
 ///
 /// Options, in any order:
@@ -68,6 +69,7 @@ fn module(
         module: input.module.clone(),
         source: find::file_name(Path::new(&written)),
         rebuild: None,
+        also: Vec::new(),
     };
     let stand_in = |text: &str, place: &Place| {
         model::fallback(text, &model::stem(Path::new(&place.source)), place)
@@ -82,7 +84,15 @@ fn module(
         refused(message, "", &place)
     })?;
     place.rebuild = Some(path.display().to_string());
-    match model::generate(&text, &model::stem(&path), &place, &input.options) {
+    let load = |mechanism: &str| {
+        let file = model::beside(&path, mechanism);
+        std::fs::read_to_string(file).map_err(|e| e.to_string())
+    };
+    if let Some(mechanism) = model::mechanism_of(&text) {
+        let file = model::beside(&path, &mechanism);
+        place.also.push(file.display().to_string());
+    }
+    match model::generate_file(&text, &model::stem(&path), &place, &input.options, load) {
         Ok((tokens, _warnings)) => Ok(tokens),
         Err(Refusal::Spec(faults)) => {
             let mut message = faults.render(&written, &text).trim_end().to_string();
@@ -90,6 +100,14 @@ fn module(
                 message += &format!("\n\n{} faults", faults.count());
             }
             Err(refused(message, &text, &place))
+        }
+        Err(Refusal::Mechanism {
+            path: mechanism,
+            text: its_text,
+            faults,
+        }) => {
+            let message = faults.render(&mechanism, &its_text);
+            Err(refused(message.trim_end().to_string(), &text, &place))
         }
         Err(Refusal::Options(unknown)) => Err(Refused {
             errors: unknown.iter().map(|u| input.error(u)).collect(),

@@ -32,6 +32,7 @@ pub mod rotation;
 mod scalar;
 mod singular;
 mod storage;
+mod system;
 
 pub use dd::{Dd, ParseDdError};
 #[cfg(feature = "num-dual")]
@@ -48,5 +49,6 @@ pub use pose::Pose;
 pub use scalar::Scalar;
 pub use singular::Singular;
 pub use storage::{matrix, vector};
+pub use system::{Balance, Contact, System};
 #[cfg(feature = "wide")]
 pub use wide;

@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Severity};
 use bgdyn_codegen::mechanism::{Mechanism, Parameter};
+use bgdyn_codegen::model::Refusal;
+use bgdyn_codegen::scene::Part;
+use bgdyn_codegen::system::System;
 use clap::Args;
 use serde_json::{Value, json};
 
@@ -25,6 +28,9 @@ pub(crate) struct Check {
 impl Check {
     pub(crate) fn run(self) -> Result<()> {
         let spec = SpecFile::open(&self.file)?;
+        if spec.is_scene() {
+            return self.scene(&spec);
+        }
         let (mechanism, faults) = spec.read();
         if self.json {
             let found: Vec<Value> = faults.0.iter().map(finding).collect();
@@ -43,6 +49,62 @@ impl Check {
         }
         Ok(())
     }
+}
+
+impl Check {
+    fn scene(&self, spec: &SpecFile) -> Result<()> {
+        let read = spec.read_scene();
+        let (system, faults) = match read {
+            Ok((system, warnings)) => (Some(system), warnings),
+            Err(Refusal::Spec(faults)) if self.json => (None, faults),
+            Err(refusal) => {
+                let error = spec.refused(refusal);
+                tell(&format!("{error}\n"));
+                return Err(anyhow!(""));
+            }
+        };
+        if self.json {
+            let found: Vec<Value> = faults.0.iter().map(finding).collect();
+            let model = system.as_ref().map(scene_model);
+            let report = json!({ "ok": model.is_some(), "scene": model, "findings": found });
+            print(&format!("{report:#}\n"))?;
+        } else {
+            tell(&spec.render(&faults));
+        }
+        let system = system.ok_or_else(|| anyhow!(""))?;
+        if !self.json {
+            let layout = &system.scene.layout;
+            print(&format!(
+                "ok: {}, NQ {}, NV {}, NX {}, modes {}, inputs {}\n",
+                system.scene.name,
+                layout.nq(),
+                layout.nv(),
+                layout.nx(),
+                layout.modes.len(),
+                layout.inputs.len()
+            ))?;
+        }
+        Ok(())
+    }
+}
+
+fn scene_model(system: &System) -> Value {
+    let scene = &system.scene;
+    let layout = &scene.layout;
+    let names = |parts: &[Part]| parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+    let coordinates: Vec<&str> = layout.coordinates.iter().map(|c| c.name.as_str()).collect();
+    let effects: Vec<&str> = scene.elements.iter().map(|e| e.name.as_str()).collect();
+    json!({
+        "name": scene.name,
+        "nq": layout.nq(),
+        "nv": layout.nv(),
+        "nx": layout.nx(),
+        "coordinates": coordinates,
+        "states": names(&layout.states),
+        "modes": names(&layout.modes),
+        "inputs": names(&layout.inputs),
+        "effects": effects,
+    })
 }
 
 fn model(mechanism: &Mechanism) -> Value {

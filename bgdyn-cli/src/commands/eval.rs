@@ -193,6 +193,9 @@ fn evaluate(
             Argument::V => inputs.v = values,
             Argument::A => inputs.a = values,
             Argument::Tau => inputs.u = values,
+            Argument::State | Argument::Input | Argument::Accelerations | Argument::Time => {
+                return Err(plain("a scene's function has named parts".into()));
+            }
         }
     }
     let (values, refused) = function.evaluate::<f64>(inputs);
@@ -271,6 +274,7 @@ fn shaped(shape: Shape, nv: usize, values: &[f64]) -> Value {
     match shape {
         Shape::Scalar => json!(values[0]),
         Shape::Vector | Shape::CheckedVector | Shape::Spatial => json!(values),
+        Shape::Parts | Shape::CheckedParts => json!(values),
         Shape::Symmetric => {
             let entry = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
             let row = |i: usize| (0..nv).map(|j| entry(i, j)).collect::<Vec<_>>();

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::emit::{Place, source_text};
-use bgdyn_codegen::model::{Refusal, generate};
+use bgdyn_codegen::model::generate_file;
 use clap::Args;
 
 use crate::output::{print, tell};
-use crate::spec_file::{Asked, SpecFile, read_text, unknown};
+use crate::spec_file::{Asked, SpecFile, read_text};
 use crate::usage::Usage;
 
 /// Write the generated Rust source
@@ -42,15 +42,9 @@ impl Generate {
     pub(crate) fn run(self) -> Result<()> {
         let (options, place) = (self.asked.options()?, self.place().map_err(Usage)?);
         let spec = SpecFile::open(&self.file)?;
-        let shown = self.file.display();
-        let (tokens, warnings) = match generate(&spec.text, &spec.stem, &place, &options) {
-            Ok(generated) => generated,
-            Err(Refusal::Spec(faults)) => {
-                tell(&spec.render(&faults));
-                bail!("{shown} has {} faults", faults.count());
-            }
-            Err(Refusal::Options(names)) => return Err(unknown(names).into()),
-        };
+        let load = |path: &str| spec.load(path);
+        let (tokens, warnings) = generate_file(&spec.text, &spec.stem, &place, &options, load)
+            .map_err(|r| spec.refused(r))?;
         tell(&spec.render(&warnings));
         let text = source_text(tokens);
         match &self.output {

@@ -8,7 +8,8 @@ use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::loss::loss;
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::model::{Model, Options, function};
+use bgdyn_codegen::model::{Model, Options, function, scene_functions};
+use bgdyn_codegen::system::System;
 use clap::Args;
 use serde::{Serialize, Serializer};
 
@@ -34,20 +35,31 @@ pub(crate) struct Ops {
 impl Ops {
     pub(crate) fn run(self) -> Result<()> {
         let options = self.asked.options()?;
-        let mechanism = SpecFile::open(&self.file)?.mechanism()?;
-        let model = Model::new(mechanism.clone(), &options).map_err(unknown)?;
-        if self.json {
-            let report = serde_json::to_string_pretty(&Report {
-                functions: Functions(&model),
-            })?;
-            print(&(report + "\n"))?;
-        } else {
-            print(&table(&model))?;
+        let spec = SpecFile::open(&self.file)?;
+        if spec.is_scene() {
+            return self.scene(&spec.scene()?);
         }
+        let mechanism = spec.mechanism()?;
+        let model = Model::new(mechanism.clone(), &options).map_err(unknown)?;
+        self.report(&model.functions)?;
         if self.explain {
             explain(&mechanism, &model);
         }
         Ok(())
+    }
+
+    fn report(&self, functions: &[Function]) -> Result<()> {
+        if !self.json {
+            return print(&table(functions));
+        }
+        let report = serde_json::to_string_pretty(&Report {
+            functions: Functions(functions),
+        })?;
+        print(&(report + "\n"))
+    }
+
+    fn scene(&self, system: &System) -> Result<()> {
+        self.report(&scene_functions(system))
     }
 }
 
@@ -57,11 +69,11 @@ struct Report<'a> {
 }
 
 /// One entry per generated function, in the module's order.
-struct Functions<'a>(&'a Model);
+struct Functions<'a>(&'a [Function]);
 
 impl Serialize for Functions<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.functions.iter().map(|f| (f.name(), Counts::of(f))))
+        serializer.collect_map(self.0.iter().map(|f| (f.name(), Counts::of(f))))
     }
 }
 
@@ -96,12 +108,12 @@ impl Counts {
     }
 }
 
-fn table(model: &Model) -> String {
+fn table(functions: &[Function]) -> String {
     let mut text = format!(
         "{:<30} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",
         "function", "mul", "add", "div", "sqrt", "sincos", "other", "mul+add"
     );
-    for f in &model.functions {
+    for f in functions {
         let o = f.operations();
         text += &format!(
             "{:<30} {:>6} {:>6} {:>5} {:>5} {:>7} {:>6} {:>7}\n",

@@ -20,6 +20,8 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
         sources: Vec::new(),
         transformers: Vec::new(),
         gravity: mechanism.gravity(),
+        rotors: Vec::new(),
+        velocity_products: true,
         parameters: mechanism.parameters().to_vec(),
         sites: sites(mechanism),
     };

@@ -12,7 +12,9 @@ mod pattern;
 use bgdyn_runtime::Dd;
 
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Tensor, Value};
+use crate::mechanism::{
+    CoordinateId, Inertial, LinkId, Mechanism, Motion, Parameter, Pose, Tensor, Value,
+};
 
 pub use build::build;
 pub use pattern::Modulus;
@@ -133,6 +135,26 @@ pub struct Coordinate {
     pub motion: Motion,
 }
 
+/// An inertial store on the junction of a generalized velocity: a rotor behind a gear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotor {
+    /// The velocity q̇_j.
+    pub coordinate: CoordinateId,
+    /// N² J, kg·m² (kg for a displacement).
+    pub inertia: Value,
+    /// What it turns with, if it is a full rotor.
+    pub carrier: Option<Gyrostat>,
+}
+
+/// The momentum of a rotor in the link it sits on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gyrostat {
+    /// The link.
+    pub link: LinkId,
+    /// N J e in link axes: momentum per unit rate of the joint, kg·m².
+    pub momentum: Vec3<Dd>,
+}
+
 /// The bond graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BondGraph {
@@ -150,6 +172,10 @@ pub struct BondGraph {
     pub transformers: Vec<Transformer>,
     /// Gravity, m/s², fixed axes.
     pub gravity: Vec3<Dd>,
+    /// Rotors behind gears.
+    pub rotors: Vec<Rotor>,
+    /// Whether the transformers' rates count: Coriolis, centrifugal and gyroscopic efforts.
+    pub velocity_products: bool,
     /// Run-time parameters that values refer to.
     pub parameters: Vec<Parameter>,
     /// The links' frames, then the named ones.
@@ -157,6 +183,48 @@ pub struct BondGraph {
 }
 
 impl BondGraph {
+    /// The same graph without weights, link tensors and velocity products: what every scene begins
+    /// with, and adds to.
+    pub fn bare(mut self) -> Self {
+        let rotational = |s: &Store| matches!(s.inertia, Inertia::Tensor(_));
+        self.stores.retain(|s| !rotational(s));
+        for source in &mut self.sources {
+            source.efforts.clear();
+        }
+        self.gravity = Vec3([Dd::ZERO; 3]);
+        self.velocity_products = false;
+        self
+    }
+
+    /// Gives every link its weight.
+    pub fn weigh(&mut self, gravity: Vec3<Dd>) {
+        self.gravity = gravity;
+        for i in 0..self.frames.len() {
+            let mass = self.inertial(LinkId(i)).mass;
+            let junction = self.translation(LinkId(i));
+            let own = self.sources.iter_mut().find(|s| s.junction == junction);
+            if let Some(source) = own {
+                source.efforts = vec![Effort::Weight { mass, gravity }];
+            }
+        }
+    }
+
+    /// Gives every link its tensor.
+    pub fn distribute(&mut self, mechanism: &Mechanism) {
+        for (i, link) in mechanism.links().iter().enumerate() {
+            self.stores.push(Store {
+                junction: self.rotation(LinkId(i)),
+                inertia: Inertia::Tensor(link.inertial.inertia.entries),
+            });
+        }
+    }
+
+    /// The coordinate of the joint with this name.
+    pub fn coordinate_named(&self, name: &str) -> Option<CoordinateId> {
+        let found = self.coordinates.iter().position(|c| c.name == name);
+        found.map(CoordinateId)
+    }
+
     /// The junction of q̇_j.
     pub fn velocity(&self, j: CoordinateId) -> JunctionId {
         JunctionId(j.0)

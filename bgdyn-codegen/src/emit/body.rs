@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::code::{leaf_of, leaves};
+use super::code::{Naming, is_part, leaf_of, leaves};
 use super::ident;
 use super::writer::Writer;
 use crate::expr::Leaf;
@@ -20,19 +20,22 @@ pub(super) struct Body {
     pub(super) blocks: Vec<TokenStream>,
 }
 
-/// The body of a method, and its blocks.
-pub(super) fn body(function: &Function, model: &Model) -> Body {
+/// The body of a method, and its blocks; `finish` makes the result of its components.
+pub(super) fn body(
+    function: &Function,
+    naming: &Naming<'_>,
+    finish: impl Fn(&[TokenStream]) -> TokenStream,
+) -> Body {
     let shape = function.shape();
-    let nv = model.mechanism.nv();
     if let [block] = function.blocks.as_slice() {
-        let mut writer = Writer::new(function, model, &block.outputs);
+        let mut writer = Writer::new(function, naming, &block.outputs);
         let statements = writer.block(&block.outputs, function);
         let refused = shape.checked().then(|| {
             let mutable = writer.pivots.then(|| quote! { mut });
             quote! { let #mutable refused = T::none_refused(); }
         });
         let results = writer.results(&block.outputs);
-        let result = result(shape, nv, &results);
+        let result = finish(&results);
         return Body {
             body: quote! { #refused #statements #result },
             blocks: vec![],
@@ -41,7 +44,7 @@ pub(super) fn body(function: &Function, model: &Model) -> Body {
     let mut blocks = Vec::new();
     let mut calls = TokenStream::new();
     for b in 0..function.blocks.len() {
-        let (block, call) = separate_block(function, model, b);
+        let (block, call) = separate_block(function, naming, b);
         let passed = format_ident!("p{b}");
         calls.extend(quote! { let #passed = #call; });
         blocks.push(block);
@@ -54,8 +57,9 @@ pub(super) fn body(function: &Function, model: &Model) -> Body {
         let i = proc_macro2::Literal::usize_unsuffixed(i);
         quote! { #last[#i] }
     };
-    let results: Vec<_> = (0..shape.len(nv)).map(element).collect();
-    let result = result(shape, nv, &results);
+    let last_block = &function.blocks[function.blocks.len() - 1];
+    let results: Vec<_> = (0..last_block.outputs.len()).map(element).collect();
+    let result = finish(&results);
     Body {
         body: quote! { #refused #calls #result },
         blocks,
@@ -63,16 +67,22 @@ pub(super) fn body(function: &Function, model: &Model) -> Body {
 }
 
 /// A block as a private function, and the call of it.
-fn separate_block(function: &Function, model: &Model, b: usize) -> (TokenStream, TokenStream) {
+fn separate_block(
+    function: &Function,
+    naming: &Naming<'_>,
+    b: usize,
+) -> (TokenStream, TokenStream) {
     let outputs = &function.blocks[b].outputs;
-    let mut writer = Writer::new(function, model, outputs);
+    let mut writer = Writer::new(function, naming, outputs);
     let statements = writer.block(outputs, function);
     let results = writer.results(outputs);
     let read = leaves(&function.graph, outputs);
     let mut parameters = Vec::new();
     let mut arguments = Vec::new();
     for &argument in function.method.arguments() {
-        if (0..model.mechanism.nv()).any(|j| read.contains(&leaf_of(argument, j))) {
+        let component = |j| leaf_of(argument, j).is_some_and(|leaf| read.contains(&leaf));
+        let part = |leaf: &Leaf| is_part(argument, *leaf);
+        if (0..naming.joints.len()).any(component) || read.iter().any(part) {
             let (name, ty) = (ident(argument.name()), super::argument_type(argument));
             parameters.push(quote! { #name: #ty });
             arguments.push(quote! { #name });
@@ -111,7 +121,7 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     let read: BTreeSet<Leaf> = function.blocks.iter().flat_map(of_block).collect();
     let mut unread = Vec::new();
     for argument in function.method.arguments() {
-        let is_read = |j: usize| read.contains(&leaf_of(*argument, j));
+        let is_read = |j: usize| leaf_of(*argument, j).is_some_and(|leaf| read.contains(&leaf));
         let joints = &model.bond_graph.coordinates;
         let missing: Vec<_> = (0..joints.len()).filter(|&j| !is_read(j)).collect();
         if missing.len() == joints.len() {
@@ -128,7 +138,7 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
 }
 
 /// The result from its components.
-fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
+pub(super) fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
     let square = |values: &[TokenStream]| matrix(nv, values);
     let squares = |values: &[TokenStream], count: usize| -> Vec<TokenStream> {
         let one = |k: usize| square(&values[k * nv * nv..(k + 1) * nv * nv]);
@@ -171,10 +181,11 @@ fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
         }
         Shape::Spatial => vector(values),
         Shape::Jacobian => matrix(nv, values),
+        Shape::Parts | Shape::CheckedParts => unreachable!("a scene makes its own results"),
     }
 }
 
-fn vector(values: &[TokenStream]) -> TokenStream {
+pub(super) fn vector(values: &[TokenStream]) -> TokenStream {
     quote! { __rt::vector([#(#values),*]) }
 }
 

@@ -3,9 +3,13 @@
 use std::collections::BTreeSet;
 
 use proc_macro2::TokenStream;
+use quote::quote;
 
+use super::ident;
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, reachable};
 use crate::method::Argument;
+use crate::model::Model;
+use crate::scene::{Layout, Scene};
 
 /// How tightly a piece of code binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -32,13 +36,80 @@ pub(super) fn atom(tokens: TokenStream) -> Code {
     }
 }
 
-/// The leaf that holds component `j` of an argument.
-pub(super) fn leaf_of(argument: Argument, j: usize) -> Leaf {
+/// The leaf that holds component `j` of an argument; `None` for an argument with named parts.
+pub(super) fn leaf_of(argument: Argument, j: usize) -> Option<Leaf> {
     match argument {
-        Argument::Q => Leaf::Position(j),
-        Argument::V => Leaf::Velocity(j),
-        Argument::A => Leaf::Acceleration(j),
-        Argument::Tau => Leaf::Input(j),
+        Argument::Q => Some(Leaf::Position(j)),
+        Argument::V => Some(Leaf::Velocity(j)),
+        Argument::A => Some(Leaf::Acceleration(j)),
+        Argument::Tau => Some(Leaf::Input(j)),
+        Argument::State | Argument::Input | Argument::Accelerations | Argument::Time => None,
+    }
+}
+
+/// Whether a leaf is part of an argument with named parts.
+pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
+    match argument {
+        Argument::State => matches!(
+            leaf,
+            Leaf::Position(_) | Leaf::Velocity(_) | Leaf::State(_) | Leaf::Mode(_)
+        ),
+        Argument::Input => matches!(leaf, Leaf::Input(_)),
+        Argument::Accelerations => matches!(leaf, Leaf::Acceleration(_)),
+        Argument::Time => leaf == Leaf::Time,
+        Argument::Q | Argument::V | Argument::A | Argument::Tau => false,
+    }
+}
+
+/// What the leaves of a function are called.
+pub(super) struct Naming<'a> {
+    /// Coordinates.
+    pub(super) joints: Vec<&'a str>,
+    /// Run-time parameters.
+    pub(super) parameters: Vec<&'a str>,
+    /// The parts of a scene's state and inputs; `None` for a mechanism.
+    pub(super) layout: Option<&'a Layout>,
+}
+
+impl<'a> Naming<'a> {
+    /// Of a mechanism's functions.
+    pub(super) fn of_model(model: &'a Model) -> Self {
+        let coordinates = model.bond_graph.coordinates.iter();
+        let parameters = model.mechanism.parameters().iter();
+        Naming {
+            joints: coordinates.map(|c| c.name.as_str()).collect(),
+            parameters: parameters.map(|p| p.name.as_str()).collect(),
+            layout: None,
+        }
+    }
+
+    /// Of a scene's functions.
+    pub(super) fn of_scene(scene: &'a Scene) -> Self {
+        let coordinates = scene.layout.coordinates.iter();
+        Naming {
+            joints: coordinates.map(|c| c.name.as_str()).collect(),
+            parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
+            layout: Some(&scene.layout),
+        }
+    }
+
+    /// The field that holds a leaf of a scene.
+    pub(super) fn field(&self, leaf: Leaf) -> Option<TokenStream> {
+        let layout = self.layout?;
+        let of = |whole: &str, part: &str| {
+            let (whole, part) = (ident(whole), ident(part));
+            quote! { #whole.#part }
+        };
+        Some(match leaf {
+            Leaf::Position(j) => of("state", &layout.coordinates[j].name),
+            Leaf::Velocity(j) => of("state", &layout.coordinates[j].rate_name),
+            Leaf::State(i) => of("state", &layout.states[i].name),
+            Leaf::Mode(i) => of("state", &format!("{}_mode", layout.modes[i].name)),
+            Leaf::Acceleration(j) => of("acceleration", &layout.coordinates[j].name),
+            Leaf::Input(i) => of("input", &layout.inputs[i].name),
+            Leaf::Time => quote! { t },
+            Leaf::Parameter(_) | Leaf::Passed { .. } => return None,
+        })
     }
 }
 

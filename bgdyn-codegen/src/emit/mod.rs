@@ -5,14 +5,17 @@ mod code;
 mod constants;
 mod fallback;
 mod names;
+mod scene;
 mod writer;
 
 pub use fallback::fallback;
 use heck::ToUpperCamelCase;
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote};
+pub use scene::scene_module;
 
 use crate::function::Function;
+use crate::mechanism::Parameter;
 use crate::mechanism::name::is_identifier;
 use crate::method::{Argument, Method, Shape};
 use crate::model::Model;
@@ -31,6 +34,8 @@ pub struct Place {
     /// Path to include, so that a change of the spec rebuilds; `None` where the build script sees
     /// to that.
     pub rebuild: Option<String>,
+    /// Other files to include for the same reason: a scene's mechanism.
+    pub also: Vec<String>,
 }
 
 impl Place {
@@ -42,6 +47,7 @@ impl Place {
             module: None,
             source,
             rebuild: None,
+            also: Vec::new(),
         }
     }
 
@@ -96,7 +102,8 @@ pub fn module(model: &Model, place: &Place) -> TokenStream {
     let docs = module_docs(model, place);
     let constants = constants::constants(model);
     let operations = constants::counted(&model.functions);
-    let structure = structure(model);
+    let about = format!(" The mechanism `{}`.", model.mechanism.name());
+    let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
     let methods = model.functions.iter().map(|f| method(f, model));
     let struct_name = struct_name(model);
     let has = |m: Method| model.function(m).is_some();
@@ -132,7 +139,11 @@ pub fn module(model: &Model, place: &Place) -> TokenStream {
 /// Includes the spec, which makes the compiler watch it.
 fn rebuild(place: &Place) -> Option<TokenStream> {
     let path = place.rebuild.as_ref()?;
-    Some(quote! { const _: &[u8] = ::core::include_bytes!(#path); })
+    let also = &place.also;
+    Some(quote! {
+        const _: &[u8] = ::core::include_bytes!(#path);
+        #(const _: &[u8] = ::core::include_bytes!(#also);)*
+    })
 }
 
 fn ident(name: &str) -> proc_macro2::Ident {
@@ -186,10 +197,8 @@ fn module_docs(model: &Model, place: &Place) -> Vec<String> {
 }
 
 /// The struct: one public field per run-time parameter, otherwise zero-sized.
-fn structure(model: &Model) -> TokenStream {
-    let name = struct_name(model);
-    let mut docs = vec![format!(" The mechanism `{}`.", model.mechanism.name())];
-    let parameters = model.mechanism.parameters();
+fn structure(name: &proc_macro2::Ident, about: &str, parameters: &[Parameter]) -> TokenStream {
+    let mut docs = vec![about.to_owned()];
     if !parameters.is_empty() {
         docs.push(String::new());
         docs.push(" Its fields are run-time parameters; `default()` has the spec's values.".into());
@@ -241,6 +250,10 @@ fn argument_type(argument: Argument) -> TokenStream {
     match argument {
         Argument::Q => quote! { &__na::SVector<T, NQ> },
         Argument::V | Argument::A | Argument::Tau => quote! { &__na::SVector<T, NV> },
+        Argument::State => quote! { &State<T> },
+        Argument::Input => quote! { &Input<T> },
+        Argument::Accelerations => quote! { &Coordinates<T> },
+        Argument::Time => quote! { T },
     }
 }
 
@@ -259,6 +272,7 @@ fn return_type(shape: Shape) -> TokenStream {
         Shape::Pose => quote! { __rt::Pose<T> },
         Shape::Spatial => quote! { __na::SVector<T, 6> },
         Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },
+        Shape::Parts | Shape::CheckedParts => unreachable!("a scene names its own results"),
     }
 }
 
@@ -270,7 +284,10 @@ fn method(function: &Function, model: &Model) -> TokenStream {
     let types = arguments.iter().map(|a| argument_type(*a));
     let result = return_type(function.shape());
     let docs = method_docs(function, model);
-    let body::Body { body, blocks } = body::body(function, model);
+    let finish =
+        |values: &[TokenStream]| body::result(function.shape(), model.mechanism.nv(), values);
+    let naming = code::Naming::of_model(model);
+    let body::Body { body, blocks } = body::body(function, &naming, finish);
     quote! {
         #(#[doc = #docs])*
         pub fn #name(&self, #(#names: #types),*) -> #result {

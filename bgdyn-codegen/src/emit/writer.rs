@@ -6,13 +6,12 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::code::{Binding, Code, atom, leaf_of, leaves};
+use super::code::{Binding, Code, Naming, atom, leaf_of, leaves};
 use super::names::Names;
 use super::{ident, number};
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
 use crate::function::Function;
 use crate::method::Shape;
-use crate::model::Model;
 
 /// Operations in one statement at the most: what a reader takes in at a glance.
 const STATEMENT: usize = 6;
@@ -23,8 +22,7 @@ pub(super) const COMMENT: &str = "//";
 /// Writes the statements of a function.
 pub(super) struct Writer<'a> {
     graph: &'a Graph,
-    joints: Vec<&'a str>,
-    parameters: Vec<&'a str>,
+    naming: &'a Naming<'a>,
     names: Names,
     /// Code to write where a node is used: a variable's name, or the whole operation.
     code: Vec<Option<Code>>,
@@ -43,27 +41,19 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(function: &'a Function, model: &'a Model, outputs: &[Expr]) -> Self {
+    pub(super) fn new(function: &'a Function, naming: &'a Naming<'a>, outputs: &[Expr]) -> Self {
         let graph = &function.graph;
         let mut names = Names::default();
-        for reserved in ["q", "v", "a", "tau", "k", "refused"] {
+        let reserved = ["q", "v", "a", "tau", "k", "refused"];
+        let of_scenes = ["state", "input", "acceleration", "t"];
+        let of_scenes = of_scenes.iter().filter(|_| naming.layout.is_some());
+        for reserved in reserved.iter().chain(of_scenes) {
             names.named(reserved);
         }
         (0..function.blocks.len()).for_each(|b| drop(names.named(&format!("p{b}"))));
         let mut writer = Writer {
             graph,
-            joints: model
-                .bond_graph
-                .coordinates
-                .iter()
-                .map(|c| c.name.as_str())
-                .collect(),
-            parameters: model
-                .mechanism
-                .parameters()
-                .iter()
-                .map(|p| p.name.as_str())
-                .collect(),
+            naming,
             names,
             code: vec![None; graph.len()],
             sines: QuickMap::default(),
@@ -121,21 +111,24 @@ impl<'a> Writer<'a> {
         for &argument in function.method.arguments() {
             let name = ident(argument.name());
             let mut parts = Vec::new();
-            for j in 0..self.joints.len() {
-                let leaf = leaf_of(argument, j);
+            for j in 0..self.naming.joints.len() {
+                let Some(leaf) = leaf_of(argument, j) else {
+                    continue;
+                };
                 if !read.contains(&leaf) {
                     parts.push(quote! { _ });
                     continue;
                 }
-                let variable = self
-                    .names
-                    .named(&format!("{}_{}", argument.name(), self.joints[j]));
+                let variable =
+                    self.names
+                        .named(&format!("{}_{}", argument.name(), self.naming.joints[j]));
                 parts.push(quote! { #variable });
                 if let Some(id) = self.graph.find(&Node::Leaf(leaf)) {
                     self.code[id.0 as usize] = Some(atom(quote! { #variable }));
                 }
             }
-            if (0..self.joints.len()).any(|j| read.contains(&leaf_of(argument, j))) {
+            let is_read = |j| leaf_of(argument, j).is_some_and(|leaf| read.contains(&leaf));
+            if (0..self.naming.joints.len()).any(is_read) {
                 bindings.extend(quote! { let [[#(#parts),*]] = #name.data.0; });
             }
         }
@@ -217,7 +210,7 @@ impl<'a> Writer<'a> {
     fn leaf(&self, leaf: Leaf) -> Option<Code> {
         match leaf {
             Leaf::Parameter(p) => {
-                let field = ident(self.parameters[p]);
+                let field = ident(self.naming.parameters[p]);
                 Some(atom(quote! { self.#field }))
             }
             Leaf::Passed { block, index } => {
@@ -227,8 +220,8 @@ impl<'a> Writer<'a> {
                 );
                 Some(atom(quote! { #name[#index] }))
             }
-            // Bound with the arguments.
-            _ => None,
+            // Bound with the arguments, or a field of theirs.
+            leaf => self.naming.field(leaf).map(atom),
         }
     }
 
@@ -387,7 +380,7 @@ impl<'a> Writer<'a> {
     /// The joints whose angles are summed: `shoulder_elbow`.
     fn angle_name(&self, angle: NodeId) -> String {
         let joint = |id: NodeId| match self.graph.node(id) {
-            Node::Leaf(Leaf::Position(j)) => self.joints[*j].to_string(),
+            Node::Leaf(Leaf::Position(j)) => self.naming.joints[*j].to_string(),
             _ => "angle".to_string(),
         };
         match self.graph.node(angle) {

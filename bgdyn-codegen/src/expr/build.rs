@@ -178,6 +178,63 @@ impl<'g> Ex<'g> {
         self.builder.make(|g| g.sqrt(value))
     }
 
+    fn of(self, f: impl FnOnce(&mut Graph, Expr) -> Expr) -> Self {
+        let value = self.expr();
+        self.builder.make(|g| f(g, value))
+    }
+
+    fn of_two(self, b: Self, f: impl FnOnce(&mut Graph, Expr, Expr) -> Expr) -> Self {
+        let (x, y) = (self.expr(), b.expr());
+        self.builder.make(|g| f(g, x, y))
+    }
+
+    /// e to its power.
+    pub fn exp(self) -> Self {
+        self.of(Graph::exp)
+    }
+
+    /// Its natural logarithm.
+    pub fn ln(self) -> Self {
+        self.of(Graph::ln)
+    }
+
+    /// Its hyperbolic tangent.
+    pub fn tanh(self) -> Self {
+        self.of(Graph::tanh)
+    }
+
+    /// Its absolute value.
+    pub fn abs(self) -> Self {
+        self.of(Graph::abs)
+    }
+
+    /// −1, 0 or 1.
+    pub fn sign(self) -> Self {
+        self.of(Graph::sign)
+    }
+
+    /// The smaller one.
+    pub fn min(self, b: Self) -> Self {
+        self.of_two(b, Graph::min)
+    }
+
+    /// The larger one.
+    pub fn max(self, b: Self) -> Self {
+        self.of_two(b, Graph::max)
+    }
+
+    /// `yes` where it is less than `bound`, else `no`.
+    pub fn if_less(self, bound: Self, yes: Self, no: Self) -> Self {
+        if let (Some(x), Some(y)) = (self.as_constant(), bound.as_constant()) {
+            return if x < y { yes } else { no };
+        }
+        let (x, y, yes, no) = (self.expr(), bound.expr(), yes.expr(), no.expr());
+        self.builder.make(|g| {
+            let condition = g.less(x, y);
+            g.select(condition, yes, no)
+        })
+    }
+
     /// k times it.
     fn times(self, k: Dd) -> Self {
         match self.value {

@@ -21,6 +21,8 @@ pub struct Inputs<T> {
     pub modes: Vec<T>,
     /// Run-time parameters.
     pub parameters: Vec<T>,
+    /// Time.
+    pub t: Option<T>,
     /// Results of the blocks evaluated so far.
     pub passed: Vec<Vec<T>>,
 }
@@ -35,6 +37,7 @@ impl<T: Scalar> Inputs<T> {
             Leaf::Input(i) => self.u[i],
             Leaf::Mode(i) => self.modes[i],
             Leaf::Parameter(i) => self.parameters[i],
+            Leaf::Time => self.t.expect("the time"),
             Leaf::Passed { block, index } => self.passed[block][index],
         }
     }

@@ -99,6 +99,8 @@ pub enum Leaf {
     Mode(usize),
     /// Run-time parameter.
     Parameter(usize),
+    /// Time, s.
+    Time,
     /// Result `index` of an earlier block of the same function.
     Passed {
         /// The block.

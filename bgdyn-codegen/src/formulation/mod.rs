@@ -86,6 +86,20 @@ fn candidates(graph: &BondGraph, method: Method, asked: Option<&dyn Formulation>
     }
 }
 
+/// The ways to forward dynamics that keep their digits, the cheapest first.
+pub(crate) fn forward_dynamics(graph: &BondGraph) -> Vec<Function> {
+    recursion::forward_dynamics(graph)
+}
+
+/// Solves M x = f for a symmetric M, given by its lower triangle; every pivot is checked.
+pub(crate) fn solve_symmetric<'g>(
+    b: &'g Builder,
+    mass: Vec<Vec<Ex<'g>>>,
+    f: Vec<Ex<'g>>,
+) -> Vec<Ex<'g>> {
+    solve::ltdl(b, mass, f)
+}
+
 /// The arguments of a method as expressions; what it does not take is zero.
 struct Arguments<'g> {
     q: Vec<Ex<'g>>,
@@ -106,9 +120,12 @@ impl<'g> Arguments<'g> {
                 .collect()
         };
         let takes = |argument| method.arguments().contains(&argument);
+        // Energies and the motion of places know no other velocities than the true ones.
+        let kinematic = method.site().is_some() || method == Method::KineticEnergy;
+        let turning = graph.velocity_products || kinematic;
         Arguments {
             q: read(true, Leaf::Position),
-            v: read(takes(Argument::V), Leaf::Velocity),
+            v: read(takes(Argument::V) && turning, Leaf::Velocity),
             a: read(takes(Argument::A), Leaf::Acceleration),
             tau: read(takes(Argument::Tau), Leaf::Input),
             active: true,

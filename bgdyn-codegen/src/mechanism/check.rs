@@ -1,6 +1,7 @@
 //! The one step that makes a [`Mechanism`]: a spec that obeys every rule, or all that breaks one.
 
 mod direction;
+mod effects;
 mod inertia;
 mod joint;
 mod names;
@@ -54,7 +55,7 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
         .collect();
     let gravity = vector_or(&spec.gravity, standard_gravity());
     let (links, coordinates) = assemble(bodies, &tree)?;
-    Some(Mechanism {
+    let mechanism = Mechanism {
         name: name?,
         label: text(&spec.label),
         description: text(&spec.description),
@@ -63,6 +64,12 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
         frames: all(frames)?,
         parameters: parameters.into_all(),
         coordinates,
+        effects: Vec::new(),
+    };
+    let effects = effects::effects(spec, &mechanism, faults);
+    Some(Mechanism {
+        effects,
+        ..mechanism
     })
 }
 

@@ -11,6 +11,7 @@ use std::fmt;
 
 use bgdyn_runtime::Dd;
 
+use crate::effect::Declared;
 use crate::math::{Mat3, Vec3};
 pub use check::check;
 pub use joint::{JointType, Motion};
@@ -179,6 +180,7 @@ pub struct Mechanism {
     frames: Vec<Frame>,
     parameters: Vec<Parameter>,
     coordinates: Vec<LinkId>,
+    effects: Vec<Declared>,
 }
 
 impl Mechanism {
@@ -220,6 +222,29 @@ impl Mechanism {
     /// For each coordinate the link whose joint it moves.
     pub fn coordinates(&self) -> &[LinkId] {
         &self.coordinates
+    }
+
+    /// What acts in it beside its links, for scenes to call for.
+    pub fn effects(&self) -> &[Declared] {
+        &self.effects
+    }
+
+    /// The same with these links welded to their carriers in these poses.
+    pub fn welded(&self, welds: &[(LinkId, Pose)]) -> Self {
+        let mut welded = self.clone();
+        for (link, pose) in welds {
+            let joint = &mut welded.links[link.0].joint;
+            joint.kind = joint::fixed();
+            joint.origin = *pose;
+            joint.coordinate = None;
+        }
+        welded
+            .coordinates
+            .retain(|l| welded.links[l.0].joint.coordinate.is_some());
+        for (j, link) in welded.coordinates.iter().enumerate() {
+            welded.links[link.0].joint.coordinate = Some(CoordinateId(j));
+        }
+        welded
     }
 
     /// Number of velocities.

@@ -7,6 +7,8 @@ mod field;
 mod index;
 mod number;
 mod parse;
+mod raw;
+mod scene;
 mod unit;
 mod walk;
 mod yaml;
@@ -17,6 +19,8 @@ use crate::fault::Place;
 pub use field::{Field, Located};
 pub(crate) use number::misfit;
 pub use parse::parse;
+pub use raw::{Entry, Fields, Key, Raw, Reads};
+pub use scene::{SceneSpec, is_scene, parse_scene};
 pub use unit::{Dimension, Unit};
 
 /// A number as written.
@@ -58,6 +62,8 @@ pub struct Spec {
     pub links: Field<Vec<Link>>,
     /// The named frames; those that are no mapping are left out.
     pub frames: Field<Vec<Frame>>,
+    /// What acts in it beside its links, by name, unread.
+    pub effects: Field<Vec<Raw>>,
 }
 
 /// An entry of `links`.

@@ -28,6 +28,7 @@ impl Reader {
             "snap",
             "links",
             "frames",
+            "effects",
         ];
         let map = self.mapping(at, ("a mapping", "`format: 1`, `links: …`"), &keys)?;
         Some(Spec {
@@ -66,6 +67,9 @@ impl Reader {
                     .filter_map(|at| r.frame(at))
                     .collect(),
                 )
+            }),
+            effects: self.field(&map, "effects", |r, at| {
+                r.table(at, ("effects by name", "`name: { type: viscous, … }`"))
             }),
             place: map.place,
             complete: false,
@@ -226,7 +230,7 @@ impl Reader {
         })
     }
 
-    fn text_field(&mut self, map: &Mapping<'_>, key: &str) -> Field<String> {
+    pub(super) fn text_field(&mut self, map: &Mapping<'_>, key: &str) -> Field<String> {
         self.field(map, key, Self::text)
     }
 

@@ -25,6 +25,42 @@ pub enum Dimension {
     Force,
     /// Torque, N·m.
     Torque,
+    /// Time, s.
+    Time,
+    /// Frequency, Hz.
+    Frequency,
+    /// Stiffness of a displacement, N/m.
+    Stiffness,
+    /// Stiffness of an angle, N·m/rad.
+    AngularStiffness,
+    /// Effort per speed, N·s/m.
+    Damping,
+    /// Effort per angular speed, N·m·s/rad.
+    AngularDamping,
+    /// Effort per square of a speed, N·s²/m².
+    QuadraticDamping,
+    /// Voltage, V.
+    Voltage,
+    /// Current, A.
+    Current,
+    /// Electric resistance, Ω.
+    Resistance,
+    /// Inductance, H.
+    Inductance,
+    /// Torque per current, N·m/A, which is V·s/rad.
+    TorqueConstant,
+    /// Pressure, Pa.
+    Pressure,
+    /// Volume, m³.
+    Volume,
+    /// Area, m².
+    Area,
+    /// Volume flow per root of a pressure, m³/(s·√Pa).
+    OrificeFlow,
+    /// Volume flow per pressure, m³/(s·Pa).
+    Leakage,
+    /// Pressure per volume flow, Pa·s/m³.
+    FlowResistance,
 }
 
 /// A unit: `text` is 10^`exponent` of the SI unit, or a degree (per second).
@@ -59,7 +95,7 @@ const fn degrees(text: &'static str, dimension: Dimension) -> Unit {
 }
 
 /// Every unit there is; a dimension's SI unit stands first.
-static UNITS: [Unit; 20] = [
+static UNITS: [Unit; 54] = [
     unit("m", Dimension::Length, 0),
     unit("cm", Dimension::Length, -2),
     unit("mm", Dimension::Length, -3),
@@ -80,14 +116,52 @@ static UNITS: [Unit; 20] = [
     unit("N", Dimension::Force, 0),
     unit("kN", Dimension::Force, 3),
     unit("N*m", Dimension::Torque, 0),
+    unit("s", Dimension::Time, 0),
+    unit("ms", Dimension::Time, -3),
+    unit("us", Dimension::Time, -6),
+    unit("Hz", Dimension::Frequency, 0),
+    unit("kHz", Dimension::Frequency, 3),
+    unit("N/m", Dimension::Stiffness, 0),
+    unit("N/mm", Dimension::Stiffness, 3),
+    unit("N*m/rad", Dimension::AngularStiffness, 0),
+    unit("N*s/m", Dimension::Damping, 0),
+    unit("N*m*s/rad", Dimension::AngularDamping, 0),
+    unit("N*s^2/m^2", Dimension::QuadraticDamping, 0),
+    unit("V", Dimension::Voltage, 0),
+    unit("mV", Dimension::Voltage, -3),
+    unit("A", Dimension::Current, 0),
+    unit("mA", Dimension::Current, -3),
+    unit("ohm", Dimension::Resistance, 0),
+    unit("mohm", Dimension::Resistance, -3),
+    unit("H", Dimension::Inductance, 0),
+    unit("mH", Dimension::Inductance, -3),
+    unit("uH", Dimension::Inductance, -6),
+    unit("N*m/A", Dimension::TorqueConstant, 0),
+    unit("mN*m/A", Dimension::TorqueConstant, -3),
+    unit("V*s/rad", Dimension::TorqueConstant, 0),
+    unit("Pa", Dimension::Pressure, 0),
+    unit("kPa", Dimension::Pressure, 3),
+    unit("MPa", Dimension::Pressure, 6),
+    unit("GPa", Dimension::Pressure, 9),
+    unit("bar", Dimension::Pressure, 5),
+    unit("m^3", Dimension::Volume, 0),
+    unit("l", Dimension::Volume, -3),
+    unit("cm^3", Dimension::Volume, -6),
+    unit("m^2", Dimension::Area, 0),
+    unit("cm^2", Dimension::Area, -4),
+    unit("mm^2", Dimension::Area, -6),
 ];
 
 impl Unit {
-    /// The unit written as `text`; `·`, `²` and `°` may stand for `*`, `^2` and `deg`.
+    /// The unit written as `text`; `·`, `²`, `³`, `°`, `Ω` and `µ` may stand for `*`, `^2`,
+    /// `^3`, `deg`, `ohm` and `u`.
     pub fn find(text: &str) -> Option<&'static Unit> {
         let plain = text
             .replace('·', "*")
             .replace('²', "^2")
+            .replace('³', "^3")
+            .replace('Ω', "ohm")
+            .replace('µ', "u")
             .replace('°', "deg");
         UNITS.iter().find(|u| u.text == plain)
     }
@@ -104,7 +178,12 @@ impl Dimension {
 
     /// Its SI unit; empty for a pure number.
     pub fn si(self) -> &'static str {
-        self.units().next().unwrap_or("")
+        match self {
+            Dimension::OrificeFlow => "m^3/(s*Pa^0.5)",
+            Dimension::Leakage => "m^3/(s*Pa)",
+            Dimension::FlowResistance => "Pa*s/m^3",
+            _ => self.units().next().unwrap_or(""),
+        }
     }
 }
 
@@ -121,6 +200,24 @@ impl fmt::Display for Dimension {
             Dimension::AngularSpeed => "an angular speed",
             Dimension::Force => "a force",
             Dimension::Torque => "a torque",
+            Dimension::Time => "a time",
+            Dimension::Frequency => "a frequency",
+            Dimension::Stiffness => "a stiffness",
+            Dimension::AngularStiffness => "an angular stiffness",
+            Dimension::Damping => "a damping",
+            Dimension::AngularDamping => "an angular damping",
+            Dimension::QuadraticDamping => "a quadratic damping",
+            Dimension::Voltage => "a voltage",
+            Dimension::Current => "a current",
+            Dimension::Resistance => "a resistance",
+            Dimension::Inductance => "an inductance",
+            Dimension::TorqueConstant => "a torque constant",
+            Dimension::Pressure => "a pressure",
+            Dimension::Volume => "a volume",
+            Dimension::Area => "an area",
+            Dimension::OrificeFlow => "a flow per root of a pressure",
+            Dimension::Leakage => "a flow per pressure",
+            Dimension::FlowResistance => "a flow resistance",
         })
     }
 }

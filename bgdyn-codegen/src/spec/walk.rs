@@ -137,6 +137,53 @@ impl Reader {
         mapping.entries.push(entry);
     }
 
+    /// The entries of a mapping whose keys are names, repeated ones reported.
+    pub(super) fn names<'t>(
+        &mut self,
+        at: &At<'t>,
+        what: Wanted<'_>,
+    ) -> Option<Vec<(Located<String>, At<'t>)>> {
+        self.refuse_tag(at);
+        let Data::Map(entries) = &at.tree.data else {
+            self.faults
+                .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+            return None;
+        };
+        if self.refuse_parameter(at) {
+            return None;
+        }
+        let mut found: Vec<(Located<String>, At<'t>)> = Vec::new();
+        for entry in entries {
+            let path = join(&at.place.path, entry.key.as_deref().unwrap_or("?"));
+            let at_key = |position| Place {
+                position,
+                path: path.clone(),
+            };
+            let place = at_key(entry.position);
+            let Some(key) = &entry.key else {
+                self.faults.push(wording::key_not_text(&place, &[]));
+                continue;
+            };
+            if key == "<<" {
+                self.faults.push(wording::merge_key(&place));
+                continue;
+            }
+            if let Some((first, _)) = found.iter().find(|(name, _)| name.value == *key) {
+                let first = first.place.position;
+                self.faults.push(wording::repeated_key(&place, key, first));
+                continue;
+            }
+            let name = Located {
+                value: key.clone(),
+                place,
+            };
+            let tree = &entry.value;
+            let place = at_key(tree.position);
+            found.push((name, At { tree, place }));
+        }
+        Some(found)
+    }
+
     /// The value of `key`, read by `read`.
     pub(super) fn field<'t, T>(
         &mut self,

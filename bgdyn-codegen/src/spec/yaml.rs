@@ -11,7 +11,7 @@ use super::index::{Node, Shape, index};
 use crate::fault::{Fault, Faults, Position, wording};
 
 /// A typed value and where it stands.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tree {
     pub(super) position: Position,
     pub(super) tag: Option<String>,
@@ -19,7 +19,7 @@ pub(super) struct Tree {
 }
 
 /// What a value is.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Data {
     Scalar { kind: Kind, text: String },
     List(Vec<Tree>),
@@ -36,7 +36,7 @@ pub(super) enum Kind {
 }
 
 /// A key with its value; `key` is empty for a key that is no scalar.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) key: Option<String>,
     pub(super) position: Position,

@@ -77,6 +77,11 @@ pub(crate) fn tag(place: &Place, tag: &str) -> Fault {
 
 // Keys and types
 
+pub(crate) fn not_two_names(place: &Place, count: usize) -> Fault {
+    let message = format!("two names belong here, not {count}");
+    Fault::new(place, "wrong-length", message).with_help("write `[one, other]`")
+}
+
 pub(crate) fn unknown_key(place: &Place, key: &str, known: &[&'static str]) -> Fault {
     let help = meant(
         key,

@@ -147,7 +147,13 @@ impl<'a, 'g> Sum<'a, 'g> {
             }
             // K̇_i = J_i ω̇_i + ω_i × (J_i ω_i)
             let (omega, tensor) = (self.combine(&moduli.angular, &x.v), self.tensor(i));
-            let moment = tensor * second(&moduli.angular) + omega.cross(tensor * omega);
+            let omega_dot = second(&moduli.angular);
+            let mut moment = tensor * omega_dot + omega.cross(tensor * omega);
+            // … and of the rotors on the link, whose momentum is h_i = N J q̇_j e.
+            for (j, h) in self.spinning(i) {
+                moment = moment + h.scale(x.a[j]) + omega.cross(h).scale(x.v[j]);
+                efforts[j] = efforts[j] + h.dot(omega_dot);
+            }
             for (j, m) in &moduli.linear {
                 efforts[*j] = efforts[*j] + m.dot(force);
             }
@@ -155,7 +161,25 @@ impl<'a, 'g> Sum<'a, 'g> {
                 efforts[*j] = efforts[*j] + rho.dot(moment);
             }
         }
+        for rotor in &self.graph.rotors {
+            let j = rotor.coordinate.0;
+            efforts[j] = efforts[j] + value(self.b, rotor.inertia) * x.a[j];
+        }
         efforts
+    }
+
+    /// The joints that turn rotors on link i, with N J e in fixed axes.
+    fn spinning(&self, i: usize) -> Vec<(usize, Vec3<Ex<'g>>)> {
+        let rotors = self.graph.rotors.iter();
+        let on = rotors.filter_map(|r| Some((r.coordinate.0, r.carrier.as_ref()?)));
+        on.filter(|(_, carrier)| carrier.link == LinkId(i))
+            .map(|(j, carrier)| {
+                (
+                    j,
+                    self.placement.rotations[i] * self.b.vector(carrier.momentum),
+                )
+            })
+            .collect()
     }
 
     /// Lower triangle of M_jk = Σ_i [ ∂r_i/∂q_j · m_i ∂r_i/∂q_k + ρ_j · J_i ρ_k ].
@@ -174,6 +198,19 @@ impl<'a, 'g> Sum<'a, 'g> {
                     mass[*j][*k] = mass[*j][*k] + x.dot(tensor * *y);
                 }
             }
+            for (j, h) in self.spinning(i) {
+                for (k, y) in &self.moduli[i].angular {
+                    let (row, column) = (j.max(*k), j.min(*k));
+                    mass[row][column] = mass[row][column] + y.dot(h);
+                    if j == *k {
+                        mass[j][j] = mass[j][j] + y.dot(h);
+                    }
+                }
+            }
+        }
+        for rotor in &self.graph.rotors {
+            let j = rotor.coordinate.0;
+            mass[j][j] = mass[j][j] + value(self.b, rotor.inertia);
         }
         mass
     }
@@ -183,8 +220,21 @@ impl<'a, 'g> Sum<'a, 'g> {
         let twice = (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
             let velocity = self.combine(&self.moduli[i].linear, v);
             let omega = self.combine(&self.moduli[i].angular, v);
-            sum + self.mass(i) * velocity.dot(velocity) + omega.dot(self.tensor(i) * omega)
+            let spun = self
+                .spinning(i)
+                .into_iter()
+                .fold(self.b.zero(), |sum, (j, h)| {
+                    let shared = omega.dot(h) * v[j];
+                    sum + shared + shared
+                });
+            let links = self.mass(i) * velocity.dot(velocity) + omega.dot(self.tensor(i) * omega);
+            sum + links + spun
         });
+        let rotors = self.graph.rotors.iter().fold(self.b.zero(), |sum, rotor| {
+            let rate = v[rotor.coordinate.0];
+            sum + value(self.b, rotor.inertia) * rate * rate
+        });
+        let twice = twice + rotors;
         twice * Dd::from_f64(0.5)
     }
 

@@ -6,6 +6,7 @@ use bgdyn_runtime::Dd;
 use super::base::{Parts, regrouped};
 use super::geometry::{Body, Geometry, angle_of};
 use super::inertia::{Inertia, Point, turn};
+use super::rotors::Rotors;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
 use crate::formulation::Arguments;
@@ -97,6 +98,8 @@ pub(super) struct Frames<'g> {
     pub gravity: Vec<Vec3<Ex<'g>>>,
     /// Potential energy that does not depend on q.
     pub constant_energy: Ex<'g>,
+    /// Rotors behind gears.
+    pub rotors: Rotors<'g>,
 }
 
 impl<'g> Frames<'g> {
@@ -167,6 +170,7 @@ impl<'g> Frames<'g> {
             gravity: gravity.collect(),
             bodies,
             constant_energy: energy,
+            rotors: Rotors::new(b, graph, geometry, x),
         }
     }
 }

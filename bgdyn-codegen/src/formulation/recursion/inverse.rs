@@ -78,7 +78,11 @@ pub(super) fn efforts<'g>(
     plan: &Plan,
     active: bool,
 ) -> Vec<Ex<'g>> {
-    inwards(b, frames, &loads(b, frames, plan, active))
+    let moving = motions(b, frames, active);
+    let loads = loads_of(b, frames, plan, &moving);
+    let mut efforts = inwards(b, frames, &loads);
+    frames.rotors.add_efforts(&moving, &mut efforts);
+    efforts
 }
 
 /// Forces and moments that move each body with the rates and accelerations in `frames`.
@@ -88,10 +92,25 @@ pub(super) fn loads<'g>(
     plan: &Plan,
     active: bool,
 ) -> Vec<Load<'g>> {
-    let moving = motions(b, frames, active);
-    let bodies = frames.bodies.iter().zip(&moving).zip(&plan.in_basis);
+    loads_of(b, frames, plan, &motions(b, frames, active))
+}
+
+fn loads_of<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    plan: &Plan,
+    moving: &[Moving<'g>],
+) -> Vec<Load<'g>> {
+    let bodies = frames.bodies.iter().zip(moving).zip(&plan.in_basis);
     bodies
-        .map(|((frame, motion), &in_basis)| load(b, frame, motion, in_basis, plan.short_moment))
+        .enumerate()
+        .map(|(j, ((frame, motion), &in_basis))| {
+            let mut load = load(b, frame, motion, in_basis, plan.short_moment);
+            if let Some(moment) = frames.rotors.moment(j, motion) {
+                load.own.moment = load.own.moment + moment;
+            }
+            load
+        })
         .collect()
 }
 

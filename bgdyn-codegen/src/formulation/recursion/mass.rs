@@ -89,13 +89,15 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             .map(|m| m.map(|v| turn(v, frame.turn)))
             .collect();
         momenta.extend(&outer.momenta);
+        frames.rotors.add_momenta(frames, j, &mut momenta);
         for m in &momenta {
             let other = &frames.bodies[m.joint];
             mass[m.joint][j] = (m.along(frame) * frame.effort * other.effort)
                 .named(|| format!("m_{}_{}", frame.joint, other.joint));
         }
         let unit = unit_momentum(b, j, frame, &whole, j_zz);
-        mass[j][j] = (unit.along(frame) * (frame.effort * frame.effort))
+        let diagonal = unit.along(frame) * (frame.effort * frame.effort);
+        mass[j][j] = (diagonal + frames.rotors.armature(j))
             .named(|| format!("m_{}_{}", frame.joint, frame.joint));
         momenta.push(unit);
         let Some(p) = frame.parent else { continue };
@@ -174,7 +176,8 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> 
         own.push((omega, u));
         twice = twice + twice_kinetic_energy(&frame.inertia, omega, u);
     }
-    twice * Dd::from_f64(0.5)
+    let omega: Vec<Vec3<Ex<'g>>> = own.iter().map(|(omega, _)| *omega).collect();
+    (twice + frames.rotors.twice_kinetic_energy(b, &omega)) * Dd::from_f64(0.5)
 }
 
 fn twice_kinetic_energy<'g>(inertia: &Inertia<'g>, omega: Vec3<Ex<'g>>, u: Vec3<Ex<'g>>) -> Ex<'g> {

@@ -16,7 +16,7 @@ pub(super) fn joint(link: &Link, directions: &Directions, faults: &mut Faults) -
         Field::Absent => Some(Joint {
             name: mount_name(link.name.value()?),
             label: None,
-            kind: fixed()?,
+            kind: crate::mechanism::joint::fixed(),
             axis: z(),
             origin: Directions::identity(),
             limits: Limits::default(),
@@ -47,13 +47,6 @@ fn given(
         limits: limits?,
         coordinate: None,
     })
-}
-
-fn fixed() -> Option<&'static JointType> {
-    JOINT_TYPES
-        .iter()
-        .find(|kind| kind.motion == Motion::None)
-        .copied()
 }
 
 fn z() -> Vec3<Dd> {

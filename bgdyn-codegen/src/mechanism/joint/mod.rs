@@ -38,6 +38,11 @@ pub struct JointType {
     pub position_limits: bool,
 }
 
+/// The joint that lets nothing move.
+pub(crate) fn fixed() -> &'static JointType {
+    &fixed::FIXED
+}
+
 /// Every joint type there is.
 pub static JOINT_TYPES: [&JointType; 4] = [
     &revolute::REVOLUTE,

@@ -49,7 +49,9 @@ impl Formulation for Articulated {
     }
 
     fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
-        if method != Method::ForwardDynamics {
+        // A rotor that turns with its carrier couples joints beside their bodies.
+        let coupled = graph.rotors.iter().any(|r| r.carrier.is_some());
+        if method != Method::ForwardDynamics || coupled {
             return None;
         }
         let geometry = geometry(graph);

@@ -96,13 +96,15 @@ impl<'g, 'f> Sweep<'g, 'f> {
         for j in (0..n).rev() {
             let frame = &frames.bodies[j];
             let inner = ArticulatedInertia::rigid(b, &frame.inertia).plus(&own[j]);
+            let armature = frames.rotors.armature(j) * (Dd::ONE / (frame.effort * frame.effort));
             let along = inner.along(frame.motion) + basis[j].along(frame.motion);
             let magnitude = if guarded[j] {
                 magnitude(b, &mut bounds, along)
             } else {
                 b.zero()
             };
-            let pivot = along.pivot(magnitude, j);
+            // A rotor of its own adds to what the joint moves, not to what it hands on.
+            let pivot = (along + armature).pivot(magnitude, j);
             let (hinge, rest) = if basis[j].is_zero() {
                 // Turning about the joint's axis and giving way along it can change places: the
                 // latter first, which leaves a row and a column of zeros.

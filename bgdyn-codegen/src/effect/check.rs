@@ -1,0 +1,350 @@
+//! From what stands in a file to a checked element: its type, its keys, its names, its rules.
+
+use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
+use crate::fault::{Fault, Faults, Place, unknown_name, wording};
+use crate::mechanism::Motion;
+use crate::mechanism::name::is_identifier;
+use crate::spec::{Dimension, Entry, Fields, Key, Located, Number, Raw, Reads, misfit};
+
+/// The key that says what an effect is.
+const TYPE: Key = Key {
+    name: "type",
+    reads: Reads::Word(&[]),
+    needed: true,
+    about: "what it is",
+};
+
+/// An effect as a mechanism's file declares it; a scene may use it, with other values if it likes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declared {
+    /// Its name.
+    pub name: Located<String>,
+    /// What it is.
+    pub effect: &'static dyn Effect,
+    /// Its values.
+    pub fields: Fields,
+}
+
+/// The names that an effect may refer to.
+#[derive(Clone, Debug, Default)]
+pub struct Context {
+    /// Moving joints and the coordinates that effects add, with the dimension pair's index: 0 for
+    /// a rotation, 1 for a translation.
+    pub coordinates: Vec<(String, Motion)>,
+    /// Joints that a scene locks.
+    pub locked: Vec<String>,
+    /// Links and frames.
+    pub places: Vec<String>,
+    /// Hydraulic nodes.
+    pub nodes: Vec<String>,
+}
+
+impl Context {
+    /// The same with what these effects add.
+    pub fn with<'a>(mut self, declared: impl Iterator<Item = &'a Declared> + Clone) -> Self {
+        for d in declared.clone().filter(|d| d.effect.adds_coordinate()) {
+            let on = match d.fields.get("joint").map(|j| &j.value) {
+                Some(Entry::Text(joint)) => self.motion_of(joint),
+                _ => None,
+            };
+            let motion = on.unwrap_or(Motion::Rotation);
+            self.coordinates.push((d.name.value.clone(), motion));
+        }
+        for d in declared {
+            let Some(sides) = d.effect.nodes() else {
+                continue;
+            };
+            let side = |side: &&str| match *side {
+                "" => d.name.value.clone(),
+                side => format!("{}_{side}", d.name.value),
+            };
+            self.nodes.extend(sides.iter().map(side));
+        }
+        self
+    }
+
+    fn motion_of(&self, coordinate: &str) -> Option<Motion> {
+        let found = self.coordinates.iter().find(|(name, _)| name == coordinate);
+        found.map(|(_, motion)| *motion)
+    }
+}
+
+/// The effect that a file declares under a name.
+pub fn declared(raw: &Raw, faults: &mut Faults) -> Option<Declared> {
+    identifier(&raw.name, faults);
+    let Some(word) = raw.peek(TYPE.name) else {
+        let message = format!("the effect `{}` has no type", raw.name.value);
+        let known: Vec<&str> = types().map(Effect::keyword).collect();
+        let help = format!("add `type: …`: one of {}", known.join(", "));
+        let fault = Fault::new(&raw.place, "effect-type", message);
+        faults.push(fault.with_help(help));
+        return None;
+    };
+    let effect = of_type(&word, faults)?;
+    fields_of(raw, effect, faults).map(|fields| Declared {
+        name: raw.name.clone(),
+        effect,
+        fields,
+    })
+}
+
+/// The effects that a scene calls for by one entry of its list; the mechanism declares `known`.
+pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declared> {
+    let name = &raw.name.value;
+    let own = known.iter().find(|d| d.name.value == *name);
+    if let Some(own) = own {
+        return varied(raw, own, faults).into_iter().collect();
+    }
+    if let Some(effect) = by_keyword(name).filter(|e| e.built_in()) {
+        let fields = fields_of(raw, effect, faults);
+        let one = |fields| Declared {
+            name: raw.name.clone(),
+            effect,
+            fields,
+        };
+        return fields.map(one).into_iter().collect();
+    }
+    if raw.is_mapping() {
+        return declared(raw, faults).into_iter().collect();
+    }
+    let of_kind = |d: &&Declared| d.effect.family() == name || d.effect.keyword() == name;
+    let kin: Vec<Declared> = known.iter().filter(of_kind).cloned().collect();
+    if kin.is_empty() || !raw.is_bare() {
+        faults.push(unknown_call(raw, known));
+        return vec![];
+    }
+    kin
+}
+
+/// The mechanism's effect, with the scene's values in place of its own.
+fn varied(raw: &Raw, own: &Declared, faults: &mut Faults) -> Option<Declared> {
+    if raw.is_bare() {
+        return Some(own.clone());
+    }
+    if let Some(word) = raw.peek(TYPE.name)
+        && word.value != own.effect.keyword()
+    {
+        let message = format!(
+            "`{}` is of type `{}` in the mechanism, not `{}`",
+            raw.name.value,
+            own.effect.keyword(),
+            word.value
+        );
+        let fault = Fault::new(&word.place, "effect-type", message);
+        faults.push(fault.with_help("leave `type` out, or give the new effect another name"));
+        return None;
+    }
+    let fields = fields_of(raw, own.effect, faults)?;
+    Some(Declared {
+        name: raw.name.clone(),
+        effect: own.effect,
+        fields: fields.over(&own.fields),
+    })
+}
+
+fn unknown_call(raw: &Raw, known: &[Declared]) -> Fault {
+    let mut words: Vec<&str> = known.iter().map(|d| d.name.value.as_str()).collect();
+    words.extend(EFFECTS.iter().filter(|e| e.built_in()).map(|e| e.keyword()));
+    let families: Vec<&str> = known.iter().map(|d| d.effect.family()).collect();
+    words.extend(families);
+    words.dedup();
+    let message = unknown_name("effect", &raw.name.value, &words, &words.join(", "));
+    let new = "a new one is written with its type: `- push: { type: wrench, … }`";
+    Fault::new(&raw.name.place, "unknown-effect", message).with_help(new)
+}
+
+fn types() -> impl Iterator<Item = &'static dyn Effect> {
+    EFFECTS.into_iter().filter(|e| !e.built_in())
+}
+
+fn of_type(word: &Located<String>, faults: &mut Faults) -> Option<&'static dyn Effect> {
+    let found = by_keyword(&word.value).filter(|e| !e.built_in());
+    if found.is_none() {
+        let known: Vec<&str> = types().map(Effect::keyword).collect();
+        let message = unknown_name("type of effect", &word.value, &known, &known.join(", "));
+        let fault = Fault::new(&word.place, "effect-type", message);
+        faults.push(fault.with_help(format!("the types are {}", known.join(", "))));
+    }
+    found
+}
+
+fn fields_of(raw: &Raw, effect: &'static dyn Effect, faults: &mut Faults) -> Option<Fields> {
+    let mut keys = effect.keys().to_vec();
+    if !effect.built_in() {
+        keys.push(TYPE);
+    }
+    let example = format!("`{}`", example(effect));
+    raw.fields(("an effect's keys", &example), &keys, faults)
+}
+
+/// How the effect is written.
+pub(crate) fn example(effect: &dyn Effect) -> String {
+    let needed = effect.keys().iter().filter(|k| k.needed);
+    let keys: Vec<String> = needed.map(|k| format!("{}: …", k.name)).collect();
+    match (effect.built_in(), keys.is_empty()) {
+        (true, _) => effect.keyword().to_owned(),
+        (false, true) => format!("{{ type: {} }}", effect.keyword()),
+        (false, false) => format!("{{ type: {}, {} }}", effect.keyword(), keys.join(", ")),
+    }
+}
+
+fn identifier(name: &Located<String>, faults: &mut Faults) {
+    if !is_identifier(&name.value) {
+        faults.push(wording::not_identifier(&name.place, &name.value));
+    }
+}
+
+impl Declared {
+    /// The element, if its names are known and its numbers obey its rules.
+    pub fn element(&self, context: &Context, faults: &mut Faults) -> Option<Element> {
+        let before = faults.count();
+        let joint = match self.fields.get("joint").map(|e| &e.value) {
+            Some(Entry::Text(joint)) => context.motion_of(joint),
+            // What acts along a line acts on a length.
+            _ => Some(Motion::Translation),
+        };
+        let mut element = Element {
+            name: self.name.value.clone(),
+            effect: self.effect,
+            place: self.name.place.clone(),
+            values: Vec::new(),
+        };
+        for key in self.effect.keys() {
+            match self.fields.get(key.name) {
+                Some(entry) => {
+                    let checked = self.checked(key, entry, joint, context, faults);
+                    element.values.extend(checked.map(|c| (key.name, c)));
+                }
+                None if key.needed => faults.push(self.missing(key)),
+                None => {}
+            }
+        }
+        if faults.count() > before {
+            return None;
+        }
+        self.effect.rules(&mut Given {
+            element: &element,
+            faults,
+        });
+        (faults.count() == before).then_some(element)
+    }
+
+    fn missing(&self, key: &Key) -> Fault {
+        let message = format!("`{}` has no `{}`: {}", self.name.value, key.name, key.about);
+        let help = format!("add `{}: …`", key.name);
+        Fault::new(&self.name.place, "missing-key", message).with_help(help)
+    }
+
+    fn checked(
+        &self,
+        key: &Key,
+        entry: &Located<Entry>,
+        joint: Option<Motion>,
+        context: &Context,
+        faults: &mut Faults,
+    ) -> Option<Checked> {
+        let place = &entry.place;
+        match (&entry.value, key.reads) {
+            (Entry::Number(number), Reads::Number(fit)) => {
+                quantity(number, place, fit, joint, faults).map(Checked::Number)
+            }
+            (Entry::Text(word), reads) => {
+                let known = known(reads, context);
+                if let Some(known) = known.filter(|known| !known.contains(&word.as_str())) {
+                    faults.push(unknown(key, word, place, &known, context));
+                    return None;
+                }
+                if reads == Reads::Input && !is_identifier(word) {
+                    faults.push(wording::not_identifier(place, word));
+                }
+                Some(Checked::Name(word.clone()))
+            }
+            (Entry::Pair(names), _) => {
+                let known = known(Reads::Place, context).unwrap_or_default();
+                for name in names.iter().filter(|n| !known.contains(&n.value.as_str())) {
+                    faults.push(unknown(key, &name.value, &name.place, &known, context));
+                }
+                Some(Checked::Names(names.each_ref().map(|n| n.value.clone())))
+            }
+            (Entry::Vector(vector), _) => {
+                Some(Checked::Vector(vector.each_ref().map(|n| n.value.value)))
+            }
+            (Entry::Number(_), _) => None,
+        }
+    }
+}
+
+/// The names that may stand behind a key; `None` where any may.
+fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
+    Some(match reads {
+        Reads::Word(words) if words.is_empty() => return None,
+        Reads::Word(words) => words.to_vec(),
+        Reads::Coordinate => context
+            .coordinates
+            .iter()
+            .map(|(n, _)| n.as_str())
+            .collect(),
+        Reads::Place | Reads::Places => context.places.iter().map(String::as_str).collect(),
+        Reads::Node => context.nodes.iter().map(String::as_str).collect(),
+        Reads::Input | Reads::Number(_) | Reads::Vector(_) => return None,
+    })
+}
+
+fn unknown(key: &Key, word: &str, place: &Place, known: &[&str], context: &Context) -> Fault {
+    if context.locked.iter().any(|joint| joint == word) {
+        let message = format!("the joint `{word}` is locked in this scene: nothing acts on it");
+        return Fault::new(place, "locked-joint", message)
+            .with_help("leave this effect out of the scene, or do not lock the joint");
+    }
+    let what = match key.reads {
+        Reads::Coordinate => "moving joint",
+        Reads::Place | Reads::Places => "link or frame",
+        Reads::Node => "hydraulic node",
+        _ => "choice",
+    };
+    let all = match known {
+        [] => "none".to_owned(),
+        known => known.join(", "),
+    };
+    let message = unknown_name(what, word, known, &all);
+    let help = format!("`{}`: {}", key.name, key.about);
+    Fault::new(place, "unknown-name", message).with_help(help)
+}
+
+fn quantity(
+    number: &Number,
+    place: &Place,
+    fit: &[Dimension],
+    joint: Option<Motion>,
+    faults: &mut Faults,
+) -> Option<Quantity> {
+    // Two dimensions are those of a rotation and of a translation.
+    let fit = match (fit, joint) {
+        ([turning, _], Some(Motion::Rotation)) => std::slice::from_ref(turning),
+        ([_, sliding], Some(_)) => std::slice::from_ref(sliding),
+        (fit, _) => fit,
+    };
+    let located = Located {
+        value: number.clone(),
+        place: place.clone(),
+    };
+    if let Some(fault) = misfit(&located, fit) {
+        faults.push(fault);
+        return None;
+    }
+    if let Some(parameter) = &number.parameter
+        && !is_identifier(&parameter.value)
+    {
+        faults.push(wording::parameter_not_identifier(
+            &parameter.place,
+            &parameter.value,
+        ));
+    }
+    Some(Quantity {
+        value: number.value,
+        parameter: number.parameter.as_ref().map(|p| p.value.clone()),
+        dimension: fit[0],
+        text: number.text.clone(),
+        place: place.clone(),
+    })
+}

@@ -1,0 +1,85 @@
+//! Coulomb friction that sticks and slips: holds its joint up to the static limit, lets it slide
+//! against the kinetic effort beyond. Which of the two is a mode of the state.
+
+use super::viscous::{JOINT, REFERENCE};
+use super::{Effect, Element, Given};
+use crate::scene::{Layout, Level};
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct Coulomb;
+
+/// The dimensions of a joint's effort.
+pub(super) const EFFORT: Reads = Reads::Number(&[Dimension::Torque, Dimension::Force]);
+
+impl Effect for Coulomb {
+    fn keyword(&self) -> &'static str {
+        "coulomb"
+    }
+
+    fn family(&self) -> &'static str {
+        "friction"
+    }
+
+    fn summary(&self) -> &'static str {
+        "Coulomb friction: holds up to |τ| = F_s, slips against τ = −F_k sgn(q̇ − ṙ)"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "kinetic",
+                reads: EFFORT,
+                needed: true,
+                about: "F_k, the effort while slipping",
+            },
+            Key {
+                name: "static",
+                reads: EFFORT,
+                needed: false,
+                about: "F_s, the largest effort at rest; F_k without it",
+            },
+            JOINT,
+            REFERENCE,
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.not_negative(&["kinetic"], "friction opposes the motion");
+        given.ordered(
+            "kinetic",
+            "static",
+            "rest holds at least what slipping resists",
+        );
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
+        let mode = format!("whether `{joint}` slips (−1, 1: the sign of its slip) or is held (0)");
+        layout.mode(name.clone(), mode);
+        let event = format!("`{joint}` comes to rest, or breaks away");
+        layout.event(name.clone(), event);
+        if let Some(reference) = element.name("reference") {
+            let dimension = layout.position_of(joint);
+            layout.reference(reference, Level::Rate, Level::Acceleration, dimension);
+        }
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let port = laws.port(element);
+        let reference = element.name("reference");
+        let counterpart = [Level::Rate, Level::Acceleration].map(|l| laws.reference(reference, l));
+        let kinetic = laws.number(element, "kinetic");
+        let limit = laws.optional(element, "static").unwrap_or(kinetic);
+        let mode = laws.mode(&element.name);
+        let effort = -(mode * kinetic);
+        laws.push(&port, effort);
+        laws.dissipate(-(effort * (port.rate - counterpart[0])));
+        laws.supply(effort * counterpart[0]);
+        laws.contact(&element.name, &port, counterpart, limit);
+    }
+}

@@ -1,0 +1,101 @@
+//! An element while its numbers are checked.
+
+use bgdyn_runtime::Dd;
+
+use super::{Checked, Element, Quantity};
+use crate::fault::{Fault, Faults, Place};
+
+/// What an effect's rules look at, and where they report.
+pub struct Given<'a> {
+    /// The element, its values of the right kind.
+    pub element: &'a Element,
+    /// What is wrong with it.
+    pub faults: &'a mut Faults,
+}
+
+impl Given<'_> {
+    /// The number behind a key.
+    pub fn number(&self, key: &str) -> Option<&Quantity> {
+        self.element.quantity(key)
+    }
+
+    /// Its value, or this one.
+    pub fn value_or(&self, key: &str, default: f64) -> f64 {
+        self.number(key).map_or(default, |q| q.value.to_f64())
+    }
+
+    /// Where a key's value stands; the element's place without one.
+    pub fn place(&self, key: &str) -> Place {
+        self.number(key)
+            .map_or_else(|| self.element.place.clone(), |q| q.place.clone())
+    }
+
+    /// The numbers behind these keys must not be negative.
+    pub fn not_negative(&mut self, keys: &[&str], why: &str) {
+        for key in keys {
+            if let Some(q) = self.number(key).filter(|q| q.value < Dd::ZERO) {
+                let message = format!("`{key}` is {}: it must not be negative", q.text);
+                let place = q.place.clone();
+                self.fault(&place, "effect-sign", message, why);
+            }
+        }
+    }
+
+    /// The numbers behind these keys must be greater than zero.
+    pub fn positive(&mut self, keys: &[&str], why: &str) {
+        for key in keys {
+            if let Some(q) = self.number(key).filter(|q| q.value <= Dd::ZERO) {
+                let message = format!("`{key}` is {}: it must be greater than 0", q.text);
+                let place = q.place.clone();
+                self.fault(&place, "effect-sign", message, why);
+            }
+        }
+    }
+
+    /// The first number must not be less than the second.
+    pub fn ordered(&mut self, small: &str, large: &str, why: &str) {
+        if let (Some(a), Some(b)) = (self.number(small), self.number(large))
+            && a.value > b.value
+        {
+            let message = format!("`{large}` is {}, less than `{small}`, {}", b.text, a.text);
+            let place = b.place.clone();
+            self.fault(&place, "effect-order", message, why);
+        }
+    }
+
+    /// Exactly one of these keys must be there.
+    pub fn one_of(&mut self, keys: &[&str]) {
+        let given: Vec<&str> = keys
+            .iter()
+            .copied()
+            .filter(|k| self.element.get(k).is_some())
+            .collect();
+        if given.len() != 1 {
+            let all = keys.join("`, `");
+            let message = match given.as_slice() {
+                [] => format!("where `{}` acts is missing", self.element.name),
+                several => format!("`{}` are one too many", several.join("`, `")),
+            };
+            let place = self.element.place.clone();
+            let help = format!("write one of `{all}`");
+            self.fault(&place, "effect-place", message, &help);
+        }
+    }
+
+    /// Notes a fault.
+    pub fn fault(&mut self, place: &Place, rule: &'static str, message: String, help: &str) {
+        self.faults
+            .push(Fault::new(place, rule, message).with_help(help));
+    }
+
+    /// Notes a warning.
+    pub fn warn(&mut self, place: &Place, rule: &'static str, message: String, help: &str) {
+        let fault = Fault::new(place, rule, message).with_help(help);
+        self.faults.push(fault.into_warning());
+    }
+
+    /// Whether the key names this word.
+    pub fn says(&self, key: &str, word: &str) -> bool {
+        matches!(self.element.get(key), Some(Checked::Name(name)) if name == word)
+    }
+}

@@ -1,0 +1,53 @@
+//! Gravity: the effort sources R_i = m_i g.
+
+use super::{Effect, Element};
+use crate::bond_graph::BondGraph;
+use crate::math::Vec3;
+use crate::mechanism::Mechanism;
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct Gravity;
+
+impl Effect for Gravity {
+    fn keyword(&self) -> &'static str {
+        "gravity"
+    }
+
+    fn family(&self) -> &'static str {
+        "gravity"
+    }
+
+    fn summary(&self) -> &'static str {
+        "weight of every link, R_i = m_i g"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "Se"
+    }
+
+    fn built_in(&self) -> bool {
+        true
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[Key {
+            name: "acceleration",
+            reads: Reads::Vector(&[Dimension::Acceleration]),
+            needed: false,
+            about: "acceleration of free fall in world axes instead of the mechanism's",
+        }]
+    }
+
+    fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
+        let other = element.vector("acceleration").map(Vec3);
+        graph.weigh(other.unwrap_or(mechanism.gravity()));
+    }
+
+    /// V = −Σ m_i g · r_i
+    fn law(&self, _: &Element, laws: &mut Laws<'_, '_>) {
+        if let [energy] = laws.potential_energy()[..] {
+            laws.store(energy);
+        }
+    }
+}

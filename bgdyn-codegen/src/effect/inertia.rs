@@ -1,0 +1,46 @@
+//! Link inertia, lumped or distributed: the second stage of a study adds its terms to the
+//! equations of the first (Kuzmin 2007, conclusion).
+
+use super::{Effect, Element};
+use crate::bond_graph::BondGraph;
+use crate::mechanism::Mechanism;
+use crate::spec::{Key, Reads};
+
+pub(super) struct LinkInertia;
+
+impl Effect for LinkInertia {
+    fn keyword(&self) -> &'static str {
+        "inertia"
+    }
+
+    fn family(&self) -> &'static str {
+        "inertia"
+    }
+
+    fn summary(&self) -> &'static str {
+        "link inertia: masses at the centres of mass (lumped), or with the tensors J_i (distributed)"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "I"
+    }
+
+    fn built_in(&self) -> bool {
+        true
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[Key {
+            name: "stage",
+            reads: Reads::Word(&["distributed", "lumped"]),
+            needed: false,
+            about: "`distributed` (also where nothing is said) or `lumped`; scenes without this effect are lumped",
+        }]
+    }
+
+    fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
+        if element.name("stage") != Some("lumped") {
+            graph.distribute(mechanism);
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! LuGre friction (Canudas de Wit, Olsson, Åström, Lischinsky 1995): the deflection z of bristles
+//! between the surfaces is a state.
+
+use bgdyn_runtime::Dd;
+
+use super::coulomb::EFFORT;
+use super::viscous::{JOINT, REFERENCE};
+use super::{Effect, Element, Given};
+use crate::scene::{Layout, Level};
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct LuGre;
+
+const DAMPING: Reads = Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]);
+
+impl Effect for LuGre {
+    fn keyword(&self) -> &'static str {
+        "lugre"
+    }
+
+    fn family(&self) -> &'static str {
+        "friction"
+    }
+
+    fn summary(&self) -> &'static str {
+        "LuGre friction: τ = −(σ₀ z + σ₁ ż + σ₂ s), ż = s − σ₀ |s| z / g(s), g = F_c + (F_s − F_c) exp(−(s/v_s)²)"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "stiffness",
+                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+                needed: true,
+                about: "σ₀, stiffness of the bristles",
+            },
+            Key {
+                name: "damping",
+                reads: DAMPING,
+                needed: false,
+                about: "σ₁, damping of the bristles",
+            },
+            Key {
+                name: "viscous",
+                reads: DAMPING,
+                needed: false,
+                about: "σ₂, viscous friction",
+            },
+            Key {
+                name: "kinetic",
+                reads: EFFORT,
+                needed: true,
+                about: "F_c, Coulomb friction",
+            },
+            Key {
+                name: "static",
+                reads: EFFORT,
+                needed: false,
+                about: "F_s, friction at rest; F_c without it",
+            },
+            Key {
+                name: "stribeck_speed",
+                reads: Reads::Number(&[Dimension::AngularSpeed, Dimension::Speed]),
+                needed: false,
+                about: "v_s, speed of the Stribeck curve; needed where F_s is given",
+            },
+            JOINT,
+            REFERENCE,
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.positive(
+            &["stiffness", "kinetic", "stribeck_speed"],
+            "without it the law has no rest: leave the effect out",
+        );
+        given.not_negative(&["damping", "viscous"], "it would drive the joint");
+        given.ordered(
+            "kinetic",
+            "static",
+            "rest holds at least what slipping resists",
+        );
+        if given.number("static").is_some() && given.number("stribeck_speed").is_none() {
+            let place = given.place("static");
+            given.fault(
+                &place,
+                "effect-missing",
+                "`static` without `stribeck_speed`: at which speed is the rest left behind?".into(),
+                "add `stribeck_speed: …`",
+            );
+        }
+        let [damping, viscous] = ["damping", "viscous"].map(|key| given.value_or(key, 0.0));
+        let kinetic = given.value_or("kinetic", 1.0);
+        let excess = (given.value_or("static", kinetic) - kinetic) / kinetic;
+        // Barabanov and Ortega 2000: necessary and sufficient for passivity.
+        if viscous < damping * excess {
+            let place = given.place("damping");
+            let least = damping * excess;
+            given.warn(
+                &place,
+                "effect-passivity",
+                format!("`viscous` is less than damping·(static − kinetic)/kinetic = {least:.6}: this friction can feed energy into the motion"),
+                "raise `viscous` or lower `damping`",
+            );
+        }
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        let joint = element.name("joint").unwrap_or_default();
+        let dimension = layout.position_of(joint);
+        let about = format!("deflection of the bristles at `{joint}`");
+        layout.state(element.name.clone(), dimension, about);
+        let kink = format!("the slip at `{joint}` changes its sign: the law has a kink there");
+        layout.event(element.name.clone(), kink);
+        if let Some(reference) = element.name("reference") {
+            layout.reference(reference, Level::Rate, Level::Rate, dimension);
+        }
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let port = laws.port(element);
+        let counterpart = laws.reference(element.name("reference"), Level::Rate);
+        let slip = port.rate - counterpart;
+        let z = laws.state(&element.name);
+        let number = |key: &str| laws.number(element, key);
+        let (stiffness, damping, viscous) =
+            (number("stiffness"), number("damping"), number("viscous"));
+        let kinetic = number("kinetic");
+        let curve = match (
+            laws.optional(element, "static"),
+            laws.optional(element, "stribeck_speed"),
+        ) {
+            (Some(rest), Some(speed)) => {
+                let ratio = slip / speed;
+                kinetic + (rest - kinetic) * (-(ratio * ratio)).exp()
+            }
+            _ => kinetic,
+        };
+        let rate = slip - stiffness * slip.abs() * z / curve;
+        laws.flow(&element.name, rate);
+        let effort = -(stiffness * z + damping * rate + viscous * slip);
+        laws.push(&port, effort);
+        laws.supply(effort * counterpart);
+        laws.store(stiffness * z * z * Dd::from_f64(0.5));
+        // What the slip takes less what the bristles store: σ₀ z ż.
+        laws.dissipate(-(effort * slip) - stiffness * z * rate);
+        laws.event(&element.name, slip);
+    }
+}

@@ -1,0 +1,120 @@
+//! Effects: what a scene can call for beside the links. One file each, one line each in
+//! [`EFFECTS`].
+//!
+//! An effect is an element of the bond graph. Its file says what its keys mean, what it adds to
+//! the state ([`Effect::declare`]), and its constitutive law ([`Effect::law`]): efforts on
+//! junctions, rates of states, and what it supplies, stores and dissipates.
+
+mod check;
+mod element;
+mod given;
+
+mod coulomb;
+mod dc_motor;
+mod gravity;
+mod inertia;
+mod lugre;
+mod rotor;
+mod spring;
+mod velocity_products;
+mod viscous;
+
+use crate::bond_graph::BondGraph;
+use crate::expr::Ex;
+use crate::mechanism::Mechanism;
+use crate::scene::Layout;
+use crate::spec::Key;
+use crate::system::Laws;
+pub use check::{Context, Declared, called, declared};
+pub use element::{Checked, Element, Quantity};
+pub use given::Given;
+
+/// A kind of effect.
+pub trait Effect: Sync {
+    /// The word after `type`.
+    fn keyword(&self) -> &'static str;
+
+    /// The word by which a scene calls for all effects of like kind: `friction`.
+    fn family(&self) -> &'static str;
+
+    /// One line: what it is, with its equation.
+    fn summary(&self) -> &'static str;
+
+    /// The symbol of its element on the bond graph: `R`, `C`, `I`, `GY`, `TF`, `Se`, `MTF`.
+    fn symbol(&self) -> &'static str;
+
+    /// The keys it has. A value without keys is that of the first one.
+    fn keys(&self) -> &'static [Key];
+
+    /// Whether the spec has to say nothing of it: gravity, say. A scene calls it by its keyword.
+    fn built_in(&self) -> bool {
+        false
+    }
+
+    /// Whether its name is that of a coordinate, on which other effects may act.
+    fn adds_coordinate(&self) -> bool {
+        false
+    }
+
+    /// Whether its name is that of a hydraulic node; the sides of one that has several.
+    fn nodes(&self) -> Option<&'static [&'static str]> {
+        None
+    }
+
+    /// When its law runs: those with smaller numbers first. Nodes stand before what joins them.
+    fn order(&self) -> u8 {
+        1
+    }
+
+    /// What its numbers must obey.
+    fn rules(&self, _: &mut Given<'_>) {}
+
+    /// What it changes in the graph of links and joints.
+    fn alter(&self, _: &Element, _: &Mechanism, _: &mut BondGraph) {}
+
+    /// Coordinates, states, modes, inputs and events that it adds.
+    fn declare(&self, _: &Element, _: &mut Layout) {}
+
+    /// Whether a first-order state is its own.
+    fn keeps(&self, element: &Element, state: &str) -> bool {
+        element.name == state
+    }
+
+    /// What its state stores where the scene gives `given` for it: a volume for a pressure.
+    fn start<'g>(&self, _: &Element, _: &Laws<'g, '_>, _: &str, given: Ex<'g>) -> Ex<'g> {
+        given
+    }
+
+    /// Its constitutive law.
+    fn law(&self, _: &Element, _: &mut Laws<'_, '_>) {}
+}
+
+impl std::fmt::Debug for dyn Effect {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.keyword())
+    }
+}
+
+impl PartialEq for dyn Effect {
+    fn eq(&self, other: &Self) -> bool {
+        self.keyword() == other.keyword()
+    }
+}
+
+/// Every effect there is.
+pub static EFFECTS: [&dyn Effect; 9] = [
+    &gravity::Gravity,
+    &inertia::LinkInertia,
+    &velocity_products::VelocityProducts,
+    &viscous::Viscous,
+    &coulomb::Coulomb,
+    &lugre::LuGre,
+    &spring::Spring,
+    &rotor::Rotor,
+    &dc_motor::DcMotor,
+];
+
+/// The effect with this keyword.
+pub fn by_keyword(keyword: &str) -> Option<&'static dyn Effect> {
+    EFFECTS.into_iter().find(|e| e.keyword() == keyword)
+}

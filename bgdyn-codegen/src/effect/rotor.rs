@@ -1,0 +1,112 @@
+//! The rotor of a drive behind a gear: reflected inertia N²·J on the joint's junction, or the full
+//! rotor that also turns with the link it sits on.
+
+use super::viscous::JOINT;
+use super::{Effect, Element, Given};
+use crate::bond_graph::{BondGraph, Gyrostat, Rotor as RotorStore};
+use crate::math::Vec3;
+use crate::mechanism::{Mechanism, Value};
+use crate::spec::{Dimension, Key, Reads};
+
+pub(super) struct Rotor;
+
+impl Effect for Rotor {
+    fn keyword(&self) -> &'static str {
+        "rotor"
+    }
+
+    fn family(&self) -> &'static str {
+        "rotors"
+    }
+
+    fn summary(&self) -> &'static str {
+        "rotor behind a gear: N² J on the joint; on a link also its gyroscopic moment N J d(q̇ e)/dt"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "I"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "inertia",
+                reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
+                needed: true,
+                about: "J, the rotor's moment of inertia about its axis",
+            },
+            JOINT,
+            Key {
+                name: "ratio",
+                reads: Reads::Number(&[Dimension::One]),
+                needed: false,
+                about: "N, turns of the rotor per turn of the joint; 1 without it",
+            },
+            Key {
+                name: "on",
+                reads: Reads::Place,
+                needed: false,
+                about: "the link or frame that the motor sits on: the full rotor, with its gyroscopic terms",
+            },
+            Key {
+                name: "axis",
+                reads: Reads::Vector(&[Dimension::One]),
+                needed: false,
+                about: "with `on`: the rotor's axis in that frame's axes; z without it",
+            },
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.not_negative(&["inertia"], "no body has it");
+        let place = given.element.place.clone();
+        if given.element.vector("axis").is_some() && given.element.name("on").is_none() {
+            given.fault(
+                &place,
+                "effect-missing",
+                "`axis` says where the rotor points, but not what it sits on".into(),
+                "add `on: …`, or leave `axis` out: the reflected inertia has no direction",
+            );
+        }
+        for key in ["inertia", "ratio"] {
+            if given.number(key).is_some_and(|q| q.parameter.is_some()) {
+                let place = given.place(key);
+                given.fault(
+                    &place,
+                    "misplaced-parameter",
+                    format!("`{key}` of a rotor cannot be a run-time parameter"),
+                    "write the number alone",
+                );
+            }
+        }
+    }
+
+    fn alter(&self, element: &Element, _: &Mechanism, graph: &mut BondGraph) {
+        let number = |key: &str, default: f64| {
+            let given = element.quantity(key).map(|q| q.value);
+            given.unwrap_or(bgdyn_runtime::Dd::from_f64(default))
+        };
+        let (inertia, ratio) = (number("inertia", 0.0), number("ratio", 1.0));
+        let joint = element.name("joint").unwrap_or_default();
+        let Some(coordinate) = graph.coordinate_named(joint) else {
+            return;
+        };
+        let carrier = element.name("on").and_then(|name| {
+            let site = graph.sites.iter().find(|s| s.name == name)?;
+            let zero = bgdyn_runtime::Dd::ZERO;
+            let z = [zero, zero, bgdyn_runtime::Dd::ONE];
+            let axis = Vec3(element.vector("axis").unwrap_or(z));
+            let length = axis.dot(axis).sqrt();
+            let unit = site.place.rotation * axis.map(|x| x / length);
+            site.link.map(|link| Gyrostat {
+                link,
+                momentum: unit.map(|x| x * (inertia * ratio)),
+            })
+        });
+        graph.rotors.push(RotorStore {
+            coordinate,
+            inertia: Value::Fixed(inertia * ratio * ratio),
+            carrier,
+        });
+    }
+}

@@ -1,0 +1,102 @@
+//! A spring, at a joint or along the line between two places.
+
+use bgdyn_runtime::Dd;
+
+use super::viscous::REFERENCE;
+use super::{Effect, Element, Given};
+use crate::scene::{Layout, Level};
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct Spring;
+
+/// The joint an effect acts on, where it may act between two places instead.
+pub(super) const MAYBE_JOINT: Key = Key {
+    name: "joint",
+    reads: Reads::Coordinate,
+    needed: false,
+    about: "the joint it acts on",
+};
+
+/// The two places between which an effect acts.
+pub(super) const BETWEEN: Key = Key {
+    name: "between",
+    reads: Reads::Places,
+    needed: false,
+    about: "two links or frames: it acts along the line between their origins",
+};
+
+impl Effect for Spring {
+    fn keyword(&self) -> &'static str {
+        "spring"
+    }
+
+    fn family(&self) -> &'static str {
+        "springs"
+    }
+
+    fn summary(&self) -> &'static str {
+        "spring: f = −k (s − r − s₀) − f₀"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "C"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "stiffness",
+                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+                needed: true,
+                about: "k",
+            },
+            Key {
+                name: "rest",
+                reads: Reads::Number(&[Dimension::Angle, Dimension::Length]),
+                needed: false,
+                about: "s₀, coordinate or length at which only the preload acts; 0 without it",
+            },
+            Key {
+                name: "preload",
+                reads: Reads::Number(&[Dimension::Torque, Dimension::Force]),
+                needed: false,
+                about: "f₀, effort at rest, towards smaller s where positive",
+            },
+            MAYBE_JOINT,
+            BETWEEN,
+            REFERENCE,
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.one_of(&["joint", "between"]);
+        given.not_negative(&["stiffness"], "a negative stiffness pushes away from rest");
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        if let Some(reference) = element.name("reference") {
+            let dimension = match element.name("joint") {
+                Some(joint) => layout.position_of(joint),
+                None => Dimension::Length,
+            };
+            layout.reference(reference, Level::Position, Level::Rate, dimension);
+        }
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let port = laws.port(element);
+        let reference = element.name("reference");
+        let [place, rate] = [Level::Position, Level::Rate].map(|l| laws.reference(reference, l));
+        let stretch = port.place - place - laws.number(element, "rest");
+        let (stiffness, preload) = (
+            laws.number(element, "stiffness"),
+            laws.number(element, "preload"),
+        );
+        let effort = -(stiffness * stretch) - preload;
+        laws.push(&port, effort);
+        laws.store(stretch * (stiffness * stretch * Dd::from_f64(0.5) + preload));
+        // The counterpart is pulled along: the effort's reaction moves with ṙ.
+        laws.supply(effort * rate);
+    }
+}

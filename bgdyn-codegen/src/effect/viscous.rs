@@ -1,0 +1,76 @@
+//! Viscous friction of a joint: τ = −b (q̇ − ṙ).
+
+use super::{Effect, Element, Given};
+use crate::scene::{Layout, Level};
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct Viscous;
+
+/// The counterpart that friction and springs act against; the fixed world without it.
+pub(super) const REFERENCE: Key = Key {
+    name: "reference",
+    reads: Reads::Input,
+    needed: false,
+    about: "name of the moving counterpart (a belt), an input; at rest without it",
+};
+
+/// The joint an effect acts on.
+pub(super) const JOINT: Key = Key {
+    name: "joint",
+    reads: Reads::Coordinate,
+    needed: true,
+    about: "the joint, or the effect whose coordinate it is",
+};
+
+impl Effect for Viscous {
+    fn keyword(&self) -> &'static str {
+        "viscous"
+    }
+
+    fn family(&self) -> &'static str {
+        "friction"
+    }
+
+    fn summary(&self) -> &'static str {
+        "viscous friction: τ = −b (q̇ − ṙ)"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "damping",
+                reads: Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]),
+                needed: true,
+                about: "b, effort per rate",
+            },
+            JOINT,
+            REFERENCE,
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.not_negative(&["damping"], "a negative damping would drive the joint");
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        if let Some(reference) = element.name("reference") {
+            let dimension = layout.position_of(element.name("joint").unwrap_or_default());
+            layout.reference(reference, Level::Rate, Level::Rate, dimension);
+        }
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let port = laws.port(element);
+        let counterpart = laws.reference(element.name("reference"), Level::Rate);
+        let slip = port.rate - counterpart;
+        let effort = -(laws.number(element, "damping") * slip);
+        laws.push(&port, effort);
+        laws.dissipate(-(effort * slip));
+        laws.supply(effort * counterpart);
+    }
+}

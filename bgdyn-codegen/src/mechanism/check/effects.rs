@@ -1,0 +1,22 @@
+//! The effects that a mechanism declares: checked here, used by scenes.
+
+use crate::effect::{Declared, declared};
+use crate::fault::Faults;
+use crate::mechanism::Mechanism;
+use crate::scene::{context, taken};
+use crate::spec::Spec;
+
+/// The effects, each sound by itself.
+pub(super) fn effects(spec: &Spec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Declared> {
+    let raws = spec.effects.value().map_or(&[][..], Vec::as_slice);
+    let found: Vec<Declared> = raws
+        .iter()
+        .filter_map(|raw| declared(raw, faults))
+        .collect();
+    let context = context(mechanism, Vec::new()).with(found.iter());
+    for effect in &found {
+        taken(effect, mechanism, faults);
+        effect.element(&context, faults);
+    }
+    found
+}

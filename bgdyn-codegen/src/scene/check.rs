@@ -1,0 +1,418 @@
+//! The one step that makes a [`Scene`]: a scene's file that obeys every rule, or all that breaks
+//! one.
+
+use std::collections::BTreeMap;
+
+use bgdyn_runtime::Dd;
+
+use super::layout::{Coordinate, Layout, Store};
+use super::reduce::held;
+use super::signal::{self, Drive, INTEGRATION};
+use super::{Initial, Integration, Scene};
+use crate::effect::{Context, Declared, Element, called};
+use crate::fault::{Fault, Faults, unknown_name, wording};
+use crate::mechanism::name::is_identifier;
+use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Parameter, Pose};
+use crate::spec::{Dimension, Entry, Field, Located, Raw, SceneSpec};
+
+/// The only version of the format there is.
+const VERSION: f64 = 1.0;
+
+/// Step and length of a run whose scene says nothing of them, s.
+const STEP: f64 = 1e-3;
+const END: f64 = 1.0;
+
+/// Checks a scene against every rule. `stem` is the file's stem, `mechanism` what it names.
+///
+/// The scene is there exactly if nothing refuses it.
+pub fn check(
+    spec: &SceneSpec,
+    stem: Option<&str>,
+    mechanism: &Mechanism,
+) -> (Option<Scene>, Faults) {
+    let mut faults = Faults::default();
+    let scene = scene(spec, stem, mechanism, &mut faults);
+    faults.sort();
+    let sound = spec.complete && !faults.any_fault();
+    (scene.filter(|_| sound), faults)
+}
+
+fn scene(
+    spec: &SceneSpec,
+    stem: Option<&str>,
+    whole: &Mechanism,
+    faults: &mut Faults,
+) -> Option<Scene> {
+    version(spec, faults);
+    let name = name(spec, stem, faults);
+    let locked = locks(spec, whole, faults);
+    let mechanism = whole.welded(&locked);
+    let elements = elements(spec, whole, &mechanism, faults);
+    let mut layout = layout(&mechanism, &elements);
+    let inputs = given(&spec.inputs);
+    add_efforts(&mut layout, inputs);
+    let parameters = parameters(&mechanism, &elements, faults);
+    let drives = drives(&layout, inputs, faults);
+    let initial = initial(&layout, given(&spec.initial), faults);
+    let integration = integration(&spec.integration, faults);
+    Some(Scene {
+        name: name?,
+        description: spec.description.value().cloned(),
+        mechanism,
+        elements,
+        layout,
+        parameters,
+        drives,
+        initial,
+        outputs: given(&spec.outputs)
+            .iter()
+            .map(|o| o.name.clone())
+            .collect(),
+        integration: integration?,
+    })
+}
+
+fn given(field: &Field<Vec<Raw>>) -> &[Raw] {
+    field.value().map_or(&[], Vec::as_slice)
+}
+
+fn version(spec: &SceneSpec, faults: &mut Faults) {
+    if let Some(version) = spec.version.given()
+        && version.value.value != Dd::from_f64(VERSION)
+    {
+        let message = format!("there is no version {} of the format", version.value.text);
+        let fault = Fault::new(&version.place, "version", message);
+        faults.push(fault.with_help("write `scene: 1`"));
+    }
+}
+
+fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<String> {
+    let stem = stem.map(|stem| stem.split('.').next().unwrap_or(stem));
+    match (&spec.name, stem) {
+        (Field::Broken, _) => None,
+        (Field::Absent, None) => {
+            faults.push(wording::no_name(&spec.place));
+            None
+        }
+        (Field::Absent, Some(stem)) => {
+            if !is_identifier(stem) {
+                faults.push(wording::stem_not_identifier(&spec.place, stem));
+            }
+            Some(stem.to_owned())
+        }
+        (Field::Given(name), stem) => {
+            if !is_identifier(&name.value) {
+                faults.push(wording::not_identifier(&name.place, &name.value));
+            }
+            if let Some(stem) = stem.filter(|stem| *stem != name.value) {
+                let (place, name) = (&name.place, &name.value);
+                faults.push(wording::name_differs_from_file(place, name, stem));
+            }
+            Some(name.value.clone())
+        }
+    }
+}
+
+/// The joints that stand still, with the pose in which they hold their links.
+fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Pose)> {
+    let mut locked = Vec::new();
+    for raw in given(&spec.lock) {
+        let name = &raw.name.value;
+        let joints = mechanism.coordinates().iter();
+        let found = joints
+            .copied()
+            .find(|l| mechanism.links()[l.0].joint.name == *name);
+        let Some(link) = found else {
+            let known: Vec<&str> = joint_names(mechanism);
+            let message = unknown_name("moving joint", name, &known, &known.join(", "));
+            let fault = Fault::new(&raw.name.place, "unknown-name", message);
+            faults
+                .push(fault.with_help("`lock` holds joints at their coordinates: `wrist: 30 deg`"));
+            continue;
+        };
+        let joint = &mechanism.links()[link.0].joint;
+        let [position, ..] = dimensions(joint.kind.motion);
+        if let Some(at) = raw.number(&[position], faults) {
+            locked.push((link, held(joint, at.value.value)));
+        }
+    }
+    locked
+}
+
+fn joint_names(mechanism: &Mechanism) -> Vec<&str> {
+    let of = |link: &LinkId| mechanism.links()[link.0].joint.name.as_str();
+    mechanism.coordinates().iter().map(of).collect()
+}
+
+/// What position, velocity and effort of a joint measure.
+fn dimensions(motion: Motion) -> [Dimension; 3] {
+    match motion {
+        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
+        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
+    }
+}
+
+/// The names that effects may refer to.
+pub(crate) fn context(mechanism: &Mechanism, locked: Vec<String>) -> Context {
+    let coordinate = |&link: &LinkId| {
+        let joint = &mechanism.links()[link.0].joint;
+        (joint.name.clone(), joint.kind.motion)
+    };
+    let links = mechanism.links().iter().map(|l| l.name.clone());
+    let frames = mechanism.frames().iter().map(|f| f.name.clone());
+    Context {
+        coordinates: mechanism.coordinates().iter().map(coordinate).collect(),
+        locked,
+        places: links.chain(frames).collect(),
+        nodes: Vec::new(),
+    }
+}
+
+/// The effects called for, checked, in the order in which their laws run.
+fn elements(
+    spec: &SceneSpec,
+    whole: &Mechanism,
+    reduced: &Mechanism,
+    faults: &mut Faults,
+) -> Vec<Element> {
+    let mut wanted: Vec<Declared> = Vec::new();
+    for raw in given(&spec.effects) {
+        for declared in called(raw, whole.effects(), faults) {
+            let name = &declared.name.value;
+            if wanted.iter().any(|w| w.name.value == *name) {
+                let message = format!("the effect `{name}` is called for twice");
+                let fault = Fault::new(&raw.name.place, "repeated-effect", message);
+                faults.push(fault.with_help("leave one of them out"));
+                continue;
+            }
+            wanted.push(declared);
+        }
+    }
+    let free = joint_names(reduced);
+    let all = joint_names(whole);
+    let locked = all.into_iter().filter(|name| !free.contains(name));
+    let context = context(reduced, locked.map(str::to_owned).collect()).with(wanted.iter());
+    for declared in &wanted {
+        taken(declared, whole, faults);
+    }
+    let mut elements: Vec<Element> = wanted
+        .iter()
+        .filter_map(|d| d.element(&context, faults))
+        .collect();
+    elements.sort_by_key(|e| e.effect.order());
+    elements
+}
+
+/// An effect's name is a part of the state's, so it must be no joint's.
+pub(crate) fn taken(declared: &Declared, mechanism: &Mechanism, faults: &mut Faults) {
+    let name = &declared.name;
+    let joints = mechanism.links().iter().map(|l| &l.joint.name);
+    let bodies = mechanism.links().iter().map(|l| &l.name);
+    let frames = mechanism.frames().iter().map(|f| &f.name);
+    if joints.chain(bodies).chain(frames).any(|n| *n == name.value) {
+        let message = format!("`{}` is a joint, a link or a frame already", name.value);
+        let fault = Fault::new(&name.place, "repeated-name", message);
+        faults.push(fault.with_help("give the effect a name of its own: `elbow_friction`"));
+    }
+}
+
+/// What the state is made of: the joints, then what the effects add.
+fn layout(mechanism: &Mechanism, elements: &[Element]) -> Layout {
+    let coordinate = |j: usize| {
+        let joint = mechanism.joint(CoordinateId(j));
+        Coordinate {
+            name: joint.name.clone(),
+            store: Store::Links(CoordinateId(j)),
+            stored: true,
+            dimensions: dimensions(joint.kind.motion),
+            rate_name: format!("{}_rate", joint.name),
+        }
+    };
+    let mut layout = Layout {
+        coordinates: (0..mechanism.nv()).map(coordinate).collect(),
+        ..Layout::default()
+    };
+    // Coordinates first: others may act on them.
+    let (adding, rest): (Vec<&Element>, Vec<&Element>) =
+        elements.iter().partition(|e| e.effect.adds_coordinate());
+    for element in adding.into_iter().chain(rest) {
+        element.effect.declare(element, &mut layout);
+    }
+    layout
+}
+
+/// Efforts of coordinates are inputs where the scene names them.
+fn add_efforts(layout: &mut Layout, inputs: &[Raw]) {
+    for raw in inputs {
+        let name = &raw.name.value;
+        let known = layout.inputs.iter().any(|input| input.name == *name);
+        let stored = |c: &&Coordinate| c.name == *name && c.stored;
+        if !known && layout.coordinates.iter().any(|c| stored(&c)) {
+            let about = format!("effort at `{name}`");
+            layout.drive(name.clone(), name, name, about);
+        }
+    }
+}
+
+/// The mechanism's run-time parameters, then those of the effects called for.
+fn parameters(mechanism: &Mechanism, elements: &[Element], faults: &mut Faults) -> Vec<Parameter> {
+    let mut all = mechanism.parameters().to_vec();
+    for element in elements {
+        for (key, quantity) in element.quantities() {
+            let Some(name) = &quantity.parameter else {
+                continue;
+            };
+            let meaning = format!("{key} of `{}`", element.name);
+            match all.iter_mut().find(|p| p.name == *name) {
+                Some(known) if known.default != quantity.value => {
+                    let message = format!("the parameter `{name}` has two values");
+                    let fault = Fault::new(&quantity.place, "parameter-twice", message);
+                    faults.push(fault.with_help("give one of them another name"));
+                }
+                Some(known) => known.meaning += &format!(" and {meaning}"),
+                None => all.push(Parameter {
+                    name: name.clone(),
+                    meaning,
+                    default: quantity.value,
+                    unit: quantity.dimension.si(),
+                }),
+            }
+        }
+    }
+    all
+}
+
+/// What drives each input.
+fn drives(layout: &Layout, inputs: &[Raw], faults: &mut Faults) -> Vec<Drive> {
+    let mut drives = vec![Drive::Given; layout.inputs.len()];
+    for raw in inputs {
+        let name = &raw.name.value;
+        let Some(i) = layout.inputs.iter().position(|part| part.name == *name) else {
+            let known: Vec<&str> = layout.inputs.iter().map(|p| p.name.as_str()).collect();
+            let efforts = layout.coordinates.iter().filter(|c| c.stored);
+            let all: Vec<&str> = known
+                .into_iter()
+                .chain(efforts.map(|c| c.name.as_str()))
+                .collect();
+            let message = unknown_name("input", name, &all, &all.join(", "));
+            let fault = Fault::new(&raw.name.place, "unknown-input", message);
+            faults
+                .push(fault.with_help("inputs are efforts of joints and what the effects declare"));
+            continue;
+        };
+        let part = &layout.inputs[i];
+        let follows = part.follows.as_ref().map(|name| layout.position_of(name));
+        if let Some(drive) = signal::drive(raw, part.dimension, follows, faults) {
+            drives[i] = drive;
+        }
+    }
+    // A reference's derivatives follow from its course: first its rate, then the rate's rate.
+    for (name, of) in [("_acceleration", "_rate"), ("_rate", "")] {
+        for i in 0..drives.len() {
+            let base = layout.inputs[i].name.strip_suffix(name);
+            let base = base.map(|base| format!("{base}{of}"));
+            let found = |base: String| layout.inputs.iter().position(|p| p.name == base);
+            if let (Some(base), Drive::Given) = (base.and_then(found), &drives[i]) {
+                drives[i] = Drive::RateOf(base);
+            }
+        }
+    }
+    // What follows from what the caller gives is given by the caller.
+    for i in 0..drives.len() {
+        let mut root = i;
+        while let Drive::RateOf(base) = drives[root] {
+            root = base;
+        }
+        if drives[root] == Drive::Given {
+            drives[i] = Drive::Given;
+        }
+    }
+    drives
+}
+
+/// Where the run begins.
+fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> Initial {
+    let mut initial = Initial {
+        q: vec![Dd::ZERO; layout.nq()],
+        v: vec![Dd::ZERO; layout.nv()],
+        x: vec![Dd::ZERO; layout.nx()],
+        modes: vec![Dd::ZERO; layout.modes.len()],
+    };
+    let mut places: BTreeMap<String, (usize, usize, Dimension)> = BTreeMap::new();
+    for (j, c) in layout.coordinates.iter().enumerate() {
+        if c.stored {
+            places.insert(c.name.clone(), (0, j, c.dimensions[0]));
+        }
+        places.insert(c.rate_name.clone(), (1, j, c.dimensions[1]));
+    }
+    for (i, part) in layout.states.iter().enumerate() {
+        places.insert(part.name.clone(), (2, i, part.dimension));
+    }
+    for (i, part) in layout.modes.iter().enumerate() {
+        places.insert(format!("{}_mode", part.name), (3, i, part.dimension));
+    }
+    for raw in entries {
+        let name = &raw.name.value;
+        let Some(&(kind, i, dimension)) = places.get(name) else {
+            let known: Vec<&str> = places.keys().map(String::as_str).collect();
+            let message = unknown_name("part of the state", name, &known, &known.join(", "));
+            let fault = Fault::new(&raw.name.place, "unknown-name", message);
+            faults.push(fault.with_help("joints by their names, rates as `shoulder_rate`"));
+            continue;
+        };
+        if let Some(number) = raw.number(&[dimension], faults) {
+            let value = number.value.value;
+            match kind {
+                0 => initial.q[i] = value,
+                1 => initial.v[i] = value,
+                2 => initial.x[i] = value,
+                _ => initial.modes[i] = value,
+            }
+        }
+    }
+    initial
+}
+
+fn integration(field: &Field<Raw>, faults: &mut Faults) -> Option<Integration> {
+    let mut wanted = Integration {
+        method: "rk4".into(),
+        step: STEP,
+        end: END,
+    };
+    let raw = match field {
+        Field::Absent => return Some(wanted),
+        Field::Broken => return None,
+        Field::Given(raw) => &raw.value,
+    };
+    let what = (
+        "how the scene is run",
+        "`{ method: rk4, step: 1 ms, end: 5 s }`",
+    );
+    let fields = raw.fields(what, &INTEGRATION, faults)?;
+    if let Some(Located {
+        value: Entry::Text(word),
+        place,
+    }) = fields.get("method")
+    {
+        wanted.method = word.clone();
+        if word != "rk4" {
+            let message = unknown_name("integration method", word, &["rk4"], "rk4");
+            faults.push(Fault::new(place, "unknown-name", message).with_help("write `rk4`"));
+        }
+    }
+    for (key, target) in [("step", &mut wanted.step), ("end", &mut wanted.end)] {
+        if let Some(Located {
+            value: Entry::Number(number),
+            place,
+        }) = fields.get(key)
+        {
+            *target = number.value.to_f64();
+            if number.value <= Dd::ZERO {
+                let message = format!("`{key}` is {}: it must be greater than 0", number.text);
+                let fault = Fault::new(place, "time", message);
+                faults.push(fault.with_help("write a time such as `1 ms`"));
+            }
+        }
+    }
+    Some(wanted)
+}

@@ -1,0 +1,225 @@
+//! What the numbers of a scene's state are: coordinates, first-order states, modes, inputs.
+
+use crate::effect::Element;
+use crate::mechanism::CoordinateId;
+use crate::spec::Dimension;
+
+/// A coordinate: a joint's, or one that an effect adds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coordinate {
+    /// Its name.
+    pub name: String,
+    /// What stores its momentum.
+    pub store: Store,
+    /// Whether its position is part of the state; a motor's charge is not.
+    pub stored: bool,
+    /// What position, velocity and effort measure.
+    pub dimensions: [Dimension; 3],
+    /// Name of the velocity: `shoulder_rate`, `motor_current`.
+    pub rate_name: String,
+}
+
+/// What stores a coordinate's momentum.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Store {
+    /// The mechanism's links and rotors.
+    Links(CoordinateId),
+    /// A store of its own: its effect's file says how large.
+    Own(String),
+}
+
+/// A part of the state, an input, an event.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Its name.
+    pub name: String,
+    /// What it measures.
+    pub dimension: Dimension,
+    /// One line of documentation.
+    pub about: String,
+    /// What drives it, for inputs: the number of the coordinate whose own effort it is.
+    pub drives: Option<usize>,
+    /// For inputs: the coordinate that a controller on it follows.
+    pub follows: Option<String>,
+}
+
+/// What the numbers of a scene's state are.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layout {
+    /// Velocities: joints, then other coordinates with positions, then currents.
+    pub coordinates: Vec<Coordinate>,
+    /// First-order states.
+    pub states: Vec<Part>,
+    /// Modes: −1 and 1 slipping, 0 stuck.
+    pub modes: Vec<Part>,
+    /// Inputs.
+    pub inputs: Vec<Part>,
+    /// Values whose fall through zero is an event.
+    pub events: Vec<Part>,
+}
+
+/// Level of a reference's time derivative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// Its position.
+    Position,
+    /// Its rate.
+    Rate,
+    /// Its acceleration.
+    Acceleration,
+}
+
+impl Level {
+    /// The name of a reference's input.
+    pub fn name(self, reference: &str) -> String {
+        match self {
+            Level::Position => reference.to_owned(),
+            Level::Rate => format!("{reference}_rate"),
+            Level::Acceleration => format!("{reference}_acceleration"),
+        }
+    }
+}
+
+impl Layout {
+    /// Adds a coordinate that stores its own momentum.
+    pub fn coordinate(
+        &mut self,
+        element: &Element,
+        rate_name: String,
+        stored: bool,
+        dimensions: [Dimension; 3],
+    ) {
+        let coordinate = Coordinate {
+            name: element.name.clone(),
+            store: Store::Own(element.name.clone()),
+            stored,
+            dimensions,
+            rate_name,
+        };
+        // Positions are those of the first velocities.
+        let stored_before = self.coordinates.iter().filter(|c| c.stored).count();
+        let at = if stored {
+            stored_before
+        } else {
+            self.coordinates.len()
+        };
+        for input in &mut self.inputs {
+            input.drives = input.drives.map(|j| if j >= at { j + 1 } else { j });
+        }
+        self.coordinates.insert(at, coordinate);
+    }
+
+    /// Adds a first-order state.
+    pub fn state(&mut self, name: String, dimension: Dimension, about: String) {
+        self.states.push(Part {
+            name,
+            dimension,
+            about,
+            drives: None,
+            follows: None,
+        });
+    }
+
+    /// Adds a mode.
+    pub fn mode(&mut self, name: String, about: String) {
+        self.modes.push(Part {
+            name,
+            dimension: Dimension::One,
+            about,
+            drives: None,
+            follows: None,
+        });
+    }
+
+    /// Adds an input.
+    pub fn input(&mut self, name: String, dimension: Dimension, about: String) {
+        self.inputs.push(Part {
+            name,
+            dimension,
+            about,
+            drives: None,
+            follows: None,
+        });
+    }
+
+    /// Adds the input that is the own effort of a coordinate: a torque, a voltage. A controller on
+    /// it follows the coordinate `follows`.
+    pub fn drive(&mut self, name: String, coordinate: &str, follows: &str, about: String) {
+        let j = self.coordinates.iter().position(|c| c.name == coordinate);
+        self.inputs.push(Part {
+            name,
+            dimension: j.map_or(Dimension::One, |j| self.coordinates[j].dimensions[2]),
+            about,
+            drives: j,
+            follows: Some(follows.to_owned()),
+        });
+    }
+
+    /// Adds an input on which a controller can follow a coordinate.
+    pub fn control(&mut self, name: String, dimension: Dimension, follows: &str, about: String) {
+        self.input(name, dimension, about);
+        if let Some(input) = self.inputs.last_mut() {
+            input.follows = Some(follows.to_owned());
+        }
+    }
+
+    /// Adds an event.
+    pub fn event(&mut self, name: String, about: String) {
+        self.events.push(Part {
+            name,
+            dimension: Dimension::One,
+            about,
+            drives: None,
+            follows: None,
+        });
+    }
+
+    /// Adds a moving reference up to a level of its derivatives; several effects may share it.
+    pub fn reference(&mut self, name: &str, from: Level, to: Level, dimension: Dimension) {
+        for level in [Level::Position, Level::Rate, Level::Acceleration] {
+            let own = level.name(name);
+            if level < from || level > to || self.inputs.iter().any(|i| i.name == own) {
+                continue;
+            }
+            let about = match level {
+                Level::Position => format!("place of the reference `{name}`"),
+                Level::Rate => format!("speed of the reference `{name}`"),
+                Level::Acceleration => format!("acceleration of the reference `{name}`"),
+            };
+            let dimension = match (level, dimension) {
+                (Level::Position, d) => d,
+                (Level::Rate, Dimension::Angle) => Dimension::AngularSpeed,
+                (Level::Rate, _) => Dimension::Speed,
+                (Level::Acceleration, Dimension::Angle) => Dimension::One,
+                (Level::Acceleration, _) => Dimension::Acceleration,
+            };
+            self.input(own, dimension, about);
+        }
+    }
+
+    /// The coordinate with this name.
+    pub fn coordinate_named(&self, name: &str) -> Option<usize> {
+        self.coordinates.iter().position(|c| c.name == name)
+    }
+
+    /// The dimension of a coordinate's position: an angle where there is none of this name.
+    pub fn position_of(&self, name: &str) -> Dimension {
+        self.coordinate_named(name)
+            .map_or(Dimension::Angle, |j| self.coordinates[j].dimensions[0])
+    }
+
+    /// Number of positions.
+    pub fn nq(&self) -> usize {
+        self.coordinates.iter().filter(|c| c.stored).count()
+    }
+
+    /// Number of velocities.
+    pub fn nv(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Number of first-order states.
+    pub fn nx(&self) -> usize {
+        self.states.len()
+    }
+}

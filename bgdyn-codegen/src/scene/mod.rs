@@ -1,0 +1,68 @@
+//! A scene: a mechanism, the effects that a run calls for, what drives its inputs, where it begins.
+//!
+//! Only [`check`] can construct a [`Scene`]; nothing later checks again or fails on what a user
+//! wrote.
+
+mod check;
+mod layout;
+mod reduce;
+mod signal;
+
+use bgdyn_runtime::Dd;
+
+use crate::effect::Element;
+use crate::mechanism::{Mechanism, Parameter};
+use crate::spec::Located;
+pub use check::check;
+pub(crate) use check::{context, taken};
+pub use layout::{Coordinate, Layout, Level, Part, Store};
+pub use signal::{Drive, Signal};
+
+/// How a scene asks to be run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Integration {
+    /// The method's name.
+    pub method: String,
+    /// Step, s.
+    pub step: f64,
+    /// When it ends, s.
+    pub end: f64,
+}
+
+/// A scene that passed every check.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Its name: a snake_case identifier, the module's name.
+    pub name: String,
+    /// What the file says of it.
+    pub description: Option<String>,
+    /// The mechanism, locked joints welded.
+    pub mechanism: Mechanism,
+    /// The effects called for, those whose laws run first in front.
+    pub elements: Vec<Element>,
+    /// What the state is made of.
+    pub layout: Layout,
+    /// Run-time parameters: the mechanism's, then the effects'.
+    pub parameters: Vec<Parameter>,
+    /// What drives each input.
+    pub drives: Vec<Drive>,
+    /// Initial positions, velocities and first-order states.
+    pub initial: Initial,
+    /// What is wanted of it, by name.
+    pub outputs: Vec<Located<String>>,
+    /// How it is run.
+    pub integration: Integration,
+}
+
+/// Where a run begins.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Initial {
+    /// Positions.
+    pub q: Vec<Dd>,
+    /// Velocities.
+    pub v: Vec<Dd>,
+    /// First-order states as the scene gives them: of a fluid volume, its pressure.
+    pub x: Vec<Dd>,
+    /// Modes.
+    pub modes: Vec<Dd>,
+}

@@ -1,0 +1,276 @@
+//! What drives an input: a course in time, a controller, or the caller.
+
+use bgdyn_runtime::Dd;
+
+use crate::fault::{Fault, Faults, Place};
+use crate::spec::{Dimension, Key, Raw, Reads};
+
+/// A course in time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Signal {
+    /// One value.
+    Constant(Dd),
+    /// from + rate·t
+    Ramp {
+        /// Value at t = 0.
+        from: Dd,
+        /// Per second.
+        rate: Dd,
+    },
+    /// offset + amplitude·sin(2π frequency·t + phase)
+    Harmonic {
+        /// Amplitude.
+        amplitude: Dd,
+        /// Hz.
+        frequency: Dd,
+        /// rad
+        phase: Dd,
+        /// Mean.
+        offset: Dd,
+    },
+    /// Straight lines between points (t, value), held before and after.
+    Table(Vec<[Dd; 2]>),
+}
+
+/// What drives an input.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drive {
+    /// The caller, in Rust.
+    Given,
+    /// A course in time.
+    Course(Signal),
+    /// The time derivative of another input's course: the rate of a reference.
+    RateOf(usize),
+    /// u = k (r − q) + d (ṙ − q̇)
+    Pd {
+        /// r
+        target: Signal,
+        /// k
+        stiffness: Dd,
+        /// d
+        damping: Dd,
+    },
+    /// u = P(q, q̇, a) at a = r̈ + d (ṙ − q̇) + k (r − q) (Luh, Walker, Paul 1980).
+    ComputedTorque {
+        /// r
+        target: Signal,
+        /// k, 1/s²
+        stiffness: Dd,
+        /// d, 1/s
+        damping: Dd,
+    },
+}
+
+/// The words that a drive may begin with.
+pub(super) const BUILT_IN: &str =
+    "constant, ramp, harmonic, table, pd, computed_torque; or `given` for what Rust code gives";
+
+const fn number(name: &'static str, fit: &'static [Dimension], needed: bool) -> Key {
+    Key {
+        name,
+        reads: Reads::Number(fit),
+        needed,
+        about: "",
+    }
+}
+
+/// Reads what drives an input of this dimension; `follows` is the dimension of the coordinate that
+/// a controller would follow.
+pub(super) fn drive(
+    raw: &Raw,
+    dimension: Dimension,
+    follows: Option<Dimension>,
+    faults: &mut Faults,
+) -> Option<Drive> {
+    if raw.as_word() == Some("given") {
+        return Some(Drive::Given);
+    }
+    if !raw.is_mapping() {
+        return signal(raw, dimension, faults).map(Drive::Course);
+    }
+    let entries = raw.entries(("what drives the input", "`{ constant: 2 }`"), faults);
+    let [only] = entries.as_slice() else {
+        faults.push(not_one(&raw.place));
+        return None;
+    };
+    let word = only.name.value.as_str();
+    if !matches!(word, "pd" | "computed_torque") {
+        return signal(raw, dimension, faults).map(Drive::Course);
+    }
+    let Some(position) = follows else {
+        let message = format!("no joint that `{word}` could follow moves with this input");
+        let fault = Fault::new(&only.name.place, "drive", message);
+        faults.push(fault.with_help("use `constant`, `harmonic`, `table` or `given`"));
+        return None;
+    };
+    controller(only, word, position, faults)
+}
+
+fn controller(raw: &Raw, word: &str, position: Dimension, faults: &mut Faults) -> Option<Drive> {
+    let entries = raw.entries(
+        (
+            "a controller",
+            "`{ target: 0.5, stiffness: 100, damping: 20 }`",
+        ),
+        faults,
+    );
+    let mut target = None;
+    let mut gains = [Dd::ZERO; 2];
+    for entry in &entries {
+        let gain = |faults: &mut Faults| entry.number(&[Dimension::One], faults);
+        match entry.name.value.as_str() {
+            "target" => target = signal(entry, position, faults),
+            "stiffness" => gains[0] = gain(faults)?.value.value,
+            "damping" => gains[1] = gain(faults)?.value.value,
+            other => {
+                let message = format!("a controller has no `{other}`");
+                let fault = Fault::new(&entry.name.place, "unknown-key", message);
+                faults.push(fault.with_help("it has `target`, `stiffness` and `damping`"));
+                return None;
+            }
+        }
+    }
+    if target.is_none() && !entries.iter().any(|e| e.name.value == "target") {
+        let fault = Fault::new(&raw.place, "missing-key", "the controller has no `target`");
+        faults.push(fault.with_help("add `target: …`, a number or a course in time"));
+    }
+    let (target, [stiffness, damping]) = (target?, gains);
+    Some(match word {
+        "pd" => Drive::Pd {
+            target,
+            stiffness,
+            damping,
+        },
+        _ => Drive::ComputedTorque {
+            target,
+            stiffness,
+            damping,
+        },
+    })
+}
+
+/// Reads a course of this dimension.
+pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+    let fit = [dimension];
+    if !raw.is_mapping() {
+        let value = raw.number(&fit, faults)?.value.value;
+        return Some(Signal::Constant(value));
+    }
+    let entries = raw.entries(("a course in time", "`{ constant: 2 }`"), faults);
+    let [only] = entries.as_slice() else {
+        faults.push(not_one(&raw.place));
+        return None;
+    };
+    match only.name.value.as_str() {
+        "constant" => only
+            .number(&fit, faults)
+            .map(|n| Signal::Constant(n.value.value)),
+        "ramp" => ramp(only, dimension, faults),
+        "harmonic" => harmonic(only, dimension, faults),
+        "table" => table(only, dimension, faults),
+        other => {
+            let message = format!("nothing built in is called `{other}`");
+            let fault = Fault::new(&only.name.place, "drive", message);
+            faults.push(fault.with_help(format!("there are {BUILT_IN}")));
+            None
+        }
+    }
+}
+
+fn not_one(place: &Place) -> Fault {
+    Fault::new(place, "drive", "one thing drives an input")
+        .with_help(format!("write one of {BUILT_IN}"))
+}
+
+/// A ramp; its numbers are of the input's dimension.
+fn ramp(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+    let mut found = [Dd::ZERO; 2];
+    for entry in raw.entries(("a ramp", "`{ from: 0, rate: 0.1 }`"), faults) {
+        match entry.name.value.as_str() {
+            "from" => found[0] = entry.number(&[dimension], faults)?.value.value,
+            "rate" => {
+                let fit = match dimension {
+                    Dimension::Angle => Dimension::AngularSpeed,
+                    Dimension::Length => Dimension::Speed,
+                    _ => Dimension::One,
+                };
+                found[1] = entry.number(&[fit], faults)?.value.value;
+            }
+            other => return unknown(&entry.name.place, other, "from, rate", faults),
+        }
+    }
+    let [from, rate] = found;
+    Some(Signal::Ramp { from, rate })
+}
+
+fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+    let mut own = [Dd::ZERO; 2];
+    let mut time = [Dd::ZERO; 2];
+    let example = "`{ amplitude: 2, frequency: 1 Hz }`";
+    for entry in raw.entries(("a harmonic course", example), faults) {
+        let mut read = |fit: Dimension| Some(entry.number(&[fit], faults)?.value.value);
+        match entry.name.value.as_str() {
+            "amplitude" => own[0] = read(dimension)?,
+            "offset" => own[1] = read(dimension)?,
+            "frequency" => time[0] = read(Dimension::Frequency)?,
+            "phase" => time[1] = read(Dimension::Angle)?,
+            other => {
+                let known = "amplitude, frequency, phase, offset";
+                return unknown(&entry.name.place, other, known, faults);
+            }
+        }
+    }
+    let ([amplitude, offset], [frequency, phase]) = (own, time);
+    Some(Signal::Harmonic {
+        amplitude,
+        frequency,
+        phase,
+        offset,
+    })
+}
+
+fn unknown<R>(place: &Place, key: &str, known: &str, faults: &mut Faults) -> Option<R> {
+    let fault = Fault::new(place, "unknown-key", format!("no key `{key}` here"));
+    faults.push(fault.with_help(format!("the keys are {known}")));
+    None
+}
+
+fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+    let example = ("a list of points", "`[[0 s, 0], [1 s, 2]]`");
+    let mut points: Vec<[Dd; 2]> = Vec::new();
+    for row in raw.items(example, faults)? {
+        let pair = row.items(("a point", "`[0.5 s, 2]`"), faults)?;
+        let [t, value] = pair.as_slice() else {
+            let fault = Fault::new(&row.place, "drive", "a point is a time and a value");
+            faults.push(fault.with_help("write `[0.5 s, 2]`"));
+            return None;
+        };
+        let time = t.number(&[Dimension::Time], faults)?.value;
+        let value = value.number(&[dimension], faults)?.value.value;
+        if points.last().is_some_and(|last| last[0] >= time.value) {
+            let message = format!("the time {} does not come after the one before", time.text);
+            let fault = Fault::new(&t.place, "drive", message);
+            faults.push(fault.with_help("times grow from point to point"));
+            return None;
+        }
+        points.push([time.value, value]);
+    }
+    if points.is_empty() {
+        let fault = Fault::new(&raw.place, "drive", "the table has no points");
+        faults.push(fault.with_help("write `[[0 s, 0], [1 s, 2]]`"));
+        return None;
+    }
+    Some(Signal::Table(points))
+}
+
+/// Keys of the settings of a run.
+pub(super) const INTEGRATION: [Key; 3] = [
+    Key {
+        name: "method",
+        reads: Reads::Word(&["rk4"]),
+        needed: false,
+        about: "integration method",
+    },
+    number("step", &[Dimension::Time], false),
+    number("end", &[Dimension::Time], false),
+];

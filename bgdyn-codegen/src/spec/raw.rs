@@ -1,0 +1,290 @@
+//! Entries whose keys are known only to the step that reads them: effects, inputs, initial values.
+//! They keep what stands in the file, with places, until somebody says what belongs there.
+
+use super::unit::Dimension;
+use super::walk::{At, Reader};
+use super::yaml::{Data, Kind, Tree};
+use super::{Located, Number, Vector};
+use crate::fault::wording::Wanted;
+use crate::fault::{Faults, Place};
+
+/// A named entry, unread.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raw {
+    /// The key before it; for a bare word of a list, that word.
+    pub name: Located<String>,
+    /// What stands behind the key.
+    pub place: Place,
+    /// `None` for a bare word of a list.
+    tree: Option<Tree>,
+}
+
+/// What may stand behind a key.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reads {
+    /// A number of one of these dimensions, or a run-time parameter. Two dimensions are those of a
+    /// rotation and of a translation.
+    Number(&'static [Dimension]),
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// The name of a moving joint, or of an effect that adds a coordinate.
+    Coordinate,
+    /// The name of a link or a frame.
+    Place,
+    /// The names of two of them.
+    Places,
+    /// The name of a hydraulic node: a supply, a tank, a line, a cylinder's side.
+    Node,
+    /// The name of an input.
+    Input,
+    /// Three numbers.
+    Vector(&'static [Dimension]),
+}
+
+/// A key that an entry may have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// What may stand behind it.
+    pub reads: Reads,
+    /// Whether it must be there.
+    pub needed: bool,
+    /// What it means: one line of documentation.
+    pub about: &'static str,
+}
+
+/// What was read behind a key.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    /// A number.
+    Number(Number),
+    /// A name or a word.
+    Text(String),
+    /// Two names.
+    Pair([Located<String>; 2]),
+    /// Three numbers.
+    Vector(Vector),
+}
+
+/// The keys of an entry with what was read behind them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fields(Vec<(&'static str, Located<Entry>)>);
+
+impl Fields {
+    /// What stands behind a key.
+    pub fn get(&self, key: &str) -> Option<&Located<Entry>> {
+        self.0.iter().find(|(k, _)| *k == key).map(|(_, e)| e)
+    }
+
+    /// These, and those of `base` whose keys are missing here.
+    pub fn over(mut self, base: &Fields) -> Fields {
+        for (key, entry) in &base.0 {
+            if self.get(key).is_none() {
+                self.0.push((key, entry.clone()));
+            }
+        }
+        self
+    }
+
+    /// Sets what stands behind a key, if nothing does.
+    pub fn or(mut self, key: &'static str, entry: Located<Entry>) -> Fields {
+        if self.get(key).is_none() {
+            self.0.push((key, entry));
+        }
+        self
+    }
+}
+
+impl Raw {
+    pub(super) fn word(name: Located<String>) -> Self {
+        Raw {
+            place: name.place.clone(),
+            name,
+            tree: None,
+        }
+    }
+
+    pub(super) fn entry(name: Located<String>, at: &At<'_>) -> Self {
+        Raw {
+            name,
+            place: at.place.clone(),
+            tree: Some(at.tree.clone()),
+        }
+    }
+
+    fn at(&self) -> Option<At<'_>> {
+        self.tree.as_ref().map(|tree| At {
+            tree,
+            place: self.place.clone(),
+        })
+    }
+
+    /// Whether keys stand behind it.
+    pub fn is_mapping(&self) -> bool {
+        matches!(&self.tree, Some(tree) if matches!(tree.data, Data::Map(_)))
+    }
+
+    /// Whether nothing stands behind it, not even nothing.
+    pub fn is_bare(&self) -> bool {
+        self.tree.is_none()
+    }
+
+    /// The word behind it, if it is one.
+    pub fn as_word(&self) -> Option<&str> {
+        match &self.tree.as_ref()?.data {
+            Data::Scalar {
+                kind: Kind::Text { .. },
+                text,
+            } => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The word behind a key of its mapping, if it is one; whatever else is wrong is told when its
+    /// fields are read.
+    pub fn peek(&self, key: &str) -> Option<Located<String>> {
+        let Data::Map(entries) = &self.tree.as_ref()?.data else {
+            return None;
+        };
+        let entry = entries.iter().find(|e| e.key.as_deref() == Some(key))?;
+        match &entry.value.data {
+            Data::Scalar { text, .. } => Some(Located {
+                value: text.clone(),
+                place: Place {
+                    position: entry.value.position,
+                    path: format!("{}.{key}", self.place.path),
+                },
+            }),
+            _ => None,
+        }
+    }
+
+    /// The entries of its mapping, unread.
+    pub fn entries(&self, what: Wanted<'_>, faults: &mut Faults) -> Vec<Raw> {
+        let read = |r: &mut Reader, at: &At<'_>| r.table(at, what);
+        self.with(faults, read).unwrap_or_default()
+    }
+
+    /// The items of its list, unread, each named after the entry.
+    pub fn items(&self, what: Wanted<'_>, faults: &mut Faults) -> Option<Vec<Raw>> {
+        self.with(faults, |r, at| {
+            let items = r.list(at, what)?;
+            Some(
+                items
+                    .iter()
+                    .map(|at| Raw::entry(self.name.clone(), at))
+                    .collect(),
+            )
+        })
+    }
+
+    /// The number behind it.
+    pub fn number(&self, fit: &[Dimension], faults: &mut Faults) -> Option<Located<Number>> {
+        let value = self.with(faults, |r, at| r.number(at, fit))?;
+        Some(Located {
+            value,
+            place: self.place.clone(),
+        })
+    }
+
+    /// Its fields, where these keys are known. A value without keys is that of the first one.
+    pub fn fields(&self, what: Wanted<'_>, keys: &[Key], faults: &mut Faults) -> Option<Fields> {
+        let Some(at) = self.at() else {
+            return Some(Fields::default());
+        };
+        let mut reader = Reader::default();
+        let fields = match keys.first() {
+            Some(key) if !matches!(at.tree.data, Data::Map(_)) => {
+                reader.entry(&at, key).map(|value| {
+                    let place = at.place.clone();
+                    Fields(vec![(key.name, Located { value, place })])
+                })
+            }
+            _ => reader.fields(&at, what, keys),
+        };
+        faults.0.append(&mut reader.faults.0);
+        fields
+    }
+
+    fn with<R>(
+        &self,
+        faults: &mut Faults,
+        read: impl FnOnce(&mut Reader, &At<'_>) -> Option<R>,
+    ) -> Option<R> {
+        let at = self.at()?;
+        let mut reader = Reader::default();
+        let found = read(&mut reader, &at);
+        faults.0.append(&mut reader.faults.0);
+        found
+    }
+}
+
+impl Reader {
+    fn fields(&mut self, at: &At<'_>, what: Wanted<'_>, keys: &[Key]) -> Option<Fields> {
+        let names: Vec<&'static str> = keys.iter().map(|k| k.name).collect();
+        let before = self.faults.count();
+        let map = self.mapping(at, what, &names)?;
+        let mut fields = Fields::default();
+        for key in keys {
+            let entry = self.field(&map, key.name, |r, at| r.entry(at, key));
+            if let Some(entry) = entry.given() {
+                fields.0.push((key.name, entry.clone()));
+            }
+        }
+        (self.faults.count() == before).then_some(fields)
+    }
+
+    fn entry(&mut self, at: &At<'_>, key: &Key) -> Option<Entry> {
+        match key.reads {
+            Reads::Number(fit) => self.value(at, fit).map(Entry::Number),
+            Reads::Word(_) | Reads::Coordinate | Reads::Place | Reads::Node | Reads::Input => {
+                self.text(at).map(Entry::Text)
+            }
+            Reads::Vector(fit) => self.vector(at, fit).map(Entry::Vector),
+            Reads::Places => {
+                let items = self.list(at, ("two names", "`[one, other]`"))?;
+                let mut names = items.iter().map(|at| {
+                    Some(Located {
+                        value: self.text(at)?,
+                        place: at.place.clone(),
+                    })
+                });
+                let pair = [names.next().flatten()?, names.next().flatten()?];
+                if names.next().is_some() {
+                    let place = &at.place;
+                    let fault = crate::fault::wording::not_two_names(place, items.len());
+                    self.faults.push(fault);
+                    return None;
+                }
+                Some(Entry::Pair(pair))
+            }
+        }
+    }
+
+    /// The entries of a mapping whose keys are names.
+    pub(super) fn table(&mut self, at: &At<'_>, what: Wanted<'_>) -> Option<Vec<Raw>> {
+        let entries = self.names(at, what)?;
+        Some(
+            entries
+                .into_iter()
+                .map(|(name, at)| Raw::entry(name, &at))
+                .collect(),
+        )
+    }
+
+    /// The items of a list: bare words, or mappings of one key.
+    pub(super) fn calls(&mut self, at: &At<'_>, what: Wanted<'_>) -> Option<Vec<Raw>> {
+        let items = self.list(at, what)?;
+        let mut calls = Vec::new();
+        for item in items {
+            if matches!(item.tree.data, Data::Map(_)) {
+                calls.extend(self.table(&item, what).unwrap_or_default());
+            } else if let Some(value) = self.text(&item) {
+                let place = item.place.clone();
+                calls.push(Raw::word(Located { value, place }));
+            }
+        }
+        Some(calls)
+    }
+}

@@ -1,0 +1,166 @@
+//! The balance of power: what each effect supplies, stores and dissipates.
+//!
+//! Σ supplied = Σ d(stored)/dt + Σ dissipated holds to round-off, whatever the effects are.
+
+use super::dynamics::{held, rates};
+use super::{Balance, Laws, Named, Own, System};
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent};
+use crate::method::Method;
+use crate::scene::Scene;
+
+/// The links' and rotors' own entry: kinetic energy.
+const LINKS: &str = "links";
+/// The entry of the efforts that are inputs.
+const DRIVES: &str = "drives";
+/// The entry of what is missing without velocity products: ½ q̇ᵀ Ṁ q̇.
+const DROPPED: &str = "dropped_velocity_products";
+
+/// The entries of a scene's balance, in order.
+pub(super) fn entries(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<Named> {
+    let all = all(scene, graph, laws);
+    all.into_iter().map(|(named, _)| named).collect()
+}
+
+/// The elements' entries that are not nothing, then the scene's own.
+fn all(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<(Named, Source)> {
+    let mut found = Vec::new();
+    for (i, element) in scene.elements.iter().enumerate() {
+        let Balance {
+            supplied,
+            stored,
+            dissipated,
+        } = laws.balances()[i];
+        let holds = laws.contacts().iter().any(|c| c.element == i);
+        if holds || [supplied, stored, dissipated].iter().any(|x| !x.is_zero()) {
+            let about = element.effect.summary().to_owned();
+            let name = element.name.clone();
+            found.push((Named { name, about }, Source::Element(i)));
+        }
+    }
+    let mut own = |name: &str, about: &str, source| {
+        let (name, about) = (name.to_owned(), about.to_owned());
+        found.push((Named { name, about }, source));
+    };
+    own(LINKS, "kinetic energy of links and rotors", Source::Links);
+    if (0..graph.coordinates.len()).any(|j| !laws.own_effort(j).is_zero()) {
+        own(
+            DRIVES,
+            "efforts at the joints that are inputs",
+            Source::Drives,
+        );
+    }
+    // Where the kinetic energy reads no position, M is constant and nothing is missing.
+    let kinetic = laws.method(Method::KineticEnergy)[0];
+    if !graph.velocity_products && laws.reads_positions(kinetic) {
+        let about = "½ q̇ᵀ Ṁ q̇, which the velocity products would have supplied";
+        own(DROPPED, about, Source::Dropped);
+    }
+    found
+}
+
+/// Where an entry comes from.
+#[derive(Clone, Copy)]
+enum Source {
+    Element(usize),
+    Links,
+    Drives,
+    Dropped,
+}
+
+/// Energy stored by each entry.
+pub(super) fn energy<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let all = all(&system.scene, &system.graph, &laws);
+    let stored = |(_, source): (Named, Source)| match source {
+        Source::Element(i) => laws.balances()[i].stored,
+        Source::Links => laws.method(Method::KineticEnergy)[0],
+        _ => b.zero(),
+    };
+    all.into_iter().map(stored).collect()
+}
+
+/// For each entry: power supplied, rate of the energy stored, power dissipated.
+pub(super) fn power<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let mut laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let rates = rates(system, &laws, b);
+    // What holds a joint against a moving counterpart takes its power from there.
+    if !laws.contacts().is_empty() {
+        let holding = held(system, &laws, b).holding;
+        let half = b.number(0.5);
+        let contacts = laws.contacts().to_vec();
+        for (c, holding) in contacts.iter().zip(holding) {
+            let mode = laws.mode_at(c.mode);
+            let carried = holding * c.reference[0];
+            let held = mode.abs().if_less(half, carried, b.zero());
+            let supplied = &mut laws.balance_of(c.element).supplied;
+            *supplied = *supplied + held;
+        }
+    }
+    let mut along = Along::new(system, &laws, &rates);
+    let kinetic = laws.method(Method::KineticEnergy)[0];
+    let kinetic_rate = along.rate(b, kinetic);
+    let mut out = Vec::new();
+    for (_, source) in all(&system.scene, &system.graph, &laws) {
+        let zero = b.zero();
+        out.extend(match source {
+            Source::Element(i) => {
+                let balance = laws.balances()[i];
+                let stored = along.rate(b, balance.stored);
+                [balance.supplied, stored, balance.dissipated]
+            }
+            Source::Links => [zero, kinetic_rate, zero],
+            Source::Drives => {
+                let n = system.scene.layout.nq();
+                let power = (0..n).fold(zero, |sum, j| sum + laws.own_effort(j) * laws.v[j]);
+                [power, zero, zero]
+            }
+            Source::Dropped => {
+                let n = system.graph.coordinates.len();
+                let inertial = laws.method(Method::MassMatrix);
+                let entry = |i: usize, j: usize| inertial[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+                let mut delivered = zero;
+                for i in 0..n {
+                    let row = (0..n).fold(zero, |sum, j| sum + entry(i, j) * rates[j]);
+                    delivered = delivered + laws.v[i] * row;
+                }
+                [kinetic_rate - delivered, zero, zero]
+            }
+        });
+    }
+    out
+}
+
+/// Rates of change along the motion.
+struct Along {
+    tangents: Vec<(Leaf, Expr)>,
+}
+
+impl Along {
+    fn new<'g>(system: &System, laws: &Laws<'g, '_>, rates: &[Ex<'g>]) -> Self {
+        let layout = &system.scene.layout;
+        let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
+        let mut tangents: Vec<(Leaf, Expr)> = Vec::new();
+        tangents.extend((0..nq).map(|j| (Leaf::Position(j), laws.v[j].expr())));
+        tangents.extend((0..nv).map(|j| (Leaf::Velocity(j), rates[j].expr())));
+        tangents.extend((0..nx).map(|i| (Leaf::State(i), rates[nv + i].expr())));
+        // A reference's place moves with its rate.
+        for (i, part) in layout.inputs.iter().enumerate() {
+            let rate = crate::scene::Level::Rate.name(&part.name);
+            if let Some(k) = layout.inputs.iter().position(|p| p.name == rate) {
+                tangents.push((Leaf::Input(i), laws.inputs()[k].expr()));
+            }
+        }
+        Along { tangents }
+    }
+
+    fn rate<'g>(&mut self, b: &'g Builder, x: Ex<'g>) -> Ex<'g> {
+        let x = x.expr();
+        let seed = |_: &mut Graph, leaf: Leaf| {
+            let found = self.tangents.iter().find(|(l, _)| *l == leaf);
+            found.map(|(_, tangent)| *tangent)
+        };
+        let rate = b.with_graph(|g| Tangent::new(seed).of(g, x));
+        b.ex(rate)
+    }
+}

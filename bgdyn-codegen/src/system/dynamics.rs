@@ -1,0 +1,203 @@
+//! Accelerations and rates, the efforts behind given accelerations, events and contacts.
+
+use super::laws::copied;
+use super::{Laws, Own, System};
+use crate::expr::{Builder, Ex, Expr, Graph, Leaf, copy_into};
+use crate::formulation;
+use crate::function::Function;
+use crate::method::{Method, Role};
+
+/// The ways to v̇ and ẋ.
+pub(super) fn derivatives(system: &System) -> Vec<Function> {
+    if !system.scene.layout.modes.is_empty() {
+        return vec![system.one(Role::Derivative, |system, b| {
+            let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+            rates(system, &laws, b)
+        })];
+    }
+    let ways = formulation::forward_dynamics(&system.graph);
+    let with = |forward: Function| {
+        let b = Builder::new();
+        let outputs: Vec<Expr> = {
+            let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+            let joints = driven(&b, &forward, &laws, system);
+            joined(system, &laws, joints)
+                .into_iter()
+                .map(Ex::expr)
+                .collect()
+        };
+        let name = format!("{}; under the scene's efforts", forward.formulation);
+        Function {
+            ordered: forward.ordered,
+            ..system.flat(Role::Derivative, name, b, outputs)
+        }
+    };
+    ways.into_iter().map(with).collect()
+}
+
+/// Forward dynamics under the efforts of the laws.
+fn driven<'g>(
+    b: &'g Builder,
+    forward: &Function,
+    laws: &Laws<'g, '_>,
+    system: &System,
+) -> Vec<Ex<'g>> {
+    let efforts: Vec<Expr> = (0..system.graph.coordinates.len())
+        .map(|j| laws.effort(j).expr())
+        .collect();
+    let placed = |_: &mut Graph, leaf| match leaf {
+        Leaf::Input(j) => Some(efforts[j]),
+        _ => None,
+    };
+    let outputs = &forward.blocks[0].outputs;
+    let copies = b.with_graph(|g| copy_into(g, &forward.graph, outputs, placed));
+    copies.into_iter().map(|e| b.ex(e)).collect()
+}
+
+/// The joints' accelerations with those of the other coordinates, and ẋ.
+fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+    let mut all = joints;
+    for j in all.len()..system.scene.layout.nv() {
+        let inertia = laws.inertia_of(j).unwrap_or(laws.b.number(1.0));
+        all.push(laws.effort(j) / inertia);
+    }
+    all.extend(laws.rates());
+    all
+}
+
+/// v̇ and ẋ, whatever the modes are.
+pub(super) fn rates<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Vec<Ex<'g>> {
+    let joints = if laws.contacts().is_empty() {
+        let forward = formulation::forward_dynamics(&system.graph);
+        driven(b, &forward[0], laws, system)
+    } else {
+        held(system, laws, b).accelerations
+    };
+    joined(system, laws, joints)
+}
+
+/// What holding joints adds to the equations.
+pub(super) struct Held<'g> {
+    /// Of the mechanism's joints.
+    pub accelerations: Vec<Ex<'g>>,
+    /// For each contact the effort that it holds its joint with; what is left over of the
+    /// equation where it slips is nothing.
+    pub holding: Vec<Ex<'g>>,
+}
+
+/// Accelerations where some joints are held: their rows of M q̈ = f are replaced by q̈_j = r̈_j, and
+/// what is known goes over to the other rows.
+pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Held<'g> {
+    let n = system.graph.coordinates.len();
+    let triangle = laws.method(Method::MassMatrix);
+    let bias = laws.method(Method::Bias);
+    let entry = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+    let force: Vec<Ex<'g>> = (0..n).map(|j| laws.effort(j) - bias[j]).collect();
+    // For each joint: where it is held, r̈.
+    let mut counterpart: Vec<Option<Ex<'g>>> = vec![None; n];
+    let mut modes: Vec<Vec<Ex<'g>>> = vec![Vec::new(); n];
+    for c in laws.contacts().iter().filter(|c| c.coordinate < n) {
+        counterpart[c.coordinate] = Some(c.reference[1]);
+        modes[c.coordinate].push(laws.mode_at(c.mode));
+    }
+    let half = b.number(0.5);
+    let if_held = |j: usize, yes: Ex<'g>, no: Ex<'g>| {
+        modes[j]
+            .iter()
+            .fold(no, |no, mode| mode.abs().if_less(half, yes, no))
+    };
+    let (zero, one) = (b.zero(), b.number(1.0));
+    let mut mass: Vec<Vec<Ex<'g>>> = Vec::new();
+    let mut right = force.clone();
+    for i in 0..n {
+        let row = (0..=i).map(|j| {
+            let own = if i == j { one } else { zero };
+            if_held(i, own, if_held(j, own, entry(i, j)))
+        });
+        mass.push(row.collect());
+        for j in (0..n).filter(|&j| j != i) {
+            if let Some(reference) = counterpart[j] {
+                right[i] = right[i] - if_held(j, entry(i, j) * reference, zero);
+            }
+        }
+    }
+    for (i, reference) in counterpart.iter().enumerate() {
+        if let Some(reference) = reference {
+            right[i] = if_held(i, *reference, right[i]);
+        }
+    }
+    let accelerations = formulation::solve_symmetric(b, mass, right);
+    let holding = laws.contacts().iter().map(|c| {
+        let j = c.coordinate;
+        let moved = (0..n).map(|k| entry(j, k) * accelerations[k]);
+        moved.fold(-force[j], |sum, x| sum + x)
+    });
+    Held {
+        holding: holding.collect(),
+        accelerations,
+    }
+}
+
+/// The effort at each coordinate behind given accelerations: everything the laws do but the
+/// coordinates' own efforts is taken off.
+pub(super) fn inverse<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let laws = Laws::new(b, &system.scene, &system.graph, Own::Sought);
+    let n = system.graph.coordinates.len();
+    let links = copied(b, &system.graph, Method::InverseDynamics, |_, _| None);
+    let all = (0..system.scene.layout.nv()).map(|j| {
+        let inertial = match links.get(j).filter(|_| j < n) {
+            Some(&effort) => effort,
+            None => {
+                let inertia = laws.inertia_of(j).unwrap_or(b.number(1.0));
+                inertia * b.leaf(Leaf::Acceleration(j))
+            }
+        };
+        laws.before_gear(j, inertial - laws.effort(j))
+    });
+    all.collect()
+}
+
+/// Values whose fall through zero is an event. A contact's: its slip in the direction it slips in,
+/// or how much more it would hold.
+pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let of_contacts = if laws.contacts().is_empty() {
+        vec![]
+    } else {
+        let holding = held(system, &laws, b).holding;
+        let half = b.number(0.5);
+        let contacts = laws.contacts().iter().zip(holding);
+        contacts
+            .map(|(c, holding)| {
+                let mode = laws.mode_at(c.mode);
+                let margin = c.limit - holding.abs();
+                let name = &system.scene.layout.modes[c.mode].name;
+                (
+                    name.clone(),
+                    mode.abs().if_less(half, margin, c.slip * mode),
+                )
+            })
+            .collect()
+    };
+    let value = |part: &crate::scene::Part| {
+        let contact = of_contacts.iter().find(|(name, _)| *name == part.name);
+        contact
+            .map(|(_, value)| *value)
+            .or_else(|| laws.event_named(&part.name))
+            .unwrap_or(b.number(1.0))
+    };
+    system.scene.layout.events.iter().map(value).collect()
+}
+
+/// For each mode: its slip, the acceleration of its slip, the effort it holds or would have to hold
+/// to keep its present acceleration, and the most that it can hold.
+pub(super) fn contacts<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let held = held(system, &laws, b);
+    let mut rows = vec![[b.zero(); 4]; system.scene.layout.modes.len()];
+    for (c, holding) in laws.contacts().iter().zip(held.holding) {
+        let relative = held.accelerations[c.coordinate] - c.reference[1];
+        rows[c.mode] = [c.slip, relative, holding, c.limit];
+    }
+    rows.into_iter().flatten().collect()
+}

@@ -1,0 +1,203 @@
+//! The equations of a scene: the effects' laws joined with the mechanism's own.
+//!
+//! With P of equation (6) for the links and E for the sum of the laws on a coordinate's junction,
+//! P(q, q̇, q̈) = E(q, q̇, x, modes, u, t) gives the accelerations, I q̈ = E those of coordinates that
+//! store their own momentum, and the laws give ẋ.
+
+mod balance;
+mod dynamics;
+mod laws;
+mod signals;
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::{self, BondGraph};
+use crate::expr::{Builder, Ex, Expr};
+use crate::fault::{Fault, Faults, unknown_name};
+use crate::function::Function;
+use crate::method::{Method, Role};
+use crate::scene::Scene;
+pub use laws::{Balance, Contact, Laws, Own, Port, Reading, behind_gear};
+
+/// The equations of a scene.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// The scene.
+    pub scene: Scene,
+    /// The bond graph of its mechanism, with what its effects change in it.
+    pub graph: BondGraph,
+    /// Its initial state, of fluid volumes too.
+    pub initial: crate::scene::Initial,
+    /// The parts of its outputs.
+    pub outputs: Vec<Named>,
+    /// The entries of its balance of power.
+    pub entries: Vec<Named>,
+}
+
+/// A named number of a result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Its name.
+    pub name: String,
+    /// Unit and meaning.
+    pub about: String,
+}
+
+impl System {
+    /// The equations of a scene.
+    ///
+    /// # Errors
+    /// Outputs that the scene does not have.
+    pub fn new(scene: Scene) -> Result<Self, Faults> {
+        let mut graph = bond_graph::build(&scene.mechanism).bare();
+        for element in &scene.elements {
+            element.effect.alter(element, &scene.mechanism, &mut graph);
+        }
+        let mut system = System {
+            initial: scene.initial.clone(),
+            outputs: Vec::new(),
+            entries: Vec::new(),
+            scene,
+            graph,
+        };
+        let mut faults = Faults::default();
+        let b = Builder::silent();
+        let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+        let entries = balance::entries(&system.scene, &system.graph, &laws);
+        let outputs = outputs(&system, &laws, &mut faults);
+        let outputs = outputs.into_iter().map(|(named, _)| named).collect();
+        let started = start(&system.scene, &laws);
+        drop(laws);
+        (system.entries, system.outputs) = (entries, outputs);
+        system.initial.x = started;
+        if faults.any_fault() {
+            return Err(faults);
+        }
+        Ok(system)
+    }
+
+    /// The roles this scene has functions for.
+    pub fn roles(&self) -> Vec<Role> {
+        let layout = &self.scene.layout;
+        let has = |role: &Role| match role {
+            Role::Inputs => !layout.inputs.is_empty(),
+            Role::Events => !layout.events.is_empty(),
+            Role::Contacts => !layout.modes.is_empty(),
+            Role::Outputs => !self.outputs.is_empty(),
+            Role::Derivative | Role::Inverse | Role::Power | Role::Energy => true,
+        };
+        Role::ALL.into_iter().filter(has).collect()
+    }
+
+    /// The function of a role.
+    pub fn function(&self, role: Role) -> Function {
+        let ways = match role {
+            Role::Derivative => dynamics::derivatives(self),
+            Role::Inverse => vec![self.one(role, dynamics::inverse)],
+            Role::Inputs => vec![self.one(role, signals::inputs)],
+            Role::Events => vec![self.one(role, dynamics::events)],
+            Role::Contacts => vec![self.one(role, dynamics::contacts)],
+            Role::Power => vec![self.one(role, balance::power)],
+            Role::Energy => vec![self.one(role, balance::energy)],
+            Role::Outputs => vec![self.one(role, |system, b| {
+                let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+                let found = outputs(system, &laws, &mut Faults::default());
+                found.into_iter().map(|(_, e)| e).collect()
+            })],
+        };
+        let factored = ways.into_iter().map(Function::factored);
+        let best = factored.min_by_key(|f| f.operations().total());
+        crate::cut::cut(best.expect("every role has a function"))
+    }
+
+    /// The derivative with one effort of its own at every coordinate, in place of the accelerations
+    /// among the leaves: undoes [`Role::Inverse`].
+    pub fn driven(&self) -> Function {
+        self.one(Role::Derivative, |system, b| {
+            let laws = Laws::new(b, &system.scene, &system.graph, Own::Everywhere);
+            dynamics::rates(system, &laws, b)
+        })
+    }
+
+    fn one(
+        &self,
+        role: Role,
+        made: impl for<'g> FnOnce(&System, &'g Builder) -> Vec<Ex<'g>>,
+    ) -> Function {
+        let b = Builder::new();
+        let outputs: Vec<Expr> = made(self, &b).into_iter().map(Ex::expr).collect();
+        self.flat(role, "scene".into(), b, outputs)
+    }
+
+    fn flat(&self, role: Role, formulation: String, b: Builder, outputs: Vec<Expr>) -> Function {
+        let method = Method::Scene(role);
+        Function::flat(&self.graph, method, formulation, b.into_graph(), outputs)
+    }
+}
+
+/// First-order states at the start: what the scene gives, as its effects store it.
+fn start(scene: &Scene, laws: &Laws<'_, '_>) -> Vec<Dd> {
+    let given = &scene.initial;
+    let parts = scene.layout.states.iter().zip(&given.x);
+    let value = |(part, &x): (&crate::scene::Part, &Dd)| {
+        let stored = laws.stored_as(&part.name, x);
+        laws.at_start(stored, given)
+    };
+    parts.map(value).collect()
+}
+
+/// The outputs asked for, with their expressions.
+fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec<(Named, Ex<'g>)> {
+    let layout = &system.scene.layout;
+    let mut known: Vec<(Named, Ex<'g>)> = Vec::new();
+    let unit = |c: &crate::scene::Coordinate, k: usize| {
+        let what = ["position", "velocity"][k];
+        format!("{what} of `{}`, {}", c.name, c.dimensions[k].si())
+    };
+    let mut add = |name: &str, about: &str, value: Ex<'g>| {
+        let (name, about) = (name.to_owned(), about.to_owned());
+        known.push((Named { name, about }, value));
+    };
+    for (j, c) in layout.coordinates.iter().enumerate() {
+        if c.stored {
+            add(&c.name, &unit(c, 0), laws.q[j]);
+        }
+        add(&c.rate_name, &unit(c, 1), laws.v[j]);
+    }
+    for reading in laws.readings() {
+        add(&reading.name, &reading.about, reading.value);
+    }
+    for (part, &x) in layout.states.iter().zip(laws.states()) {
+        add(&part.name, &part.about, x);
+    }
+    let mut wanted = Vec::new();
+    for output in &system.scene.outputs {
+        if let Some(one) = known.iter().find(|(n, _)| n.name == output.value) {
+            wanted.push(one.clone());
+            continue;
+        }
+        let site = system
+            .graph
+            .sites
+            .iter()
+            .position(|s| s.name == output.value);
+        if let Some(site) = site {
+            let pose = laws.method(Method::Pose(bond_graph::SiteId(site)));
+            for (axis, &p) in ["x", "y", "z"].into_iter().zip(&pose[9..]) {
+                let name = format!("{}_{axis}", output.value);
+                let about = format!("{axis} of `{}` in the world, m", output.value);
+                wanted.push((Named { name, about }, p));
+            }
+            continue;
+        }
+        let names = known.iter().map(|(n, _)| n.name.as_str());
+        let sites = system.graph.sites.iter().map(|s| s.name.as_str());
+        let all: Vec<&str> = names.chain(sites).collect();
+        let message = unknown_name("output", &output.value, &all, &all.join(", "));
+        let fault = Fault::new(&output.place, "unknown-output", message);
+        faults.push(
+            fault.with_help("outputs are parts of the state, places and what effects report"),
+        );
+    }
+    wanted
+}

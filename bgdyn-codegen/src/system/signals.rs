@@ -1,0 +1,136 @@
+//! What drives the inputs: courses in time and controllers, as expressions.
+
+use bgdyn_runtime::Dd;
+
+use super::laws::copied;
+use super::{Laws, Own, System};
+use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
+use crate::method::Method;
+use crate::scene::{Drive, Signal};
+
+/// Every input: built in, or as the caller gives it.
+pub(super) fn inputs<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let layout = &system.scene.layout;
+    let laws = Laws::new(b, &system.scene, &system.graph, Own::Sought);
+    let followed = |i: usize| {
+        let name = layout.inputs[i].follows.as_deref();
+        name.and_then(|name| layout.coordinate_named(name))
+    };
+    let torques = computed_torques(system, b, &laws, &followed);
+    let mut values: Vec<Ex<'g>> = Vec::new();
+    for (i, drive) in system.scene.drives.iter().enumerate() {
+        values.push(match drive {
+            Drive::Given => b.leaf(Leaf::Input(i)),
+            Drive::Course(signal) => course(b, signal),
+            Drive::RateOf(_) => rate_of(system, b, i),
+            Drive::Pd {
+                target,
+                stiffness,
+                damping,
+            } => {
+                let wanted = course(b, target);
+                let j = followed(i).unwrap_or(0);
+                (wanted - laws.q[j]) * *stiffness + (rate(b, wanted) - laws.v[j]) * *damping
+            }
+            Drive::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
+        });
+    }
+    values
+}
+
+/// The inverse dynamics of the whole scene at the accelerations that the controllers want.
+fn computed_torques<'g>(
+    system: &System,
+    b: &'g Builder,
+    laws: &Laws<'g, '_>,
+    followed: &dyn Fn(usize) -> Option<usize>,
+) -> Vec<Ex<'g>> {
+    let n = system.graph.coordinates.len();
+    let mut wanted: Vec<Option<Ex<'g>>> = vec![None; n];
+    for (i, drive) in system.scene.drives.iter().enumerate() {
+        if let (
+            Drive::ComputedTorque {
+                target,
+                stiffness,
+                damping,
+            },
+            Some(j),
+        ) = (drive, followed(i).filter(|j| *j < n))
+        {
+            let place = course(b, target);
+            let speed = rate(b, place);
+            let error = (place - laws.q[j]) * *stiffness + (speed - laws.v[j]) * *damping;
+            wanted[j] = Some(rate(b, speed) + error);
+        }
+    }
+    if wanted.iter().all(Option::is_none) {
+        return vec![];
+    }
+    let at: Vec<_> = wanted
+        .iter()
+        .map(|a| a.unwrap_or(b.zero()).expr())
+        .collect();
+    let links = copied(
+        b,
+        &system.graph,
+        Method::InverseDynamics,
+        |_, leaf| match leaf {
+            Leaf::Acceleration(j) => Some(at[j]),
+            _ => None,
+        },
+    );
+    let all = links.iter().enumerate();
+    all.map(|(j, &p)| laws.before_gear(j, p - laws.effort(j)))
+        .collect()
+}
+
+/// The rate of the input that this one is the rate of, or the rate of its rate.
+fn rate_of<'g>(system: &System, b: &'g Builder, i: usize) -> Ex<'g> {
+    match &system.scene.drives[i] {
+        Drive::RateOf(base) => rate(b, rate_of(system, b, *base)),
+        Drive::Course(signal) => course(b, signal),
+        _ => b.leaf(Leaf::Input(i)),
+    }
+}
+
+/// d/dt
+fn rate<'g>(b: &'g Builder, x: Ex<'g>) -> Ex<'g> {
+    let seed = |g: &mut Graph, leaf| (leaf == Leaf::Time).then(|| g.constant(Dd::ONE));
+    let x = x.expr();
+    let rate = b.with_graph(|g| Tangent::new(seed).of(g, x));
+    b.ex(rate)
+}
+
+/// A course in time.
+fn course<'g>(b: &'g Builder, signal: &Signal) -> Ex<'g> {
+    let t = b.leaf(Leaf::Time);
+    match signal {
+        Signal::Constant(x) => b.constant(*x),
+        Signal::Ramp { from, rate } => b.constant(*from) + t * *rate,
+        Signal::Harmonic {
+            amplitude,
+            frequency,
+            phase,
+            offset,
+        } => {
+            let turn = Dd::PI * Dd::from_f64(2.0);
+            let (_, sine) = b.cos_sin(&[t * (*frequency * turn)], *phase);
+            b.constant(*offset) + sine * *amplitude
+        }
+        Signal::Table(points) => table(b, t, points),
+    }
+}
+
+/// Straight lines between points, held before the first and after the last.
+fn table<'g>(b: &'g Builder, t: Ex<'g>, points: &[[Dd; 2]]) -> Ex<'g> {
+    let number = |x: Dd| b.constant(x);
+    let last = points[points.len() - 1];
+    let pieces = points.windows(2).rev();
+    let after_first = pieces.fold(number(last[1]), |later, pair| {
+        let ([t0, y0], [t1, y1]) = (pair[0], pair[1]);
+        let slope = (y1 - y0) / (t1 - t0);
+        let line = number(y0) + (t - number(t0)) * slope;
+        t.if_less(number(t1), line, later)
+    });
+    t.if_less(number(points[0][0]), number(points[0][1]), after_first)
+}

@@ -1,0 +1,136 @@
+//! Scenes from files and from text, states to try them in.
+
+use std::path::{Path, PathBuf};
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::model::{Refusal, beside, read_scene, stem};
+use bgdyn_codegen::system::System;
+use bgdyn_runtime::Dd;
+
+/// The repository's scene files.
+pub fn specs() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/scenes");
+    let mut found: Vec<PathBuf> = std::fs::read_dir(folder)
+        .expect("the folder of scenes")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    found.sort();
+    found
+}
+
+/// The scene in a file.
+pub fn read(path: &Path) -> System {
+    let text = std::fs::read_to_string(path).expect("a scene");
+    let load = |mechanism: &str| {
+        std::fs::read_to_string(beside(path, mechanism)).map_err(|e| e.to_string())
+    };
+    match read_scene(&text, &stem(path), load) {
+        Ok((system, _)) => system,
+        Err(refusal) => panic!("{}: {}", path.display(), told(&refusal, &text)),
+    }
+}
+
+/// A scene from its text and its mechanism's.
+pub fn scene(text: &str, mechanism: &str) -> System {
+    match try_scene(text, mechanism) {
+        Ok((system, _)) => system,
+        Err(refusal) => panic!("{}", told(&refusal, text)),
+    }
+}
+
+/// The same, or why not.
+pub fn try_scene(
+    text: &str,
+    mechanism: &str,
+) -> Result<(System, bgdyn_codegen::fault::Faults), Refusal> {
+    read_scene(text, "scene", |_| Ok(mechanism.to_owned()))
+}
+
+/// A refusal as its reader sees it.
+pub fn told(refusal: &Refusal, text: &str) -> String {
+    match refusal {
+        Refusal::Spec(faults) => faults.render("scene.yaml", text),
+        Refusal::Mechanism { path, text, faults } => faults.render(path, text),
+        Refusal::Options(_) => "options".into(),
+    }
+}
+
+/// Random numbers by a linear congruential generator (Knuth's MMIX).
+pub struct Random(pub u64);
+
+impl Random {
+    /// In −1 … 1.
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn many(&mut self, n: usize, size: f64) -> Vec<Dd> {
+        (0..n).map(|_| Dd::from_f64(self.unit() * size)).collect()
+    }
+}
+
+/// A random state of a scene near its start, with random inputs and accelerations; `slipping`
+/// modes, or held ones.
+pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd> {
+    let layout = &system.scene.layout;
+    let mut around = |start: &[Dd], size: f64| -> Vec<Dd> {
+        let offsets = random.many(start.len(), size);
+        start.iter().zip(offsets).map(|(&s, o)| s + o).collect()
+    };
+    let q = around(&system.initial.q, 0.3);
+    let mut v = around(&system.initial.v, 1.0);
+    // States of their own size: bristles, fluid volumes.
+    let x: Vec<Dd> = system
+        .initial
+        .x
+        .iter()
+        .map(|&s| {
+            let size = if s == Dd::ZERO {
+                1e-3
+            } else {
+                s.to_f64() * 1e-3
+            };
+            s + Dd::from_f64(random.unit() * size)
+        })
+        .collect();
+    let u = random.many(layout.inputs.len(), 2.0);
+    let a = random.many(layout.nv(), 3.0);
+    let mut modes = Vec::new();
+    for part in &layout.modes {
+        let sign = if random.unit() < 0.0 { -1.0 } else { 1.0 };
+        modes.push(Dd::from_f64(if slipping { sign } else { 0.0 }));
+        // A held joint moves as its counterpart does.
+        let element = system.scene.elements.iter().find(|e| e.name == part.name);
+        let joint = element.and_then(|e| e.name("joint"));
+        let Some(j) = joint.and_then(|joint| layout.coordinate_named(joint)) else {
+            continue;
+        };
+        let reference = element.and_then(|e| e.name("reference"));
+        let rate = reference.map(|r| format!("{r}_rate"));
+        let speed = layout
+            .inputs
+            .iter()
+            .position(|i| Some(&i.name) == rate.as_ref());
+        let speed = speed.map_or(Dd::ZERO, |k| u[k]);
+        v[j] = if slipping {
+            speed + Dd::from_f64(sign * (0.2 + random.unit().abs()))
+        } else {
+            speed
+        };
+    }
+    Inputs {
+        q,
+        v,
+        a,
+        x,
+        u,
+        modes,
+        parameters: system.scene.parameters.iter().map(|p| p.default).collect(),
+        t: Some(Dd::from_f64(random.unit().abs())),
+        passed: vec![],
+    }
+}
