@@ -113,6 +113,8 @@ pub struct Run<
     pub at: Moment<f64, N, NM>,
     /// Events that changed a mode, so far.
     pub events: usize,
+    /// When the last of them was, s.
+    pub last_event: f64,
     start: [f64; NP],
     supplied: SVector<f64, NP>,
     dissipated: SVector<f64, NP>,
@@ -145,6 +147,7 @@ where
             start: scene.energy(&at.y, &at.modes),
             at,
             events: 0,
+            last_event: 0.0,
             supplied: SVector::zeros(),
             dissipated: SVector::zeros(),
         }
@@ -217,6 +220,7 @@ where
     /// A mode changes: what slipped rests or turns, what was held breaks away.
     fn change(&mut self, mode: usize) -> Result<(), Failure<S::Singular>> {
         self.events += 1;
+        self.last_event = self.at.t;
         self.at.modes = self.decided(mode)?;
         Ok(())
     }

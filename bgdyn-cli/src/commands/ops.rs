@@ -15,6 +15,7 @@ use serde::{Serialize, Serializer};
 
 use crate::output::{print, tell};
 use crate::spec_file::{Asked, SpecFile, unknown};
+use crate::usage::Usage;
 
 /// Count the operations of each generated function
 #[derive(Args)]
@@ -28,6 +29,12 @@ pub(crate) struct Ops {
     /// Say which formulation was chosen, and what the others cost
     #[arg(long)]
     explain: bool,
+    /// Of a scene: what each effect costs, added one at a time, and all but one
+    #[arg(long)]
+    per_effect: bool,
+    /// The bgdyn that times are measured with: a path or a version
+    #[arg(long, value_name = "PATH|VERSION", default_value = env!("CARGO_PKG_VERSION"))]
+    bgdyn: String,
     #[command(flatten)]
     asked: Asked,
 }
@@ -38,6 +45,10 @@ impl Ops {
         let spec = SpecFile::open(&self.file)?;
         if spec.is_scene() {
             return self.scene(&spec.scene()?);
+        }
+        if self.per_effect {
+            let message = "`--per-effect` is for scenes: a file that begins with `scene: 1`";
+            return Err(Usage(message.into()).into());
         }
         let mechanism = spec.mechanism()?;
         let model = Model::new(mechanism.clone(), &options).map_err(unknown)?;
@@ -59,6 +70,9 @@ impl Ops {
     }
 
     fn scene(&self, system: &System) -> Result<()> {
+        if self.per_effect {
+            return super::per_effect::report(system, self.json, &self.bgdyn);
+        }
         self.report(&scene_functions(system))
     }
 }

@@ -8,6 +8,7 @@ mod balance;
 mod dynamics;
 mod laws;
 mod signals;
+mod slope;
 
 use bgdyn_runtime::Dd;
 
