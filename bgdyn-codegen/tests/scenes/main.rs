@@ -2,6 +2,7 @@
 
 mod common;
 mod laws;
+mod reference;
 mod zero;
 
 use common::{read, specs};
