@@ -3,6 +3,7 @@
 mod common;
 mod laws;
 mod reference;
+mod refused;
 mod zero;
 
 use common::{read, specs};
