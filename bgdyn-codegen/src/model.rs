@@ -13,7 +13,9 @@ use crate::function::Function;
 use crate::interface::Interface;
 use crate::mechanism::Mechanism;
 use crate::method::Method;
-pub use crate::options::{DYNAMICS, List, Options, Unknown, formulation_named};
+pub use crate::options::{
+    DYNAMICS, List, Options, Preference, Unknown, formulation_named, preference_named,
+};
 
 /// A mechanism with the functions generated for it.
 pub struct Model {
@@ -54,7 +56,11 @@ pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Opt
 }
 
 fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
-    formulation::choose(graph, method, options.formulation).map(cut)
+    let choice = match options.prefer {
+        Preference::Operations => formulation::choose,
+        Preference::Accuracy => formulation::most_accurate,
+    };
+    choice(graph, method, options.formulation).map(cut)
 }
 
 /// Why there is no module.
