@@ -14,7 +14,9 @@ use crate::interface::Interface;
 use crate::mechanism::Mechanism;
 use crate::mechanism::name::is_identifier;
 use crate::method::Method;
-pub use crate::options::{DYNAMICS, List, Options, Unknown, formulation_named};
+pub use crate::options::{
+    DYNAMICS, List, Options, Preference, Unknown, formulation_named, preference_named,
+};
 use crate::scene;
 use crate::spec::{is_scene, parse_scene};
 use crate::system::System;
@@ -58,7 +60,11 @@ pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Opt
 }
 
 fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
-    formulation::choose(graph, method, options.formulation).map(cut)
+    let choice = match options.prefer {
+        Preference::Operations => formulation::choose,
+        Preference::Accuracy => formulation::most_accurate,
+    };
+    choice(graph, method, options.formulation).map(cut)
 }
 
 /// Reads a scene and the mechanism it names. `load` gives the text of a file from the path that

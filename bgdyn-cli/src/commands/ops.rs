@@ -6,7 +6,7 @@ use anyhow::Result;
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::loss::loss;
+use bgdyn_codegen::loss::{Loss, loss};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::{Model, Options, function, scene_functions};
 use bgdyn_codegen::system::System;
@@ -168,9 +168,17 @@ fn explain(mechanism: &Mechanism, model: &Model) {
 }
 
 /// A loss of digits in words.
-fn told(loss: Option<f64>) -> String {
+fn told(loss: Option<Loss>) -> String {
     match loss {
-        Some(loss) => format!("error in f64 up to {loss:.1} roundings of the largest component"),
+        Some(Loss {
+            refused: 0,
+            roundings,
+        }) => {
+            format!("error in f64 up to {roundings:.1} roundings of the largest component")
+        }
+        Some(Loss { refused, .. }) => {
+            format!("no answer in f64 in {refused} of the states tried that have one")
+        }
         None => "refused in every state tried".into(),
     }
 }
