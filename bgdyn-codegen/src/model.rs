@@ -1,6 +1,7 @@
 //! The steps in order: from a spec's text to a model, from a model to code.
 
 use std::path::Path;
+use std::rc::Rc;
 
 use proc_macro2::TokenStream;
 
@@ -8,7 +9,7 @@ use crate::bond_graph::{self, BondGraph};
 use crate::cut::cut;
 use crate::emit;
 use crate::fault::Faults;
-use crate::formulation;
+use crate::formulation::Search;
 use crate::function::Function;
 use crate::interface::Interface;
 use crate::mechanism::Mechanism;
@@ -33,8 +34,12 @@ impl Model {
     pub fn new(mechanism: Mechanism, options: &Options) -> Result<Self, Vec<Unknown>> {
         let bond_graph = bond_graph::build(&mechanism);
         let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
-        let function = |method| function_of(&bond_graph, method, options);
-        let functions = methods.into_iter().filter_map(function).collect();
+        let search = Search::new(&bond_graph, options.formulation);
+        let found = methods.into_iter().filter_map(|m| search.function(m));
+        let found: Vec<Rc<Function>> = found.collect();
+        drop(search);
+        let functions = found.into_iter().map(Rc::unwrap_or_clone).map(cut);
+        let functions = functions.collect();
         Ok(Model {
             mechanism,
             bond_graph,
@@ -50,11 +55,9 @@ impl Model {
 
 /// One function of a mechanism, without the others.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
-    function_of(&bond_graph::build(mechanism), method, options)
-}
-
-fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
-    formulation::choose(graph, method, options.formulation).map(cut)
+    let graph = bond_graph::build(mechanism);
+    let found = Search::new(&graph, options.formulation).function(method)?;
+    Some(cut(Rc::unwrap_or_clone(found)))
 }
 
 /// Why there is no module.

@@ -8,22 +8,21 @@
 //! terms, or of nothing at all: articulated bodies with their own inertia keep its digits.
 
 use super::articulated::Articulated;
-use super::geometry::geometry;
 use super::plan::SEARCHED;
 use super::share::{FAIR, own_shares};
 use super::{cheapest_plan, with_plan};
-use crate::bond_graph::BondGraph;
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
 
 const METHOD: Method = Method::ForwardDynamics;
 
 /// The ways to forward dynamics that keep their digits and are worth a look, the cheapest first.
-pub(in crate::formulation) fn forward_dynamics(graph: &BondGraph) -> Vec<Function> {
-    let geometry = geometry(graph);
-    let shares = own_shares(graph, &geometry);
-    let bodies = |way: Articulated| way.function(graph, METHOD).into_iter().collect::<Vec<_>>();
+pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Vec<Function> {
+    let graph = search.graph;
+    let geometry = search.recursion.geometry(graph);
+    let shares = own_shares(graph, geometry);
+    let bodies = |way: Articulated| way.function(search, METHOD).into_iter().collect::<Vec<_>>();
     if let Some(j) = shares.iter().position(|&share| share < FAIR) {
         let mut found = bodies(Articulated::Own);
         for function in &mut found {
@@ -41,9 +40,9 @@ pub(in crate::formulation) fn forward_dynamics(graph: &BondGraph) -> Vec<Functio
     }
     // The plan that suits one suits the other but for a few operations: it tells whether a search
     // for the other's own is worth its time.
-    let plan = cheapest_plan(graph, &geometry, METHOD);
-    let mut found = vec![with_plan(graph, &geometry, METHOD, &plan)];
-    if Articulated::Base.cost(graph, &geometry, &plan) < found[0].operations().total() {
+    let plan = cheapest_plan(search, METHOD);
+    let mut found = vec![with_plan(graph, geometry, METHOD, &plan)];
+    if Articulated::Base.cost(graph, geometry, &plan) < found[0].operations().total() {
         found.extend(bodies(Articulated::Base));
         found.sort_by_key(|f| f.operations().total());
     }

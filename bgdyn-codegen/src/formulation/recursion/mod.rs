@@ -20,7 +20,10 @@ mod plan;
 mod share;
 mod slopes;
 
-use super::{Arguments, Formulation, solve};
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
+
+use super::{Arguments, Formulation, Search, solve};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, count, factored_cost};
 use crate::function::Function;
@@ -38,6 +41,19 @@ const FACTORED: usize = 4;
 /// Bodies up to which a mechanism is small.
 const SMALL: usize = 4;
 
+/// What was found for one mechanism so far: where its frames are, and the plan of each method.
+#[derive(Default)]
+pub(super) struct Found {
+    geometry: OnceCell<Geometry>,
+    plans: RefCell<BTreeMap<Method, Plan>>,
+}
+
+impl Found {
+    fn geometry(&self, graph: &BondGraph) -> &Geometry {
+        self.geometry.get_or_init(|| geometry::geometry(graph))
+    }
+}
+
 /// The recursion.
 pub(super) struct Recursion;
 
@@ -50,29 +66,35 @@ impl Formulation for Recursion {
         "link axes, base parameters, common-axis trick, sliding origins, groups of parallel axes"
     }
 
-    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
-        let geometry = geometry::geometry(graph);
+    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
+        let graph = search.graph;
+        let geometry = search.recursion.geometry(graph);
         if let Some(site) = method.site() {
-            return Some(kinematics::function(graph, &geometry, method, site));
+            return Some(kinematics::function(graph, geometry, method, site));
         }
-        let cost = |plan: &Plan| cost(graph, &geometry, method, plan);
+        let cost = |plan: &Plan| cost(graph, geometry, method, plan);
         let best = match method {
             // Their graphs are too large for a whole search: it starts from the plan of a small
             // method that they resemble.
             Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-                let start = cheapest_plan(graph, &geometry, Method::MassMatrix);
-                plan::refined(&geometry, start, cost)
+                let start = cheapest_plan(search, Method::MassMatrix);
+                plan::refined(geometry, start, cost)
             }
             Method::ForwardDynamicsDerivatives => return None,
-            _ => cheapest_plan(graph, &geometry, method),
+            _ => cheapest_plan(search, method),
         };
-        Some(with_plan(graph, &geometry, method, &best))
+        Some(with_plan(graph, geometry, method, &best))
     }
 }
 
 /// The plan that costs least after factoring. Plans that cost about the same before it differ in
 /// what it makes of them.
-fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan {
+fn cheapest_plan(search: &Search<'_>, method: Method) -> Plan {
+    if let Some(plan) = search.recursion.plans.borrow().get(&method) {
+        return plan.clone();
+    }
+    let graph = search.graph;
+    let geometry = search.recursion.geometry(graph);
     let cost = |plan: &Plan| cost(graph, geometry, method, plan);
     let small = geometry.bodies.len() <= SMALL;
     let plans = plan::search(geometry, if small { FACTORED } else { 1 }, cost);
@@ -81,11 +103,14 @@ fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan
         factored_cost(made, outputs).total()
     };
     let mut plans = plans.into_iter();
-    match plans.len() {
+    let plan = match plans.len() {
         1 => plans.next(),
         _ => plans.min_by_key(after),
     }
-    .expect("there is a plan to start from")
+    .expect("there is a plan to start from");
+    let mut known = search.recursion.plans.borrow_mut();
+    known.insert(method, plan.clone());
+    plan
 }
 
 fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
