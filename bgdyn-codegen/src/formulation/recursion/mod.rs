@@ -17,6 +17,7 @@ mod kinematics;
 mod mass;
 mod motion;
 mod plan;
+mod regrouped;
 mod share;
 mod slopes;
 
