@@ -7,6 +7,7 @@
 
 mod build;
 mod copy;
+mod cost;
 mod count;
 mod diff;
 mod error;
@@ -23,6 +24,7 @@ use bgdyn_runtime::Dd;
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Ex};
 pub use copy::copy_into;
+pub use cost::{Cost, cost};
 pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use error::{Bound, ErrorBound};

@@ -24,14 +24,13 @@ pub(super) fn function(search: &Search<'_>, method: Method) -> Option<Function> 
             let small = graph.coordinates.len() <= SMALL;
             let differentiated = (literal || small).then(|| differentiated(search, method));
             let ways = regrouped.into_iter().chain(differentiated.flatten());
-            ways.map(Function::factored)
-                .min_by_key(|f| f.operations().total())
+            Function::cheapest(ways.map(Function::factored))
         }
         Method::ForwardDynamicsDerivatives => {
             let slopes = search.slopes()?;
             let ways = search.forward_dynamics().iter();
-            ways.map(|forward| forward_derivatives(graph, method, slopes, forward))
-                .min_by_key(|f| f.operations().total())
+            let ways = ways.map(|forward| forward_derivatives(graph, method, slopes, forward));
+            Function::cheapest(ways)
         }
         _ => None,
     }

@@ -60,8 +60,7 @@ impl<'a> Search<'a> {
             Method::ForwardDynamics => self.forward_dynamics().to_vec(),
             _ => self.own(method),
         };
-        let ways = ways.into_iter().map(Function::factored);
-        ways.min_by_key(|f| f.operations().total())
+        Function::cheapest(ways.into_iter().map(Function::factored))
     }
 
     /// The function of the formulation asked for, or of the recursion, before factoring.

@@ -10,7 +10,7 @@
 use super::articulated::Articulated;
 use super::plan::SEARCHED;
 use super::share::{FAIR, own_shares};
-use super::{cheapest_plan, with_plan};
+use super::{cheapest_plans, with_plan};
 use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
@@ -40,11 +40,12 @@ pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Vec<Funct
     }
     // The plan that suits one suits the other but for a few operations: it tells whether a search
     // for the other's own is worth its time.
-    let plan = cheapest_plan(search, METHOD);
-    let mut found = vec![with_plan(graph, geometry, METHOD, &plan)];
-    if Articulated::Base.cost(graph, geometry, &plan) < found[0].operations().total() {
+    let plans = cheapest_plans(search, METHOD);
+    let mut found = vec![with_plan(graph, geometry, METHOD, &plans)];
+    let bodies_cost = Articulated::Base.cost(graph, geometry, &plans[0].plan);
+    if bodies_cost.weighted() < found[0].cost().weighted() {
         found.extend(bodies(Articulated::Base));
-        found.sort_by_key(|f| f.operations().total());
+        found.sort_by_key(|f| f.cost().weighted());
     }
     found
 }

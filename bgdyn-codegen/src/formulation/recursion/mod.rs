@@ -26,27 +26,25 @@ use std::collections::BTreeMap;
 
 use super::{Arguments, Formulation, Search, solve};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, count, factored_cost};
+use crate::expr::{self, Builder, Cost, Expr, Graph, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
 pub(super) use articulated::Articulated;
 pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
+use plan::Tried;
 
-/// Plans of small mechanisms, the cheapest ones before factoring, of which the cheapest one after
-/// it is taken. For larger ones it would take more time than it saves operations: on arms of six
+/// Bodies up to which a mechanism is small: the plans that its search keeps are factored before
+/// one is taken. For larger ones it would take more time than it saves operations: on arms of six
 /// and seven axes 16 of 8,000, for twice the time of expansion.
-const FACTORED: usize = 4;
-
-/// Bodies up to which a mechanism is small.
 const SMALL: usize = 4;
 
 /// What was found for one mechanism so far: where its frames are, and the plan of each method.
 #[derive(Default)]
 pub(super) struct Found {
     geometry: OnceCell<Geometry>,
-    plans: RefCell<BTreeMap<Method, Plan>>,
+    plans: RefCell<BTreeMap<Method, Vec<Tried>>>,
 }
 
 impl Found {
@@ -74,55 +72,56 @@ impl Formulation for Recursion {
             return Some(kinematics::function(graph, geometry, method, site));
         }
         let cost = |plan: &Plan| cost(graph, geometry, method, plan);
-        let best = match method {
+        let plans = match method {
             // Their graphs are too large for a whole search: it starts from the plan of a small
             // method that they resemble.
             Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-                let start = cheapest_plan(search, Method::MassMatrix);
-                plan::refined(geometry, start, cost)
+                let start = cheapest_plans(search, Method::MassMatrix).swap_remove(0);
+                plan::refined(geometry, start.plan, cost)
             }
             Method::ForwardDynamicsDerivatives => return None,
-            _ => cheapest_plan(search, method),
+            _ => cheapest_plans(search, method),
         };
-        Some(with_plan(graph, geometry, method, &best))
+        Some(with_plan(graph, geometry, method, &plans))
     }
 }
 
-/// The plan that costs least after factoring. Plans that cost about the same before it differ in
-/// what it makes of them.
-fn cheapest_plan(search: &Search<'_>, method: Method) -> Plan {
-    if let Some(plan) = search.recursion.plans.borrow().get(&method) {
-        return plan.clone();
+/// The cheapest plans found; the first one costs least after factoring. Plans that cost about the
+/// same before it differ in what it makes of them.
+fn cheapest_plans(search: &Search<'_>, method: Method) -> Vec<Tried> {
+    if let Some(plans) = search.recursion.plans.borrow().get(&method) {
+        return plans.clone();
     }
     let graph = search.graph;
     let geometry = search.recursion.geometry(graph);
-    let cost = |plan: &Plan| cost(graph, geometry, method, plan);
-    let small = geometry.bodies.len() <= SMALL;
-    let plans = plan::search(geometry, if small { FACTORED } else { 1 }, cost);
-    let after = |plan: &Plan| {
-        let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
-        factored_cost(made, outputs).total()
-    };
-    let mut plans = plans.into_iter();
-    let plan = match plans.len() {
-        1 => plans.next(),
-        _ => plans.min_by_key(after),
+    let mut plans = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
+    if geometry.bodies.len() <= SMALL {
+        let after = |tried: &Tried| {
+            let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, &tried.plan);
+            factored_cost(made, outputs).weighted()
+        };
+        plans.sort_by_cached_key(after);
     }
-    .expect("there is a plan to start from");
     let mut known = search.recursion.plans.borrow_mut();
-    known.insert(method, plan.clone());
-    plan
+    known.insert(method, plans.clone());
+    plans
 }
 
-fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
+fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
     let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
-    count(&graph, &outputs).total()
+    expr::cost(&graph, &outputs)
 }
 
-fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {
+/// The function under the first of these plans.
+fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plans: &[Tried]) -> Function {
+    let plan = &plans[0].plan;
     let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);
     let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
-    Function::flat(graph, method, name, made, outputs)
+    let plans = plan::considered(geometry, plans);
+    Function {
+        plans,
+        ..Function::flat(graph, method, name, made, outputs)
+    }
 }
 
 /// The method's expressions under a plan.

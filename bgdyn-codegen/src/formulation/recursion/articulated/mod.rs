@@ -15,7 +15,7 @@ use super::geometry::Geometry;
 use super::share::{FAIR, own_shares};
 use super::{inverse, plan};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, count};
+use crate::expr::{self, Builder, Cost, Expr, Graph};
 use crate::formulation::{Arguments, Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
@@ -55,15 +55,19 @@ impl Formulation for Articulated {
         let graph = search.graph;
         let geometry = search.recursion.geometry(graph);
         let cost = |plan: &Plan| self.cost(graph, geometry, plan);
-        let best = plan::search(geometry, 1, cost).remove(0);
+        let plans = plan::search(geometry, cost);
+        let best = &plans[0].plan;
         // A pivot with a fair share of its own is never less than that.
         let guarded: Vec<bool> = own_shares(graph, geometry)
             .iter()
             .map(|&share| share < FAIR)
             .collect();
-        let (made, outputs) = self.outputs(Builder::new(), graph, geometry, &best, &guarded);
-        let name = format!("{}: {}", self.name(), plan::describe(geometry, &best));
-        let function = Function::flat(graph, method, name, made, outputs);
+        let (made, outputs) = self.outputs(Builder::new(), graph, geometry, best, &guarded);
+        let name = format!("{}: {}", self.name(), plan::describe(geometry, best));
+        let function = Function {
+            plans: plan::considered(geometry, &plans),
+            ..Function::flat(graph, method, name, made, outputs)
+        };
         Some(match self {
             // Its pivots keep their digits by the order of what is subtracted in them.
             Articulated::Own => function.in_order(),
@@ -74,10 +78,10 @@ impl Formulation for Articulated {
 
 impl Articulated {
     /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
-    pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> usize {
+    pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> Cost {
         let unguarded = vec![false; geometry.bodies.len()];
         let (graph, outputs) = self.outputs(Builder::silent(), graph, geometry, plan, &unguarded);
-        count(&graph, &outputs).total()
+        expr::cost(&graph, &outputs)
     }
 
     /// The accelerations under a plan.
