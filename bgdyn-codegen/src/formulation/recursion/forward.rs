@@ -40,9 +40,9 @@ pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Vec<Funct
     }
     // The plan that suits one suits the other but for a few operations: it tells whether a search
     // for the other's own is worth its time.
-    let plans = cheapest_plans(search, METHOD);
-    let mut found = vec![with_plan(graph, geometry, METHOD, &plans)];
-    let bodies_cost = Articulated::Base.cost(graph, geometry, &plans[0].plan);
+    let best = cheapest_plans(search, METHOD);
+    let mut found = vec![with_plan(graph, geometry, METHOD, &best)];
+    let bodies_cost = Articulated::Base.cost(graph, geometry, best.taken());
     if bodies_cost.weighted() < found[0].cost().weighted() {
         found.extend(bodies(Articulated::Base));
         found.sort_by_key(|f| f.cost().weighted());

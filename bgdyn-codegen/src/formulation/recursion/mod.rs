@@ -33,7 +33,7 @@ pub(super) use articulated::Articulated;
 pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
-use plan::Tried;
+use plan::{Best, Tried};
 
 /// Bodies up to which a mechanism is small: the plans that its search keeps are factored before
 /// one is taken. For larger ones it would take more time than it saves operations: on arms of six
@@ -44,7 +44,7 @@ const SMALL: usize = 4;
 #[derive(Default)]
 pub(super) struct Found {
     geometry: OnceCell<Geometry>,
-    plans: RefCell<BTreeMap<Method, Vec<Tried>>>,
+    plans: RefCell<BTreeMap<Method, Best>>,
 }
 
 impl Found {
@@ -72,39 +72,39 @@ impl Formulation for Recursion {
             return Some(kinematics::function(graph, geometry, method, site));
         }
         let cost = |plan: &Plan| cost(graph, geometry, method, plan);
-        let plans = match method {
+        let best = match method {
             // Their graphs are too large for a whole search: it starts from the plan of a small
             // method that they resemble.
             Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-                let start = cheapest_plans(search, Method::MassMatrix).swap_remove(0);
-                plan::refined(geometry, start.plan, cost)
+                let start = cheapest_plans(search, Method::MassMatrix);
+                plan::refined(geometry, start.taken(), cost)
             }
             Method::ForwardDynamicsDerivatives => return None,
             _ => cheapest_plans(search, method),
         };
-        Some(with_plan(graph, geometry, method, &plans))
+        Some(with_plan(graph, geometry, method, &best))
     }
 }
 
 /// The cheapest plans found; the first one costs least after factoring. Plans that cost about the
 /// same before it differ in what it makes of them.
-fn cheapest_plans(search: &Search<'_>, method: Method) -> Vec<Tried> {
-    if let Some(plans) = search.recursion.plans.borrow().get(&method) {
-        return plans.clone();
+fn cheapest_plans(search: &Search<'_>, method: Method) -> Best {
+    if let Some(best) = search.recursion.plans.borrow().get(&method) {
+        return best.clone();
     }
     let graph = search.graph;
     let geometry = search.recursion.geometry(graph);
-    let mut plans = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
+    let mut best = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
     if geometry.bodies.len() <= SMALL {
         let after = |tried: &Tried| {
             let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, &tried.plan);
             factored_cost(made, outputs).weighted()
         };
-        plans.sort_by_cached_key(after);
+        best.plans.sort_by_cached_key(after);
     }
     let mut known = search.recursion.plans.borrow_mut();
-    known.insert(method, plans.clone());
-    plans
+    known.insert(method, best.clone());
+    best
 }
 
 fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
@@ -112,12 +112,12 @@ fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> 
     expr::cost(&graph, &outputs)
 }
 
-/// The function under the first of these plans.
-fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plans: &[Tried]) -> Function {
-    let plan = &plans[0].plan;
+/// The function under the plan that is taken.
+fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, best: &Best) -> Function {
+    let plan = best.taken();
     let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);
     let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
-    let plans = plan::considered(geometry, plans);
+    let plans = best.considered(geometry);
     Function {
         plans,
         ..Function::flat(graph, method, name, made, outputs)

@@ -16,7 +16,7 @@ const ROUNDS: usize = 2;
 pub(super) const SEARCHED: usize = 16;
 
 /// Plans kept of a search.
-pub(super) const KEPT: usize = 4;
+const KEPT: usize = 4;
 
 /// A plan, and what it costs before factoring.
 #[derive(Clone)]
@@ -25,24 +25,57 @@ pub(super) struct Tried {
     pub cost: Cost,
 }
 
-/// The cheapest plans seen.
-#[derive(Default)]
-struct Best(Vec<Tried>);
+/// What a search has seen.
+#[derive(Clone, Default)]
+pub(super) struct Best {
+    /// The cheapest plans, the cheapest one first; many a choice changes no cost.
+    pub plans: Vec<Tried>,
+    /// For each of the least costs the first plan that has it.
+    steps: Vec<Tried>,
+}
 
 impl Best {
     fn see(&mut self, plan: &Plan, cost: Cost) {
+        let tried = || Tried {
+            plan: plan.clone(),
+            cost,
+        };
         let weight = cost.weighted();
-        let place = self.0.partition_point(|t| t.cost.weighted() <= weight);
-        if place < KEPT && self.0.iter().all(|t| t.plan != *plan) {
-            let plan = plan.clone();
-            self.0.insert(place, Tried { plan, cost });
-            self.0.truncate(KEPT);
+        let above = |all: &[Tried]| all.partition_point(|t| t.cost.weighted() <= weight);
+        let place = above(&self.plans);
+        if place < KEPT && self.plans.iter().all(|t| t.plan != *plan) {
+            self.plans.insert(place, tried());
+            self.plans.truncate(KEPT);
         }
+        let place = above(&self.steps);
+        let known = place > 0 && self.steps[place - 1].cost.weighted() == weight;
+        if place < KEPT && !known {
+            self.steps.insert(place, tried());
+            self.steps.truncate(KEPT);
+        }
+    }
+
+    /// The plan that is taken.
+    pub fn taken(&self) -> &Plan {
+        &self.plans[0].plan
+    }
+
+    /// The plan that is taken, and the cheapest ones of other costs, for a function's reader: each
+    /// with all in which it differs from the one taken.
+    pub fn considered(&self, geometry: &Geometry) -> Vec<Considered> {
+        let taken = &self.plans[0];
+        let weight = taken.cost.weighted();
+        let others = self.steps.iter().filter(|t| t.cost.weighted() != weight);
+        let told = |t: &Tried| Considered {
+            what: describe(geometry, &t.plan) + &differences(geometry, &taken.plan, &t.plan),
+            cost: t.cost,
+        };
+        [taken].into_iter().chain(others).map(told).collect()
     }
 }
 
-/// The cheapest plans found, the cheapest one first; at least one, at most [`KEPT`].
-pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> Vec<Tried> {
+/// The cheapest plans found.
+pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> Best {
     let n = geometry.bodies.len();
     let mut best = Best::default();
     let mut weigh = |plan: &Plan| {
@@ -73,17 +106,13 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> Vec<T
             }
         }
     }
-    best.0
+    best
 }
 
 /// The cheapest of the plans that come of trying each place of an origin and each unit of length
-/// once, the cheapest one first.
-pub(super) fn refined(
-    geometry: &Geometry,
-    start: Plan,
-    cost: impl Fn(&Plan) -> Cost,
-) -> Vec<Tried> {
-    let mut plan = start;
+/// once.
+pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> Best {
+    let mut plan = start.clone();
     let mut best = Best::default();
     let mut weigh = |plan: &Plan| {
         let cost = cost(plan);
@@ -108,7 +137,7 @@ pub(super) fn refined(
             (least, plan) = (c, tried);
         }
     }
-    best.0
+    best
 }
 
 /// Plans to start from: with and without groups.
@@ -217,16 +246,6 @@ fn units(geometry: &Geometry) -> Vec<Dd> {
         }
     }
     units
-}
-
-/// Plans as a function's reader is told of them; the first one is taken, the others are told with
-/// all in which they differ from it.
-pub(super) fn considered(geometry: &Geometry, tried: &[Tried]) -> Vec<Considered> {
-    let told = |t: &Tried| Considered {
-        what: describe(geometry, &t.plan) + &differences(geometry, &tried[0].plan, &t.plan),
-        cost: t.cost,
-    };
-    tried.iter().map(told).collect()
 }
 
 /// Choices of `plan` that differ from those of another and that [`describe`] keeps to itself.

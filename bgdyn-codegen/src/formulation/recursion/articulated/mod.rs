@@ -55,8 +55,8 @@ impl Formulation for Articulated {
         let graph = search.graph;
         let geometry = search.recursion.geometry(graph);
         let cost = |plan: &Plan| self.cost(graph, geometry, plan);
-        let plans = plan::search(geometry, cost);
-        let best = &plans[0].plan;
+        let found = plan::search(geometry, cost);
+        let best = found.taken();
         // A pivot with a fair share of its own is never less than that.
         let guarded: Vec<bool> = own_shares(graph, geometry)
             .iter()
@@ -65,7 +65,7 @@ impl Formulation for Articulated {
         let (made, outputs) = self.outputs(Builder::new(), graph, geometry, best, &guarded);
         let name = format!("{}: {}", self.name(), plan::describe(geometry, best));
         let function = Function {
-            plans: plan::considered(geometry, &plans),
+            plans: found.considered(geometry),
             ..Function::flat(graph, method, name, made, outputs)
         };
         Some(match self {
