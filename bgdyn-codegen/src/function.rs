@@ -3,7 +3,7 @@
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
-use crate::expr::{Expr, Graph, Inputs, Operations, count, evaluate, factored};
+use crate::expr::{Cost, Expr, Graph, Inputs, Operations, cost, count, evaluate, factored};
 use crate::method::{Method, Shape};
 
 /// A straight line of code: what it computes. Later blocks read its results as
@@ -12,6 +12,15 @@ use crate::method::{Method, Shape};
 pub struct Block {
     /// Its results, in order.
     pub outputs: Vec<Expr>,
+}
+
+/// Something that was tried for a function, and what it costs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Considered {
+    /// A plan or a formulation in words.
+    pub what: String,
+    /// What it costs.
+    pub cost: Cost,
 }
 
 /// A generated method: an expression graph, cut into blocks; the last block gives the result.
@@ -23,6 +32,11 @@ pub struct Function {
     pub name: String,
     /// Name of the formulation that was chosen, with its variant.
     pub formulation: String,
+    /// The cheapest plans of its formulation, with their cost before factoring; the one taken is
+    /// the first. None where there is nothing to choose.
+    pub plans: Vec<Considered>,
+    /// Other ways to it that were made in full, with their cost when they were compared.
+    pub passed_over: Vec<Considered>,
     /// Whether the order of its operations is what it is made for: it is not factored.
     pub ordered: bool,
     /// Expressions of all blocks.
@@ -50,6 +64,8 @@ impl Function {
             method,
             name: method.name(&bond_graph.sites),
             formulation,
+            plans: Vec::new(),
+            passed_over: Vec::new(),
             ordered: false,
             graph,
             blocks: vec![Block { outputs }],
@@ -74,6 +90,19 @@ impl Function {
         self
     }
 
+    /// The cheapest of several ways, with the others noted in it; the first one of equals.
+    pub(crate) fn cheapest(ways: impl Iterator<Item = Function>) -> Option<Function> {
+        let mut ways: Vec<(Cost, Function)> = ways.map(|f| (f.cost(), f)).collect();
+        ways.sort_by_key(|(cost, _)| cost.weighted());
+        let mut ways = ways.into_iter();
+        let (_, mut best) = ways.next()?;
+        best.passed_over.extend(ways.map(|(cost, f)| Considered {
+            what: f.formulation,
+            cost,
+        }));
+        Some(best)
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         &self.name
@@ -89,6 +118,18 @@ impl Function {
         let mut all = Operations::default();
         for block in &self.blocks {
             all += count(&self.graph, &block.outputs);
+        }
+        all
+    }
+
+    /// What one call costs.
+    pub fn cost(&self) -> Cost {
+        let mut all = Cost::default();
+        for block in &self.blocks {
+            let c = cost(&self.graph, &block.outputs);
+            all.operations += c.operations;
+            all.fusable += c.fusable;
+            all.depth += c.depth;
         }
         all
     }

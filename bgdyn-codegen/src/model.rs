@@ -1,6 +1,7 @@
 //! The steps in order: from a spec's text to a model, from a model to code.
 
 use std::path::Path;
+use std::rc::Rc;
 
 use proc_macro2::TokenStream;
 
@@ -8,7 +9,7 @@ use crate::bond_graph::{self, BondGraph};
 use crate::cut::cut;
 use crate::emit;
 use crate::fault::{Fault, Faults};
-use crate::formulation;
+use crate::formulation::{self, Search};
 use crate::function::Function;
 use crate::interface::Interface;
 use crate::mechanism::Mechanism;
@@ -39,8 +40,13 @@ impl Model {
     pub fn new(mechanism: Mechanism, options: &Options) -> Result<Self, Vec<Unknown>> {
         let bond_graph = bond_graph::build(&mechanism);
         let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
-        let function = |method| function_of(&bond_graph, method, options);
-        let functions = methods.into_iter().filter_map(function).collect();
+        let search = Search::new(&bond_graph, options.formulation);
+        let found = methods
+            .into_iter()
+            .filter_map(|m| chosen(&search, m, options));
+        let found: Vec<Function> = found.collect();
+        drop(search);
+        let functions = found.into_iter().map(cut).collect();
         Ok(Model {
             mechanism,
             bond_graph,
@@ -56,15 +62,18 @@ impl Model {
 
 /// One function of a mechanism, without the others.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
-    function_of(&bond_graph::build(mechanism), method, options)
+    let graph = bond_graph::build(mechanism);
+    chosen(&Search::new(&graph, options.formulation), method, options).map(cut)
 }
 
-fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
-    let choice = match options.prefer {
-        Preference::Operations => formulation::choose,
-        Preference::Accuracy => formulation::most_accurate,
-    };
-    choice(graph, method, options.formulation).map(cut)
+/// The function of a method that these options mean.
+fn chosen(search: &Search<'_>, method: Method, options: &Options) -> Option<Function> {
+    match options.prefer {
+        Preference::Operations => search.function(method).map(Rc::unwrap_or_clone),
+        Preference::Accuracy => {
+            formulation::most_accurate(search.graph, method, options.formulation)
+        }
+    }
 }
 
 /// Reads a scene and the mechanism it names. `load` gives the text of a file from the path that

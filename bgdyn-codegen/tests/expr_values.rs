@@ -92,6 +92,7 @@ fn at<T: Scalar<Refused = Option<usize>>>(g: &Graph, e: Expr, x: T, y: T) -> T {
         u: vec![],
         modes: vec![],
         parameters: vec![],
+        t: None,
         passed: vec![],
     };
     let mut refused = None;

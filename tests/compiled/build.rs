@@ -84,6 +84,7 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::CheckedVector => "checked",
             Shape::CheckedSquares => "checked_matrices",
             Shape::Pose => "pose",
+            Shape::Parts | Shape::CheckedParts => unreachable!("no scene is among the specs"),
         };
         let arguments = function.method.arguments().iter().map(|a| a.name());
         let arguments = arguments.collect::<Vec<_>>().join(", ");

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::formulation::FORMULATIONS;
-use bgdyn_codegen::function::Function;
+use bgdyn_codegen::function::{Considered, Function};
 use bgdyn_codegen::loss::{Loss, loss};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::{Model, Options, function, scene_functions};
@@ -26,7 +26,8 @@ pub(crate) struct Ops {
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Say which formulation was chosen, and what the others cost
+    /// Say what was chosen, what it costs part by part, and what the other plans and formulations
+    /// cost
     #[arg(long)]
     explain: bool,
     /// Of a scene: what each effect costs, added one at a time, and all but one
@@ -149,6 +150,10 @@ fn explain(mechanism: &Mechanism, model: &Model) {
     for f in &model.functions {
         let lost = told(loss(f, &model.bond_graph));
         tell(&format!("{}: {}; {lost}\n", f.name(), f.formulation));
+        tell(&format!("  cost {}\n", f.cost()));
+        list("plans before factoring, the first one taken", &f.plans);
+        list("passed over", &f.passed_over);
+        tell("  formulations\n");
         for formulation in FORMULATIONS.iter().filter(|known| known.knows(f.method)) {
             let asked = Options {
                 formulation: Some(*formulation),
@@ -156,14 +161,24 @@ fn explain(mechanism: &Mechanism, model: &Model) {
             };
             if let Some(other) = function(mechanism, f.method, &asked) {
                 tell(&format!(
-                    "  {:<16} {}; {}  ({})\n",
+                    "    {:<16} {}; {}  ({})\n",
                     formulation.name(),
-                    other.operations(),
+                    other.cost(),
                     told(loss(&other, &model.bond_graph)),
                     formulation.summary()
                 ));
             }
         }
+    }
+}
+
+/// Candidates and what they cost, one per line.
+fn list(title: &str, all: &[Considered]) {
+    if !all.is_empty() {
+        tell(&format!("  {title}\n"));
+    }
+    for one in all {
+        tell(&format!("    {}: {}\n", one.what, one.cost));
     }
 }
 

@@ -169,6 +169,57 @@ fn explanations_stand_beside_the_json() {
     assert!(serde_json::from_str::<Value>(&run.good()).is_ok());
 }
 
+/// `116 = 30 mul + 24 add + 30 × 2 sincos − 0.2 × 17 fusable`: the sum, and the sum of the parts.
+fn sums(cost: &str) -> (f64, f64) {
+    let number = |text: &str| -> f64 { text.parse().expect(cost) };
+    let (sum, parts) = cost.split_once(" = ").expect(cost);
+    let mut words = parts.split(' ').peekable();
+    let (mut sign, mut total) = (1.0, 0.0);
+    while let Some(word) = words.next() {
+        match word {
+            "+" => sign = 1.0,
+            "−" => sign = -1.0,
+            _ if word.starts_with(|c: char| c.is_ascii_digit()) => {
+                let mut part = number(word);
+                if words.next_if_eq(&"×").is_some() {
+                    part *= number(words.next().expect(cost));
+                }
+                total += sign * part;
+            }
+            _ => {}
+        }
+    }
+    (number(sum), total)
+}
+
+#[test]
+fn explanations_show_what_decided() {
+    let told = bgdyn(&["ops", SCARA, "--explain"]).stderr;
+    let begin = told.find("forward_dynamics: ").expect(&told);
+    let lines: Vec<&str> = told[begin..].lines().skip(1).collect();
+    let end = lines.iter().position(|l| !l.starts_with(' '));
+    let lines = &lines[..end.expect("another function follows")];
+    let cost = lines.iter().find_map(|l| l.strip_prefix("  cost "));
+    let (taken, parts) = sums(cost.expect(&told));
+    assert!((taken - parts).abs() < 1e-9, "{taken} is not {parts}");
+    let under = |title: &str| -> Vec<f64> {
+        let all = lines.iter().skip_while(|l| !l.contains(title)).skip(1);
+        let listed = all.take_while(|l| l.starts_with("    "));
+        let costs = listed.map(|l| {
+            let (before, _) = l.split_once(" = ").expect(l);
+            let last = before.split(' ').next_back().expect(l);
+            last.parse().expect(l)
+        });
+        costs.collect()
+    };
+    for title in ["plans before factoring", "formulations"] {
+        let others = under(title);
+        assert!(others.len() > 1, "{title}: {told}");
+        assert!(others.iter().all(|&c| c >= taken), "{title}: {told}");
+    }
+    assert!(under("formulations").contains(&taken), "{told}");
+}
+
 #[test]
 fn the_table_has_a_line_for_each_function() {
     let table = bgdyn(&["ops", SCARA]).good();

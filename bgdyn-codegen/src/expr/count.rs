@@ -5,11 +5,9 @@
 //! divisions and roots apart; comparisons, selections, minima, exponentials and checked pivots are
 //! `other`. The sums of angles inside a sine are part of the sine.
 
-use std::collections::BTreeSet;
-
 use bgdyn_runtime::Operations;
 
-use super::{Expr, Graph, Node, NodeId};
+use super::{Expr, Graph, Node};
 
 /// Which nodes the outputs need: one truth value per node.
 pub fn reachable(graph: &Graph, outputs: &[Expr]) -> Vec<bool> {
@@ -28,14 +26,34 @@ pub fn reachable(graph: &Graph, outputs: &[Expr]) -> Vec<bool> {
 /// The operations that computing the outputs once takes.
 pub fn count(graph: &Graph, outputs: &[Expr]) -> Operations {
     let needed = reachable(graph, outputs);
-    let mut operations = Operations::default();
-    let mut angles: BTreeSet<NodeId> = BTreeSet::new();
-    for (node, _) in graph
-        .nodes
-        .iter()
-        .zip(&needed)
-        .filter(|(_, needed)| **needed)
-    {
+    let mut counter = Counter::new(graph.len());
+    for (node, needed) in graph.nodes.iter().zip(needed) {
+        if needed {
+            counter.add(node);
+        }
+    }
+    counter.operations
+}
+
+/// Counts nodes, each of which is to be given once.
+pub(super) struct Counter {
+    pub operations: Operations,
+    /// Whether the pair of sine and cosine of each node was counted.
+    paired: Vec<bool>,
+}
+
+impl Counter {
+    /// For a graph of so many nodes.
+    pub fn new(nodes: usize) -> Self {
+        Counter {
+            operations: Operations::default(),
+            paired: vec![false; nodes],
+        }
+    }
+
+    /// Adds what a node executes.
+    pub fn add(&mut self, node: &Node) {
+        let operations = &mut self.operations;
         match node {
             Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) => {}
             Node::Add(..) => operations.add += 1,
@@ -47,7 +65,8 @@ pub fn count(graph: &Graph, outputs: &[Expr]) -> Operations {
             }
             Node::Sqrt(_) => operations.sqrt += 1,
             Node::Sin(a) | Node::Cos(a) => {
-                angles.insert(*a);
+                let paired = std::mem::replace(&mut self.paired[a.0 as usize], true);
+                operations.sincos += usize::from(!paired);
             }
             Node::Exp(_)
             | Node::Ln(_)
@@ -61,6 +80,4 @@ pub fn count(graph: &Graph, outputs: &[Expr]) -> Operations {
             | Node::Pivot(..) => operations.other += 1,
         }
     }
-    operations.sincos = angles.len();
-    operations
 }

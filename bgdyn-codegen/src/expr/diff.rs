@@ -4,12 +4,13 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Expr, Graph, Leaf, Node, NodeId, QuickMap};
+use super::{Expr, Graph, Leaf, Node, NodeId};
 
 /// A forward-mode pass over a graph under construction; remembers the tangents it made.
 pub struct Tangent<S> {
     seed: S,
-    made: QuickMap<NodeId, Expr>,
+    /// The tangents made, by node.
+    made: Vec<Option<Expr>>,
 }
 
 impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
@@ -17,7 +18,7 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
     pub fn new(seed: S) -> Self {
         Tangent {
             seed,
-            made: QuickMap::default(),
+            made: Vec::new(),
         }
     }
 
@@ -25,11 +26,14 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
     pub fn of(&mut self, g: &mut Graph, e: Expr) -> Expr {
         // Operands first, by a stack of our own: graphs are deeper than the call stack likes.
         let mut stack = vec![e.node];
+        if self.made.len() < g.len() {
+            self.made.resize(g.len(), None);
+        }
         while let Some(&id) = stack.last() {
             let before = stack.len();
-            if !self.made.contains_key(&id) {
+            if self.made[id.0 as usize].is_none() {
                 g.node(id).for_each_operand(|operand| {
-                    if !self.made.contains_key(&operand) {
+                    if self.made[operand.0 as usize].is_none() {
                         stack.push(operand);
                     }
                 });
@@ -37,15 +41,16 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
                     continue;
                 }
                 let tangent = self.step(g, id);
-                self.made.insert(id, tangent);
+                self.made[id.0 as usize] = Some(tangent);
             }
             stack.pop();
         }
-        self.made[&e.node].flipped(e.negative)
+        self.d(e)
     }
 
     fn d(&self, e: Expr) -> Expr {
-        self.made[&e.node].flipped(e.negative)
+        let tangent = self.made[e.node.0 as usize].expect("operands are first");
+        tangent.flipped(e.negative)
     }
 
     fn step(&mut self, g: &mut Graph, id: NodeId) -> Expr {

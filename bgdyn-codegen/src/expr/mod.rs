@@ -7,26 +7,30 @@
 
 mod build;
 mod copy;
+mod cost;
 mod count;
 mod diff;
 mod error;
 mod eval;
 mod factor;
 mod fold;
+mod index;
 
 use std::collections::HashMap;
-use std::hash::BuildHasherDefault;
+use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use bgdyn_runtime::Dd;
 
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Ex};
 pub use copy::copy_into;
+pub use cost::{Cost, cost};
 pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
 pub use factor::{factored, factored_cost};
+use index::{Index, mix};
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -228,13 +232,28 @@ impl Node {
             Node::Pivot(value, magnitude, joint) => Node::Pivot(f(value), f(magnitude), joint),
         }
     }
+
+    /// Its hash: a short way for what there is most of.
+    fn quick_hash(&self) -> u64 {
+        let signed = |e: &Expr| u64::from(e.node.0) << 1 | u64::from(e.negative);
+        match self {
+            Node::Constant(c) => mix(mix(1, c.hi), c.lo),
+            Node::Add(a, b) => mix(mix(2, u64::from(a.0)), signed(b)),
+            Node::Mul(a, b) => mix(mix(3, u64::from(a.0)), u64::from(b.0)),
+            _ => {
+                let mut hasher = QuickHasher::default();
+                self.hash(&mut hasher);
+                hasher.finish()
+            }
+        }
+    }
 }
 
 /// A quick hash for small keys: multiply and rotate. The order it gives is never seen.
 #[derive(Clone, Default, Debug)]
 pub(crate) struct QuickHasher(u64);
 
-impl std::hash::Hasher for QuickHasher {
+impl Hasher for QuickHasher {
     fn write(&mut self, bytes: &[u8]) {
         for &b in bytes {
             self.write_u64(u64::from(b));
@@ -247,7 +266,7 @@ impl std::hash::Hasher for QuickHasher {
         self.write_u64(u64::from(x));
     }
     fn write_u64(&mut self, x: u64) {
-        self.0 = (self.0.rotate_left(26) ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = mix(self.0, x);
     }
     fn write_usize(&mut self, x: usize) {
         self.write_u64(x as u64);
@@ -266,7 +285,8 @@ pub(crate) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<QuickHasher>>;
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    ids: QuickMap<Node, NodeId>,
+    /// The nodes by their hash.
+    index: Index,
     names: std::collections::BTreeMap<NodeId, String>,
     /// Titles of the sections, and for each node the one in which it was made.
     titles: Vec<String>,
@@ -333,19 +353,25 @@ impl Graph {
 
     /// The one node equal to `node`.
     pub(crate) fn intern(&mut self, node: Node) -> NodeId {
-        if let Some(&id) = self.ids.get(&node) {
+        let hash = node.quick_hash();
+        if let Some(id) = self.found(hash, &node) {
             return id;
         }
-        let id = NodeId(u32::try_from(self.nodes.len()).expect("fewer than 2^32 nodes"));
-        self.ids.insert(node.clone(), id);
+        let id = u32::try_from(self.nodes.len()).expect("fewer than 2^32 nodes");
+        self.index.insert(hash, id);
         self.nodes.push(node);
         self.sections.push(self.open);
-        id
+        NodeId(id)
     }
 
     /// The node equal to `node`, if there is one.
     pub fn find(&self, node: &Node) -> Option<NodeId> {
-        self.ids.get(node).copied()
+        self.found(node.quick_hash(), node)
+    }
+
+    fn found(&self, hash: u64, node: &Node) -> Option<NodeId> {
+        let is_it = |id: u32| self.nodes[id as usize] == *node;
+        self.index.find(hash, is_it).map(NodeId)
     }
 
     /// The value of a constant expression.

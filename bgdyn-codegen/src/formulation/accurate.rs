@@ -1,6 +1,6 @@
 //! The way that loses the fewest digits in `f64`, whatever it costs.
 
-use super::{FORMULATIONS, Formulation, derived, literal};
+use super::{FORMULATIONS, Formulation, Search, derived, literal};
 use crate::bond_graph::BondGraph;
 use crate::function::Function;
 use crate::loss::{answers, loss_at};
@@ -19,7 +19,7 @@ const LITERAL_DERIVED: usize = 4;
 pub fn most_accurate(
     graph: &BondGraph,
     method: Method,
-    asked: Option<&dyn Formulation>,
+    asked: Option<&'static dyn Formulation>,
 ) -> Option<Function> {
     let asked = asked.filter(|f| f.knows(method));
     let all = FORMULATIONS.into_iter();
@@ -31,7 +31,7 @@ pub fn most_accurate(
     let answers = answers(&ways, graph);
     ways.into_iter().min_by_key(|way| {
         let lost = loss_at(way, &answers).unwrap_or_default();
-        (lost.harm(), way.operations().total())
+        (lost.harm(), way.cost().weighted())
     })
 }
 
@@ -46,9 +46,14 @@ fn affordable(graph: &BondGraph, method: Method, formulation: &dyn Formulation) 
 }
 
 /// A formulation's function, factored and not.
-fn variants(graph: &BondGraph, method: Method, formulation: &dyn Formulation) -> Vec<Function> {
-    let derived = derived::function(graph, method, Some(formulation));
-    let Some(plain) = derived.or_else(|| formulation.function(graph, method)) else {
+fn variants(
+    graph: &BondGraph,
+    method: Method,
+    formulation: &'static dyn Formulation,
+) -> Vec<Function> {
+    let search = Search::new(graph, Some(formulation));
+    let derived = derived::function(&search, method);
+    let Some(plain) = derived.or_else(|| formulation.function(&search, method)) else {
         return Vec::new();
     };
     let factored = plain.clone().factored();

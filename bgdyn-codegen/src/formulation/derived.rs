@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Formulation, candidates, choose, literal, recursion};
+use super::{Formulation, Search, literal, recursion};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::function::Function;
@@ -13,53 +13,48 @@ use crate::method::{Method, Shape};
 const SMALL: usize = 4;
 
 /// The method, if it is one of these; the others come from a formulation.
-pub(super) fn function(
-    graph: &BondGraph,
-    method: Method,
-    asked: Option<&dyn Formulation>,
-) -> Option<Function> {
+pub(super) fn function(search: &Search<'_>, method: Method) -> Option<Function> {
+    let graph = search.graph;
     match method {
         Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-            let literal = asked.is_some_and(|f| f.name() == literal::NAME);
-            let own = asked.filter(|f| f.name() == recursion::OwnInertia.name());
-            let recursion = own.unwrap_or(&recursion::Recursion);
-            let regrouped = (!literal).then(|| recursion.function(graph, method));
+            let literal = search.asks_for(literal::NAME);
+            let own = search.asks_for(recursion::OwnInertia.name());
+            let recursion: &dyn Formulation = match own {
+                true => &recursion::OwnInertia,
+                false => &recursion::Recursion,
+            };
+            let regrouped = (!literal).then(|| recursion.function(search, method));
             let regrouped = regrouped.flatten();
             // Differentiating is cheaper for a few joints at most, and slow for many.
             let small = graph.coordinates.len() <= SMALL;
-            let differentiated = (literal || small).then(|| differentiated(graph, method, asked));
+            let differentiated = (literal || small).then(|| differentiated(search, method));
             let ways = regrouped.into_iter().chain(differentiated.flatten());
-            ways.map(Function::factored)
-                .min_by_key(|f| f.operations().total())
+            Function::cheapest(ways.map(Function::factored))
         }
         Method::ForwardDynamicsDerivatives => {
-            let slopes = function(graph, Method::InverseDynamicsDerivatives, asked)?;
-            candidates(graph, Method::ForwardDynamics, asked)
-                .iter()
-                .map(|forward| forward_derivatives(graph, method, &slopes, forward))
-                .min_by_key(|f| f.operations().total())
+            let slopes = search.slopes()?;
+            let ways = search.forward_dynamics().iter();
+            let ways = ways.map(|forward| forward_derivatives(graph, method, slopes, forward));
+            Function::cheapest(ways)
         }
         _ => None,
     }
 }
 
 /// The method by differentiating the graph of what it is a derivative of.
-fn differentiated(
-    graph: &BondGraph,
-    method: Method,
-    asked: Option<&dyn Formulation>,
-) -> Option<Function> {
+fn differentiated(search: &Search<'_>, method: Method) -> Option<Function> {
+    let graph = search.graph;
     let n = graph.coordinates.len();
     if method == Method::CoriolisMatrix {
         // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
-        let bias = choose(graph, Method::Bias, asked)?;
+        let bias = search.function(Method::Bias)?;
         let (b, x) = reopened(&bias);
         let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr();
         let columns = derivatives(&b, &x, n, Leaf::Velocity);
         let outputs = rows(&columns).into_iter().map(|e| half(b.ex(e))).collect();
         return Some(finish(graph, method, &bias, b, outputs));
     }
-    let inverse = choose(graph, Method::InverseDynamics, asked)?;
+    let inverse = search.function(Method::InverseDynamics)?;
     let (b, x) = reopened(&inverse);
     let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
     outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));

@@ -10,8 +10,11 @@ mod literal;
 mod placement;
 mod recursion;
 mod sample;
+mod search;
 mod site;
 mod solve;
+
+pub use search::Search;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Leaf};
@@ -35,7 +38,7 @@ pub trait Formulation: Sync {
     }
 
     /// The method's function; `None` where this formulation does not know the method.
-    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function>;
+    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function>;
 }
 
 impl std::fmt::Debug for dyn Formulation {
@@ -56,44 +59,6 @@ pub static FORMULATIONS: [&dyn Formulation; 5] = [
 /// The formulation with this name.
 pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
     FORMULATIONS.into_iter().find(|f| f.name() == name)
-}
-
-/// The method's function by the formulation asked for, where it knows the method, else by the
-/// recursion, and for forward dynamics by the cheapest way that keeps its digits.
-///
-/// The literal sum stands aside: its graph grows with the cube of the number of links. It stays as
-/// equation (6) is written; functions whose order of operations is not what they are made for are
-/// factored.
-pub fn choose(
-    graph: &BondGraph,
-    method: Method,
-    asked: Option<&dyn Formulation>,
-) -> Option<Function> {
-    if let Some(derived) = derived::function(graph, method, asked) {
-        return Some(derived.factored());
-    }
-    let ways = candidates(graph, method, asked).into_iter();
-    ways.map(Function::factored)
-        .min_by_key(|f| f.operations().total())
-}
-
-/// The ways to a method that is not derived from another, the cheapest first.
-fn candidates(graph: &BondGraph, method: Method, asked: Option<&dyn Formulation>) -> Vec<Function> {
-    if let Some(function) = asked.and_then(|f| f.function(graph, method)) {
-        return vec![function];
-    }
-    match method {
-        Method::ForwardDynamics => recursion::forward_dynamics(graph),
-        _ => recursion::Recursion
-            .function(graph, method)
-            .into_iter()
-            .collect(),
-    }
-}
-
-/// The ways to forward dynamics that keep their digits, the cheapest first.
-pub(crate) fn forward_dynamics(graph: &BondGraph) -> Vec<Function> {
-    recursion::forward_dynamics(graph)
 }
 
 /// Solves M x = f for a symmetric M, given by its lower triangle; every pivot is checked.

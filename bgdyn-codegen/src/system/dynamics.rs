@@ -3,7 +3,7 @@
 use super::laws::copied;
 use super::{Laws, Own, System};
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, copy_into};
-use crate::formulation;
+use crate::formulation::{self, Search};
 use crate::function::Function;
 use crate::method::{Method, Role};
 
@@ -15,7 +15,7 @@ pub(super) fn derivatives(system: &System) -> Vec<Function> {
             rates(system, &laws, b)
         })];
     }
-    let ways = formulation::forward_dynamics(&system.graph);
+    let ways = Search::new(&system.graph, None).forward_dynamics().to_vec();
     let with = |forward: Function| {
         let b = Builder::new();
         let outputs: Vec<Expr> = {
@@ -68,7 +68,7 @@ fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<
 /// v̇ and ẋ, whatever the modes are.
 pub(super) fn rates<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Vec<Ex<'g>> {
     let joints = if laws.contacts().is_empty() {
-        let forward = formulation::forward_dynamics(&system.graph);
+        let forward = Search::new(&system.graph, None).forward_dynamics().to_vec();
         driven(b, &forward[0], laws, system)
     } else {
         held(system, laws, b).accelerations

@@ -7,7 +7,7 @@ use bgdyn_runtime::Dd;
 use crate::bond_graph::{BondGraph, SiteId};
 use crate::effect::{Element, Quantity};
 use crate::expr::{Builder, Ex, Graph, Leaf, Tangent, copy_into};
-use crate::formulation;
+use crate::formulation::Search;
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::{Level, Scene};
@@ -559,7 +559,7 @@ pub(super) fn copied<'g>(
     method: Method,
     leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Expr>,
 ) -> Vec<Ex<'g>> {
-    let Some(function) = formulation::choose(graph, method, None) else {
+    let Some(function) = Search::new(graph, None).function(method) else {
         return vec![];
     };
     let outputs = &function.blocks[0].outputs;

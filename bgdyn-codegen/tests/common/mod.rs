@@ -15,7 +15,7 @@ pub mod values;
 
 use bgdyn_codegen::bond_graph::{self, BondGraph};
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::formulation;
+use bgdyn_codegen::formulation::{self, Search};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion, Value};
 use bgdyn_codegen::method::Method;
@@ -73,13 +73,14 @@ impl Robot {
 
     /// The function of a method that is generated when nothing is asked for, in one piece.
     pub fn chosen(&self, method: Method) -> Function {
-        formulation::choose(&self.graph, method, None).expect("every method is known")
+        let found = Search::new(&self.graph, None).function(method);
+        found.expect("every method is known").as_ref().clone()
     }
 
     /// The same before long functions are cut into blocks: one graph, to be differentiated.
     pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
-        let made = formulation.function(&self.graph, method);
+        let made = formulation.function(&Search::new(&self.graph, None), method);
         made.expect("every formulation knows every method")
     }
 }
@@ -125,6 +126,7 @@ impl State {
             x: vec![],
             modes: vec![],
             parameters: all(&self.parameters),
+            t: None,
             passed: vec![],
         }
     }

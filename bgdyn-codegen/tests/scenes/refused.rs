@@ -87,7 +87,9 @@ fn a_joint_without_inertia_is_named() {
 #[test]
 fn a_mechanism_that_is_wrong_is_shown_as_it_is() {
     let text = "scene: 1\nmechanism: arm.yaml\n";
-    let broken = MECHANISM.replace("damping: 0.3", "damping: -0.3").replace("type: coulomb", "type: colomb");
+    let broken = MECHANISM
+        .replace("damping: 0.3", "damping: -0.3")
+        .replace("type: coulomb", "type: colomb");
     let Err(Refusal::Mechanism { path, faults, .. }) = try_scene(text, &broken) else {
         panic!("the mechanism is wrong");
     };

@@ -3,21 +3,44 @@
 use bgdyn_runtime::Dd;
 
 use super::network::Var;
+use crate::expr::index::mix;
 
 /// What may be taken out: a · b of two factors (or a number and a factor), or a + r b of two
 /// products without a common factor.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Key {
     Product(Literal, Literal),
     /// a, b, r as they are interned.
     Sum(u32, u32, u32),
 }
 
+impl Key {
+    /// Its hash.
+    pub fn quick_hash(self) -> u64 {
+        match self {
+            Key::Product(a, b) => mix(mix(1, a.word()), b.word()),
+            Key::Sum(a, b, r) => {
+                let products = u64::from(a) << 32 | u64::from(b);
+                mix(mix(2, products), u64::from(r))
+            }
+        }
+    }
+}
+
 /// A factor, or the size of a term's number.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Literal {
     Number(u32),
     Factor(Var),
+}
+
+impl Literal {
+    fn word(self) -> u64 {
+        match self {
+            Literal::Number(k) => u64::from(k) << 32,
+            Literal::Factor(f) => u64::from(f),
+        }
+    }
 }
 
 /// A number as a key: the last ten bits of a double-double are rounding errors.

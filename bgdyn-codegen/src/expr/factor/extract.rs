@@ -6,10 +6,10 @@ use std::collections::BinaryHeap;
 use bgdyn_runtime::Dd;
 
 use super::divisor::{
-    Key, Literal, NumberKey, Place, divide, insert, near, number_key, quotient, quotient_of, scales,
+    Key, Literal, Place, divide, insert, near, number_key, quotient, quotient_of, scales,
 };
 use super::network::{Network, Term, Var, is_unit, product_cost};
-use crate::expr::QuickMap;
+use crate::expr::index::{Index, mix};
 
 /// How far apart two terms of a sum may stand to be taken out together: time grows with it.
 const WINDOW: usize = 32;
@@ -26,12 +26,13 @@ struct Candidate {
 pub(super) struct Extraction<'a, 'g> {
     network: &'a mut Network<'g>,
     candidates: Vec<Candidate>,
-    by_key: QuickMap<Key, usize>,
+    /// The candidates by their key.
+    by_key: Index,
     queue: BinaryHeap<(isize, Reverse<usize>)>,
     cubes: Vec<Vec<Var>>,
-    cube_ids: QuickMap<Vec<Var>, u32>,
+    cube_ids: Index,
     numbers: Vec<Dd>,
-    number_ids: QuickMap<NumberKey, u32>,
+    number_ids: Index,
     /// Two products, their memory used again and again.
     scratch: (Vec<Var>, Vec<Var>),
 }
@@ -42,12 +43,12 @@ impl<'a, 'g> Extraction<'a, 'g> {
         let mut extraction = Extraction {
             network,
             candidates: Vec::new(),
-            by_key: QuickMap::default(),
+            by_key: Index::default(),
             queue: BinaryHeap::new(),
             cubes: Vec::new(),
-            cube_ids: QuickMap::default(),
+            cube_ids: Index::default(),
             numbers: Vec::new(),
-            number_ids: QuickMap::default(),
+            number_ids: Index::default(),
             scratch: Default::default(),
         };
         for i in 0..extraction.network.sums.len() {
@@ -124,14 +125,21 @@ impl<'a, 'g> Extraction<'a, 'g> {
     }
 
     fn note(&mut self, key: Key, var: Var, saved: isize, cost: isize) {
-        let id = *self.by_key.entry(key).or_insert_with(|| {
-            self.candidates.push(Candidate {
-                key,
-                places: Vec::new(),
-                bound: cost,
-            });
-            self.candidates.len() - 1
-        });
+        let hash = key.quick_hash();
+        let is_it = |id: u32| self.candidates[id as usize].key == key;
+        let id = match self.by_key.find(hash, is_it) {
+            Some(id) => id as usize,
+            None => {
+                let id = self.candidates.len();
+                self.by_key.insert(hash, id as u32);
+                self.candidates.push(Candidate {
+                    key,
+                    places: Vec::new(),
+                    bound: cost,
+                });
+                id
+            }
+        };
         let candidate = &mut self.candidates[id];
         if candidate.bound < cost {
             candidate.bound = cost;
@@ -146,21 +154,27 @@ impl<'a, 'g> Extraction<'a, 'g> {
     }
 
     fn number(&mut self, k: Dd) -> u32 {
-        let next = self.numbers.len() as u32;
-        let id = *self.number_ids.entry(number_key(k)).or_insert(next);
-        if id == next {
-            self.numbers.push(k);
+        let key = number_key(k);
+        let hash = mix(mix(0, key.0), key.1 as u64);
+        let is_it = |id: u32| number_key(self.numbers[id as usize]) == key;
+        if let Some(id) = self.number_ids.find(hash, is_it) {
+            return id;
         }
+        let id = self.numbers.len() as u32;
+        self.numbers.push(k);
+        self.number_ids.insert(hash, id);
         id
     }
 
     fn cube(&mut self, factors: &[Var]) -> u32 {
-        if let Some(&id) = self.cube_ids.get(factors) {
+        let hash = factors.iter().fold(1, |h, &f| mix(h, u64::from(f)));
+        let is_it = |id: u32| self.cubes[id as usize] == factors;
+        if let Some(id) = self.cube_ids.find(hash, is_it) {
             return id;
         }
         let id = self.cubes.len() as u32;
         self.cubes.push(factors.to_vec());
-        self.cube_ids.insert(factors.to_vec(), id);
+        self.cube_ids.insert(hash, id);
         id
     }
 

@@ -15,7 +15,7 @@ mod extract;
 mod network;
 mod rebuild;
 
-use super::{Expr, Graph, Node, NodeId, Operations, count, reachable};
+use super::{Cost, Expr, Graph, Node, NodeId, cost, reachable};
 use extract::Extraction;
 use network::Network;
 
@@ -34,7 +34,7 @@ const POLISHED: usize = 100;
 struct Best {
     graph: Graph,
     outputs: Vec<Expr>,
-    cost: Operations,
+    cost: Cost,
 }
 
 impl Best {
@@ -43,7 +43,7 @@ impl Best {
         let mut network = Network::new(&self.graph, &self.outputs, spread);
         Extraction::new(&mut network).run();
         let (graph, outputs) = rebuild::rebuild(&network, &self.outputs);
-        let cost = count(&graph, &outputs);
+        let cost = cost(&graph, &outputs);
         let better = cheaper(&cost, &self.cost);
         if better {
             *self = Best {
@@ -97,31 +97,34 @@ pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
 }
 
 /// About what [`factored`] makes of a function costs: of long ones, after a single round.
-pub fn factored_cost(graph: Graph, outputs: Vec<Expr>) -> Operations {
+pub fn factored_cost(graph: Graph, outputs: Vec<Expr>) -> Cost {
     rounds(graph, outputs, 1).cost
 }
 
 fn rounds(graph: Graph, outputs: Vec<Expr>, most: usize) -> Best {
-    let cost = count(&graph, &outputs);
+    let cost = cost(&graph, &outputs);
     let mut best = Best {
         graph,
         outputs,
         cost,
     };
     for _ in 0..most {
-        if cost.total() > LIMIT || !best.improve(None) {
+        if cost.operations.total() > LIMIT || !best.improve(None) {
             break;
         }
     }
-    if best.cost.total() <= POLISHED {
+    if best.cost.operations.total() <= POLISHED {
         best.polish();
     }
     best
 }
 
-/// Fewer multiplications and additions, and no more of anything else.
-fn cheaper(a: &Operations, b: &Operations) -> bool {
-    let rest = |o: &Operations| [o.div, o.sqrt, o.sincos, o.other];
-    let mut rests = rest(a).into_iter().zip(rest(b));
-    a.mul + a.add < b.mul + b.add && rests.all(|(x, y)| x <= y)
+/// Cheaper, and no more operations of any kind.
+fn cheaper(a: &Cost, b: &Cost) -> bool {
+    let counts = |c: &Cost| {
+        let o = &c.operations;
+        [o.total(), o.div, o.sqrt, o.sincos, o.other]
+    };
+    let mut both = counts(a).into_iter().zip(counts(b));
+    a.weighted() < b.weighted() && both.all(|(x, y)| x <= y)
 }

@@ -164,37 +164,31 @@ impl<'a> Network<'a> {
     }
 
     fn count_uses(&mut self, outputs: &[Expr]) {
-        let mut live = vec![false; self.sums.len()];
-        self.uses.fill(0);
+        let mut uses = vec![0; self.sums.len()];
         for e in outputs {
-            self.use_once(&mut live, e.node.0);
+            uses[e.node.0 as usize] += 1;
         }
+        // What nobody reads, reads nothing: readers stand behind what they read.
         for i in (0..self.sums.len()).rev() {
-            if !live[i] {
+            if uses[i] == 0 {
                 continue;
             }
-            match self.sums[i].clone() {
+            match &self.sums[i] {
                 Some(terms) => {
-                    for f in terms.iter().flat_map(|t| &t.factors) {
-                        self.use_once(&mut live, *f);
+                    for term in terms {
+                        for &f in &term.factors {
+                            uses[f as usize] += 1;
+                        }
                     }
                 }
                 None => {
-                    let mut operands = Vec::new();
                     let node = self.graph.node(NodeId(i as Var));
-                    node.for_each_operand(|id| operands.push(id.0));
-                    for operand in operands {
-                        self.use_once(&mut live, operand);
-                    }
+                    node.for_each_operand(|id| uses[id.0 as usize] += 1);
                 }
             }
         }
-        self.needed = live;
-    }
-
-    fn use_once(&mut self, live: &mut [bool], var: Var) {
-        live[var as usize] = true;
-        self.uses[var as usize] += 1;
+        self.needed = uses.iter().map(|&n| n > 0).collect();
+        self.uses = uses;
     }
 
     /// Whether it is to be written out: nothing but one term reads it.

@@ -8,8 +8,7 @@
 mod sites;
 mod sum;
 
-use super::{Arguments, Formulation, solve};
-use crate::bond_graph::BondGraph;
+use super::{Arguments, Formulation, Search, solve};
 use crate::expr::{Builder, Ex};
 use crate::function::Function;
 use crate::method::Method;
@@ -29,7 +28,8 @@ impl Formulation for Literal {
         "equation (6) term by term, in fixed axes"
     }
 
-    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
+    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
+        let graph = search.graph;
         let b = Builder::new();
         let outputs = {
             let arguments = Arguments::new(&b, graph, method);

@@ -10,6 +10,7 @@ use bgdyn_runtime::Dd;
 use super::frames::{Plan, origin_offset};
 use super::geometry::{Body, Geometry};
 use super::inertia::{Inertia, Point};
+use super::regrouped::Numbers;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
 use crate::formulation::value;
@@ -54,6 +55,38 @@ impl<'g> Parts<'g> {
 /// Inertia of every body after the regrouping, and the potential energy that no longer depends on
 /// q.
 pub(super) fn regrouped<'g>(
+    b: &'g Builder,
+    graph: &BondGraph,
+    geometry: &Geometry,
+    plan: &Plan,
+) -> (Vec<Parts<'g>>, Ex<'g>) {
+    if !graph.parameters.is_empty() {
+        return regroup(b, graph, geometry, plan);
+    }
+    let before = &geometry.regrouped;
+    if let Some(known) = before.find(&plan.slides, plan.base_parameters) {
+        let parts = known.bodies.iter().map(|numbers| Parts {
+            known: Inertia::of_numbers(b, numbers),
+            varying: Vec::new(),
+            points: Vec::new(),
+        });
+        return (parts.collect(), b.constant(known.energy));
+    }
+    let (bodies, energy) = regroup(b, graph, geometry, plan);
+    let numbers = bodies.iter().map(|parts| parts.known.numbers());
+    if let (Some(bodies), Some(energy)) = (numbers.collect(), energy.as_constant()) {
+        before.keep(Numbers {
+            slides: plan.slides.clone(),
+            base_parameters: plan.base_parameters,
+            bodies,
+            energy,
+        });
+    }
+    (bodies, energy)
+}
+
+/// The regrouping itself.
+fn regroup<'g>(
     b: &'g Builder,
     graph: &BondGraph,
     geometry: &Geometry,

@@ -10,12 +10,10 @@ use std::cmp::Ordering;
 
 use super::articulated::Articulated;
 use super::bars::{Bars, Standing};
-use super::geometry::{Geometry, geometry};
 use super::plan::SEARCHED;
 use super::share::{FAIR, own_shares};
-use super::{cheapest_plan, with_plan};
-use crate::bond_graph::BondGraph;
-use crate::formulation::Formulation;
+use super::{cheapest_plans, with_plan};
+use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -26,12 +24,13 @@ type Judged = (Standing, Function);
 
 /// The ways to forward dynamics that keep their digits and are worth a look, the cheapest first;
 /// where none does, the one that loses least.
-pub(in crate::formulation) fn forward_dynamics(graph: &BondGraph) -> Vec<Function> {
-    let geometry = geometry(graph);
-    let bars = Bars::new(graph, &geometry);
+pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Vec<Function> {
+    let graph = search.graph;
+    let geometry = search.recursion.geometry(graph);
+    let bars = Bars::new(graph, geometry);
     let judged = |way: Function| (bars.standing(&way), way);
-    let bodies = |way: Articulated| way.function(graph, METHOD).map(judged);
-    let shares = own_shares(graph, &geometry);
+    let bodies = |way: Articulated| way.function(search, METHOD).map(judged);
+    let shares = own_shares(graph, geometry);
     if let Some(j) = shares.iter().position(|&share| share < FAIR) {
         let mut found = best(bodies(Articulated::Own).into_iter().collect());
         for way in &mut found {
@@ -40,7 +39,7 @@ pub(in crate::formulation) fn forward_dynamics(graph: &BondGraph) -> Vec<Functio
         }
         return found;
     }
-    let mut tried: Vec<Judged> = cheap(graph, &geometry).into_iter().map(judged).collect();
+    let mut tried: Vec<Judged> = cheap(search).into_iter().map(judged).collect();
     for way in [Articulated::Base, Articulated::Own] {
         let known = |(_, f): &Judged| f.formulation.split(':').next() == Some(way.name());
         let done = |judged: &Judged| judged.0.meets() || known(judged);
@@ -54,7 +53,7 @@ pub(in crate::formulation) fn forward_dynamics(graph: &BondGraph) -> Vec<Functio
 /// Those that meet the bars, the cheapest first; where there are none, the one that comes nearest.
 /// Each says what is wrong with those that do not.
 fn best(mut tried: Vec<Judged>) -> Vec<Function> {
-    tried.sort_by_key(|(_, way)| way.operations().total());
+    tried.sort_by_key(|(_, way)| way.cost().weighted());
     let wrong: String = tried
         .iter()
         .filter(|(standing, _)| !standing.meets())
@@ -77,9 +76,11 @@ fn best(mut tried: Vec<Judged>) -> Vec<Function> {
 }
 
 /// The ways that cost least, as far as they are worth a search.
-fn cheap(graph: &BondGraph, geometry: &Geometry) -> Vec<Function> {
+fn cheap(search: &Search<'_>) -> Vec<Function> {
+    let graph = search.graph;
+    let geometry = search.recursion.geometry(graph);
     if geometry.bodies.len() > SEARCHED {
-        let found = Articulated::Base.function(graph, METHOD);
+        let found = Articulated::Base.function(search, METHOD);
         let least = elimination(&geometry.parents());
         if found.iter().any(|f| f.operations().total() < least) {
             return found.into_iter().collect();
@@ -87,10 +88,11 @@ fn cheap(graph: &BondGraph, geometry: &Geometry) -> Vec<Function> {
     }
     // The plan that suits one suits the other but for a few operations: it tells whether a search
     // for the other's own is worth its time.
-    let plan = cheapest_plan(graph, geometry, METHOD);
-    let mut found = vec![with_plan(graph, geometry, METHOD, &plan)];
-    if Articulated::Base.cost(graph, geometry, &plan) < found[0].operations().total() {
-        found.extend(Articulated::Base.function(graph, METHOD));
+    let best = cheapest_plans(search, METHOD);
+    let mut found = vec![with_plan(graph, geometry, METHOD, &best)];
+    let bodies_cost = Articulated::Base.cost(graph, geometry, best.taken());
+    if bodies_cost.weighted() < found[0].cost().weighted() {
+        found.extend(Articulated::Base.function(search, METHOD));
     }
     found
 }

@@ -7,6 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::regrouped::Regrouped;
 use crate::bond_graph::BondGraph;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
@@ -81,6 +82,8 @@ pub(super) struct Geometry {
     pub bodies: Vec<Body>,
     /// Links that never move, with their place in the world.
     pub fixed: Vec<(LinkId, Pose)>,
+    /// Inertia regrouped before.
+    pub regrouped: Regrouped,
 }
 
 impl Geometry {
@@ -95,6 +98,7 @@ pub(super) fn geometry(graph: &BondGraph) -> Geometry {
     let mut made = Geometry {
         bodies: Vec::new(),
         fixed: Vec::new(),
+        regrouped: Regrouped::default(),
     };
     // Which body a link belongs to, and its place in the axes of the link that carries the body.
     let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();

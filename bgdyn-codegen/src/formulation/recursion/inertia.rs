@@ -188,6 +188,29 @@ impl<'g> Inertia<'g> {
         }
     }
 
+    /// Mass, axial mass, first moment and D, where all are known at generation time.
+    pub fn numbers(&self) -> Option<[Dd; 11]> {
+        let [hx, hy, hz] = self.first.0;
+        let [xx, yy, zz, xy, xz, yz] = self.pseudo;
+        let entries = [self.mass, self.axial, hx, hy, hz, xx, yy, zz, xy, xz, yz];
+        let mut numbers = [Dd::ZERO; 11];
+        for (number, entry) in numbers.iter_mut().zip(entries) {
+            *number = entry.as_constant()?;
+        }
+        Some(numbers)
+    }
+
+    /// From [`Inertia::numbers`].
+    pub fn of_numbers(b: &'g Builder, numbers: &[Dd; 11]) -> Self {
+        let [mass, axial, hx, hy, hz, pseudo @ ..] = numbers.map(|x| b.constant(x));
+        Inertia {
+            mass,
+            axial,
+            first: Vec3([hx, hy, hz]),
+            pseudo,
+        }
+    }
+
     /// The entries known at generation time, and the others if there are any; 0 in their stead.
     pub fn split(&self, b: &'g Builder) -> (Self, Option<Self>) {
         let known = |e: Ex<'g>| e.as_constant().is_some();

@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 use super::frames::{Frames, Plan};
 use super::geometry::Geometry;
 use crate::bond_graph::{BondGraph, SiteId};
-use crate::expr::{Builder, Ex, Expr, Graph, count};
+use crate::expr::{Builder, Ex, Expr, Graph, cost};
 use crate::formulation::Arguments;
 use crate::formulation::site::{Column, SiteMotion};
 use crate::function::Function;
@@ -23,9 +23,8 @@ pub(super) fn function(
 ) -> Function {
     let of = |grouped| {
         let (made, outputs) = outputs(graph, geometry, method, site, grouped);
-        let cost = count(&made, &outputs);
-        // A sine costs a dozen other operations.
-        (cost.total() + 12 * cost.sincos, made, outputs)
+        let cost = cost(&made, &outputs);
+        (cost.weighted(), made, outputs)
     };
     let (plain, grouped) = (of(false), of(true));
     let (name, best) = if grouped.0 < plain.0 {

@@ -21,13 +21,17 @@ mod mass;
 mod motion;
 mod own;
 mod plan;
+mod regrouped;
 mod rotors;
 mod share;
 mod slopes;
 
-use super::{Arguments, Formulation, solve};
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
+
+use super::{Arguments, Formulation, Search, solve};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, count, factored_cost};
+use crate::expr::{self, Builder, Cost, Expr, Graph, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
 pub(super) use aligned::in_line;
@@ -36,14 +40,25 @@ pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
 pub(super) use own::OwnInertia;
+use plan::{Best, Tried};
 
-/// Plans of small mechanisms, the cheapest ones before factoring, of which the cheapest one after
-/// it is taken. For larger ones it would take more time than it saves operations: on arms of six
+/// Bodies up to which a mechanism is small: the plans that its search keeps are factored before
+/// one is taken. For larger ones it would take more time than it saves operations: on arms of six
 /// and seven axes 16 of 8,000, for twice the time of expansion.
-const FACTORED: usize = 4;
-
-/// Bodies up to which a mechanism is small.
 const SMALL: usize = 4;
+
+/// What was found for one mechanism so far: where its frames are, and the plan of each method.
+#[derive(Default)]
+pub(super) struct Found {
+    geometry: OnceCell<Geometry>,
+    plans: RefCell<BTreeMap<Method, Best>>,
+}
+
+impl Found {
+    fn geometry(&self, graph: &BondGraph) -> &Geometry {
+        self.geometry.get_or_init(|| geometry::geometry(graph))
+    }
+}
 
 /// The recursion.
 pub(super) struct Recursion;
@@ -57,59 +72,71 @@ impl Formulation for Recursion {
         "link axes, base parameters, common-axis trick, sliding origins, groups of parallel axes"
     }
 
-    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
-        let geometry = geometry::geometry(graph);
+    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
+        let graph = search.graph;
+        let geometry = search.recursion.geometry(graph);
         if let Some(site) = method.site() {
-            return Some(kinematics::function(graph, &geometry, method, site));
+            return Some(kinematics::function(graph, geometry, method, site));
         }
-        let best = best_plan(graph, &geometry, method)?;
-        Some(with_plan(graph, &geometry, method, &best))
+        let best = best_plans(search, method)?;
+        Some(with_plan(graph, geometry, method, &best))
     }
 }
 
-/// The cheapest plan found for a method of joints; nothing for what is derived from other methods.
-fn best_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Option<Plan> {
+/// The cheapest plans found for a method of joints; nothing for what is derived from other methods.
+fn best_plans(search: &Search<'_>, method: Method) -> Option<Best> {
+    let graph = search.graph;
+    let geometry = search.recursion.geometry(graph);
     match method {
         // Their graphs are too large for a whole search: it starts from the plan of a small
         // method that they resemble.
         Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-            let start = cheapest_plan(graph, geometry, Method::MassMatrix);
+            let start = cheapest_plans(search, Method::MassMatrix);
             let cost = |plan: &Plan| cost(graph, geometry, method, plan);
-            Some(plan::refined(geometry, start, cost))
+            Some(plan::refined(geometry, start.taken(), cost))
         }
         Method::ForwardDynamicsDerivatives => None,
         method if method.site().is_some() => None,
-        _ => Some(cheapest_plan(graph, geometry, method)),
+        _ => Some(cheapest_plans(search, method)),
     }
 }
 
-/// The plan that costs least after factoring. Plans that cost about the same before it differ in
-/// what it makes of them.
-fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan {
-    let cost = |plan: &Plan| cost(graph, geometry, method, plan);
-    let small = geometry.bodies.len() <= SMALL;
-    let plans = plan::search(geometry, if small { FACTORED } else { 1 }, cost);
-    let after = |plan: &Plan| {
-        let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
-        factored_cost(made, outputs).total()
-    };
-    let mut plans = plans.into_iter();
-    match plans.len() {
-        1 => plans.next(),
-        _ => plans.min_by_key(after),
+/// The cheapest plans found; the first one costs least after factoring. Plans that cost about the
+/// same before it differ in what it makes of them.
+fn cheapest_plans(search: &Search<'_>, method: Method) -> Best {
+    if let Some(best) = search.recursion.plans.borrow().get(&method) {
+        return best.clone();
     }
-    .expect("there is a plan to start from")
+    let graph = search.graph;
+    let geometry = search.recursion.geometry(graph);
+    let mut best = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
+    if geometry.bodies.len() <= SMALL {
+        let after = |tried: &Tried| {
+            let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, &tried.plan);
+            factored_cost(made, outputs).weighted()
+        };
+        best.plans.sort_by_cached_key(after);
+    }
+    let mut known = search.recursion.plans.borrow_mut();
+    known.insert(method, best.clone());
+    best
 }
 
-fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
+fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
     let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
-    count(&graph, &outputs).total()
+    expr::cost(&graph, &outputs)
 }
 
-fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {
+/// The function under the plan that is taken.
+fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, best: &Best) -> Function {
+    let plan = best.taken();
     let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);
     let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
-    Function::flat(graph, method, name, made, outputs)
+    let plans = best.considered(geometry);
+    Function {
+        plans,
+        ..Function::flat(graph, method, name, made, outputs)
+    }
 }
 
 /// The method's expressions under a plan.

@@ -4,11 +4,8 @@
 //! Base parameters move inertia inwards and leave a rest behind; where the two meet again in an
 //! effort, they may be larger than what is left of them.
 
-use super::frames::Plan;
-use super::geometry::geometry;
-use super::{best_plan, plan, with_plan};
-use crate::bond_graph::BondGraph;
-use crate::formulation::Formulation;
+use super::{best_plans, cost, plan, with_plan};
+use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -28,14 +25,17 @@ impl Formulation for OwnInertia {
         method.site().is_none()
     }
 
-    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
-        let geometry = geometry(graph);
-        let plan = Plan {
-            base_parameters: false,
-            ..best_plan(graph, &geometry, method)?
-        };
-        let mut function = with_plan(graph, &geometry, method, &plan);
-        function.formulation = format!("{}: {}", self.name(), plan::describe(&geometry, &plan));
+    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
+        let graph = search.graph;
+        let geometry = search.recursion.geometry(graph);
+        let mut best = best_plans(search, method)?;
+        for tried in &mut best.plans {
+            tried.plan.base_parameters = false;
+            tried.cost = cost(graph, geometry, method, &tried.plan);
+        }
+        let mut function = with_plan(graph, geometry, method, &best);
+        let described = plan::describe(geometry, best.taken());
+        function.formulation = format!("{}: {described}", self.name());
         Some(function)
     }
 }

@@ -1,10 +1,12 @@
-//! Search for the cheapest plan: one choice at a time, each tried and kept where it costs less,
+//! Search for the cheapest plan, by weighted cost: one choice at a time, each tried and kept where it costs less,
 //! until a round changes nothing. Bounded, deterministic.
 
 use bgdyn_runtime::Dd;
 
 use super::frames::Plan;
 use super::geometry::Geometry;
+use crate::expr::Cost;
+use crate::function::Considered;
 
 /// Rounds over all choices at the most.
 const ROUNDS: usize = 2;
@@ -13,21 +15,77 @@ const ROUNDS: usize = 2;
 /// square of their number.
 pub(super) const SEARCHED: usize = 16;
 
-/// The cheapest plans found, the cheapest one first; at least one, at most `most`.
-pub(super) fn search(geometry: &Geometry, most: usize, cost: impl Fn(&Plan) -> usize) -> Vec<Plan> {
-    let n = geometry.bodies.len();
-    let mut best: Vec<(usize, Plan)> = Vec::new();
-    let mut keep = |c: usize, plan: &Plan| {
-        let place = best.partition_point(|(other, _)| *other <= c);
-        if place < most && best.iter().all(|(_, other)| other != plan) {
-            best.insert(place, (c, plan.clone()));
-            best.truncate(most);
+/// Plans kept of a search.
+const KEPT: usize = 4;
+
+/// A plan, and what it costs before factoring.
+#[derive(Clone)]
+pub(super) struct Tried {
+    pub plan: Plan,
+    pub cost: Cost,
+}
+
+/// What a search has seen.
+#[derive(Clone, Default)]
+pub(super) struct Best {
+    /// The cheapest plans, the cheapest one first; many a choice changes no cost.
+    pub plans: Vec<Tried>,
+    /// For each of the least costs the first plan that has it.
+    steps: Vec<Tried>,
+}
+
+impl Best {
+    fn see(&mut self, plan: &Plan, cost: Cost) {
+        let tried = || Tried {
+            plan: plan.clone(),
+            cost,
+        };
+        let weight = cost.weighted();
+        let above = |all: &[Tried]| all.partition_point(|t| t.cost.weighted() <= weight);
+        let place = above(&self.plans);
+        if place < KEPT && self.plans.iter().all(|t| t.plan != *plan) {
+            self.plans.insert(place, tried());
+            self.plans.truncate(KEPT);
         }
+        let place = above(&self.steps);
+        let known = place > 0 && self.steps[place - 1].cost.weighted() == weight;
+        if place < KEPT && !known {
+            self.steps.insert(place, tried());
+            self.steps.truncate(KEPT);
+        }
+    }
+
+    /// The plan that is taken.
+    pub fn taken(&self) -> &Plan {
+        &self.plans[0].plan
+    }
+
+    /// The plan that is taken, and the cheapest ones of other costs, for a function's reader: each
+    /// with all in which it differs from the one taken.
+    pub fn considered(&self, geometry: &Geometry) -> Vec<Considered> {
+        let taken = &self.plans[0];
+        let weight = taken.cost.weighted();
+        let others = self.steps.iter().filter(|t| t.cost.weighted() != weight);
+        let told = |t: &Tried| Considered {
+            what: describe(geometry, &t.plan) + &differences(geometry, &taken.plan, &t.plan),
+            cost: t.cost,
+        };
+        [taken].into_iter().chain(others).map(told).collect()
+    }
+}
+
+/// The cheapest plans found.
+pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> Best {
+    let n = geometry.bodies.len();
+    let mut best = Best::default();
+    let mut weigh = |plan: &Plan| {
+        let cost = cost(plan);
+        best.see(plan, cost);
+        cost.weighted()
     };
     for start in starts(geometry) {
         let mut plan = start;
-        let mut least = cost(&plan);
-        keep(least, &plan);
+        let mut least = weigh(&plan);
         let rounds = if n <= SEARCHED { ROUNDS } else { 0 };
         let changes = changes(geometry);
         // Once round without a gain, every choice was tried on the plan as it stands.
@@ -42,35 +100,44 @@ pub(super) fn search(geometry: &Geometry, most: usize, cost: impl Fn(&Plan) -> u
             if tried == plan {
                 continue;
             }
-            let c = cost(&tried);
-            keep(c, &tried);
+            let c = weigh(&tried);
             if c < least {
                 (least, plan, in_vain) = (c, tried, 0);
             }
         }
     }
-    best.into_iter().map(|(_, plan)| plan).collect()
+    best
 }
 
-/// A plan in which each place of an origin and each unit of length was tried once.
-pub(super) fn refined(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> usize) -> Plan {
-    let mut plan = start;
-    if geometry.bodies.len() > SEARCHED {
-        return plan;
-    }
-    let mut least = cost(&plan);
-    for change in places(geometry) {
+/// The cheapest of the plans that come of trying each place of an origin and each unit of length
+/// once.
+pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> Best {
+    let mut plan = start.clone();
+    let mut best = Best::default();
+    let mut weigh = |plan: &Plan| {
+        let cost = cost(plan);
+        best.see(plan, cost);
+        cost.weighted()
+    };
+    let mut least = weigh(&plan);
+    let searched = geometry.bodies.len() <= SEARCHED;
+    let changes = if searched {
+        places(geometry)
+    } else {
+        Vec::new()
+    };
+    for change in changes {
         let mut tried = plan.clone();
         change(&mut tried);
         if tried == plan {
             continue;
         }
-        let c = cost(&tried);
+        let c = weigh(&tried);
         if c < least {
             (least, plan) = (c, tried);
         }
     }
-    plan
+    best
 }
 
 /// Plans to start from: with and without groups.
@@ -179,6 +246,31 @@ fn units(geometry: &Geometry) -> Vec<Dd> {
         }
     }
     units
+}
+
+/// Choices of `plan` that differ from those of another and that [`describe`] keeps to itself.
+fn differences(geometry: &Geometry, other: &Plan, plan: &Plan) -> String {
+    let mut words = String::new();
+    for (j, body) in geometry.bodies.iter().enumerate() {
+        let name = &body.name;
+        if plan.slides[j] != other.slides[j] {
+            let along = plan.slides[j].to_f64();
+            words += &format!("; origin of {name} moved {along} m along its axis");
+        }
+        if plan.aimed[j] != other.aimed[j] {
+            let where_to = if plan.aimed[j] { "at" } else { "away from" };
+            words += &format!("; x of {name} turned {where_to} its centre of mass");
+        }
+    }
+    if plan.short_moment != other.short_moment {
+        let which = if plan.short_moment {
+            "its component"
+        } else {
+            "U D"
+        };
+        words += &format!("; moment about an axis from {which}");
+    }
+    words
 }
 
 /// The plan in words.

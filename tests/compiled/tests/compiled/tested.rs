@@ -83,6 +83,7 @@ pub(crate) fn inputs<T: Scalar>(state: State<T>) -> Inputs<T> {
         x: vec![],
         modes: vec![],
         parameters: vec![],
+        t: None,
         passed: vec![],
     }
 }

@@ -11,12 +11,12 @@ mod inertia;
 mod sweep;
 
 use super::frames::{Frames, Plan};
-use super::geometry::{Geometry, geometry};
+use super::geometry::Geometry;
 use super::share::{FAIR, own_shares};
 use super::{inverse, plan};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, count};
-use crate::formulation::{Arguments, Formulation};
+use crate::expr::{self, Builder, Cost, Expr, Graph};
+use crate::formulation::{Arguments, Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
 use sweep::Sweep;
@@ -48,23 +48,28 @@ impl Formulation for Articulated {
         method.shape().checked()
     }
 
-    fn function(&self, graph: &BondGraph, method: Method) -> Option<Function> {
+    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
         // A rotor that turns with its carrier couples joints beside their bodies.
-        let coupled = graph.rotors.iter().any(|r| r.carrier.is_some());
+        let coupled = search.graph.rotors.iter().any(|r| r.carrier.is_some());
         if method != Method::ForwardDynamics || coupled {
             return None;
         }
-        let geometry = geometry(graph);
-        let cost = |plan: &Plan| self.cost(graph, &geometry, plan);
-        let best = plan::search(&geometry, 1, cost).remove(0);
+        let graph = search.graph;
+        let geometry = search.recursion.geometry(graph);
+        let cost = |plan: &Plan| self.cost(graph, geometry, plan);
+        let found = plan::search(geometry, cost);
+        let best = found.taken();
         // A pivot with a fair share of its own is never less than that.
-        let guarded: Vec<bool> = own_shares(graph, &geometry)
+        let guarded: Vec<bool> = own_shares(graph, geometry)
             .iter()
             .map(|&share| share < FAIR)
             .collect();
-        let (made, outputs) = self.outputs(Builder::new(), graph, &geometry, &best, &guarded);
-        let name = format!("{}: {}", self.name(), plan::describe(&geometry, &best));
-        let function = Function::flat(graph, method, name, made, outputs);
+        let (made, outputs) = self.outputs(Builder::new(), graph, geometry, best, &guarded);
+        let name = format!("{}: {}", self.name(), plan::describe(geometry, best));
+        let function = Function {
+            plans: found.considered(geometry),
+            ..Function::flat(graph, method, name, made, outputs)
+        };
         Some(match self {
             // Its pivots keep their digits by the order of what is subtracted in them.
             Articulated::Own => function.in_order(),
@@ -75,10 +80,10 @@ impl Formulation for Articulated {
 
 impl Articulated {
     /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
-    pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> usize {
+    pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> Cost {
         let unguarded = vec![false; geometry.bodies.len()];
         let (graph, outputs) = self.outputs(Builder::silent(), graph, geometry, plan, &unguarded);
-        count(&graph, &outputs).total()
+        expr::cost(&graph, &outputs)
     }
 
     /// The accelerations under a plan.

@@ -1,0 +1,167 @@
+//! What a function costs: a weighted sum of what its compiled code executes. Candidates are
+//! compared by it: plans, formulations, a function before and after factoring.
+//!
+//! The unit is a multiplication or an addition. All weights are whole hundredths of it, so that
+//! the comparison is exact. Where a weight was measured, it was on one core of a Xeon at 2.8 GHz
+//! (2026): operations one by one in a loop of sixteen independent ones, and the times of 52
+//! functions generated for the arms in `specs/` fitted as a sum of their parts, which an
+//! operation enters with 0.21 to 0.25 ns, at an error of 16 %. On the mechanisms of this repository
+//! no choice depends on the weights of divisions, roots and sines: candidates for one function
+//! have the same number of them.
+
+use std::fmt;
+
+use bgdyn_runtime::Operations;
+
+use super::count::Counter;
+use super::{Expr, Graph, Node};
+
+/// A multiplication or an addition; both took the same time.
+const OPERATION: usize = 100;
+
+/// What a fused multiply-add saves. Compiled Rust fuses nothing: its compiler never contracts a
+/// product and a sum, and the emitter writes both; so nothing could be seen of it in the times. On
+/// a machine that fuses, an addition that takes a product with it saves half an operation (8.3
+/// fused against 12.5 separate ones in a ns on a Zen 5 core). A fifth decides between near equals
+/// in favour of such a machine.
+const FUSABLE: usize = 20;
+
+/// A division: 8.0 times a multiplication in a loop of independent ones, 3.5 times in a chain.
+const DIVISION: usize = 800;
+
+/// A square root: 12 times a multiplication in a loop of independent ones, 4.6 times in a chain.
+const ROOT: usize = 1200;
+
+/// A pair of sine and cosine: 6.4 to 7.5 ns in the fit, about 30 operations.
+const SINE_COSINE: usize = 3000;
+
+/// A comparison, a selection, a checked pivot: a comparison and what it multiplies. Estimated.
+const OTHER: usize = 200;
+
+/// An operation more on the critical path. Nothing could be seen of it in the fit: a processor
+/// works on several values at a time, and begins with the next call before one is done. A fifth
+/// decides between near equals.
+const DEPTH: usize = 20;
+
+/// What computing a function once costs, part by part.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// The operations, counted as everywhere.
+    pub operations: Operations,
+    /// Additions of a product that nothing else reads: the two can be fused.
+    pub fusable: usize,
+    /// The critical path: how long the longest chain of operations is of which each waits for the
+    /// one before, in multiplications.
+    pub depth: usize,
+}
+
+impl Cost {
+    /// The weighted sum, in hundredths of an operation.
+    pub fn weighted(&self) -> usize {
+        let o = &self.operations;
+        let executed = OPERATION * o.total()
+            + DIVISION * o.div
+            + ROOT * o.sqrt
+            + SINE_COSINE * o.sincos
+            + OTHER * o.other;
+        // There are no more fusable additions than additions.
+        executed + DEPTH * self.depth - FUSABLE * self.fusable
+    }
+}
+
+impl fmt::Display for Cost {
+    /// The sum and its parts: `29.6 = 12 mul + 17 add − 0.2 × 4 fusable + 0.2 × 7 in a row`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let o = &self.operations;
+        write!(
+            f,
+            "{} = {} mul + {} add",
+            Hundredths(self.weighted()),
+            o.mul,
+            o.add
+        )?;
+        let parts = [
+            ("+", DIVISION, o.div, "div"),
+            ("+", ROOT, o.sqrt, "sqrt"),
+            ("+", SINE_COSINE, o.sincos, "sincos"),
+            ("+", OTHER, o.other, "other"),
+            ("−", FUSABLE, self.fusable, "fusable"),
+            ("+", DEPTH, self.depth, "in a row"),
+        ];
+        for (sign, weight, n, what) in parts.into_iter().filter(|part| part.2 > 0) {
+            write!(f, " {sign} {} × {n} {what}", Hundredths(weight))?;
+        }
+        Ok(())
+    }
+}
+
+/// A number of hundredths as a decimal with no more places than it needs.
+struct Hundredths(usize);
+
+impl fmt::Display for Hundredths {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (whole, rest) = (self.0 / 100, self.0 % 100);
+        match (rest, rest % 10) {
+            (0, _) => write!(f, "{whole}"),
+            (_, 0) => write!(f, "{whole}.{}", rest / 10),
+            _ => write!(f, "{whole}.{rest:02}"),
+        }
+    }
+}
+
+/// What computing the outputs once costs.
+pub fn cost(graph: &Graph, outputs: &[Expr]) -> Cost {
+    let reads = reads(graph, outputs);
+    let mut counter = Counter::new(graph.len());
+    // When each value is there, at the earliest.
+    let mut ready = vec![0; graph.len()];
+    let (mut fusable, mut depth) = (0, 0);
+    for (i, node) in graph.nodes.iter().enumerate() {
+        if reads[i] == 0 {
+            continue;
+        }
+        counter.add(node);
+        let mut begin = 0;
+        node.for_each_operand(|operand| begin = begin.max(ready[operand.0 as usize]));
+        ready[i] = begin + latency(node);
+        depth = depth.max(ready[i]);
+        if let Node::Add(a, b) = node {
+            let fuses = |i: usize| reads[i] == 1 && matches!(graph.nodes[i], Node::Mul(..));
+            fusable += usize::from(fuses(a.0 as usize) || fuses(b.node.0 as usize));
+        }
+    }
+    Cost {
+        operations: counter.operations,
+        fusable,
+        depth,
+    }
+}
+
+/// How often each node is read, by needed nodes and as an output; 0 for those that are not needed.
+fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
+    let mut reads = vec![0; graph.len()];
+    for e in outputs {
+        reads[e.node.0 as usize] += 1;
+    }
+    for (i, node) in graph.nodes.iter().enumerate().rev() {
+        if reads[i] > 0 {
+            node.for_each_operand(|operand| reads[operand.0 as usize] += 1);
+        }
+    }
+    reads
+}
+
+/// How long a chain waits for an operation, in multiplications: measured for division (3.5), root
+/// (4.6) and sine (18), estimated for the others.
+fn latency(node: &Node) -> usize {
+    match node {
+        Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) => 0,
+        Node::Add(..) | Node::Mul(..) | Node::MulAdd(..) => 1,
+        Node::Div(..) => 4,
+        Node::Sqrt(_) => 5,
+        Node::Sin(_) | Node::Cos(_) | Node::Exp(_) | Node::Ln(_) | Node::Tanh(_) => 18,
+        Node::Abs(_) | Node::Min(..) | Node::Max(..) | Node::Sign(_) => 1,
+        Node::Less(..) | Node::Select(..) => 1,
+        Node::Pivot(..) => 2,
+    }
+}

@@ -1,0 +1,68 @@
+//! Interned values by their hash. The values stand in a list of their owner's, in the order in
+//! which they came; the index holds their places in it.
+//!
+//! Nearly all that the generator does is to look for a node, and a macro runs as Cargo builds it
+//! for development, unoptimised: a plain table takes a tenth of the time of the library's there.
+
+/// Open addressing, a power of two of slots.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Index {
+    /// The upper half of the hash, and the place counted from 1 below it; 0 is free.
+    slots: Vec<u64>,
+    len: usize,
+}
+
+impl Index {
+    /// The place of the value that has this hash and is the one sought.
+    pub fn find(&self, hash: u64, mut is_sought: impl FnMut(u32) -> bool) -> Option<u32> {
+        if self.slots.is_empty() {
+            return None;
+        }
+        let tag = hash >> 32;
+        let mut at = self.home(tag);
+        loop {
+            let slot = self.slots[at];
+            if slot == 0 {
+                return None;
+            }
+            let place = slot as u32;
+            if slot >> 32 == tag && is_sought(place - 1) {
+                return Some(place - 1);
+            }
+            at = (at + 1) & (self.slots.len() - 1);
+        }
+    }
+
+    /// Adds a value that is not there yet.
+    pub fn insert(&mut self, hash: u64, place: u32) {
+        self.len += 1;
+        if self.len * 3 > self.slots.len() * 2 {
+            let size = (2 * self.slots.len()).max(64);
+            let before = std::mem::replace(&mut self.slots, vec![0; size]);
+            for slot in before {
+                if slot != 0 {
+                    self.put(slot);
+                }
+            }
+        }
+        let hash = hash & !u64::from(u32::MAX);
+        self.put(hash | (u64::from(place) + 1));
+    }
+
+    fn put(&mut self, slot: u64) {
+        let mut at = self.home(slot >> 32);
+        while self.slots[at] != 0 {
+            at = (at + 1) & (self.slots.len() - 1);
+        }
+        self.slots[at] = slot;
+    }
+
+    fn home(&self, tag: u64) -> usize {
+        tag as usize & (self.slots.len() - 1)
+    }
+}
+
+/// A hash with one more word in it: rotate, multiply. Its upper half is the better one.
+pub(super) fn mix(hash: u64, word: u64) -> u64 {
+    (hash.rotate_left(26) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+}

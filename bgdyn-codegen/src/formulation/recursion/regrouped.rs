@@ -1,0 +1,38 @@
+//! Inertia regrouped before. Without run-time parameters it is numbers, and the same for every
+//! method and for all plans with the same origins.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use bgdyn_runtime::Dd;
+
+/// What is known so far.
+#[derive(Default)]
+pub(super) struct Regrouped(RefCell<Vec<Rc<Numbers>>>);
+
+/// The bodies' inertia for one choice of origins.
+pub(super) struct Numbers {
+    /// How far each body's origin slides along its joint's axis, m.
+    pub slides: Vec<Dd>,
+    /// Whether inertia is regrouped at all.
+    pub base_parameters: bool,
+    /// Mass, axial mass, first moment and pseudo-inertia of each body about its origin.
+    pub bodies: Vec<[Dd; 11]>,
+    /// Potential energy that does not depend on q, J.
+    pub energy: Dd,
+}
+
+impl Regrouped {
+    /// For these origins, if it is known.
+    pub fn find(&self, slides: &[Dd], base_parameters: bool) -> Option<Rc<Numbers>> {
+        let all = self.0.borrow();
+        let mut all = all.iter();
+        all.find(|known| known.base_parameters == base_parameters && known.slides == slides)
+            .cloned()
+    }
+
+    /// Remembers it.
+    pub fn keep(&self, numbers: Numbers) {
+        self.0.borrow_mut().push(Rc::new(numbers));
+    }
+}

@@ -1,0 +1,94 @@
+//! The search for the cheapest functions of one mechanism. It remembers what it has found, so that
+//! methods that rest on the same thing share it.
+
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::{Formulation, derived, recursion};
+use crate::bond_graph::BondGraph;
+use crate::function::Function;
+use crate::method::Method;
+
+/// What is searched for the functions of one mechanism, and what was found so far.
+pub struct Search<'a> {
+    /// The mechanism's bond graph.
+    pub graph: &'a BondGraph,
+    /// The formulation asked for.
+    asked: Option<&'static dyn Formulation>,
+    /// What the recursion has found.
+    pub(super) recursion: recursion::Found,
+    forward: OnceCell<Vec<Function>>,
+    slopes: OnceCell<Option<Function>>,
+    chosen: RefCell<BTreeMap<Method, Option<Rc<Function>>>>,
+}
+
+impl<'a> Search<'a> {
+    /// Nothing found yet. Where a formulation is asked for, the methods it knows are its own.
+    pub fn new(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
+        Search {
+            graph,
+            asked,
+            recursion: recursion::Found::default(),
+            forward: OnceCell::new(),
+            slopes: OnceCell::new(),
+            chosen: RefCell::default(),
+        }
+    }
+
+    /// The method's function by the formulation asked for, where it knows the method, else by the
+    /// recursion, and for forward dynamics by the cheapest way that keeps its digits.
+    ///
+    /// The literal sum stands aside: its graph grows with the cube of the number of links. It stays
+    /// as equation (6) is written; functions whose order of operations is not what they are made
+    /// for are factored.
+    pub fn function(&self, method: Method) -> Option<Rc<Function>> {
+        if let Some(known) = self.chosen.borrow().get(&method) {
+            return known.clone();
+        }
+        let found = self.choose(method).map(Rc::new);
+        self.chosen.borrow_mut().insert(method, found.clone());
+        found
+    }
+
+    fn choose(&self, method: Method) -> Option<Function> {
+        let ways = match method {
+            Method::InverseDynamicsDerivatives => self.slopes().cloned().into_iter().collect(),
+            Method::CoriolisMatrix | Method::ForwardDynamicsDerivatives => {
+                derived::function(self, method).into_iter().collect()
+            }
+            Method::ForwardDynamics => self.forward_dynamics().to_vec(),
+            _ => self.own(method),
+        };
+        Function::cheapest(ways.into_iter().map(Function::factored))
+    }
+
+    /// The function of the formulation asked for, or of the recursion, before factoring.
+    fn own(&self, method: Method) -> Vec<Function> {
+        let asked = self.asked.and_then(|f| f.function(self, method));
+        let own = asked.or_else(|| recursion::Recursion.function(self, method));
+        own.into_iter().collect()
+    }
+
+    /// The ways to forward dynamics, the cheapest first.
+    pub(crate) fn forward_dynamics(&self) -> &[Function] {
+        self.forward.get_or_init(|| {
+            let asked = self.asked;
+            match asked.and_then(|f| f.function(self, Method::ForwardDynamics)) {
+                Some(function) => vec![function],
+                None => recursion::forward_dynamics(self),
+            }
+        })
+    }
+
+    /// The derivatives of inverse dynamics.
+    pub(super) fn slopes(&self) -> Option<&Function> {
+        let made = || derived::function(self, Method::InverseDynamicsDerivatives);
+        self.slopes.get_or_init(made).as_ref()
+    }
+
+    /// Whether the formulation of this name is asked for.
+    pub(super) fn asks_for(&self, name: &str) -> bool {
+        self.asked.is_some_and(|f| f.name() == name)
+    }
+}
