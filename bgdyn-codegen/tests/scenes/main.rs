@@ -1,7 +1,14 @@
 //! Scenes through the evaluator: laws of every scene file and of scenes written here.
 
+mod combinations;
 mod common;
+mod drives;
+mod friction;
+mod hard_cases;
 mod laws;
+mod one;
+mod settle;
+mod springs;
 
 use common::{read, specs};
 
