@@ -71,12 +71,12 @@ impl Context {
     }
 
     /// What an effect on a joint takes from the joint's limits for a key that it lacks.
-    fn from_limits(&self, effect: &dyn Effect, joint: Option<&str>, key: &Key) -> Option<f64> {
+    fn limit_for(&self, effect: &dyn Effect, joint: Option<&str>, key: &Key) -> Option<f64> {
         let (_, limits) = self
             .limits
             .iter()
             .find(|(name, _)| Some(name.as_str()) == joint)?;
-        effect.from_limits(key.name, limits)
+        effect.limit_for(key.name, limits)
     }
 
     fn motion_of(&self, coordinate: &str) -> Option<Motion> {
@@ -234,7 +234,7 @@ impl Declared {
                 }
                 None if key.needed => faults.push(self.missing(key)),
                 None => {
-                    let limit = context.from_limits(self.effect, joint, key);
+                    let limit = context.limit_for(self.effect, joint, key);
                     let quantity = limit.map(|limit| self.limit(key, limit, motion));
                     let checked = quantity.map(|q| (key.name, Checked::Number(q)));
                     element.values.extend(checked);

@@ -76,7 +76,7 @@ pub trait Effect: Sync {
     }
 
     /// What stands for a missing key where its joint has these limits.
-    fn from_limits(&self, _key: &str, _: &Limits) -> Option<f64> {
+    fn limit_for(&self, _key: &str, _: &Limits) -> Option<f64> {
         None
     }
 

@@ -77,7 +77,7 @@ impl Effect for Stop {
         ]
     }
 
-    fn from_limits(&self, key: &str, limits: &Limits) -> Option<f64> {
+    fn limit_for(&self, key: &str, limits: &Limits) -> Option<f64> {
         match key {
             "lower" => limits.lower,
             "upper" => limits.upper,

@@ -186,11 +186,11 @@ fn second_gears_and_rotors_of_drives_are_refused() {
     let rotor = [DRIVE, "rotor: { type: rotor, joint: drive, inertia: 1 kg }"];
     let cases = [
         (gears, "scene.yaml:5:5: ", "[repeated-effect]"),
-        (rotor, "scene.yaml:5:33: ", "[unknown-name]"),
+        (rotor, "scene.yaml:5:34: ", "[unknown-name]"),
     ];
     for (effects, place, rule) in cases {
         let text = text(&effects, "");
-        let refusal = try_scene(&text, BLOCK).err().expect("a refusal");
+        let refusal = try_scene(&text, BLOCK).expect_err("a refusal");
         let shown = told(&refusal, &text);
         assert!(shown.starts_with(place) && shown.contains(rule), "{shown}");
     }

@@ -143,7 +143,7 @@ fn a_joint_has_one_friction_that_holds() {
         "two: { type: coulomb, joint: slide, kinetic: 2 N }",
     ];
     let text = text(&effects, "");
-    let refusal = try_scene(&text, BLOCK).err().expect("two of them");
+    let refusal = try_scene(&text, BLOCK).expect_err("two of them");
     let shown = super::common::told(&refusal, &text);
     assert!(shown.starts_with("scene.yaml:5:5: "), "{shown}");
     let message = "`one` and `two` are both of type `coulomb` at `slide` [repeated-effect]";

@@ -79,21 +79,17 @@ fn lugre_stick_slip_is_that_of_the_article() {
     }
     // States of the article's equations, computed with 34 digits.
     let sticking = [
-        1.02808402724606508508767e-6,
-        2.14183676979420082106731e-6,
-        9.93643399433509724459484e-7,
+        1.0280840272460651e-6,
+        2.141836769794201e-6,
+        9.936433994335097e-7,
     ];
     near(
         &advance(&ours, [0.0, 0.5], &[0.0; 3], 5_000),
         &sticking,
         1e-9,
     );
-    let from = [
-        0.0735083084055639440784013,
-        0.248316752207158266231132,
-        1e-5,
-    ];
-    let to = [0.231654626898776681555632, 0.362245162502376425253, 1e-5];
+    let from = [0.07350830840556394, 0.24831675220715826, 1e-5];
+    let to = [0.2316546268987767, 0.3622451625023764, 1e-5];
     near(&advance(&ours, [8.0, 8.5], &from, 25_000), &to, 1e-9);
 }
 
@@ -115,11 +111,7 @@ fn the_stiff_pendulum_obeys_its_equations() {
     // After 0.1 s, from an integration of the same equations with 34 digits.
     let start = [std::f64::consts::FRAC_PI_2, 1.0, 0.0, 0.0];
     let end = advance(&ours, [0.0, 0.1], &start, 10_000);
-    let wanted = [
-        1.5217502605621365349718,
-        1.00000001442845837941712,
-        -0.98076400469419264500808,
-    ];
+    let wanted = [1.5217502605621365, 1.0000000144284584, -0.9807640046941927];
     near(&end[..3], &wanted, 1e-9);
 }
 
@@ -147,7 +139,7 @@ fn the_stiff_masses_obey_their_equations() {
     let column = |q: [f64; 2]| flow(&tried, &[q[0], q[1], 0.0, 0.0], &[]);
     let (a, b) = (column([1.0, 0.0]), column([0.0, 1.0]));
     let (trace, determinant) = (-a[2] - b[3], a[2] * b[3] - a[3] * b[2]);
-    let [slow, fast] = [5.773501408895802001640181_f64, 1.224745143557146265601268e4];
+    let [slow, fast] = [5.773501408895802_f64, 12247.451435571462];
     near(
         &[trace, determinant],
         &[slow * slow + fast * fast, (slow * fast).powi(2)],

@@ -255,7 +255,7 @@ fn at_rest(random: &mut Random) -> (SVector<f64, 6>, SVector<f64, 3>) {
 /// Where friction is the same at rest and in motion there is one answer, and `settle` finds it.
 #[test]
 fn an_arm_at_rest_settles_in_the_only_way() {
-    let arm = arm([5.0, 3.0, 1.0], [5.0, 3.0, 1.0]);
+    let arm = arm([16.0, 8.0, 3.0], [16.0, 8.0, 3.0]);
     let mut random = Random(11);
     let mut seen = [0; 4];
     for _ in 0..400 {
@@ -270,7 +270,7 @@ fn an_arm_at_rest_settles_in_the_only_way() {
 /// Where rest holds more the answer is consistent, and all hold where they can.
 #[test]
 fn an_arm_at_rest_settles_consistently() {
-    let arm = arm([3.0, 2.0, 0.5], [5.0, 3.0, 1.0]);
+    let arm = arm([10.0, 5.0, 2.0], [16.0, 8.0, 3.0]);
     let mut random = Random(12);
     let mut several = 0;
     for _ in 0..400 {
@@ -361,40 +361,15 @@ fn the_block_on_the_belt_sticks_and_slips() {
         belt.events(y, modes, &input, 0.0).expect("not singular")[0]
     };
     let samples = [
-        (
-            0.45,
-            4.35700810049457571638957e-2,
-            3.981570232861697158429936e-2,
-        ),
-        (
-            0.7,
-            2.151127511459421764829172e-2,
-            -1.131112504660312679372318e-1,
-        ),
-        (0.9, 2.287611019615310142306035e-2, 0.1),
-        (
-            1.1,
-            4.242586460126364733359794e-2,
-            6.752620891999122044265152e-2,
-        ),
-        (
-            1.45,
-            1.59950098469168609798466e-2,
-            -1.964752099386666713184866e-2,
-        ),
-        (1.6, 2.57522203923062028461207e-2, 0.1),
-        (
-            2.0,
-            2.692718959267942867011419e-2,
-            -1.38042687673292707631933e-1,
-        ),
+        (0.45, 0.043570081004945756, 0.03981570232861697),
+        (0.7, 0.02151127511459422, -0.11311125046603127),
+        (0.9, 0.022876110196153102, 0.1),
+        (1.1, 0.04242586460126365, 0.06752620891999123),
+        (1.45, 0.01599500984691686, -0.019647520993866668),
+        (1.6, 0.025752220392306204, 0.1),
+        (2.0, 0.026927189592679427, -0.1380426876732927),
     ];
-    let wanted = [
-        0.4,
-        0.8712388980384689857693965,
-        1.071238898038468985769397,
-        1.542477796076937971538793,
-    ];
+    let wanted = [0.4, 0.871238898038469, 1.071238898038469, 1.542477796076938];
     let (mut y, mut modes, mut t) = (SVector::from([0.0, 0.1]), SVector::from([0.0]), 0.0);
     let mut events = Vec::new();
     for (until, place, speed) in samples {
