@@ -7,6 +7,7 @@ mod commands;
 pub mod import;
 mod output;
 mod spec_file;
+mod timing;
 mod usage;
 
 use std::process::ExitCode;

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::{
-    Options, Refusal, Unknown, beside, formulation_named, read_scene, stem,
+    Options, Refusal, Unknown, beside, formulation_named, preference_named, read_scene, stem,
 };
 use bgdyn_codegen::system::System;
 use clap::Args;
@@ -112,9 +112,19 @@ pub(crate) struct Asked {
     /// The first derivatives as well
     #[arg(long)]
     derivatives: bool,
+    #[command(flatten)]
+    choice: Choice,
+}
+
+/// What the formulations are chosen by.
+#[derive(Args)]
+pub(crate) struct Choice {
     /// One formulation for every method
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
+    /// Choose by the fewest `operations`, or by `accuracy`: the fewest digits lost in f64
+    #[arg(long, value_name = "NAME", default_value = "operations")]
+    prefer: String,
 }
 
 impl Asked {
@@ -123,18 +133,21 @@ impl Asked {
             derivatives: self.derivatives,
             methods: self.methods.clone(),
             frames: self.frames.clone(),
-            ..options(self.formulation.as_deref())?
+            ..self.choice.options()?
         })
     }
 }
 
-/// Options with this formulation.
-pub(crate) fn options(formulation: Option<&str>) -> Result<Options> {
-    let formulation = formulation.map(formulation_named).transpose();
-    Ok(Options {
-        formulation: formulation.map_err(Usage)?,
-        ..Options::default()
-    })
+impl Choice {
+    /// Options with this choice.
+    pub(crate) fn options(&self) -> Result<Options> {
+        let formulation = self.formulation.as_deref().map(formulation_named);
+        Ok(Options {
+            formulation: formulation.transpose().map_err(Usage)?,
+            prefer: preference_named(&self.prefer).map_err(Usage)?,
+            ..Options::default()
+        })
+    }
 }
 
 /// Names asked for in vain are bad usage.

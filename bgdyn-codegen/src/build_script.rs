@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use crate::emit::{Place, source_text};
 use crate::fault::{Faults, Severity};
 use crate::model::{Options, Refusal, beside, generate_file, stem};
-use crate::options::formulation_named;
+use crate::options::{formulation_named, preference_named};
 
 /// Writes the module of a spec to `OUT_DIR`: [`Build`] with nothing asked for in particular.
 ///
@@ -42,6 +42,7 @@ pub struct Build {
     spec: PathBuf,
     options: Options,
     formulation: Option<String>,
+    preference: Option<String>,
     module: Option<String>,
     visibility: String,
     bgdyn: String,
@@ -84,6 +85,7 @@ impl Build {
             spec: spec.as_ref().to_path_buf(),
             options: Options::default(),
             formulation: None,
+            preference: None,
             module: None,
             visibility: "pub".into(),
             bgdyn: "::bgdyn".into(),
@@ -111,6 +113,13 @@ impl Build {
     /// One formulation for every method instead of the cheapest of each.
     pub fn formulation(mut self, name: &str) -> Self {
         self.formulation = Some(name.into());
+        self
+    }
+
+    /// What to choose the formulations by: `"operations"`, the default, or `"accuracy"`, the fewest
+    /// digits lost in `f64`.
+    pub fn prefer(mut self, name: &str) -> Self {
+        self.preference = Some(name.into());
         self
     }
 
@@ -182,8 +191,10 @@ impl Build {
 
     fn options(&self) -> Result<Options, Error> {
         let named = self.formulation.as_deref().map(formulation_named);
+        let preferred = self.preference.as_deref().map(preference_named);
         Ok(Options {
             formulation: named.transpose().map_err(Error)?,
+            prefer: preferred.transpose().map_err(Error)?.unwrap_or_default(),
             ..self.options.clone()
         })
     }

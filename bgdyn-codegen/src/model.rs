@@ -12,8 +12,11 @@ use crate::formulation;
 use crate::function::Function;
 use crate::interface::Interface;
 use crate::mechanism::Mechanism;
+use crate::mechanism::name::is_identifier;
 use crate::method::Method;
-pub use crate::options::{DYNAMICS, List, Options, Unknown, formulation_named};
+pub use crate::options::{
+    DYNAMICS, List, Options, Preference, Unknown, formulation_named, preference_named,
+};
 use crate::scene;
 use crate::spec::{is_scene, parse_scene};
 use crate::system::System;
@@ -57,7 +60,11 @@ pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Opt
 }
 
 fn function_of(graph: &BondGraph, method: Method, options: &Options) -> Option<Function> {
-    formulation::choose(graph, method, options.formulation).map(cut)
+    let choice = match options.prefer {
+        Preference::Operations => formulation::choose,
+        Preference::Accuracy => formulation::most_accurate,
+    };
+    choice(graph, method, options.formulation).map(cut)
 }
 
 /// Reads a scene and the mechanism it names. `load` gives the text of a file from the path that
@@ -100,6 +107,16 @@ pub fn read_scene(
         return Err(Refusal::Spec(faults));
     };
     let system = System::new(scene).map_err(Refusal::Spec)?;
+    for joint in system.without_inertia() {
+        let path = &path.place;
+        let message = format!(
+            "in this scene nothing gives the joint `{joint}` inertia: it has no acceleration of its own"
+        );
+        let fault = Fault::new(path, "no-inertia", message).with_help(
+            "call for `inertia` or for a rotor, or lock the joint; `inverse` is sound as it is",
+        );
+        faults.push(fault.into_warning());
+    }
     Ok((system, faults))
 }
 
@@ -169,6 +186,9 @@ pub fn generate_file(
 /// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
 /// caller can name, nothing that runs. Nothing where the stem cannot name a module.
 pub fn fallback(text: &str, stem: &str, place: &emit::Place) -> Option<TokenStream> {
+    if is_scene(text) {
+        return is_identifier(stem).then(|| emit::scene_fallback(stem, place));
+    }
     Interface::guess(text, stem).map(|interface| emit::fallback(&interface, place))
 }
 

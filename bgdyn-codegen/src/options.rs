@@ -22,6 +22,8 @@ pub const DYNAMICS: &str = "dynamics";
 pub struct Options {
     /// The formulation to use for every method; the cheapest of each where `None`.
     pub formulation: Option<&'static dyn Formulation>,
+    /// What to choose by among the formulations, where there is a choice.
+    pub prefer: Preference,
     /// Whether first derivatives of inverse and forward dynamics are wanted.
     pub derivatives: bool,
     /// The methods wanted, by name: `inverse_dynamics`, `pose_tool`; `dynamics` stands for all that
@@ -30,6 +32,29 @@ pub struct Options {
     /// The links and frames whose pose, velocity, Jacobian and J̇ v are wanted. Where `None`, none
     /// if methods are asked for by name, else the named frames and the tips.
     pub frames: Option<Vec<String>>,
+}
+
+/// What the choice among several ways to a method goes by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preference {
+    /// The fewest operations.
+    #[default]
+    Operations,
+    /// The fewest digits lost in `f64`, by [`crate::loss::loss`]; operations decide between equals.
+    Accuracy,
+}
+
+impl Preference {
+    /// Every preference there is.
+    pub const ALL: [Preference; 2] = [Preference::Operations, Preference::Accuracy];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Preference::Operations => "operations",
+            Preference::Accuracy => "accuracy",
+        }
+    }
 }
 
 /// An option whose value is a list of names.
@@ -140,4 +165,14 @@ pub fn formulation_named(name: &str) -> Result<&'static dyn Formulation, String>
     let known: Vec<&str> = FORMULATIONS.iter().map(|f| f.name()).collect();
     formulation::by_name(name)
         .ok_or_else(|| unknown_name("formulation", name, &known, &known.join(", ")))
+}
+
+/// The preference with this name.
+///
+/// # Errors
+/// A sentence that names those there are.
+pub fn preference_named(name: &str) -> Result<Preference, String> {
+    let known = Preference::ALL.map(Preference::name);
+    let found = Preference::ALL.into_iter().find(|p| p.name() == name);
+    found.ok_or_else(|| unknown_name("preference", name, &known, &known.join(", ")))
 }

@@ -65,6 +65,17 @@ fn derivatives_come_on_top() {
     assert!(!text.contains("fn coriolis_matrix") && !text.contains("fn pose_"));
 }
 
+/// A double pendulum has a more accurate inverse dynamics than its cheapest one.
+#[test]
+fn accuracy_may_be_preferred() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");
+    let pendulum = folder.join("tests/golden/specs/dpend2.yaml");
+    let build = || Build::new(&pendulum).methods(["inverse_dynamics"]);
+    let text = |build: Build| build.source().expect("a good spec").text;
+    assert_eq!(text(build()), text(build().prefer("operations")));
+    assert_ne!(text(build()), text(build().prefer("accuracy")));
+}
+
 #[test]
 fn every_unknown_name_is_told() {
     let build = Build::new(spec("asked.yaml", ARM));
@@ -95,6 +106,7 @@ fn what_stands_in_the_way_is_told() {
             "the visibility `pub(` is not Rust",
         ),
         (good().formulation("litteral"), "did you mean `literal`?"),
+        (good().prefer("accurracy"), "did you mean `accuracy`?"),
         (
             Build::new(spec("heavy.yaml", ARM.replace("mass: 2", "mass: -2"))),
             "heavy.yaml:6:11: links[0].mass: ",

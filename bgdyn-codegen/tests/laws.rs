@@ -1,4 +1,4 @@
-//! Laws of mechanics, and the equality of the two formulations, on random mechanisms: see
+//! Laws of mechanics, and the equality of the formulations, on random mechanisms: see
 //! `common::laws`. The long run:
 //!
 //! ```sh

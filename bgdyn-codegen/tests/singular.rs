@@ -16,7 +16,13 @@ use serde_json::Value;
 
 /// What is generated when nothing is asked for, and the ways there are for it. The literal sum is
 /// the reference in double-double; its digits in `f64` are nobody's promise.
-const FORMULATIONS: [&str; 4] = [CHOSEN, "recursion", "articulated", "articulated_base"];
+const FORMULATIONS: [&str; 5] = [
+    CHOSEN,
+    "recursion",
+    "recursion_own",
+    "articulated",
+    "articulated_base",
+];
 const CHOSEN: &str = "";
 
 fn forward(robot: &Robot, formulation: &str) -> Function {

@@ -1,7 +1,7 @@
 //! What the user writes between the parentheses.
 
 use bgdyn_codegen::mechanism::name::is_identifier;
-use bgdyn_codegen::model::{List, Options, Unknown, formulation_named};
+use bgdyn_codegen::model::{List, Options, Unknown, formulation_named, preference_named};
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};
@@ -9,7 +9,7 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
 /// The options there are.
-const KNOWN: &str = "derivatives, formulation, frames, methods, module, visibility";
+const KNOWN: &str = "derivatives, formulation, frames, methods, module, prefer, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
@@ -109,6 +109,13 @@ impl Input {
                     let message = format!("`{name}` cannot name a module: write it in snake_case");
                     self.refuse(name.span(), message);
                     self.module = None;
+                }
+            }
+            "prefer" => {
+                let value: LitStr = input.parse()?;
+                match preference_named(&value.value()) {
+                    Ok(preference) => self.options.prefer = preference,
+                    Err(message) => self.refuse(value.span(), message),
                 }
             }
             "visibility" => self.visibility = visibility(input)?,

@@ -32,6 +32,7 @@ use input::Input;
 /// | `frames = [tool, forearm]` | pose, velocity, Jacobian and J̇ v of these links and frames instead of the named frames and tips |
 /// | `derivatives = true` | first derivatives of inverse and forward dynamics |
 /// | `formulation = "literal"` | one formulation for every method instead of the cheapest of each |
+/// | `prefer = "accuracy"` | for each method the formulation that loses the fewest digits in `f64`, instead of the cheapest; `"operations"` is the default |
 /// | `module = left_arm` | another name for the module; the struct keeps the file's |
 /// | `visibility = pub(crate)` | of the module, instead of `pub` |
 ///

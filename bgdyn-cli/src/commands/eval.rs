@@ -12,7 +12,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::output::print;
-use crate::spec_file::{SpecFile, options, read_text};
+use crate::spec_file::{Choice, SpecFile, read_text};
 use crate::usage::Usage;
 
 /// Evaluate a method at the states of a file, without a compiler
@@ -28,9 +28,8 @@ pub(crate) struct Eval {
     /// The states: fields a method does not need are ignored
     #[arg(long, value_name = "STATES.json")]
     states: PathBuf,
-    /// Use one formulation
-    #[arg(long, value_name = "NAME")]
-    formulation: Option<String>,
+    #[command(flatten)]
+    choice: Choice,
     /// Set a run-time parameter, in SI units; the spec's value otherwise. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
@@ -63,7 +62,7 @@ struct Failure {
 
 impl Eval {
     pub(crate) fn run(self) -> Result<()> {
-        let options = options(self.formulation.as_deref())?;
+        let options = self.choice.options()?;
         let mechanism = SpecFile::open(&self.file)?.mechanism()?;
         let graph = bgdyn_codegen::bond_graph::build(&mechanism);
         let method = Method::named(&graph.sites, &self.method).map_err(Usage)?;

@@ -4,3 +4,4 @@ pub(crate) mod check;
 pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod ops;
+mod per_effect;

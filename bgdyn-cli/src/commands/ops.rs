@@ -6,7 +6,7 @@ use anyhow::Result;
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::loss::loss;
+use bgdyn_codegen::loss::{Loss, loss};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::{Model, Options, function, scene_functions};
 use bgdyn_codegen::system::System;
@@ -15,6 +15,7 @@ use serde::{Serialize, Serializer};
 
 use crate::output::{print, tell};
 use crate::spec_file::{Asked, SpecFile, unknown};
+use crate::usage::Usage;
 
 /// Count the operations of each generated function
 #[derive(Args)]
@@ -28,6 +29,12 @@ pub(crate) struct Ops {
     /// Say which formulation was chosen, and what the others cost
     #[arg(long)]
     explain: bool,
+    /// Of a scene: what each effect costs, added one at a time, and all but one
+    #[arg(long)]
+    per_effect: bool,
+    /// The bgdyn that times are measured with: a path or a version
+    #[arg(long, value_name = "PATH|VERSION", default_value = env!("CARGO_PKG_VERSION"))]
+    bgdyn: String,
     #[command(flatten)]
     asked: Asked,
 }
@@ -38,6 +45,10 @@ impl Ops {
         let spec = SpecFile::open(&self.file)?;
         if spec.is_scene() {
             return self.scene(&spec.scene()?);
+        }
+        if self.per_effect {
+            let message = "`--per-effect` is for scenes: a file that begins with `scene: 1`";
+            return Err(Usage(message.into()).into());
         }
         let mechanism = spec.mechanism()?;
         let model = Model::new(mechanism.clone(), &options).map_err(unknown)?;
@@ -59,6 +70,9 @@ impl Ops {
     }
 
     fn scene(&self, system: &System) -> Result<()> {
+        if self.per_effect {
+            return super::per_effect::report(system, self.json, &self.bgdyn);
+        }
         self.report(&scene_functions(system))
     }
 }
@@ -154,9 +168,17 @@ fn explain(mechanism: &Mechanism, model: &Model) {
 }
 
 /// A loss of digits in words.
-fn told(loss: Option<f64>) -> String {
+fn told(loss: Option<Loss>) -> String {
     match loss {
-        Some(loss) => format!("error in f64 up to {loss:.1} roundings of the largest component"),
+        Some(Loss {
+            refused: 0,
+            roundings,
+        }) => {
+            format!("error in f64 up to {roundings:.1} roundings of the largest component")
+        }
+        Some(Loss { refused, .. }) => {
+            format!("no answer in f64 in {refused} of the states tried that have one")
+        }
         None => "refused in every state tried".into(),
     }
 }

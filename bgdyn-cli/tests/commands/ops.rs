@@ -116,11 +116,46 @@ fn one_formulation_for_every_function() {
     }
 }
 
+/// Digits cost operations, and the same spec's other commands take the same function.
+#[test]
+fn accuracy_may_be_preferred() {
+    let puma = "tests/golden/specs/puma560.yaml";
+    let counts = |prefer: &str| -> Value {
+        let text = bgdyn(&["ops", puma, "--json", "--prefer", prefer]).good();
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let (cheap, fine) = (counts("operations"), counts("accuracy"));
+    let default: Value =
+        serde_json::from_str(&bgdyn(&["ops", puma, "--json"]).good()).expect("JSON");
+    assert_eq!(cheap, default);
+    assert!(total(&cheap, "inverse_dynamics") < total(&fine, "inverse_dynamics"));
+    let eval = |prefer: &str| -> Value {
+        let values = "tests/golden/values/puma560.json";
+        let arguments = [
+            "eval",
+            puma,
+            "inverse_dynamics",
+            "--states",
+            values,
+            "--prefer",
+            prefer,
+        ];
+        serde_json::from_str(&bgdyn(&arguments).good()).expect("JSON")
+    };
+    assert_ne!(eval("operations"), eval("accuracy"));
+}
+
 #[test]
 fn explanations_stand_beside_the_json() {
     let run = bgdyn(&["ops", SCARA, "--json", "--explain"]);
     assert!(run.stderr.contains("inverse_dynamics: "), "{}", run.stderr);
-    for way in ["literal", "recursion", "articulated", "articulated_base"] {
+    for way in [
+        "literal",
+        "recursion",
+        "recursion_own",
+        "articulated",
+        "articulated_base",
+    ] {
         let line = format!("  {way} ");
         assert!(run.stderr.contains(&line), "{way}: {}", run.stderr);
     }

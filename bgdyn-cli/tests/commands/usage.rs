@@ -20,6 +20,8 @@ fn bad_usage_exits_with_two() {
         &["ops", SCARA, "--formulation"],
         &["ops", SCARA, "--formulation", "fastest"],
         &["generate", SCARA, "--formulation", "fastest"],
+        &["generate", SCARA, "--prefer", "speed"],
+        &["eval", SCARA, "bias", "--states", VALUES, "--prefer", "x"],
         &["eval", SCARA, "bias"],
         &["eval", SCARA, "gravitation", "--states", VALUES],
         &[
@@ -37,7 +39,10 @@ fn bad_usage_exits_with_two() {
         assert!(!stderr.is_empty(), "{arguments:?}");
     }
     let stderr = bgdyn(&["ops", SCARA, "--formulation", "fastest"]).bad_usage();
-    let told = "bgdyn: no formulation is called `fastest`; there are literal, recursion, articulated, articulated_base\n";
+    let told = "bgdyn: no formulation is called `fastest`; there are literal, recursion, recursion_own, articulated, articulated_base\n";
+    assert_eq!(stderr, told);
+    let stderr = bgdyn(&["ops", SCARA, "--prefer", "acuracy"]).bad_usage();
+    let told = "bgdyn: no preference is called `acuracy`: did you mean `accuracy`?\n";
     assert_eq!(stderr, told);
 }
 

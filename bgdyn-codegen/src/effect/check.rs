@@ -124,7 +124,11 @@ pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declare
         return declared(raw, faults).into_iter().collect();
     }
     let of_kind = |d: &&Declared| d.effect.family() == name || d.effect.keyword() == name;
-    let kin: Vec<Declared> = known.iter().filter(of_kind).cloned().collect();
+    let kin: Vec<Declared> = known
+        .iter()
+        .filter(of_kind)
+        .map(|d| d.clone().called_at(&raw.name.place))
+        .collect();
     if kin.is_empty() || !raw.is_bare() {
         faults.push(unknown_call(raw, known));
         return vec![];
@@ -134,8 +138,9 @@ pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declare
 
 /// The mechanism's effect, with the scene's values in place of its own.
 fn varied(raw: &Raw, own: &Declared, faults: &mut Faults) -> Option<Declared> {
+    let own = own.clone().called_at(&raw.name.place);
     if raw.is_bare() {
-        return Some(own.clone());
+        return Some(own);
     }
     if let Some(word) = raw.peek(TYPE.name)
         && word.value != own.effect.keyword()
@@ -211,6 +216,13 @@ fn identifier(name: &Located<String>, faults: &mut Faults) {
 }
 
 impl Declared {
+    /// The same with faults reported where a scene calls for it: the mechanism's file is another.
+    fn called_at(mut self, place: &Place) -> Self {
+        self.name.place = place.clone();
+        self.fields = self.fields.placed(place);
+        self
+    }
+
     /// The element, if its names are known and its numbers obey its rules.
     pub fn element(&self, context: &Context, faults: &mut Faults) -> Option<Element> {
         let before = faults.count();

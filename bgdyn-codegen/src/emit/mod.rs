@@ -12,7 +12,7 @@ pub use fallback::fallback;
 use heck::ToUpperCamelCase;
 use proc_macro2::{Literal, Span, TokenStream};
 use quote::{format_ident, quote};
-pub use scene::scene_module;
+pub use scene::{scene_fallback, scene_module};
 
 use crate::function::Function;
 use crate::mechanism::Parameter;

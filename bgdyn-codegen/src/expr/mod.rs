@@ -32,6 +32,13 @@ pub use factor::{factored, factored_cost};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(pub(crate) u32);
 
+impl NodeId {
+    /// The node at this place of its graph.
+    pub fn at(place: usize) -> Self {
+        NodeId(place as u32)
+    }
+}
+
 /// A node with a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Expr {

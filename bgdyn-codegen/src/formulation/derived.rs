@@ -21,7 +21,9 @@ pub(super) fn function(
     match method {
         Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
             let literal = asked.is_some_and(|f| f.name() == literal::NAME);
-            let regrouped = (!literal).then(|| recursion::Recursion.function(graph, method));
+            let own = asked.filter(|f| f.name() == recursion::OwnInertia.name());
+            let recursion = own.unwrap_or(&recursion::Recursion);
+            let regrouped = (!literal).then(|| recursion.function(graph, method));
             let regrouped = regrouped.flatten();
             // Differentiating is cheaper for a few joints at most, and slow for many.
             let small = graph.coordinates.len() <= SMALL;

@@ -4,10 +4,12 @@
 //! specification; the others must equal it, and the cheapest is found by counting, for each
 //! mechanism and each method.
 
+mod accurate;
 mod derived;
 mod literal;
 mod placement;
 mod recursion;
+mod sample;
 mod site;
 mod solve;
 
@@ -16,6 +18,8 @@ use crate::expr::{Builder, Ex, Leaf};
 use crate::function::Function;
 use crate::mechanism::{ParameterId, Value};
 use crate::method::{Argument, Method};
+pub use accurate::most_accurate;
+pub(crate) use sample::{aligned as aligned_states, generic as generic_states};
 
 /// A way to compute methods from the bond graph.
 pub trait Formulation: Sync {
@@ -41,9 +45,10 @@ impl std::fmt::Debug for dyn Formulation {
 }
 
 /// Every formulation there is.
-pub static FORMULATIONS: [&dyn Formulation; 4] = [
+pub static FORMULATIONS: [&dyn Formulation; 5] = [
     &literal::Literal,
     &recursion::Recursion,
+    &recursion::OwnInertia,
     &recursion::Articulated::Own,
     &recursion::Articulated::Base,
 ];

@@ -8,7 +8,7 @@ use bgdyn_runtime::Dd;
 use super::layout::{Coordinate, Layout, Store};
 use super::reduce::held;
 use super::signal::{self, Drive, INTEGRATION};
-use super::{Initial, Integration, Scene};
+use super::{Initial, Integration, Scene, Written};
 use crate::effect::{Context, Declared, Element, called, once_per_joint};
 use crate::fault::{Fault, Faults, unknown_name, wording};
 use crate::mechanism::name::is_identifier;
@@ -48,28 +48,45 @@ fn scene(
     let locked = locks(spec, whole, faults);
     let mechanism = whole.welded(&locked);
     let elements = elements(spec, whole, &mechanism, faults);
-    let mut layout = layout(&mechanism, &elements);
-    let inputs = given(&spec.inputs);
-    add_efforts(&mut layout, inputs);
-    let parameters = parameters(&mechanism, &elements, faults);
-    let drives = drives(&layout, inputs, faults);
-    let initial = initial(&layout, given(&spec.initial), faults);
     let integration = integration(&spec.integration, faults);
-    Some(Scene {
-        name: name?,
+    let empty = Scene {
+        name: String::new(),
         description: spec.description.value().cloned(),
         mechanism,
         elements,
-        layout,
-        parameters,
-        drives,
-        initial,
+        layout: Layout::default(),
+        parameters: Vec::new(),
+        drives: Vec::new(),
+        initial: Initial::default(),
         outputs: given(&spec.outputs)
             .iter()
             .map(|o| o.name.clone())
             .collect(),
         integration: integration?,
+        written: Written {
+            inputs: given(&spec.inputs).to_vec(),
+            initial: given(&spec.initial).to_vec(),
+        },
+    };
+    let scene = assembled(empty, faults);
+    Some(Scene {
+        name: name?,
+        ..scene
     })
+}
+
+/// The scene with its state laid out: what follows from its elements and what the file says.
+pub(super) fn assembled(scene: Scene, faults: &mut Faults) -> Scene {
+    let mut layout = layout(&scene.mechanism, &scene.elements);
+    let inputs = &scene.written.inputs;
+    add_efforts(&mut layout, inputs);
+    Scene {
+        parameters: parameters(&scene.mechanism, &scene.elements, faults),
+        drives: drives(&layout, inputs, faults),
+        initial: initial(&layout, &scene.written.initial, faults),
+        layout,
+        ..scene
+    }
 }
 
 fn given(field: &Field<Vec<Raw>>) -> &[Raw] {

@@ -7,12 +7,13 @@ mod check;
 mod layout;
 mod reduce;
 mod signal;
+mod subset;
 
 use bgdyn_runtime::Dd;
 
 use crate::effect::Element;
 use crate::mechanism::{Mechanism, Parameter};
-use crate::spec::Located;
+use crate::spec::{Located, Raw};
 pub use check::check;
 pub(crate) use check::{context, taken};
 pub use layout::{Coordinate, Layout, Level, Part, Store};
@@ -52,6 +53,15 @@ pub struct Scene {
     pub outputs: Vec<Located<String>>,
     /// How it is run.
     pub integration: Integration,
+    /// What the file says of inputs and initial values, for scenes with fewer effects.
+    written: Written,
+}
+
+/// Entries as they stand in the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Written {
+    inputs: Vec<Raw>,
+    initial: Vec<Raw>,
 }
 
 /// Where a run begins.

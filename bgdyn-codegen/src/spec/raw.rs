@@ -89,10 +89,13 @@ impl Fields {
         self
     }
 
-    /// Sets what stands behind a key, if nothing does.
-    pub fn or(mut self, key: &'static str, entry: Located<Entry>) -> Fields {
-        if self.get(key).is_none() {
-            self.0.push((key, entry));
+    /// The same as if they stood at this place: of another file.
+    pub fn placed(mut self, place: &Place) -> Fields {
+        for (_, entry) in &mut self.0 {
+            entry.place = place.clone();
+            if let Entry::Pair(names) = &mut entry.value {
+                names.iter_mut().for_each(|n| n.place = place.clone());
+            }
         }
         self
     }

@@ -8,6 +8,7 @@ mod balance;
 mod dynamics;
 mod laws;
 mod signals;
+mod slope;
 
 use bgdyn_runtime::Dd;
 
@@ -74,6 +75,27 @@ impl System {
             return Err(faults);
         }
         Ok(system)
+    }
+
+    /// Joints that nothing in the scene gives inertia, in any position.
+    pub fn without_inertia(&self) -> Vec<&str> {
+        let b = Builder::silent();
+        let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
+        let mass = laws.method(Method::MassMatrix);
+        let coordinates = self.graph.coordinates.iter().enumerate();
+        let diagonal = |j: usize| mass[j * (j + 1) / 2 + j];
+        // Positions without any symmetry; a diagonal entry of M is a sum of squares.
+        let positions: Vec<Dd> = (0..self.graph.coordinates.len())
+            .map(|j| Dd::from_f64(0.37 + 0.71 * j as f64))
+            .collect();
+        let at = crate::scene::Initial {
+            q: positions,
+            ..self.scene.initial.clone()
+        };
+        coordinates
+            .filter(|(j, _)| laws.at_start(diagonal(*j), &at).to_f64() <= 1e-24)
+            .map(|(_, c)| c.name.as_str())
+            .collect()
     }
 
     /// The roles this scene has functions for.

@@ -1,4 +1,4 @@
-//! The laws of mechanics, and the equality of the two formulations, for one mechanism in one state.
+//! The laws of mechanics, and the equality of the formulations, for one mechanism in one state.
 //!
 //! In double-double the regrouped recursion must equal the literal sum to 1e-28 of the natural
 //! size of the result (see [`super::natural_size`]), so every regrouping is shown to be exact.
@@ -25,13 +25,15 @@ pub const EXACT: f64 = 1e-28;
 /// Of `f64` results, relative to their natural size.
 pub const ROUNDED: f64 = 1e-15;
 
-/// A random mechanism with both formulations and a state.
+/// A random mechanism with its formulations and a state.
 pub struct Case {
     pub what: String,
     pub draft: Draft,
     pub robot: Robot,
     pub literal: Methods,
     pub recursion: Methods,
+    /// The recursion with each body's own inertia.
+    pub own: Methods,
     /// Forward dynamics by articulated bodies, and what is generated.
     pub bodies: [Function; 3],
     pub state: State,
@@ -69,6 +71,7 @@ impl Case {
             ],
             literal: Methods::new(&robot, "literal"),
             recursion: Methods::new(&robot, "recursion"),
+            own: Methods::new(&robot, "recursion_own"),
             effort: natural_effort(&robot, &state),
             inertia: natural_inertia(&robot, &state).1,
             draft,
@@ -92,7 +95,7 @@ impl Case {
         natural_size(&self.robot, &self.state, method)
     }
 
-    /// recursion = literal, for every method but the solved one. Gives the worst difference,
+    /// recursion = literal, with base parameters and without, for every method but the solved one. Gives the worst difference,
     /// relative to natural size.
     pub fn formulations_agree(&self) -> f64 {
         let mut worst = 0.0_f64;
@@ -100,13 +103,15 @@ impl Case {
             if method == Method::ForwardDynamics {
                 continue;
             }
-            let x: Vec<Dd> = self.recursion.value(method, &self.state);
             let y: Vec<Dd> = self.literal.value(method, &self.state);
             let tolerance = EXACT * self.size(method);
-            assert_close(&x, &y, tolerance, self.place(&format!("{method:?}")));
-            let off = x.iter().zip(&y).map(|(x, y)| (*x - *y).abs().to_f64());
-            let off = off.fold(0.0, f64::max);
-            worst = worst.max(off / self.size(method).max(f64::MIN_POSITIVE));
+            for way in [&self.recursion, &self.own] {
+                let x: Vec<Dd> = way.value(method, &self.state);
+                assert_close(&x, &y, tolerance, self.place(&format!("{method:?}")));
+                let off = x.iter().zip(&y).map(|(x, y)| (*x - *y).abs().to_f64());
+                let off = off.fold(0.0, f64::max);
+                worst = worst.max(off / self.size(method).max(f64::MIN_POSITIVE));
+            }
         }
         worst
     }

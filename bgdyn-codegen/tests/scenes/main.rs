@@ -7,8 +7,11 @@ mod friction;
 mod hard_cases;
 mod laws;
 mod one;
+mod reference;
+mod refused;
 mod settle;
 mod springs;
+mod zero;
 
 use common::{read, specs};
 

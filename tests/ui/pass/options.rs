@@ -6,6 +6,8 @@ use bgdyn::nalgebra::Vector2;
 bgdyn::bgdyn!("arm.yaml", module = left, visibility = pub(crate), methods = [dynamics], frames = []);
 bgdyn::bgdyn!("arm.yaml", module = right, visibility = pub(self), frames = [forearm], methods = [gravity, pose_upper_arm]);
 bgdyn::bgdyn!("arm.yaml", derivatives = true);
+bgdyn::bgdyn!("arm.yaml", module = fine, prefer = "accuracy", methods = [gravity]);
+bgdyn::bgdyn!("arm.yaml", module = cheap, prefer = "operations", methods = [gravity]);
 
 mod inner {
     bgdyn::bgdyn!("arm.yaml", visibility = pub(in crate::inner), methods = [coriolis_matrix,],);
@@ -20,6 +22,8 @@ fn main() {
     let (l, r) = (left::Arm::<f64>::default(), right::Arm::<f64>::default());
     assert_eq!(l.gravity(&q), r.gravity(&q));
     assert_ne!(r.pose_upper_arm(&q), r.pose_forearm(&q));
+    let (f, c) = (fine::Arm::<f64>::default(), cheap::Arm::<f64>::default());
+    assert!((f.gravity(&q) - c.gravity(&q)).norm() < 1e-12);
     let names = |table: &[(&'static str, bgdyn::runtime::Operations)]| -> Vec<&'static str> {
         table.iter().map(|(name, _)| *name).collect()
     };

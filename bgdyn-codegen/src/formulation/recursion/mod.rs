@@ -4,7 +4,10 @@
 //! Its free choices are a [`Plan`]; the plan is searched for by counting, in a bounded number of
 //! steps, method by method.
 
+mod aligned;
+mod answer;
 mod articulated;
+mod bars;
 mod base;
 mod beyond;
 mod composite;
@@ -16,6 +19,7 @@ mod inverse;
 mod kinematics;
 mod mass;
 mod motion;
+mod own;
 mod plan;
 mod rotors;
 mod share;
@@ -26,10 +30,12 @@ use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, count, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
+pub(super) use aligned::in_line;
 pub(super) use articulated::Articulated;
 pub(super) use forward::forward_dynamics;
 use frames::{Frames, Plan};
 use geometry::Geometry;
+pub(super) use own::OwnInertia;
 
 /// Plans of small mechanisms, the cheapest ones before factoring, of which the cheapest one after
 /// it is taken. For larger ones it would take more time than it saves operations: on arms of six
@@ -56,18 +62,24 @@ impl Formulation for Recursion {
         if let Some(site) = method.site() {
             return Some(kinematics::function(graph, &geometry, method, site));
         }
-        let cost = |plan: &Plan| cost(graph, &geometry, method, plan);
-        let best = match method {
-            // Their graphs are too large for a whole search: it starts from the plan of a small
-            // method that they resemble.
-            Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-                let start = cheapest_plan(graph, &geometry, Method::MassMatrix);
-                plan::refined(&geometry, start, cost)
-            }
-            Method::ForwardDynamicsDerivatives => return None,
-            _ => cheapest_plan(graph, &geometry, method),
-        };
+        let best = best_plan(graph, &geometry, method)?;
         Some(with_plan(graph, &geometry, method, &best))
+    }
+}
+
+/// The cheapest plan found for a method of joints; nothing for what is derived from other methods.
+fn best_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Option<Plan> {
+    match method {
+        // Their graphs are too large for a whole search: it starts from the plan of a small
+        // method that they resemble.
+        Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
+            let start = cheapest_plan(graph, geometry, Method::MassMatrix);
+            let cost = |plan: &Plan| cost(graph, geometry, method, plan);
+            Some(plan::refined(geometry, start, cost))
+        }
+        Method::ForwardDynamicsDerivatives => None,
+        method if method.site().is_some() => None,
+        _ => Some(cheapest_plan(graph, geometry, method)),
     }
 }
 

@@ -1,0 +1,139 @@
+//! `bgdyn ops SCENE --per-effect`: what each effect costs.
+
+use anyhow::Result;
+use bgdyn_codegen::expr::Operations;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Role;
+use bgdyn_codegen::system::System;
+use nalgebra::DMatrix;
+use serde::Serialize;
+
+use crate::output::{print, tell};
+use crate::timing::times;
+
+/// A scene with some of its effects.
+#[derive(Serialize)]
+struct Row {
+    /// What it is: effects added so far, or all but one.
+    effects: Vec<String>,
+    /// Multiplications and additions of the derivative.
+    ops: usize,
+    /// Numbers that change in time.
+    states: usize,
+    /// ns per call of the derivative.
+    ns: f64,
+    /// Whether `ns` was not measured but follows from the operations.
+    estimated: bool,
+    /// 1 / |λ| of the fastest mode at the start, s; null where there is none.
+    fastest_time_constant: Option<f64>,
+    #[serde(skip)]
+    title: String,
+}
+
+/// Prints the table of a scene's effects: added one at a time, and all but one.
+pub(super) fn report(whole: &System, json: bool, bgdyn: &str) -> Result<()> {
+    let (titles, systems): (Vec<String>, Vec<System>) = variants(whole)?.into_iter().unzip();
+    let functions: Vec<Function> = systems
+        .iter()
+        .map(|s| s.function(Role::Derivative))
+        .collect();
+    let measured = times(&systems, bgdyn);
+    if let Err(why) = &measured {
+        tell(&format!(
+            "bgdyn: times are estimated from operations: {why:#}\n"
+        ));
+    }
+    let rows: Vec<Row> = titles
+        .into_iter()
+        .enumerate()
+        .map(|(i, title)| {
+            let (system, function) = (&systems[i], &functions[i]);
+            let operations = function.operations();
+            let layout = &system.scene.layout;
+            Row {
+                effects: names(system),
+                ops: operations.total(),
+                states: layout.nq() + layout.nv() + layout.nx(),
+                ns: measured
+                    .as_ref()
+                    .map_or_else(|_| estimate(operations), |t| t[i]),
+                estimated: measured.is_err(),
+                fastest_time_constant: fastest(system, function),
+                title,
+            }
+        })
+        .collect();
+    match json {
+        true => print(&(serde_json::to_string_pretty(&rows)? + "\n")),
+        false => print(&table(&rows)),
+    }
+}
+
+fn names(system: &System) -> Vec<String> {
+    system
+        .scene
+        .elements
+        .iter()
+        .map(|e| e.name.clone())
+        .collect()
+}
+
+/// The scene without effects, with one more each time, and without each one in turn.
+fn variants(whole: &System) -> Result<Vec<(String, System)>> {
+    let all = names(whole);
+    let with = |names: &[&String]| {
+        let scene = whole.scene.with_only(|e| names.contains(&&e.name));
+        System::new(scene).map_err(|_| anyhow::anyhow!("the scene cannot do without its effects"))
+    };
+    let mut found = vec![("links with point masses".to_owned(), with(&[])?)];
+    let mut so_far: Vec<&String> = Vec::new();
+    for name in &all {
+        so_far.push(name);
+        found.push((format!("+ {name}"), with(&so_far)?));
+    }
+    if all.len() > 1 {
+        for name in &all {
+            let rest: Vec<&String> = all.iter().filter(|n| *n != name).collect();
+            found.push((format!("all but {name}"), with(&rest)?));
+        }
+    }
+    Ok(found)
+}
+
+/// A guess of a call's time from its operations, ns: what such a call takes on a machine of 3 GHz
+/// that starts two operations a cycle and waits for one in three.
+fn estimate(o: Operations) -> f64 {
+    let quick = (o.total() + o.other) as f64;
+    0.4 * quick + 4.0 * (o.div + o.sqrt) as f64 + 12.0 * o.sincos as f64
+}
+
+/// 1 / |λ| of the fastest mode at the start.
+fn fastest(system: &System, derivative: &Function) -> Option<f64> {
+    let slope = system.slope(derivative, &system.start())?;
+    let n = slope.len();
+    let matrix = DMatrix::from_fn(n, n, |i, j| slope[i][j]);
+    let values = matrix.complex_eigenvalues();
+    let largest = values.iter().map(|z| z.norm()).fold(0.0, f64::max);
+    (largest > 1e-9).then_some(1.0 / largest)
+}
+
+fn table(rows: &[Row]) -> String {
+    let mut text = format!(
+        "{:<40} {:>7} {:>7} {:>9} {:>14}\n",
+        "effects", "mul+add", "states", "ns", "fastest, s"
+    );
+    for row in rows {
+        let ns = match row.estimated {
+            true => format!("~{:.0}", row.ns),
+            false => format!("{:.1}", row.ns),
+        };
+        let fastest = row
+            .fastest_time_constant
+            .map_or("none".to_owned(), |t| format!("{t:.2e}"));
+        text += &format!(
+            "{:<40} {:>7} {:>7} {ns:>9} {fastest:>14}\n",
+            row.title, row.ops, row.states
+        );
+    }
+    text
+}

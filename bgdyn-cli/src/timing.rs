@@ -1,0 +1,137 @@
+//! Times of generated code: the user's cargo builds it in a scratch crate that is kept, so that the
+//! next call only compiles what is new.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+use anyhow::{Context, Result, anyhow, bail};
+use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
+use bgdyn_codegen::model::scene_functions;
+use bgdyn_codegen::system::System;
+
+/// States in which a scene is timed, around its start.
+const STATES: usize = 64;
+
+/// The program's own part of the scratch crate.
+const HEAD: &str = r#"//! Written by `bgdyn ops --per-effect`.
+use std::hint::black_box;
+use std::time::Instant;
+use bgdyn::runtime::System;
+use bgdyn::nalgebra::SVector;
+
+struct Random(u64);
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Median of nine rounds, ns per call of the derivative.
+fn time<S, const N: usize, const M: usize, const U: usize, const E: usize, const Y: usize, const P: usize>(
+    scene: &S,
+) -> f64
+where
+    S: System<f64, N, M, U, E, Y, P>,
+{
+    let (start, modes) = scene.start();
+    let mut random = Random(2007);
+    let states: Vec<SVector<f64, N>> = (0..STATES)
+        .map(|_| start.map(|x| x + random.unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }))
+        .collect();
+    let input = SVector::<f64, U>::from_fn(|_, _| random.unit());
+    let mut rounds = Vec::new();
+    let mut calls = 64;
+    while rounds.len() < 9 {
+        let begin = Instant::now();
+        for k in 0..calls {
+            let y = black_box(&states[k % STATES]);
+            let _ = black_box(scene.derivative(y, black_box(&modes), black_box(&input), 0.0).is_ok());
+        }
+        let spent = begin.elapsed().as_secs_f64();
+        if spent < 2e-3 && calls < 1 << 24 {
+            calls *= 2;
+            continue;
+        }
+        rounds.push(1e9 * spent / calls as f64);
+    }
+    rounds.sort_by(f64::total_cmp);
+    rounds[4]
+}
+"#;
+
+/// ns per call of the derivative of each scene.
+///
+/// # Errors
+/// Where there is no cargo, or it cannot have the crates.
+pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
+    let folder = scratch(bgdyn)?;
+    let (mut modules, mut calls) = (String::new(), String::new());
+    for (i, system) in systems.iter().enumerate() {
+        let place = Place::source_text("a scene".into());
+        let place = place
+            .with_module(&format!("v{i}"))
+            .map_err(|e| anyhow!(e))?;
+        let text = source_text(scene_module(system, &scene_functions(system), &place));
+        write_if_new(&folder.join(format!("src/v{i}.rs")), &text)?;
+        writeln!(modules, "include!(\"v{i}.rs\");")?;
+        let scene = struct_ident(&system.scene.name);
+        writeln!(
+            calls,
+            "    println!(\"{{}}\", time(&v{i}::{scene}::<f64>::default()));"
+        )?;
+    }
+    let main =
+        format!("{HEAD}\nconst STATES: usize = {STATES};\n{modules}\nfn main() {{\n{calls}}}\n");
+    write_if_new(&folder.join("src/main.rs"), &main)?;
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let done = Command::new(cargo)
+        .args(["run", "--release", "--quiet"])
+        .current_dir(&folder)
+        .output()
+        .context("cargo cannot be run")?;
+    if !done.status.success() {
+        let text = String::from_utf8_lossy(&done.stderr);
+        let first: Vec<&str> = text.lines().filter(|l| !l.is_empty()).take(3).collect();
+        bail!("{}", first.join("; "));
+    }
+    let text = String::from_utf8(done.stdout).context("the program's output")?;
+    let numbers = text
+        .lines()
+        .map(|line| line.parse::<f64>().context("a time"));
+    numbers.collect()
+}
+
+/// The scratch crate that depends on this bgdyn: a path or a version.
+fn scratch(bgdyn: &str) -> Result<PathBuf> {
+    let source = match Path::new(bgdyn).join("Cargo.toml").is_file() {
+        true => format!("path = {:?}", fs::canonicalize(bgdyn)?),
+        false => format!("version = {bgdyn:?}"),
+    };
+    let folder = cache().join("bgdyn").join("times");
+    fs::create_dir_all(folder.join("src"))
+        .with_context(|| format!("{} cannot be made", folder.display()))?;
+    let manifest = format!(
+        "[package]\nname = \"times\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[dependencies]\nbgdyn = {{ {source}, default-features = false }}\n\n[workspace]\n"
+    );
+    write_if_new(&folder.join("Cargo.toml"), &manifest)?;
+    Ok(folder)
+}
+
+/// The user's folder for what can be made again.
+fn cache() -> PathBuf {
+    let named = env::var_os("XDG_CACHE_HOME").map(PathBuf::from);
+    let home = env::var_os("HOME").or_else(|| env::var_os("USERPROFILE"));
+    named
+        .or_else(|| home.map(|home| PathBuf::from(home).join(".cache")))
+        .unwrap_or_else(env::temp_dir)
+}
+
+fn write_if_new(path: &Path, text: &str) -> Result<()> {
+    if fs::read_to_string(path).is_ok_and(|old| old == text) {
+        return Ok(());
+    }
+    fs::write(path, text).with_context(|| format!("{} cannot be written", path.display()))
+}

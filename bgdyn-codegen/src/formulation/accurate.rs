@@ -1,0 +1,64 @@
+//! The way that loses the fewest digits in `f64`, whatever it costs.
+
+use super::{FORMULATIONS, Formulation, derived, literal};
+use crate::bond_graph::BondGraph;
+use crate::function::Function;
+use crate::loss::{answers, loss_at};
+use crate::method::Method;
+
+/// Joints up to which the literal sum is tried: its graph grows with the cube of their number.
+const LITERAL: usize = 8;
+
+/// The same for methods that come from differentiating it.
+const LITERAL_DERIVED: usize = 4;
+
+/// The method's function that loses the fewest digits at the sampled states, by the formulation
+/// asked for, where it knows the method, else by any; factored, or with its operations as the
+/// formulation has them. Losses that agree to a tenth of a rounding are equal: then operations
+/// decide.
+pub fn most_accurate(
+    graph: &BondGraph,
+    method: Method,
+    asked: Option<&dyn Formulation>,
+) -> Option<Function> {
+    let asked = asked.filter(|f| f.knows(method));
+    let all = FORMULATIONS.into_iter();
+    let tried = all.filter(|f| match asked {
+        Some(asked) => f.name() == asked.name(),
+        None => f.knows(method) && affordable(graph, method, *f),
+    });
+    let ways: Vec<Function> = tried.flat_map(|f| variants(graph, method, f)).collect();
+    let answers = answers(&ways, graph);
+    ways.into_iter().min_by_key(|way| {
+        let lost = loss_at(way, &answers).unwrap_or_default();
+        (lost.harm(), way.operations().total())
+    })
+}
+
+fn affordable(graph: &BondGraph, method: Method, formulation: &dyn Formulation) -> bool {
+    let most = match method {
+        Method::CoriolisMatrix
+        | Method::InverseDynamicsDerivatives
+        | Method::ForwardDynamicsDerivatives => LITERAL_DERIVED,
+        _ => LITERAL,
+    };
+    formulation.name() != literal::NAME || graph.coordinates.len() <= most
+}
+
+/// A formulation's function, factored and not.
+fn variants(graph: &BondGraph, method: Method, formulation: &dyn Formulation) -> Vec<Function> {
+    let derived = derived::function(graph, method, Some(formulation));
+    let Some(plain) = derived.or_else(|| formulation.function(graph, method)) else {
+        return Vec::new();
+    };
+    let factored = plain.clone().factored();
+    if factored.operations() == plain.operations() {
+        return vec![factored];
+    }
+    let formulation = format!("{}; not factored", plain.formulation);
+    let plain = Function {
+        formulation,
+        ..plain
+    };
+    vec![factored, plain]
+}

@@ -1,0 +1,165 @@
+//! What a way to forward dynamics may lose, measured: its error in `f64` at sampled states.
+//!
+//! With ε = 2⁻⁵², M and h = bias in double-double, q̈ the exact answer and q̈ + δ the one found:
+//! - backward: |M δ|_i ≤ 8 n ε (Σ_j |M_ij||q̈_j| + |τ_i| + |h_i|) for each joint i;
+//! - forward: ‖δ‖ ≤ (16 + cond M) ε ‖q̈‖ + ε ‖M⁻¹‖‖h‖, the latter because rounding τ or h alone
+//!   costs as much, and it is all that is left where the two balance;
+//! - round trip: where τ is the rounded effort of chosen accelerations a, they come back to within
+//!   8 n ε ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖);
+//! - digits: ‖δ‖ ≤ 1000 (ε ‖q̈‖ + what rounding the arguments costs), so that what cond M excuses
+//!   is not lost where the mechanism itself does not lose it;
+//! - what has an answer gets one.
+
+use bgdyn_runtime::Dd;
+
+use super::answer::{Answer, Terms, norm, product};
+use super::frames::{Frames, Plan};
+use super::geometry::Geometry;
+use super::{inverse, mass};
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Expr, Graph, Inputs, evaluate};
+use crate::formulation::Arguments;
+use crate::formulation::sample::{aligned, generic, spread};
+use crate::function::Function;
+use crate::method::Method;
+
+const EPS: f64 = f64::EPSILON;
+
+/// How much larger than what rounding its arguments costs an error may be: three digits.
+const LOST: f64 = 1e3;
+
+/// States tried: generic ones, and near aligned axes.
+const STATES: [usize; 2] = [8, 36];
+
+/// Joints up to which all of these are tried; of larger mechanisms fewer, in proportion to the
+/// square of their number, to which the work for each grows.
+const ALL: usize = 8;
+
+/// How a function stands to the bars. The order is that of harm.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub(super) struct Standing {
+    /// States that have an answer, and none in `f64`.
+    refused: usize,
+    /// The largest error over what is allowed.
+    excess: f64,
+}
+
+impl Standing {
+    /// Whether every bar is met.
+    pub fn meets(&self) -> bool {
+        self.refused == 0 && self.excess <= 1.0
+    }
+}
+
+impl std::fmt::Display for Standing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.refused {
+            0 => write!(f, "up to {:.1e} times the error allowed", self.excess),
+            n => write!(f, "no answer in {n} states that have one"),
+        }
+    }
+}
+
+/// The states of a mechanism with their answers.
+pub(super) struct Bars {
+    answers: Vec<Answer>,
+}
+
+impl Bars {
+    /// States of the mechanism, with their answers.
+    pub fn new(graph: &BondGraph, geometry: &Geometry) -> Self {
+        let n = geometry.bodies.len();
+        let (made, outputs) = mass_and_bias(graph, geometry);
+        let few = |most: usize| (most * ALL * ALL / n.max(ALL).pow(2)).max(2);
+        let mut states = spread(&generic(graph), few(STATES[0]));
+        states.extend(spread(&aligned(graph), few(STATES[1])));
+        let states = states.into_iter().enumerate();
+        let terms =
+            |inputs: &Inputs<Dd>| Terms::new(&evaluate(&made, &outputs, inputs, &mut None), n);
+        let answers = states.filter_map(|(i, state)| Answer::new(state, terms, i % 2 == 1));
+        Bars {
+            answers: answers.collect(),
+        }
+    }
+
+    /// How a function stands to them.
+    pub fn standing(&self, function: &Function) -> Standing {
+        let mut all = Standing::default();
+        for answer in &self.answers {
+            match function.evaluate(answer.inputs.clone()) {
+                (_, Some(_)) => all.refused += 1,
+                (found, None) => all.excess = all.excess.max(excess(answer, &found)),
+            }
+        }
+        all
+    }
+}
+
+/// The largest error of what was found, over what is allowed.
+fn excess(answer: &Answer, found: &[f64]) -> f64 {
+    if found.iter().any(|x| !x.is_finite()) {
+        return f64::INFINITY;
+    }
+    let found: Vec<Dd> = found.iter().map(|&x| Dd::from_f64(x)).collect();
+    let off = found.iter().zip(&answer.exact);
+    let off: Vec<Dd> = off.map(|(&x, &y)| x - y).collect();
+    let round_trip = if answer.round_trip {
+        round_trip(answer, &found)
+    } else {
+        0.0
+    };
+    backward(answer, &off)
+        .max(forward(answer, &off))
+        .max(digits(answer, &off))
+        .max(round_trip)
+}
+
+fn backward(answer: &Answer, off: &[Dd]) -> f64 {
+    let unmet = product(&answer.mass, off);
+    let row = |i: usize| {
+        let terms = answer.mass[i].iter().zip(&answer.exact);
+        let terms: f64 = terms.map(|(m, x)| (m.to_f64() * x.to_f64()).abs()).sum();
+        let size = terms + answer.inputs.u[i].abs() + answer.bias[i].abs();
+        ratio(unmet[i].to_f64().abs(), 8.0 * off.len() as f64 * EPS * size)
+    };
+    (0..off.len()).map(row).fold(0.0, f64::max)
+}
+
+fn forward(answer: &Answer, off: &[Dd]) -> f64 {
+    let moving = norm(answer.exact.iter().map(|x| x.to_f64()));
+    let held = norm(answer.bias.iter().copied());
+    let cond = answer.most * answer.inverse;
+    let allowed = EPS * ((16.0 + cond) * moving + answer.inverse * held);
+    ratio(norm(off.iter().map(|x| x.to_f64())), allowed)
+}
+
+fn digits(answer: &Answer, off: &[Dd]) -> f64 {
+    let moving = norm(answer.exact.iter().map(|x| x.to_f64()));
+    let allowed = LOST * (EPS * moving + answer.rounding);
+    ratio(norm(off.iter().map(|x| x.to_f64())), allowed)
+}
+
+fn round_trip(answer: &Answer, found: &[Dd]) -> f64 {
+    let chosen = &answer.inputs.a;
+    let off = found.iter().zip(chosen);
+    let off = norm(off.map(|(&x, &a)| (x - Dd::from_f64(a)).to_f64()));
+    let moved = answer.most * norm(chosen.iter().copied()) + norm(answer.bias.iter().copied());
+    ratio(off, 8.0 * found.len() as f64 * EPS * answer.inverse * moved)
+}
+
+fn ratio(off: f64, allowed: f64) -> f64 {
+    if off == 0.0 { 0.0 } else { off / allowed }
+}
+
+/// The lower triangle of M, row by row, and h, in one graph.
+fn mass_and_bias(graph: &BondGraph, geometry: &Geometry) -> (Graph, Vec<Expr>) {
+    let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
+    let outputs: Vec<Expr> = {
+        let x = Arguments::new(&b, graph, Method::ForwardDynamics);
+        let frames = Frames::new(&b, graph, geometry, plan, &x);
+        let rows = mass::mass_matrix(&b, &frames).into_iter().flatten();
+        let bias = inverse::efforts(&b, &frames, plan, x.active);
+        rows.chain(bias).map(|e| e.expr()).collect()
+    };
+    (b.into_graph(), outputs)
+}

@@ -1,0 +1,134 @@
+//! States in which functions are tried: the same ones every time for one mechanism.
+//!
+//! Generic ones, and those near which mass matrices come closest to losing rank: common normals of
+//! neighbouring axes in line or across, which is where axes become parallel and where an arm is
+//! stretched or folded, exactly and by a hair. Positions, velocities and efforts are numbers of
+//! `f64`.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use bgdyn_runtime::Dd;
+
+use super::recursion::in_line;
+use crate::bond_graph::BondGraph;
+use crate::expr::Inputs;
+use crate::mechanism::Motion;
+
+/// Generic states.
+const GENERIC: u64 = 24;
+
+/// States near aligned axes at the most.
+const ALIGNED: usize = 36;
+
+/// States in which all joints are aligned.
+const TOGETHER: u64 = 6;
+
+/// For one joint by itself: quarter turns from where its normals are in line, and how far off, rad.
+const ONE_BY_ONE: [(f64, f64); 4] = [(0.0, 1e-8), (2.0, 1e-4), (1.0, 1e-8), (3.0, 0.0)];
+
+/// For all joints at once.
+const OFF: [f64; 3] = [0.0, 1e-8, 1e-4];
+
+/// States anywhere: positions within a turn, or a metre; velocities, accelerations and efforts of
+/// a few units; every fourth a thousand times as fast, every other fourth under a thousand times
+/// the effort. Run-time parameters as the spec has them.
+pub(crate) fn generic(graph: &BondGraph) -> Vec<Inputs<f64>> {
+    (0..GENERIC).map(|seed| anywhere(graph, seed)).collect()
+}
+
+/// States near aligned axes: joint by joint with the others anywhere, and all at once.
+pub(crate) fn aligned(graph: &BondGraph) -> Vec<Inputs<f64>> {
+    let in_line = in_line(graph);
+    let joints: Vec<usize> = (0..in_line.len())
+        .filter(|&j| in_line[j].is_some())
+        .collect();
+    let at = |j: usize, turns: f64, off: f64| {
+        in_line[j].map_or(0.0, |q: Dd| q.to_f64()) + (turns * FRAC_PI_2 + off)
+    };
+    let mut states = Vec::new();
+    for seed in 0..TOGETHER {
+        let mut state = anywhere(graph, GENERIC + seed);
+        let mut random = Random(!seed);
+        for &j in &joints {
+            // The first ones all in line, then in line or folded, then any quarter turn.
+            let turns = match seed {
+                0 | 1 => 0.0,
+                2 | 3 => 2.0 * random.below(2),
+                _ => random.below(4),
+            };
+            state.q[j] = at(j, turns, OFF[seed as usize % OFF.len()]);
+        }
+        states.push(state);
+    }
+    let each: Vec<(f64, f64, usize)> = ONE_BY_ONE
+        .iter()
+        .flat_map(|&(turns, off)| joints.iter().map(move |&j| (turns, off, j)))
+        .collect();
+    for (turns, off, j) in spread(&each, ALIGNED - states.len()) {
+        let mut state = anywhere(graph, 1000 + states.len() as u64);
+        state.q[j] = at(j, turns, off);
+        states.push(state);
+    }
+    states
+}
+
+/// At most so many items, spread over the list.
+pub(crate) fn spread<T: Clone>(all: &[T], most: usize) -> Vec<T> {
+    let kept = all.len().min(most);
+    (0..kept)
+        .map(|i| all[i * all.len() / kept].clone())
+        .collect()
+}
+
+fn anywhere(graph: &BondGraph, seed: u64) -> Inputs<f64> {
+    let mut random = Random(seed);
+    let mut all = |size: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let n = graph.coordinates.len();
+        (0..n)
+            .map(|j| (2.0 * random.unit() - 1.0) * size(j))
+            .collect()
+    };
+    let (fast, forced) = match seed % 4 {
+        2 => (1e3, 1.0),
+        3 => (1.0, 1e3),
+        _ => (1.0, 1.0),
+    };
+    let turn = |j: usize| match graph.coordinates[j].motion {
+        Motion::Rotation => PI,
+        Motion::Translation | Motion::None => 1.0,
+    };
+    Inputs {
+        q: all(&turn),
+        v: all(&|_| 2.0 * fast),
+        a: all(&|_| 5.0),
+        u: all(&|_| 10.0 * forced),
+        parameters: graph
+            .parameters
+            .iter()
+            .map(|p| p.default.to_f64())
+            .collect(),
+        ..Inputs::default()
+    }
+}
+
+/// SplitMix64: the same numbers on every machine.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// In [0, 1).
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// 0, 1, … below `n`.
+    fn below(&mut self, n: u64) -> f64 {
+        (self.next() % n) as f64
+    }
+}

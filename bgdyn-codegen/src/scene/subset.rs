@@ -1,0 +1,59 @@
+//! Scenes with fewer effects than the file calls for: to see what each one costs and changes.
+
+use super::Scene;
+use super::check::assembled;
+use crate::effect::{Checked, Element};
+use crate::fault::Faults;
+
+impl Scene {
+    /// The same scene with only the effects that `keep` says, and without those that act on what
+    /// then is missing. Inputs, initial values and outputs that are not there any more fall away.
+    pub fn with_only(&self, keep: impl Fn(&Element) -> bool) -> Scene {
+        let mut elements = self.elements.clone();
+        elements.retain(|e| keep(e));
+        loop {
+            let before = elements.len();
+            let there: Vec<String> = elements.iter().map(|e| e.name.clone()).collect();
+            let missing: Vec<&String> = self
+                .elements
+                .iter()
+                .map(|e| &e.name)
+                .filter(|name| !there.contains(name))
+                .collect();
+            elements.retain(|e| !missing.iter().any(|gone| acts_on(e, gone)));
+            if elements.len() == before {
+                break;
+            }
+        }
+        let mut written = self.written.clone();
+        let bare = Scene {
+            elements,
+            ..self.clone()
+        };
+        // Entries for what is gone are no faults here.
+        let laid_out = assembled(bare.clone(), &mut Faults::default());
+        let layout = &laid_out.layout;
+        let known_input = |name: &str| layout.inputs.iter().any(|i| i.name == name);
+        written.inputs.retain(|raw| known_input(&raw.name.value));
+        let scene = Scene { written, ..bare };
+        Scene {
+            outputs: Vec::new(),
+            ..assembled(scene, &mut Faults::default())
+        }
+    }
+}
+
+/// Whether an element refers to another: to its coordinate, or to one of its nodes.
+fn acts_on(element: &Element, other: &str) -> bool {
+    let refers = |name: &String| {
+        let side = name
+            .strip_prefix(other)
+            .and_then(|rest| rest.strip_prefix('_'));
+        name == other || side.is_some_and(|side| side.len() == 1)
+    };
+    element.values.iter().any(|(_, value)| match value {
+        Checked::Name(name) => refers(name),
+        Checked::Names(names) => names.iter().any(refers),
+        Checked::Number(_) | Checked::Vector(_) => false,
+    })
+}

@@ -1,0 +1,209 @@
+//! Choices by lost digits: forward dynamics that meets its bars, and `prefer: accuracy`. What was
+//! chosen at the generator's states is held to be better at others.
+
+mod common;
+
+use bgdyn_codegen::formulation::FORMULATIONS;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::loss::{Loss, loss};
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{self, Options, Preference, preference_named};
+use bgdyn_runtime::Dd;
+use common::bars::near_aligned;
+use common::hard::Chain;
+use common::rng::Rng;
+use common::{Robot, State, largest};
+
+fn accurate(robot: &Robot, method: Method) -> Function {
+    let options = Options {
+        prefer: Preference::Accuracy,
+        ..Options::default()
+    };
+    model::function(&robot.mechanism, method, &options).expect("every method is known")
+}
+
+/// The worst error of a function over many random states, in roundings of the largest component.
+fn worst(robot: &Robot, f: &Function, seed: u64) -> f64 {
+    let mut rng = Rng::new(seed);
+    let mut worst = 0.0_f64;
+    for _ in 0..400 {
+        let s = near_aligned(&mut rng, robot);
+        let (exact, found): (Vec<Dd>, Vec<f64>) = (s.value(f), s.value(f));
+        let off: Vec<f64> = exact
+            .iter()
+            .zip(&found)
+            .map(|(x, &y)| (*x - Dd::from_f64(y)).to_f64())
+            .collect();
+        let exact: Vec<f64> = exact.iter().map(|x| x.to_f64()).collect();
+        worst = worst.max(largest(&off) / largest(&exact) / f64::EPSILON);
+    }
+    worst
+}
+
+fn heavy(last: f64) -> Robot {
+    let chain = Chain {
+        links: 6,
+        planar: false,
+        moments: [1.0 / 512.0, 1.0 / 16.0, 1.0 / 16.0],
+        last,
+    };
+    chain.robot()
+}
+
+/// A gimbal with light rings: where its first and last axis fall together, only the rings resist.
+fn gimbal(ring: &str) -> Robot {
+    let ring = format!("inertia: {{ xx: {ring}, yy: {ring}, zz: {ring} }}");
+    let text = format!(
+        "
+format: 1
+name: gimbal
+links:
+  - name: outer
+    joint: {{ name: yaw, type: revolute, axis: z }}
+    {ring}
+  - name: inner
+    parent: outer
+    joint: {{ name: pitch, type: revolute, axis: y }}
+    {ring}
+  - name: rotor
+    parent: inner
+    joint: {{ name: roll, type: revolute, axis: z }}
+    mass: 1
+    inertia: {{ xx: 1, yy: 1, zz: 1.2 }}
+"
+    );
+    Robot::read(&text, None)
+}
+
+/// Every body has a fair share of inertia; the states tried tell which way keeps its digits.
+#[test]
+fn states_decide_where_shares_do_not() {
+    let method = Method::ForwardDynamics;
+    for (robot, way, better) in [
+        (gimbal("1e-5"), "articulated_base: ", 1000.0),
+        (heavy(1e4), "articulated: ", 4.0),
+    ] {
+        let chosen = robot.chosen(method);
+        let text = &chosen.formulation;
+        assert!(text.starts_with(way), "{text}");
+        assert!(text.contains("; recursion: up to "), "{text}");
+        let other = robot.function("recursion", method);
+        let (ours, theirs) = (worst(&robot, &chosen, 12), worst(&robot, &other, 12));
+        assert!(ours * better < theirs, "{ours} against {theirs}");
+    }
+    for (robot, way) in [
+        (gimbal("0.1"), "articulated_base: "),
+        (heavy(100.0), "recursion: "),
+    ] {
+        let text = robot.chosen(method).formulation;
+        assert!(text.starts_with(way) && !text.contains(" up to "), "{text}");
+    }
+}
+
+/// A light arm whose heavy load is on the shoulder's axis when it is folded: the shoulder then
+/// moves next to nothing, the elbow far more than it should for so little. No way meets the bars.
+#[test]
+fn the_least_evil_is_told() {
+    let robot = Robot::read(
+        "
+format: 1
+name: folding
+links:
+  - name: upper_arm
+    joint: { name: shoulder, type: revolute, axis: z }
+    mass: 0.001
+    inertia: { xx: 1e-5, yy: 1e-5, zz: 1e-5 }
+  - name: forearm
+    parent: upper_arm
+    joint: { name: elbow, type: revolute, axis: z, origin: { xyz: [1, 0, 0] } }
+    mass: 10
+    com: [1, 0, 0]
+    inertia: { xx: 1e-5, yy: 1e-5, zz: 1e-5 }
+",
+        None,
+    );
+    let text = robot.chosen(Method::ForwardDynamics).formulation;
+    for way in ["recursion", "articulated_base", "articulated"] {
+        assert!(text.contains(&format!("; {way}: up to ")), "{text}");
+    }
+    assert!(text.starts_with("articulated"), "{text}");
+}
+
+/// Base parameters and factored sums cost digits.
+#[test]
+fn accuracy_is_better_at_other_states() {
+    let golden = common::golden::robot;
+    for (robot, method, better) in [
+        (heavy(1e3), Method::ForwardDynamics, 4.0),
+        (golden("panda_gen"), Method::ForwardDynamics, 3.0),
+        (golden("puma560"), Method::InverseDynamics, 1.3),
+    ] {
+        let (cheap, fine) = (robot.chosen(method), accurate(&robot, method));
+        assert!(cheap.operations().total() < fine.operations().total());
+        let (before, after) = (worst(&robot, &cheap, 5), worst(&robot, &fine, 5));
+        assert!(
+            after * better < before,
+            "{method:?}: {before} against {after}"
+        );
+    }
+}
+
+/// No way loses fewer digits at the states that the choice goes by, and every way gives the same.
+#[test]
+fn accuracy_is_the_best_of_all() {
+    for name in ["scara4", "puma560", "dpend2"] {
+        let robot = common::golden::robot(name);
+        let measured = |f: &Function| loss(f, &robot.graph).expect("regular states");
+        for method in Method::OF_TRAIT {
+            let fine = accurate(&robot, method);
+            let Loss { refused, roundings } = measured(&fine);
+            assert_eq!(refused, 0);
+            for way in FORMULATIONS.iter().filter(|way| way.knows(method)) {
+                let other = measured(&robot.function(way.name(), method));
+                let place = format!("{name}, {method:?}, {}", way.name());
+                // To a tenth of a rounding.
+                assert!(roundings <= other.roundings + 0.1, "{place}");
+            }
+            let s = State::random(&mut Rng::new(3), &robot.motions());
+            let literal: Vec<Dd> = s.value(&robot.function("literal", method));
+            let x: Vec<Dd> = s.value(&fine);
+            common::assert_close(&x, &literal, 1e-24, || format!("{name}, {method:?}"));
+        }
+    }
+}
+
+#[test]
+fn operations_are_what_is_preferred_otherwise() {
+    assert_eq!(preference_named("accuracy"), Ok(Preference::Accuracy));
+    assert_eq!(preference_named("operations"), Ok(Preference::default()));
+    let message = preference_named("acuracy").expect_err("no such preference");
+    assert_eq!(
+        message,
+        "no preference is called `acuracy`: did you mean `accuracy`?"
+    );
+    let message = preference_named("speed").expect_err("no such preference");
+    assert_eq!(
+        message,
+        "no preference is called `speed`; there are operations, accuracy"
+    );
+}
+
+/// A formulation that is asked for is taken; accuracy decides how, and for the methods that it
+/// does not know.
+#[test]
+fn a_formulation_asked_for_is_taken() {
+    let robot = common::golden::robot("puma560");
+    let options = Options {
+        prefer: Preference::Accuracy,
+        formulation: bgdyn_codegen::formulation::by_name("articulated_base"),
+        ..Options::default()
+    };
+    let of = |method| model::function(&robot.mechanism, method, &options).expect("known");
+    let forward = of(Method::ForwardDynamics).formulation;
+    assert!(forward.starts_with("articulated_base: "), "{forward}");
+    let inverse = of(Method::InverseDynamics).formulation;
+    assert_eq!(
+        inverse,
+        accurate(&robot, Method::InverseDynamics).formulation
+    );
+}

@@ -1,0 +1,107 @@
+//! Mistakes in scenes: all of them at once, each with its place and a way out.
+
+use bgdyn_codegen::model::Refusal;
+
+use super::common::{told, try_scene};
+
+const MECHANISM: &str = "\
+format: 1
+name: arm
+links:
+  - name: upper
+    joint: { name: shoulder, type: revolute, axis: y }
+    mass: 2
+    com: [0.2, 0, 0]
+  - name: lower
+    parent: upper
+    joint: { name: elbow, type: revolute, axis: y, origin: { xyz: [0.4, 0, 0] } }
+    mass: 1
+    com: [0.2, 0, 0]
+  - name: hand
+    parent: lower
+    joint: { name: wrist, type: revolute, origin: { xyz: [0.3, 0, 0] } }
+    mass: 0.1
+effects:
+  bearing: { type: viscous, joint: shoulder, damping: 0.3 }
+  brake: { type: coulomb, joint: wrist, kinetic: 0.2 }
+";
+
+/// What is said of a scene.
+fn said(text: &str) -> String {
+    match try_scene(text, MECHANISM) {
+        Err(refusal) => told(&refusal, text),
+        Ok((_, findings)) => findings.render("scene.yaml", text),
+    }
+}
+
+#[test]
+fn every_mistake_is_told_at_once() {
+    let text = "\
+scene: 2
+mechanism: arm.yaml
+lock: { wrist: 30 mm, ankle: 0 }
+effects:
+  - gravty
+  - gravity: [0, 0]
+  - inertia: spread
+  - bearing: { type: spring }
+  - brake
+  - bearing
+  - bearing
+  - drag_1: { type: viscous, joint: sholder, damping: 0.1 }
+  - drag_2: { type: viscous, joint: elbow, damping: -0.1 }
+  - drag_3: { type: viscous, joint: elbow, damping: 0.1 N*s/m }
+  - drag_4: { type: viscous, joint: elbow }
+  - motor: { type: dc_motor, joint: elbow, resistance: 0, torque_constant: 0.1 }
+  - shoulder: { type: spring, joint: elbow, stiffness: 1 }
+inputs:
+  sholder: 2
+  elbow: { sawtooth: 2 }
+  shoulder: { table: [[0, 1], [0, 2]] }
+initial: { elbow: 3 m, elbow_speed: 1 }
+outputs: [elbow, hnad]
+integration: { method: magic, step: 0, end: 5 }
+";
+    insta::assert_snapshot!(said(text));
+}
+
+#[test]
+fn outputs_are_looked_up_last() {
+    let text = "scene: 1\nmechanism: arm.yaml\neffects: [inertia]\noutputs: [elbow, hnad]\n";
+    insta::assert_snapshot!(said(text));
+}
+
+#[test]
+fn a_locked_joint_takes_no_effect() {
+    let text = "scene: 1\nmechanism: arm.yaml\nlock: { wrist: 0 }\neffects: [gravity, brake]\n";
+    insta::assert_snapshot!(said(text));
+}
+
+/// The hand is a point on its axis: with point masses nothing moves about it.
+#[test]
+fn a_joint_without_inertia_is_named() {
+    let text = "scene: 1\nmechanism: arm.yaml\neffects: [gravity]\n";
+    insta::assert_snapshot!(said(text));
+}
+
+#[test]
+fn a_mechanism_that_is_wrong_is_shown_as_it_is() {
+    let text = "scene: 1\nmechanism: arm.yaml\n";
+    let broken = MECHANISM
+        .replace("damping: 0.3", "damping: -0.3")
+        .replace("type: coulomb", "type: colomb");
+    let Err(Refusal::Mechanism { path, faults, .. }) = try_scene(text, &broken) else {
+        panic!("the mechanism is wrong");
+    };
+    assert_eq!(path, "arm.yaml");
+    insta::assert_snapshot!(faults.render("arm.yaml", &broken));
+}
+
+#[test]
+fn a_scene_is_told_by_its_first_key() {
+    use bgdyn_codegen::spec::is_scene;
+    assert!(is_scene("# a comment\n\nscene: 1\nmechanism: x.yaml"));
+    assert!(is_scene("{ \"scene\": 1, mechanism: x.yaml }"));
+    assert!(!is_scene("format: 1\nscene: 1"));
+    assert!(!is_scene(""));
+}

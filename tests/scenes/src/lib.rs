@@ -1,0 +1,4 @@
+//! The repository's scenes, compiled.
+#![forbid(unsafe_code)]
+
+include!(concat!(env!("OUT_DIR"), "/modules.rs"));

@@ -1,0 +1,151 @@
+//! Compiled scenes give what the evaluator gives, word by word: the same operations on the same
+//! constants.
+
+use std::path::Path;
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::method::Role;
+use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_runtime::System;
+use nalgebra::SVector;
+
+/// States per scene.
+const STATES: usize = 200;
+
+/// Random numbers by a linear congruential generator (Knuth's MMIX).
+struct Random(u64);
+
+impl Random {
+    /// In −1 … 1.
+    fn unit(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn vector<const N: usize>(&mut self, around: &SVector<f64, N>) -> SVector<f64, N> {
+        around.map(|x| x + self.unit() * if x.abs() > 10.0 { 0.01 * x } else { 1.0 })
+    }
+}
+
+/// The generator's own system of a scene.
+fn generated(path: &Path) -> bgdyn_codegen::system::System {
+    let text = std::fs::read_to_string(path).expect("a scene");
+    let load = |mechanism: &str| {
+        std::fs::read_to_string(beside(path, mechanism)).map_err(|e| e.to_string())
+    };
+    let (system, _) = read_scene(&text, &stem(path), load).expect("a sound scene");
+    system
+}
+
+fn agrees<
+    S,
+    const N: usize,
+    const M: usize,
+    const U: usize,
+    const E: usize,
+    const Y: usize,
+    const P: usize,
+>(
+    compiled: &S,
+    path: &Path,
+) where
+    S: System<f64, N, M, U, E, Y, P>,
+{
+    let system = generated(path);
+    let layout = &system.scene.layout;
+    let (nq, nv) = (layout.nq(), layout.nv());
+    let (start, _) = compiled.start();
+    let mut random = Random(2007);
+    let functions: Vec<(Role, _)> = system
+        .roles()
+        .into_iter()
+        .map(|role| (role, system.function(role)))
+        .collect();
+    let evaluate = |role: Role, inputs: &Inputs<f64>| -> Vec<f64> {
+        let found = functions.iter().find(|(r, _)| *r == role);
+        found.map_or(vec![], |(_, f)| f.evaluate(inputs.clone()).0)
+    };
+    for k in 0..STATES {
+        let y = random.vector(&start);
+        let m = SVector::<f64, M>::from_fn(|_, _| (random.unit() * 1.5).round());
+        let u = random.vector(&SVector::<f64, U>::zeros());
+        let t = random.unit().abs();
+        let inputs = Inputs {
+            q: y.as_slice()[..nq].to_vec(),
+            v: y.as_slice()[nq..nq + nv].to_vec(),
+            a: vec![],
+            x: y.as_slice()[nq + nv..].to_vec(),
+            u: u.as_slice().to_vec(),
+            modes: m.as_slice().to_vec(),
+            parameters: system
+                .scene
+                .parameters
+                .iter()
+                .map(|p| p.default.to_f64())
+                .collect(),
+            t: Some(t),
+            passed: vec![],
+        };
+        let name = &system.scene.name;
+        let Ok(rates) = compiled.derivative(&y, &m, &u, t) else {
+            panic!("{name}: state {k} is singular");
+        };
+        let mut wanted = inputs.v[..nq].to_vec();
+        wanted.extend(evaluate(Role::Derivative, &inputs));
+        assert_eq!(rates.as_slice(), wanted, "{name}: derivative, state {k}");
+        if U > 0 {
+            let input = compiled.input(&y, &m, &u, t);
+            assert_eq!(
+                input.as_slice(),
+                evaluate(Role::Inputs, &inputs),
+                "{name}: input"
+            );
+        }
+        let events = compiled.events(&y, &m, &u, t).ok().expect("regular");
+        assert_eq!(
+            events.as_slice(),
+            evaluate(Role::Events, &inputs),
+            "{name}: events"
+        );
+        let contacts = compiled.contacts(&y, &m, &u, t).ok().expect("regular");
+        let contacts = contacts.map(|c| [c.slip, c.slip_rate, c.holding, c.limit]);
+        assert_eq!(
+            contacts.concat(),
+            evaluate(Role::Contacts, &inputs),
+            "{name}: contacts"
+        );
+        let output = compiled.output(&y, &m, &u, t);
+        assert_eq!(
+            output.as_slice(),
+            evaluate(Role::Outputs, &inputs),
+            "{name}: output"
+        );
+        let energy = compiled.energy(&y, &m);
+        assert_eq!(
+            energy.as_slice(),
+            evaluate(Role::Energy, &inputs),
+            "{name}: energy"
+        );
+        let power = compiled.power(&y, &m, &u, t).ok().expect("regular");
+        let power = power.map(|b| [b.supplied, b.stored_rate, b.dissipated]);
+        assert_eq!(
+            power.concat(),
+            evaluate(Role::Power, &inputs),
+            "{name}: power"
+        );
+    }
+}
+
+macro_rules! agree {
+    ($module:ident, $scene:ident, $path:literal) => {
+        agrees(&scenes::$module::$scene::<f64>::default(), Path::new($path));
+    };
+}
+
+#[test]
+fn compiled_scenes_equal_the_evaluator() {
+    scenes::each_scene!(agree);
+}
