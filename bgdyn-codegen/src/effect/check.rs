@@ -1,9 +1,11 @@
 //! From what stands in a file to a checked element: its type, its keys, its names, its rules.
 
+use bgdyn_runtime::Dd;
+
 use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
-use crate::mechanism::Motion;
 use crate::mechanism::name::is_identifier;
+use crate::mechanism::{Limits, Motion};
 use crate::spec::{Dimension, Entry, Fields, Key, Located, Number, Raw, Reads, misfit};
 
 /// The key that says what an effect is.
@@ -31,6 +33,10 @@ pub struct Context {
     /// Moving joints and the coordinates that effects add, with the dimension pair's index: 0 for
     /// a rotation, 1 for a translation.
     pub coordinates: Vec<(String, Motion)>,
+    /// Limits of the joints that have any.
+    pub limits: Vec<(String, Limits)>,
+    /// Those of the coordinates that are no joints.
+    pub added: Vec<String>,
     /// Joints that a scene locks.
     pub locked: Vec<String>,
     /// Links and frames.
@@ -49,6 +55,7 @@ impl Context {
             };
             let motion = on.unwrap_or(Motion::Rotation);
             self.coordinates.push((d.name.value.clone(), motion));
+            self.added.push(d.name.value.clone());
         }
         for d in declared {
             let Some(sides) = d.effect.nodes() else {
@@ -61,6 +68,15 @@ impl Context {
             self.nodes.extend(sides.iter().map(side));
         }
         self
+    }
+
+    /// What an effect on a joint takes from the joint's limits for a key that it lacks.
+    fn limit_for(&self, effect: &dyn Effect, joint: Option<&str>, key: &Key) -> Option<f64> {
+        let (_, limits) = self
+            .limits
+            .iter()
+            .find(|(name, _)| Some(name.as_str()) == joint)?;
+        effect.limit_for(key.name, limits)
     }
 
     fn motion_of(&self, coordinate: &str) -> Option<Motion> {
@@ -211,10 +227,11 @@ impl Declared {
     pub fn element(&self, context: &Context, faults: &mut Faults) -> Option<Element> {
         let before = faults.count();
         let joint = match self.fields.get("joint").map(|e| &e.value) {
-            Some(Entry::Text(joint)) => context.motion_of(joint),
-            // What acts along a line acts on a length.
-            _ => Some(Motion::Translation),
+            Some(Entry::Text(joint)) => Some(joint.as_str()),
+            _ => None,
         };
+        // What acts along a line acts on a length.
+        let motion = joint.map_or(Some(Motion::Translation), |joint| context.motion_of(joint));
         let mut element = Element {
             name: self.name.value.clone(),
             effect: self.effect,
@@ -224,11 +241,16 @@ impl Declared {
         for key in self.effect.keys() {
             match self.fields.get(key.name) {
                 Some(entry) => {
-                    let checked = self.checked(key, entry, joint, context, faults);
+                    let checked = self.checked(key, entry, motion, context, faults);
                     element.values.extend(checked.map(|c| (key.name, c)));
                 }
                 None if key.needed => faults.push(self.missing(key)),
-                None => {}
+                None => {
+                    let limit = context.limit_for(self.effect, joint, key);
+                    let quantity = limit.map(|limit| self.limit(key, limit, motion));
+                    let checked = quantity.map(|q| (key.name, Checked::Number(q)));
+                    element.values.extend(checked);
+                }
             }
         }
         if faults.count() > before {
@@ -239,6 +261,21 @@ impl Declared {
             faults,
         });
         (faults.count() == before).then_some(element)
+    }
+
+    /// A joint's limit in place of a number.
+    fn limit(&self, key: &Key, limit: f64, motion: Option<Motion>) -> Quantity {
+        let dimension = match key.reads {
+            Reads::Number(fit) => of_motion(fit, motion)[0],
+            _ => Dimension::One,
+        };
+        Quantity {
+            value: Dd::from_f64(limit),
+            parameter: None,
+            dimension,
+            text: format!("{limit} {}", dimension.si()),
+            place: self.name.place.clone(),
+        }
     }
 
     fn missing(&self, key: &Key) -> Fault {
@@ -296,6 +333,11 @@ fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
             .iter()
             .map(|(n, _)| n.as_str())
             .collect(),
+        Reads::Joint => {
+            let joints = context.coordinates.iter().map(|(n, _)| n);
+            let own = joints.filter(|n| !context.added.contains(n));
+            own.map(String::as_str).collect()
+        }
         Reads::Place | Reads::Places => context.places.iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
         Reads::Input | Reads::Number(_) | Reads::Vector(_) => return None,
@@ -309,7 +351,7 @@ fn unknown(key: &Key, word: &str, place: &Place, known: &[&str], context: &Conte
             .with_help("leave this effect out of the scene, or do not lock the joint");
     }
     let what = match key.reads {
-        Reads::Coordinate => "moving joint",
+        Reads::Coordinate | Reads::Joint => "moving joint",
         Reads::Place | Reads::Places => "link or frame",
         Reads::Node => "hydraulic node",
         _ => "choice",
@@ -323,19 +365,23 @@ fn unknown(key: &Key, word: &str, place: &Place, known: &[&str], context: &Conte
     Fault::new(place, "unknown-name", message).with_help(help)
 }
 
-fn quantity(
-    number: &Number,
-    place: &Place,
-    fit: &[Dimension],
-    joint: Option<Motion>,
-    faults: &mut Faults,
-) -> Option<Quantity> {
-    // Two dimensions are those of a rotation and of a translation.
-    let fit = match (fit, joint) {
+/// Two dimensions are those of a rotation and of a translation.
+fn of_motion(fit: &'static [Dimension], motion: Option<Motion>) -> &'static [Dimension] {
+    match (fit, motion) {
         ([turning, _], Some(Motion::Rotation)) => std::slice::from_ref(turning),
         ([_, sliding], Some(_)) => std::slice::from_ref(sliding),
         (fit, _) => fit,
-    };
+    }
+}
+
+fn quantity(
+    number: &Number,
+    place: &Place,
+    fit: &'static [Dimension],
+    joint: Option<Motion>,
+    faults: &mut Faults,
+) -> Option<Quantity> {
+    let fit = of_motion(fit, joint);
     let located = Located {
         value: number.clone(),
         place: place.clone(),

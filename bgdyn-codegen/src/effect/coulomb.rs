@@ -12,6 +12,9 @@ pub(super) struct Coulomb;
 /// The dimensions of a joint's effort.
 pub(super) const EFFORT: Reads = Reads::Number(&[Dimension::Torque, Dimension::Force]);
 
+/// What is said where `static` is less than `kinetic`.
+pub(super) const REST_HOLDS_MORE: &str = "rest holds at least what slipping resists";
+
 impl Effect for Coulomb {
     fn keyword(&self) -> &'static str {
         "coulomb"
@@ -48,13 +51,13 @@ impl Effect for Coulomb {
         ]
     }
 
+    fn once_per_joint(&self) -> bool {
+        true
+    }
+
     fn rules(&self, given: &mut Given<'_>) {
         given.not_negative(&["kinetic"], "friction opposes the motion");
-        given.ordered(
-            "kinetic",
-            "static",
-            "rest holds at least what slipping resists",
-        );
+        given.ordered("kinetic", "static", REST_HOLDS_MORE);
     }
 
     fn declare(&self, element: &Element, layout: &mut Layout) {

@@ -112,19 +112,7 @@ impl Effect for DcMotor {
                 "give one of them",
             );
         }
-        if given.value_or("efficiency", 1.0) > 1.0 {
-            let place = given.place("efficiency");
-            let text = given.number("efficiency").map(|q| q.text.clone());
-            given.fault(
-                &place,
-                "effect-sign",
-                format!(
-                    "an efficiency of {} makes power of nothing",
-                    text.unwrap_or_default()
-                ),
-                "it is at most 1",
-            );
-        }
+        given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
     }
 
     fn declare(&self, element: &Element, layout: &mut Layout) {

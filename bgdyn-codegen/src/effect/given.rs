@@ -52,7 +52,33 @@ impl Given<'_> {
         }
     }
 
-    /// The first number must not be less than the second.
+    /// The number behind this key must not be greater than 1.
+    pub fn at_most_one(&mut self, key: &str, why: &str) {
+        if let Some(q) = self.number(key).filter(|q| q.value > Dd::ONE) {
+            let message = format!("`{key}` is {}: it must be at most 1", q.text);
+            let place = q.place.clone();
+            self.fault(&place, "effect-sign", message, why);
+        }
+    }
+
+    /// The numbers behind these keys must not be run-time parameters.
+    pub fn fixed(&mut self, keys: &[&str]) {
+        for key in keys {
+            if let Some(q) = self.number(key).filter(|q| q.parameter.is_some()) {
+                let kind = self.element.effect.keyword();
+                let message = format!("`{key}` of a `{kind}` cannot be a run-time parameter");
+                let place = q.place.clone();
+                self.fault(
+                    &place,
+                    "misplaced-parameter",
+                    message,
+                    "write the number alone",
+                );
+            }
+        }
+    }
+
+    /// The first number must not be greater than the second.
     pub fn ordered(&mut self, small: &str, large: &str, why: &str) {
         if let (Some(a), Some(b)) = (self.number(small), self.number(large))
             && a.value > b.value

@@ -1,18 +1,23 @@
 //! LuGre friction (Canudas de Wit, Olsson, Åström, Lischinsky 1995): the deflection z of bristles
 //! between the surfaces is a state.
+//!
+//! With σ₀z²/2 for the energy of the bristles the slip s loses
+//! |s| (g u² − σ₁ |s| u + (σ₁ + σ₂) |s|), u = ±σ₀z/g: no less than nothing at every speed where
+//! u ≤ F_s/F_c needs σ₂ ≥ σ₁ (F_s − F_c)/F_c. Barabanov and Ortega 2000 show that this condition is
+//! also necessary for passivity, whatever energy is taken.
 
 use bgdyn_runtime::Dd;
 
-use super::coulomb::EFFORT;
-use super::viscous::{JOINT, REFERENCE};
-use super::{Effect, Element, Given};
+use super::coulomb::{EFFORT, REST_HOLDS_MORE};
+use super::coulomb_smooth::SPEED;
+use super::stribeck::{KINETIC, curve};
+use super::viscous::{DAMPING, JOINT, REFERENCE};
+use super::{Effect, Element, Given, slip};
 use crate::scene::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 
 pub(super) struct LuGre;
-
-const DAMPING: Reads = Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]);
 
 impl Effect for LuGre {
     fn keyword(&self) -> &'static str {
@@ -51,12 +56,7 @@ impl Effect for LuGre {
                 needed: false,
                 about: "σ₂, viscous friction",
             },
-            Key {
-                name: "kinetic",
-                reads: EFFORT,
-                needed: true,
-                about: "F_c, Coulomb friction",
-            },
+            KINETIC,
             Key {
                 name: "static",
                 reads: EFFORT,
@@ -65,7 +65,7 @@ impl Effect for LuGre {
             },
             Key {
                 name: "stribeck_speed",
-                reads: Reads::Number(&[Dimension::AngularSpeed, Dimension::Speed]),
+                reads: SPEED,
                 needed: false,
                 about: "v_s, speed of the Stribeck curve; needed where F_s is given",
             },
@@ -80,11 +80,7 @@ impl Effect for LuGre {
             "without it the law has no rest: leave the effect out",
         );
         given.not_negative(&["damping", "viscous"], "it would drive the joint");
-        given.ordered(
-            "kinetic",
-            "static",
-            "rest holds at least what slipping resists",
-        );
+        given.ordered("kinetic", "static", REST_HOLDS_MORE);
         if given.number("static").is_some() && given.number("stribeck_speed").is_none() {
             let place = given.place("static");
             given.fault(
@@ -97,7 +93,6 @@ impl Effect for LuGre {
         let [damping, viscous] = ["damping", "viscous"].map(|key| given.value_or(key, 0.0));
         let kinetic = given.value_or("kinetic", 1.0);
         let excess = (given.value_or("static", kinetic) - kinetic) / kinetic;
-        // Barabanov and Ortega 2000: necessary and sufficient for passivity.
         if viscous < damping * excess {
             let place = given.place("damping");
             let least = damping * excess;
@@ -117,9 +112,7 @@ impl Effect for LuGre {
         layout.state(element.name.clone(), dimension, about);
         let kink = format!("the slip at `{joint}` changes its sign: the law has a kink there");
         layout.event(element.name.clone(), kink);
-        if let Some(reference) = element.name("reference") {
-            layout.reference(reference, Level::Rate, Level::Rate, dimension);
-        }
+        slip::declare(element, layout);
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
@@ -130,18 +123,7 @@ impl Effect for LuGre {
         let number = |key: &str| laws.number(element, key);
         let (stiffness, damping, viscous) =
             (number("stiffness"), number("damping"), number("viscous"));
-        let kinetic = number("kinetic");
-        let curve = match (
-            laws.optional(element, "static"),
-            laws.optional(element, "stribeck_speed"),
-        ) {
-            (Some(rest), Some(speed)) => {
-                let ratio = slip / speed;
-                kinetic + (rest - kinetic) * (-(ratio * ratio)).exp()
-            }
-            _ => kinetic,
-        };
-        let rate = slip - stiffness * slip.abs() * z / curve;
+        let rate = slip - stiffness * slip.abs() * z / curve(element, laws, slip);
         laws.flow(&element.name, rate);
         let effort = -(stiffness * z + damping * rate + viscous * slip);
         laws.push(&port, effort);

@@ -8,26 +8,35 @@
 mod check;
 mod element;
 mod given;
+mod once;
+mod slip;
 
 mod coulomb;
+mod coulomb_smooth;
+mod damper;
 mod dc_motor;
+mod gear;
 mod gravity;
 mod inertia;
 mod lugre;
 mod rotor;
+mod series_elastic;
 mod spring;
+mod stop;
+mod stribeck;
 mod velocity_products;
 mod viscous;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::Ex;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Limits, Mechanism};
 use crate::scene::Layout;
 use crate::spec::Key;
 use crate::system::Laws;
 pub use check::{Context, Declared, called, declared};
 pub use element::{Checked, Element, Quantity};
 pub use given::Given;
+pub(crate) use once::once_per_joint;
 
 /// A kind of effect.
 pub trait Effect: Sync {
@@ -58,6 +67,16 @@ pub trait Effect: Sync {
 
     /// Whether its name is that of a hydraulic node; the sides of one that has several.
     fn nodes(&self) -> Option<&'static [&'static str]> {
+        None
+    }
+
+    /// Whether a joint has one of them at most.
+    fn once_per_joint(&self) -> bool {
+        false
+    }
+
+    /// What stands for a missing key where its joint has these limits.
+    fn limit_for(&self, _key: &str, _: &Limits) -> Option<f64> {
         None
     }
 
@@ -102,14 +121,20 @@ impl PartialEq for dyn Effect {
 }
 
 /// Every effect there is.
-pub static EFFECTS: [&dyn Effect; 9] = [
+pub static EFFECTS: [&dyn Effect; 15] = [
     &gravity::Gravity,
     &inertia::LinkInertia,
     &velocity_products::VelocityProducts,
     &viscous::Viscous,
     &coulomb::Coulomb,
+    &coulomb_smooth::CoulombSmooth,
+    &stribeck::Stribeck,
     &lugre::LuGre,
     &spring::Spring,
+    &damper::Damper,
+    &stop::Stop,
+    &series_elastic::SeriesElastic,
+    &gear::Gear,
     &rotor::Rotor,
     &dc_motor::DcMotor,
 ];

@@ -1,7 +1,6 @@
 //! The rotor of a drive behind a gear: reflected inertia N²·J on the joint's junction, or the full
 //! rotor that also turns with the link it sits on.
 
-use super::viscous::JOINT;
 use super::{Effect, Element, Given};
 use crate::bond_graph::{BondGraph, Gyrostat, Rotor as RotorStore};
 use crate::math::Vec3;
@@ -35,7 +34,12 @@ impl Effect for Rotor {
                 needed: true,
                 about: "J, the rotor's moment of inertia about its axis",
             },
-            JOINT,
+            Key {
+                name: "joint",
+                reads: Reads::Joint,
+                needed: true,
+                about: "the joint; the rotor of a `series_elastic` is its own `inertia`",
+            },
             Key {
                 name: "ratio",
                 reads: Reads::Number(&[Dimension::One]),
@@ -68,17 +72,7 @@ impl Effect for Rotor {
                 "add `on: …`, or leave `axis` out: the reflected inertia has no direction",
             );
         }
-        for key in ["inertia", "ratio"] {
-            if given.number(key).is_some_and(|q| q.parameter.is_some()) {
-                let place = given.place(key);
-                given.fault(
-                    &place,
-                    "misplaced-parameter",
-                    format!("`{key}` of a rotor cannot be a run-time parameter"),
-                    "write the number alone",
-                );
-            }
-        }
+        given.fixed(&["inertia", "ratio"]);
     }
 
     fn alter(&self, element: &Element, _: &Mechanism, graph: &mut BondGraph) {

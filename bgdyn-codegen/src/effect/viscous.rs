@@ -1,7 +1,7 @@
 //! Viscous friction of a joint: τ = −b (q̇ − ṙ).
 
-use super::{Effect, Element, Given};
-use crate::scene::{Layout, Level};
+use super::{Effect, Element, Given, slip};
+use crate::scene::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 
@@ -22,6 +22,9 @@ pub(super) const JOINT: Key = Key {
     needed: true,
     about: "the joint, or the effect whose coordinate it is",
 };
+
+/// The dimensions of an effort per rate.
+pub(super) const DAMPING: Reads = Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]);
 
 impl Effect for Viscous {
     fn keyword(&self) -> &'static str {
@@ -44,7 +47,7 @@ impl Effect for Viscous {
         &[
             Key {
                 name: "damping",
-                reads: Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]),
+                reads: DAMPING,
                 needed: true,
                 about: "b, effort per rate",
             },
@@ -58,19 +61,12 @@ impl Effect for Viscous {
     }
 
     fn declare(&self, element: &Element, layout: &mut Layout) {
-        if let Some(reference) = element.name("reference") {
-            let dimension = layout.position_of(element.name("joint").unwrap_or_default());
-            layout.reference(reference, Level::Rate, Level::Rate, dimension);
-        }
+        slip::declare(element, layout);
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let port = laws.port(element);
-        let counterpart = laws.reference(element.name("reference"), Level::Rate);
-        let slip = port.rate - counterpart;
-        let effort = -(laws.number(element, "damping") * slip);
-        laws.push(&port, effort);
-        laws.dissipate(-(effort * slip));
-        laws.supply(effort * counterpart);
+        slip::resist(element, laws, |laws, s| {
+            -(laws.number(element, "damping") * s)
+        });
     }
 }

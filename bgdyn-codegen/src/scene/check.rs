@@ -9,7 +9,7 @@ use super::layout::{Coordinate, Layout, Store};
 use super::reduce::held;
 use super::signal::{self, Drive, INTEGRATION};
 use super::{Initial, Integration, Scene, Written};
-use crate::effect::{Context, Declared, Element, called};
+use crate::effect::{Context, Declared, Element, called, once_per_joint};
 use crate::fault::{Fault, Faults, unknown_name, wording};
 use crate::mechanism::name::is_identifier;
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Parameter, Pose};
@@ -175,10 +175,16 @@ pub(crate) fn context(mechanism: &Mechanism, locked: Vec<String>) -> Context {
         let joint = &mechanism.links()[link.0].joint;
         (joint.name.clone(), joint.kind.motion)
     };
+    let limits = |&link: &LinkId| {
+        let joint = &mechanism.links()[link.0].joint;
+        (joint.name.clone(), joint.limits)
+    };
     let links = mechanism.links().iter().map(|l| l.name.clone());
     let frames = mechanism.frames().iter().map(|f| f.name.clone());
     Context {
         coordinates: mechanism.coordinates().iter().map(coordinate).collect(),
+        limits: mechanism.coordinates().iter().map(limits).collect(),
+        added: Vec::new(),
         locked,
         places: links.chain(frames).collect(),
         nodes: Vec::new(),
@@ -216,6 +222,7 @@ fn elements(
         .iter()
         .filter_map(|d| d.element(&context, faults))
         .collect();
+    once_per_joint(&elements, faults);
     elements.sort_by_key(|e| e.effect.order());
     elements
 }
@@ -243,6 +250,7 @@ fn layout(mechanism: &Mechanism, elements: &[Element]) -> Layout {
             stored: true,
             dimensions: dimensions(joint.kind.motion),
             rate_name: format!("{}_rate", joint.name),
+            starts_with: None,
         }
     };
     let mut layout = Layout {
@@ -368,6 +376,7 @@ fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> Initial {
     for (i, part) in layout.modes.iter().enumerate() {
         places.insert(format!("{}_mode", part.name), (3, i, part.dimension));
     }
+    let mut given: Vec<(usize, usize)> = Vec::new();
     for raw in entries {
         let name = &raw.name.value;
         let Some(&(kind, i, dimension)) = places.get(name) else {
@@ -379,12 +388,27 @@ fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> Initial {
         };
         if let Some(number) = raw.number(&[dimension], faults) {
             let value = number.value.value;
+            given.push((kind, i));
             match kind {
                 0 => initial.q[i] = value,
                 1 => initial.v[i] = value,
                 2 => initial.x[i] = value,
                 _ => initial.modes[i] = value,
             }
+        }
+    }
+    // A drive stands where its joint stands, and moves with it.
+    for (j, c) in layout.coordinates.iter().enumerate() {
+        let with = c
+            .starts_with
+            .as_ref()
+            .and_then(|name| layout.coordinate_named(name));
+        let Some(k) = with else { continue };
+        if !given.contains(&(0, j)) {
+            initial.q[j] = initial.q[k];
+        }
+        if !given.contains(&(1, j)) {
+            initial.v[j] = initial.v[k];
         }
     }
     initial

@@ -17,6 +17,8 @@ pub struct Coordinate {
     pub dimensions: [Dimension; 3],
     /// Name of the velocity: `shoulder_rate`, `motor_current`.
     pub rate_name: String,
+    /// The coordinate that it starts with, where the scene does not say how it starts.
+    pub starts_with: Option<String>,
 }
 
 /// What stores a coordinate's momentum.
@@ -95,6 +97,7 @@ impl Layout {
             stored,
             dimensions,
             rate_name,
+            starts_with: None,
         };
         // Positions are those of the first velocities.
         let stored_before = self.coordinates.iter().filter(|c| c.stored).count();
@@ -107,6 +110,18 @@ impl Layout {
             input.drives = input.drives.map(|j| if j >= at { j + 1 } else { j });
         }
         self.coordinates.insert(at, coordinate);
+    }
+
+    /// Adds a coordinate at the scale of another one, with which it starts: a joint's drive.
+    pub fn coordinate_beside(&mut self, element: &Element, other: &str) {
+        let Some(k) = self.coordinate_named(other) else {
+            return;
+        };
+        let dimensions = self.coordinates[k].dimensions;
+        self.coordinate(element, format!("{}_rate", element.name), true, dimensions);
+        if let Some(j) = self.coordinate_named(&element.name) {
+            self.coordinates[j].starts_with = Some(other.to_owned());
+        }
     }
 
     /// Adds a first-order state.

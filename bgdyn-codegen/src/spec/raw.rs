@@ -29,6 +29,8 @@ pub enum Reads {
     Word(&'static [&'static str]),
     /// The name of a moving joint, or of an effect that adds a coordinate.
     Coordinate,
+    /// The name of a moving joint of the mechanism.
+    Joint,
     /// The name of a link or a frame.
     Place,
     /// The names of two of them.
@@ -241,9 +243,12 @@ impl Reader {
     fn entry(&mut self, at: &At<'_>, key: &Key) -> Option<Entry> {
         match key.reads {
             Reads::Number(fit) => self.value(at, fit).map(Entry::Number),
-            Reads::Word(_) | Reads::Coordinate | Reads::Place | Reads::Node | Reads::Input => {
-                self.text(at).map(Entry::Text)
-            }
+            Reads::Word(_)
+            | Reads::Coordinate
+            | Reads::Joint
+            | Reads::Place
+            | Reads::Node
+            | Reads::Input => self.text(at).map(Entry::Text),
             Reads::Vector(fit) => self.vector(at, fit).map(Entry::Vector),
             Reads::Places => {
                 let items = self.list(at, ("two names", "`[one, other]`"))?;

@@ -43,7 +43,7 @@ fn all(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<(Named, Sou
         found.push((Named { name, about }, source));
     };
     own(LINKS, "kinetic energy of links and rotors", Source::Links);
-    if (0..graph.coordinates.len()).any(|j| !laws.own_effort(j).is_zero()) {
+    if (0..scene.layout.nq()).any(|j| !laws.own_effort(j).is_zero()) {
         own(
             DRIVES,
             "efforts at the joints that are inputs",

@@ -58,11 +58,15 @@ fn driven<'g>(
 fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
     let mut all = joints;
     for j in all.len()..system.scene.layout.nv() {
-        let inertia = laws.inertia_of(j).unwrap_or(laws.b.number(1.0));
-        all.push(laws.effort(j) / inertia);
+        all.push(laws.effort(j) / own_inertia(laws, j));
     }
     all.extend(laws.rates());
     all
+}
+
+/// Inertia of a coordinate that stores its own momentum.
+fn own_inertia<'g>(laws: &Laws<'g, '_>, j: usize) -> Ex<'g> {
+    laws.inertia_of(j).unwrap_or(laws.b.number(1.0))
 }
 
 /// v̇ and ẋ, whatever the modes are.
@@ -78,57 +82,52 @@ pub(super) fn rates<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) ->
 
 /// What holding joints adds to the equations.
 pub(super) struct Held<'g> {
-    /// Of the mechanism's joints.
+    /// Of every coordinate.
     pub accelerations: Vec<Ex<'g>>,
     /// For each contact the effort that it holds its joint with; what is left over of the
     /// equation where it slips is nothing.
     pub holding: Vec<Ex<'g>>,
 }
 
-/// Accelerations where some joints are held: their rows of M q̈ = f are replaced by q̈_j = r̈_j, and
-/// what is known goes over to the other rows.
+/// Accelerations where some coordinates are held: their rows of M q̈ = f are replaced by q̈_j = r̈_j,
+/// and what is known goes over to the other rows. A coordinate that stores its own momentum has a
+/// row of its own, I_j q̈_j = f_j.
 pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Held<'g> {
-    let n = system.graph.coordinates.len();
+    let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
     let triangle = laws.method(Method::MassMatrix);
     let bias = laws.method(Method::Bias);
     let entry = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
     let force: Vec<Ex<'g>> = (0..n).map(|j| laws.effort(j) - bias[j]).collect();
-    // For each joint: where it is held, r̈.
-    let mut counterpart: Vec<Option<Ex<'g>>> = vec![None; n];
-    let mut modes: Vec<Vec<Ex<'g>>> = vec![Vec::new(); n];
-    for c in laws.contacts().iter().filter(|c| c.coordinate < n) {
-        counterpart[c.coordinate] = Some(c.reference[1]);
-        modes[c.coordinate].push(laws.mode_at(c.mode));
-    }
-    let half = b.number(0.5);
-    let if_held = |j: usize, yes: Ex<'g>, no: Ex<'g>| {
-        modes[j]
-            .iter()
-            .fold(no, |no, mode| mode.abs().if_less(half, yes, no))
-    };
+    let holds = Holds::new(laws, nv);
     let (zero, one) = (b.zero(), b.number(1.0));
     let mut mass: Vec<Vec<Ex<'g>>> = Vec::new();
     let mut right = force.clone();
     for i in 0..n {
         let row = (0..=i).map(|j| {
             let own = if i == j { one } else { zero };
-            if_held(i, own, if_held(j, own, entry(i, j)))
+            holds.choose(i, own, holds.choose(j, own, entry(i, j)))
         });
         mass.push(row.collect());
         for j in (0..n).filter(|&j| j != i) {
-            if let Some(reference) = counterpart[j] {
-                right[i] = right[i] - if_held(j, entry(i, j) * reference, zero);
+            if let Some(reference) = holds.counterpart[j] {
+                right[i] = right[i] - holds.choose(j, entry(i, j) * reference, zero);
             }
         }
     }
-    for (i, reference) in counterpart.iter().enumerate() {
-        if let Some(reference) = reference {
-            right[i] = if_held(i, *reference, right[i]);
-        }
+    let known = |j: usize, free: Ex<'g>| match holds.counterpart[j] {
+        Some(reference) => holds.choose(j, reference, free),
+        None => free,
+    };
+    let right = right.into_iter().enumerate().map(|(j, f)| known(j, f));
+    let mut accelerations = formulation::solve_symmetric(b, mass, right.collect());
+    for j in n..nv {
+        accelerations.push(known(j, laws.effort(j) / own_inertia(laws, j)));
     }
-    let accelerations = formulation::solve_symmetric(b, mass, right);
     let holding = laws.contacts().iter().map(|c| {
         let j = c.coordinate;
+        if j >= n {
+            return own_inertia(laws, j) * accelerations[j] - laws.effort(j);
+        }
         let moved = (0..n).map(|k| entry(j, k) * accelerations[k]);
         moved.fold(-force[j], |sum, x| sum + x)
     });
@@ -138,19 +137,60 @@ pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> 
     }
 }
 
-/// The effort at each coordinate behind given accelerations: everything the laws do but the
-/// coordinates' own efforts is taken off.
+/// Which coordinates may be held, and how they move then.
+struct Holds<'g> {
+    half: Ex<'g>,
+    /// Of each coordinate that may be held, r̈.
+    counterpart: Vec<Option<Ex<'g>>>,
+    modes: Vec<Vec<Ex<'g>>>,
+}
+
+impl<'g> Holds<'g> {
+    fn new(laws: &Laws<'g, '_>, nv: usize) -> Self {
+        let mut holds = Holds {
+            half: laws.b.number(0.5),
+            counterpart: vec![None; nv],
+            modes: vec![Vec::new(); nv],
+        };
+        for c in laws.contacts() {
+            holds.counterpart[c.coordinate] = Some(c.reference[1]);
+            holds.modes[c.coordinate].push(laws.mode_at(c.mode));
+        }
+        holds
+    }
+
+    /// `yes` where coordinate `j` is held, else `no`.
+    fn choose(&self, j: usize, yes: Ex<'g>, no: Ex<'g>) -> Ex<'g> {
+        let modes = self.modes[j].iter();
+        modes.fold(no, |no, mode| mode.abs().if_less(self.half, yes, no))
+    }
+}
+
+/// The own effort of each coordinate behind given accelerations.
 pub(super) fn inverse<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
     let laws = Laws::new(b, &system.scene, &system.graph, Own::Sought);
-    let n = system.graph.coordinates.len();
-    let links = copied(b, &system.graph, Method::InverseDynamics, |_, _| None);
-    let all = (0..system.scene.layout.nv()).map(|j| {
-        let inertial = match links.get(j).filter(|_| j < n) {
+    let nv = system.scene.layout.nv();
+    let given: Vec<Ex<'g>> = (0..nv).map(|j| b.leaf(Leaf::Acceleration(j))).collect();
+    efforts(system, &laws, &given)
+}
+
+/// The own effort of each coordinate at these accelerations: everything the laws do but the
+/// coordinates' own efforts is taken off.
+pub(super) fn efforts<'g>(system: &System, laws: &Laws<'g, '_>, at: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    let placed: Vec<Expr> = at.iter().map(|a| a.expr()).collect();
+    let links = copied(
+        laws.b,
+        &system.graph,
+        Method::InverseDynamics,
+        |_, leaf| match leaf {
+            Leaf::Acceleration(j) => Some(placed[j]),
+            _ => None,
+        },
+    );
+    let all = (0..at.len()).map(|j| {
+        let inertial = match links.get(j) {
             Some(&effort) => effort,
-            None => {
-                let inertia = laws.inertia_of(j).unwrap_or(b.number(1.0));
-                inertia * b.leaf(Leaf::Acceleration(j))
-            }
+            None => own_inertia(laws, j) * at[j],
         };
         laws.before_gear(j, inertial - laws.effort(j))
     });

@@ -2,10 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::laws::copied;
+use super::dynamics::efforts;
 use super::{Laws, Own, System};
 use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
-use crate::method::Method;
 use crate::scene::{Drive, Signal};
 
 /// Every input: built in, or as the caller gives it.
@@ -45,7 +44,7 @@ fn computed_torques<'g>(
     laws: &Laws<'g, '_>,
     followed: &dyn Fn(usize) -> Option<usize>,
 ) -> Vec<Ex<'g>> {
-    let n = system.graph.coordinates.len();
+    let n = system.scene.layout.nv();
     let mut wanted: Vec<Option<Ex<'g>>> = vec![None; n];
     for (i, drive) in system.scene.drives.iter().enumerate() {
         if let (
@@ -55,7 +54,7 @@ fn computed_torques<'g>(
                 damping,
             },
             Some(j),
-        ) = (drive, followed(i).filter(|j| *j < n))
+        ) = (drive, followed(i))
         {
             let place = course(b, target);
             let speed = rate(b, place);
@@ -66,22 +65,8 @@ fn computed_torques<'g>(
     if wanted.iter().all(Option::is_none) {
         return vec![];
     }
-    let at: Vec<_> = wanted
-        .iter()
-        .map(|a| a.unwrap_or(b.zero()).expr())
-        .collect();
-    let links = copied(
-        b,
-        &system.graph,
-        Method::InverseDynamics,
-        |_, leaf| match leaf {
-            Leaf::Acceleration(j) => Some(at[j]),
-            _ => None,
-        },
-    );
-    let all = links.iter().enumerate();
-    all.map(|(j, &p)| laws.before_gear(j, p - laws.effort(j)))
-        .collect()
+    let at: Vec<Ex<'g>> = wanted.into_iter().map(|a| a.unwrap_or(b.zero())).collect();
+    efforts(system, laws, &at)
 }
 
 /// The rate of the input that this one is the rate of, or the rate of its rate.

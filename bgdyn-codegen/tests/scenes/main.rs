@@ -1,9 +1,16 @@
 //! Scenes through the evaluator: laws of every scene file and of scenes written here.
 
+mod combinations;
 mod common;
+mod drives;
+mod friction;
+mod hard_cases;
 mod laws;
+mod one;
 mod reference;
 mod refused;
+mod settle;
+mod springs;
 mod zero;
 
 use common::{read, specs};

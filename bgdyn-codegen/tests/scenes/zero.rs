@@ -36,7 +36,28 @@ const WRITTEN: &[(&str, &str)] = &[
         "lugre",
         "{ type: lugre, joint: slide, stiffness: 1e5, damping: 300, viscous: 300, kinetic: 1, static: 1.5, stribeck_speed: 0.001 }",
     ),
+    (
+        "coulomb_smooth",
+        "{ type: coulomb_smooth, joint: slide, kinetic: 3, width: 0.01 }",
+    ),
+    (
+        "stribeck",
+        "{ type: stribeck, joint: turn, kinetic: 3, static: 4, stribeck_speed: 0.1, width: 0.01 }",
+    ),
     ("spring", "{ type: spring, joint: slide, stiffness: 50 }"),
+    (
+        "damper",
+        "{ type: damper, between: [anchor, tip], damping: 5 }",
+    ),
+    (
+        "stop",
+        "{ type: stop, joint: slide, stiffness: 1e4, restitution: 0.5, impact_speed: 1 }",
+    ),
+    (
+        "series_elastic",
+        "{ type: series_elastic, joint: turn, stiffness: 90, inertia: 1e-4, ratio: 50 }",
+    ),
+    ("gear", "{ type: gear, joint: turn, efficiency: 0.9 }"),
     (
         "rotor",
         "{ type: rotor, joint: turn, inertia: 1e-4, ratio: 50 }",
@@ -114,6 +135,16 @@ fn a_strength_of_zero_changes_nothing() {
             "spring",
             "stiffness",
             "{ type: spring, joint: slide, stiffness: VALUE }",
+        ),
+        (
+            "damper",
+            "damping",
+            "{ type: damper, between: [anchor, tip], damping: VALUE }",
+        ),
+        (
+            "coulomb_smooth",
+            "kinetic",
+            "{ type: coulomb_smooth, joint: turn, kinetic: VALUE, width: 0.1 }",
         ),
     ] {
         let called = |value: &str| {

@@ -1,0 +1,77 @@
+//! Coulomb friction smoothed over a stated width: τ = −F tanh(s/w) at the slip s = q̇ − ṙ.
+//!
+//! At |s| = w it has 76 % of F, at 2.65 w 99 %. It never holds: under a load τ₀ < F the joint creeps
+//! at w artanh(τ₀/F). Its steepest slope is F/w, a damping that a step of integration has to
+//! resolve. Friction that holds is `coulomb` or `lugre`.
+
+use super::coulomb::EFFORT;
+use super::viscous::{JOINT, REFERENCE};
+use super::{Effect, Element, Given, slip};
+use crate::scene::Layout;
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct CoulombSmooth;
+
+/// The slip over which a law is smoothed, and other speeds of friction.
+pub(super) const SPEED: Reads = Reads::Number(&[Dimension::AngularSpeed, Dimension::Speed]);
+
+/// The width of a smoothed law.
+pub(super) const WIDTH: Key = Key {
+    name: "width",
+    reads: SPEED,
+    needed: true,
+    about: "w, the slip at which friction has 76 % (tanh 1) of its size",
+};
+
+/// What is said where a width is not greater than 0.
+pub(super) const NO_WIDTH: &str =
+    "friction that jumps with the direction is `type: coulomb`, which sticks and slips";
+
+impl Effect for CoulombSmooth {
+    fn keyword(&self) -> &'static str {
+        "coulomb_smooth"
+    }
+
+    fn family(&self) -> &'static str {
+        "friction"
+    }
+
+    fn summary(&self) -> &'static str {
+        "smooth Coulomb friction: τ = −F tanh(s/w), s = q̇ − ṙ"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "kinetic",
+                reads: EFFORT,
+                needed: true,
+                about: "F, the effort far above the width",
+            },
+            WIDTH,
+            JOINT,
+            REFERENCE,
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.not_negative(&["kinetic"], "friction opposes the motion");
+        given.positive(&["width"], NO_WIDTH);
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        slip::declare(element, layout);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        slip::resist(element, laws, |laws, s| {
+            let number = |key| laws.number(element, key);
+            -(number("kinetic") * (s / number("width")).tanh())
+        });
+    }
+}

@@ -1,0 +1,57 @@
+//! A damper, at a joint or along the line between two places: f = −b (ṡ − ṙ).
+
+use super::spring::{BETWEEN, MAYBE_JOINT};
+use super::viscous::{DAMPING, REFERENCE};
+use super::{Effect, Element, Given, slip};
+use crate::scene::Layout;
+use crate::spec::Key;
+use crate::system::Laws;
+
+pub(super) struct Damper;
+
+impl Effect for Damper {
+    fn keyword(&self) -> &'static str {
+        "damper"
+    }
+
+    fn family(&self) -> &'static str {
+        "dampers"
+    }
+
+    fn summary(&self) -> &'static str {
+        "damper: f = −b (ṡ − ṙ)"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "damping",
+                reads: DAMPING,
+                needed: true,
+                about: "b, effort per rate",
+            },
+            MAYBE_JOINT,
+            BETWEEN,
+            REFERENCE,
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.one_of(&["joint", "between"]);
+        given.not_negative(&["damping"], "a negative damping would drive the motion");
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        slip::declare(element, layout);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        slip::resist(element, laws, |laws, s| {
+            -(laws.number(element, "damping") * s)
+        });
+    }
+}

@@ -1,0 +1,61 @@
+//! A gear with losses between a joint's own effort and the joint: η τ arrives where the effort
+//! drives (τ q̇ ≥ 0), τ/η where the joint drives it.
+//!
+//! The usual efficiency of gear catalogues, both ways the same. The effort jumps where its power
+//! changes its sign, unless it passes through zero there. The loss is in proportion to the load: what a gear takes
+//! without load is friction of the joint.
+
+use super::viscous::JOINT;
+use super::{Effect, Element, Given};
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct Gear;
+
+impl Effect for Gear {
+    fn keyword(&self) -> &'static str {
+        "gear"
+    }
+
+    fn family(&self) -> &'static str {
+        "gears"
+    }
+
+    fn summary(&self) -> &'static str {
+        "gear with losses: η τ where the joint's own effort drives, τ/η where it is driven"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "TF"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "efficiency",
+                reads: Reads::Number(&[Dimension::One]),
+                needed: true,
+                about: "η, greater than 0, at most 1",
+            },
+            JOINT,
+        ]
+    }
+
+    fn once_per_joint(&self) -> bool {
+        true
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.positive(
+            &["efficiency"],
+            "a gear that lets nothing through is a lock",
+        );
+        given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let joint = element.name("joint").unwrap_or_default();
+        let efficiency = laws.number(element, "efficiency");
+        laws.gear(joint, efficiency);
+    }
+}

@@ -1,0 +1,108 @@
+//! Series elasticity: the drive's rotor and its joint, with a spring and a damper between them.
+//!
+//! The rotor's angle, turned to the joint's scale by the gear (θ), is a coordinate with a store of
+//! its own: N²J θ̈ = τ_m − τ, τ = K (θ − q) + D (θ̇ − q̇), and τ drives the joint. This is the reduced
+//! model of Spong 1987: the rotor's kinetic energy is that of its own turning; its mass is its
+//! carrier's, and its gyroscopic terms are left out. Motors, friction, stops and inputs act on θ by
+//! the effect's name.
+
+use bgdyn_runtime::Dd;
+
+use super::viscous::{DAMPING, JOINT};
+use super::{Effect, Element, Given};
+use crate::scene::Layout;
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct SeriesElastic;
+
+impl Effect for SeriesElastic {
+    fn keyword(&self) -> &'static str {
+        "series_elastic"
+    }
+
+    fn family(&self) -> &'static str {
+        "elasticity"
+    }
+
+    fn summary(&self) -> &'static str {
+        "series elasticity: N²J θ̈ = τ_m − τ, τ = K (θ − q) + D (θ̇ − q̇) on the joint"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "C"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "stiffness",
+                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+                needed: true,
+                about: "K, of the spring, at the joint's scale",
+            },
+            Key {
+                name: "damping",
+                reads: DAMPING,
+                needed: false,
+                about: "D, of the damper beside it; 0 without it",
+            },
+            Key {
+                name: "inertia",
+                reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
+                needed: true,
+                about: "J, the rotor's moment of inertia about its axis",
+            },
+            Key {
+                name: "ratio",
+                reads: Reads::Number(&[Dimension::One]),
+                needed: false,
+                about: "N, turns of the rotor per turn of the joint; 1 without it",
+            },
+            JOINT,
+        ]
+    }
+
+    fn adds_coordinate(&self) -> bool {
+        true
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.positive(
+            &["stiffness"],
+            "without a spring nothing connects the drive with its joint",
+        );
+        given.not_negative(&["damping"], "a negative damping would drive the motion");
+        given.positive(
+            &["inertia", "ratio"],
+            "without a rotor there is nothing on the drive's side: use `type: spring`",
+        );
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        let joint = element.name("joint").unwrap_or_default();
+        layout.coordinate_beside(element, joint);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let (joint, drive) = (laws.port(element), laws.coordinate(&element.name));
+        let (stretch, rate) = (drive.place - joint.place, drive.rate - joint.rate);
+        let (stiffness, damping) = (
+            laws.number(element, "stiffness"),
+            laws.number(element, "damping"),
+        );
+        let effort = stiffness * stretch + damping * rate;
+        laws.push(&joint, effort);
+        laws.push(&drive, -effort);
+        laws.store(stiffness * stretch * stretch * Dd::from_f64(0.5));
+        laws.dissipate(damping * rate * rate);
+        let one = laws.b.number(1.0);
+        let ratio = laws.optional(element, "ratio").unwrap_or(one);
+        laws.inertia(element, ratio * ratio * laws.number(element, "inertia"));
+        laws.reading(
+            format!("{}_effort", element.name),
+            effort,
+            "effort of spring and damper on the joint".into(),
+        );
+    }
+}

@@ -1,0 +1,215 @@
+//! Stops at a joint's limits, compliant, with a stated coefficient of restitution.
+//!
+//! The law of Hunt and Crossley 1975: at the depth δ the stop pushes back with k δ (1 + μ δ̇), never
+//! inwards. Unlike a spring beside a damper it begins and ends without a jump.
+//!
+//! μ follows from the restitution e that is wanted at an impact speed v. Of m ẍ = −k x (1 + μ ẋ),
+//! with ẋ as a function of x, every impact from v to −e v leaves (Marhefka and Orin 1999)
+//! (1 + e) y = ln((1 + y)/(1 − e y)), y = μ v: mass and stiffness drop out. With ρ = (1 − e)/(1 + e)
+//! and y = 2 z/(1 + e) this is coth z − 1/z = ρ, which has one root. Slower impacts have a greater
+//! restitution, faster ones a smaller one.
+
+use bgdyn_runtime::Dd;
+
+use super::coulomb_smooth::SPEED;
+use super::viscous::JOINT;
+use super::{Effect, Element, Given};
+use crate::expr::Ex;
+use crate::mechanism::Limits;
+use crate::scene::Layout;
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::{Laws, Port};
+
+pub(super) struct Stop;
+
+const PLACE: Reads = Reads::Number(&[Dimension::Angle, Dimension::Length]);
+
+impl Effect for Stop {
+    fn keyword(&self) -> &'static str {
+        "stop"
+    }
+
+    fn family(&self) -> &'static str {
+        "stops"
+    }
+
+    fn summary(&self) -> &'static str {
+        "stops: push back with k δ (1 + μ δ̇) ≥ 0 at the depth δ, μ from the restitution"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "C"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "stiffness",
+                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+                needed: true,
+                about: "k",
+            },
+            Key {
+                name: "restitution",
+                reads: Reads::Number(&[Dimension::One]),
+                needed: true,
+                about: "e, speed after an impact to the speed before it",
+            },
+            Key {
+                name: "impact_speed",
+                reads: SPEED,
+                needed: true,
+                about: "v, the speed of the impact that has this restitution",
+            },
+            Key {
+                name: "lower",
+                reads: PLACE,
+                needed: false,
+                about: "where the lower stop begins; the joint's lower limit without it",
+            },
+            Key {
+                name: "upper",
+                reads: PLACE,
+                needed: false,
+                about: "where the upper stop begins; the joint's upper limit without it",
+            },
+            JOINT,
+        ]
+    }
+
+    fn limit_for(&self, key: &str, limits: &Limits) -> Option<f64> {
+        match key {
+            "lower" => limits.lower,
+            "upper" => limits.upper,
+            _ => None,
+        }
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.fixed(&["restitution", "impact_speed"]);
+        given.positive(
+            &["stiffness", "impact_speed"],
+            "a scene without stops leaves the effect out",
+        );
+        given.positive(
+            &["restitution"],
+            "no damping takes all the speed from an impact: write a small one, 0.01",
+        );
+        given.at_most_one("restitution", "an impact would give back more than it took");
+        given.ordered("lower", "upper", "the joint moves between its stops");
+        if given.number("lower").or(given.number("upper")).is_none() {
+            let place = given.element.place.clone();
+            let joint = given.element.name("joint").unwrap_or_default();
+            let message = format!("where the stops are is missing, and `{joint}` has no limits");
+            given.fault(
+                &place,
+                "effect-missing",
+                message,
+                "write `lower`, `upper` or both",
+            );
+        }
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
+        layout.event(begins(name), format!("`{joint}` meets a stop"));
+        layout.event(ends(name), format!("`{joint}` leaves a stop"));
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let port = laws.port(element);
+        let zero = laws.b.zero();
+        // How far the stops are away; 0 within them.
+        let (mut pushed, mut gap) = (zero, None);
+        for (key, outwards) in [("lower", -1.0), ("upper", 1.0)] {
+            let Some(at) = laws.optional(element, key) else {
+                continue;
+            };
+            let outwards = Dd::from_f64(outwards);
+            let depth = (port.place - at) * outwards;
+            pushed = pushed + one_side(element, laws, &port, depth, outwards);
+            gap = Some(gap.map_or(-depth, |other: Ex<'_>| other.min(-depth)));
+        }
+        let gap = gap.unwrap_or(zero);
+        laws.event(&begins(&element.name), gap);
+        laws.event(&ends(&element.name), -gap);
+        laws.reading(
+            format!("{}_effort", element.name),
+            pushed,
+            "effort of the stops on the joint".into(),
+        );
+    }
+}
+
+fn begins(name: &str) -> String {
+    format!("{name}_begins")
+}
+
+fn ends(name: &str) -> String {
+    format!("{name}_ends")
+}
+
+/// One stop; `depth` is negative before it is met. The effort it has on the joint.
+fn one_side<'g>(
+    element: &Element,
+    laws: &mut Laws<'g, '_>,
+    port: &Port<'g>,
+    depth: Ex<'g>,
+    outwards: Dd,
+) -> Ex<'g> {
+    let zero = laws.b.zero();
+    let value = |key| element.quantity(key).map_or(Dd::ONE, |q| q.value);
+    let damping = laws
+        .b
+        .constant(damping(value("restitution"), value("impact_speed")));
+    let (depth, rate) = (depth.max(zero), port.rate * outwards);
+    let elastic = laws.number(element, "stiffness") * depth;
+    let force = elastic * (damping * rate + laws.b.number(1.0)).max(zero);
+    let effort = force * -outwards;
+    laws.push(port, effort);
+    laws.store(elastic * depth * Dd::from_f64(0.5));
+    laws.dissipate((force - elastic) * rate);
+    effort
+}
+
+/// μ, s/m or s/rad: the damping with which an impact at `speed` has the restitution e, 0 < e ≤ 1.
+fn damping(restitution: Dd, speed: Dd) -> Dd {
+    let two = Dd::from_f64(2.0);
+    let ratio = (Dd::ONE - restitution) / (Dd::ONE + restitution);
+    two * inverse_langevin(ratio) / ((Dd::ONE + restitution) * speed)
+}
+
+/// The z ≥ 0 with coth z − 1/z = ρ, 0 ≤ ρ < 1. The left side rises with z and is greater than
+/// 1 − 1/z, so that z is no greater than 1/(1 − ρ).
+fn inverse_langevin(ratio: Dd) -> Dd {
+    if ratio <= Dd::ZERO {
+        return Dd::ZERO;
+    }
+    let half = Dd::from_f64(0.5);
+    let (mut low, mut high) = (Dd::ZERO, Dd::ONE / (Dd::ONE - ratio));
+    // Each halving gains a bit; a small root needs more than the 106 of a double-double.
+    for _ in 0..160 {
+        let middle = (low + high) * half;
+        if langevin(middle) < ratio {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (low + high) * half
+}
+
+/// coth z − 1/z for z > 0. Near zero, where the two cancel, by their continued fraction
+/// z/(3 + z²/(5 + z²/(7 + …))).
+fn langevin(z: Dd) -> Dd {
+    if z < Dd::from_f64(2.0) {
+        let square = z * z;
+        let mut below = Dd::from_f64(65.0);
+        for k in (1..32).rev() {
+            below = Dd::from_f64(f64::from(2 * k + 1)) + square / below;
+        }
+        return z / below;
+    }
+    let decay = (z * Dd::from_f64(-2.0)).exp();
+    (Dd::ONE + decay) / (Dd::ONE - decay) - Dd::ONE / z
+}

@@ -1,0 +1,123 @@
+//! Smooth friction with a Stribeck curve, at the slip s = q̇ − ṙ:
+//! τ = −[F_c + (F_s − F_c) exp(−(s/v_s)²)] tanh(s/w) − b s.
+//!
+//! The curve falls from F_s to F_c with the speed (Stribeck 1902; the exponential form of Bo and
+//! Pavelescu 1982), the hyperbolic tangent smooths it at rest (Andersson, Söderberg, Björklund
+//! 2007). As it rises over the width while the curve falls, its peak is F_s only where w ≪ v_s; like
+//! every law without memory it never holds, but creeps.
+
+use super::coulomb::{EFFORT, REST_HOLDS_MORE};
+use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
+use super::viscous::{DAMPING, JOINT, REFERENCE};
+use super::{Effect, Element, Given, slip};
+use crate::expr::Ex;
+use crate::scene::Layout;
+use crate::spec::Key;
+use crate::system::Laws;
+
+pub(super) struct Stribeck;
+
+/// The effort at the upper end of the curve.
+pub(super) const KINETIC: Key = Key {
+    name: "kinetic",
+    reads: EFFORT,
+    needed: true,
+    about: "F_c, Coulomb friction",
+};
+
+/// The effort at its lower end.
+const STATIC: Key = Key {
+    name: "static",
+    reads: EFFORT,
+    needed: true,
+    about: "F_s, friction close to rest",
+};
+
+/// The speed over which it falls.
+const STRIBECK_SPEED: Key = Key {
+    name: "stribeck_speed",
+    reads: SPEED,
+    needed: true,
+    about: "v_s, speed of the Stribeck curve",
+};
+
+impl Effect for Stribeck {
+    fn keyword(&self) -> &'static str {
+        "stribeck"
+    }
+
+    fn family(&self) -> &'static str {
+        "friction"
+    }
+
+    fn summary(&self) -> &'static str {
+        "Stribeck friction: τ = −[F_c + (F_s − F_c) exp(−(s/v_s)²)] tanh(s/w) − b s, s = q̇ − ṙ"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            KINETIC,
+            STATIC,
+            STRIBECK_SPEED,
+            WIDTH,
+            Key {
+                name: "damping",
+                reads: DAMPING,
+                needed: false,
+                about: "b, viscous friction; 0 without it",
+            },
+            JOINT,
+            REFERENCE,
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.not_negative(&["kinetic", "damping"], "friction opposes the motion");
+        given.ordered("kinetic", "static", REST_HOLDS_MORE);
+        given.positive(
+            &["stribeck_speed"],
+            "friction without the curve is `type: coulomb_smooth`",
+        );
+        given.positive(&["width"], NO_WIDTH);
+        let [width, speed] = ["width", "stribeck_speed"].map(|key| given.value_or(key, 0.0));
+        if speed > 0.0 && width > speed {
+            let place = given.place("width");
+            let text = |key| given.number(key).map_or("", |q| q.text.as_str());
+            let message = format!(
+                "`width` is {}, more than `stribeck_speed`, {}: the curve has fallen before friction has risen, and `static` is hardly felt",
+                text("width"),
+                text("stribeck_speed")
+            );
+            given.warn(&place, "effect-width", message, "a tenth of it is usual");
+        }
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        slip::declare(element, layout);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        slip::resist(element, laws, |laws, s| {
+            let number = |key| laws.number(element, key);
+            let friction = curve(element, laws, s) * (s / number("width")).tanh();
+            -(friction + number("damping") * s)
+        });
+    }
+}
+
+/// F_c + (F_s − F_c) exp(−(s/v_s)²); F_c where no `static` is given.
+pub(super) fn curve<'g>(element: &Element, laws: &Laws<'g, '_>, slip: Ex<'g>) -> Ex<'g> {
+    let kinetic = laws.number(element, "kinetic");
+    let [rest, speed] = ["static", "stribeck_speed"].map(|key| laws.optional(element, key));
+    match (rest, speed) {
+        (Some(rest), Some(speed)) => {
+            let ratio = slip / speed;
+            kinetic + (rest - kinetic) * (-(ratio * ratio)).exp()
+        }
+        _ => kinetic,
+    }
+}

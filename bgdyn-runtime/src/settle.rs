@@ -1,0 +1,109 @@
+//! What holds and what slips, decided for all joints at rest together.
+
+use nalgebra::SVector;
+
+use crate::{Contact, Scalar, System};
+
+/// The modes of a scene's dry friction at an instant: which of the joints at rest hold, and in which
+/// direction the others begin to slip.
+///
+/// At rest are the joints that `modes` holds (0) and those that slip by no more than `rest`, the rest
+/// keep their modes. A joint that holds keeps the slip it has: set it to 0 before.
+///
+/// The answer is consistent: whatever holds does so within its limit, whatever slips does not turn
+/// back at once. Where friction has one size at rest and in motion it is the only one, the solution
+/// of a linear complementarity problem whose matrix is a part of M⁻¹, and it is found by pivoting on
+/// the least index (Murty 1974; with bounds on both sides Júdice and Pires 1992): all are held at
+/// first, and as long as any is inconsistent, the first of these changes sides. Where rest holds more
+/// than slipping resists there may be several answers; a joint that broke away at this instant then
+/// holds no more than it resists slipping.
+///
+/// # Termination
+/// Take the problem with its last joint fixed as solved. That joint's slip acceleration, with the
+/// others so solved, rises with its friction, for the matrix is positive definite; so the joint
+/// changes sides twice at most, and by induction the whole ends. A joint breaks away from rest once.
+/// Rounding errors cannot go round in circles for ever either: the number of changes is bounded by
+/// that of all combinations.
+///
+/// # Errors
+/// As [`System::derivative`].
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the state, and what counts as rest"
+)]
+pub fn settle<
+    T,
+    S,
+    const N: usize,
+    const NM: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+>(
+    system: &S,
+    y: &SVector<T, N>,
+    modes: &SVector<T, NM>,
+    input: &SVector<T, NU>,
+    t: T,
+    rest: T,
+) -> Result<SVector<T, NM>, S::Singular>
+where
+    T: Scalar<Mask = bool>,
+    S: System<T, N, NM, NU, NE, NY, NP>,
+{
+    let zero = T::from_f64(0.0);
+    let contacts = |modes: &SVector<T, NM>| system.contacts(y, modes, input, t);
+    let mut now = *modes;
+    let mut resting = [false; NM];
+    for (k, contact) in contacts(modes)?.iter().enumerate() {
+        resting[k] = modes[k] == zero || !rest.less(contact.slip.abs());
+        if resting[k] {
+            now[k] = zero;
+        }
+    }
+    // Which broke away at this instant.
+    let mut broken = [false; NM];
+    for _ in 0..combinations(NM) {
+        let found = contacts(&now)?;
+        let mut changed = None;
+        for k in (0..NM).filter(|&k| resting[k]) {
+            changed = if now[k] != zero {
+                turns_back(now[k], &found[k]).then_some(zero)
+            } else if broken[k] {
+                // Does it slip on against the effort of slipping?
+                let mut tried = now;
+                tried[k] = against(&found[k]);
+                let slips = tried[k] * contacts(&tried)?[k].slip_rate;
+                zero.less(slips).then_some(tried[k])
+            } else {
+                broken[k] = found[k].limit.less(found[k].holding.abs());
+                broken[k].then(|| against(&found[k]))
+            };
+            if let Some(mode) = changed {
+                now[k] = mode;
+                break;
+            }
+        }
+        if changed.is_none() {
+            break;
+        }
+    }
+    Ok(now)
+}
+
+/// The direction in which a joint gives way: against the effort that held it.
+fn against<T: Scalar>(contact: &Contact<T>) -> T {
+    -contact.holding.sign()
+}
+
+/// Whether a joint that slips from rest in this direction would be pushed back.
+fn turns_back<T: Scalar<Mask = bool>>(mode: T, contact: &Contact<T>) -> bool {
+    (mode * contact.slip_rate).less(T::from_f64(0.0))
+}
+
+/// More changes than there can be: every combination of `n` joints, anew each time one breaks away.
+fn combinations(n: usize) -> usize {
+    let all = u32::try_from(n).ok().and_then(|n| 3_usize.checked_pow(n));
+    all.map_or(usize::MAX, |all| all.saturating_mul(n + 1))
+}
