@@ -23,7 +23,7 @@ const OPERATION: usize = 100;
 /// product and a sum, and the emitter writes both; so nothing could be seen of it in the times. On
 /// a machine that fuses, an addition that takes a product with it saves half an operation (8.3
 /// fused against 12.5 separate ones in a ns on a Zen 5 core). A fifth decides between near equals
-/// in favour of such a machine.
+/// in favour of such a machine, and only between finished functions.
 const FUSABLE: usize = 20;
 
 /// A division: 8.0 times a multiplication in a loop of independent ones, 3.5 times in a chain.
@@ -56,6 +56,12 @@ pub struct Cost {
 }
 
 impl Cost {
+    /// The cost of a graph that is not finished: which product meets which sum in it says nothing
+    /// about what factoring will leave, so it is not counted.
+    pub(crate) fn unfinished(self) -> Self {
+        Cost { fusable: 0, ..self }
+    }
+
     /// The weighted sum, in hundredths of an operation.
     pub fn weighted(&self) -> usize {
         let o = &self.operations;

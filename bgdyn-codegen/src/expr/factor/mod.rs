@@ -43,7 +43,7 @@ impl Best {
         let mut network = Network::new(&self.graph, &self.outputs, spread);
         Extraction::new(&mut network).run();
         let (graph, outputs) = rebuild::rebuild(&network, &self.outputs);
-        let cost = cost(&graph, &outputs);
+        let cost = cost(&graph, &outputs).unfinished();
         let better = cheaper(&cost, &self.cost);
         if better {
             *self = Best {
@@ -98,11 +98,12 @@ pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
 
 /// About what [`factored`] makes of a function costs: of long ones, after a single round.
 pub fn factored_cost(graph: Graph, outputs: Vec<Expr>) -> Cost {
-    rounds(graph, outputs, 1).cost
+    let best = rounds(graph, outputs, 1);
+    cost(&best.graph, &best.outputs)
 }
 
 fn rounds(graph: Graph, outputs: Vec<Expr>, most: usize) -> Best {
-    let cost = cost(&graph, &outputs);
+    let cost = cost(&graph, &outputs).unfinished();
     let mut best = Best {
         graph,
         outputs,

@@ -124,7 +124,7 @@ fn cheapest_plans(search: &Search<'_>, method: Method) -> Best {
 
 fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
     let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
-    expr::cost(&graph, &outputs)
+    expr::cost(&graph, &outputs).unfinished()
 }
 
 /// The function under the plan that is taken.

@@ -83,7 +83,7 @@ impl Articulated {
     pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> Cost {
         let unguarded = vec![false; geometry.bodies.len()];
         let (graph, outputs) = self.outputs(Builder::silent(), graph, geometry, plan, &unguarded);
-        expr::cost(&graph, &outputs)
+        expr::cost(&graph, &outputs).unfinished()
     }
 
     /// The accelerations under a plan.
