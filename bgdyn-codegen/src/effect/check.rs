@@ -1,5 +1,6 @@
 //! From what stands in a file to a checked element: its type, its keys, its names, its rules.
 
+use super::element::node_names;
 use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::mechanism::Motion;
@@ -50,16 +51,7 @@ impl Context {
             let motion = on.unwrap_or(Motion::Rotation);
             self.coordinates.push((d.name.value.clone(), motion));
         }
-        for d in declared {
-            let Some(sides) = d.effect.nodes() else {
-                continue;
-            };
-            let side = |side: &&str| match *side {
-                "" => d.name.value.clone(),
-                side => format!("{}_{side}", d.name.value),
-            };
-            self.nodes.extend(sides.iter().map(side));
-        }
+        self.nodes.extend(declared.flat_map(Declared::nodes));
         self
     }
 
@@ -108,7 +100,8 @@ pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declare
         return declared(raw, faults).into_iter().collect();
     }
     let of_kind = |d: &&Declared| d.effect.family() == name || d.effect.keyword() == name;
-    let kin: Vec<Declared> = known.iter().filter(of_kind).cloned().collect();
+    let kin = known.iter().filter(of_kind);
+    let kin: Vec<Declared> = kin.map(|d| d.called_at(&raw.name.place)).collect();
     if kin.is_empty() || !raw.is_bare() {
         faults.push(unknown_call(raw, known));
         return vec![];
@@ -119,7 +112,7 @@ pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declare
 /// The mechanism's effect, with the scene's values in place of its own.
 fn varied(raw: &Raw, own: &Declared, faults: &mut Faults) -> Option<Declared> {
     if raw.is_bare() {
-        return Some(own.clone());
+        return Some(own.called_at(&raw.name.place));
     }
     if let Some(word) = raw.peek(TYPE.name)
         && word.value != own.effect.keyword()
@@ -195,6 +188,19 @@ fn identifier(name: &Located<String>, faults: &mut Faults) {
 }
 
 impl Declared {
+    /// The same, called for by a scene at this place.
+    fn called_at(&self, place: &Place) -> Self {
+        let mut called = self.clone();
+        called.name.place = place.clone();
+        called
+    }
+
+    /// Names of the hydraulic nodes that it has.
+    pub fn nodes(&self) -> Vec<String> {
+        let sides = self.effect.nodes(&|key| self.fields.get(key).is_some());
+        node_names(&self.name.value, sides)
+    }
+
     /// The element, if its names are known and its numbers obey its rules.
     pub fn element(&self, context: &Context, faults: &mut Faults) -> Option<Element> {
         let before = faults.count();
@@ -211,6 +217,17 @@ impl Declared {
         };
         for key in self.effect.keys() {
             match self.fields.get(key.name) {
+                Some(Located {
+                    value: Entry::Group(numbers),
+                    ..
+                }) => {
+                    for (name, number) in numbers {
+                        let fit = dimensions(key.reads);
+                        let checked = quantity(&number.value, &number.place, fit, joint, faults);
+                        let checked = checked.map(Checked::Number);
+                        element.values.extend(checked.map(|c| (*name, c)));
+                    }
+                }
                 Some(entry) => {
                     let checked = self.checked(key, entry, joint, context, faults);
                     element.values.extend(checked.map(|c| (key.name, c)));
@@ -269,7 +286,16 @@ impl Declared {
             (Entry::Vector(vector), _) => {
                 Some(Checked::Vector(vector.each_ref().map(|n| n.value.value)))
             }
-            (Entry::Number(_), _) => None,
+            (Entry::Words(words), reads) => {
+                let known = known(reads, context).unwrap_or_default();
+                for word in words.iter().filter(|w| !known.contains(&w.value.as_str())) {
+                    faults.push(unknown(key, &word.value, &word.place, &known, context));
+                }
+                Some(Checked::Words(
+                    words.iter().map(|w| w.value.clone()).collect(),
+                ))
+            }
+            (Entry::Number(_) | Entry::Group(_), _) => None,
         }
     }
 }
@@ -278,7 +304,7 @@ impl Declared {
 fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
     Some(match reads {
         Reads::Word(words) if words.is_empty() => return None,
-        Reads::Word(words) => words.to_vec(),
+        Reads::Word(words) | Reads::Words(words) => words.to_vec(),
         Reads::Coordinate => context
             .coordinates
             .iter()
@@ -286,8 +312,16 @@ fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
             .collect(),
         Reads::Place | Reads::Places => context.places.iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
-        Reads::Input | Reads::Number(_) | Reads::Vector(_) => return None,
+        Reads::Input | Reads::Number(_) | Reads::Vector(_) | Reads::Group(..) => return None,
     })
+}
+
+/// What the numbers behind a key may measure.
+fn dimensions(reads: Reads) -> &'static [Dimension] {
+    match reads {
+        Reads::Number(fit) | Reads::Vector(fit) | Reads::Group(_, fit) => fit,
+        _ => &[],
+    }
 }
 
 fn unknown(key: &Key, word: &str, place: &Place, known: &[&str], context: &Context) -> Fault {
