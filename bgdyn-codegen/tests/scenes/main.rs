@@ -1,7 +1,13 @@
 //! Scenes through the evaluator: laws of every scene file and of scenes written here.
 
+mod bench;
+mod bodies;
+mod causality;
+mod combined;
 mod common;
+mod hydraulics;
 mod laws;
+mod refused;
 
 use common::{read, specs};
 
