@@ -1,5 +1,6 @@
 //! From what stands in a file to a checked element: its type, its keys, its names, its rules.
 
+use super::element::node_names;
 use bgdyn_runtime::Dd;
 
 use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
@@ -57,16 +58,7 @@ impl Context {
             self.coordinates.push((d.name.value.clone(), motion));
             self.added.push(d.name.value.clone());
         }
-        for d in declared {
-            let Some(sides) = d.effect.nodes() else {
-                continue;
-            };
-            let side = |side: &&str| match *side {
-                "" => d.name.value.clone(),
-                side => format!("{}_{side}", d.name.value),
-            };
-            self.nodes.extend(sides.iter().map(side));
-        }
+        self.nodes.extend(declared.flat_map(Declared::nodes));
         self
     }
 
@@ -223,6 +215,12 @@ impl Declared {
         self
     }
 
+    /// Names of the hydraulic nodes that it has.
+    pub fn nodes(&self) -> Vec<String> {
+        let sides = self.effect.nodes(&|key| self.fields.get(key).is_some());
+        node_names(&self.name.value, sides)
+    }
+
     /// The element, if its names are known and its numbers obey its rules.
     pub fn element(&self, context: &Context, faults: &mut Faults) -> Option<Element> {
         let before = faults.count();
@@ -240,6 +238,17 @@ impl Declared {
         };
         for key in self.effect.keys() {
             match self.fields.get(key.name) {
+                Some(Located {
+                    value: Entry::Group(numbers),
+                    ..
+                }) => {
+                    for (name, number) in numbers {
+                        let fit = dimensions(key.reads);
+                        let checked = quantity(&number.value, &number.place, fit, motion, faults);
+                        let checked = checked.map(Checked::Number);
+                        element.values.extend(checked.map(|c| (*name, c)));
+                    }
+                }
                 Some(entry) => {
                     let checked = self.checked(key, entry, motion, context, faults);
                     element.values.extend(checked.map(|c| (key.name, c)));
@@ -318,7 +327,16 @@ impl Declared {
             (Entry::Vector(vector), _) => {
                 Some(Checked::Vector(vector.each_ref().map(|n| n.value.value)))
             }
-            (Entry::Number(_), _) => None,
+            (Entry::Words(words), reads) => {
+                let known = known(reads, context).unwrap_or_default();
+                for word in words.iter().filter(|w| !known.contains(&w.value.as_str())) {
+                    faults.push(unknown(key, &word.value, &word.place, &known, context));
+                }
+                Some(Checked::Words(
+                    words.iter().map(|w| w.value.clone()).collect(),
+                ))
+            }
+            (Entry::Number(_) | Entry::Group(_), _) => None,
         }
     }
 }
@@ -327,7 +345,7 @@ impl Declared {
 fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
     Some(match reads {
         Reads::Word(words) if words.is_empty() => return None,
-        Reads::Word(words) => words.to_vec(),
+        Reads::Word(words) | Reads::Words(words) => words.to_vec(),
         Reads::Coordinate => context
             .coordinates
             .iter()
@@ -340,8 +358,16 @@ fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
         }
         Reads::Place | Reads::Places => context.places.iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
-        Reads::Input | Reads::Number(_) | Reads::Vector(_) => return None,
+        Reads::Input | Reads::Number(_) | Reads::Vector(_) | Reads::Group(..) => return None,
     })
+}
+
+/// What the numbers behind a key may measure.
+fn dimensions(reads: Reads) -> &'static [Dimension] {
+    match reads {
+        Reads::Number(fit) | Reads::Vector(fit) | Reads::Group(_, fit) => fit,
+        _ => &[],
+    }
 }
 
 fn unknown(key: &Key, word: &str, place: &Place, known: &[&str], context: &Context) -> Fault {

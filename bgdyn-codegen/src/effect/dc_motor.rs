@@ -5,7 +5,7 @@
 use super::viscous::JOINT;
 use super::{Effect, Element, Given};
 use crate::expr::Ex;
-use crate::scene::Layout;
+use crate::scene::{Layout, algebraic_loop};
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::{Laws, behind_gear};
 
@@ -105,14 +105,16 @@ impl Effect for DcMotor {
         let no_resistance = given.value_or("resistance", 1.0) == 0.0;
         if no_resistance && given.number("inductance").is_none() {
             let place = given.place("resistance");
-            given.fault(
-                &place,
-                "algebraic-loop",
-                "neither resistance nor inductance: the loop voltage → current → torque → speed → voltage has no solution".into(),
-                "give one of them",
-            );
+            let message = "neither resistance nor inductance: the loop voltage → current → torque → speed → voltage has no solution";
+            let fault = algebraic_loop(&place, message.into(), "give one of them");
+            given.faults.push(fault);
         }
         given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
+    }
+
+    fn algebraic(&self, element: &Element) -> Option<&'static str> {
+        let at_once = element.quantity("inductance").is_none();
+        at_once.then_some("without inductance: R i + k N q̇ = u solved for i")
     }
 
     fn declare(&self, element: &Element, layout: &mut Layout) {

@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::Effect;
 use crate::fault::Place;
-use crate::spec::Dimension;
+use crate::spec::{Dimension, Reads};
 
 /// A number of an effect: folded into the code, or a public field of the generated struct.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +32,8 @@ pub enum Checked {
     Names([String; 2]),
     /// Three numbers.
     Vector([Dd; 3]),
+    /// Words.
+    Words(Vec<String>),
 }
 
 /// An effect of a mechanism or a scene.
@@ -85,6 +87,32 @@ impl Element {
         }
     }
 
+    /// What a number of it stands for: "mass of `part`".
+    pub fn meaning(&self, key: &str) -> String {
+        format!("{key} of `{}`", self.name)
+    }
+
+    /// The words behind a key.
+    pub fn words(&self, key: &str) -> Option<&[String]> {
+        match self.get(key) {
+            Some(Checked::Words(words)) => Some(words),
+            _ => None,
+        }
+    }
+
+    /// Names of the hydraulic nodes that it has.
+    pub fn nodes(&self) -> Vec<String> {
+        let sides = self.effect.nodes(&|key| self.get(key).is_some());
+        node_names(&self.name, sides)
+    }
+
+    /// Names of the hydraulic nodes that it joins.
+    pub fn joins(&self) -> Vec<&str> {
+        let keys = self.effect.keys().iter();
+        let keys = keys.filter(|k| k.reads == Reads::Node);
+        keys.filter_map(|k| self.name(k.name)).collect()
+    }
+
     /// The three numbers behind a key.
     pub fn vector(&self, key: &str) -> Option<[Dd; 3]> {
         match self.get(key) {
@@ -92,4 +120,13 @@ impl Element {
             _ => None,
         }
     }
+}
+
+/// The nodes of an effect: its name, or its name with each of its sides.
+pub(super) fn node_names(name: &str, sides: &[&str]) -> Vec<String> {
+    let of = |side: &&str| match *side {
+        "" => name.to_owned(),
+        side => format!("{name}_{side}"),
+    };
+    sides.iter().map(of).collect()
 }

@@ -15,10 +15,13 @@ mod coulomb;
 mod coulomb_smooth;
 mod damper;
 mod dc_motor;
+mod drag;
 mod gear;
 mod gravity;
+mod hydraulic;
 mod inertia;
 mod lugre;
+mod payload;
 mod rotor;
 mod series_elastic;
 mod spring;
@@ -26,9 +29,11 @@ mod stop;
 mod stribeck;
 mod velocity_products;
 mod viscous;
+mod wrench;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::Ex;
+use crate::fault::Faults;
 use crate::mechanism::{Limits, Mechanism};
 use crate::scene::Layout;
 use crate::spec::Key;
@@ -65,8 +70,25 @@ pub trait Effect: Sync {
         false
     }
 
-    /// Whether its name is that of a hydraulic node; the sides of one that has several.
-    fn nodes(&self) -> Option<&'static [&'static str]> {
+    /// The hydraulic nodes it has where `given` tells which keys are there: the empty name for one
+    /// that is called as the effect is, `a` for one with `_a` behind it.
+    fn nodes(&self, _given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Whether its node has no volume, so that the flows into it must be nothing at every instant.
+    fn is_junction(&self) -> bool {
+        false
+    }
+
+    /// Whether its pressure drop is the same function of its flow at all times, so that it can
+    /// stand in series with others like it.
+    fn in_series(&self, _: &Element) -> bool {
+        false
+    }
+
+    /// How its law was solved where it has no store that it could wait for.
+    fn algebraic(&self, _: &Element) -> Option<&'static str> {
         None
     }
 
@@ -88,6 +110,12 @@ pub trait Effect: Sync {
     /// What its numbers must obey.
     fn rules(&self, _: &mut Given<'_>) {}
 
+    /// What it must obey beside the scene's other effects.
+    fn fits(&self, _: &Element, _: &Beside<'_>, _: &mut Faults) {}
+
+    /// What it changes in the mechanism, before there is a graph.
+    fn reduce(&self, _: &Element, _: &mut Mechanism) {}
+
     /// What it changes in the graph of links and joints.
     fn alter(&self, _: &Element, _: &Mechanism, _: &mut BondGraph) {}
 
@@ -108,6 +136,14 @@ pub trait Effect: Sync {
     fn law(&self, _: &Element, _: &mut Laws<'_, '_>) {}
 }
 
+/// What an effect finds beside it in its scene.
+pub struct Beside<'a> {
+    /// The scene's effects, itself among them.
+    pub elements: &'a [Element],
+    /// The mechanism, locked joints welded.
+    pub mechanism: &'a Mechanism,
+}
+
 impl std::fmt::Debug for dyn Effect {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.keyword())
@@ -121,7 +157,7 @@ impl PartialEq for dyn Effect {
 }
 
 /// Every effect there is.
-pub static EFFECTS: [&dyn Effect; 15] = [
+pub static EFFECTS: [&dyn Effect; 27] = [
     &gravity::Gravity,
     &inertia::LinkInertia,
     &velocity_products::VelocityProducts,
@@ -137,6 +173,18 @@ pub static EFFECTS: [&dyn Effect; 15] = [
     &gear::Gear,
     &rotor::Rotor,
     &dc_motor::DcMotor,
+    &hydraulic::Fluid,
+    &hydraulic::Supply,
+    &hydraulic::Tank,
+    &hydraulic::Line,
+    &hydraulic::Junction,
+    &hydraulic::Cylinder,
+    &hydraulic::Orifice,
+    &hydraulic::Leakage,
+    &hydraulic::FourWayValve,
+    &wrench::Wrench,
+    &drag::Drag,
+    &payload::Payload,
 ];
 
 /// The effect with this keyword.

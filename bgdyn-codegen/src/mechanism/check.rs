@@ -15,6 +15,7 @@ use crate::fault::{Faults, wording};
 use crate::math::Vec3;
 use crate::spec::{self, Dimension, Field, Spec, Vector};
 use direction::Directions;
+pub(crate) use inertia::check_tensor;
 use order::Tree;
 use parameters::Parameters;
 

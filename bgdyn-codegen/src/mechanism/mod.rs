@@ -14,6 +14,7 @@ use bgdyn_runtime::Dd;
 use crate::effect::Declared;
 use crate::math::{Mat3, Vec3};
 pub use check::check;
+pub(crate) use check::check_tensor;
 pub use joint::{JointType, Motion};
 
 macro_rules! id {
@@ -245,6 +246,56 @@ impl Mechanism {
             welded.links[link.0].joint.coordinate = Some(CoordinateId(j));
         }
         welded
+    }
+
+    /// Adds a body of this name, fixed to a link or at a frame on one. A place in the world carries
+    /// nothing.
+    pub fn carry(&mut self, name: &str, at: &str, inertial: Inertial) {
+        let frame = self.frames.iter().find(|f| f.name == at);
+        let link = self.links.iter().position(|l| l.name == at).map(LinkId);
+        let (parent, origin) = match frame {
+            Some(frame) => (frame.link, frame.origin),
+            None => (link, Pose::IDENTITY),
+        };
+        if parent.is_none() {
+            return;
+        }
+        self.links.push(Link {
+            name: name.to_owned(),
+            label: None,
+            parent,
+            joint: Joint {
+                name: format!("{name}_mount"),
+                label: None,
+                kind: joint::fixed(),
+                axis: Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE]),
+                origin,
+                limits: Limits::default(),
+                coordinate: None,
+            },
+            inertial,
+        });
+    }
+
+    /// The run-time parameter of this name, added where it is new.
+    pub fn parameter(
+        &mut self,
+        name: &str,
+        meaning: String,
+        default: Dd,
+        unit: &'static str,
+    ) -> Value {
+        let known = self.parameters.iter().position(|p| p.name == name);
+        let p = known.unwrap_or(self.parameters.len());
+        if known.is_none() {
+            self.parameters.push(Parameter {
+                name: name.to_owned(),
+                meaning,
+                default,
+                unit,
+            });
+        }
+        Value::Parameter(ParameterId(p))
     }
 
     /// Number of velocities.

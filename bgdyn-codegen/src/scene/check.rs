@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
+use super::causality::{Chain, chains};
 use super::layout::{Coordinate, Layout, Store};
 use super::reduce::held;
 use super::signal::{self, Drive, INTEGRATION};
 use super::{Initial, Integration, Scene, Written};
-use crate::effect::{Context, Declared, Element, called, once_per_joint};
+use crate::effect::{Beside, Context, Declared, Element, called, once_per_joint};
 use crate::fault::{Fault, Faults, unknown_name, wording};
 use crate::mechanism::name::is_identifier;
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Parameter, Pose};
@@ -47,13 +48,15 @@ fn scene(
     let name = name(spec, stem, faults);
     let locked = locks(spec, whole, faults);
     let mechanism = whole.welded(&locked);
-    let elements = elements(spec, whole, &mechanism, faults);
+    let (elements, chains) = elements(spec, whole, &mechanism, faults);
     let integration = integration(&spec.integration, faults);
+    let unloaded = mechanism.clone();
     let empty = Scene {
         name: String::new(),
         description: spec.description.value().cloned(),
         mechanism,
         elements,
+        chains,
         layout: Layout::default(),
         parameters: Vec::new(),
         drives: Vec::new(),
@@ -66,6 +69,7 @@ fn scene(
         written: Written {
             inputs: given(&spec.inputs).to_vec(),
             initial: given(&spec.initial).to_vec(),
+            unloaded,
         },
     };
     let scene = assembled(empty, faults);
@@ -77,6 +81,8 @@ fn scene(
 
 /// The scene with its state laid out: what follows from its elements and what the file says.
 pub(super) fn assembled(scene: Scene, faults: &mut Faults) -> Scene {
+    let mechanism = reduced(scene.written.unloaded.clone(), &scene.elements);
+    let scene = Scene { mechanism, ..scene };
     let mut layout = layout(&scene.mechanism, &scene.elements);
     let inputs = &scene.written.inputs;
     add_efforts(&mut layout, inputs);
@@ -191,13 +197,13 @@ pub(crate) fn context(mechanism: &Mechanism, locked: Vec<String>) -> Context {
     }
 }
 
-/// The effects called for, checked, in the order in which their laws run.
+/// The effects called for, checked, in the order in which their laws run; those in series.
 fn elements(
     spec: &SceneSpec,
     whole: &Mechanism,
     reduced: &Mechanism,
     faults: &mut Faults,
-) -> Vec<Element> {
+) -> (Vec<Element>, Vec<Chain>) {
     let mut wanted: Vec<Declared> = Vec::new();
     for raw in given(&spec.effects) {
         for declared in called(raw, whole.effects(), faults) {
@@ -215,28 +221,68 @@ fn elements(
     let all = joint_names(whole);
     let locked = all.into_iter().filter(|name| !free.contains(name));
     let context = context(reduced, locked.map(str::to_owned).collect()).with(wanted.iter());
-    for declared in &wanted {
-        taken(declared, whole, faults);
-    }
+    taken(&wanted, whole, faults);
     let mut elements: Vec<Element> = wanted
         .iter()
         .filter_map(|d| d.element(&context, faults))
         .collect();
     once_per_joint(&elements, faults);
     elements.sort_by_key(|e| e.effect.order());
-    elements
+    // Where one is missing, others would seem to be joined to nothing.
+    if elements.len() < wanted.len() {
+        return (elements, vec![]);
+    }
+    let beside = Beside {
+        elements: &elements,
+        mechanism: reduced,
+    };
+    for element in &elements {
+        element.effect.fits(element, &beside, faults);
+    }
+    let chains = chains(&elements, faults);
+    (elements, chains)
 }
 
-/// An effect's name is a part of the state's, so it must be no joint's.
-pub(crate) fn taken(declared: &Declared, mechanism: &Mechanism, faults: &mut Faults) {
-    let name = &declared.name;
+/// The mechanism with what the effects change in it.
+fn reduced(mut mechanism: Mechanism, elements: &[Element]) -> Mechanism {
+    for element in elements {
+        element.effect.reduce(element, &mut mechanism);
+    }
+    mechanism
+}
+
+/// The names of effects and of their nodes are parts of the state's, so they must be no joint's
+/// and each must be the only one.
+pub(crate) fn taken(all: &[Declared], mechanism: &Mechanism, faults: &mut Faults) {
     let joints = mechanism.links().iter().map(|l| &l.joint.name);
     let bodies = mechanism.links().iter().map(|l| &l.name);
     let frames = mechanism.frames().iter().map(|f| &f.name);
-    if joints.chain(bodies).chain(frames).any(|n| *n == name.value) {
-        let message = format!("`{}` is a joint, a link or a frame already", name.value);
-        let fault = Fault::new(&name.place, "repeated-name", message);
-        faults.push(fault.with_help("give the effect a name of its own: `elbow_friction`"));
+    let known: Vec<&String> = joints.chain(bodies).chain(frames).collect();
+    let own = |declared: &Declared| {
+        let mut own = declared.nodes();
+        own.push(declared.name.value.clone());
+        own.sort();
+        own.dedup();
+        own
+    };
+    for (i, declared) in all.iter().enumerate() {
+        let place = &declared.name.place;
+        for name in own(declared) {
+            if known.contains(&&name) {
+                let message = format!("`{name}` is a joint, a link or a frame already");
+                let fault = Fault::new(place, "repeated-name", message);
+                faults.push(fault.with_help("give the effect a name of its own: `elbow_friction`"));
+            }
+            let other = all[..i].iter().find(|other| own(other).contains(&name));
+            if let Some(other) = other.filter(|other| other.name.value != declared.name.value) {
+                let other = &other.name.value;
+                let message = format!("`{name}` is a name of the effect `{other}` already");
+                let fault = Fault::new(place, "repeated-name", message);
+                faults.push(fault.with_help(
+                    "the sides of a cylinder `boom` are called `boom_a` and `boom_b`: name one of the two otherwise",
+                ));
+            }
+        }
     }
 }
 
@@ -287,19 +333,22 @@ fn parameters(mechanism: &Mechanism, elements: &[Element], faults: &mut Faults) 
             let Some(name) = &quantity.parameter else {
                 continue;
             };
-            let meaning = format!("{key} of `{}`", element.name);
+            let meaning = element.meaning(key);
+            let unit = quantity.dimension.si();
             match all.iter_mut().find(|p| p.name == *name) {
-                Some(known) if known.default != quantity.value => {
+                Some(known) if known.default != quantity.value || known.unit != unit => {
                     let message = format!("the parameter `{name}` has two values");
                     let fault = Fault::new(&quantity.place, "parameter-twice", message);
                     faults.push(fault.with_help("give one of them another name"));
                 }
+                // A payload's is the mechanism's already.
+                Some(known) if known.meaning == meaning => {}
                 Some(known) => known.meaning += &format!(" and {meaning}"),
                 None => all.push(Parameter {
                     name: name.clone(),
                     meaning,
                     default: quantity.value,
-                    unit: quantity.dimension.si(),
+                    unit,
                 }),
             }
         }
@@ -371,7 +420,8 @@ fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> Initial {
         places.insert(c.rate_name.clone(), (1, j, c.dimensions[1]));
     }
     for (i, part) in layout.states.iter().enumerate() {
-        places.insert(part.name.clone(), (2, i, part.dimension));
+        let given = part.entered.map_or(part.dimension, |e| e.dimension);
+        places.insert(part.name.clone(), (2, i, given));
     }
     for (i, part) in layout.modes.iter().enumerate() {
         places.insert(format!("{}_mode", part.name), (3, i, part.dimension));
@@ -389,6 +439,16 @@ fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> Initial {
         if let Some(number) = raw.number(&[dimension], faults) {
             let value = number.value.value;
             given.push((kind, i));
+            let entered = layout.states.get(i).filter(|_| kind == 2);
+            if let Some(entered) = entered.and_then(|part| part.entered)
+                && value < entered.least
+            {
+                let (text, least) = (&number.value.text, entered.least.to_f64());
+                let unit = entered.dimension.si();
+                let message = format!("`{name}` begins with {text}, less than {least} {unit}");
+                let fault = Fault::new(&number.place, "initial", message);
+                faults.push(fault.with_help(entered.way_out));
+            }
             match kind {
                 0 => initial.q[i] = value,
                 1 => initial.v[i] = value,

@@ -1,5 +1,7 @@
 //! What the numbers of a scene's state are: coordinates, first-order states, modes, inputs.
 
+use bgdyn_runtime::Dd;
+
 use crate::effect::Element;
 use crate::mechanism::CoordinateId;
 use crate::spec::Dimension;
@@ -43,6 +45,33 @@ pub struct Part {
     pub drives: Option<usize>,
     /// For inputs: the coordinate that a controller on it follows.
     pub follows: Option<String>,
+    /// For first-order states: what a scene gives for it at the start, if not the state itself.
+    pub entered: Option<Entered>,
+}
+
+/// How a scene gives the start of a state that it does not give directly: of a fluid volume, its
+/// pressure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entered {
+    /// What it measures.
+    pub dimension: Dimension,
+    /// The least it may be.
+    pub least: Dd,
+    /// What to do about less.
+    pub way_out: &'static str,
+}
+
+impl Part {
+    fn new(name: String, dimension: Dimension, about: String) -> Self {
+        Part {
+            name,
+            dimension,
+            about,
+            drives: None,
+            follows: None,
+            entered: None,
+        }
+    }
 }
 
 /// What the numbers of a scene's state are.
@@ -126,47 +155,50 @@ impl Layout {
 
     /// Adds a first-order state.
     pub fn state(&mut self, name: String, dimension: Dimension, about: String) {
+        self.states.push(Part::new(name, dimension, about));
+    }
+
+    /// Adds a first-order state whose start a scene gives by another quantity, which
+    /// [`crate::effect::Effect::start`] converts.
+    pub fn state_entered(
+        &mut self,
+        name: String,
+        dimension: Dimension,
+        about: String,
+        entered: Entered,
+    ) {
         self.states.push(Part {
-            name,
-            dimension,
-            about,
-            drives: None,
-            follows: None,
+            entered: Some(entered),
+            ..Part::new(name, dimension, about)
         });
     }
 
     /// Adds a mode.
     pub fn mode(&mut self, name: String, about: String) {
-        self.modes.push(Part {
-            name,
-            dimension: Dimension::One,
-            about,
-            drives: None,
-            follows: None,
-        });
+        self.modes.push(Part::new(name, Dimension::One, about));
     }
 
     /// Adds an input.
     pub fn input(&mut self, name: String, dimension: Dimension, about: String) {
-        self.inputs.push(Part {
-            name,
-            dimension,
-            about,
-            drives: None,
-            follows: None,
-        });
+        self.inputs.push(Part::new(name, dimension, about));
+    }
+
+    /// Adds an input that several effects may share: the opening of two valves on one spool.
+    pub fn shared_input(&mut self, name: &str, dimension: Dimension, about: String) {
+        if !self.inputs.iter().any(|i| i.name == name) {
+            self.input(name.to_owned(), dimension, about);
+        }
     }
 
     /// Adds the input that is the own effort of a coordinate: a torque, a voltage. A controller on
     /// it follows the coordinate `follows`.
     pub fn drive(&mut self, name: String, coordinate: &str, follows: &str, about: String) {
         let j = self.coordinates.iter().position(|c| c.name == coordinate);
+        let dimension = j.map_or(Dimension::One, |j| self.coordinates[j].dimensions[2]);
         self.inputs.push(Part {
-            name,
-            dimension: j.map_or(Dimension::One, |j| self.coordinates[j].dimensions[2]),
-            about,
             drives: j,
             follows: Some(follows.to_owned()),
+            ..Part::new(name, dimension, about)
         });
     }
 
@@ -180,13 +212,7 @@ impl Layout {
 
     /// Adds an event.
     pub fn event(&mut self, name: String, about: String) {
-        self.events.push(Part {
-            name,
-            dimension: Dimension::One,
-            about,
-            drives: None,
-            follows: None,
-        });
+        self.events.push(Part::new(name, Dimension::One, about));
     }
 
     /// Adds a moving reference up to a level of its derivatives; several effects may share it.

@@ -3,6 +3,7 @@
 //! Only [`check`] can construct a [`Scene`]; nothing later checks again or fails on what a user
 //! wrote.
 
+mod causality;
 mod check;
 mod layout;
 mod reduce;
@@ -14,9 +15,11 @@ use bgdyn_runtime::Dd;
 use crate::effect::Element;
 use crate::mechanism::{Mechanism, Parameter};
 use crate::spec::{Located, Raw};
+pub(crate) use causality::algebraic_loop;
+pub use causality::{Chain, Solved};
 pub use check::check;
 pub(crate) use check::{context, taken};
-pub use layout::{Coordinate, Layout, Level, Part, Store};
+pub use layout::{Coordinate, Entered, Layout, Level, Part, Store};
 pub use signal::{Drive, Signal};
 
 /// How a scene asks to be run.
@@ -41,6 +44,8 @@ pub struct Scene {
     pub mechanism: Mechanism,
     /// The effects called for, those whose laws run first in front.
     pub elements: Vec<Element>,
+    /// Elements in series, with one flow through all.
+    pub chains: Vec<Chain>,
     /// What the state is made of.
     pub layout: Layout,
     /// Run-time parameters: the mechanism's, then the effects'.
@@ -58,10 +63,12 @@ pub struct Scene {
 }
 
 /// Entries as they stand in the file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Written {
     inputs: Vec<Raw>,
     initial: Vec<Raw>,
+    /// The mechanism before effects change its links.
+    unloaded: Mechanism,
 }
 
 /// Where a run begins.

@@ -1,6 +1,7 @@
 //! Scenes with fewer effects than the file calls for: to see what each one costs and changes.
 
 use super::Scene;
+use super::causality::chains;
 use super::check::assembled;
 use crate::effect::{Checked, Element};
 use crate::fault::Faults;
@@ -26,8 +27,10 @@ impl Scene {
             }
         }
         let mut written = self.written.clone();
+        let chains = chains(&elements, &mut Faults::default());
         let bare = Scene {
             elements,
+            chains,
             ..self.clone()
         };
         // Entries for what is gone are no faults here.
@@ -54,6 +57,6 @@ fn acts_on(element: &Element, other: &str) -> bool {
     element.values.iter().any(|(_, value)| match value {
         Checked::Name(name) => refers(name),
         Checked::Names(names) => names.iter().any(refers),
-        Checked::Number(_) | Checked::Vector(_) => false,
+        Checked::Number(_) | Checked::Vector(_) | Checked::Words(_) => false,
     })
 }

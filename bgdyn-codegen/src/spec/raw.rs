@@ -41,6 +41,11 @@ pub enum Reads {
     Input,
     /// Three numbers.
     Vector(&'static [Dimension]),
+    /// Some of these words.
+    Words(&'static [&'static str]),
+    /// Numbers of these dimensions under names of their own, `com.x` for the key `com`; each a
+    /// number or a run-time parameter. Three may be a list.
+    Group(&'static [&'static str], &'static [Dimension]),
 }
 
 /// A key that an entry may have.
@@ -67,6 +72,10 @@ pub enum Entry {
     Pair([Located<String>; 2]),
     /// Three numbers.
     Vector(Vector),
+    /// Words.
+    Words(Vec<Located<String>>),
+    /// Numbers under names of their own.
+    Group(Vec<(&'static str, Located<Number>)>),
 }
 
 /// The keys of an entry with what was read behind them.
@@ -93,8 +102,12 @@ impl Fields {
     pub fn placed(mut self, place: &Place) -> Fields {
         for (_, entry) in &mut self.0 {
             entry.place = place.clone();
-            if let Entry::Pair(names) = &mut entry.value {
-                names.iter_mut().for_each(|n| n.place = place.clone());
+            match &mut entry.value {
+                Entry::Pair(names) => names.iter_mut().for_each(|n| n.place = place.clone()),
+                Entry::Group(numbers) => {
+                    numbers.iter_mut().for_each(|(_, n)| n.place = place.clone());
+                }
+                _ => {}
             }
         }
         self
@@ -250,6 +263,21 @@ impl Reader {
             | Reads::Node
             | Reads::Input => self.text(at).map(Entry::Text),
             Reads::Vector(fit) => self.vector(at, fit).map(Entry::Vector),
+            Reads::Words(_) => {
+                let items = self.list(at, ("a list of words", "`[fx, fz]`"))?;
+                let word = |at: &At<'_>| {
+                    Some(Located {
+                        value: self.text(at)?,
+                        place: at.place.clone(),
+                    })
+                };
+                items
+                    .iter()
+                    .map(word)
+                    .collect::<Option<_>>()
+                    .map(Entry::Words)
+            }
+            Reads::Group(names, fit) => self.group(at, names, fit).map(Entry::Group),
             Reads::Places => {
                 let items = self.list(at, ("two names", "`[one, other]`"))?;
                 let mut names = items.iter().map(|at| {
@@ -268,6 +296,30 @@ impl Reader {
                 Some(Entry::Pair(pair))
             }
         }
+    }
+
+    /// Named numbers by their names; three of them also in their order.
+    fn group(
+        &mut self,
+        at: &At<'_>,
+        names: &[&'static str],
+        fit: &[Dimension],
+    ) -> Option<Vec<(&'static str, Located<Number>)>> {
+        if names.len() == 3 && !matches!(at.tree.data, Data::Map(_)) {
+            let numbers = self.triple(at, |r, at| r.value(at, fit))?;
+            return Some(names.iter().copied().zip(numbers).collect());
+        }
+        let own = |name: &'static str| name.split_once('.').map_or(name, |(_, own)| own);
+        let keys: Vec<&'static str> = names.iter().map(|name| own(name)).collect();
+        let example = format!("`{{ {}: … }}`", keys.join(": …, "));
+        let before = self.faults.count();
+        let map = self.mapping(at, ("numbers by name", &example), &keys)?;
+        let mut found = Vec::new();
+        for (name, key) in names.iter().zip(&keys) {
+            let read = self.field(&map, key, |r, at| r.value(at, fit));
+            found.extend(read.given().map(|number| (*name, number.clone())));
+        }
+        (self.faults.count() == before).then_some(found)
     }
 
     /// The entries of a mapping whose keys are names.

@@ -95,7 +95,7 @@ const fn degrees(text: &'static str, dimension: Dimension) -> Unit {
 }
 
 /// Every unit there is; a dimension's SI unit stands first.
-static UNITS: [Unit; 54] = [
+static UNITS: [Unit; 57] = [
     unit("m", Dimension::Length, 0),
     unit("cm", Dimension::Length, -2),
     unit("mm", Dimension::Length, -3),
@@ -150,6 +150,9 @@ static UNITS: [Unit; 54] = [
     unit("m^2", Dimension::Area, 0),
     unit("cm^2", Dimension::Area, -4),
     unit("mm^2", Dimension::Area, -6),
+    unit("m^3/(s*Pa^0.5)", Dimension::OrificeFlow, 0),
+    unit("m^3/(s*Pa)", Dimension::Leakage, 0),
+    unit("Pa*s/m^3", Dimension::FlowResistance, 0),
 ];
 
 impl Unit {
@@ -178,12 +181,7 @@ impl Dimension {
 
     /// Its SI unit; empty for a pure number.
     pub fn si(self) -> &'static str {
-        match self {
-            Dimension::OrificeFlow => "m^3/(s*Pa^0.5)",
-            Dimension::Leakage => "m^3/(s*Pa)",
-            Dimension::FlowResistance => "Pa*s/m^3",
-            _ => self.units().next().unwrap_or(""),
-        }
+        self.units().next().unwrap_or("")
     }
 }
 

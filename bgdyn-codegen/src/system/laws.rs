@@ -10,7 +10,7 @@ use crate::expr::{Builder, Ex, Graph, Leaf, Tangent, copy_into};
 use crate::formulation::Search;
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
-use crate::scene::{Level, Scene};
+use crate::scene::{Chain, Level, Scene};
 
 /// Where an effort acts: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
 #[derive(Clone, Debug)]
@@ -62,6 +62,19 @@ pub struct Reading<'g> {
     pub about: String,
 }
 
+/// A value that must be positive.
+#[derive(Clone, Debug)]
+pub(super) struct Condition<'g> {
+    /// The element that asks for it, by its place in the scene.
+    pub element: usize,
+    /// The value.
+    pub value: Ex<'g>,
+    /// What it is, with its unit.
+    pub what: String,
+    /// What to do where it is not.
+    pub way_out: &'static str,
+}
+
 /// What the coordinates' own efforts (joint efforts, voltages) are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Own {
@@ -104,6 +117,7 @@ pub struct Laws<'g, 'a> {
     contacts: Vec<Contact<'g>>,
     events: BTreeMap<String, Ex<'g>>,
     readings: Vec<Reading<'g>>,
+    conditions: Vec<Condition<'g>>,
     shared: BTreeMap<(String, &'static str), Ex<'g>>,
     poses: BTreeMap<SiteId, (Mat3<Ex<'g>>, Vec3<Ex<'g>>)>,
 }
@@ -145,6 +159,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             contacts: Vec::new(),
             events: BTreeMap::new(),
             readings: Vec::new(),
+            conditions: Vec::new(),
             shared: BTreeMap::new(),
             poses: BTreeMap::new(),
         };
@@ -364,6 +379,16 @@ impl<'g, 'a> Laws<'g, 'a> {
         balance.supplied = balance.supplied + power;
     }
 
+    /// Power that another element takes from outside, W: a source of pressure gives it to whatever
+    /// lets fluid run.
+    pub fn supply_by(&mut self, element: &str, power: Ex<'g>) {
+        let found = self.scene.elements.iter().position(|e| e.name == element);
+        if let Some(at) = found {
+            let balance = &mut self.balances[at];
+            balance.supplied = balance.supplied + power;
+        }
+    }
+
     /// Energy that the element stores, J.
     pub fn store(&mut self, energy: Ex<'g>) {
         let balance = &mut self.balances[self.at];
@@ -404,6 +429,16 @@ impl<'g, 'a> Laws<'g, 'a> {
         self.readings.push(Reading { name, value, about });
     }
 
+    /// A value that must be positive, tried at the start and over the limits of the joints.
+    pub fn stays_positive(&mut self, value: Ex<'g>, what: String, way_out: &'static str) {
+        self.conditions.push(Condition {
+            element: self.at,
+            value,
+            what,
+            way_out,
+        });
+    }
+
     /// A value that one element gives to others: the pressure of a node.
     pub fn share(&mut self, node: &str, what: &'static str, value: Ex<'g>) {
         self.shared.insert((node.to_owned(), what), value);
@@ -417,6 +452,11 @@ impl<'g, 'a> Laws<'g, 'a> {
     /// The scene's elements, for those that have to know of each other.
     pub fn elements(&self) -> &'a [Element] {
         &self.scene.elements
+    }
+
+    /// Elements in series.
+    pub fn chains(&self) -> &'a [Chain] {
+        &self.scene.chains
     }
 
     // What the system reads
@@ -495,13 +535,20 @@ impl<'g, 'a> Laws<'g, 'a> {
 
     /// Whether an expression depends on any position.
     pub(super) fn reads_positions(&self, x: Ex<'g>) -> bool {
+        !self.positions_of(x).is_empty()
+    }
+
+    /// The positions that an expression depends on.
+    pub(super) fn positions_of(&self, x: Ex<'g>) -> Vec<usize> {
         let x = x.expr();
         self.b.with_graph(|g| {
             let needed = crate::expr::reachable(g, &[x]);
-            (0..g.len()).filter(|&i| needed[i]).any(|i| {
-                let node = g.node(crate::expr::NodeId(i as u32));
-                matches!(node, crate::expr::Node::Leaf(Leaf::Position(_)))
-            })
+            let needed = (0..g.len()).filter(|&i| needed[i]);
+            let position = |i| match g.node(crate::expr::NodeId(i as u32)) {
+                crate::expr::Node::Leaf(Leaf::Position(j)) => Some(*j),
+                _ => None,
+            };
+            needed.filter_map(position).collect()
         })
     }
 
@@ -540,6 +587,10 @@ impl<'g, 'a> Laws<'g, 'a> {
 
     pub(super) fn event_named(&self, name: &str) -> Option<Ex<'g>> {
         self.events.get(name).copied()
+    }
+
+    pub(super) fn conditions(&self) -> &[Condition<'g>] {
+        &self.conditions
     }
 
     pub(super) fn readings(&self) -> &[Reading<'g>] {

@@ -7,6 +7,7 @@
 mod balance;
 mod dynamics;
 mod laws;
+mod range;
 mod signals;
 mod slope;
 
@@ -48,7 +49,8 @@ impl System {
     /// The equations of a scene.
     ///
     /// # Errors
-    /// Outputs that the scene does not have.
+    /// Outputs that the scene does not have; values that do not stay positive over the limits of
+    /// the joints.
     pub fn new(scene: Scene) -> Result<Self, Faults> {
         let mut graph = bond_graph::build(&scene.mechanism).bare();
         for element in &scene.elements {
@@ -67,6 +69,7 @@ impl System {
         let entries = balance::entries(&system.scene, &system.graph, &laws);
         let outputs = outputs(&system, &laws, &mut faults);
         let outputs = outputs.into_iter().map(|(named, _)| named).collect();
+        range::check(&system.scene, &laws, &mut faults);
         let started = start(&system.scene, &laws);
         drop(laws);
         (system.entries, system.outputs) = (entries, outputs);

@@ -1,14 +1,20 @@
 //! Scenes through the evaluator: laws of every scene file and of scenes written here.
 
+mod bench;
+mod bodies;
+mod causality;
 mod combinations;
+mod combined;
 mod common;
 mod drives;
 mod friction;
 mod hard_cases;
+mod hydraulics;
 mod laws;
 mod one;
 mod reference;
 mod refused;
+mod refused_bodies;
 mod settle;
 mod springs;
 mod zero;

@@ -14,8 +14,8 @@ pub(super) fn effects(spec: &Spec, mechanism: &Mechanism, faults: &mut Faults) -
         .filter_map(|raw| declared(raw, faults))
         .collect();
     let context = context(mechanism, Vec::new()).with(found.iter());
+    taken(&found, mechanism, faults);
     for effect in &found {
-        taken(effect, mechanism, faults);
         effect.element(&context, faults);
     }
     found

@@ -5,10 +5,10 @@ use bgdyn_runtime::nalgebra::Matrix3;
 
 use super::direction::Directions;
 use super::parameters::Parameters;
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Place, wording};
 use crate::math::Mat3;
 use crate::mechanism::{Pose, Tensor, Value};
-use crate::spec::{Dimension, Field, Inertia, Link, Located};
+use crate::spec::{Dimension, Field, Inertia, Link};
 
 /// How far, relative to the largest principal moment, a tensor may miss a rule.
 const TOLERANCE: f64 = 1e-9;
@@ -39,7 +39,7 @@ pub(super) fn tensor(
     let rotation = directions.rotation(&inertia.value.rpy, faults);
     let entries = entries(link, &inertia.value, parameters, faults)?;
     let numbers = entries.map(|entry| parameters.default_of(entry));
-    physical(inertia, &numbers, allowed, faults);
+    physical(&inertia.place, &numbers, allowed, faults);
     let known = entries.iter().all(|e| matches!(e, Value::Fixed(_)));
     Some(match (inertia.value.rpy.is_absent(), known) {
         (true, _) => Tensor {
@@ -94,14 +94,19 @@ fn entries(
     whole.then_some(entries)
 }
 
-fn physical(inertia: &Located<Inertia>, entries: &[Dd; 6], allowed: bool, faults: &mut Faults) {
+/// Refuses a tensor (xx, yy, zz, xy, xz, yz about the centre of mass) that no body has.
+pub(crate) fn check_tensor(place: &Place, entries: &[Dd; 6], faults: &mut Faults) {
+    physical(place, entries, false, faults);
+}
+
+fn physical(place: &Place, entries: &[Dd; 6], allowed: bool, faults: &mut Faults) {
     let moments = principal_moments(entries);
     let [small, middle, large] = moments;
     let slack = TOLERANCE * large.abs().max(small.abs());
     if small < -slack {
-        faults.push(wording::not_semidefinite(&inertia.place, moments));
+        faults.push(wording::not_semidefinite(place, moments));
     } else if !allowed && large > small + middle + slack {
-        faults.push(wording::triangle_inequality(&inertia.place, moments));
+        faults.push(wording::triangle_inequality(place, moments));
     }
 }
 

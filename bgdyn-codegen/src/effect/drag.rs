@@ -1,0 +1,87 @@
+//! Drag of a resting medium on a place of a link: f = −(c₁ + c₂ |v|) v against the velocity v of its
+//! origin, m = −c_ω ω against its angular velocity. c₁ is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
+
+use super::wrench::{AT, act, moves, twist};
+use super::{Beside, Effect, Element, Given};
+use crate::fault::Faults;
+use crate::math::Vec3;
+use crate::spec::{Dimension, Key, Reads};
+use crate::system::Laws;
+
+pub(super) struct Drag;
+
+const fn number(name: &'static str, fit: &'static [Dimension], about: &'static str) -> Key {
+    Key {
+        name,
+        reads: Reads::Number(fit),
+        needed: false,
+        about,
+    }
+}
+
+static KEYS: [Key; 4] = [
+    AT,
+    number("linear", &[Dimension::Damping], "c₁, force per speed"),
+    number(
+        "quadratic",
+        &[Dimension::QuadraticDamping],
+        "c₂, force per square of the speed: ½ ρ C_d A",
+    ),
+    number(
+        "angular",
+        &[Dimension::AngularDamping],
+        "c_ω, moment per angular speed",
+    ),
+];
+
+impl Effect for Drag {
+    fn keyword(&self) -> &'static str {
+        "drag"
+    }
+
+    fn family(&self) -> &'static str {
+        "drag"
+    }
+
+    fn summary(&self) -> &'static str {
+        "drag: f = −(c₁ + c₂ |v|) v, m = −c_ω ω"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &KEYS
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        let numbers = ["linear", "quadratic", "angular"];
+        given.not_negative(&numbers, "a negative drag would drive the link");
+        if numbers.iter().all(|key| given.number(key).is_none()) {
+            let place = given.element.place.clone();
+            let message = format!("`{}` has no drag", given.element.name);
+            let help = "add `linear`, `quadratic` or `angular`";
+            given.fault(&place, "effect-missing", message, help);
+        }
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        moves(element, beside, faults);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let site = laws.site(element.name(AT.name).unwrap_or_default());
+        let jacobian = laws.jacobian(site);
+        let [wx, wy, wz, vx, vy, vz] = twist(&jacobian, laws);
+        let (omega, v) = (Vec3([wx, wy, wz]), Vec3([vx, vy, vz]));
+        let [linear, angular] = ["linear", "angular"].map(|key| laws.number(element, key));
+        let factor = match laws.optional(element, "quadratic") {
+            Some(quadratic) => linear + quadratic * v.dot(v).sqrt(),
+            None => linear,
+        };
+        let ([mx, my, mz], [fx, fy, fz]) = (omega.scale(-angular).0, v.scale(-factor).0);
+        act(&jacobian, &[mx, my, mz, fx, fy, fz], laws);
+        laws.dissipate(factor * v.dot(v) + angular * omega.dot(omega));
+    }
+}

@@ -1,0 +1,170 @@
+//! A hydraulic cylinder at a joint or along the line between two places: a transformer from the
+//! pressures of its two sides to its force, f = p_a A_a − p_b A_b, and two volumes that its motion
+//! changes, V_a = V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀)). At a joint that turns it is a
+//! vane actuator: areas are volumes per angle, the force is a torque.
+
+use super::{FAMILY, FLUID, declare_volume, fill, filled, has_fluid, number};
+use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
+use crate::effect::{Beside, Effect, Element, Given};
+use crate::expr::Ex;
+use crate::fault::Faults;
+use crate::scene::Layout;
+use crate::spec::{Dimension, Key};
+use crate::system::Laws;
+
+pub(in crate::effect) struct Cylinder;
+
+/// Volume per displacement: per angle, per length.
+const AREA: &[Dimension] = &[Dimension::Volume, Dimension::Area];
+const PLACE: &[Dimension] = &[Dimension::Angle, Dimension::Length];
+const VOLUME: &[Dimension] = &[Dimension::Volume];
+
+static KEYS: [Key; 9] = [
+    number(
+        "area_a",
+        AREA,
+        true,
+        "A_a, of the side that pushes towards larger s",
+    ),
+    number(
+        "area_b",
+        AREA,
+        false,
+        "A_b, of the other side; single-acting without it",
+    ),
+    number(
+        "dead_a",
+        VOLUME,
+        false,
+        "V_a0, volume of side a at s = s₀; 0 without it",
+    ),
+    number(
+        "dead_b",
+        VOLUME,
+        false,
+        "V_b0, volume of side b at s = s₀ + H; 0 without it",
+    ),
+    number(
+        "stroke",
+        PLACE,
+        false,
+        "H; 0 without it, and then V_b0 is the volume at s = s₀",
+    ),
+    number(
+        "offset",
+        PLACE,
+        false,
+        "s₀, coordinate or length with side a closed; 0 without it",
+    ),
+    MAYBE_JOINT,
+    BETWEEN,
+    FLUID,
+];
+
+impl Effect for Cylinder {
+    fn keyword(&self) -> &'static str {
+        "cylinder"
+    }
+
+    fn family(&self) -> &'static str {
+        FAMILY
+    }
+
+    fn summary(&self) -> &'static str {
+        "hydraulic cylinder: f = p_a A_a − p_b A_b, V_a = V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀))"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "TF"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &KEYS
+    }
+
+    fn nodes(&self, given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+        if given("area_b") { &["a", "b"] } else { &["a"] }
+    }
+
+    fn order(&self) -> u8 {
+        0
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.one_of(&["joint", "between"]);
+        given.positive(
+            &["area_a", "area_b"],
+            "a side that does not act is left out",
+        );
+        given.positive(
+            &["stroke"],
+            "leave it out where `dead_b` is the volume at `offset`",
+        );
+        given.not_negative(&["dead_a", "dead_b"], "there is no such volume");
+        for key in ["dead_b", "stroke"] {
+            if given.number(key).is_some() && given.number("area_b").is_none() {
+                let place = given.place(key);
+                let message = format!("`{key}` is of side b, which has no `area_b`");
+                let help = "add `area_b: …`, or leave it out: the cylinder is single-acting";
+                given.fault(&place, "effect-missing", message, help);
+            }
+        }
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        has_fluid(element, beside, faults);
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        for node in element.nodes() {
+            declare_volume(&node, layout);
+        }
+    }
+
+    fn keeps(&self, element: &Element, state: &str) -> bool {
+        element.nodes().iter().any(|node| node == state)
+    }
+
+    fn start<'g>(
+        &self,
+        element: &Element,
+        laws: &Laws<'g, '_>,
+        state: &str,
+        given: Ex<'g>,
+    ) -> Ex<'g> {
+        filled(element, laws, state, given)
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let port = laws.port(element);
+        let name = &element.name;
+        let [area_a, area_b, dead_a, dead_b, stroke, offset] =
+            ["area_a", "area_b", "dead_a", "dead_b", "stroke", "offset"]
+                .map(|key| laws.number(element, key));
+        let travelled = port.place - offset;
+        let volumes = [
+            dead_a + area_a * travelled,
+            dead_b + area_b * (stroke - travelled),
+        ];
+        let mut force = laws.b.zero();
+        let sides = element.nodes().into_iter().zip(volumes);
+        for ((node, volume), area) in sides.zip([area_a, -area_b]) {
+            let what = format!("the volume of `{node}`, m^3,");
+            let way_out =
+                "see to `offset`, `stroke` and the dead volumes, or to the joint's limits";
+            laws.stays_positive(volume, what, way_out);
+            force = force + area * fill(element, &node, volume, laws);
+        }
+        laws.push(&port, force);
+        laws.reading(
+            format!("{name}_force"),
+            force,
+            format!("effort of `{name}` towards larger s"),
+        );
+        laws.reading(
+            format!("{name}_length"),
+            port.place,
+            format!("coordinate or length s of `{name}`"),
+        );
+    }
+}

@@ -1,0 +1,43 @@
+//! The fluid of a circuit: its bulk modulus.
+
+use super::{FAMILY, number};
+use crate::effect::{Effect, Given};
+use crate::spec::{Dimension, Key};
+
+pub(in crate::effect) struct Fluid;
+
+pub(super) const KEYWORD: &str = "fluid";
+
+pub(super) const BULK_MODULUS: Key = number(
+    "bulk_modulus",
+    &[Dimension::Pressure],
+    true,
+    "β = ρ dp/dρ, constant",
+);
+
+impl Effect for Fluid {
+    fn keyword(&self) -> &'static str {
+        KEYWORD
+    }
+
+    fn family(&self) -> &'static str {
+        FAMILY
+    }
+
+    fn summary(&self) -> &'static str {
+        "fluid of constant bulk modulus: ρ = ρ₀ e^{p/β}"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "C"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[BULK_MODULUS]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        let why = "oil has about 1.4 GPa, less with air in it";
+        given.positive(&[BULK_MODULUS.name], why);
+    }
+}

@@ -1,0 +1,54 @@
+//! A node without a volume between two resistors: its pressure is solved for at generation time.
+
+use super::{FAMILY, FLUID, has_fluid, pressure, read_pressure, solve};
+use crate::effect::{Beside, Effect, Element};
+use crate::fault::Faults;
+use crate::spec::Key;
+use crate::system::Laws;
+
+pub(in crate::effect) struct Junction;
+
+impl Effect for Junction {
+    fn keyword(&self) -> &'static str {
+        "junction"
+    }
+
+    fn family(&self) -> &'static str {
+        FAMILY
+    }
+
+    fn summary(&self) -> &'static str {
+        "hydraulic junction without volume: Σ q = 0"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "0"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[FLUID]
+    }
+
+    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+        &[""]
+    }
+
+    fn is_junction(&self) -> bool {
+        true
+    }
+
+    // After the nodes of known pressure, before the resistors.
+    fn order(&self) -> u8 {
+        1
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        has_fluid(element, beside, faults);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        solve(element, laws);
+        let found = pressure(&element.name, laws);
+        read_pressure(&element.name, found, laws);
+    }
+}

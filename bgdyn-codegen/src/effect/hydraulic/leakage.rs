@@ -1,0 +1,62 @@
+//! Leakage through a gap: laminar flow, q = c Δp (Merritt 1967, section 3-2).
+
+use super::{FAMILY, FROM, TO, joins_two, number, one_fluid, resist};
+use crate::effect::{Beside, Effect, Element, Given};
+use crate::fault::Faults;
+use crate::spec::{Dimension, Key};
+use crate::system::Laws;
+
+pub(in crate::effect) struct Leakage;
+
+pub(super) const CONDUCTANCE: Key = number(
+    "conductance",
+    &[Dimension::Leakage],
+    true,
+    "c, flow per pressure drop",
+);
+
+impl Effect for Leakage {
+    fn keyword(&self) -> &'static str {
+        "leakage"
+    }
+
+    fn family(&self) -> &'static str {
+        FAMILY
+    }
+
+    fn summary(&self) -> &'static str {
+        "leakage: q = c Δp"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "R"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[CONDUCTANCE, FROM, TO]
+    }
+
+    fn order(&self) -> u8 {
+        2
+    }
+
+    fn in_series(&self, _: &Element) -> bool {
+        true
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        let why = "what lets nothing through is left out";
+        given.positive(&[CONDUCTANCE.name], why);
+        joins_two(given, FROM.name, TO.name);
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        one_fluid(element, beside, faults);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        resist(element, laws, |laws, drop| {
+            laws.number(element, CONDUCTANCE.name) * drop
+        });
+    }
+}

@@ -1,0 +1,71 @@
+//! The volume of a line or a hose: a hydraulic compliance.
+
+use super::{FAMILY, FLUID, VOLUME, declare_volume, fill, filled, has_fluid, number};
+use crate::effect::{Beside, Effect, Element, Given};
+use crate::expr::Ex;
+use crate::fault::Faults;
+use crate::scene::Layout;
+use crate::spec::{Dimension, Key};
+use crate::system::Laws;
+
+pub(in crate::effect) struct Line;
+
+static KEYS: [Key; 2] = [number(VOLUME, &[Dimension::Volume], true, "V"), FLUID];
+
+impl Effect for Line {
+    fn keyword(&self) -> &'static str {
+        "line"
+    }
+
+    fn family(&self) -> &'static str {
+        FAMILY
+    }
+
+    fn summary(&self) -> &'static str {
+        "hydraulic volume: Ẇ = q W/V, p = β ln(W/V)"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "C"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &KEYS
+    }
+
+    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+        &[""]
+    }
+
+    fn order(&self) -> u8 {
+        0
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        let why = "what has no volume is a junction: `{ type: junction }`";
+        given.positive(&[VOLUME], why);
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        has_fluid(element, beside, faults);
+    }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        declare_volume(&element.name, layout);
+    }
+
+    fn start<'g>(
+        &self,
+        element: &Element,
+        laws: &Laws<'g, '_>,
+        state: &str,
+        given: Ex<'g>,
+    ) -> Ex<'g> {
+        filled(element, laws, state, given)
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        let volume = laws.number(element, VOLUME);
+        fill(element, &element.name, volume, laws);
+    }
+}

@@ -1,0 +1,118 @@
+//! Sources of pressure: a supply (an ideal pressure-controlled pump) and a tank.
+
+use super::{FAMILY, FLUID, PRESSURE, SOURCE, enthalpy, has_fluid, no_less_than_vacuum, number};
+use crate::effect::{Beside, Effect, Element, Given};
+use crate::fault::Faults;
+use crate::spec::{Dimension, Key};
+use crate::system::Laws;
+
+/// Holds its pressure whatever runs.
+pub(in crate::effect) struct Supply;
+
+/// Takes what returns, at the pressure of the surroundings unless it says otherwise.
+pub(in crate::effect) struct Tank;
+
+const fn held(needed: bool, about: &'static str) -> Key {
+    number(PRESSURE, &[Dimension::Pressure], needed, about)
+}
+
+static SUPPLY: [Key; 2] = [held(true, "p, against the surroundings"), FLUID];
+
+static TANK: [Key; 2] = [
+    held(false, "p, against the surroundings; 0 without it"),
+    FLUID,
+];
+
+/// A node that holds its pressure.
+fn hold(element: &Element, laws: &mut Laws<'_, '_>) {
+    let (node, one) = (&element.name, laws.b.number(1.0));
+    let pressure = laws.number(element, PRESSURE);
+    let carried = enthalpy(element, pressure, laws);
+    laws.share(node, PRESSURE, pressure);
+    laws.share(node, super::ENTHALPY, carried);
+    laws.share(node, SOURCE, one);
+}
+
+impl Effect for Supply {
+    fn keyword(&self) -> &'static str {
+        "supply"
+    }
+
+    fn family(&self) -> &'static str {
+        FAMILY
+    }
+
+    fn summary(&self) -> &'static str {
+        "hydraulic supply: holds its pressure p, gives the power β (e^{p/β} − 1) q"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "Se"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &SUPPLY
+    }
+
+    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+        &[""]
+    }
+
+    fn order(&self) -> u8 {
+        0
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        no_less_than_vacuum(given, PRESSURE);
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        has_fluid(element, beside, faults);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        hold(element, laws);
+    }
+}
+
+impl Effect for Tank {
+    fn keyword(&self) -> &'static str {
+        "tank"
+    }
+
+    fn family(&self) -> &'static str {
+        FAMILY
+    }
+
+    fn summary(&self) -> &'static str {
+        "hydraulic tank: takes what returns at its pressure p"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "Se"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &TANK
+    }
+
+    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+        &[""]
+    }
+
+    fn order(&self) -> u8 {
+        0
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        no_less_than_vacuum(given, PRESSURE);
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        has_fluid(element, beside, faults);
+    }
+
+    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        hold(element, laws);
+    }
+}

@@ -1,0 +1,106 @@
+//! A body carried by a link: it joins the mechanism as a link of its own, fixed at the place, before
+//! there is a graph. What is known of it moves into the base parameters of its carrier; a run-time
+//! parameter attaches it and, set to 0, lets it go.
+
+use bgdyn_runtime::Dd;
+
+use super::wrench::{AT, moves};
+use super::{Beside, Effect, Element, Given};
+use crate::fault::Faults;
+use crate::math::Vec3;
+use crate::mechanism::{Inertial, Mechanism, Pose, Tensor, Value, check_tensor};
+use crate::spec::{Dimension, Key, Reads};
+
+pub(super) struct Payload;
+
+const COM: [&str; 3] = ["com.x", "com.y", "com.z"];
+const INERTIA: [&str; 6] = [
+    "inertia.xx",
+    "inertia.yy",
+    "inertia.zz",
+    "inertia.xy",
+    "inertia.xz",
+    "inertia.yz",
+];
+
+impl Effect for Payload {
+    fn keyword(&self) -> &'static str {
+        "payload"
+    }
+
+    fn family(&self) -> &'static str {
+        "payloads"
+    }
+
+    fn summary(&self) -> &'static str {
+        "carried body: mass, centre of mass and tensor join those of its link"
+    }
+
+    fn symbol(&self) -> &'static str {
+        "I"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[
+            Key {
+                name: "mass",
+                reads: Reads::Number(&[Dimension::Mass]),
+                needed: true,
+                about: "its mass",
+            },
+            AT,
+            Key {
+                name: "com",
+                reads: Reads::Group(&COM, &[Dimension::Length]),
+                needed: false,
+                about: "its centre of mass in the axes of the place; the origin without it",
+            },
+            Key {
+                name: "inertia",
+                reads: Reads::Group(&INERTIA, &[Dimension::Inertia]),
+                needed: false,
+                about: "its tensor about the centre of mass in the axes of the place; a point mass without it",
+            },
+        ]
+    }
+
+    fn rules(&self, given: &mut Given<'_>) {
+        given.not_negative(&["mass"], "no body has it");
+        let entries = INERTIA.map(|key| given.number(key).map_or(Dd::ZERO, |q| q.value));
+        let first = INERTIA.into_iter().find(|key| given.number(key).is_some());
+        if let Some(first) = first {
+            let place = given.place(first);
+            check_tensor(&place, &entries, given.faults);
+        }
+    }
+
+    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+        moves(element, beside, faults);
+    }
+
+    fn reduce(&self, element: &Element, mechanism: &mut Mechanism) {
+        let mut value = |key: &str| match element.quantity(key) {
+            None => Value::Fixed(Dd::ZERO),
+            Some(q) => match &q.parameter {
+                None => Value::Fixed(q.value),
+                Some(name) => {
+                    let (meaning, unit) = (element.meaning(key), q.dimension.si());
+                    mechanism.parameter(name, meaning, q.value, unit)
+                }
+            },
+        };
+        let inertial = Inertial {
+            mass: value("mass"),
+            com: Vec3(COM.map(&mut value)),
+            inertia: Tensor {
+                entries: INERTIA.map(&mut value),
+                axes: Pose::IDENTITY.rotation,
+            },
+        };
+        mechanism.carry(
+            &element.name,
+            element.name(AT.name).unwrap_or_default(),
+            inertial,
+        );
+    }
+}

@@ -1,0 +1,169 @@
+//! Causality: every element needs somebody who tells it its effort or its flow at each instant. A
+//! store does, by its state. Where there is none (a junction of two orifices without a volume, a
+//! winding without inductance) elements ask each other, and their laws form an algebraic loop. The
+//! loop is solved here, at generation time, or named.
+//!
+//! What can be solved: elements in series. One flow q runs through all of them, and their pressure
+//! drops Δp_i = R_i q + S_i q|q| add up to R q + S q|q| with R = Σ R_i and S = Σ S_i, which has one
+//! solution. What cannot: three flows that meet without a volume, or an opening that varies, which
+//! may close and leave the pressure between two closed valves undetermined.
+
+use super::Scene;
+use crate::effect::Element;
+use crate::fault::{Fault, Faults, Place};
+
+/// Elements in series, joined by junctions without volume: one flow runs through all of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// The node where it begins; its pressure is known.
+    pub from: String,
+    /// The node where it ends; its pressure is known.
+    pub to: String,
+    /// Elements by their place in the scene, and whether the flow runs from their `from` to their
+    /// `to`.
+    pub members: Vec<(usize, bool)>,
+    /// The junctions between them.
+    pub through: Vec<String>,
+}
+
+/// Elements without a store between them, and how they were solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solved {
+    /// Their names.
+    pub elements: Vec<String>,
+    /// The nodes between them.
+    pub nodes: Vec<String>,
+    /// How.
+    pub how: String,
+}
+
+/// The fault of a loop that has no solution, or none that is found.
+pub(crate) fn algebraic_loop(place: &Place, message: String, way_out: &str) -> Fault {
+    Fault::new(place, "algebraic-loop", message).with_help(way_out)
+}
+
+impl Scene {
+    /// The elements that have no store to wait for, and how each was solved.
+    pub fn solved(&self) -> Vec<Solved> {
+        let alone = self.elements.iter().filter_map(|e| {
+            e.effect.algebraic(e).map(|how| Solved {
+                elements: vec![e.name.clone()],
+                nodes: vec![],
+                how: how.to_owned(),
+            })
+        });
+        let in_series = self.chains.iter().map(|chain| {
+            let name = |&(i, _): &(usize, bool)| self.elements[i].name.clone();
+            let (from, to) = (&chain.from, &chain.to);
+            Solved {
+                elements: chain.members.iter().map(name).collect(),
+                nodes: chain.through.clone(),
+                how: format!("in series from `{from}` to `{to}`: R and S of Δp = R q + S q|q| add"),
+            }
+        });
+        alone.chain(in_series).collect()
+    }
+}
+
+/// The chains of elements through junctions; what cannot be solved is a fault.
+pub(super) fn chains(elements: &[Element], faults: &mut Faults) -> Vec<Chain> {
+    let before = faults.count();
+    let junctions = elements.iter().filter(|e| e.effect.is_junction());
+    let junctions: Vec<&Element> = junctions.collect();
+    for junction in &junctions {
+        faults.0.extend(unsolvable(junction, elements));
+    }
+    if faults.count() > before {
+        return vec![];
+    }
+    let is_junction = |node: &str| junctions.iter().any(|j| j.name == node);
+    let mut chains: Vec<Chain> = Vec::new();
+    let mut used = vec![false; elements.len()];
+    for i in 0..elements.len() {
+        if let [a, b] = elements[i].joins()[..]
+            && is_junction(a) != is_junction(b)
+            && !used[i]
+        {
+            let chain = follow(i, !is_junction(a), elements, &is_junction);
+            chain.members.iter().for_each(|&(k, _)| used[k] = true);
+            chains.push(chain);
+        }
+    }
+    // What no chain has reached runs in a circle.
+    let reached = |j: &Element| chains.iter().any(|c| c.through.contains(&j.name));
+    if let Some(junction) = junctions.iter().find(|j| !reached(j)) {
+        let (name, place) = (&junction.name, &junction.place);
+        let message = format!(
+            "`{name}` lies in a circle of elements and junctions, none of which has a volume or a pressure of its own"
+        );
+        faults.push(algebraic_loop(place, message, VOLUME));
+    }
+    chains
+}
+
+/// The way out of most loops.
+const VOLUME: &str = "make one of the junctions a volume: `{ type: line, volume: … }`";
+
+/// Why the pressure of a junction cannot be solved for.
+fn unsolvable(junction: &Element, elements: &[Element]) -> Option<Fault> {
+    let (name, place) = (junction.name.as_str(), &junction.place);
+    let joined = elements.iter().filter(|e| e.joins().contains(&name));
+    let joined: Vec<&Element> = joined.collect();
+    let all: Vec<String> = joined.iter().map(|e| format!("`{}`", e.name)).collect();
+    let message = match joined.as_slice() {
+        [] | [_] => {
+            let message = match all.first() {
+                None => format!("nothing is joined to `{name}`"),
+                Some(one) => format!("`{name}` is a dead end: {one} alone is joined to it"),
+            };
+            let fault = Fault::new(place, "joined-to-nothing", message);
+            return Some(fault.with_help("a junction stands between two elements"));
+        }
+        [a, b] => {
+            let varies = [a, b].into_iter().find(|e| !e.effect.in_series(e))?;
+            format!(
+                "{} meet in `{name}`, which has no volume, and `{}` has an opening that varies: where it closes, nothing tells the pressure between them",
+                all.join(" and "),
+                varies.name
+            )
+        }
+        _ => format!(
+            "{} meet in `{name}`, which has no volume: each flow depends on a pressure that depends on all of them",
+            all.join(", ")
+        ),
+    };
+    let way_out = format!("give it a volume: `{name}: {{ type: line, volume: … }}`");
+    Some(algebraic_loop(place, message, &way_out))
+}
+
+/// The chain that begins with an element at a node of known pressure.
+fn follow(
+    first: usize,
+    forward: bool,
+    elements: &[Element],
+    is_junction: &dyn Fn(&str) -> bool,
+) -> Chain {
+    let ends = |i: usize, forward: bool| match (&elements[i].joins()[..], forward) {
+        (&[a, b], true) => [a, b],
+        (&[a, b], false) => [b, a],
+        _ => unreachable!("what stands in series joins two nodes"),
+    };
+    let [from, mut at] = ends(first, forward);
+    let mut chain = Chain {
+        from: from.to_owned(),
+        to: String::new(),
+        members: vec![(first, forward)],
+        through: vec![],
+    };
+    let mut last = first;
+    while is_junction(at) {
+        chain.through.push(at.to_owned());
+        let next = (0..elements.len()).find(|&i| i != last && elements[i].joins().contains(&at));
+        let Some(next) = next else { break };
+        let forward = elements[next].joins()[0] == at;
+        chain.members.push((next, forward));
+        (last, at) = (next, ends(next, forward)[1]);
+    }
+    chain.to = at.to_owned();
+    chain
+}

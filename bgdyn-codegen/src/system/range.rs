@@ -1,0 +1,62 @@
+//! Values that must stay positive: the volume of a cylinder's side. Each is tried at the start, then
+//! with one joint after the other moved from its lower to its upper limit. What is found is wrong;
+//! what is not found may still go wrong between the points, or where several joints move.
+
+use bgdyn_runtime::Dd;
+
+use super::Laws;
+use super::laws::Condition;
+use crate::fault::{Fault, Faults};
+use crate::scene::{Initial, Scene, Store};
+
+/// Points between a joint's limits.
+const POINTS: u32 = 64;
+
+/// Notes the values that do not stay positive.
+pub(super) fn check(scene: &Scene, laws: &Laws<'_, '_>, faults: &mut Faults) {
+    for condition in laws.conditions() {
+        if let Some((value, place)) = violated(condition, scene, laws) {
+            let value = value.to_f64();
+            let message = format!("{} is {value:.3e} {place}", condition.what);
+            let place = &scene.elements[condition.element].place;
+            let fault = Fault::new(place, "effect-range", message);
+            faults.push(fault.with_help(condition.way_out));
+        }
+    }
+}
+
+/// The value where it is not positive, and where that is.
+fn violated<'g>(
+    condition: &Condition<'g>,
+    scene: &Scene,
+    laws: &Laws<'g, '_>,
+) -> Option<(Dd, String)> {
+    let start = &scene.initial;
+    let value_at = |initial: &Initial| laws.at_start(condition.value, initial);
+    let wrong = |value: &Dd| !(*value > Dd::ZERO);
+    let first = Some(value_at(start)).filter(wrong);
+    if let Some(value) = first {
+        return Some((value, "at the start".into()));
+    }
+    for j in laws.positions_of(condition.value) {
+        let coordinate = &scene.layout.coordinates[j];
+        let Store::Links(id) = &coordinate.store else {
+            continue;
+        };
+        let limits = scene.mechanism.joint(*id).limits;
+        let (Some(lower), Some(upper)) = (limits.lower, limits.upper) else {
+            continue;
+        };
+        for k in 0..=POINTS {
+            let q = lower + (upper - lower) * f64::from(k) / f64::from(POINTS);
+            let mut moved = start.clone();
+            moved.q[j] = Dd::from_f64(q);
+            if let Some(value) = Some(value_at(&moved)).filter(wrong) {
+                let (name, unit) = (&coordinate.name, coordinate.dimensions[0].si());
+                let place = format!("where `{name}` is {q:.4} {unit}, within its limits");
+                return Some((value, place));
+            }
+        }
+    }
+    None
+}

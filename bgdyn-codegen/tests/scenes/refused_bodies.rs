@@ -1,0 +1,430 @@
+//! What hydraulics, wrenches, drag and payloads refuse: the rule, the place, the words.
+
+use super::common::{told, try_scene};
+
+const ARM: &str = "
+format: 1
+links:
+  - { name: block, mass: 2 kg, joint: { name: slide, type: prismatic, axis: x, limits: { lower: -0.2, upper: 0.2 } } }
+  - { name: arm, parent: block, mass: 1 kg, com: [0.1, 0, 0], joint: { name: swing, type: revolute, axis: y, limits: { lower: -90 deg, upper: 90 deg } } }
+frames:
+  - { name: anchor, link: world, origin: { xyz: [0, 0, -0.3] } }
+  - { name: lug, link: arm, origin: { xyz: [0.1, 0, 0] } }
+  - { name: jack_b, link: arm }
+";
+
+/// A supply and a line of oil, and what a test adds.
+const OIL: &str = "
+oil: { type: fluid, bulk_modulus: 1 GPa }
+pump: { type: supply, pressure: 10 MPa }
+hose: { type: line, volume: 2 cm^3 }";
+
+struct Case {
+    effects: String,
+    rest: &'static str,
+}
+
+fn plain(effects: &str) -> Case {
+    Case {
+        effects: effects.into(),
+        rest: "",
+    }
+}
+
+fn oil(effects: &str) -> Case {
+    plain(&format!("{OIL}\n{effects}"))
+}
+
+/// The scene has this fault alone, on the line that holds `line_has`.
+fn refused(case: &Case, rule: &str, line_has: &str, words: &[&str]) {
+    let lines = case
+        .effects
+        .lines()
+        .map(str::trim)
+        .filter(|l| !l.is_empty());
+    let effects: Vec<String> = lines.map(|l| format!("  - {l}\n")).collect();
+    let text = format!(
+        "scene: 1\nmechanism: arm.yaml\neffects:\n{}{}",
+        effects.concat(),
+        case.rest
+    );
+    let Err(refusal) = try_scene(&text, ARM) else {
+        panic!("accepted:\n{text}");
+    };
+    let told = told(&refusal, &text);
+    let found: Vec<&str> = told
+        .lines()
+        .filter(|l| l.starts_with("scene.yaml:"))
+        .collect();
+    assert_eq!(found.len(), 1, "{told}");
+    assert!(found[0].ends_with(&format!("[{rule}]")), "{told}");
+    let line = found[0]
+        .split(':')
+        .nth(1)
+        .and_then(|n| n.parse::<usize>().ok());
+    let source = text
+        .lines()
+        .nth(line.expect("a line") - 1)
+        .expect("the line");
+    assert!(source.contains(line_has), "at `{source}`:\n{told}");
+    for word in words {
+        assert!(told.contains(word), "no `{word}` in:\n{told}");
+    }
+}
+
+#[test]
+fn numbers_out_of_their_range() {
+    let cases: [(Case, &str, &str, &[&str]); 19] = [
+        (
+            plain("oil: { type: fluid, bulk_modulus: 0 }"),
+            "effect-sign",
+            "bulk_modulus",
+            &["greater than 0"],
+        ),
+        (
+            plain("oil: { type: fluid, bulk_modulus: -1 GPa }"),
+            "effect-sign",
+            "bulk_modulus",
+            &["-1 GPa"],
+        ),
+        (
+            oil("pipe: { type: line, volume: -1 cm^3 }"),
+            "effect-sign",
+            "pipe",
+            &["-1 cm^3", "junction"],
+        ),
+        (
+            oil("pipe: { type: line, volume: 0 }"),
+            "effect-sign",
+            "pipe",
+            &["junction"],
+        ),
+        (
+            oil("well: { type: supply, pressure: -2 bar }"),
+            "effect-pressure",
+            "well",
+            &["-2 bar", "vacuum"],
+        ),
+        (
+            oil("sump: { type: tank, pressure: -2 bar }"),
+            "effect-pressure",
+            "sump",
+            &["vacuum"],
+        ),
+        (
+            oil("cut: { type: orifice, from: pump, to: hose, flow: 0 }"),
+            "effect-sign",
+            "cut",
+            &["`flow`"],
+        ),
+        (
+            oil("cut: { type: orifice, from: pump, to: hose, flow: 1e-7, resistance: -1 }"),
+            "effect-sign",
+            "cut",
+            &["`resistance`"],
+        ),
+        (
+            oil("gap: { type: leakage, from: pump, to: hose, conductance: 0 }"),
+            "effect-sign",
+            "gap",
+            &["`conductance`"],
+        ),
+        (
+            oil("ram: { type: cylinder, joint: slide, area_a: 0, dead_a: 1e-3 }"),
+            "effect-sign",
+            "ram",
+            &["`area_a`"],
+        ),
+        (
+            oil("ram: { type: cylinder, joint: slide, area_a: 1 cm^2, dead_a: -1 cm^3 }"),
+            "effect-sign",
+            "ram",
+            &["`dead_a`"],
+        ),
+        (
+            oil(
+                "ram: { type: cylinder, joint: slide, area_a: 1 cm^2, area_b: 1 cm^2, stroke: -1 m, dead_a: 1e-3 }",
+            ),
+            "effect-sign",
+            "ram",
+            &["`stroke`"],
+        ),
+        (
+            oil(
+                "ram: { type: cylinder, joint: slide, area_a: 1 cm^2, dead_a: 1e-3, dead_b: 1e-3 }",
+            ),
+            "effect-missing",
+            "ram",
+            &["`dead_b`", "area_b"],
+        ),
+        (
+            plain("water: { type: drag, at: arm, linear: -1 }"),
+            "effect-sign",
+            "water",
+            &["would drive"],
+        ),
+        (
+            plain("water: { type: drag, at: arm }"),
+            "effect-missing",
+            "water",
+            &["`angular`"],
+        ),
+        (
+            plain("part: { type: payload, at: lug, mass: -1 kg }"),
+            "effect-sign",
+            "part",
+            &["-1 kg"],
+        ),
+        (
+            plain("part: { type: payload, at: lug, mass: 1 kg, inertia: { xx: -1 } }"),
+            "not-semidefinite",
+            "part",
+            &[],
+        ),
+        (
+            plain(
+                "part: { type: payload, at: lug, mass: 1 kg, inertia: { xx: 1, yy: 0.1, zz: 0.1 } }",
+            ),
+            "triangle-inequality",
+            "part",
+            &[],
+        ),
+        (
+            Case {
+                effects: OIL.into(),
+                rest: "initial: { hose: -1.2 bar }",
+            },
+            "initial",
+            "initial",
+            &["-1.2 bar", "vacuum"],
+        ),
+    ];
+    for (case, rule, place, words) in &cases {
+        refused(case, rule, place, words);
+    }
+}
+
+#[test]
+fn dimensions_that_do_not_fit() {
+    let cases = [
+        (
+            oil("ram: { type: cylinder, joint: slide, area_a: 3 cm^3, dead_a: 1 l }"),
+            "ram",
+        ),
+        (
+            oil("ram: { type: cylinder, joint: swing, area_a: 3 cm^2, dead_a: 1 l }"),
+            "ram",
+        ),
+        (
+            oil("gap: { type: leakage, from: pump, to: hose, conductance: 3 Pa }"),
+            "gap",
+        ),
+        (
+            plain("water: { type: drag, at: arm, quadratic: 3 N*s/m }"),
+            "water",
+        ),
+        (
+            plain("part: { type: payload, at: lug, mass: 1 kg, com: [1 kg, 0, 0] }"),
+            "part",
+        ),
+        (
+            Case {
+                effects: OIL.into(),
+                rest: "initial: { hose: 2 cm^3 }",
+            },
+            "initial",
+        ),
+    ];
+    for (case, place) in &cases {
+        refused(case, "unit-misfit", place, &[]);
+    }
+}
+
+#[test]
+fn names_that_join_nothing() {
+    refused(
+        &oil("cut: { type: orifice, from: pump, to: hoze, flow: 1e-7 }"),
+        "unknown-name",
+        "cut",
+        &["`hoze`", "`hose`"],
+    );
+    refused(
+        &oil("cut: { type: orifice, from: hose, to: hose, flow: 1e-7 }"),
+        "joined-to-nothing",
+        "cut",
+        &["same node"],
+    );
+    refused(
+        &oil(
+            "sump: { type: tank }\nvalve: { type: four_way_valve, supply: pump, tank: sump, a: hose, b: hose, flow: 1e-7 }",
+        ),
+        "joined-to-nothing",
+        "valve",
+        &["`a` and `b`"],
+    );
+    refused(
+        &oil("ram: { type: cylinder, area_a: 1 cm^2 }"),
+        "effect-place",
+        "ram",
+        &["`joint`, `between`"],
+    );
+    refused(
+        &plain("push: { type: wrench, at: anchor }"),
+        "effect-place",
+        "push",
+        &["fixed to the world"],
+    );
+    refused(
+        &plain("water: { type: drag, at: anchor, linear: 1 }"),
+        "effect-place",
+        "water",
+        &["fixed to the world"],
+    );
+    refused(
+        &plain("part: { type: payload, at: anchor, mass: 1 kg }"),
+        "effect-place",
+        "part",
+        &["fixed to the world"],
+    );
+    refused(
+        &plain("push: { type: wrench, at: lugg }"),
+        "unknown-name",
+        "push",
+        &["`lug`"],
+    );
+    refused(
+        &plain("push: { type: wrench, at: lug, axes: body }"),
+        "unknown-name",
+        "push",
+        &["world, link"],
+    );
+    refused(
+        &plain("push: { type: wrench, at: lug, components: [fx, fw] }"),
+        "unknown-name",
+        "push",
+        &["`fw`"],
+    );
+    refused(
+        &plain("push: { type: wrench, at: lug, components: [fx, fx] }"),
+        "effect-components",
+        "push",
+        &["twice"],
+    );
+    refused(
+        &plain("push: { type: wrench, at: lug, components: [] }"),
+        "effect-components",
+        "push",
+        &["none"],
+    );
+}
+
+#[test]
+fn names_that_stand_twice() {
+    refused(
+        &oil(
+            "ram: { type: cylinder, joint: slide, area_a: 1 cm^2, dead_a: 1 l }\nram_a: { type: line, volume: 1 cm^3 }",
+        ),
+        "repeated-name",
+        "ram_a:",
+        &["`ram_a`", "`ram`"],
+    );
+    refused(
+        &oil(
+            "jack: { type: cylinder, joint: slide, area_a: 1 cm^2, area_b: 1 cm^2, dead_a: 1 l, dead_b: 1 l }",
+        ),
+        "repeated-name",
+        "jack:",
+        &["`jack_b` is a joint, a link or a frame"],
+    );
+    refused(
+        &oil("hose: { type: line, volume: 1 cm^3 }"),
+        "repeated-effect",
+        "hose",
+        &["twice"],
+    );
+    refused(
+        &plain(
+            "part: { type: payload, at: lug, mass: { parameter: m, value: 1 kg }, com: [0, 0, { parameter: m, value: 1 m }] }",
+        ),
+        "parameter-twice",
+        "part",
+        &["`m`"],
+    );
+}
+
+#[test]
+fn fluids_that_are_missing_or_mixed() {
+    refused(
+        &plain("hose: { type: line, volume: 1 cm^3 }"),
+        "no-fluid",
+        "hose",
+        &["calls for none"],
+    );
+    refused(&oil("water: { type: fluid, bulk_modulus: 2 GPa }\nwell: { type: line, volume: 1 l, fluid: wine }").named(), "no-fluid", "well", &["`wine`"]);
+    let two = "
+        oil: { type: fluid, bulk_modulus: 1 GPa }
+        water: { type: fluid, bulk_modulus: 2 GPa }
+        pump: { type: supply, pressure: 1 MPa, fluid: oil }";
+    refused(
+        &plain(&format!("{two}\nhose: {{ type: line, volume: 1 l }}")),
+        "no-fluid",
+        "hose",
+        &["which of the fluids `oil`, `water`"],
+    );
+    refused(
+        &plain(&format!(
+            "{two}\nhose: {{ type: line, volume: 1 l, fluid: water }}\ncut: {{ type: leakage, from: pump, to: hose, conductance: 1e-12 }}"
+        )),
+        "two-fluids",
+        "cut",
+        &["`oil` and `water`"],
+    );
+}
+
+impl Case {
+    /// Every node but the tested one names its fluid.
+    fn named(mut self) -> Self {
+        self.effects = self
+            .effects
+            .replace("pressure: 10 MPa", "pressure: 10 MPa, fluid: oil")
+            .replace("volume: 2 cm^3", "volume: 2 cm^3, fluid: oil");
+        self
+    }
+}
+
+#[test]
+fn cylinders_that_run_out_of_volume() {
+    // Side a closes at −0.15 m, the joint goes to −0.2 m.
+    refused(
+        &oil("ram: { type: cylinder, joint: slide, area_a: 10 cm^2, dead_a: 150 cm^3 }"),
+        "effect-range",
+        "ram",
+        &["`ram_a`", "within its limits", "`slide` is -0.2", "-5"],
+    );
+    refused(
+        &oil("ram: { type: cylinder, joint: slide, area_a: 10 cm^2, dead_a: 0 }"),
+        "effect-range",
+        "ram",
+        &["at the start"],
+    );
+    // The lug swings to within 0.3 m of the anchor.
+    refused(
+        &oil("ram: { type: cylinder, between: [anchor, lug], area_a: 10 cm^2, offset: 0.25 m }"),
+        "effect-range",
+        "ram",
+        &["`swing`"],
+    );
+}
+
+/// What a family brings along stands where the scene calls for it, not in the mechanism's file.
+#[test]
+fn faults_of_a_family_stand_in_the_scene() {
+    let mechanism = format!("{ARM}effects:\n  hose: {{ type: line, volume: 1 cm^3 }}\n");
+    let text = "scene: 1\nmechanism: arm.yaml\neffects:\n  - gravity\n  - hydraulics\n";
+    let Err(refusal) = try_scene(text, &mechanism) else {
+        panic!("accepted");
+    };
+    let told = told(&refusal, text);
+    assert!(told.starts_with("scene.yaml:5:5: "), "{told}");
+    assert!(told.contains("[no-fluid]"), "{told}");
+}
