@@ -105,7 +105,9 @@ impl Fields {
             match &mut entry.value {
                 Entry::Pair(names) => names.iter_mut().for_each(|n| n.place = place.clone()),
                 Entry::Group(numbers) => {
-                    numbers.iter_mut().for_each(|(_, n)| n.place = place.clone());
+                    numbers
+                        .iter_mut()
+                        .for_each(|(_, n)| n.place = place.clone());
                 }
                 _ => {}
             }
