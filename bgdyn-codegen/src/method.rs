@@ -309,7 +309,6 @@ impl Method {
             Method::Bias | Method::KineticEnergy | Method::CoriolisMatrix => &[Q, V],
             Method::Velocity(_) | Method::JacobianDotV(_) => &[Q, V],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
-            Method::Scene(Role::Energy) => &[Argument::State],
             Method::Scene(Role::Inverse) => &[
                 Argument::State,
                 Argument::Accelerations,

@@ -119,8 +119,15 @@ pub trait System<
         t: T,
     ) -> SVector<T, NY>;
 
-    /// Energy stored, J, entry by entry.
-    fn energy(&self, y: &SVector<T, N>, modes: &SVector<T, NM>) -> [T; NP];
+    /// Energy stored, J, entry by entry. It depends on the inputs where a spring hangs on a moving
+    /// reference.
+    fn energy(
+        &self,
+        y: &SVector<T, N>,
+        modes: &SVector<T, NM>,
+        input: &SVector<T, NU>,
+        t: T,
+    ) -> [T; NP];
 
     /// Balance of power, W, entry by entry.
     ///

@@ -122,7 +122,13 @@ impl<const K: usize> System<f64, 0, K, 0, 0, 0, 0> for Blocks<K> {
     ) -> SVector<f64, 0> {
         *y
     }
-    fn energy(&self, _: &SVector<f64, 0>, _: &SVector<f64, K>) -> [f64; 0] {
+    fn energy(
+        &self,
+        _: &SVector<f64, 0>,
+        _: &SVector<f64, K>,
+        _: &SVector<f64, 0>,
+        _: f64,
+    ) -> [f64; 0] {
         []
     }
     fn power(

@@ -115,7 +115,8 @@ pub struct Run<
     pub events: usize,
     /// When the last of them was, s.
     pub last_event: f64,
-    start: [f64; NP],
+    /// Energy at the start, once there was a step.
+    start: Option<[f64; NP]>,
     supplied: SVector<f64, NP>,
     dissipated: SVector<f64, NP>,
 }
@@ -144,7 +145,7 @@ where
         Run {
             scene,
             given: SVector::zeros(),
-            start: scene.energy(&at.y, &at.modes),
+            start: None,
             at,
             events: 0,
             last_event: 0.0,
@@ -155,12 +156,19 @@ where
 
     /// Where the energy went since the start.
     pub fn audit(&self) -> Audit<f64, NP> {
-        let now = self.scene.energy(&self.at.y, &self.at.modes);
+        let now = self.energy();
+        let start = self.start.unwrap_or(now);
         Audit {
             supplied: self.supplied,
-            stored: SVector::from_fn(|i, _| now[i] - self.start[i]),
+            stored: SVector::from_fn(|i, _| now[i] - start[i]),
             dissipated: self.dissipated,
         }
+    }
+
+    /// Energy stored now, entry by entry.
+    fn energy(&self) -> [f64; NP] {
+        let at = &self.at;
+        self.scene.energy(&at.y, &at.modes, &self.input(at), at.t)
     }
 
     /// The inputs at an instant.
@@ -173,6 +181,7 @@ where
     /// # Errors
     /// Where the scene cannot go on.
     pub fn step(&mut self, h: f64) -> Result<(), Failure<S::Singular>> {
+        self.start = self.start.or_else(|| Some(self.energy()));
         let mut left = h;
         for _ in 0..EVENTS {
             let taken = self.piece(left)?;

@@ -623,8 +623,11 @@ fn system_trait(system: &System, name: &proc_macro2::Ident) -> TokenStream {
                 &self,
                 y: &__na::SVector<T, N>,
                 modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
             ) -> [T; #count] {
-                let all = self.energy(&State::from_vectors(y, modes));
+                let (state, input) = (State::from_vectors(y, modes), Input::from_vector(input));
+                let all = self.energy(&state, &input, t);
                 [#(all.#entries),*]
             }
             fn power(

@@ -151,7 +151,13 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize>
     ) -> SVector<f64, 0> {
         SVector::zeros()
     }
-    fn energy(&self, _: &SVector<f64, N>, _: &SVector<f64, NM>) -> [f64; 0] {
+    fn energy(
+        &self,
+        _: &SVector<f64, N>,
+        _: &SVector<f64, NM>,
+        _: &SVector<f64, NU>,
+        _: f64,
+    ) -> [f64; 0] {
         []
     }
     fn power(

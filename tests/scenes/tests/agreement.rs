@@ -123,7 +123,7 @@ fn agrees<
             evaluate(Role::Outputs, &inputs),
             "{name}: output"
         );
-        let energy = compiled.energy(&y, &m);
+        let energy = compiled.energy(&y, &m, &u, t);
         assert_eq!(
             energy.as_slice(),
             evaluate(Role::Energy, &inputs),
