@@ -19,6 +19,8 @@ mod motion;
 mod plan;
 mod share;
 mod slopes;
+mod unit;
+mod view;
 
 use super::{Arguments, Formulation, solve};
 use crate::bond_graph::BondGraph;
@@ -61,7 +63,11 @@ impl Formulation for Recursion {
             // method that they resemble.
             Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
                 let start = cheapest_plan(graph, &geometry, Method::MassMatrix);
-                plan::refined(&geometry, start, cost)
+                let plan = plan::refined(&geometry, start, cost);
+                let plan = view::chosen(&geometry, plan, cost);
+                view::measured(&geometry, plan, cost, |plan| {
+                    factored(graph, &geometry, method, plan)
+                })
             }
             Method::ForwardDynamicsDerivatives => return None,
             _ => cheapest_plan(graph, &geometry, method),
@@ -76,10 +82,7 @@ fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan
     let cost = |plan: &Plan| cost(graph, geometry, method, plan);
     let small = geometry.bodies.len() <= SMALL;
     let plans = plan::search(geometry, if small { FACTORED } else { 1 }, cost);
-    let after = |plan: &Plan| {
-        let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
-        factored_cost(made, outputs).total()
-    };
+    let after = |plan: &Plan| factored(graph, geometry, method, plan);
     let mut plans = plans.into_iter();
     match plans.len() {
         1 => plans.next(),
@@ -91,6 +94,12 @@ fn cheapest_plan(graph: &BondGraph, geometry: &Geometry, method: Method) -> Plan
 fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
     let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
     count(&graph, &outputs).total()
+}
+
+/// The same after factoring.
+fn factored(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> usize {
+    let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
+    factored_cost(graph, outputs).total()
 }
 
 fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Function {
@@ -127,12 +136,12 @@ fn outputs(
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
             }
             Method::InverseDynamicsDerivatives => {
-                let slopes = slopes::slopes(&b, &frames, x.active);
+                let slopes = slopes::slopes(&b, &frames, &plan.views, x.active);
                 let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
                 rows.flatten().collect()
             }
             Method::CoriolisMatrix => {
-                let rows = slopes::coriolis_matrix(&b, &frames);
+                let rows = slopes::coriolis_matrix(&b, &frames, &plan.views);
                 rows.into_iter().flatten().collect()
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],

@@ -3,7 +3,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::Plan;
+use super::frames::{Plan, View};
 use super::geometry::Geometry;
 
 /// Rounds over all choices at the most.
@@ -87,6 +87,7 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         apart: vec![false; n],
         base_parameters: true,
         short_moment: false,
+        views: vec![View::default(); n],
     };
     let groups = geometry.bodies.iter().any(|b| b.parallel());
     if groups {
