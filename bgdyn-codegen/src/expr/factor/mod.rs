@@ -17,7 +17,7 @@ mod rebuild;
 
 use super::{Cost, Expr, Graph, Node, NodeId, cost, reachable};
 use extract::Extraction;
-use network::Network;
+use network::{Network, Spread};
 
 /// Rounds at the most; each one reads what the one before has made.
 const ROUNDS: usize = 2;
@@ -39,7 +39,7 @@ struct Best {
 
 impl Best {
     /// A round; `spread` is written out where it is read. Kept where it is cheaper.
-    fn improve(&mut self, spread: Option<NodeId>) -> bool {
+    fn improve(&mut self, spread: Spread) -> bool {
         let mut network = Network::new(&self.graph, &self.outputs, spread);
         Extraction::new(&mut network).run();
         let (graph, outputs) = rebuild::rebuild(&network, &self.outputs);
@@ -66,7 +66,7 @@ impl Best {
             (i, unchanged) = (i + 1, unchanged + 1);
             if (1..=3).contains(&readers[place]) {
                 tries -= 1;
-                if self.improve(Some(NodeId(place as u32))) {
+                if self.improve(Spread::One(NodeId(place as u32))) {
                     readers = self::readers(&self.graph, &self.outputs);
                     unchanged = 0;
                 }
@@ -110,9 +110,13 @@ fn rounds(graph: Graph, outputs: Vec<Expr>, most: usize) -> Best {
         cost,
     };
     for _ in 0..most {
-        if cost.operations.total() > LIMIT || !best.improve(None) {
+        if cost.operations.total() > LIMIT || !best.improve(Spread::Nothing) {
             break;
         }
+    }
+    // Products that were taken out first may stand in the way of better ones.
+    if most > 1 && cost.operations.total() <= LIMIT {
+        best.improve(Spread::Products);
     }
     if best.cost.operations.total() <= POLISHED {
         best.polish();

@@ -9,6 +9,17 @@ use crate::expr::{Expr, Graph, Node, NodeId, reachable};
 /// the last node.
 pub(super) type Var = u32;
 
+/// What is written out in the terms that read it, though others read it too.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Spread {
+    /// Nothing.
+    Nothing,
+    /// A sum or product.
+    One(NodeId),
+    /// Every product: which factors belong together is found anew.
+    Products,
+}
+
 /// k · Π factors, the factors sorted; without factors a number.
 #[derive(Clone, Debug)]
 pub(super) struct Term {
@@ -81,16 +92,15 @@ pub(super) struct Network<'a> {
     /// Nodes that stay as they are: magnitudes of pivots, which bound what is subtracted, and
     /// products with a quotient, which could overflow in another order.
     kept: Vec<bool>,
-    /// A sum or product to write out everywhere.
-    spread: Option<Var>,
+    /// What is written out though others read it too.
+    spread: Spread,
     /// How many terms, other nodes and results read each variable; never too low.
     uses: Vec<usize>,
 }
 
 impl<'a> Network<'a> {
     /// Reads the graph: single uses are written out where that costs nothing, equal terms meet.
-    /// `spread`, a sum or product, is written out wherever terms read it.
-    pub fn new(graph: &'a Graph, outputs: &[Expr], spread: Option<NodeId>) -> Self {
+    pub fn new(graph: &'a Graph, outputs: &[Expr], spread: Spread) -> Self {
         let needed = reachable(graph, outputs);
         let mut network = Network {
             graph,
@@ -98,7 +108,7 @@ impl<'a> Network<'a> {
             kept: vec![false; graph.len()],
             uses: vec![0; graph.len()],
             needed,
-            spread: spread.map(|id| id.0),
+            spread,
         };
         for i in network.nodes() {
             network.read(i);
@@ -193,8 +203,14 @@ impl<'a> Network<'a> {
 
     /// Whether it is to be written out: nothing but one term reads it.
     fn read_once(&self, var: Var) -> bool {
-        let wanted = self.uses[var as usize] == 1 || self.spread == Some(var);
+        let wanted = self.uses[var as usize] == 1 || self.spread == Spread::One(NodeId(var));
         wanted && !self.kept[var as usize]
+    }
+
+    /// The same for a product.
+    fn opens(&self, var: Var) -> bool {
+        let products = self.spread == Spread::Products && !self.kept[var as usize];
+        products || self.read_once(var)
     }
 
     /// Writes products and sums that are read once, and multiples by numbers, out in their place.
@@ -228,14 +244,46 @@ impl<'a> Network<'a> {
             let spread = merged(whole.into_iter().chain(scaled).collect());
             apart.push(term.clone());
             let sum = sum.map_or(0, sum_cost);
-            let wanted = self.spread == Some(term.factors[0]);
+            let wanted = self.spread == Spread::One(NodeId(term.factors[0]));
             whole = if wanted || sum_cost(&spread) <= sum_cost(&apart) + sum {
                 spread
             } else {
                 merged(apart)
             };
         }
+        let whole = self.cancelled(whole);
         self.sums[i as usize] = Some(whole);
+    }
+
+    /// The sum with sums that others read too written out in it, where enough of their terms meet
+    /// terms of this one that it gets cheaper.
+    fn cancelled(&mut self, mut whole: Vec<Term>) -> Vec<Term> {
+        while let Some(cheaper) = (0..whole.len()).find_map(|t| self.opened(&whole, t)) {
+            whole = cheaper;
+            for &f in whole.iter().flat_map(|t| &t.factors) {
+                self.uses[f as usize] += 1;
+            }
+        }
+        whole
+    }
+
+    /// The sum with its term t written out; `None` where that is not cheaper.
+    fn opened(&self, whole: &[Term], t: usize) -> Option<Vec<Term>> {
+        let [f] = whole[t].factors[..] else {
+            return None;
+        };
+        let inner = self.sums[f as usize].as_deref()?;
+        if self.kept[f as usize] || inner.len() < 2 {
+            return None;
+        }
+        let scaled = inner.iter().map(|term| Term {
+            k: term.k * whole[t].k,
+            factors: term.factors.clone(),
+        });
+        let others = whole.iter().enumerate().filter(|(other, _)| *other != t);
+        let others = others.map(|(_, term)| term.clone());
+        let spread = merged(others.chain(scaled).collect());
+        (sum_cost(&spread) < sum_cost(whole)).then_some(spread)
     }
 
     fn factors_of(&self, var: Var) -> Vec<Var> {
@@ -252,7 +300,7 @@ impl<'a> Network<'a> {
         for &f in &term.factors {
             match self.sums[f as usize].as_deref() {
                 Some([]) => made.k = Dd::ZERO,
-                Some([only]) if only.factors.len() <= 1 || self.read_once(f) => {
+                Some([only]) if only.factors.len() <= 1 || self.opens(f) => {
                     for &inner in &only.factors {
                         self.uses[inner as usize] += 1;
                     }

@@ -5,12 +5,9 @@
 
 use bgdyn_runtime::Dd;
 
-// Every acceleration by a velocity has the factor 2. The Coriolis matrix is half of ∂τ/∂v: for it
-// the factor is 1 throughout, and ∂τ/∂q means nothing.
-
 use super::composite::Composite;
 use super::frames::Frame;
-use super::inertia::Inertia;
+use super::inertia::{Inertia, turn, turn_back};
 use super::inverse::{Wrench, dynamics};
 use super::mass::Momentum;
 use super::motion::Spin;
@@ -36,6 +33,24 @@ pub(super) struct Beyond<'g> {
     drift: Vec3<Ex<'g>>,
     /// Entries with the last rotation passed in the group, and where its origin is from this one.
     last: Option<(Entries<'g>, Vec3<Ex<'g>>)>,
+    /// Where the forces of `by_position` and `by_rate` are wanted in the axes of the body that the
+    /// group ends with: these, and the angle from the basis to those axes.
+    met: Option<([Vec3<Ex<'g>>; 2], (Ex<'g>, Ex<'g>))>,
+}
+
+/// A rotation of a group, and what moves with it, as the rotation before it in the group sees them.
+#[derive(Clone, Copy)]
+pub(super) struct Next<'g> {
+    /// The rotation, about its own origin.
+    pub joint: Beyond<'g>,
+    /// Of all that it moves, about the same origin.
+    pub inertia: Inertia<'g>,
+    /// Factor · ∫ v dm, with v the true velocity relative to that origin, in axes that do not turn.
+    pub flow: Vec3<Ex<'g>>,
+    /// The force on all that.
+    pub force: Vec3<Ex<'g>>,
+    /// That origin's place from the one of the body before.
+    pub offset: Vec3<Ex<'g>>,
 }
 
 /// The four derivatives that tie a joint to one beyond it.
@@ -86,7 +101,7 @@ impl<'g> Beyond<'g> {
             Motion::Rotation => (
                 rotation_swirl(b, whole, axis),
                 rotation_by_position(b, whole, spin, axis),
-                rotation_by_rate(b, whole, spin, axis.factor, &momentum),
+                rotation_by_rate(b, whole, spin, axis.factor),
             ),
             _ => translation(b, whole, axis, force),
         };
@@ -98,6 +113,7 @@ impl<'g> Beyond<'g> {
             offset: zero,
             drift: zero,
             last: None,
+            met: None,
         }
     }
 
@@ -110,6 +126,55 @@ impl<'g> Beyond<'g> {
             by_rate: self.by_rate.map(&f),
             ..self
         }
+    }
+
+    /// Turned by Rz; `meet` keeps the forces in the present axes as well.
+    pub fn turned(self, angle: (Ex<'g>, Ex<'g>), meet: bool) -> Self {
+        let forces = [self.by_position.force, self.by_rate.force];
+        Beyond {
+            met: meet.then_some((forces, angle)),
+            ..self.map(|v| turn(v, angle))
+        }
+    }
+
+    /// With what another part of the mass beyond adds; the momentum is that of all already.
+    pub fn with(self, part: &Self) -> Self {
+        Beyond {
+            swirl: self.swirl + part.swirl,
+            by_position: self.by_position.plus(part.by_position),
+            by_rate: self.by_rate.plus(part.by_rate),
+            ..self
+        }
+    }
+
+    /// The share in a rotation of what the next one of the group moves. The two fields differ by
+    /// the translation d = z × r, which is fixed in the body with `axis` between them: it adds
+    /// m d̈ to ∂F/∂q, h × d̈ + d × F to ∂M/∂q and, with ḋ, 2 m ḋ and 2 h × ḋ to those by the rate.
+    pub fn of_next(b: &'g Builder, next: &Next<'g>, axis: &Axis<'g>) -> Self {
+        let twice = axis.spin.omega.map(|x| x * axis.factor);
+        let d = across(b, next.offset);
+        let h = next.inertia.first;
+        let field = |v: Vec3<Ex<'g>>| Wrench {
+            force: next.inertia.weigh(v),
+            moment: h.cross(v),
+        };
+        let mut by_position = field(axis.spin.u * d);
+        by_position.moment = by_position.moment + d.cross(next.force);
+        let (joint, momentum) = (next.joint, field(d));
+        let translated = Beyond {
+            momentum: Momentum {
+                linear: joint.momentum.linear + momentum.force,
+                angular: joint.momentum.angular + momentum.moment,
+                ..joint.momentum
+            },
+            swirl: joint.swirl + next.flow.cross(d),
+            by_position: joint.by_position.plus(by_position),
+            by_rate: joint.by_rate.plus(field(twice.cross(d))),
+            ..joint
+        };
+        translated
+            .moved(next.offset, twice.cross(next.offset))
+            .settled(b)
     }
 
     /// Seen from an origin from which the present one is displaced by r and relative to which it
@@ -134,6 +199,7 @@ impl<'g> Beyond<'g> {
             offset: zero,
             drift: zero,
             last: None,
+            met: None,
         }
     }
 
@@ -145,6 +211,11 @@ impl<'g> Beyond<'g> {
             _ => self.last,
         };
         Beyond { last, ..self }
+    }
+
+    /// The entry of the mass matrix with a joint before it.
+    pub fn mass(&self, frame: &Frame<'g>) -> Ex<'g> {
+        self.momentum.carried(self.offset).along(frame)
     }
 
     /// Entries with itself.
@@ -178,12 +249,17 @@ impl<'g> Beyond<'g> {
         let (last, since) = self.last?;
         let [x, y, _] = since.0;
         let step = Vec3([-y, x, b.zero()]);
+        let forces = [self.by_position.force, self.by_rate.force];
+        let ([by_position, by_rate], met_step) = match self.met {
+            Some((forces, angle)) => (forces, turn_back(step, angle)),
+            None => (forces, step),
+        };
         let step_rate = axis.spin.omega.map(|x| x * axis.factor).cross(step);
         let p = self.momentum.linear;
         Some(Entries {
             own: (
-                last.own.0 + step.dot(self.by_position.force),
-                last.own.1 + step.dot(self.by_rate.force),
+                last.own.0 + met_step.dot(by_position),
+                last.own.1 + met_step.dot(by_rate),
             ),
             beyond: (
                 last.beyond.0 + p.dot(axis.spin.u * step),
@@ -216,12 +292,11 @@ fn rotation_by_rate<'g>(
     whole: &Composite<'g>,
     spin: &Spin<'g>,
     factor: Dd,
-    momentum: &Momentum<'g>,
 ) -> Wrench<'g> {
     let omega = spin.omega.map(|x| x * factor);
     let [x, y] = [0, 1].map(|i| d_row(&whole.inertia, i, omega));
     Wrench {
-        force: omega.cross(momentum.linear) + across(b, whole.flow.linear),
+        force: omega.cross(across(b, whole.inertia.first)) + across(b, whole.flow.linear),
         moment: Vec3([y, -x, b.zero()]) + whole.flow.moment.column(2),
     }
 }

@@ -25,6 +25,8 @@ mod regrouped;
 mod rotors;
 mod share;
 mod slopes;
+mod unit;
+mod view;
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -93,7 +95,13 @@ fn best_plans(search: &Search<'_>, method: Method) -> Option<Best> {
         Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
             let start = cheapest_plans(search, Method::MassMatrix);
             let cost = |plan: &Plan| cost(graph, geometry, method, plan);
-            Some(plan::refined(geometry, start.taken(), cost))
+            let after = |plan: &Plan| factored(graph, geometry, method, plan);
+            let mut best = plan::refined(geometry, start.taken(), cost);
+            let plan = view::chosen(geometry, best.taken().clone(), cost);
+            let plan = view::measured(geometry, plan, cost, after);
+            let found = cost(&plan);
+            best.take(plan, found);
+            Some(best)
         }
         Method::ForwardDynamicsDerivatives => None,
         method if method.site().is_some() => None,
@@ -111,10 +119,7 @@ fn cheapest_plans(search: &Search<'_>, method: Method) -> Best {
     let geometry = search.recursion.geometry(graph);
     let mut best = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
     if geometry.bodies.len() <= SMALL {
-        let after = |tried: &Tried| {
-            let (made, outputs) = outputs(Builder::silent(), graph, geometry, method, &tried.plan);
-            factored_cost(made, outputs).weighted()
-        };
+        let after = |tried: &Tried| factored(graph, geometry, method, &tried.plan).weighted();
         best.plans.sort_by_cached_key(after);
     }
     let mut known = search.recursion.plans.borrow_mut();
@@ -125,6 +130,12 @@ fn cheapest_plans(search: &Search<'_>, method: Method) -> Best {
 fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
     let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
     expr::cost(&graph, &outputs).unfinished()
+}
+
+/// The same after factoring.
+fn factored(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
+    let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
+    factored_cost(graph, outputs)
 }
 
 /// The function under the plan that is taken.
@@ -167,12 +178,12 @@ fn outputs(
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
             }
             Method::InverseDynamicsDerivatives => {
-                let slopes = slopes::slopes(&b, &frames, x.active);
+                let slopes = slopes::slopes(&b, &frames, &plan.views, x.active);
                 let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
                 rows.flatten().collect()
             }
             Method::CoriolisMatrix => {
-                let rows = slopes::coriolis_matrix(&b, &frames);
+                let rows = slopes::coriolis_matrix(&b, &frames, &plan.views);
                 rows.into_iter().flatten().collect()
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],

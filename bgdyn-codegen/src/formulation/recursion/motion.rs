@@ -23,6 +23,14 @@ pub(super) struct Spin<'g> {
     pub differences: Vec3<Ex<'g>>,
 }
 
+impl Spin<'_> {
+    /// Number of entries of ω and U that vanish.
+    pub fn zeros(&self) -> usize {
+        let all = self.u.0.into_iter().flatten().chain(self.omega.0);
+        all.filter(|e| e.is_zero()).count()
+    }
+}
+
 /// Motion of a body.
 pub(super) struct Moving<'g> {
     /// Of the twisted axes in which the basis began, before any angle of the group.

@@ -3,7 +3,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::Plan;
+use super::frames::{Plan, View};
 use super::geometry::Geometry;
 use crate::expr::Cost;
 use crate::function::Considered;
@@ -53,6 +53,12 @@ impl Best {
             self.steps.insert(place, tried());
             self.steps.truncate(KEPT);
         }
+    }
+
+    /// Takes this plan before all others.
+    pub fn take(&mut self, plan: Plan, cost: Cost) {
+        self.plans.retain(|t| t.plan != plan);
+        self.plans.insert(0, Tried { plan, cost });
     }
 
     /// The plan that is taken.
@@ -154,6 +160,7 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         apart: vec![false; n],
         base_parameters: true,
         short_moment: false,
+        views: vec![View::default(); n],
     };
     let groups = geometry.bodies.iter().any(|b| b.parallel());
     if groups {

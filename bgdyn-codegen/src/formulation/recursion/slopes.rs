@@ -23,12 +23,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::beyond::{Axis, Beyond, Entries};
-use super::composite::Composite;
-use super::frames::{Frame, Frames};
-use super::inertia::turn;
-use super::mass::unit_momentum;
+use super::beyond::{Beyond, Entries};
+use super::frames::{Frame, Frames, View};
 use super::motion::{Moving, Spin, motions};
+use super::unit::{Gathered, Place, Unit};
 use crate::expr::{Builder, Ex};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
@@ -39,34 +37,38 @@ pub(super) struct Slopes<'g> {
     pub by_rate: Vec<Vec<Ex<'g>>>,
 }
 
-/// What a body has gathered from those beyond it.
-#[derive(Clone)]
-struct Gathered<'g> {
-    whole: Composite<'g>,
-    beyond: Vec<Beyond<'g>>,
-}
-
 /// The matrix C of Christoffel's symbols, half of ∂bias/∂v as the bias is quadratic in v, row by
 /// row.
-pub(super) fn coriolis_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
-    pass(b, frames, &motions(b, frames, false), Dd::ONE).by_rate
+pub(super) fn coriolis_matrix<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    views: &[View],
+) -> Vec<Vec<Ex<'g>>> {
+    pass(b, frames, views, &motions(b, frames, false), Dd::ONE).by_rate
 }
 
 /// The derivatives with the rates and accelerations in `frames`; where `active`, against gravity.
-pub(super) fn slopes<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Slopes<'g> {
+pub(super) fn slopes<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    views: &[View],
+    active: bool,
+) -> Slopes<'g> {
     let moving = motions(b, frames, active);
-    pass(b, frames, &moving, Dd::from_f64(2.0))
+    pass(b, frames, views, &moving, Dd::from_f64(2.0))
 }
 
-/// From the tips to the base; `factor` is that of [`Axis`].
-fn pass<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'g>], factor: Dd) -> Slopes<'g> {
+/// From the tips to the base; `factor` is that of [`super::beyond::Axis`].
+fn pass<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    views: &[View],
+    moving: &[Moving<'g>],
+    factor: Dd,
+) -> Slopes<'g> {
     let n = frames.bodies.len();
-    let nothing = Gathered {
-        whole: Composite::zero(b),
-        beyond: Vec::new(),
-    };
-    let mut own = vec![nothing.clone(); n];
-    let mut basis = vec![nothing; n];
+    let mut own = vec![Gathered::nothing(b); n];
+    let mut basis = own.clone();
     let mut slopes = Slopes {
         by_position: vec![vec![b.zero(); n]; n],
         by_rate: vec![vec![b.zero(); n]; n],
@@ -79,28 +81,35 @@ fn pass<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'g>], factor: 
                 frame.name, frame.joint
             )
         });
-        let mut beyond =
-            slopes.enter_beyond(b, frames, (j, factor), &moving[j], &own[j], &basis[j]);
-        let (unit, before) = unit(
+        let place = Place {
             b,
-            frames,
-            (j, factor),
-            moving,
-            &own[j].whole,
-            &basis[j].whole,
-        );
-        let diagonal = unit.diagonal(frame);
-        slopes.enter(frames, j, &unit, &diagonal);
-        beyond.push(unit.entered(b, frame.motion, diagonal));
+            index: j,
+            frame,
+            moving: &moving[j],
+            before: spin_before(frames, j, moving),
+            factor,
+            view: views[j],
+        };
+        let mut beyond = slopes.enter_beyond(&place, frames, &own[j], &basis[j]);
+        let unit = Unit::new(&place, &own[j], &basis[j]);
+        let diagonal = unit.joint.diagonal(frame);
+        slopes.enter(frames, j, &unit.joint, diagonal);
+        beyond.push(unit.joint.entered(b, frame.motion, diagonal));
 
         let Some(p) = frame.parent else { continue };
-        let drift = drift(frame, spin_before(frames, j, moving), factor);
         let home = if frame.continues {
             &mut basis[p]
         } else {
             &mut own[p]
         };
-        home.whole = home.whole.plus(&before.handed_on(b, frame));
+        let handed = unit.before.handed_on(b, frame);
+        home.whole = home.whole.plus(&handed);
+        if frame.continues && frame.motion == Motion::Rotation {
+            home.next.push(unit.next);
+        } else {
+            home.others = home.others.plus(&handed);
+        }
+        let drift = drift(frame, place.before, factor);
         let twist = frame.twist.map(|x| b.constant(x));
         home.beyond.extend(beyond.into_iter().map(|joint| {
             let moved = joint.moved(frame.position, drift);
@@ -115,28 +124,21 @@ fn pass<'g>(b: &'g Builder, frames: &Frames<'g>, moving: &[Moving<'g>], factor: 
 }
 
 impl<'g> Slopes<'g> {
-    /// Entries of joint j with all beyond it, and these in the axes of its basis.
+    /// Entries of a joint with all beyond it, and these in the axes of its basis.
     fn enter_beyond(
         &mut self,
-        b: &'g Builder,
+        place: &Place<'_, 'g>,
         frames: &Frames<'g>,
-        (j, factor): (usize, Dd),
-        moving: &Moving<'g>,
         inner: &Gathered<'g>,
         outer: &Gathered<'g>,
     ) -> Vec<Beyond<'g>> {
-        let frame = &frames.bodies[j];
-        let own = Axis {
-            spin: moving.own,
-            a: moving.a_own,
-            factor,
-        };
-        let basis = axis_in_basis(moving, factor);
+        let (b, j, frame) = (place.b, place.index, place.frame);
+        let (own, basis) = (place.axis_of_body(), place.axis_in_basis());
         let mut beyond = Vec::new();
         for joint in &inner.beyond {
             let entries = joint.entries(b, frame, &own);
-            self.enter(frames, j, joint, &entries);
-            let turned = joint.map(|v| turn(v, frame.turn));
+            self.enter(frames, j, joint, entries);
+            let turned = joint.turned(frame.turn, place.view.met);
             beyond.push(turned.entered(b, frame.motion, entries));
         }
         for &joint in &outer.beyond {
@@ -149,65 +151,24 @@ impl<'g> Slopes<'g> {
                 // Forces are the same about every point.
                 _ => (joint, joint.entries(b, frame, &basis)),
             };
-            self.enter(frames, j, &joint, &entries);
+            self.enter(frames, j, &joint, entries);
             beyond.push(joint.entered(b, frame.motion, entries));
         }
         beyond
     }
 
-    fn enter(&mut self, frames: &Frames<'g>, j: usize, joint: &Beyond<'g>, entries: &Entries<'g>) {
+    /// C + Cᵀ = Ṁ: where an entry of M is constant, one of the two by the rates is minus the other.
+    fn enter(&mut self, frames: &Frames<'g>, j: usize, joint: &Beyond<'g>, entries: Entries<'g>) {
         let k = joint.momentum.joint;
         let factor = frames.bodies[j].effort * frames.bodies[k].effort;
-        for (i, j, (by_position, by_rate)) in [(k, j, entries.beyond), (j, k, entries.own)] {
+        let Entries { own, mut beyond } = entries;
+        if j != k && joint.mass(&frames.bodies[j]).as_constant().is_some() {
+            beyond.1 = -own.1;
+        }
+        for (i, j, (by_position, by_rate)) in [(k, j, beyond), (j, k, own)] {
             self.by_position[i][j] = by_position * factor;
             self.by_rate[i][j] = by_rate * factor;
         }
-    }
-}
-
-/// What joint j hands on, and all beyond it as seen from the body before it.
-fn unit<'g>(
-    b: &'g Builder,
-    frames: &Frames<'g>,
-    (j, factor): (usize, Dd),
-    moving: &[Moving<'g>],
-    inner: &Composite<'g>,
-    outer: &Composite<'g>,
-) -> (Beyond<'g>, Composite<'g>) {
-    let (frame, axis) = (&frames.bodies[j], axis_in_basis(&moving[j], factor));
-    let carried = Composite {
-        inertia: frame.inertia.plus(&inner.inertia),
-        ..*inner
-    };
-    let after = carried.turned(frame.turn).plus(outer);
-    // Turning about z leaves J_zz as it is.
-    let j_zz = (carried.inertia.d(0, 0) + carried.inertia.d(1, 1))
-        + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
-    let momentum = unit_momentum(b, j, frame, &after.inertia, j_zz);
-    let before = after.before(b, frame, &momentum, factor != Dd::ONE);
-    let (spin, h) = (&moving[j].in_basis, after.inertia.first);
-    let force = spin.u * h
-        + after.inertia.weigh(axis.a)
-        + spin.omega.cross(after.flow.linear)
-        + after.rest.force;
-    // The body before the joint and the one after it serve equally well: the one with more zeros.
-    let spin_before = spin_before(frames, j, moving);
-    let better =
-        frame.continues || after.zeros() + zeros(spin) > before.zeros() + zeros(spin_before);
-    let seen = if better {
-        (spin, &after)
-    } else {
-        (spin_before, &before)
-    };
-    let unit = Beyond::new(b, frame.motion, momentum, &axis, seen, force);
-    (unit, before)
-}
-
-fn axis_in_basis<'g>(moving: &Moving<'g>, factor: Dd) -> Axis<'g> {
-    Axis {
-        spin: moving.in_basis,
-        a: moving.a_basis,
-        factor,
     }
 }
 
@@ -217,12 +178,6 @@ fn spin_before<'m, 'g>(frames: &Frames<'g>, j: usize, moving: &'m [Moving<'g>]) 
         Some(p) if frames.bodies[j].continues => &moving[p].in_basis,
         _ => &moving[j].basis,
     }
-}
-
-/// Number of entries of ω and U that vanish.
-fn zeros(spin: &Spin<'_>) -> usize {
-    let all = spin.u.0.into_iter().flatten().chain(spin.omega.0);
-    all.filter(|e| e.is_zero()).count()
 }
 
 /// Factor times the velocity of a body's origin relative to its parent's, in the axes of the basis.

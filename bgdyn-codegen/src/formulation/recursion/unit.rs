@@ -1,0 +1,176 @@
+//! What a joint itself hands on to the joints before it, for the derivatives of [`super::slopes`].
+//!
+//! It follows from all that the joint moves as one body, and is linear in it. So the parts of that
+//! body may be seen from different places: what the body's own axes hold in those axes, where its
+//! inertia is constant and sparse; what continues its basis from there. A rotation further on in
+//! the group has made its own share already, and its field differs by a translation only.
+
+use bgdyn_runtime::Dd;
+
+use super::beyond::{Axis, Beyond, Next};
+use super::composite::Composite;
+use super::frames::{Frame, Seen, View};
+use super::inertia::turn;
+use super::mass::{Momentum, unit_momentum};
+use super::motion::{Moving, Spin};
+use crate::expr::{Builder, Ex};
+use crate::math::Vec3;
+use crate::mechanism::Motion;
+
+/// A joint, and how it moves.
+pub(super) struct Place<'a, 'g> {
+    pub b: &'g Builder,
+    /// Its place in the order of the coordinates.
+    pub index: usize,
+    pub frame: &'a Frame<'g>,
+    /// Motion of the body after the joint.
+    pub moving: &'a Moving<'g>,
+    /// Angular motion of the body before it, in the axes of the joint's basis.
+    pub before: &'a Spin<'g>,
+    /// That of [`Axis`].
+    pub factor: Dd,
+    pub view: View,
+}
+
+/// What a body has gathered from those beyond it, in one set of axes.
+#[derive(Clone)]
+pub(super) struct Gathered<'g> {
+    /// All of them as one body.
+    pub whole: Composite<'g>,
+    /// Their joints.
+    pub beyond: Vec<Beyond<'g>>,
+    /// The rotations that continue the body's basis.
+    pub next: Vec<Next<'g>>,
+    /// As `whole`, without what those move.
+    pub others: Composite<'g>,
+}
+
+impl<'g> Gathered<'g> {
+    /// Nothing.
+    pub fn nothing(b: &'g Builder) -> Self {
+        Gathered {
+            whole: Composite::zero(b),
+            beyond: Vec::new(),
+            next: Vec::new(),
+            others: Composite::zero(b),
+        }
+    }
+}
+
+/// A joint's own share of the derivatives.
+pub(super) struct Unit<'g> {
+    pub joint: Beyond<'g>,
+    /// All that it moves, relative to the body before it.
+    pub before: Composite<'g>,
+    /// The same for the rotation before it in its group.
+    pub next: Next<'g>,
+}
+
+impl<'g> Unit<'g> {
+    /// From what the body has gathered in its own axes and in those of its basis.
+    pub fn new(place: &Place<'_, 'g>, own: &Gathered<'g>, basis: &Gathered<'g>) -> Self {
+        let (frame, axis) = (place.frame, place.axis_in_basis());
+        let carried = Composite {
+            inertia: frame.inertia.plus(&own.whole.inertia),
+            ..own.whole
+        };
+        let (after, momentum) = place.joined(&carried, &basis.whole);
+        let (omega, h) = (axis.spin.omega, after.inertia.first);
+        let force = axis.spin.u * h
+            + after.inertia.weigh(axis.a)
+            + omega.cross(after.flow.linear)
+            + after.rest.force;
+        let mut joint = if place.view.taken && frame.motion == Motion::Rotation {
+            let share = place.share(&carried, &basis.others, force);
+            let taken = basis.next.iter();
+            let taken = taken.map(|next| Beyond::of_next(place.b, next, &axis));
+            taken.fold(share, |sum, part| sum.with(&part))
+        } else {
+            place.share(&carried, &basis.whole, force)
+        };
+        joint.momentum = momentum;
+        let next = Next {
+            joint,
+            inertia: after.inertia,
+            flow: after.flow.linear + omega.map(|x| x * place.factor).cross(h),
+            force,
+            offset: frame.position,
+        };
+        Unit {
+            joint,
+            before: place.before(&after, &momentum),
+            next,
+        }
+    }
+}
+
+impl<'g> Place<'_, 'g> {
+    /// The body's axes.
+    pub fn axis_of_body(&self) -> Axis<'g> {
+        Axis {
+            spin: self.moving.own,
+            a: self.moving.a_own,
+            factor: self.factor,
+        }
+    }
+
+    /// Those of its basis.
+    pub fn axis_in_basis(&self) -> Axis<'g> {
+        Axis {
+            spin: self.moving.in_basis,
+            a: self.moving.a_basis,
+            factor: self.factor,
+        }
+    }
+
+    /// What is carried in own axes and `outer` as one body in the axes of the basis, relative to
+    /// the body after the joint, and the momentum that a unit rate gives to it.
+    fn joined(
+        &self,
+        carried: &Composite<'g>,
+        outer: &Composite<'g>,
+    ) -> (Composite<'g>, Momentum<'g>) {
+        let after = carried.turned(self.frame.turn).plus(outer);
+        // Turning about z leaves J_zz as it is.
+        let j_zz = (carried.inertia.d(0, 0) + carried.inertia.d(1, 1))
+            + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
+        let momentum = unit_momentum(self.b, self.index, self.frame, &after.inertia, j_zz);
+        (after, momentum)
+    }
+
+    /// The same relative to the body before it.
+    fn before(&self, after: &Composite<'g>, momentum: &Momentum<'g>) -> Composite<'g> {
+        after.before(self.b, self.frame, momentum, self.factor != Dd::ONE)
+    }
+
+    /// The joint's share from what is carried in own axes and `outer`.
+    fn share(
+        &self,
+        carried: &Composite<'g>,
+        outer: &Composite<'g>,
+        force: Vec3<Ex<'g>>,
+    ) -> Beyond<'g> {
+        let (after, momentum) = self.joined(carried, outer);
+        let before = self.before(&after, &momentum);
+        let (motion, axis) = (self.frame.motion, self.axis_in_basis());
+        let seen = |axis: &Axis<'g>, spin: &Spin<'g>, whole: &Composite<'g>| {
+            Beyond::new(self.b, motion, momentum, axis, (spin, whole), force)
+        };
+        let spin = &self.moving.in_basis;
+        let sparser = || {
+            let after = after.zeros() + spin.zeros();
+            self.frame.continues || after > before.zeros() + self.before.zeros()
+        };
+        match self.view.seen {
+            Seen::Own if motion == Motion::Rotation => {
+                let body = self.axis_of_body();
+                let own = seen(&body, &body.spin, carried);
+                let turned = own.map(|v| turn(v, self.frame.turn));
+                turned.with(&seen(&axis, spin, outer))
+            }
+            Seen::Before => seen(&axis, self.before, &before),
+            Seen::Sparser if !sparser() => seen(&axis, self.before, &before),
+            _ => seen(&axis, spin, &after),
+        }
+    }
+}

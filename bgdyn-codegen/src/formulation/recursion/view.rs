@@ -1,0 +1,99 @@
+//! The choices that derivatives have beyond the plan, found by counting.
+
+use bgdyn_runtime::Dd;
+
+use super::frames::{Plan, Seen, View, origin_offset};
+use super::geometry::Geometry;
+use super::plan::SEARCHED;
+use crate::expr::Cost;
+
+/// How often all choices are gone through.
+const ROUNDS: usize = 2;
+
+/// Operations up to which plans are compared after factoring.
+const FACTORED: usize = 2_500;
+
+/// How much more than the cheapest a plan may cost before factoring, to be tried: one part in so
+/// many.
+const NEAR: usize = 32;
+
+/// The plan with the views that cost least: one choice at a time from the tips to the base, kept
+/// where it costs less.
+pub(super) fn chosen(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> Cost) -> Plan {
+    let (mut plan, n) = (start, geometry.bodies.len());
+    if n > SEARCHED {
+        return plan;
+    }
+    let mut least = cost(&plan).weighted();
+    for j in std::iter::repeat_n((0..n).rev(), ROUNDS).flatten() {
+        for change in changes(geometry, &plan, j) {
+            let mut tried = plan.clone();
+            change(&mut tried.views[j]);
+            let c = cost(&tried).weighted();
+            if c < least {
+                (least, plan) = (c, tried);
+            }
+        }
+    }
+    plan
+}
+
+/// The plan with the unit of length that costs least `after` factoring, among those that cost about
+/// the same before it: units differ in which numbers become one, and in what meets then.
+pub(super) fn measured(
+    geometry: &Geometry,
+    plan: Plan,
+    cost: impl Fn(&Plan) -> Cost,
+    after: impl Fn(&Plan) -> Cost,
+) -> Plan {
+    let found = cost(&plan);
+    if found.operations.total() > FACTORED {
+        return plan;
+    }
+    let least = found.weighted();
+    let with = |unit| Plan {
+        unit,
+        ..plan.clone()
+    };
+    let others = lengths(geometry, &plan).into_iter().map(with);
+    let near = others.filter(|other| cost(other).weighted() <= least + least / NEAR);
+    let plans = std::iter::once(plan.clone()).chain(near);
+    plans
+        .min_by_key(|plan| after(plan).weighted())
+        .expect("there is one")
+}
+
+/// The distances between the origins of joined bodies along the axes, each once.
+fn lengths(geometry: &Geometry, plan: &Plan) -> Vec<Dd> {
+    let mut lengths: Vec<Dd> = Vec::new();
+    for j in 0..geometry.bodies.len() {
+        for length in origin_offset(geometry, plan, j).0.map(Dd::abs) {
+            if length > Dd::ZERO && length != plan.unit && !lengths.contains(&length) {
+                lengths.push(length);
+            }
+        }
+    }
+    lengths
+}
+
+type Change = fn(&mut View);
+
+/// What there is to choose for joint j.
+fn changes(geometry: &Geometry, plan: &Plan, j: usize) -> Vec<Change> {
+    let mut changes: Vec<Change> = vec![
+        |view| view.seen = Seen::Sparser,
+        |view| view.seen = Seen::Before,
+        |view| view.seen = Seen::After,
+        |view| view.seen = Seen::Own,
+    ];
+    let parallel = |k: usize| plan.grouped && geometry.bodies[k].parallel();
+    let followed =
+        (0..geometry.bodies.len()).any(|k| geometry.bodies[k].parent == Some(j) && parallel(k));
+    if followed {
+        changes.push(|view| view.taken = true);
+    }
+    if parallel(j) {
+        changes.push(|view| view.met = true);
+    }
+    changes
+}
