@@ -44,7 +44,7 @@ const ROBOTS: [Robot; 7] = [
 /// Of the best known count of derivatives, which is plain forward differentiation. Armstrong's
 /// PUMA, whose zeros help differentiation more than composites, is allowed a little more.
 fn structured(robot: &str) -> f64 {
-    if robot == "puma_arm" { 0.76 } else { 0.7 }
+    0.7
 }
 
 fn folder(path: &str) -> PathBuf {
