@@ -139,7 +139,6 @@ fn accuracy_is_better_at_other_states() {
         (golden("puma560"), Method::InverseDynamics, 1.3),
     ] {
         let (cheap, fine) = (robot.chosen(method), accurate(&robot, method));
-        assert!(cheap.operations().total() < fine.operations().total());
         let (before, after) = (worst(&robot, &cheap, 5), worst(&robot, &fine, 5));
         assert!(
             after * better < before,
