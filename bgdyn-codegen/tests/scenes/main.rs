@@ -5,6 +5,7 @@ mod bodies;
 mod causality;
 mod combined;
 mod common;
+mod cylinders;
 mod hydraulics;
 mod laws;
 mod refused;
