@@ -6,7 +6,7 @@ use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Severity};
 use bgdyn_codegen::mechanism::{Mechanism, Parameter};
 use bgdyn_codegen::model::Refusal;
-use bgdyn_codegen::scene::Part;
+use bgdyn_codegen::scene::{Part, Solved};
 use bgdyn_codegen::system::System;
 use clap::Args;
 use serde_json::{Value, json};
@@ -83,9 +83,22 @@ impl Check {
                 layout.modes.len(),
                 layout.inputs.len()
             ))?;
+            for solved in system.scene.solved() {
+                print(&format!("solved: {}\n", words(&solved)))?;
+            }
         }
         Ok(())
     }
+}
+
+/// `elbow_motor: without inductance: …`
+fn words(solved: &Solved) -> String {
+    let elements = solved.elements.join(", ");
+    let nodes = match solved.nodes.as_slice() {
+        [] => String::new(),
+        nodes => format!(" (through {})", nodes.join(", ")),
+    };
+    format!("{elements}{nodes}: {}", solved.how)
 }
 
 fn scene_model(system: &System) -> Value {
@@ -94,6 +107,11 @@ fn scene_model(system: &System) -> Value {
     let names = |parts: &[Part]| parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
     let coordinates: Vec<&str> = layout.coordinates.iter().map(|c| c.name.as_str()).collect();
     let effects: Vec<&str> = scene.elements.iter().map(|e| e.name.as_str()).collect();
+    let solved: Vec<Value> = scene
+        .solved()
+        .iter()
+        .map(|s| json!({ "elements": s.elements, "nodes": s.nodes, "how": s.how }))
+        .collect();
     json!({
         "name": scene.name,
         "nq": layout.nq(),
@@ -104,6 +122,7 @@ fn scene_model(system: &System) -> Value {
         "modes": names(&layout.modes),
         "inputs": names(&layout.inputs),
         "effects": effects,
+        "solved": solved,
     })
 }
 

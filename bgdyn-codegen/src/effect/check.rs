@@ -344,7 +344,7 @@ impl Declared {
 /// The names that may stand behind a key; `None` where any may.
 fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
     Some(match reads {
-        Reads::Word(words) if words.is_empty() => return None,
+        Reads::Word([]) => return None,
         Reads::Word(words) | Reads::Words(words) => words.to_vec(),
         Reads::Coordinate => context
             .coordinates

@@ -71,7 +71,7 @@ pub enum Entry {
     /// Two names.
     Pair([Located<String>; 2]),
     /// Three numbers.
-    Vector(Vector),
+    Vector(Box<Vector>),
     /// Words.
     Words(Vec<Located<String>>),
     /// Numbers under names of their own.
@@ -264,7 +264,7 @@ impl Reader {
             | Reads::Place
             | Reads::Node
             | Reads::Input => self.text(at).map(Entry::Text),
-            Reads::Vector(fit) => self.vector(at, fit).map(Entry::Vector),
+            Reads::Vector(fit) => self.vector(at, fit).map(|v| Entry::Vector(Box::new(v))),
             Reads::Words(_) => {
                 let items = self.list(at, ("a list of words", "`[fx, fz]`"))?;
                 let word = |at: &At<'_>| {

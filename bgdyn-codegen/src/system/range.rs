@@ -33,7 +33,7 @@ fn violated<'g>(
 ) -> Option<(Dd, String)> {
     let start = &scene.initial;
     let value_at = |initial: &Initial| laws.at_start(condition.value, initial);
-    let wrong = |value: &Dd| !(*value > Dd::ZERO);
+    let wrong = |value: &Dd| value.to_f64().is_nan() || *value <= Dd::ZERO;
     let first = Some(value_at(start)).filter(wrong);
     if let Some(value) = first {
         return Some((value, "at the start".into()));

@@ -6,6 +6,7 @@ mod causality;
 mod combinations;
 mod combined;
 mod common;
+mod cylinders;
 mod drives;
 mod friction;
 mod hard_cases;
