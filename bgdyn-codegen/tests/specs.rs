@@ -55,7 +55,6 @@ fn every_example_is_read_without_a_finding() {
         assert!(faults.0.is_empty(), "{shown}");
         let mechanism = mechanism.expect("nothing refuses it");
         assert!(mechanism.description().is_some(), "{name} says nothing");
-        assert!(!mechanism.frames().is_empty(), "{name} names no frame");
         examples += 1;
     }
     assert!(examples >= 7);

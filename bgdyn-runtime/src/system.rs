@@ -57,6 +57,8 @@ pub trait System<
     fn event_names(&self) -> &'static [&'static str; NE];
     /// The mode that each event may change; `None` where the law only has a kink.
     fn event_modes(&self) -> &'static [Option<usize>; NE];
+    /// The part of the state that is the velocity of each mode's coordinate.
+    fn mode_velocities(&self) -> &'static [usize; NM];
     /// Names of the outputs.
     fn output_names(&self) -> &'static [&'static str; NY];
     /// Names of the entries of the balance of power.

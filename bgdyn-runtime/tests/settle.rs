@@ -61,6 +61,9 @@ impl<const K: usize> System<f64, 0, K, 0, 0, 0, 0> for Blocks<K> {
     fn event_modes(&self) -> &'static [Option<usize>; 0] {
         &[]
     }
+    fn mode_velocities(&self) -> &'static [usize; K] {
+        &[0; K]
+    }
     fn output_names(&self) -> &'static [&'static str; 0] {
         &[]
     }

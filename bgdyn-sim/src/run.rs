@@ -1,7 +1,7 @@
 //! Runs a generated scene: fixed steps of the classical Runge–Kutta method, events located within
 //! the step, and an account of where the energy went.
 
-use bgdyn_runtime::{Balance, Scalar, System};
+use bgdyn_runtime::{Balance, Scalar, System, settle};
 use nalgebra::SVector;
 
 use crate::plus_scaled;
@@ -226,32 +226,23 @@ where
         Ok(high)
     }
 
-    /// A mode changes: what slipped rests or turns, what was held breaks away.
+    /// A mode changes: what slipped comes to rest, what was held breaks away. All joints at rest are
+    /// decided together.
     fn change(&mut self, mode: usize) -> Result<(), Failure<S::Singular>> {
         self.events += 1;
         self.last_event = self.at.t;
-        self.at.modes = self.decided(mode)?;
-        Ok(())
-    }
-
-    /// The modes after an event of one of them.
-    fn decided(&self, mode: usize) -> Result<SVector<f64, NM>, Failure<S::Singular>> {
-        let mut modes = self.at.modes;
+        let input = self.input(&self.at);
+        let Moment { t, y, modes } = &mut self.at;
         if modes[mode] != 0.0 {
-            // It came to rest: held, if friction can hold it.
+            // What the search for the instant has left of its slip would stay for ever.
+            let contacts = self.scene.contacts(y, modes, &input, *t);
+            let slip = contacts.map_err(Failure::Singular)?[mode].slip;
+            y[self.scene.mode_velocities()[mode]] -= slip;
             modes[mode] = 0.0;
         }
-        let at = Moment { modes, ..self.at };
-        let input = self.input(&at);
-        let contacts = self
-            .scene
-            .contacts(&at.y, &at.modes, &input, at.t)
-            .map_err(Failure::Singular)?;
-        let contact = contacts[mode];
-        if contact.holding.abs() >= contact.limit * (1.0 - 1e-12) {
-            modes[mode] = -contact.holding.signum();
-        }
-        Ok(modes)
+        let settled = settle(self.scene, y, modes, &input, *t, 0.0);
+        *modes = settled.map_err(Failure::Singular)?;
+        Ok(())
     }
 
     fn moved(&self, h: f64) -> Result<Moment<f64, N, NM>, Failure<S::Singular>> {

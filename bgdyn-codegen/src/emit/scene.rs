@@ -567,6 +567,8 @@ fn system_trait(system: &System, name: &proc_macro2::Ident) -> TokenStream {
         }
     };
     let count = size(entries.len());
+    let velocities = system.mode_coordinates();
+    let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
     quote! {
         impl<T: __Scalar> __rt::System<T, N, NM, NU, NE, NY, #count> for #name<T> {
             type Singular = T::Singular<{ NV + NX }>;
@@ -575,6 +577,7 @@ fn system_trait(system: &System, name: &proc_macro2::Ident) -> TokenStream {
             fn input_names(&self) -> &'static [&'static str; NU] { &INPUT_NAMES }
             fn event_names(&self) -> &'static [&'static str; NE] { &EVENT_NAMES }
             fn event_modes(&self) -> &'static [::core::option::Option<usize>; NE] { &EVENT_MODES }
+            fn mode_velocities(&self) -> &'static [usize; NM] { &[#(#mode_velocities),*] }
             fn output_names(&self) -> &'static [&'static str; NY] { &OUTPUT_NAMES }
             fn entry_names(&self) -> &'static [&'static str; #count] { &ENTRY_NAMES }
             fn start(&self) -> (__na::SVector<T, N>, __na::SVector<T, NM>) {

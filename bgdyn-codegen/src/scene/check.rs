@@ -376,7 +376,8 @@ fn drives(layout: &Layout, inputs: &[Raw], faults: &mut Faults) -> Vec<Drive> {
         };
         let part = &layout.inputs[i];
         let follows = part.follows.as_ref().map(|name| layout.position_of(name));
-        if let Some(drive) = signal::drive(raw, part.dimension, follows, faults) {
+        let effort = part.drives.is_some_and(|j| layout.coordinates[j].stored);
+        if let Some(drive) = signal::drive(raw, part.dimension, follows, effort, faults) {
             drives[i] = drive;
         }
     }

@@ -75,11 +75,12 @@ const fn number(name: &'static str, fit: &'static [Dimension], needed: bool) -> 
 }
 
 /// Reads what drives an input of this dimension; `follows` is the dimension of the coordinate that
-/// a controller would follow.
+/// a controller would follow, `effort` whether the input is that coordinate's own effort.
 pub(super) fn drive(
     raw: &Raw,
     dimension: Dimension,
     follows: Option<Dimension>,
+    effort: bool,
     faults: &mut Faults,
 ) -> Option<Drive> {
     if raw.as_word() == Some("given") {
@@ -96,6 +97,12 @@ pub(super) fn drive(
     let word = only.name.value.as_str();
     if !matches!(word, "pd" | "computed_torque") {
         return signal(raw, dimension, faults).map(Drive::Course);
+    }
+    if word == "computed_torque" && follows.is_some() && !effort {
+        let message = "`computed_torque` gives the effort of a joint, and this input is none";
+        let fault = Fault::new(&only.name.place, "drive", message);
+        faults.push(fault.with_help("use `pd`, whose gains are in this input's unit, or `given`"));
+        return None;
     }
     let Some(position) = follows else {
         let message = format!("no joint that `{word}` could follow moves with this input");

@@ -101,6 +101,17 @@ impl System {
             .collect()
     }
 
+    /// The coordinate of each mode's friction.
+    pub(crate) fn mode_coordinates(&self) -> Vec<usize> {
+        let b = Builder::silent();
+        let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
+        let mut found = vec![0; self.scene.layout.modes.len()];
+        for contact in laws.contacts() {
+            found[contact.mode] = contact.coordinate;
+        }
+        found
+    }
+
     /// The roles this scene has functions for.
     pub fn roles(&self) -> Vec<Role> {
         let layout = &self.scene.layout;

@@ -80,6 +80,9 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize>
     fn event_modes(&self) -> &'static [Option<usize>; NE] {
         &[None; NE]
     }
+    fn mode_velocities(&self) -> &'static [usize; NM] {
+        &[0; NM]
+    }
     fn output_names(&self) -> &'static [&'static str; 0] {
         &[]
     }

@@ -25,8 +25,10 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn vector<const N: usize>(&mut self, around: &SVector<f64, N>) -> SVector<f64, N> {
-        around.map(|x| x + self.unit() * if x.abs() > 10.0 { 0.01 * x } else { 1.0 })
+    /// Numbers of about `size` away from these; those of their own size, such as volumes of fluid,
+    /// stay near it.
+    fn vector<const N: usize>(&mut self, around: &SVector<f64, N>, size: f64) -> SVector<f64, N> {
+        around.map(|x| x + self.unit() * if x == 0.0 { size } else { 0.02 * x })
     }
 }
 
@@ -69,9 +71,9 @@ fn agrees<
         found.map_or(vec![], |(_, f)| f.evaluate(inputs.clone()).0)
     };
     for k in 0..STATES {
-        let y = random.vector(&start);
+        let y = random.vector(&start, 0.02);
         let m = SVector::<f64, M>::from_fn(|_, _| (random.unit() * 1.5).round());
-        let u = random.vector(&SVector::<f64, U>::zeros());
+        let u = random.vector(&SVector::<f64, U>::zeros(), 1.0);
         let t = random.unit().abs();
         let inputs = Inputs {
             q: y.as_slice()[..nq].to_vec(),
