@@ -13,11 +13,13 @@ mod hard_cases;
 mod hydraulics;
 mod laws;
 mod one;
+mod page;
 mod reference;
 mod refused;
 mod refused_bodies;
 mod settle;
 mod springs;
+mod written;
 mod zero;
 
 use common::{read, specs};
