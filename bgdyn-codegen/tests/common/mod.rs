@@ -3,6 +3,7 @@
 //! Tests go through the public interface only: text → mechanism → functions → evaluator.
 #![allow(dead_code)] // each test file uses a part
 
+pub mod baseline;
 pub mod golden;
 pub mod hard;
 pub mod kinematics;
