@@ -41,7 +41,7 @@ const ROBOTS: [Robot; 7] = [
     Robot { name: "iiwa_gen", what: "iiwa", best: [(261, 238), (134, 129), (499, 444), (2123, 1900)], pairs: [6, 6], divisions: 6 },
 ];
 
-/// Of the best known count of derivatives, which is plain forward differentiation.
+/// What derivatives may cost of the best known count, which is plain forward differentiation.
 const STRUCTURED: f64 = 0.7;
 
 fn folder(path: &str) -> PathBuf {
@@ -140,6 +140,7 @@ fn the_page_holds_what_is_generated() {
              `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test performance`, which writes this page; \
              without `BGDYN_WRITE` the test fails where the page is not up to date, or a count is \
              above the best known one.\n";
+    text += "\nArms outside this table: [outside.md](outside.md).\n";
     let page = folder("docs/performance.md");
     if std::env::var_os("BGDYN_WRITE").is_some() {
         fs::write(&page, &text).expect("the page is written");

@@ -144,13 +144,13 @@ fn forward_derivatives_undo_the_inverse() {
 #[test]
 fn counts_stay() {
     let bounds = [
-        ("scara_rrpr", [84, 234, 32]),
-        ("stanford_gen", [1185, 2463, 540]),
-        ("puma_gen", [1400, 2721, 644]),
-        ("puma_arm", [940, 1889, 400]),
-        ("ur5_gen", [1115, 2381, 468]),
-        ("panda_gen", [2048, 4093, 1002]),
-        ("iiwa_gen", [1833, 3851, 861]),
+        ("scara_rrpr", [84, 234, 30]),
+        ("stanford_gen", [1170, 2444, 521]),
+        ("puma_gen", [1358, 2689, 625]),
+        ("puma_arm", [875, 1870, 377]),
+        ("ur5_gen", [1096, 2374, 452]),
+        ("panda_gen", [2047, 4088, 985]),
+        ("iiwa_gen", [1828, 3844, 847]),
     ];
     let methods = [
         Method::InverseDynamicsDerivatives,

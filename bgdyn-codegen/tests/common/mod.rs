@@ -4,6 +4,7 @@
 #![allow(dead_code)] // each test file uses a part
 
 pub mod bars;
+pub mod baseline;
 pub mod golden;
 pub mod hard;
 pub mod kinematics;

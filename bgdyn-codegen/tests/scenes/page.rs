@@ -29,7 +29,10 @@ fn pair(effect: &dyn Effect) -> [System; 2] {
     if effect.built_in() {
         let keyword = effect.keyword();
         let arm = mechanism("", TENSOR, "");
-        let without = all.replace(keyword, "").replace("[, ", "[").replace(", ,", ",");
+        let without = all
+            .replace(keyword, "")
+            .replace("[, ", "[")
+            .replace(", ,", ",");
         let without = without.replace(", ]", "]");
         return [scene(&all, &arm), scene(&without, &arm)];
     }
@@ -40,7 +43,10 @@ fn pair(effect: &dyn Effect) -> [System; 2] {
     let called = format!("velocity_products, {}]", names(written));
     let with = all.replace("velocity_products]", &called);
     let with = if written.contains("ram:") {
-        with.replace("slide_rate: 0.6 }", "slide_rate: 0.6, ram_a: 5 MPa, ram_b: 5 MPa, hose: 10 MPa }")
+        with.replace(
+            "slide_rate: 0.6 }",
+            "slide_rate: 0.6, ram_a: 5 MPa, ram_b: 5 MPa, hose: 10 MPa }",
+        )
     } else {
         with
     };
@@ -55,7 +61,11 @@ fn run(system: &System) -> Vec<[f64; 2]> {
     let mut at = system.start();
     // What a caller would give: 4 V, 4 N, a valve open by half.
     for (value, part) in at.u.iter_mut().zip(&layout.inputs) {
-        *value = if part.name.ends_with("fx") || part.drives.is_some() { 4.0 } else { 0.0 };
+        *value = if part.name.ends_with("fx") || part.drives.is_some() {
+            4.0
+        } else {
+            0.0
+        };
         if part.name == "valve" {
             *value = 0.5;
         }
@@ -65,7 +75,11 @@ fn run(system: &System) -> Vec<[f64; 2]> {
         path.push([at.q[0], at.q[1]]);
         // Stiff laws take shorter steps.
         let (parts, h) = (200, STEP / 200.0);
-        let parts = if layout.nx() + layout.nv() > 2 || system.scene.elements.len() > 3 { parts } else { 4 };
+        let parts = if layout.nx() + layout.nv() > 2 || system.scene.elements.len() > 3 {
+            parts
+        } else {
+            4
+        };
         let h = if parts == 4 { STEP / 4.0 } else { h };
         for _ in 0..parts {
             at = stepped(&derivative, layout.nq(), &at, h);
@@ -115,17 +129,31 @@ fn figure(effect: &dyn Effect, paths: [&[[f64; 2]]; 2]) -> String {
     graph(&mut svg, effect);
     for (k, what) in ["turn, rad", "slide, m"].into_iter().enumerate() {
         let left = 250.0 + 310.0 * k as f64;
-        let all = || paths.iter().flat_map(|p| p.iter().map(|x| x[k])).filter(|x| x.is_finite());
+        let all = || {
+            paths
+                .iter()
+                .flat_map(|p| p.iter().map(|x| x[k]))
+                .filter(|x| x.is_finite())
+        };
         let (low, high) = all().fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
         let high = if high - low < 1e-9 { low + 1.0 } else { high };
         let y = |x: f64| 205.0 - 165.0 * (x - low) / (high - low);
         writeln!(svg, "<rect x=\"{left}\" y=\"40\" width=\"240\" height=\"165\" fill=\"none\" stroke=\"#999\"/>").unwrap();
         writeln!(svg, "<text x=\"{left}\" y=\"30\">{what}</text>").unwrap();
         for (at, value) in [(40.0 + 8.0, high), (205.0, low)] {
-            writeln!(svg, "<text x=\"{}\" y=\"{at}\" text-anchor=\"end\" font-size=\"11\">{value:.2}</text>", left - 5.0).unwrap();
+            writeln!(
+                svg,
+                "<text x=\"{}\" y=\"{at}\" text-anchor=\"end\" font-size=\"11\">{value:.2}</text>",
+                left - 5.0
+            )
+            .unwrap();
         }
         for (at, text) in [(left, "0"), (left + 240.0, "2 s")] {
-            writeln!(svg, "<text x=\"{at}\" y=\"220\" text-anchor=\"middle\" font-size=\"11\">{text}</text>").unwrap();
+            writeln!(
+                svg,
+                "<text x=\"{at}\" y=\"220\" text-anchor=\"middle\" font-size=\"11\">{text}</text>"
+            )
+            .unwrap();
         }
         for (path, style) in paths.iter().zip([
             "stroke=\"#c0392b\" stroke-width=\"2\"",
@@ -134,9 +162,20 @@ fn figure(effect: &dyn Effect, paths: [&[[f64; 2]]; 2]) -> String {
             let every = path.iter().enumerate().step_by(16);
             let points: Vec<String> = every
                 .filter(|(_, x)| x[k].is_finite())
-                .map(|(i, x)| format!("{:.1},{:.1}", left + 240.0 * i as f64 / STEPS as f64, y(x[k])))
+                .map(|(i, x)| {
+                    format!(
+                        "{:.1},{:.1}",
+                        left + 240.0 * i as f64 / STEPS as f64,
+                        y(x[k])
+                    )
+                })
                 .collect();
-            writeln!(svg, "<polyline fill=\"none\" {style} points=\"{}\"/>", points.join(" ")).unwrap();
+            writeln!(
+                svg,
+                "<polyline fill=\"none\" {style} points=\"{}\"/>",
+                points.join(" ")
+            )
+            .unwrap();
         }
     }
     svg += "<line x1=\"330\" y1=\"238\" x2=\"360\" y2=\"238\" stroke=\"#c0392b\" stroke-width=\"2\"/><text x=\"366\" y=\"242\">with the effect</text>\n<line x1=\"490\" y1=\"238\" x2=\"520\" y2=\"238\" stroke=\"#555\" stroke-dasharray=\"5 4\"/><text x=\"526\" y=\"242\">without</text>\n</svg>\n";
@@ -166,7 +205,11 @@ fn graph(svg: &mut String, effect: &dyn Effect) {
 fn reads(key: &Key) -> String {
     match key.reads {
         Reads::Number(fit) => {
-            let units: Vec<&str> = fit.iter().map(|d| d.si()).filter(|u| !u.is_empty()).collect();
+            let units: Vec<&str> = fit
+                .iter()
+                .map(|d| d.si())
+                .filter(|u| !u.is_empty())
+                .collect();
             match units.as_slice() {
                 [] => "number".into(),
                 units => units.join(" or "),
@@ -189,7 +232,11 @@ fn cost(system: &System) -> (usize, usize, usize) {
     let operations = system.function(Role::Derivative).operations();
     let layout = &system.scene.layout;
     let states = layout.nq() + layout.nv() + layout.nx() + layout.modes.len();
-    (operations.total(), operations.other + operations.div + operations.sqrt, states)
+    (
+        operations.total(),
+        operations.other + operations.div + operations.sqrt,
+        states,
+    )
 }
 
 fn signed(more: usize, less: usize) -> String {
@@ -200,7 +247,10 @@ fn section(effect: &dyn Effect, pair: &[System; 2]) -> String {
     let mut text = format!("## `{}`\n\n", effect.keyword());
     let summary = effect.summary();
     let mut letters = summary.chars();
-    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    let first: String = letters
+        .next()
+        .map(|c| c.to_uppercase().collect())
+        .unwrap_or_default();
     writeln!(text, "{first}{}.\n", letters.as_str()).unwrap();
     writeln!(text, "![{0}](images/effects/{0}.svg)\n", effect.keyword()).unwrap();
     let ([more, others_more, states_more], [less, others_less, states_less]) = (
@@ -220,7 +270,13 @@ fn section(effect: &dyn Effect, pair: &[System; 2]) -> String {
         for key in effect.keys() {
             let needed = if key.needed { "yes" } else { "no" };
             let about = key.about.replace('|', "\\|");
-            writeln!(text, "| `{}` | {needed} | {} | {about} |", key.name, reads(key)).unwrap();
+            writeln!(
+                text,
+                "| `{}` | {needed} | {} | {about} |",
+                key.name,
+                reads(key)
+            )
+            .unwrap();
         }
         text += "\n";
     }
@@ -240,10 +296,12 @@ What none of them costs where a scene does not call for it is tested byte for by
 #[test]
 fn the_page_of_effects_holds_what_there_is() {
     let write = std::env::var_os("BGDYN_WRITE").is_some();
-    let others = ["hydraulics", "bodies", "loads"].into_iter().filter(|name| {
-        docs().join(format!("effects/{name}.md")).exists()
-    });
-    let more: String = others.map(|name| format!(", [{name}](effects/{name}.md)")).collect();
+    let others = ["hydraulics", "bodies", "loads"]
+        .into_iter()
+        .filter(|name| docs().join(format!("effects/{name}.md")).exists());
+    let more: String = others
+        .map(|name| format!(", [{name}](effects/{name}.md)"))
+        .collect();
     let mut page = HEAD.replace("MORE", &more);
     let figures = docs().join("images/effects");
     for effect in EFFECTS {

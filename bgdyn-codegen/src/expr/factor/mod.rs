@@ -1,7 +1,8 @@
 //! Algebraic factoring: a function with fewer operations and the same value.
 //!
 //! The graph is read as sums of products, Σ k·Π factors ([`network`]): single uses are written
-//! out, so that constants and equal terms meet across nesting, and cancel. Then common products
+//! out, so that constants and equal terms meet across nesting, and cancel; a sum that others read
+//! too is written out where so much cancels that it gets cheaper. Then common products
 //! and common two-term sums are taken out, the one that saves most first ([`extract`]; the two-cube
 //! divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
 //! Kastner 2006), and the graph is built again ([`rebuild`]). Whichever of before and after costs

@@ -33,9 +33,17 @@ pub(super) struct Beyond<'g> {
     drift: Vec3<Ex<'g>>,
     /// Entries with the last rotation passed in the group, and where its origin is from this one.
     last: Option<(Entries<'g>, Vec3<Ex<'g>>)>,
-    /// Where the forces of `by_position` and `by_rate` are wanted in the axes of the body that the
-    /// group ends with: these, and the angle from the basis to those axes.
-    met: Option<([Vec3<Ex<'g>>; 2], (Ex<'g>, Ex<'g>))>,
+    /// Where the forces are wanted in the axes of the body that the group ends with as well.
+    met: Option<Met<'g>>,
+}
+
+/// Changes of force in the axes of a body.
+#[derive(Clone, Copy)]
+struct Met<'g> {
+    /// Those of `by_position` and `by_rate`.
+    forces: [Vec3<Ex<'g>>; 2],
+    /// Cosine and sine of the angle from the basis to the body's axes.
+    angle: (Ex<'g>, Ex<'g>),
 }
 
 /// A rotation of a group, and what moves with it, as the rotation before it in the group sees them.
@@ -132,7 +140,7 @@ impl<'g> Beyond<'g> {
     pub fn turned(self, angle: (Ex<'g>, Ex<'g>), meet: bool) -> Self {
         let forces = [self.by_position.force, self.by_rate.force];
         Beyond {
-            met: meet.then_some((forces, angle)),
+            met: meet.then_some(Met { forces, angle }),
             ..self.map(|v| turn(v, angle))
         }
     }
@@ -251,7 +259,7 @@ impl<'g> Beyond<'g> {
         let step = Vec3([-y, x, b.zero()]);
         let forces = [self.by_position.force, self.by_rate.force];
         let ([by_position, by_rate], met_step) = match self.met {
-            Some((forces, angle)) => (forces, turn_back(step, angle)),
+            Some(met) => (met.forces, turn_back(step, met.angle)),
             None => (forces, step),
         };
         let step_rate = axis.spin.omega.map(|x| x * axis.factor).cross(step);

@@ -16,7 +16,10 @@
 //! 2 ∫ v × δ_i dm of the same rate (see [`super::beyond`]).
 //!
 //! Inside a group of parallel axes the fields of two joints differ by a translation, and so do
-//! their entries.
+//! their entries; what a joint hands on may be taken over from the next one ([`super::unit`]).
+//!
+//! ∂τ/∂v = 2 C with Christoffel's C, and C + Cᵀ = Ṁ: two entries whose place in M holds a constant
+//! are each other's negative.
 //!
 //! Carpentier and Mansard (2018), and Singh, Russell and Wensing (2022), order the derivatives of
 //! the Newton-Euler recursion by composites as well, in spatial vectors.
@@ -157,7 +160,7 @@ impl<'g> Slopes<'g> {
         beyond
     }
 
-    /// C + Cᵀ = Ṁ: where an entry of M is constant, one of the two by the rates is minus the other.
+    /// Writes down the entries of joints j and `joint`.
     fn enter(&mut self, frames: &Frames<'g>, j: usize, joint: &Beyond<'g>, entries: Entries<'g>) {
         let k = joint.momentum.joint;
         let factor = frames.bodies[j].effort * frames.bodies[k].effort;

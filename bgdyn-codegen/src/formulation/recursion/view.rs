@@ -17,6 +17,9 @@ const FACTORED: usize = 2_500;
 /// many.
 const NEAR: usize = 32;
 
+/// A length that is no unit, as a part of the largest one.
+const SMALL: f64 = 1e-4;
+
 /// The plan with the views that cost least: one choice at a time from the tips to the base, kept
 /// where it costs less.
 pub(super) fn chosen(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> Cost) -> Plan {
@@ -29,6 +32,9 @@ pub(super) fn chosen(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> C
         for change in changes(geometry, &plan, j) {
             let mut tried = plan.clone();
             change(&mut tried.views[j]);
+            if tried == plan {
+                continue;
+            }
             let c = cost(&tried).weighted();
             if c < least {
                 (least, plan) = (c, tried);
@@ -63,14 +69,17 @@ pub(super) fn measured(
         .expect("there is one")
 }
 
-/// The distances between the origins of joined bodies along the axes, each once.
+/// The distances between the origins of joined bodies along the axes, each once; none so small
+/// that other lengths would become huge.
 fn lengths(geometry: &Geometry, plan: &Plan) -> Vec<Dd> {
+    let offsets = (0..geometry.bodies.len()).map(|j| origin_offset(geometry, plan, j));
+    let all: Vec<Dd> = offsets.flat_map(|offset| offset.0.map(Dd::abs)).collect();
+    let largest = all.iter().fold(0.0, |m: f64, x| m.max(x.hi()));
     let mut lengths: Vec<Dd> = Vec::new();
-    for j in 0..geometry.bodies.len() {
-        for length in origin_offset(geometry, plan, j).0.map(Dd::abs) {
-            if length > Dd::ZERO && length != plan.unit && !lengths.contains(&length) {
-                lengths.push(length);
-            }
+    for length in all {
+        let wanted = length.hi() > SMALL * largest && length != plan.unit;
+        if wanted && !lengths.contains(&length) {
+            lengths.push(length);
         }
     }
     lengths
