@@ -53,6 +53,13 @@ fn scene(
     let mut layout = layout(&mechanism, &elements);
     let inputs = given(&spec.inputs);
     add_efforts(&mut layout, inputs);
+    // Names of effects that repeat were told already.
+    let told = faults.0.iter().any(|f| f.rule == "repeated-name");
+    if let Some(name) = layout.repeated().filter(|_| !told) {
+        let message = format!("`{name}` is the name of two parts of the state, or of two inputs");
+        let fault = Fault::new(&spec.place, "repeated-name", message);
+        faults.push(fault.with_help("give one of the effects or inputs another name"));
+    }
     let parameters = parameters(&mechanism, &elements, faults);
     let drives = drives(&layout, inputs, faults);
     let initial = initial(&layout, given(&spec.initial), faults);
