@@ -11,7 +11,7 @@ use super::reduce::held;
 use super::signal::{self, Drive, INTEGRATION};
 use super::{Initial, Integration, Scene, Written};
 use crate::effect::{Beside, Context, Declared, Element, called, once_per_joint};
-use crate::fault::{Fault, Faults, unknown_name, wording};
+use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::mechanism::name::is_identifier;
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Parameter, Pose};
 use crate::spec::{Dimension, Entry, Field, Located, Raw, SceneSpec};
@@ -86,6 +86,13 @@ pub(super) fn assembled(scene: Scene, faults: &mut Faults) -> Scene {
     let mut layout = layout(&scene.mechanism, &scene.elements);
     let inputs = &scene.written.inputs;
     add_efforts(&mut layout, inputs);
+    // Names of effects that repeat were told already.
+    let told = faults.0.iter().any(|f| f.rule == "repeated-name");
+    if let Some(name) = layout.repeated().filter(|_| !told) {
+        let message = format!("`{name}` is the name of two parts of the state, or of two inputs");
+        let fault = Fault::new(&Place::file(), "repeated-name", message);
+        faults.push(fault.with_help("give one of the effects or inputs another name"));
+    }
     Scene {
         parameters: parameters(&scene.mechanism, &scene.elements, faults),
         drives: drives(&layout, inputs, faults),

@@ -1,5 +1,7 @@
 //! What the numbers of a scene's state are: coordinates, first-order states, modes, inputs.
 
+use std::collections::BTreeSet;
+
 use bgdyn_runtime::Dd;
 
 use crate::effect::Element;
@@ -185,7 +187,8 @@ impl Layout {
 
     /// Adds an input that several effects may share: the opening of two valves on one spool.
     pub fn shared_input(&mut self, name: &str, dimension: Dimension, about: String) {
-        if !self.inputs.iter().any(|i| i.name == name) {
+        let same = |i: &Part| i.name == name && i.dimension == dimension;
+        if !self.inputs.iter().any(same) {
             self.input(name.to_owned(), dimension, about);
         }
     }
@@ -247,6 +250,18 @@ impl Layout {
     pub fn position_of(&self, name: &str) -> Dimension {
         self.coordinate_named(name)
             .map_or(Dimension::Angle, |j| self.coordinates[j].dimensions[0])
+    }
+
+    /// A name that two parts of the state, or two inputs, have.
+    pub fn repeated(&self) -> Option<&str> {
+        let stored = self.coordinates.iter().filter(|c| c.stored);
+        let rates = self.coordinates.iter().map(|c| c.rate_name.as_str());
+        let states = self.states.iter().map(|p| p.name.as_str());
+        let mut state = stored.map(|c| c.name.as_str()).chain(rates).chain(states);
+        let mut inputs = self.inputs.iter().map(|p| p.name.as_str());
+        let (mut in_state, mut in_inputs) = (BTreeSet::new(), BTreeSet::new());
+        let twice = state.find(|name| !in_state.insert(*name));
+        twice.or_else(|| inputs.find(|name| !in_inputs.insert(*name)))
     }
 
     /// Number of positions.

@@ -12,10 +12,15 @@ use super::common::{Random, scene};
 
 const EXACT: f64 = 1e-24;
 
+/// The UR5 with a frame `grip` that is neither at nor along its link's.
 fn ur5() -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/ur5.yaml");
-    std::fs::read_to_string(path).expect("the UR5")
+    let grip = format!("frames:\n  - {{ name: grip, link: wrist_3, origin: {GRIP} }}");
+    let text = std::fs::read_to_string(path).expect("the UR5");
+    text.replace("frames:", &grip)
 }
+
+const GRIP: &str = "{ xyz: [20 mm, -10 mm, 90 mm], rpy: [0.3, -0.2, 0.5] }";
 
 /// The UR5 with these effects beside gravity and inertia.
 fn arm(effects: &str) -> System {
@@ -56,7 +61,7 @@ fn a_wrench_acts_through_the_jacobian() {
     let mut free = Bench::new(arm(""));
     let mut random = Random(2);
     for axes in ["", ", axes: world", ", axes: link"] {
-        let effect = format!("  - push: {{ type: wrench, at: flange{axes} }}\n");
+        let effect = format!("  - push: {{ type: wrench, at: grip{axes} }}\n");
         let mut pushed = Bench::new(arm(&effect));
         let names: Vec<&str> = pushed
             .system
@@ -76,7 +81,7 @@ fn a_wrench_acts_through_the_jacobian() {
             anywhere(&mut random, &mut pushed, &mut free);
             let w: [Dd; 6] = std::array::from_fn(|_| Dd::from_f64(10.0 * random.unit()));
             pushed.at.u = w.to_vec();
-            let pose = site("flange", Method::Pose, &pushed.at);
+            let pose = site("grip", Method::Pose, &pushed.at);
             let world = if axes.contains("link") {
                 std::array::from_fn(|i| {
                     let (row, part) = (3 * (i % 3), 3 * (i / 3));
@@ -85,13 +90,13 @@ fn a_wrench_acts_through_the_jacobian() {
             } else {
                 w
             };
-            let jacobian = site("flange", Method::Jacobian, &pushed.at);
+            let jacobian = site("grip", Method::Jacobian, &pushed.at);
             let [with, without] = [pushed.value(Role::Inverse), free.value(Role::Inverse)];
             for j in 0..6 {
                 let effort = (0..6).fold(Dd::ZERO, |sum, i| sum + jacobian[6 * i + j] * world[i]);
                 agree("τ", without[j] - with[j], effort, 10.0, EXACT);
             }
-            let velocity = site("flange", Method::Velocity, &pushed.at);
+            let velocity = site("grip", Method::Velocity, &pushed.at);
             let power = (0..6).fold(Dd::ZERO, |sum, i| sum + velocity[i] * world[i]);
             agree("power", pushed.power("push")[0], power, 10.0, EXACT);
         }
@@ -160,19 +165,22 @@ fn drag_opposes_the_motion_of_its_place() {
     }
 }
 
-/// A part as an effect at the flange, and the same as a link of the mechanism.
-const PART: &str = "  - part: { type: payload, at: flange, mass: 1.5 kg, com: [10 mm, 0, 40 mm], inertia: { xx: 0.002, yy: 0.002, zz: 0.0008, xy: 0.0001 } }\n";
+/// A part as an effect at the grip, and the same as a link of the mechanism.
+const PART: &str = "  - part: { type: payload, at: grip, mass: 1.5 kg, com: [10 mm, 0, 40 mm], inertia: { xx: 0.002, yy: 0.002, zz: 0.0008, xy: 0.0001 } }\n";
 
 fn with_a_link() -> System {
-    let link = "  - name: piece
+    let link = format!(
+        "  - name: piece
     parent: wrist_3
+    joint: {{ type: fixed, origin: {GRIP} }}
     mass: 1.5
     com: [0.01, 0, 0.04]
-    inertia: { xx: 0.002, yy: 0.002, zz: 0.0008, xy: 0.0001 }
+    inertia: {{ xx: 0.002, yy: 0.002, zz: 0.0008, xy: 0.0001 }}
 
-frames:";
+frames:"
+    );
     let text = "scene: 1\nmechanism: ur5.yaml\neffects: [gravity, inertia, velocity_products]\n";
-    scene(text, &ur5().replace("frames:", link))
+    scene(text, &ur5().replace("frames:", &link))
 }
 
 #[test]
@@ -198,9 +206,9 @@ fn a_payload_is_a_link() {
 /// With the mass at 0 a point mass is let go: the arm moves as it does without.
 #[test]
 fn a_payload_is_let_go() {
-    let part = "  - part: { type: payload, at: flange, mass: { parameter: m, value: 2 kg }, com: [0, { parameter: y, value: 30 mm }, 0] }\n";
+    let part = "  - part: { type: payload, at: grip, mass: { parameter: m, value: 2 kg }, com: [0, { parameter: y, value: 30 mm }, 0] }\n";
     let (mut loaded, mut free) = (Bench::new(arm(part)), Bench::new(arm("")));
-    let fixed = "  - part: { type: payload, at: flange, mass: 2 kg, com: [0, 30 mm, 0] }\n";
+    let fixed = "  - part: { type: payload, at: grip, mass: 2 kg, com: [0, 30 mm, 0] }\n";
     let mut fixed = Bench::new(arm(fixed));
     let names: Vec<(&str, &str, &str)> = loaded
         .system

@@ -322,6 +322,14 @@ fn names_that_join_nothing() {
 fn names_that_stand_twice() {
     refused(
         &oil(
+            "cut: { type: orifice, from: pump, to: hose, flow: 1e-7, opening: push_fx }\npush: { type: wrench, at: lug, components: [fx] }",
+        ),
+        "repeated-name",
+        "scene: 1",
+        &["`push_fx`", "two inputs"],
+    );
+    refused(
+        &oil(
             "ram: { type: cylinder, joint: slide, area_a: 1 cm^2, dead_a: 1 l }\nram_a: { type: line, volume: 1 cm^3 }",
         ),
         "repeated-name",

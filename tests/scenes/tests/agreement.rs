@@ -106,13 +106,13 @@ fn agrees<
                 "{name}: input"
             );
         }
-        let events = compiled.events(&y, &m, &u, t).ok().expect("regular");
+        let events = compiled.events(&y, &m, &u, t).expect("regular");
         assert_eq!(
             events.as_slice(),
             evaluate(Role::Events, &inputs),
             "{name}: events"
         );
-        let contacts = compiled.contacts(&y, &m, &u, t).ok().expect("regular");
+        let contacts = compiled.contacts(&y, &m, &u, t).expect("regular");
         let contacts = contacts.map(|c| [c.slip, c.slip_rate, c.holding, c.limit]);
         assert_eq!(
             contacts.concat(),
@@ -131,7 +131,7 @@ fn agrees<
             evaluate(Role::Energy, &inputs),
             "{name}: energy"
         );
-        let power = compiled.power(&y, &m, &u, t).ok().expect("regular");
+        let power = compiled.power(&y, &m, &u, t).expect("regular");
         let power = power.map(|b| [b.supplied, b.stored_rate, b.dissipated]);
         assert_eq!(
             power.concat(),

@@ -1,4 +1,4 @@
-//! A four-way valve, critically centred (Merritt 1967, section 5-2): a spool shifted by x joins the
+//! A four-way valve, critically centred (Merritt 1967, chapter 5): a spool shifted by x joins the
 //! supply to one side and the other side to the tank, through orifices that open with |x|.
 
 use super::{Drop, FAMILY, LAMINAR, ORIFICE, joins_two, node, one_fluid, pressure, run};

@@ -1,4 +1,4 @@
-//! Leakage through a gap: laminar flow, q = c Δp (Merritt 1967, section 3-2).
+//! Leakage through a gap: laminar flow, q = c Δp (Merritt 1967, chapter 3).
 
 use super::{FAMILY, FROM, TO, joins_two, number, one_fluid, resist};
 use crate::effect::{Beside, Effect, Element, Given};

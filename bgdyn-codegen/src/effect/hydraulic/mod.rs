@@ -2,7 +2,7 @@
 //! and resistors that let fluid run between them, joined by name.
 //!
 //! The fluid has a constant bulk modulus β: its density is ρ = ρ₀ e^{p/β} (Merritt, Hydraulic
-//! Control Systems, 1967, section 2-3), pressures measured against the surroundings. The state of a
+//! Control Systems, 1967, chapter 2), pressures measured against the surroundings. The state of a
 //! volume V is the volume W that its fluid would fill at the reference density ρ₀, so p = β ln(W/V)
 //! however V changes. A volume flow q carries Ẇ = q W/V: that is ṗ = β (q − V̇)/V.
 //!

@@ -1,4 +1,4 @@
-//! An orifice, fixed or opened by an input: turbulent flow q = k √Δp (Merritt 1967, section 3-4),
+//! An orifice, fixed or opened by an input: turbulent flow q = k √Δp (Merritt 1967, chapter 3),
 //! with a laminar part where it is given, Δp = R q + q|q|/k². That law is smooth at Δp = 0, solved
 //! for the flow it is q = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
 
