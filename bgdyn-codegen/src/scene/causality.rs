@@ -104,6 +104,11 @@ pub(super) fn chains(elements: &[Element], faults: &mut Faults) -> Vec<Chain> {
 /// The way out of most loops.
 const VOLUME: &str = "make one of the junctions a volume: `{ type: line, volume: … }`";
 
+/// Whether an element is no junction, or one whose pressure can be solved for.
+pub(super) fn is_solvable(element: &Element, elements: &[Element]) -> bool {
+    !element.effect.is_junction() || unsolvable(element, elements).is_none()
+}
+
 /// Why the pressure of a junction cannot be solved for.
 fn unsolvable(junction: &Element, elements: &[Element]) -> Option<Fault> {
     let (name, place) = (junction.name.as_str(), &junction.place);

@@ -1,14 +1,15 @@
 //! Scenes with fewer effects than the file calls for: to see what each one costs and changes.
 
 use super::Scene;
-use super::causality::chains;
+use super::causality::{chains, is_solvable};
 use super::check::assembled;
-use crate::effect::{Checked, Element};
+use crate::effect::{Beside, Checked, Element};
 use crate::fault::Faults;
+use crate::mechanism::Mechanism;
 
 impl Scene {
     /// The same scene with only the effects that `keep` says, and without those that act on what
-    /// then is missing. Inputs, initial values and outputs that are not there any more fall away.
+    /// then is missing or need it. Inputs, initial values and outputs that are not there any more fall away.
     pub fn with_only(&self, keep: impl Fn(&Element) -> bool) -> Scene {
         let mut elements = self.elements.clone();
         elements.retain(|e| keep(e));
@@ -22,6 +23,8 @@ impl Scene {
                 .filter(|name| !there.contains(name))
                 .collect();
             elements.retain(|e| !missing.iter().any(|gone| acts_on(e, gone)));
+            let left = elements.clone();
+            elements.retain(|e| stands(e, &left, &self.written.unloaded));
             if elements.len() == before {
                 break;
             }
@@ -44,6 +47,17 @@ impl Scene {
             ..assembled(scene, &mut Faults::default())
         }
     }
+}
+
+/// Whether an element still has what it needs beside it: a fluid, two elements at a junction.
+fn stands(element: &Element, left: &[Element], mechanism: &Mechanism) -> bool {
+    let mut faults = Faults::default();
+    let beside = Beside {
+        elements: left,
+        mechanism,
+    };
+    element.effect.fits(element, &beside, &mut faults);
+    !faults.any_fault() && is_solvable(element, left)
 }
 
 /// Whether an element refers to another: to its coordinate, or to one of its nodes.

@@ -167,6 +167,29 @@ fn what_was_solved_is_listed() {
     assert_eq!(names, ["elbow_motor"], "the motor without inductance");
 }
 
+/// A scene without one of its effects has none of those that need it.
+#[test]
+fn what_needs_a_missing_effect_falls_away() {
+    let text = text(
+        "tee: { type: junction }
+         first: { type: orifice, from: left, to: tee, flow: 2e-7 }
+         second: { type: orifice, from: tee, to: right, flow: 3e-7 }",
+    );
+    let whole = scene(&text, BLOCK).scene;
+    let without = |gone: &str| {
+        let rest = whole.with_only(|e| e.name != gone);
+        assert!(rest.chains.is_empty());
+        let names = rest.elements.iter().map(|e| e.name.clone());
+        names.collect::<Vec<_>>()
+    };
+    assert_eq!(without("oil"), Vec::<String>::new());
+    assert_eq!(without("first"), ["left", "right", "oil"]);
+    assert_eq!(without("tee"), ["left", "right", "oil"]);
+    assert_eq!(without("left"), ["right", "oil"]);
+    let all = whole.with_only(|_| true);
+    assert_eq!((all.elements.len(), all.chains.len()), (6, 1));
+}
+
 /// The rule, the line and the words of the only fault of a scene.
 fn refused(effects: &str, rule: &str, line_has: &str, words: &[&str]) {
     let text = text(effects);
