@@ -134,7 +134,7 @@ links:
 fn accuracy_is_better_at_other_states() {
     let golden = common::golden::robot;
     for (robot, method, better) in [
-        (heavy(1e3), Method::ForwardDynamics, 4.0),
+        (heavy(1e3), Method::ForwardDynamics, 1.8),
         (golden("panda_gen"), Method::ForwardDynamics, 3.0),
         (golden("puma560"), Method::InverseDynamics, 1.3),
     ] {

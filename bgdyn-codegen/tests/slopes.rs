@@ -145,12 +145,12 @@ fn forward_derivatives_undo_the_inverse() {
 fn counts_stay() {
     let bounds = [
         ("scara_rrpr", [84, 234, 30]),
-        ("stanford_gen", [1170, 2444, 521]),
-        ("puma_gen", [1358, 2689, 625]),
-        ("puma_arm", [875, 1870, 377]),
-        ("ur5_gen", [1096, 2374, 452]),
-        ("panda_gen", [2047, 4088, 985]),
-        ("iiwa_gen", [1828, 3844, 847]),
+        ("stanford_gen", [1170, 2447, 521]),
+        ("puma_gen", [1360, 2694, 625]),
+        ("puma_arm", [877, 1861, 378]),
+        ("ur5_gen", [1091, 2376, 457]),
+        ("panda_gen", [2047, 4090, 986]),
+        ("iiwa_gen", [1829, 3861, 847]),
     ];
     let methods = [
         Method::InverseDynamicsDerivatives,

@@ -37,7 +37,7 @@ impl Index {
     pub fn insert(&mut self, hash: u64, place: u32) {
         self.len += 1;
         if self.len * 3 > self.slots.len() * 2 {
-            let size = (2 * self.slots.len()).max(64);
+            let size = (4 * self.slots.len()).max(256);
             let before = std::mem::replace(&mut self.slots, vec![0; size]);
             for slot in before {
                 if slot != 0 {

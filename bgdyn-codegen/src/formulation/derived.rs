@@ -33,8 +33,9 @@ pub(super) fn function(search: &Search<'_>, method: Method) -> Option<Function> 
         }
         Method::ForwardDynamicsDerivatives => {
             let slopes = search.slopes()?;
-            let ways = search.forward_dynamics().iter();
-            let ways = ways.map(|forward| forward_derivatives(graph, method, slopes, forward));
+            let ways = search
+                .differentiable()
+                .map(|forward| forward_derivatives(graph, method, slopes, forward));
             Function::cheapest(ways)
         }
         _ => None,

@@ -72,6 +72,42 @@ pub(crate) fn aligned(graph: &BondGraph) -> Vec<Inputs<f64>> {
     states
 }
 
+/// For each joint the aligned states in which it moves least, exactly and by a hair: there its row of
+/// M is what is left of terms that cancel. `moved` is the inertia that a joint moves.
+pub(crate) fn folded(
+    graph: &BondGraph,
+    moved: impl Fn(&Inputs<f64>, usize) -> f64,
+) -> Vec<Inputs<f64>> {
+    let in_line = in_line(graph);
+    let turned = |j: usize, q: f64| {
+        let start = in_line[j].map_or(q, |q: Dd| q.to_f64());
+        (0..4).map(move |turns| start + f64::from(turns) * FRAC_PI_2)
+    };
+    let n = in_line.len();
+    let mut states = Vec::new();
+    for i in 0..n {
+        let mut state = anywhere(graph, 2000 + 4 * i as u64);
+        for j in (0..n).rev().filter(|&j| in_line[j].is_some()) {
+            let mut least = (f64::INFINITY, state.q[j]);
+            for q in turned(j, state.q[j]) {
+                state.q[j] = q;
+                let moved = moved(&state, i);
+                if moved < least.0 {
+                    least = (moved, q);
+                }
+            }
+            state.q[j] = least.1;
+        }
+        for off in OFF {
+            let mut state = state.clone();
+            let joints = (0..n).filter(|&j| in_line[j].is_some());
+            joints.for_each(|j| state.q[j] += off);
+            states.push(state);
+        }
+    }
+    states
+}
+
 /// At most so many items, spread over the list.
 pub(crate) fn spread<T: Clone>(all: &[T], most: usize) -> Vec<T> {
     let kept = all.len().min(most);

@@ -18,7 +18,7 @@ pub struct Search<'a> {
     asked: Option<&'static dyn Formulation>,
     /// What the recursion has found.
     pub(super) recursion: recursion::Found,
-    forward: OnceCell<Vec<Function>>,
+    forward: OnceCell<recursion::Ways>,
     slopes: OnceCell<Option<Function>>,
     chosen: RefCell<BTreeMap<Method, Option<Rc<Function>>>>,
 }
@@ -53,11 +53,16 @@ impl<'a> Search<'a> {
 
     fn choose(&self, method: Method) -> Option<Function> {
         let ways = match method {
-            Method::InverseDynamicsDerivatives => self.slopes().cloned().into_iter().collect(),
-            Method::CoriolisMatrix | Method::ForwardDynamicsDerivatives => {
+            // These are compared, and shared, as they are after factoring.
+            Method::InverseDynamicsDerivatives => return self.slopes().cloned(),
+            Method::CoriolisMatrix => return derived::function(self, method),
+            Method::ForwardDynamicsDerivatives => {
                 derived::function(self, method).into_iter().collect()
             }
-            Method::ForwardDynamics => self.forward_dynamics().to_vec(),
+            Method::ForwardDynamics => {
+                let ways = self.ways().kept.iter();
+                return Function::cheapest(ways.map(|way| way.generated.clone()));
+            }
             _ => self.own(method),
         };
         Function::cheapest(ways.into_iter().map(Function::factored))
@@ -70,15 +75,32 @@ impl<'a> Search<'a> {
         own.into_iter().collect()
     }
 
-    /// The ways to forward dynamics, the cheapest first.
-    pub(crate) fn forward_dynamics(&self) -> &[Function] {
-        self.forward.get_or_init(|| {
-            let asked = self.asked;
-            match asked.and_then(|f| f.function(self, Method::ForwardDynamics)) {
-                Some(function) => vec![function],
-                None => recursion::forward_dynamics(self),
-            }
-        })
+    /// The ways to forward dynamics that keep their digits, the cheapest first, as their formulations
+    /// write them.
+    pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {
+        self.ways().kept.iter().map(|way| &way.plain)
+    }
+
+    /// The ways to forward dynamics that its derivatives may rest on.
+    pub(super) fn differentiable(&self) -> impl Iterator<Item = &Function> {
+        let ways = self.ways();
+        ways.kept.iter().chain(&ways.near).map(|way| &way.plain)
+    }
+
+    fn ways(&self) -> &recursion::Ways {
+        let asked = || {
+            let plain = self.asked?.function(self, Method::ForwardDynamics)?;
+            let way = recursion::Way {
+                generated: plain.clone().factored(),
+                plain,
+            };
+            Some(recursion::Ways {
+                kept: vec![way],
+                near: Vec::new(),
+            })
+        };
+        self.forward
+            .get_or_init(|| asked().unwrap_or_else(|| recursion::forward_dynamics(self)))
     }
 
     /// The derivatives of inverse dynamics.

@@ -15,12 +15,12 @@ pub(super) fn derivatives(system: &System) -> Vec<Function> {
             rates(system, &laws, b)
         })];
     }
-    let ways = Search::new(&system.graph, None).forward_dynamics().to_vec();
-    let with = |forward: Function| {
+    let search = Search::new(&system.graph, None);
+    let with = |forward: &Function| {
         let b = Builder::new();
         let outputs: Vec<Expr> = {
             let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
-            let joints = driven(&b, &forward, &laws, system);
+            let joints = driven(&b, forward, &laws, system);
             joined(system, &laws, joints)
                 .into_iter()
                 .map(Ex::expr)
@@ -32,7 +32,7 @@ pub(super) fn derivatives(system: &System) -> Vec<Function> {
             ..system.flat(Role::Derivative, name, b, outputs)
         }
     };
-    ways.into_iter().map(with).collect()
+    search.forward_dynamics().map(with).collect()
 }
 
 /// Forward dynamics under the efforts of the laws.
@@ -72,8 +72,10 @@ fn own_inertia<'g>(laws: &Laws<'g, '_>, j: usize) -> Ex<'g> {
 /// v̇ and ẋ, whatever the modes are.
 pub(super) fn rates<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Vec<Ex<'g>> {
     let joints = if laws.contacts().is_empty() {
-        let forward = Search::new(&system.graph, None).forward_dynamics().to_vec();
-        driven(b, &forward[0], laws, system)
+        let search = Search::new(&system.graph, None);
+        let mut ways = search.forward_dynamics();
+        let forward = ways.next().expect("there is a way");
+        driven(b, forward, laws, system)
     } else {
         held(system, laws, b).accelerations
     };

@@ -160,9 +160,7 @@ impl Hard {
         self.within("4", norm(&whole), allowed);
     }
 
-    /// Forward dynamics, backward: each joint's effort is met to 8 n eps of its terms; but where a
-    /// row of M or of the bias all but cancels, so that rounding the arguments alone changes the
-    /// effort by a sixteenth of that, to half as much again, or four times what it changes. Forward:
+    /// Forward dynamics, backward: each joint's effort is met to 8 n eps of its terms. Forward:
     /// error ≤ (16 + cond M) eps ‖q̈‖; but where rounding the arguments alone changes q̈ by more
     /// than that, which is where efforts and bias all but balance, four times what it changes.
     fn forward_dynamics<T: Digits>(&self, generated: &Generated) {
@@ -178,20 +176,7 @@ impl Hard {
         for i in 0..self.n {
             let size = terms[i] + s.tau[i].abs() + self.bias[i].abs();
             let allowed = 8.0 * self.n as f64 * T::EPS * size;
-            if met[i].abs() > allowed {
-                let rounding = self.rounding_of_row::<T>(&generated.inverse, &moved, i);
-                let what = format!("2, rounded arguments ({allowed:e} without)");
-                // The crane's slewing row all but cancels: 1.4 times the bar in one of 200 states.
-                // That is what factoring costs: unfactored, its forward dynamics stays below 0.89.
-                let cancelled = (4.0 * rounding).max(1.5 * allowed);
-                assert!(
-                    rounding > allowed / 16.0,
-                    "{}, bar {what}: {:e}",
-                    self.what,
-                    met[i]
-                );
-                self.within(&what, met[i].abs(), cancelled);
-            }
+            self.within("2", met[i].abs(), allowed);
         }
         let (error, bar) = (norm(&off(&found, &exact)), self.forward_bar::<T>(&exact));
         if error > bar {
@@ -233,28 +218,6 @@ impl Hard {
                     .map(|(x, y)| (*x - *y).to_f64())
                     .collect();
                 sum += norm(&by);
-            }
-        }
-        sum
-    }
-
-    /// How far joint i's effort moves where each argument of inverse dynamics is rounded, by half an
-    /// eps of itself: the sum over all of them.
-    fn rounding_of_row<T: Digits>(&self, inverse: &Function, at: &State, i: usize) -> f64 {
-        let exact = fine(inverse, at)[i];
-        let slightly = Dd::ONE + Dd::from_f64(T::EPS / 2.0);
-        let mut sum = 0.0;
-        for j in 0..self.n {
-            for argument in 0..3 {
-                let mut inputs = at.inputs::<Dd>();
-                let x = match argument {
-                    0 => &mut inputs.q[j],
-                    1 => &mut inputs.v[j],
-                    _ => &mut inputs.a[j],
-                };
-                *x *= slightly;
-                let (moved, _) = inverse.evaluate(inputs);
-                sum += (moved[i] - exact).to_f64().abs();
             }
         }
         sum

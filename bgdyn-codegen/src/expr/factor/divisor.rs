@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::network::Var;
+use super::network::{Var, is_unit};
 use crate::expr::index::mix;
 
 /// What may be taken out: a · b of two factors (or a number and a factor), or a + r b of two
@@ -82,7 +82,9 @@ pub(super) fn scales(found: &[Place], r: Dd) -> Vec<Dd> {
 
 /// x / y, ± 1 where they are equal.
 pub(super) fn quotient_of(x: Dd, y: Dd) -> Dd {
-    if near(x, y) {
+    if is_unit(y) {
+        if y == Dd::ONE { x } else { -x }
+    } else if near(x, y) {
         Dd::ONE
     } else if near(x, -y) {
         -Dd::ONE

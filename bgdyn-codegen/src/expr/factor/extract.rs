@@ -85,12 +85,23 @@ impl<'a, 'g> Extraction<'a, 'g> {
 
     /// Notes the pairs of factors in a term, and its pairs with terms shortly before it.
     fn register(&mut self, var: Var, t: usize) {
-        let term = self.terms(var)[t].clone();
-        let mut literals: Vec<Literal> = Vec::new();
-        if !is_unit(term.k) && !term.factors.is_empty() {
-            literals.push(Literal::Number(self.number(term.k.abs())));
+        self.register_products(var, t);
+        for other in t.saturating_sub(WINDOW)..t {
+            self.register_pair(var, other, t);
         }
+    }
+
+    fn register_products(&mut self, var: Var, t: usize) {
+        let term = &self.terms(var)[t];
+        let k = term.k;
+        if term.cost() == 0 {
+            return;
+        }
+        let mut literals: Vec<Literal> = Vec::with_capacity(term.factors.len() + 1);
         literals.extend(term.factors.iter().map(|&f| Literal::Factor(f)));
+        if !is_unit(k) {
+            literals.insert(0, Literal::Number(self.number(k.abs())));
+        }
         let mut seen: Vec<(Literal, Literal)> = Vec::new();
         for j in 1..literals.len() {
             for i in 0..j {
@@ -100,9 +111,6 @@ impl<'a, 'g> Extraction<'a, 'g> {
                     self.note(Key::Product(pair.0, pair.1), var, 1, -1);
                 }
             }
-        }
-        for other in t.saturating_sub(WINDOW)..t {
-            self.register_pair(var, other, t);
         }
     }
 

@@ -27,6 +27,9 @@ const ROUNDS: usize = 2;
 /// faster than their number.
 const LIMIT: usize = 8_000;
 
+/// Operations up to which products are written out once more: beyond, one in a thousand is saved.
+const SPREAD: usize = 2_500;
+
 /// Operations up to which shared values are tried to be written out, one by one: each try is a
 /// round.
 const POLISHED: usize = 100;
@@ -116,7 +119,7 @@ fn rounds(graph: Graph, outputs: Vec<Expr>, most: usize) -> Best {
         }
     }
     // Products that were taken out first may stand in the way of better ones.
-    if most > 1 && cost.operations.total() <= LIMIT {
+    if most > 1 && cost.operations.total() <= SPREAD {
         best.improve(Spread::Products);
     }
     if best.cost.operations.total() <= POLISHED {

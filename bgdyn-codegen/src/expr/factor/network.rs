@@ -273,7 +273,12 @@ impl<'a> Network<'a> {
             return None;
         };
         let inner = self.sums[f as usize].as_deref()?;
-        if self.kept[f as usize] || inner.len() < 2 {
+        // Without a term that meets another one it cannot get cheaper.
+        let meets = |term: &Term| {
+            let at = whole.binary_search_by(|other| other.factors.cmp(&term.factors));
+            at.is_ok_and(|other| other != t)
+        };
+        if self.kept[f as usize] || inner.len() < 2 || !inner.iter().any(meets) {
             return None;
         }
         let scaled = inner.iter().map(|term| Term {

@@ -19,7 +19,7 @@ use super::{inverse, mass};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Inputs, evaluate};
 use crate::formulation::Arguments;
-use crate::formulation::sample::{aligned, generic, spread};
+use crate::formulation::sample::{aligned, folded, generic, spread};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -28,8 +28,11 @@ const EPS: f64 = f64::EPSILON;
 /// How much larger than what rounding its arguments costs an error may be: three digits.
 const LOST: f64 = 1e3;
 
-/// States tried: generic ones, and near aligned axes.
-const STATES: [usize; 2] = [8, 36];
+/// States tried: generic ones, near aligned axes, and those in which a joint moves least.
+const STATES: [usize; 3] = [8, 24, 12];
+
+/// How near to the bars factoring may bring a function: the states tried are not all there are.
+const MARGIN: f64 = 0.5;
 
 /// Joints up to which all of these are tried; of larger mechanisms fewer, in proportion to the
 /// square of their number, to which the work for each grows.
@@ -48,6 +51,11 @@ impl Standing {
     /// Whether every bar is met.
     pub fn meets(&self) -> bool {
         self.refused == 0 && self.excess <= 1.0
+    }
+
+    /// Whether it is at most a digit beyond them.
+    pub fn near(&self) -> bool {
+        self.refused == 0 && self.excess <= 10.0
     }
 }
 
@@ -73,6 +81,11 @@ impl Bars {
         let few = |most: usize| (most * ALL * ALL / n.max(ALL).pow(2)).max(2);
         let mut states = spread(&generic(graph), few(STATES[0]));
         states.extend(spread(&aligned(graph), few(STATES[1])));
+        let moved = |state: &Inputs<f64>, i: usize| {
+            let diagonal = &outputs[i * (i + 3) / 2..=i * (i + 3) / 2];
+            evaluate(&made, diagonal, state, &mut None)[0]
+        };
+        states.extend(spread(&folded(graph, moved), few(STATES[2])));
         let states = states.into_iter().enumerate();
         let terms =
             |inputs: &Inputs<Dd>| Terms::new(&evaluate(&made, &outputs, inputs, &mut None), n);
@@ -82,8 +95,26 @@ impl Bars {
         }
     }
 
+    /// The function as it is to be generated, and how that stands to them: factored, unless that
+    /// brings it near the bars, or beyond, and nearer than it was.
+    pub fn judged(&self, function: &Function) -> (Standing, Function) {
+        let own = self.standing(function);
+        if function.ordered {
+            return (own, function.clone());
+        }
+        let factored = function.clone().factored();
+        let found = self.standing(&factored);
+        let near = found.refused > 0 || found.excess > MARGIN;
+        if found <= own || !near {
+            return (found, factored);
+        }
+        let mut kept = function.clone();
+        kept.formulation += &format!("; not factored, which would take it {found}");
+        (own, kept)
+    }
+
     /// How a function stands to them.
-    pub fn standing(&self, function: &Function) -> Standing {
+    fn standing(&self, function: &Function) -> Standing {
         let mut all = Standing::default();
         for answer in &self.answers {
             match function.evaluate(answer.inputs.clone()) {

@@ -19,29 +19,48 @@ use crate::method::Method;
 
 const METHOD: Method = Method::ForwardDynamics;
 
-/// A way, and how it stands to the bars.
-type Judged = (Standing, Function);
+/// A way to forward dynamics.
+pub(in crate::formulation) struct Way {
+    /// As its formulation writes it: other functions are made of it.
+    pub plain: Function,
+    /// As it is generated.
+    pub generated: Function,
+}
 
-/// The ways to forward dynamics that keep their digits and are worth a look, the cheapest first;
-/// where none does, the one that loses least.
-pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Vec<Function> {
+/// A way, and how it stands to the bars.
+type Judged = (Standing, Way);
+
+/// Ways to forward dynamics.
+pub(in crate::formulation) struct Ways {
+    /// Those that keep their digits and are worth a look, the cheapest first; where none does, the
+    /// one that loses least.
+    pub kept: Vec<Way>,
+    /// Those that miss the bars by a digit at most: derivatives may rest on them.
+    pub near: Vec<Way>,
+}
+
+/// The ways to forward dynamics.
+pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Ways {
     let graph = search.graph;
     let geometry = search.recursion.geometry(graph);
     let bars = Bars::new(graph, geometry);
-    let judged = |way: Function| (bars.standing(&way), way);
+    let judged = |plain: Function| {
+        let (standing, generated) = bars.judged(&plain);
+        (standing, Way { plain, generated })
+    };
     let bodies = |way: Articulated| way.function(search, METHOD).map(judged);
     let shares = own_shares(graph, geometry);
     if let Some(j) = shares.iter().position(|&share| share < FAIR) {
         let mut found = best(bodies(Articulated::Own).into_iter().collect());
-        for way in &mut found {
+        for way in &mut found.kept {
             let link = &geometry.bodies[j].name;
-            way.formulation += &format!("; {link} has next to no inertia of its own");
+            way.generated.formulation += &format!("; {link} has next to no inertia of its own");
         }
         return found;
     }
     let mut tried: Vec<Judged> = cheap(search).into_iter().map(judged).collect();
     for way in [Articulated::Base, Articulated::Own] {
-        let known = |(_, f): &Judged| f.formulation.split(':').next() == Some(way.name());
+        let known = |(_, f): &Judged| f.plain.formulation.split(':').next() == Some(way.name());
         let done = |judged: &Judged| judged.0.meets() || known(judged);
         if !tried.iter().any(done) {
             tried.extend(bodies(way));
@@ -52,27 +71,32 @@ pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Vec<Funct
 
 /// Those that meet the bars, the cheapest first; where there are none, the one that comes nearest.
 /// Each says what is wrong with those that do not.
-fn best(mut tried: Vec<Judged>) -> Vec<Function> {
-    tried.sort_by_key(|(_, way)| way.cost().weighted());
+fn best(mut tried: Vec<Judged>) -> Ways {
+    tried.sort_by_key(|(_, way)| way.generated.cost().weighted());
     let wrong: String = tried
         .iter()
         .filter(|(standing, _)| !standing.meets())
         .map(|(standing, way)| {
-            let name = way.formulation.split(':').next();
+            let name = way.plain.formulation.split(':').next();
             format!("; {}: {standing}", name.unwrap_or_default())
         })
         .collect();
-    if !tried.iter().any(|(standing, _)| standing.meets()) {
-        tried.sort_by(|(x, _), (y, _)| x.partial_cmp(y).unwrap_or(Ordering::Equal));
-        tried.truncate(1);
-    } else {
-        tried.retain(|(standing, _)| standing.meets());
+    let (mut kept, mut near): (Vec<Judged>, Vec<Judged>) = tried
+        .into_iter()
+        .partition(|(standing, _)| standing.meets());
+    if kept.is_empty() {
+        near.sort_by(|(x, _), (y, _)| x.partial_cmp(y).unwrap_or(Ordering::Equal));
+        kept.extend((!near.is_empty()).then(|| near.remove(0)));
     }
+    near.retain(|(standing, _)| standing.near());
     let told = |(_, mut way): Judged| {
-        way.formulation += &wrong;
+        way.generated.formulation += &wrong;
         way
     };
-    tried.into_iter().map(told).collect()
+    Ways {
+        kept: kept.into_iter().map(told).collect(),
+        near: near.into_iter().map(|(_, way)| way).collect(),
+    }
 }
 
 /// The ways that cost least, as far as they are worth a search.

@@ -38,7 +38,7 @@ use crate::function::Function;
 use crate::method::Method;
 pub(super) use aligned::in_line;
 pub(super) use articulated::Articulated;
-pub(super) use forward::forward_dynamics;
+pub(super) use forward::{Way, Ways, forward_dynamics};
 use frames::{Frames, Plan};
 use geometry::Geometry;
 pub(super) use own::OwnInertia;
@@ -87,34 +87,48 @@ impl Formulation for Recursion {
 
 /// The cheapest plans found for a method of joints; nothing for what is derived from other methods.
 fn best_plans(search: &Search<'_>, method: Method) -> Option<Best> {
-    let graph = search.graph;
-    let geometry = search.recursion.geometry(graph);
     match method {
-        // Their graphs are too large for a whole search: it starts from the plan of a small
-        // method that they resemble.
-        Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-            let start = cheapest_plans(search, Method::MassMatrix);
-            let cost = |plan: &Plan| cost(graph, geometry, method, plan);
-            let after = |plan: &Plan| factored(graph, geometry, method, plan);
-            let mut best = plan::refined(geometry, start.taken(), cost);
-            let plan = view::chosen(geometry, best.taken().clone(), cost);
-            let plan = view::measured(geometry, plan, cost, after);
-            let found = cost(&plan);
-            best.take(plan, found);
-            Some(best)
-        }
         Method::ForwardDynamicsDerivatives => None,
         method if method.site().is_some() => None,
         _ => Some(cheapest_plans(search, method)),
     }
 }
 
-/// The cheapest plans found; the first one costs least after factoring. Plans that cost about the
-/// same before it differ in what it makes of them.
+/// The cheapest plans found, the one to be taken first.
 fn cheapest_plans(search: &Search<'_>, method: Method) -> Best {
     if let Some(best) = search.recursion.plans.borrow().get(&method) {
         return best.clone();
     }
+    let best = match method {
+        // Their graphs are too large for a whole search: it starts from the plan of a smaller
+        // method that they resemble.
+        Method::CoriolisMatrix => viewed_from(search, Method::MassMatrix, method),
+        Method::InverseDynamicsDerivatives => viewed_from(search, Method::CoriolisMatrix, method),
+        _ => searched(search, method),
+    };
+    let mut known = search.recursion.plans.borrow_mut();
+    known.insert(method, best.clone());
+    best
+}
+
+/// The plans of a method that has views to choose, from the cheapest plan of another one on.
+fn viewed_from(search: &Search<'_>, other: Method, method: Method) -> Best {
+    let graph = search.graph;
+    let geometry = search.recursion.geometry(graph);
+    let start = cheapest_plans(search, other);
+    let cost = |plan: &Plan| cost(graph, geometry, method, plan);
+    let after = |plan: &Plan| factored(graph, geometry, method, plan);
+    let mut best = plan::refined(geometry, start.taken(), cost);
+    let plan = view::chosen(geometry, best.taken().clone(), cost);
+    let plan = view::measured(geometry, plan, cost, after);
+    let found = cost(&plan);
+    best.take(plan, found);
+    best
+}
+
+/// The plans that a whole search finds; the first one costs least after factoring. Plans that cost
+/// about the same before it differ in what it makes of them.
+fn searched(search: &Search<'_>, method: Method) -> Best {
     let graph = search.graph;
     let geometry = search.recursion.geometry(graph);
     let mut best = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
@@ -122,8 +136,6 @@ fn cheapest_plans(search: &Search<'_>, method: Method) -> Best {
         let after = |tried: &Tried| factored(graph, geometry, method, &tried.plan).weighted();
         best.plans.sort_by_cached_key(after);
     }
-    let mut known = search.recursion.plans.borrow_mut();
-    known.insert(method, best.clone());
     best
 }
 

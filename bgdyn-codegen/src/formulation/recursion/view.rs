@@ -8,10 +8,11 @@ use super::plan::SEARCHED;
 use crate::expr::Cost;
 
 /// How often all choices are gone through.
-const ROUNDS: usize = 2;
+const ROUNDS: usize = 1;
 
-/// Operations up to which plans are compared after factoring.
-const FACTORED: usize = 2_500;
+/// Operations in all of the plans that are compared after factoring: more of small functions, none
+/// beside the cheapest of large ones.
+const FACTORED: usize = 4_500;
 
 /// How much more than the cheapest a plan may cost before factoring, to be tried: one part in so
 /// many.
@@ -28,7 +29,10 @@ pub(super) fn chosen(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> C
         return plan;
     }
     let mut least = cost(&plan).weighted();
+    // Joints gone through since the last change: after a whole turn nothing is new.
+    let mut unchanged = 0;
     for j in std::iter::repeat_n((0..n).rev(), ROUNDS).flatten() {
+        unchanged += 1;
         for change in changes(geometry, &plan, j) {
             let mut tried = plan.clone();
             change(&mut tried.views[j]);
@@ -38,7 +42,11 @@ pub(super) fn chosen(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> C
             let c = cost(&tried).weighted();
             if c < least {
                 (least, plan) = (c, tried);
+                unchanged = 0;
             }
+        }
+        if unchanged >= n {
+            break;
         }
     }
     plan
@@ -53,7 +61,8 @@ pub(super) fn measured(
     after: impl Fn(&Plan) -> Cost,
 ) -> Plan {
     let found = cost(&plan);
-    if found.operations.total() > FACTORED {
+    let others = FACTORED / found.operations.total().max(1);
+    if others < 3 {
         return plan;
     }
     let least = found.weighted();
@@ -61,8 +70,13 @@ pub(super) fn measured(
         unit,
         ..plan.clone()
     };
-    let others = lengths(geometry, &plan).into_iter().map(with);
-    let near = others.filter(|other| cost(other).weighted() <= least + least / NEAR);
+    let lengths = lengths(geometry, &plan).into_iter().map(with);
+    let mut near: Vec<(usize, Plan)> = lengths
+        .map(|other| (cost(&other).weighted(), other))
+        .filter(|(weight, _)| *weight <= least + least / NEAR)
+        .collect();
+    near.sort_by_key(|(weight, _)| *weight);
+    let near = near.into_iter().map(|(_, other)| other).take(others - 1);
     let plans = std::iter::once(plan.clone()).chain(near);
     plans
         .min_by_key(|plan| after(plan).weighted())
