@@ -60,6 +60,11 @@ impl Controller {
         };
     }
 
+    /// Error of the last accepted step.
+    pub(crate) fn last(&self) -> f64 {
+        self.last
+    }
+
     /// Whether a step with this error, in units of the tolerance, is accepted, and by how much the
     /// next one is to be longer.
     pub(crate) fn judge(&mut self, error: f64) -> (bool, f64) {

@@ -54,6 +54,8 @@ pub struct Run<P: Plant, M: Method<P::State> = Rk4> {
     pub last_event: Time<P>,
     /// Kinks that were passed, so far.
     pub kinks: usize,
+    /// Events that followed each other in next to no time.
+    crowded: usize,
 }
 
 /// How many events a call may still meet.
@@ -113,6 +115,7 @@ where
             events: 0,
             last_event: Time::<P>::from_f64(0.0),
             kinks: 0,
+            crowded: 0,
         }
     }
 

@@ -202,35 +202,38 @@ where
                 first.map_err(Reason::Singular)?
             }
         };
+        let resolved = Of::<Y>::EPSILON * Of::<Y>::from_f64(16.0) * self.t.abs();
+        let least = resolved.max(Of::<Y>::from_f64(1e-300));
+        let mut error = controller.last();
         loop {
             // A little more than the step rather than a tiny one after it.
             let shortened = h * Of::<Y>::from_f64(1.01) >= most;
             let length = if shortened { most } else { h };
             let tried = self.attempt(ode, length);
-            let (accepted, ratio, error) = match &tried {
+            let judged = match &tried {
                 Ok(proposal) => {
                     let scale = tolerance.scale(&self.y, &proposal.y.0);
-                    let error = self.method.error(&proposal.step, &scale);
-                    let error = error.map_or(0.0, Real::to_f64);
-                    let (accepted, ratio) = controller.judge(error);
-                    (accepted, ratio, error)
+                    error = self
+                        .method
+                        .error(&proposal.step, &scale)
+                        .map_or(0.0, Real::to_f64);
+                    controller.judge(error)
                 }
-                Err(_) => (false, controller.failed(), f64::INFINITY),
+                Err(_) => (false, controller.failed()),
             };
+            let (accepted, ratio) = judged;
             let next = length * Of::<Y>::from_f64(ratio);
-            if accepted {
+            if (shortened || length > least) && accepted {
                 // A step cut short by its end says nothing against longer ones.
                 self.h = Some(if shortened { next.max(h) } else { next });
                 self.control = Some((tolerance, controller));
                 return tried;
             }
-            h = next;
-            let resolved = Of::<Y>::EPSILON * Of::<Y>::from_f64(16.0) * self.t.abs();
-            let least = resolved.max(Of::<Y>::from_f64(1e-300));
-            if h <= least {
-                let h = h.to_f64();
+            if next <= least || length <= least {
+                let h = next.to_f64();
                 return tried.and(Err(Reason::StepTooSmall { h, error }));
             }
+            h = next;
         }
     }
 

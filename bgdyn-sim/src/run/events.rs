@@ -187,7 +187,7 @@ where
         if !(0..passed.before.entries().len()).any(fell) {
             return Ok(None);
         }
-        if budget.events == 0 {
+        if budget.events == 0 || self.crowded == EVENTS {
             return Err(Reason::TooManyEvents { events: EVENTS });
         }
         let after = self.plant.change(step.t.0, &step.y.0, &self.modes, fell);
@@ -206,6 +206,9 @@ where
         let events = passed.before.entries().len();
         let fell = (0..events).filter(|&e| self.fell(e, passed)).count();
         if fell > 0 {
+            let apart = self.t() - self.last_event;
+            let close = Time::<P>::EPSILON.sqrt() * self.t().abs();
+            self.crowded = if apart < close { self.crowded + 1 } else { 0 };
             budget.events -= 1;
             self.events += fell;
             self.last_event = self.t();

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{
-    Dop853, Dopri5, Extrapolation, Facts, Gauss, METHODS, Method, Ode, Real, Rodas4, Rk4, Start,
+    Dop853, Dopri5, Extrapolation, Facts, Gauss, METHODS, Method, Ode, Real, Rk4, Rodas4, Start,
     WithMethod, with_method,
 };
 use nalgebra::SVector;
@@ -44,7 +44,9 @@ fn known_run<M: Method<Y>, O: Ode<State = Y>>(method: &M, ode: &O, n: u32) -> Y 
             before: before.as_ref(),
         };
         let step = method.step(ode, &start, h);
-        let Ok(step) = step else { panic!("a step fails") };
+        let Ok(step) = step else {
+            panic!("a step fails")
+        };
         y += step.change;
         before = Some(step);
     }
@@ -77,7 +79,10 @@ fn families_have_their_orders() {
     fn order<M: Method<Y> + Clone>(method: &M) -> f64 {
         let errors = [4, 8, 16, 32].map(|n| {
             let problem = Known { slopes: true };
-            distance(&known_run(method, &ode::<Dd, _, 4>(&problem), n), &known(dd(2.0)))
+            distance(
+                &known_run(method, &ode::<Dd, _, 4>(&problem), n),
+                &known(dd(2.0)),
+            )
         });
         slope(&errors)
     }
@@ -109,8 +114,14 @@ fn local<M: Method<Y>>(method: &M, h: Dd) -> (Option<f64>, f64) {
     let Ok(dense) = method.dense(&ode, &start, &step) else {
         panic!("no dense output")
     };
-    assert!(distance(&dense.at(dd(0.0)), &y) == 0.0, "it begins where the step does");
-    assert!(distance(&dense.at(dd(1.0)), &(y + step.change)) < 1e-30, "and ends there");
+    assert!(
+        distance(&dense.at(dd(0.0)), &y) == 0.0,
+        "it begins where the step does"
+    );
+    assert!(
+        distance(&dense.at(dd(1.0)), &(y + step.change)) < 1e-30,
+        "and ends there"
+    );
     let thetas = (1..20).map(|i| dd(f64::from(i) / 20.0));
     let errors = thetas.map(|theta| distance(&dense.at(theta), &known(t + theta * h)));
     (estimate.map(Real::to_f64), errors.fold(0.0, f64::max))
@@ -129,7 +140,11 @@ fn estimates_and_dense_outputs_fall_with_their_powers() {
         let Some(stated) = facts.estimate else { return };
         let estimate = slope(&found.map(|f| f.0.expect("it has an estimate")));
         let off = (estimate - f64::from(stated)).abs();
-        assert!(off < 0.6, "{}: estimate {estimate}, not {stated}", facts.name);
+        assert!(
+            off < 0.6,
+            "{}: estimate {estimate}, not {stated}",
+            facts.name
+        );
     }
     check(&Rk4, 3.0);
     check(&Gauss::<Dd, 3>::new(), 3.0);

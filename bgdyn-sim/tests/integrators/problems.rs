@@ -122,7 +122,9 @@ where
     let number = <O::State as Space>::Scalar::from_f64;
     let mut solver = Solver::new(method, number(0.0), start);
     for _ in 0..n {
-        solver.advance(ode, number(end) / number(n.into())).expect("the step succeeds");
+        solver
+            .advance(ode, number(end) / number(n.into()))
+            .expect("the step succeeds");
     }
     solver.y().clone()
 }
@@ -133,7 +135,9 @@ where
     Y::Scalar: Real,
 {
     let pairs = a.entries().iter().zip(b.entries());
-    pairs.map(|(&a, &b)| (a - b).abs().to_f64()).fold(0.0, f64::max)
+    pairs
+        .map(|(&a, &b)| (a - b).abs().to_f64())
+        .fold(0.0, f64::max)
 }
 
 /// The slope of log₂ error over successive halvings of the step, fitted by least squares.

@@ -1,1 +1,167 @@
-//! To come.
+//! The double pendulum in canonical momenta: what symplectic methods do to its energy.
+
+use bgdyn_runtime::{Dd, vector};
+use bgdyn_sim::{Gauss2, Gauss3, Method, Midpoint, Real, Rk4, Solver, Start};
+use nalgebra::{SMatrix, SVector};
+
+use crate::problems::{As, Equation, dd, ode};
+
+/// Two point masses of 1 kg on massless rods of 1 m, joint angles q from hanging straight down,
+/// momenta p = M(q) v: the state is (q, p).
+struct Pendulum;
+
+const GRAVITY: f64 = 9.81;
+/// Energy between hanging down and standing up, halved: the unit of the bars, J.
+const UNIT: f64 = 29.43;
+
+/// Velocities, by the determinant of M = [[3 + 2c, 1 + c], [1 + c, 1]].
+fn velocities<T: Real>(y: &SVector<T, 4>) -> (T, T, T) {
+    let [one, two, three] = [1.0, 2.0, 3.0].map(T::from_f64);
+    let (sin, cos) = y[1].sin_cos();
+    let determinant = two - cos * cos;
+    let beside = one + cos;
+    let v1 = (y[2] - beside * y[3]) / determinant;
+    let v2 = ((three + two * cos) * y[3] - beside * y[2]) / determinant;
+    (v1, v2, sin)
+}
+
+impl<T: Real> Equation<T, 4> for Pendulum {
+    fn rates(&self, _: T, y: &SVector<T, 4>) -> SVector<T, 4> {
+        let [g, two] = [GRAVITY, 2.0].map(T::from_f64);
+        let (v1, v2, sin) = velocities(y);
+        let both = g * (y[0] + y[1]).sin_cos().0;
+        let upper = -(two * g * y[0].sin_cos().0 + both);
+        vector([v1, v2, upper, -both - sin * v1 * (v1 + v2)])
+    }
+}
+
+/// ½ p·v + V
+fn energy(y: &SVector<Dd, 4>) -> Dd {
+    let (v1, v2, _) = velocities(y);
+    let g = dd(GRAVITY);
+    let kinetic = dd(0.5) * (y[2] * v1 + y[3] * v2);
+    let cos = |angle: Dd| angle.sin_cos().1;
+    kinetic - g * (dd(2.0) * cos(y[0]) + cos(y[0] + y[1]))
+}
+
+/// The energy's largest error, in [`UNIT`]s: in the first tenth of the run, and in its last.
+fn drift<M: Method<SVector<f64, 4>>>(method: M, h: f64, steps: u32, compensated: bool) -> [f64; 3] {
+    let mut solver = Solver::new(method, 0.0, vector([0.5, 0.0, 0.0, 0.0]));
+    if compensated {
+        solver = solver.compensated();
+    }
+    let in_two_words = |solver: &Solver<SVector<f64, 4>, M>| {
+        let high = solver.y().map(dd);
+        energy(&solver.low().map_or(high, |low| high + low.map(dd)))
+    };
+    let start = in_two_words(&solver);
+    let mut tenths = [0.0_f64; 10];
+    for i in 0..steps {
+        solver
+            .advance(&ode::<f64, _, 4>(&Pendulum), h)
+            .expect("it swings on");
+        let off = (in_two_words(&solver) - start).abs().to_f64() / UNIT;
+        let tenth = &mut tenths[(10 * u64::from(i) / u64::from(steps)) as usize];
+        *tenth = tenth.max(off);
+    }
+    let most = tenths.iter().fold(0.0_f64, |most, &x| most.max(x));
+    [tenths[0], tenths[9], most]
+}
+
+/// The bars of 1e6 steps, on fewer: what grows does so at least linearly.
+#[test]
+fn energy_keeps_within_its_bars() {
+    let [_, _, rk4] = drift(Rk4, 1e-3, 20_000, false);
+    assert!(rk4 < 5e-12 / 25.0, "{rk4:e}");
+    let [first, last, midpoint] = drift(Midpoint::new(), 1e-2, 20_000, false);
+    assert!(midpoint < 1e-6 && last < 1.5 * first, "{first:e} {last:e}");
+    let [first, last, two] = drift(Gauss2::new(), 1e-2, 20_000, false);
+    assert!(two < 1e-10 && last < 1.5 * first, "{first:e} {last:e}");
+    let [_, _, three] = drift(Gauss3::new(), 1e-3, 10_000, false);
+    assert!(three < 3e-14, "{three:e}");
+    let [_, _, compensated] = drift(Gauss3::new(), 1e-3, 10_000, true);
+    assert!(
+        compensated < 1e-15 && compensated < three,
+        "{compensated:e}"
+    );
+}
+
+/// 1e6 steps: `cargo test --release -p bgdyn-sim -- --ignored --nocapture symplectic`.
+#[test]
+#[ignore = "a minute in release"]
+fn energy_keeps_within_its_bars_for_a_million_steps() {
+    const MILLION: u32 = 1_000_000;
+    let show = |name: &str, [first, last, most]: [f64; 3]| {
+        println!("{name}: {most:.2e}; first tenth {first:.2e}, last {last:.2e}");
+        [first, last, most]
+    };
+    show("rk4 1e-2", drift(Rk4, 1e-2, MILLION, false));
+    let [_, _, rk4] = show("rk4 1e-3", drift(Rk4, 1e-3, MILLION, false));
+    show(
+        "midpoint 1e-2",
+        drift(Midpoint::new(), 1e-2, MILLION, false),
+    );
+    show(
+        "midpoint 1e-3",
+        drift(Midpoint::new(), 1e-3, MILLION, false),
+    );
+    let [first, last, two] = show("gauss2 1e-2", drift(Gauss2::new(), 1e-2, MILLION, false));
+    show("gauss2 1e-3", drift(Gauss2::new(), 1e-3, MILLION, false));
+    let [_, _, three] = show("gauss3 1e-3", drift(Gauss3::new(), 1e-3, MILLION, false));
+    let compensated = drift(Gauss3::new(), 1e-3, MILLION, true);
+    let [_, _, compensated] = show("gauss3 1e-3, compensated", compensated);
+    assert!(rk4 <= 5e-12, "{rk4:e}");
+    assert!(two <= 1e-10 && last <= 1.5 * first, "{two:e}");
+    assert!(three <= 3e-14, "{three:e}");
+    assert!(compensated <= 1e-15, "{compensated:e}");
+}
+
+/// ΨᵀJΨ − J of one step's derivative Ψ, from central differences in double-double.
+fn defect<M: Method<SVector<Dd, 4>>>(method: &M) -> f64 {
+    let pendulum: As<'_, _, Dd, 4> = ode(&Pendulum);
+    let stepped = |y: SVector<Dd, 4>| {
+        let start = Start {
+            t: dd(0.0),
+            y: &y,
+            before: None,
+        };
+        match method.step(&pendulum, &start, dd(0.05)) {
+            Ok(step) => y + step.change,
+            Err(_) => panic!("the step succeeds"),
+        }
+    };
+    let y = [0.9, -0.4, 1.5, 0.7].map(dd);
+    let distance = dd(1e-10);
+    let mut slope = SMatrix::<Dd, 4, 4>::repeat(dd(0.0));
+    for c in 0..4 {
+        let mut ends = [y, y];
+        ends[0][c] += distance;
+        ends[1][c] += -distance;
+        let [ahead, behind] = ends.map(|y| stepped(vector(y)));
+        for r in 0..4 {
+            slope[(r, c)] = (ahead[r] - behind[r]) / (dd(2.0) * distance);
+        }
+    }
+    let mut worst = 0.0_f64;
+    for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
+        let form = (0..2).fold(dd(0.0), |sum, i| {
+            sum + slope[(i, a)] * slope[(i + 2, b)] - slope[(i + 2, a)] * slope[(i, b)]
+        });
+        let wanted = f64::from(i8::from(b == a + 2) - i8::from(a == b + 2));
+        worst = worst.max((form - dd(wanted)).abs().to_f64());
+    }
+    worst
+}
+
+#[test]
+fn gauss_steps_are_symplectic_and_runge_kuttas_are_not() {
+    let gauss = [
+        defect(&Midpoint::<Dd>::new()),
+        defect(&Gauss2::<Dd>::new()),
+        defect(&Gauss3::<Dd>::new()),
+    ];
+    for defect in gauss {
+        assert!(defect < 1e-17, "{gauss:?}");
+    }
+    assert!(defect(&Rk4) > 1e-8);
+}
