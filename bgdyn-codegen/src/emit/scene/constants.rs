@@ -6,10 +6,10 @@ use quote::quote;
 use super::super::constants::size;
 use super::super::ident;
 use super::parts::{Field, moving_parts, of_named};
-use crate::system::System;
+use crate::interface::SceneInterface;
 
-pub(super) fn constants(system: &System) -> TokenStream {
-    let layout = &system.scene.layout;
+pub(super) fn constants(scene: &SceneInterface) -> TokenStream {
+    let layout = &scene.layout;
     let list = |name: &str, about: &str, length: &str, names: Vec<String>| {
         let (name, length, about) = (ident(name), ident(length), format!(" {about}"));
         quote! { #[doc = #about] pub const #name: [&str; #length] = [#(#names),*]; }
@@ -25,7 +25,7 @@ pub(super) fn constants(system: &System) -> TokenStream {
         ),
         ("NM", "Number of modes.", layout.modes.len()),
         ("NU", "Number of inputs.", layout.inputs.len()),
-        ("NY", "Number of outputs.", system.outputs.len()),
+        ("NY", "Number of outputs.", scene.outputs.len()),
         ("NE", "Number of events.", layout.events.len()),
     ];
     let sizes = sizes.iter().map(|(name, about, n)| {
@@ -44,7 +44,7 @@ pub(super) fn constants(system: &System) -> TokenStream {
     );
     let modes = list("MODE_NAMES", "Modes.", "NM", part_names(&layout.modes));
     let inputs = list("INPUT_NAMES", "Inputs.", "NU", part_names(&layout.inputs));
-    let outputs = names(of_named(&system.outputs));
+    let outputs = names(of_named(&scene.outputs));
     let outputs = list("OUTPUT_NAMES", "Outputs.", "NY", outputs);
     let events = list("EVENT_NAMES", "Events.", "NE", part_names(&layout.events));
     let of_event = layout.events.iter().map(|e| {
@@ -63,7 +63,7 @@ pub(super) fn constants(system: &System) -> TokenStream {
         .map(|c| &c.name)
         .chain(layout.states.iter().map(|s| &s.name))
         .collect();
-    let entries = of_named(&system.entries);
+    let entries = of_named(&scene.entries);
     let entry_count = size(entries.len());
     let entry_names = entries.iter().map(|e| &e.name);
     let coordinates = layout.coordinates.iter().map(|c| &c.name);

@@ -14,6 +14,8 @@ use quote::quote;
 use super::constants::counted;
 use super::{Place, ident, rebuild, struct_ident, structure};
 use crate::function::Function;
+use crate::interface::SceneInterface;
+use crate::method::{Method, Role};
 use crate::system::System;
 
 /// The module of a scene with its functions.
@@ -25,10 +27,15 @@ pub fn scene_module(system: &System, functions: &[Function], place: &Place) -> T
     let struct_name = ident(&struct_ident(&scene.name));
     let about = format!(" The scene `{}`.", scene.name);
     let structure = structure(&struct_name, &about, &scene.parameters);
-    let types = types::types(system);
-    let constants = constants::constants(system);
-    let methods = functions.iter().map(|f| method::method(f, system));
-    let system_trait = system::system_trait(system, &struct_name);
+    let interface = SceneInterface::of(system);
+    let types = types::types(&interface);
+    let constants = constants::constants(&interface);
+    let methods = functions.iter().map(|f| method::method(f, &interface));
+    let system_trait = system::system_trait(&interface, &struct_name);
+    let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
+    let slope = has(Role::Jacobian).then(|| system::slope_trait(&interface, &struct_name));
+    let canonical = Role::CANONICAL.into_iter().all(has);
+    let canonical = canonical.then(|| system::canonical_trait(&interface, &struct_name));
     let operations = counted(functions);
     let rebuild = rebuild(place);
     quote! {
@@ -53,6 +60,8 @@ pub fn scene_module(system: &System, functions: &[Function], place: &Place) -> T
                 #(#methods)*
             }
             #system_trait
+            #slope
+            #canonical
             #operations
         }
     }

@@ -1,17 +1,17 @@
-//! The implementation of the trait `System` by a scene's methods.
+//! The traits of scenes, implemented by a scene's methods.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::constants::size;
 use super::parts::{mode_parts, names_of, of_named};
-use crate::system::System;
+use crate::interface::SceneInterface;
 
 /// The implementation of the trait by the named functions.
-pub(super) fn system_trait(system: &System, name: &proc_macro2::Ident) -> TokenStream {
-    let layout = &system.scene.layout;
+pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
+    let layout = &scene.layout;
     let mode_fields = names_of(&mode_parts(layout));
-    let entries = names_of(&of_named(&system.entries));
+    let entries = names_of(&of_named(&scene.entries));
     let input = if layout.inputs.is_empty() {
         quote! { *given }
     } else {
@@ -32,7 +32,7 @@ pub(super) fn system_trait(system: &System, name: &proc_macro2::Ident) -> TokenS
             ::core::result::Result::Ok([#(all.#mode_fields),*])
         }
     };
-    let output = if system.outputs.is_empty() {
+    let output = if scene.outputs.is_empty() {
         quote! { __rt::vector([]) }
     } else {
         quote! {
@@ -40,7 +40,7 @@ pub(super) fn system_trait(system: &System, name: &proc_macro2::Ident) -> TokenS
         }
     };
     let count = size(entries.len());
-    let velocities = system.mode_coordinates();
+    let velocities = &scene.mode_coordinates;
     let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
     quote! {
         impl<T: __Scalar> __rt::System<T, N, NM, NU, NE, NY, #count> for #name<T> {
@@ -116,6 +116,66 @@ pub(super) fn system_trait(system: &System, name: &proc_macro2::Ident) -> TokenS
                 let (state, input) = (State::from_vectors(y, modes), Input::from_vector(input));
                 let all = self.power(&state, &input, t)?;
                 ::core::result::Result::Ok([#(all.#entries),*])
+            }
+        }
+    }
+}
+
+/// The implementation of the trait `Slope`.
+pub(super) fn slope_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
+    let count = size(scene.entries.len());
+    quote! {
+        impl<T: __Scalar> __rt::Slope<T, N, NM, NU, NE, NY, #count> for #name<T> {
+            fn slope(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                given: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<
+                (__na::SMatrix<T, N, N>, __na::SVector<T, N>),
+                T::Singular<{ NV + NX }>,
+            > {
+                self.jacobian(&State::from_vectors(y, modes), &Input::from_vector(given), t)
+            }
+        }
+    }
+}
+
+/// The implementation of the trait `Canonical`.
+pub(super) fn canonical_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
+    let count = size(scene.entries.len());
+    let checked = quote! {
+        ::core::result::Result<__na::SVector<T, N>, T::Singular<{ NV + NX }>>
+    };
+    quote! {
+        impl<T: __Scalar> __rt::Canonical<T, N, NM, NU, NE, NY, #count> for #name<T> {
+            fn to_canonical(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                _given: &__na::SVector<T, NU>,
+                _t: T,
+            ) -> __na::SVector<T, N> {
+                self.to_canonical(&State::from_vectors(y, modes))
+            }
+            fn from_canonical(
+                &self,
+                z: &__na::SVector<T, N>,
+                _modes: &__na::SVector<T, NM>,
+                _given: &__na::SVector<T, NU>,
+                _t: T,
+            ) -> #checked {
+                self.from_canonical(z)
+            }
+            fn canonical_rates(
+                &self,
+                z: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                given: &__na::SVector<T, NU>,
+                t: T,
+            ) -> #checked {
+                self.canonical_rates(z, modes, &Input::from_vector(given), t)
             }
         }
     }

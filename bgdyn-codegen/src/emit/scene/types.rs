@@ -7,10 +7,10 @@ use super::parts::{
     Field, coordinate_parts, field, input_parts, literal, mode_parts, moving_parts, named_type,
     names_of, numbered, of_named, signed,
 };
-use crate::system::System;
+use crate::interface::SceneInterface;
 
-pub(super) fn types(system: &System) -> TokenStream {
-    let layout = &system.scene.layout;
+pub(super) fn types(scene: &SceneInterface) -> TokenStream {
+    let layout = &scene.layout;
     let (moving, modes) = (moving_parts(layout), mode_parts(layout));
     let mut whole = moving_parts(layout);
     whole.extend(mode_parts(layout));
@@ -27,9 +27,9 @@ pub(super) fn types(system: &System) -> TokenStream {
     let coordinates = named_type("Coordinates", about, &coordinates, t.clone());
     let inputs = input_parts(layout);
     let input = named_type("Input", "Inputs of the scene.", &inputs, t.clone());
-    let outputs = of_named(&system.outputs);
+    let outputs = of_named(&scene.outputs);
     let output = named_type("Output", "Outputs of the scene.", &outputs, t.clone());
-    let entries = of_named(&system.entries);
+    let entries = of_named(&scene.entries);
     let energy = named_type("Energy", "Energy stored, J.", &entries, t);
     let balance = quote! { __rt::Balance<T> };
     let power = named_type("Power", "Balance of power, W.", &entries, balance);
@@ -38,19 +38,19 @@ pub(super) fn types(system: &System) -> TokenStream {
     let contact = quote! { __rt::Contact<T> };
     let contacts = (!names.is_empty())
         .then(|| named_type("Contacts", "Dry friction, mode by mode.", &names, contact));
-    let conversions = conversions(system, &moving, &modes, &inputs, &outputs);
+    let conversions = conversions(scene, &moving, &modes, &inputs, &outputs);
     quote! { #state #rates #coordinates #input #output #energy #power #contacts #conversions }
 }
 
 /// Between named parts and vectors, and where the scene begins.
 fn conversions(
-    system: &System,
+    scene: &SceneInterface,
     moving: &[Field],
     modes: &[Field],
     inputs: &[Field],
     outputs: &[Field],
 ) -> TokenStream {
-    let initial = &system.initial;
+    let initial = &scene.initial;
     let start: Vec<TokenStream> = initial
         .q
         .iter()

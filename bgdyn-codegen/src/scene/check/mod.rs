@@ -14,7 +14,7 @@ use super::{Initial, Scene, Written};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::mechanism::name::is_identifier;
 use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
-use crate::spec::{Dimension, Field, Raw, SceneSpec};
+use crate::spec::{Dimension, Field, Located, Raw, SceneSpec};
 pub(crate) use effects::{context, taken};
 
 /// The only version of the format there is.
@@ -32,15 +32,16 @@ pub fn check(
     let scene = scene(spec, stem, mechanism, &mut faults);
     faults.sort();
     let sound = spec.complete && !faults.any_fault();
-    (scene.filter(|_| sound), faults)
+    (sound.then_some(scene), faults)
 }
 
-fn scene(
-    spec: &SceneSpec,
-    stem: Option<&str>,
-    whole: &Mechanism,
-    faults: &mut Faults,
-) -> Option<Scene> {
+/// The state and the outputs that a scene seems to have, whether it is sound or not.
+pub(crate) fn sketch(spec: &SceneSpec, mechanism: &Mechanism) -> (Layout, Vec<Located<String>>) {
+    let scene = scene(spec, None, mechanism, &mut Faults::default());
+    (scene.layout, scene.outputs)
+}
+
+fn scene(spec: &SceneSpec, stem: Option<&str>, whole: &Mechanism, faults: &mut Faults) -> Scene {
     version(spec, faults);
     let name = name(spec, stem, faults);
     let locked = locks(spec, whole, faults);
@@ -62,7 +63,7 @@ fn scene(
             .iter()
             .map(|o| o.name.clone())
             .collect(),
-        integration: integration?,
+        integration,
         written: Written {
             inputs: given(&spec.inputs).to_vec(),
             initial: given(&spec.initial).to_vec(),
@@ -70,10 +71,11 @@ fn scene(
         },
     };
     let scene = assembled(empty, faults);
-    Some(Scene {
-        name: name?,
+    Scene {
+        // Where there is none a fault says so.
+        name: name.unwrap_or_default(),
         ..scene
-    })
+    }
 }
 
 /// The scene with its state laid out: what follows from its elements and what the file says.

@@ -126,15 +126,27 @@ pub struct Laws<'g, 'a> {
 impl<'g, 'a> Laws<'g, 'a> {
     /// Every law of the scene, summed.
     pub(super) fn new(b: &'g Builder, scene: &'a Scene, graph: &'a BondGraph, own: Own) -> Self {
+        let input = |(i, part): (usize, &crate::scene::Part)| match part.drives {
+            Some(_) if own != Own::Inputs => b.zero(),
+            _ => b.leaf(Leaf::Input(i)),
+        };
+        let inputs = scene.layout.inputs.iter().enumerate().map(input).collect();
+        Laws::under(b, scene, graph, own, inputs)
+    }
+
+    /// The same under these inputs.
+    pub(super) fn under(
+        b: &'g Builder,
+        scene: &'a Scene,
+        graph: &'a BondGraph,
+        own: Own,
+        inputs: Vec<Ex<'g>>,
+    ) -> Self {
         let layout = &scene.layout;
         let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
             (0..n).map(|i| b.leaf(leaf(i))).collect()
         };
         let zeros = |n: usize| vec![b.zero(); n];
-        let input = |(i, part): (usize, &crate::scene::Part)| match part.drives {
-            Some(_) if own != Own::Inputs => b.zero(),
-            _ => b.leaf(Leaf::Input(i)),
-        };
         let none = Balance {
             supplied: b.zero(),
             stored: b.zero(),
@@ -150,7 +162,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             graph,
             x: leaves(layout.nx(), Leaf::State),
             modes: leaves(layout.modes.len(), Leaf::Mode),
-            u: layout.inputs.iter().enumerate().map(input).collect(),
+            u: inputs,
             at: 0,
             efforts: zeros(layout.nv()),
             gears: BTreeMap::new(),

@@ -118,7 +118,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// ∂x/∂q_j
-    fn slope(&self, x: Ex<'g>, j: usize) -> Ex<'g> {
+    pub(in crate::system) fn slope(&self, x: Ex<'g>, j: usize) -> Ex<'g> {
         let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| g.constant(Dd::ONE));
         let x = x.expr();
         let slope = self.b.with_graph(|g| Tangent::new(seed).of(g, x));
