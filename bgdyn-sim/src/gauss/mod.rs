@@ -4,7 +4,8 @@ mod coefficients;
 mod newton;
 mod watch;
 
-use coefficients::Coefficients;
+use bgdyn_runtime::Scalar as _;
+use coefficients::{Coefficients, Split};
 use newton::Blocks;
 use watch::Watch;
 
@@ -55,7 +56,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
 
     /// zᵢ = h Σ aᵢⱼ fⱼ, the stages' displacements.
     fn displacements<Y: Space<Scalar = T>>(&self, rates: &[Y; S], h: T) -> [Y; S] {
-        core::array::from_fn(|i| weighed(&self.of.a[i], rates).times(h))
+        core::array::from_fn(|i| weighed_exactly(&self.of.a[i], rates).times(h))
     }
 
     /// Rates at the stages, as the polynomial of the step before has them.
@@ -109,7 +110,9 @@ impl<T: Real, const S: usize> Gauss<T, S> {
             let changes = core::array::from_fn(|i| next[i].plus(-T::from_f64(1.0), &z[i]));
             z = next;
             if watch.ends(at.1, &z, &changes)? {
-                let change = weighed(&self.of.b, &rates).times(h);
+                // Those of the solution: the last ones were a change behind, in every step alike.
+                let rates = self.rates(ode, at, h, &z)?;
+                let change = weighed_exactly(&self.of.b, &rates).times(h);
                 return Ok((rates, change));
             }
         }
@@ -128,7 +131,13 @@ impl<T: Real, const S: usize> Gauss<T, S> {
     where
         O::State: Space<Scalar = T>,
     {
-        let blocks = Blocks::new(&self.of.a, h, jacobian, at.1).ok_or(Reason::SingularMatrix)?;
+        let blocks = Blocks::new(
+            &self.of.a.map(|row| row.map(Split::whole)),
+            h,
+            jacobian,
+            at.1,
+        )
+        .ok_or(Reason::SingularMatrix)?;
         let mut z = self.displacements(&guess, h);
         let mut watch = Watch::new();
         loop {
@@ -146,6 +155,15 @@ impl<T: Real, const S: usize> Gauss<T, S> {
             }
         }
     }
+}
+
+/// Σ wⱼ xⱼ, the weights in two parts each.
+fn weighed_exactly<Y: Space, const S: usize>(weights: &[Split<Of<Y>>; S], x: &[Y; S]) -> Y
+where
+    Of<Y>: Real,
+{
+    let rest = weighed(&weights.map(|w| w.rest), x);
+    weighed(&weights.map(|w| w.short), x).plus(Of::<Y>::from_f64(1.0), &rest)
 }
 
 /// Σ wⱼ xⱼ

@@ -7,6 +7,9 @@ use crate::space::{Of, Real, Space, finite};
 
 /// Iterations at the most.
 const MOST: usize = 100;
+/// What the next change may be, in units of rounding. It has the same sign step after step: what it
+/// leaves of the energy adds up, which rounding does not.
+const LEFT: f64 = 1e-5;
 /// Times in a row that the changes may fail to become smaller.
 const STALLS: usize = 2;
 
@@ -14,7 +17,7 @@ const STALLS: usize = 2;
 ///
 /// Changes are measured in units of rounding, of each component by itself and of all by the largest
 /// one: a component at rest may hold nothing but the rounding of others. The iteration ends where the
-/// next change would be less than a thousandth of a unit, or where neither measure becomes smaller
+/// next change would be no part of a unit to speak of, or where neither measure becomes smaller
 /// any more and what changes is no more than rounding.
 pub(super) struct Watch {
     iterations: usize,
@@ -55,7 +58,7 @@ impl Watch {
         } else {
             1.0
         };
-        if own == 0.0 || own * falls < 1e-3 {
+        if own == 0.0 || own * falls < LEFT {
             return Ok(true);
         }
         if own < self.own || overall < self.overall {
