@@ -101,6 +101,11 @@ where
     pub fn input(&self, t: T, y: &SVector<T, N>, modes: &SVector<T, NM>) -> SVector<T, NU> {
         self.scene.input(y, modes, &self.given, t)
     }
+
+    /// The outputs that the scene asks for, at an instant.
+    pub fn output(&self, t: T, y: &SVector<T, N>, modes: &SVector<T, NM>) -> SVector<T, NY> {
+        self.scene.output(y, modes, &self.input(t, y, modes), t)
+    }
 }
 
 /// How many of a state's parts are positions: they come first, and are those of the first

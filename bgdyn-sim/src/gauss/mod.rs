@@ -103,7 +103,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         O::State: Space<Scalar = T>,
     {
         let mut z = self.displacements(&guess, h);
-        let mut watch = Watch::new();
+        let mut watch = Watch::new(at.1.zero());
         loop {
             let rates = self.rates(ode, at, h, &z)?;
             let next = self.displacements(&rates, h);
@@ -139,7 +139,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         )
         .ok_or(Reason::SingularMatrix)?;
         let mut z = self.displacements(&guess, h);
-        let mut watch = Watch::new();
+        let mut watch = Watch::new(sizes::<O::State>(jacobian, at.1).times(h.abs()));
         loop {
             let rates = self.rates(ode, at, h, &z)?;
             let mut changes = self.displacements(&rates, h);
@@ -155,6 +155,19 @@ impl<T: Real, const S: usize> Gauss<T, S> {
             }
         }
     }
+}
+
+/// |J| |y|, component by component.
+fn sizes<Y: Space>(jacobian: &Y::Matrix, y: &Y) -> Y {
+    let mut matrix = jacobian.clone();
+    for m in Y::columns_mut(&mut matrix) {
+        *m = m.abs();
+    }
+    let mut size = y.clone();
+    for x in size.entries_mut() {
+        *x = x.abs();
+    }
+    size.mapped(&matrix)
 }
 
 /// Σ wⱼ xⱼ, the weights in two parts each.
