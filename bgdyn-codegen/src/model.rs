@@ -203,7 +203,11 @@ pub fn fallback(
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Option<TokenStream> {
     if is_scene(text) {
-        let scene = SceneInterface::guess(text, stem, |path| load(path).ok());
+        let path = mechanism_of(text).unwrap_or_default();
+        let written = load(&path).ok();
+        let of = self::stem(Path::new(&path));
+        let mechanism = written.as_deref().map(|written| (written, of.as_str()));
+        let scene = SceneInterface::guess(text, stem, mechanism);
         return scene.map(|scene| emit::scene_fallback(&scene, place));
     }
     Interface::guess(text, stem).map(|interface| emit::fallback(&interface, place))

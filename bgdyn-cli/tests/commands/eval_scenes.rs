@@ -41,7 +41,8 @@ fn told(run: &Run) -> Value {
 /// 2 v̇ = u − 50 x − 3 v, with u = 4 + 10 t where the state says nothing of it.
 #[test]
 fn states_by_name_and_as_arrays() {
-    let states = r#"{}, {"y": {"slide_rate": 2}, "t": 0.5}, {"y": [0.2, 1], "input": {"slide": 1}}"#;
+    let states =
+        r#"{}, {"y": {"slide_rate": 2}, "t": 0.5}, {"y": [0.2, 1], "input": {"slide": 1}}"#;
     let run = at("scene_states", "derivative", states, &[]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let wanted = json!({
@@ -69,7 +70,12 @@ fn every_kind_of_function() {
     assert_eq!(energy["names"], json!(["rubber", "oil", "links", "drives"]));
     assert_eq!(results("energy", state), json!([1.0, 0.0, 1.0, 0.0]));
     // v̇ = −4: supplied, stored per second, dissipated.
-    let power = json!([[0.0, 10.0, 0.0], [0.0, 0.0, 3.0], [0.0, -8.0, 0.0], [5.0, 0.0, 0.0]]);
+    let power = json!([
+        [0.0, 10.0, 0.0],
+        [0.0, 0.0, 3.0],
+        [0.0, -8.0, 0.0],
+        [5.0, 0.0, 0.0]
+    ]);
     assert_eq!(results("power", state), power);
     let accelerated = r#"{"y": [0.2, 1], "acceleration": {"slide": 3}}"#;
     assert_eq!(results("inverse", accelerated), json!([19.0]));
@@ -79,7 +85,10 @@ fn every_kind_of_function() {
     });
     assert_eq!(results("jacobian", state), slopes);
     assert_eq!(results("to_canonical", state), json!([0.2, 2.0]));
-    assert_eq!(results("from_canonical", r#"{"z": [0.2, 2]}"#), json!([0.2, 1.0]));
+    assert_eq!(
+        results("from_canonical", r#"{"z": [0.2, 2]}"#),
+        json!([0.2, 1.0])
+    );
     let rates = results("canonical_rates", r#"{"z": [0.2, 2], "t": 0.1}"#);
     assert_eq!(rates, json!([1.0, -8.0]));
 }
@@ -90,16 +99,22 @@ fn what_is_wrong_is_said_state_by_state() {
     let run = at("scene_wrong", "derivative", states, &[]);
     assert_ne!(run.code, Some(0));
     let report = told(&run);
-    let messages: Vec<&str> = report["errors"].as_array().expect("errors").iter()
+    let messages: Vec<&str> = report["errors"]
+        .as_array()
+        .expect("errors")
+        .iter()
         .map(|e| e["message"].as_str().expect("a message"))
         .collect();
-    assert_eq!(messages, [
-        "`y` has no part `slid`; there are slide, slide_rate",
-        "`y` has 1 components instead of 2: slide, slide_rate",
-        "`y`: `slide` is not a finite number",
-        "`t` is not a finite number",
-        "`y` is neither an array nor an object",
-    ]);
+    assert_eq!(
+        messages,
+        [
+            "`y` has no part `slid`; there are slide, slide_rate",
+            "`y` has 1 components instead of 2: slide, slide_rate",
+            "`y`: `slide` is not a finite number",
+            "`t` is not a finite number",
+            "`y` is neither an array nor an object",
+        ]
+    );
     assert_eq!(report["results"][1], Value::Null);
     assert_ne!(report["results"][0], Value::Null);
 }
@@ -110,6 +125,11 @@ fn a_function_that_the_scene_lacks() {
     assert_ne!(run.code, Some(0));
     let wanted = "this scene has no function `contacts`; it has derivative, inverse, input, power";
     assert!(run.stderr.contains(wanted), "{}", run.stderr);
-    let run = at("scene_choice", "derivative", "{}", &["--formulation", "literal"]);
+    let run = at(
+        "scene_choice",
+        "derivative",
+        "{}",
+        &["--formulation", "literal"],
+    );
     assert!(run.stderr.contains("are of mechanisms"), "{}", run.stderr);
 }

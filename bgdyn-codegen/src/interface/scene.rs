@@ -42,29 +42,23 @@ impl SceneInterface {
         }
     }
 
-    /// The interface that the author of a refused scene most likely means. `load` gives the text of
-    /// the mechanism. Nothing where the stem cannot name a module.
-    pub fn guess(
-        text: &str,
-        stem: &str,
-        load: impl FnOnce(&str) -> Option<String>,
-    ) -> Option<Self> {
+    /// The interface that the author of a refused scene most likely means. `mechanism` is the text
+    /// and the stem of the mechanism's file. Nothing where the scene's stem cannot name a module.
+    pub fn guess(text: &str, stem: &str, mechanism: Option<(&str, &str)>) -> Option<Self> {
         if !is_identifier(stem) {
             return None;
         }
         let (spec, _) = parse_scene(text);
-        let path = spec.as_ref().and_then(|s| s.mechanism.value());
-        let written = path.and_then(|path| load(path));
-        let written = written.as_deref();
-        let mechanism = written.and_then(|text| crate::read(text, None).0);
+        let (written, of) = mechanism.unwrap_or_default();
+        let mechanism = crate::read(written, Some(of)).0;
         let mut guess = match (&spec, &mechanism) {
             (Some(spec), Some(mechanism)) => sketched(spec, mechanism),
-            _ => joints(written.unwrap_or_default()),
+            _ => joints(written),
         };
         guess.name = stem.to_owned();
         guess.parameters = super::parameter_words(text)
             .into_iter()
-            .chain(super::parameter_words(written.unwrap_or_default()))
+            .chain(super::parameter_words(written))
             .map(parameter)
             .collect();
         if let Some(spec) = &spec {

@@ -1,7 +1,7 @@
 //! One error on the path, which holds every fault of the scene; none at the calls.
 
 use bgdyn::nalgebra::SVector;
-use bgdyn::runtime::{Canonical, Slope, System};
+use bgdyn::runtime::{Canonical, Slope};
 
 bgdyn::bgdyn!("broken.scene.yaml");
 

@@ -4,7 +4,7 @@
 #![forbid(unsafe_code)]
 
 use bgdyn::nalgebra::SVector;
-use bgdyn::runtime::{Canonical, Slope, System};
+use bgdyn::runtime::{Canonical, Slope};
 
 bgdyn::bgdyn!("swing.scene.yaml");
 bgdyn::bgdyn!("swing.scene.yaml", module = both, visibility = pub(crate), canonical = true);

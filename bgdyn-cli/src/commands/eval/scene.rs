@@ -27,7 +27,9 @@ impl Eval {
         let role = role.ok_or_else(|| {
             let known: Vec<&str> = roles.iter().map(|r| r.name()).collect();
             let (method, known) = (&self.method, known.join(", "));
-            Usage(format!("this scene has no function `{method}`; it has {known}"))
+            Usage(format!(
+                "this scene has no function `{method}`; it has {known}"
+            ))
         })?;
         let tried = Tried {
             system,
@@ -61,7 +63,11 @@ impl Names {
         let modes = layout.modes.iter().map(|m| format!("{}_mode", m.name));
         let coordinates = layout.coordinates.iter().map(|c| c.name.clone());
         Names {
-            state: stored.map(|c| c.name.clone()).chain(rates).chain(states).collect(),
+            state: stored
+                .map(|c| c.name.clone())
+                .chain(rates)
+                .chain(states)
+                .collect(),
             modes: modes.collect(),
             inputs: layout.inputs.iter().map(|i| i.name.clone()).collect(),
             coordinates: coordinates.collect(),
@@ -125,7 +131,9 @@ impl Tried<'_> {
         let canonical = matches!(self.role, Role::FromCanonical | Role::CanonicalRates);
         let key = if canonical { "z" } else { "y" };
         if canonical && state.get(key).is_none() {
-            return Err(plain("no `z`: the state with momenta in place of velocities".into()));
+            return Err(plain(
+                "no `z`: the state with momenta in place of velocities".into(),
+            ));
         }
         let y = vector(state, key, &self.names.state, begin)?;
         let modes = vector(state, "modes", &self.names.modes, numbers(&start.modes))?;
@@ -147,7 +155,10 @@ impl Tried<'_> {
         let none = vec![0.0; layout.inputs.len()];
         at.u = vector(state, "given", &self.names.inputs, none)?;
         // These drive the inputs themselves.
-        let driving = matches!(self.role, Role::Inputs | Role::Jacobian | Role::CanonicalRates);
+        let driving = matches!(
+            self.role,
+            Role::Inputs | Role::Jacobian | Role::CanonicalRates
+        );
         if driving {
             return Ok(at);
         }

@@ -130,7 +130,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             Some(_) if own != Own::Inputs => b.zero(),
             _ => b.leaf(Leaf::Input(i)),
         };
-        let inputs = scene.layout.inputs.iter().enumerate().map(input).collect();
+        let inputs = || scene.layout.inputs.iter().enumerate().map(input).collect();
         Laws::under(b, scene, graph, own, inputs)
     }
 
@@ -140,7 +140,7 @@ impl<'g, 'a> Laws<'g, 'a> {
         scene: &'a Scene,
         graph: &'a BondGraph,
         own: Own,
-        inputs: Vec<Ex<'g>>,
+        inputs: impl FnOnce() -> Vec<Ex<'g>>,
     ) -> Self {
         let layout = &scene.layout;
         let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
@@ -162,7 +162,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             graph,
             x: leaves(layout.nx(), Leaf::State),
             modes: leaves(layout.modes.len(), Leaf::Mode),
-            u: inputs,
+            u: inputs(),
             at: 0,
             efforts: zeros(layout.nv()),
             gears: BTreeMap::new(),
