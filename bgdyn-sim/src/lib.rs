@@ -14,7 +14,7 @@
 //! | `dop853` | 8(5,3) | the same at small tolerances |
 //! | `extrapolation12` | 12 | references in double-double |
 //!
-//! A step of [`rk4_step`] works on any [`Dynamics`] model without a scene: positions move by its
+//! A step of [`rk4_step`] works on any [`Dynamics`](bgdyn_runtime::Dynamics) model without a scene: positions move by its
 //! `integrate`, so that positions and velocities may be different spaces.
 //!
 //! # Features, off by default

@@ -1,4 +1,4 @@
-//! The same numbers whatever space the state is of; projections; lanes are left to the compiler.
+//! The same numbers whatever space the state is of; projections.
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{

@@ -4,7 +4,7 @@ use bgdyn_runtime::{Dd, vector};
 use bgdyn_sim::{Gauss2, Gauss3, Method, Midpoint, Real, Rk4, Solver, Start};
 use nalgebra::{SMatrix, SVector};
 
-use crate::problems::{As, Equation, dd, ode};
+use crate::problems::{As, Equation, dd, distance, fixed, ode};
 
 /// Two point masses of 1 kg on massless rods of 1 m, joint angles q from hanging straight down,
 /// momenta p = M(q) v: the state is (q, p).
@@ -32,6 +32,36 @@ impl<T: Real> Equation<T, 4> for Pendulum {
         let both = g * (y[0] + y[1]).sin_cos().0;
         let upper = -(two * g * y[0].sin_cos().0 + both);
         vector([v1, v2, upper, -both - sin * v1 * (v1 + v2)])
+    }
+}
+
+/// The same pendulum in joint rates: the state is (q, v).
+struct InRates;
+
+/// (q, p) of (q, v).
+fn momenta<T: Real>(y: &SVector<T, 4>) -> SVector<T, 4> {
+    let [one, two, three] = [1.0, 2.0, 3.0].map(T::from_f64);
+    let cos = y[1].sin_cos().1;
+    let beside = one + cos;
+    let first = (three + two * cos) * y[2] + beside * y[3];
+    vector([y[0], y[1], first, beside * y[2] + y[3]])
+}
+
+impl<T: Real> Equation<T, 4> for InRates {
+    /// v̇ = M⁻¹ (ṗ − Ṁ v)
+    fn rates(&self, t: T, y: &SVector<T, 4>) -> SVector<T, 4> {
+        let two = T::from_f64(2.0);
+        let forces = Pendulum.rates(t, &momenta(y));
+        let (v1, v2) = (y[2], y[3]);
+        let turn = y[1].sin_cos().0 * v2;
+        let left = vector([
+            y[0],
+            y[1],
+            forces[2] + turn * (two * v1 + v2),
+            forces[3] + turn * v1,
+        ]);
+        let (a1, a2, _) = velocities(&left);
+        vector([v1, v2, a1, a2])
     }
 }
 
@@ -114,6 +144,74 @@ fn energy_keeps_within_its_bars_for_a_million_steps() {
     assert!(two <= 1e-10 && last <= 1.5 * first, "{two:e}");
     assert!(three <= 3e-14, "{three:e}");
     assert!(compensated <= 1e-15, "{compensated:e}");
+}
+
+/// The mean error of the energy, in [`UNIT`]s, over each tenth of a chaotic motion from (120°, 30°) at
+/// rest, by steps of 1e-2 s.
+fn means<E: Equation<f64, 4>, M: Method<SVector<f64, 4>>>(
+    form: &E,
+    to_momenta: fn(&SVector<Dd, 4>) -> SVector<Dd, 4>,
+    method: M,
+    steps: u32,
+) -> [f64; 10] {
+    let start = vector([120_f64.to_radians(), 30_f64.to_radians(), 0.0, 0.0]);
+    let mut solver = Solver::new(method, 0.0, start);
+    let now = |y: &SVector<f64, 4>| energy(&to_momenta(&y.map(dd)));
+    let first = now(&start);
+    let mut means = [0.0; 10];
+    for i in 0..steps {
+        solver
+            .advance(&ode::<f64, _, 4>(form), 1e-2)
+            .expect("it swings on");
+        let off = (now(solver.y()) - first).to_f64() / UNIT;
+        means[(10 * u64::from(i) / u64::from(steps)) as usize] += 10.0 * off / f64::from(steps);
+    }
+    means
+}
+
+/// How far the means of the tenths spread.
+fn spread(means: [f64; 10]) -> f64 {
+    let most = means.iter().fold(f64::NEG_INFINITY, |most, &x| most.max(x));
+    means.iter().fold(0.0, |spread, &x| spread.max(most - x))
+}
+
+/// What the canonical form is for: on chaotic motion the mean energy wanders in velocities, in momenta
+/// it stays.
+#[test]
+#[ignore = "a minute in release"]
+fn chaotic_motion_in_velocities_and_in_momenta() {
+    const STEPS: u32 = 1_000_000;
+    let same: fn(&SVector<Dd, 4>) -> SVector<Dd, 4> = |z| *z;
+    let midpoint = [
+        means(&InRates, momenta, Midpoint::new(), STEPS),
+        means(&Pendulum, same, Midpoint::new(), STEPS),
+    ];
+    let two = [
+        means(&InRates, momenta, Gauss2::new(), STEPS),
+        means(&Pendulum, same, Gauss2::new(), STEPS),
+    ];
+    println!("midpoint in velocities, in momenta: {midpoint:?}");
+    println!("gauss2 in velocities, in momenta: {two:?}");
+    for [velocities, momenta] in [midpoint, two] {
+        assert!(spread(momenta) < 0.2 * spread(velocities));
+    }
+}
+
+/// In rates and in momenta it is the same pendulum.
+#[test]
+fn both_forms_move_alike() {
+    let start = vector([2.0, 0.5, 0.3, -0.7]);
+    let rates = fixed(Gauss3::new(), &ode::<f64, _, 4>(&InRates), start, 1.0, 1000);
+    let there = momenta(&start);
+    let moved = fixed(
+        Gauss3::new(),
+        &ode::<f64, _, 4>(&Pendulum),
+        there,
+        1.0,
+        1000,
+    );
+    let off = distance(&momenta(&rates), &moved);
+    assert!(off < 1e-11, "{off:e}");
 }
 
 /// ΨᵀJΨ − J of one step's derivative Ψ, from central differences in double-double.
