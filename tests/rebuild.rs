@@ -1,5 +1,5 @@
 //! A crate outside the workspace that calls bgdyn by another name, by the macro and by a build
-//! script: a changed spec rebuilds it, every place is searched, and a spec that two places hold is
+//! script: a changed spec rebuilds it, and so does the changed mechanism of a scene; every place is searched, and a spec that two places hold is
 //! refused.
 
 use std::fs;
@@ -28,6 +28,7 @@ const BUILD: &str = r#"
 fn main() -> Result<(), bgdyn_codegen::build_script::Error> {
     let build = bgdyn_codegen::Build::new("built.yaml").bgdyn("::dyn_gen").module("from_script");
     build.visibility("").write()?;
+    bgdyn_codegen::Build::new("hang.scene.yaml").bgdyn("::dyn_gen").visibility("").write()?;
     Ok(())
 }
 "#;
@@ -37,13 +38,22 @@ const MAIN: &str = r#"
 dyn_gen::bgdyn!("beside.yaml");
 dyn_gen::bgdyn!("in_package.yaml");
 mod inner;
+dyn_gen::bgdyn!("fall.scene.yaml");
 include!(concat!(env!("OUT_DIR"), "/from_script.rs"));
+include!(concat!(env!("OUT_DIR"), "/hang.rs"));
 
 fn main() {
     let q = dyn_gen::nalgebra::SVector::from_element(0.0);
     let force = beside::Beside::<f64>::default().gravity(&q)[0];
     let built = from_script::Built::<f64>::default().gravity(&q)[0];
-    println!("{} {} {} {force:.2} {built:.2}", beside::NV, in_package::NV, inner::in_specs::NV);
+    print!("{} {} {} {force:.2} {built:.2}", beside::NV, in_package::NV, inner::in_specs::NV);
+    let (state, input) = (fall::State::default(), fall::Input::default());
+    let held = fall::Coordinates { slide: 0.0 };
+    let fall = fall::Fall::<f64>::default().inverse(&state, &held, &input, 0.0).slide;
+    let (state, input) = (hang::State::default(), hang::Input::default());
+    let held = hang::Coordinates { slide: 0.0 };
+    let hang = hang::Hang::<f64>::default().inverse(&state, &held, &input, 0.0).slide;
+    println!(" {fall:.2} {hang:.2}");
 }
 "#;
 
@@ -51,6 +61,10 @@ fn spec(mass: f64) -> String {
     format!(
         "format: 1\nlinks:\n  - name: platform\n    joint: {{ name: slide, type: prismatic }}\n    mass: {mass}\n"
     )
+}
+
+fn scene(mechanism: &str) -> String {
+    format!("scene: 1\nmechanism: {mechanism}\neffects: [gravity]\n")
 }
 
 /// A package of its own below `target/`, with a target directory that later runs find warm.
@@ -112,14 +126,26 @@ fn a_crate_of_its_own() {
     scratch.write("specs/in_specs.yaml", &spec(1.0));
     scratch.write("build.rs", BUILD);
     scratch.write("built.yaml", &spec(4.0));
-    assert_eq!(scratch.printed(), "1 1 1 9.81 39.24");
+    scratch.write("specs/scenes/fall.scene.yaml", &scene("../falling.yaml"));
+    scratch.write("specs/falling.yaml", &spec(1.0));
+    scratch.write("hang.scene.yaml", &scene("specs/hanging.yaml"));
+    scratch.write("specs/hanging.yaml", &spec(2.0));
+    assert_eq!(scratch.printed(), "1 1 1 9.81 39.24 9.81 19.62");
+
+    // A scene's mechanism, by the macro and by the build script.
+    scratch.write("specs/falling.yaml", &spec(3.0));
+    assert_eq!(scratch.printed(), "1 1 1 9.81 39.24 29.43 19.62");
+    scratch.write("specs/hanging.yaml", &spec(4.0));
+    assert_eq!(scratch.printed(), "1 1 1 9.81 39.24 29.43 39.24");
+    scratch.write("specs/falling.yaml", &spec(1.0));
+    scratch.write("specs/hanging.yaml", &spec(2.0));
 
     scratch.write("src/beside.yaml", &spec(2.0));
-    assert_eq!(scratch.printed(), "1 1 1 19.62 39.24");
+    assert_eq!(scratch.printed(), "1 1 1 19.62 39.24 9.81 19.62");
     let second =
         "  - { name: top, parent: platform, joint: { name: turn, type: revolute }, mass: 1 }\n";
     scratch.write("specs/in_specs.yaml", &(spec(1.0) + second));
-    assert_eq!(scratch.printed(), "1 1 2 19.62 39.24");
+    assert_eq!(scratch.printed(), "1 1 2 19.62 39.24 9.81 19.62");
     scratch.write("built.yaml", &spec(-1.0));
     let stderr = scratch.refused();
     let fault = "built.yaml:5:11: links[0].mass: ";
@@ -128,7 +154,7 @@ fn a_crate_of_its_own() {
         "{stderr}"
     );
     scratch.write("built.yaml", &spec(5.0));
-    assert_eq!(scratch.printed(), "1 1 2 19.62 49.05");
+    assert_eq!(scratch.printed(), "1 1 2 19.62 49.05 9.81 19.62");
 
     scratch.write("src/beside.yaml", &spec(-2.0));
     let stderr = scratch.refused();
@@ -138,7 +164,7 @@ fn a_crate_of_its_own() {
     );
     assert_eq!(stderr.matches("\nerror").count(), 1, "{stderr}");
     scratch.write("src/beside.yaml", &spec(3.0));
-    assert_eq!(scratch.printed(), "1 1 2 29.43 49.05");
+    assert_eq!(scratch.printed(), "1 1 2 29.43 49.05 9.81 19.62");
 
     // A file in another place is seen when the crate is compiled next.
     scratch.write("specs/beside.yaml", &spec(3.0));

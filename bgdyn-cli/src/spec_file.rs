@@ -112,6 +112,12 @@ pub(crate) struct Asked {
     /// The first derivatives as well
     #[arg(long)]
     derivatives: bool,
+    /// Of a scene: the Jacobian ∂ẏ/∂y and ∂ẏ/∂t as well
+    #[arg(long)]
+    jacobian: bool,
+    /// Of a scene: the canonical form as well, momenta in place of velocities
+    #[arg(long)]
+    canonical: bool,
     #[command(flatten)]
     choice: Choice,
 }
@@ -131,6 +137,8 @@ impl Asked {
     pub(crate) fn options(&self) -> Result<Options> {
         Ok(Options {
             derivatives: self.derivatives,
+            jacobian: self.jacobian,
+            canonical: self.canonical,
             methods: self.methods.clone(),
             frames: self.frames.clone(),
             ..self.choice.options()?

@@ -8,7 +8,7 @@ use std::{env, fs};
 
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
-use bgdyn_codegen::model::scene_functions;
+use bgdyn_codegen::model::{Options, scene_functions};
 use bgdyn_codegen::system::System;
 
 /// States in which a scene is timed, around its start.
@@ -74,7 +74,8 @@ pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
         let place = place
             .with_module(&format!("v{i}"))
             .map_err(|e| anyhow!(e))?;
-        let text = source_text(scene_module(system, &scene_functions(system), &place));
+        let functions = scene_functions(system, &Options::default());
+        let text = source_text(scene_module(system, &functions, &place));
         write_if_new(&folder.join(format!("src/v{i}.rs")), &text)?;
         writeln!(modules, "include!(\"v{i}.rs\");")?;
         let scene = struct_ident(&system.scene.name);

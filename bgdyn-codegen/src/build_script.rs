@@ -110,6 +110,18 @@ impl Build {
         self
     }
 
+    /// Whether the Jacobian of a scene's rates is wanted: [`Options::jacobian`].
+    pub fn jacobian(mut self, wanted: bool) -> Self {
+        self.options.jacobian = wanted;
+        self
+    }
+
+    /// Whether the canonical form of a scene is wanted: [`Options::canonical`].
+    pub fn canonical(mut self, wanted: bool) -> Self {
+        self.options.canonical = wanted;
+        self
+    }
+
     /// One formulation for every method instead of the cheapest of each.
     pub fn formulation(mut self, name: &str) -> Self {
         self.formulation = Some(name.into());

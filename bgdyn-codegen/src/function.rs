@@ -82,7 +82,7 @@ impl Function {
 
     /// The same function with fewer operations, where factoring finds a way. A function that is cut
     /// into blocks stays as it is.
-    pub(crate) fn factored(mut self) -> Self {
+    pub fn factored(mut self) -> Self {
         if let ([Block { outputs }], false) = (&mut self.blocks[..], self.ordered) {
             let graph = std::mem::take(&mut self.graph);
             (self.graph, *outputs) = factored(graph, std::mem::take(outputs));

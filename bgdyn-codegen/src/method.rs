@@ -21,6 +21,10 @@ pub enum Argument {
     Input,
     /// Accelerations of a scene's coordinates.
     Accelerations,
+    /// State of a scene with momenta in place of velocities.
+    Canonical,
+    /// Modes of a scene, beside [`Argument::Canonical`].
+    Modes,
     /// Time, s.
     Time,
 }
@@ -36,6 +40,8 @@ impl Argument {
             Argument::State => "state",
             Argument::Input => "input",
             Argument::Accelerations => "acceleration",
+            Argument::Canonical => "z",
+            Argument::Modes => "modes",
             Argument::Time => "t",
         }
     }
@@ -151,11 +157,20 @@ pub enum Role {
     Energy,
     /// The outputs asked for.
     Outputs,
+    /// ∂ẏ/∂y and ∂ẏ/∂t, the inputs that the scene drives included: without the rows of q̇, column by
+    /// column.
+    Jacobian,
+    /// Momenta of a state.
+    ToCanonical,
+    /// Velocities of momenta.
+    FromCanonical,
+    /// q̇, ṗ and ẋ at momenta, the inputs that the scene drives included.
+    CanonicalRates,
 }
 
 impl Role {
     /// Every role.
-    pub const ALL: [Role; 8] = [
+    pub const ALL: [Role; 12] = [
         Role::Derivative,
         Role::Inverse,
         Role::Inputs,
@@ -164,7 +179,14 @@ impl Role {
         Role::Power,
         Role::Energy,
         Role::Outputs,
+        Role::Jacobian,
+        Role::ToCanonical,
+        Role::FromCanonical,
+        Role::CanonicalRates,
     ];
+
+    /// Those of the canonical form.
+    pub const CANONICAL: [Role; 3] = [Role::ToCanonical, Role::FromCanonical, Role::CanonicalRates];
 
     /// The method's name.
     pub fn name(self) -> &'static str {
@@ -177,6 +199,10 @@ impl Role {
             Role::Power => "power",
             Role::Energy => "energy",
             Role::Outputs => "output",
+            Role::Jacobian => "jacobian",
+            Role::ToCanonical => "to_canonical",
+            Role::FromCanonical => "from_canonical",
+            Role::CanonicalRates => "canonical_rates",
         }
     }
 
@@ -199,6 +225,16 @@ impl Role {
             }
             Role::Energy => "Energy stored, J, effect by effect.",
             Role::Outputs => "The outputs that the scene asks for.",
+            Role::Jacobian => {
+                "(∂ẏ/∂y, ∂ẏ/∂t) of the rates under the inputs that the scene drives itself; `input` is what is `given`."
+            }
+            Role::ToCanonical => {
+                "The state with the momenta p = M v in place of the velocities: kg·m²/s for a rotation, kg·m/s for a translation, the flux linkage V·s of a winding."
+            }
+            Role::FromCanonical => "The state of momenta: v = M⁻¹ p in place of p.",
+            Role::CanonicalRates => {
+                "Rates of the state with momenta: q̇ = M⁻¹ p, ṗ and ẋ, under the inputs that the scene drives itself; `input` is what is `given`."
+            }
         }
     }
 }
@@ -315,6 +351,14 @@ impl Method {
                 Argument::Input,
                 Argument::Time,
             ],
+            Method::Scene(Role::ToCanonical) => &[Argument::State],
+            Method::Scene(Role::FromCanonical) => &[Argument::Canonical],
+            Method::Scene(Role::CanonicalRates) => &[
+                Argument::Canonical,
+                Argument::Modes,
+                Argument::Input,
+                Argument::Time,
+            ],
             Method::Scene(_) => &[Argument::State, Argument::Input, Argument::Time],
         }
     }
@@ -332,9 +376,9 @@ impl Method {
             Method::Pose(_) => Shape::Pose,
             Method::Velocity(_) | Method::JacobianDotV(_) => Shape::Spatial,
             Method::Jacobian(_) => Shape::Jacobian,
-            Method::Scene(Role::Energy | Role::Inverse | Role::Inputs | Role::Outputs) => {
-                Shape::Parts
-            }
+            Method::Scene(
+                Role::Energy | Role::Inverse | Role::Inputs | Role::Outputs | Role::ToCanonical,
+            ) => Shape::Parts,
             Method::Scene(_) => Shape::CheckedParts,
         }
     }

@@ -11,12 +11,11 @@ use crate::emit;
 use crate::fault::{Fault, Faults};
 use crate::formulation::{self, Search};
 use crate::function::Function;
-use crate::interface::Interface;
+use crate::interface::{Interface, SceneInterface};
 use crate::mechanism::Mechanism;
-use crate::mechanism::name::is_identifier;
 use crate::method::Method;
 pub use crate::options::{
-    DYNAMICS, List, Options, Preference, Unknown, formulation_named, preference_named,
+    Asked, DYNAMICS, Options, Preference, Unknown, formulation_named, preference_named,
 };
 use crate::scene;
 use crate::spec::{is_scene, parse_scene};
@@ -129,9 +128,11 @@ pub fn read_scene(
     Ok((system, faults))
 }
 
-/// The functions of a scene.
-pub fn scene_functions(system: &System) -> Vec<Function> {
-    let roles = system.roles().into_iter();
+/// The functions of a scene: the usual ones, what its method of integration needs, and what is
+/// asked for.
+pub fn scene_functions(system: &System, options: &Options) -> Vec<Function> {
+    let roles = system.roles_with(options.jacobian, options.canonical);
+    let roles = roles.into_iter();
     roles.map(|role| system.function(role)).collect()
 }
 
@@ -188,15 +189,26 @@ pub fn generate_file(
         return generate(text, stem, place, options);
     }
     let (system, findings) = read_scene(text, stem, load)?;
-    let functions = scene_functions(&system);
+    let functions = scene_functions(&system, options);
     Ok((emit::scene_module(&system, &functions, place), findings))
 }
 
 /// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
-/// caller can name, nothing that runs. Nothing where the stem cannot name a module.
-pub fn fallback(text: &str, stem: &str, place: &emit::Place) -> Option<TokenStream> {
+/// caller can name, nothing that runs. `load` gives the text of a scene's mechanism. Nothing where the
+/// stem cannot name a module.
+pub fn fallback(
+    text: &str,
+    stem: &str,
+    place: &emit::Place,
+    load: impl FnOnce(&str) -> Result<String, String>,
+) -> Option<TokenStream> {
     if is_scene(text) {
-        return is_identifier(stem).then(|| emit::scene_fallback(stem, place));
+        let path = mechanism_of(text).unwrap_or_default();
+        let written = load(&path).ok();
+        let of = self::stem(Path::new(&path));
+        let mechanism = written.as_deref().map(|written| (written, of.as_str()));
+        let scene = SceneInterface::guess(text, stem, mechanism);
+        return scene.map(|scene| emit::scene_fallback(&scene, place));
     }
     Interface::guess(text, stem).map(|interface| emit::fallback(&interface, place))
 }

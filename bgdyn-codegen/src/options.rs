@@ -26,6 +26,11 @@ pub struct Options {
     pub prefer: Preference,
     /// Whether first derivatives of inverse and forward dynamics are wanted.
     pub derivatives: bool,
+    /// Whether the Jacobian of a scene's rates is wanted, where its method of integration does not
+    /// ask for it already.
+    pub jacobian: bool,
+    /// Whether the canonical form of a scene is wanted, likewise.
+    pub canonical: bool,
     /// The methods wanted, by name: `inverse_dynamics`, `pose_tool`; `dynamics` stands for all that
     /// the trait `Dynamics` has.
     pub methods: Option<Vec<String>>,
@@ -57,21 +62,25 @@ impl Preference {
     }
 }
 
-/// An option whose value is a list of names.
+/// An option that may ask for what there is not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum List {
+pub enum Asked {
     /// [`Options::methods`]
     Methods,
     /// [`Options::frames`]
     Frames,
+    /// [`Options::jacobian`]
+    Jacobian,
+    /// [`Options::canonical`]
+    Canonical,
 }
 
-/// A name asked for that the mechanism does not have.
+/// Something asked for that the mechanism does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unknown {
-    /// The option it stands in.
-    pub list: List,
-    /// Its place in the list.
+    /// The option that asks for it.
+    pub option: Asked,
+    /// Its place in the option's list.
     pub index: usize,
     /// What is wrong, and the way out.
     pub message: String,
@@ -89,7 +98,7 @@ impl Options {
     /// # Errors
     /// Every name that the mechanism does not have.
     pub fn select(&self, sites: &[Site], velocities: usize) -> Result<Vec<Method>, Vec<Unknown>> {
-        let mut unknown = Vec::new();
+        let mut unknown = self.of_scenes();
         let mut wanted = BTreeSet::new();
         match &self.methods {
             None => wanted.extend(usual(velocities)),
@@ -116,6 +125,25 @@ impl Options {
     }
 }
 
+impl Options {
+    /// What only scenes have.
+    fn of_scenes(&self) -> Vec<Unknown> {
+        let asked = [
+            (self.jacobian, Asked::Jacobian, "jacobian", "derivatives"),
+            (self.canonical, Asked::Canonical, "canonical", "mass_matrix"),
+        ];
+        let asked = asked.into_iter().filter(|(wanted, ..)| *wanted);
+        let unknown = asked.map(|(_, option, name, instead)| Unknown {
+            option,
+            index: 0,
+            message: format!(
+                "`{name}` is of scenes, and this is a mechanism: see `{instead}`, or write a scene"
+            ),
+        });
+        unknown.collect()
+    }
+}
+
 fn usual(velocities: usize) -> Vec<Method> {
     let coriolis = (velocities <= COMPACT).then_some(Method::CoriolisMatrix);
     Method::OF_TRAIT.into_iter().chain(coriolis).collect()
@@ -131,7 +159,7 @@ fn methods(names: &[String], sites: &[Site], unknown: &mut Vec<Unknown>) -> Vec<
         match Method::named(sites, name) {
             Ok(method) => wanted.push(method),
             Err(message) => unknown.push(Unknown {
-                list: List::Methods,
+                option: Asked::Methods,
                 index,
                 message,
             }),
@@ -149,7 +177,7 @@ fn frames(names: &[String], sites: &[Site], unknown: &mut Vec<Unknown>) -> Vec<M
         }
         let known: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
         unknown.push(Unknown {
-            list: List::Frames,
+            option: Asked::Frames,
             index,
             message: unknown_name("link or frame", name, &known, &known.join(", ")),
         });

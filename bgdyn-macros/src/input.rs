@@ -1,7 +1,7 @@
 //! What the user writes between the parentheses.
 
 use bgdyn_codegen::mechanism::name::is_identifier;
-use bgdyn_codegen::model::{List, Options, Unknown, formulation_named, preference_named};
+use bgdyn_codegen::model::{Asked, Options, Unknown, formulation_named, preference_named};
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};
@@ -9,7 +9,8 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
 /// The options there are.
-const KNOWN: &str = "derivatives, formulation, frames, methods, module, prefer, visibility";
+const KNOWN: &str =
+    "canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
@@ -23,6 +24,9 @@ pub(crate) struct Input {
     /// Where the names in `methods` and `frames` stand.
     methods: Vec<Span>,
     frames: Vec<Span>,
+    /// Where `jacobian` and `canonical` stand.
+    jacobian: Vec<Span>,
+    canonical: Vec<Span>,
     /// What is wrong with the options. The module is made all the same.
     pub(crate) errors: Vec<syn::Error>,
 }
@@ -36,6 +40,8 @@ impl Parse for Input {
             visibility: quote! { pub },
             methods: Vec::new(),
             frames: Vec::new(),
+            jacobian: Vec::new(),
+            canonical: Vec::new(),
             errors: Vec::new(),
         };
         if let Err(error) = parsed.all(input) {
@@ -50,9 +56,11 @@ impl Parse for Input {
 impl Input {
     /// The error on a name that the mechanism does not have.
     pub(crate) fn error(&self, unknown: &Unknown) -> syn::Error {
-        let spans = match unknown.list {
-            List::Methods => &self.methods,
-            List::Frames => &self.frames,
+        let spans = match unknown.option {
+            Asked::Methods => &self.methods,
+            Asked::Frames => &self.frames,
+            Asked::Jacobian => &self.jacobian,
+            Asked::Canonical => &self.canonical,
         };
         let span = spans.get(unknown.index).copied();
         let span = span.unwrap_or_else(|| self.path.span());
@@ -85,6 +93,14 @@ impl Input {
     fn option(&mut self, option: &Ident, input: ParseStream<'_>) -> syn::Result<()> {
         match option.to_string().as_str() {
             "derivatives" => self.options.derivatives = input.parse::<LitBool>()?.value,
+            "jacobian" => {
+                self.options.jacobian = input.parse::<LitBool>()?.value;
+                self.jacobian = vec![option.span()];
+            }
+            "canonical" => {
+                self.options.canonical = input.parse::<LitBool>()?.value;
+                self.canonical = vec![option.span()];
+            }
             "formulation" => {
                 let value: LitStr = input.parse()?;
                 match formulation_named(&value.value()) {

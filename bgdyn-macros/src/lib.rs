@@ -31,6 +31,8 @@ use input::Input;
 /// | `methods = [inverse_dynamics, pose_tool]` | these methods instead of the usual ones; `dynamics` stands for those of the trait `Dynamics`, which is implemented only where all of them are there |
 /// | `frames = [tool, forearm]` | pose, velocity, Jacobian and J̇ v of these links and frames instead of the named frames and tips |
 /// | `derivatives = true` | first derivatives of inverse and forward dynamics |
+/// | `jacobian = true` | of a scene: ∂ẏ/∂y and ∂ẏ/∂t, and the trait `Slope`, where its method of integration does not ask for them already |
+/// | `canonical = true` | of a scene: momenta in place of velocities, and the trait `Canonical`, likewise |
 /// | `formulation = "literal"` | one formulation for every method instead of the cheapest of each |
 /// | `prefer = "accuracy"` | for each method the formulation that loses the fewest digits in `f64`, instead of the cheapest; `"operations"` is the default |
 /// | `module = left_arm` | another name for the module; the struct keeps the file's |
@@ -72,23 +74,24 @@ fn module(
         rebuild: None,
         also: Vec::new(),
     };
+    let found = find::find(&written, input.path.span());
+    let load = |mechanism: &str| {
+        let path = found.clone()?;
+        std::fs::read_to_string(model::beside(&path, mechanism)).map_err(|e| e.to_string())
+    };
     let stand_in = |text: &str, place: &Place| {
-        model::fallback(text, &model::stem(Path::new(&place.source)), place)
+        model::fallback(text, &model::stem(Path::new(&place.source)), place, load)
     };
     let refused = |message: String, text: &str, place: &Place| Refused {
         errors: vec![syn::Error::new(input.path.span(), message)],
         stand_in: stand_in(text, place),
     };
-    let path = find::find(&written, input.path.span()).map_err(|m| refused(m, "", &place))?;
+    let path = found.clone().map_err(|m| refused(m, "", &place))?;
     let text = std::fs::read_to_string(&path).map_err(|e| {
         let message = format!("bgdyn: `{written}` cannot be read: {e}");
         refused(message, "", &place)
     })?;
     place.rebuild = Some(path.display().to_string());
-    let load = |mechanism: &str| {
-        let file = model::beside(&path, mechanism);
-        std::fs::read_to_string(file).map_err(|e| e.to_string())
-    };
     if let Some(mechanism) = model::mechanism_of(&text) {
         let file = model::beside(&path, &mechanism);
         place.also.push(file.display().to_string());

@@ -51,6 +51,6 @@ pub use scalar::Scalar;
 pub use settle::settle;
 pub use singular::Singular;
 pub use storage::{matrix, vector};
-pub use system::{Balance, Contact, System};
+pub use system::{Balance, Canonical, Contact, Slope, System};
 #[cfg(feature = "wide")]
 pub use wide;

@@ -1,8 +1,8 @@
-//! The trait of every generated scene: what integrators and simulators call.
+//! The traits of generated scenes: what integrators and simulators call.
 
 use core::fmt::Debug;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::Scalar;
 
@@ -142,4 +142,78 @@ pub trait System<
         input: &SVector<T, NU>,
         t: T,
     ) -> Result<[Balance<T>; NP], Self::Singular>;
+}
+
+/// A scene that knows the slope of its rates: what implicit methods ask for.
+pub trait Slope<
+    T: Scalar,
+    const N: usize,
+    const NM: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+>: System<T, N, NM, NU, NE, NY, NP>
+{
+    /// (∂ẏ/∂y, ∂ẏ/∂t) of ẏ = `derivative(y, modes, input(y, modes, given, t), t)`: the inputs that
+    /// the scene drives move with the state and with time, those that are `given` stay. Where a law
+    /// has a kink, the slope is that of one of its sides.
+    ///
+    /// # Errors
+    /// As [`System::derivative`]; also where a slope is infinite.
+    fn slope(
+        &self,
+        y: &SVector<T, N>,
+        modes: &SVector<T, NM>,
+        given: &SVector<T, NU>,
+        t: T,
+    ) -> Result<(SMatrix<T, N, N>, SVector<T, N>), Self::Singular>;
+}
+
+/// A scene in canonical form: z is y with the momenta p = ∂T/∂v in place of the velocities v. At a
+/// joint that is M v, at a motor's winding the flux linkage L i. Symplectic methods keep to bounds
+/// what they integrate in these.
+pub trait Canonical<
+    T: Scalar,
+    const N: usize,
+    const NM: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+>: System<T, N, NM, NU, NE, NY, NP>
+{
+    /// z of y: p = M v.
+    fn to_canonical(
+        &self,
+        y: &SVector<T, N>,
+        modes: &SVector<T, NM>,
+        given: &SVector<T, NU>,
+        t: T,
+    ) -> SVector<T, N>;
+
+    /// y of z: v = M⁻¹ p.
+    ///
+    /// # Errors
+    /// As [`System::derivative`].
+    fn from_canonical(
+        &self,
+        z: &SVector<T, N>,
+        modes: &SVector<T, NM>,
+        given: &SVector<T, NU>,
+        t: T,
+    ) -> Result<SVector<T, N>, Self::Singular>;
+
+    /// ż: q̇ = M⁻¹ p and ṗ = (efforts − P at zero accelerations) + Ṁ v. The inputs that the scene
+    /// drives are those at this state and time, as in [`Slope::slope`].
+    ///
+    /// # Errors
+    /// As [`System::derivative`].
+    fn canonical_rates(
+        &self,
+        z: &SVector<T, N>,
+        modes: &SVector<T, NM>,
+        given: &SVector<T, NU>,
+        t: T,
+    ) -> Result<SVector<T, N>, Self::Singular>;
 }

@@ -1,44 +1,64 @@
 //! The classical Runge–Kutta method of order 4 (Kutta 1901).
 
-use bgdyn_runtime::{Dynamics, Scalar};
-use nalgebra::SVector;
+use crate::coefficient::{Words, ZERO, ratio};
+use crate::failure::Reason;
+use crate::method::{Facts, Method, Start, Step};
+use crate::ode::Ode;
+use crate::space::{Of, Space};
+use crate::tableau::{Stage, all, combined};
 
-use crate::{State, moved, plus_scaled};
+/// The classical Runge–Kutta method, of order 4 with fixed steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rk4;
 
-/// One step of length `h`, s, from time `t` under the joint efforts `tau(t, state)`.
-///
-/// # Errors
-/// Where the mass matrix is singular at one of the four stages.
-pub fn rk4_step<M, T, const NQ: usize, const NV: usize>(
-    model: &M,
-    t: T,
-    s: &State<T, NQ, NV>,
-    h: T,
-    mut tau: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
-) -> Result<State<T, NQ, NV>, T::Singular<NV>>
-where
-    M: Dynamics<T, NQ, NV>,
-    T: Scalar,
-{
-    let mut acceleration = |t: T, s: &State<T, NQ, NV>| {
-        let effort = tau(t, s);
-        model.forward_dynamics(&s.q, &s.v, &effort)
-    };
-    let half = h * T::from_f64(0.5);
-    let a1 = acceleration(t, s)?;
-    let s2 = moved(model, s, (&s.v, &a1), half);
-    let a2 = acceleration(t + half, &s2)?;
-    let s3 = moved(model, s, (&s2.v, &a2), half);
-    let a3 = acceleration(t + half, &s3)?;
-    let s4 = moved(model, s, (&s3.v, &a3), h);
-    let a4 = acceleration(t + h, &s4)?;
-    // (k₁ + 2 k₂ + 2 k₃ + k₄) / 6
-    let mean = |k1: &SVector<T, NV>, k2, k3, k4| {
-        let middle: SVector<T, NV> = plus_scaled(k2, T::from_f64(1.0), k3);
-        let ends = plus_scaled(k1, T::from_f64(1.0), k4);
-        let sixth = T::from_f64(1.0) / T::from_f64(6.0);
-        plus_scaled(&ends, T::from_f64(2.0), &middle).map(|x| x * sixth)
-    };
-    let (v, a) = (mean(&s.v, &s2.v, &s3.v, &s4.v), mean(&a1, &a2, &a3, &a4));
-    Ok(moved(model, s, (&v, &a), h))
+const HALF: Words = ratio(1.0, 2.0);
+const ONE: Words = ratio(1.0, 1.0);
+
+const STAGES: [Stage; 3] = [
+    Stage {
+        c: HALF,
+        a: &[HALF],
+    },
+    Stage {
+        c: HALF,
+        a: &[ZERO, HALF],
+    },
+    Stage {
+        c: ONE,
+        a: &[ZERO, ZERO, ONE],
+    },
+];
+
+const WEIGHTS: [Words; 4] = [
+    ratio(1.0, 6.0),
+    ratio(1.0, 3.0),
+    ratio(1.0, 3.0),
+    ratio(1.0, 6.0),
+];
+
+impl<Y: Space> Method<Y> for Rk4 {
+    type Stages = ();
+
+    fn facts(&self) -> Facts {
+        Facts {
+            name: "rk4",
+            order: 4,
+            estimate: None,
+            looks: 1,
+        }
+    }
+
+    fn step<O: Ode<State = Y>>(
+        &self,
+        ode: &O,
+        from: &Start<'_, Y, ()>,
+        h: Of<Y>,
+    ) -> Result<Step<Y, ()>, Reason<O::Error>> {
+        let rates: [Y; 4] = all(ode, from, None, h, &STAGES)?;
+        Ok(Step {
+            h,
+            change: combined(&WEIGHTS, &rates).times(h),
+            stages: (),
+        })
+    }
 }

@@ -1,289 +1,293 @@
-//! Runs a generated scene: fixed steps of the classical Runge–Kutta method, events located within
-//! the step, and an account of where the energy went.
+//! Runs of plants: from step to step and from event to event, with an account of the energy.
 
-use bgdyn_runtime::{Balance, Scalar, System, settle};
+mod events;
+
+use bgdyn_runtime::{Scalar, System};
 use nalgebra::SVector;
 
-use crate::plus_scaled;
+use crate::audit::{Audit, Ledger, quadrature};
+use crate::control::Tolerance;
+use crate::dense::Dense;
+use crate::failure::{Failure, Reason};
+use crate::method::Method;
+use crate::plant::{Held, Plant};
+use crate::rk4::Rk4;
+use crate::scene::Scene;
+use crate::solver::{Proposal, Solver};
+use crate::space::{Of, Real, Space};
 
-/// A scene at an instant.
+/// A plant at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment<T: Scalar, const N: usize, const NM: usize> {
+pub struct Moment<Y: Space, M> {
     /// Time, s.
-    pub t: T,
-    /// Positions, velocities, first-order states.
-    pub y: SVector<T, N>,
+    pub t: Of<Y>,
+    /// State: positions, velocities, first-order states.
+    pub y: Y,
     /// Modes.
-    pub modes: SVector<T, NM>,
+    pub modes: M,
 }
 
-/// One step of length `h`, s, of the classical Runge–Kutta method (Kutta 1901) with the modes held.
-/// Inputs that the scene does not drive itself are `given`.
-///
-/// # Errors
-/// Where the mass matrix is singular at one of the four stages.
-pub fn rk4_scene_step<
-    S,
-    T,
-    const N: usize,
-    const NM: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
->(
-    scene: &S,
-    at: &Moment<T, N, NM>,
-    h: T,
-    given: &SVector<T, NU>,
-) -> Result<SVector<T, N>, S::Singular>
-where
-    S: System<T, N, NM, NU, NE, NY, NP>,
-    T: Scalar,
-{
-    let rates = |t: T, y: &SVector<T, N>| {
-        let input = scene.input(y, &at.modes, given, t);
-        scene.derivative(y, &at.modes, &input, t)
-    };
-    let half = h * T::from_f64(0.5);
-    let k1 = rates(at.t, &at.y)?;
-    let k2 = rates(at.t + half, &plus_scaled(&at.y, half, &k1))?;
-    let k3 = rates(at.t + half, &plus_scaled(&at.y, half, &k2))?;
-    let k4 = rates(at.t + h, &plus_scaled(&at.y, h, &k3))?;
-    let one = T::from_f64(1.0);
-    let middle = plus_scaled(&k2, one, &k3);
-    let ends = plus_scaled(&k1, one, &k4);
-    let sum = plus_scaled(&ends, T::from_f64(2.0), &middle);
-    Ok(plus_scaled(&at.y, h / T::from_f64(6.0), &sum))
-}
+type Time<P> = Of<<P as Plant>::State>;
+type Failed<P> = Failure<<P as Plant>::State, <P as Plant>::Error>;
+type Refused<P> = Reason<<P as Plant>::Error>;
+type Proposed<P, M> = Proposal<<P as Plant>::State, <M as Method<<P as Plant>::State>>::Stages>;
 
-/// Where the energy of a run went, J: for each entry what it supplied, stores more than at the
-/// start, and dissipated.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Audit<T: Scalar, const NP: usize> {
-    /// Work that came from outside.
-    pub supplied: SVector<T, NP>,
-    /// What is stored more than at the start.
-    pub stored: SVector<T, NP>,
-    /// Work that was lost.
-    pub dissipated: SVector<T, NP>,
-}
-
-impl<T: Scalar, const NP: usize> Audit<T, NP> {
-    /// What the sums do not account for: the integration's error, in J.
-    pub fn drift(&self) -> T {
-        let zero = T::from_f64(0.0);
-        let sum = |x: &SVector<T, NP>| x.iter().fold(zero, |sum, &x| sum + x);
-        sum(&self.stored) + sum(&self.dissipated) - sum(&self.supplied)
-    }
-}
-
-/// Why a run ended early. The state is that of the last step that succeeded.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Failure<E> {
-    /// The mass matrix is singular.
-    Singular(E),
-    /// A part of the state is no finite number any more.
-    NotFinite,
-    /// So many events followed each other within one step that time would not go on.
-    TooManyEvents,
-}
-
-/// Events within one step at the most.
+/// Events within one call of [`Run::step`] at the most.
 const EVENTS: usize = 64;
 
-/// Halvings of the interval that holds an event: of a step of 1 ms 1e-15 s are left.
-const HALVINGS: usize = 40;
-
-/// A run of a scene.
-pub struct Run<
-    'a,
-    S,
-    const N: usize,
-    const NM: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
-> {
-    scene: &'a S,
-    /// Inputs that the scene does not drive itself.
-    pub given: SVector<f64, NU>,
-    /// Where it is.
-    pub at: Moment<f64, N, NM>,
+/// A run of a plant by a method; [`Rk4`] where nothing else is said.
+///
+/// A step ends at an event and goes on from there: at a change of a mode with the state after it, at
+/// a kink so that the method keeps its order. Where a step fails the run stays at the last good
+/// state.
+#[derive(Debug)]
+pub struct Run<P: Plant, M: Method<P::State> = Rk4> {
+    plant: P,
+    modes: P::Modes,
+    solver: Solver<P::State, M>,
+    /// Whether work is added up.
+    audited: bool,
+    ledger: Ledger<P::Entries>,
     /// Events that changed a mode, so far.
     pub events: usize,
     /// When the last of them was, s.
-    pub last_event: f64,
-    /// Energy at the start, once there was a step.
-    start: Option<[f64; NP]>,
-    supplied: SVector<f64, NP>,
-    dissipated: SVector<f64, NP>,
+    pub last_event: Time<P>,
+    /// Kinks that were passed, so far.
+    pub kinks: usize,
+    /// Events that followed each other in next to no time.
+    crowded: usize,
+}
+
+/// How many events a call may still meet.
+struct Budget {
+    events: usize,
+    kinks: usize,
+}
+
+impl Budget {
+    fn new() -> Self {
+        Budget {
+            events: EVENTS,
+            kinks: EVENTS,
+        }
+    }
 }
 
 impl<
     'a,
     S,
+    T: Real,
     const N: usize,
     const NM: usize,
     const NU: usize,
     const NE: usize,
     const NY: usize,
     const NP: usize,
-> Run<'a, S, N, NM, NU, NE, NY, NP>
+> Run<Scene<'a, S, T, N, NM, NU, NE, NY, NP>, Rk4>
 where
-    S: System<f64, N, NM, NU, NE, NY, NP>,
+    S: System<T, N, NM, NU, NE, NY, NP>,
 {
-    /// From where the scene begins.
+    /// From where the scene begins, by [`Rk4`].
     pub fn new(scene: &'a S) -> Self {
-        let (y, modes) = scene.start();
-        Self::from(scene, Moment { t: 0.0, y, modes })
+        Run::by(Rk4, Scene::new(scene), Self::begin(scene))
     }
 
-    /// From anywhere.
-    pub fn from(scene: &'a S, at: Moment<f64, N, NM>) -> Self {
+    /// Where the scene begins, at t = 0.
+    pub fn begin(scene: &S) -> Moment<SVector<T, N>, SVector<T, NM>> {
+        let (y, modes) = scene.start();
+        let t = T::from_f64(0.0);
+        Moment { t, y, modes }
+    }
+}
+
+impl<P: Plant, M: Method<P::State>> Run<P, M>
+where
+    Time<P>: Real,
+{
+    /// From a moment, by a method.
+    pub fn by(method: M, plant: P, from: Moment<P::State, P::Modes>) -> Self {
         Run {
-            scene,
-            given: SVector::zeros(),
-            start: None,
-            at,
+            ledger: Ledger::new(plant.nothing()),
+            plant,
+            modes: from.modes,
+            solver: Solver::new(method, from.t, from.y),
+            audited: true,
             events: 0,
-            last_event: 0.0,
-            supplied: SVector::zeros(),
-            dissipated: SVector::zeros(),
+            last_event: Time::<P>::from_f64(0.0),
+            kinks: 0,
+            crowded: 0,
         }
+    }
+
+    /// With compensated sums, as [`Solver::compensated`].
+    #[must_use]
+    pub fn compensated(mut self) -> Self {
+        self.solver = self.solver.compensated();
+        self
+    }
+
+    /// With controlled steps, where the method estimates its error.
+    #[must_use]
+    pub fn with_tolerance(mut self, tolerance: Tolerance<Time<P>>) -> Self {
+        self.solver = self.solver.with_tolerance(tolerance);
+        self
+    }
+
+    /// Without the account of work, which costs evaluations of the power in each step.
+    #[must_use]
+    pub fn unaudited(mut self) -> Self {
+        self.audited = false;
+        self
+    }
+
+    /// Time, s.
+    pub fn t(&self) -> Time<P> {
+        self.solver.t()
+    }
+
+    /// State.
+    pub fn y(&self) -> &P::State {
+        self.solver.y()
+    }
+
+    /// The state's second word, as [`Solver::low`].
+    pub fn low(&self) -> Option<&P::State> {
+        self.solver.low()
+    }
+
+    /// Modes.
+    pub fn modes(&self) -> &P::Modes {
+        &self.modes
+    }
+
+    /// The plant.
+    pub fn plant(&self) -> &P {
+        &self.plant
+    }
+
+    /// The plant, to change its given inputs or its parameters.
+    pub fn plant_mut(&mut self) -> &mut P {
+        self.solver.forget();
+        &mut self.plant
     }
 
     /// Where the energy went since the start.
-    pub fn audit(&self) -> Audit<f64, NP> {
-        let now = self.energy();
-        let start = self.start.unwrap_or(now);
-        Audit {
-            supplied: self.supplied,
-            stored: SVector::from_fn(|i, _| now[i] - start[i]),
-            dissipated: self.dissipated,
+    pub fn audit(&self) -> Audit<P::Entries> {
+        self.ledger.audit()
+    }
+
+    fn held(&self) -> Held<'_, P> {
+        Held {
+            plant: &self.plant,
+            modes: &self.modes,
         }
     }
 
-    /// Energy stored now, entry by entry.
-    fn energy(&self) -> [f64; NP] {
-        let at = &self.at;
-        self.scene.energy(&at.y, &at.modes, &self.input(at), at.t)
-    }
-
-    /// The inputs at an instant.
-    pub fn input(&self, at: &Moment<f64, N, NM>) -> SVector<f64, NU> {
-        self.scene.input(&at.y, &at.modes, &self.given, at.t)
-    }
-
-    /// One step of length `h`, s; where an event falls into it, up to the event and on from there.
+    /// On by `h`, s: one fixed step or as many controlled ones as it takes, from event to event where
+    /// there are any.
     ///
     /// # Errors
-    /// Where the scene cannot go on.
-    pub fn step(&mut self, h: f64) -> Result<(), Failure<S::Singular>> {
-        self.start = self.start.or_else(|| Some(self.energy()));
+    /// Where the plant cannot go on.
+    pub fn step(&mut self, h: Time<P>) -> Result<(), Failed<P>> {
+        // What rounding leaves of a step is no step.
+        let rest = h * Time::<P>::EPSILON * Time::<P>::from_f64(4096.0);
+        let mut budget = Budget::new();
         let mut left = h;
-        for _ in 0..EVENTS {
-            let taken = self.piece(left)?;
-            left -= taken;
-            if left <= h * 1e-12 {
-                return Ok(());
-            }
-        }
-        Err(Failure::TooManyEvents)
-    }
-
-    /// A step of length `h` at the most, up to the first event. Gives its length.
-    fn piece(&mut self, h: f64) -> Result<f64, Failure<S::Singular>> {
-        let before = self.values(&self.at)?;
-        let whole = self.moved(h)?;
-        let after = self.values(&whole)?;
-        let crosses = |a: &SVector<f64, NE>, b: &SVector<f64, NE>| {
-            (0..NE).find(|&e| a[e] >= 0.0 && b[e] < 0.0 && self.scene.event_modes()[e].is_some())
-        };
-        if crosses(&before, &after).is_none() {
-            self.account(&whole, h)?;
-            self.at = whole;
-            return Ok(h);
-        }
-        // The last instant before the first event.
-        let (mut low, mut high) = (0.0, h);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            let there = self.moved(middle)?;
-            match crosses(&before, &self.values(&there)?) {
-                Some(_) => high = middle,
-                None => low = middle,
-            }
-        }
-        let there = self.moved(high)?;
-        let event = crosses(&before, &self.values(&there)?);
-        self.account(&there, high)?;
-        self.at = there;
-        if let Some(mode) = event.and_then(|e| self.scene.event_modes()[e]) {
-            self.change(mode)?;
-        }
-        Ok(high)
-    }
-
-    /// A mode changes: what slipped comes to rest, what was held breaks away. All joints at rest are
-    /// decided together.
-    fn change(&mut self, mode: usize) -> Result<(), Failure<S::Singular>> {
-        self.events += 1;
-        self.last_event = self.at.t;
-        let input = self.input(&self.at);
-        let Moment { t, y, modes } = &mut self.at;
-        if modes[mode] != 0.0 {
-            // What the search for the instant has left of its slip would stay for ever.
-            let contacts = self.scene.contacts(y, modes, &input, *t);
-            let slip = contacts.map_err(Failure::Singular)?[mode].slip;
-            y[self.scene.mode_velocities()[mode]] -= slip;
-            modes[mode] = 0.0;
-        }
-        let settled = settle(self.scene, y, modes, &input, *t, 0.0);
-        *modes = settled.map_err(Failure::Singular)?;
-        Ok(())
-    }
-
-    fn moved(&self, h: f64) -> Result<Moment<f64, N, NM>, Failure<S::Singular>> {
-        let y = rk4_scene_step(self.scene, &self.at, h, &self.given).map_err(Failure::Singular)?;
-        if y.iter().any(|x| !x.is_finite()) {
-            return Err(Failure::NotFinite);
-        }
-        Ok(Moment {
-            t: self.at.t + h,
-            y,
-            modes: self.at.modes,
-        })
-    }
-
-    fn values(&self, at: &Moment<f64, N, NM>) -> Result<SVector<f64, NE>, Failure<S::Singular>> {
-        let events = self.scene.events(&at.y, &at.modes, &self.input(at), at.t);
-        events.map_err(Failure::Singular)
-    }
-
-    /// Adds up work by Simpson's rule, the middle by Hermite's cubic.
-    fn account(&mut self, to: &Moment<f64, N, NM>, h: f64) -> Result<(), Failure<S::Singular>> {
-        let rates = |at: &Moment<f64, N, NM>| {
-            let input = self.input(at);
-            let rates = self.scene.derivative(&at.y, &at.modes, &input, at.t);
-            rates.map_err(Failure::Singular)
-        };
-        let (f0, f1) = (rates(&self.at)?, rates(to)?);
-        let middle = Moment {
-            t: self.at.t + 0.5 * h,
-            y: (self.at.y + to.y) * 0.5 + (f0 - f1) * (h / 8.0),
-            modes: self.at.modes,
-        };
-        for (at, weight) in [(&self.at, 1.0), (&middle, 4.0), (to, 1.0)] {
-            let input = self.input(at);
-            let power = self.scene.power(&at.y, &at.modes, &input, at.t);
-            let power: [Balance<f64>; NP] = power.map_err(Failure::Singular)?;
-            for (i, entry) in power.iter().enumerate() {
-                self.supplied[i] += entry.supplied * weight * h / 6.0;
-                self.dissipated[i] += entry.dissipated * weight * h / 6.0;
-            }
+        while rest < left {
+            let piece = self.piece(left, &mut budget, false);
+            left = left - piece.map_err(|reason| self.solver.failure(reason))?.0;
         }
         Ok(())
+    }
+
+    /// One step of the method, no longer than `most`, or up to the first event in it. Gives the
+    /// states within.
+    ///
+    /// # Errors
+    /// Where the plant cannot go on.
+    pub fn advance_densely(&mut self, most: Time<P>) -> Result<Dense<P::State>, Failed<P>> {
+        let piece = self.piece(most, &mut Budget::new(), true);
+        let (h, dense) = piece.map_err(|reason| self.solver.failure(reason))?;
+        let here = || Dense::new(self.t(), h, self.y(), [const { None }; 7]);
+        Ok(dense.unwrap_or_else(here))
+    }
+
+    /// A step of the length `most` or a controlled one, up to the first event in it: its length and,
+    /// if wanted or needed, the states within.
+    #[expect(clippy::type_complexity, reason = "a length and what lies within")]
+    fn piece(
+        &mut self,
+        most: Time<P>,
+        budget: &mut Budget,
+        densely: bool,
+    ) -> Result<(Time<P>, Option<Dense<P::State>>), Refused<P>> {
+        if self.audited && !self.ledger.is_open() {
+            let energy = self.plant.energy(self.t(), self.y(), &self.modes);
+            self.ledger.note(energy.map_err(Reason::Singular)?);
+        }
+        let held = Held {
+            plant: &self.plant,
+            modes: &self.modes,
+        };
+        let mut proposal = self.solver.propose(&held, most)?;
+        let found = self.first_event(&proposal, budget)?;
+        let passed = found.map(|(shorter, passed)| {
+            proposal = shorter;
+            passed
+        });
+        let dense = if densely || self.audited {
+            Some(self.solver.dense(&self.held(), &proposal.step)?)
+        } else {
+            None
+        };
+        let after = match &passed {
+            Some(passed) => self.after(&proposal, passed, budget)?,
+            None => None,
+        };
+        let ledger = self.booked(&proposal, dense.as_ref(), after.as_ref())?;
+        // Nothing can fail from here on.
+        let h = proposal.step.h;
+        self.solver.take(proposal);
+        self.ledger = ledger;
+        if let Some((y, modes)) = after {
+            self.modes = modes;
+            self.solver.restart(y);
+        } else if passed.is_some() {
+            self.solver.forget();
+        }
+        if let Some(passed) = passed {
+            self.count(&passed, budget);
+        }
+        Ok((h, dense))
+    }
+
+    /// The account with the work of a step, and the energy after it.
+    fn booked(
+        &self,
+        step: &Proposed<P, M>,
+        dense: Option<&Dense<P::State>>,
+        after: Option<&(P::State, P::Modes)>,
+    ) -> Result<Ledger<P::Entries>, Refused<P>> {
+        let mut ledger = self.ledger.clone();
+        let Some(dense) = dense.filter(|_| self.audited) else {
+            return Ok(ledger);
+        };
+        let h = dense.length();
+        for (at, weight) in quadrature(self.solver.method().facts().order) {
+            let theta: Time<P> = at.to();
+            let t = dense.start() + theta * h;
+            let power = self.plant.power(t, &dense.at(theta), &self.modes);
+            ledger.add(
+                weight.to::<Time<P>>() * h,
+                &power.map_err(Reason::Singular)?,
+            );
+        }
+        let (y, modes) = match after {
+            Some((y, modes)) => (y, modes),
+            None => (&step.y.0, &self.modes),
+        };
+        let energy = self.plant.energy(step.t.0, y, modes);
+        ledger.note(energy.map_err(Reason::Singular)?);
+        Ok(ledger)
     }
 }

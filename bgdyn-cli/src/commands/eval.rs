@@ -1,11 +1,13 @@
 //! `bgdyn eval`: a method's value at given states, through the evaluator.
 
+mod scene;
+
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::mechanism::{Mechanism, Parameter};
 use bgdyn_codegen::method::{Argument, Method, Shape};
 use clap::Args;
 use serde::Serialize;
@@ -18,12 +20,12 @@ use crate::usage::Usage;
 /// Evaluate a method at the states of a file, without a compiler
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n  bgdyn eval arm.yaml gravity --states states.json --parameter payload=2.5\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}"
+    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n  bgdyn eval arm.yaml gravity --states states.json --parameter payload=2.5\n  bgdyn eval specs/scenes/stick_slip.scene.yaml derivative --states states.json\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}\nof a scene:  {\"states\": [{\"y\": [...] or {\"shoulder\": 0.3, ...}, \"modes\", \"input\" or \"given\", \"acceleration\", \"t\"}, ...]}"
 )]
 pub(crate) struct Eval {
-    /// The spec
+    /// The spec or the scene
     file: PathBuf,
-    /// The method, as the generated code names it
+    /// The method, as the generated code names it: of a scene `derivative`, `power`, …
     method: String,
     /// The states: fields a method does not need are ignored
     #[arg(long, value_name = "STATES.json")]
@@ -39,6 +41,9 @@ pub(crate) struct Eval {
 #[derive(Serialize)]
 struct Report<'a> {
     function: &'a str,
+    /// What the parts of a scene's results are called.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    names: Vec<String>,
     /// One value per state; null where it failed.
     results: Vec<Value>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -63,21 +68,36 @@ struct Failure {
 impl Eval {
     pub(crate) fn run(self) -> Result<()> {
         let options = self.choice.options()?;
-        let mechanism = SpecFile::open(&self.file)?.mechanism()?;
+        let file = SpecFile::open(&self.file)?;
+        if file.is_scene() {
+            return self.scene(&file.scene()?, &options);
+        }
+        let mechanism = file.mechanism()?;
         let graph = bgdyn_codegen::bond_graph::build(&mechanism);
         let method = Method::named(&graph.sites, &self.method).map_err(Usage)?;
-        let parameters = parameters(&mechanism, &self.parameters)?;
+        let parameters = parameters(mechanism.parameters(), &self.parameters)?;
         let states = states(&self.states)?;
         let function = bgdyn_codegen::model::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
+        let value = |state: &Value| evaluate(&mechanism, &function, &parameters, state);
+        self.report(vec![], &states, value)
+    }
+
+    /// Prints the value at each state.
+    fn report(
+        &self,
+        names: Vec<String>,
+        states: &[Value],
+        value: impl Fn(&Value) -> Result<Value, Failure>,
+    ) -> Result<()> {
         let mut report = Report {
             function: &self.method,
+            names,
             results: Vec::new(),
             errors: Vec::new(),
         };
         for (i, state) in states.iter().enumerate() {
-            let value = evaluate(&mechanism, &function, &parameters, state);
-            let value = value.unwrap_or_else(|failure| {
+            let value = value(state).unwrap_or_else(|failure| {
                 report.errors.push(Refused { state: i, failure });
                 Value::Null
             });
@@ -92,8 +112,7 @@ impl Eval {
 }
 
 /// The spec's values of the run-time parameters, but for those set as `NAME=VALUE`.
-fn parameters(mechanism: &Mechanism, set: &[String]) -> Result<Vec<f64>, Usage> {
-    let all = mechanism.parameters();
+fn parameters(all: &[Parameter], set: &[String]) -> Result<Vec<f64>, Usage> {
     let mut values: Vec<f64> = all.iter().map(|p| p.default.to_f64()).collect();
     let mut done: Vec<&str> = Vec::new();
     for text in set {
@@ -173,10 +192,6 @@ fn evaluate(
     parameters: &[f64],
     state: &Value,
 ) -> Result<Value, Failure> {
-    let plain = |message: String| Failure {
-        joint: None,
-        message,
-    };
     let mut inputs = Inputs {
         parameters: parameters.to_vec(),
         ..Inputs::default()
@@ -192,23 +207,13 @@ fn evaluate(
             Argument::V => inputs.v = values,
             Argument::A => inputs.a = values,
             Argument::Tau => inputs.u = values,
-            Argument::State | Argument::Input | Argument::Accelerations | Argument::Time => {
-                return Err(plain("a scene's function has named parts".into()));
-            }
+            _ => return Err(plain("only a scene's function has this argument".into())),
         }
     }
     let (values, refused) = function.evaluate::<f64>(inputs);
     if let Some(joint) = refused {
-        let name = mechanism
-            .joint(bgdyn_codegen::mechanism::CoordinateId(joint))
-            .name
-            .clone();
-        let message =
-            format!("singular mass matrix: joint `{name}` has no inertia left to accelerate");
-        return Err(Failure {
-            joint: Some(name),
-            message,
-        });
+        let joint = bgdyn_codegen::mechanism::CoordinateId(joint);
+        return Err(singular(&mechanism.joint(joint).name));
     }
     if values.iter().any(|x| !x.is_finite()) {
         return Err(plain(
@@ -218,11 +223,29 @@ fn evaluate(
     Ok(shaped(function.shape(), mechanism.nv(), &values))
 }
 
-fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, Failure> {
-    let plain = |message: String| Failure {
+/// A failure that no joint is to blame for.
+fn plain(message: String) -> Failure {
+    Failure {
         joint: None,
         message,
-    };
+    }
+}
+
+/// A finite number; one beyond the range of f64 reads as infinite.
+fn finite(value: &Value) -> Option<f64> {
+    let number = value.as_number()?.to_string().parse().ok();
+    number.filter(|x: &f64| x.is_finite())
+}
+
+/// Joint `name` has no inertia left.
+fn singular(name: &str) -> Failure {
+    Failure {
+        joint: Some(name.to_owned()),
+        message: format!("singular mass matrix: joint `{name}` has no inertia left to accelerate"),
+    }
+}
+
+fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, Failure> {
     let Some(Value::Array(values)) = state.get(name) else {
         return Err(plain(format!("no array `{name}`")));
     };
@@ -235,11 +258,9 @@ fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, 
     }
     let mut numbers = Vec::new();
     for (j, value) in values.iter().enumerate() {
-        // A number beyond the range of f64 reads as infinite.
-        let number = value.as_number().and_then(|n| n.to_string().parse().ok());
-        match number {
-            Some(x) if f64::is_finite(x) => numbers.push(x),
-            _ => {
+        match finite(value) {
+            Some(x) => numbers.push(x),
+            None => {
                 let joint = mechanism
                     .joint(bgdyn_codegen::mechanism::CoordinateId(j))
                     .name

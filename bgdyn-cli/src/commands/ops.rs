@@ -45,7 +45,7 @@ impl Ops {
         let options = self.asked.options()?;
         let spec = SpecFile::open(&self.file)?;
         if spec.is_scene() {
-            return self.scene(&spec.scene()?);
+            return self.scene(&spec.scene()?, &options);
         }
         if self.per_effect {
             let message = "`--per-effect` is for scenes: a file that begins with `scene: 1`";
@@ -70,11 +70,11 @@ impl Ops {
         print(&(report + "\n"))
     }
 
-    fn scene(&self, system: &System) -> Result<()> {
+    fn scene(&self, system: &System, options: &Options) -> Result<()> {
         if self.per_effect {
             return super::per_effect::report(system, self.json, &self.bgdyn);
         }
-        self.report(&scene_functions(system))
+        self.report(&scene_functions(system, options))
     }
 }
 

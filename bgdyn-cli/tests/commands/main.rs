@@ -2,6 +2,7 @@
 
 mod check;
 mod eval;
+mod eval_scenes;
 mod generate;
 mod golden_specs;
 mod ops;

@@ -140,19 +140,21 @@ pub struct Coordinate {
 pub struct Rotor {
     /// The velocity q̇_j.
     pub coordinate: CoordinateId,
-    /// N² J, kg·m² (kg for a displacement).
+    /// J, kg·m² (kg for a displacement).
     pub inertia: Value,
+    /// N, turns of the rotor per unit of the joint.
+    pub ratio: Value,
     /// What it turns with, if it is a full rotor.
     pub carrier: Option<Gyrostat>,
 }
 
-/// The momentum of a rotor in the link it sits on.
+/// How a rotor sits on a link: per unit rate of the joint it has the momentum N J e there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gyrostat {
     /// The link.
     pub link: LinkId,
-    /// N J e in link axes: momentum per unit rate of the joint, kg·m².
-    pub momentum: Vec3<Dd>,
+    /// e, its axis in the link's axes.
+    pub axis: Vec3<Dd>,
 }
 
 /// The bond graph.

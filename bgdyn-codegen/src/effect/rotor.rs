@@ -1,10 +1,12 @@
 //! The rotor of a drive behind a gear: reflected inertia N²·J on the joint's junction, or the full
 //! rotor that also turns with the link it sits on.
 
+use bgdyn_runtime::Dd;
+
 use super::{Effect, Element, Given};
 use crate::bond_graph::{BondGraph, Gyrostat, Rotor as RotorStore};
 use crate::math::Vec3;
-use crate::mechanism::{Mechanism, Value};
+use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
 use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Rotor;
@@ -72,34 +74,45 @@ impl Effect for Rotor {
                 "add `on: …`, or leave `axis` out: the reflected inertia has no direction",
             );
         }
-        given.fixed(&["inertia", "ratio"]);
     }
 
-    fn alter(&self, element: &Element, _: &Mechanism, graph: &mut BondGraph) {
-        let number = |key: &str, default: f64| {
-            let given = element.quantity(key).map(|q| q.value);
-            given.unwrap_or(bgdyn_runtime::Dd::from_f64(default))
+    /// Run-time parameters become the mechanism's, which its graph can refer to.
+    fn reduce(&self, element: &Element, mechanism: &mut Mechanism) {
+        for (key, quantity) in element.quantities() {
+            if let Some(name) = &quantity.parameter {
+                let (meaning, unit) = (element.meaning(key), quantity.dimension.si());
+                mechanism.parameter(name, meaning, quantity.value, unit);
+            }
+        }
+    }
+
+    fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
+        let value = |key: &str, usual: f64| {
+            let Some(quantity) = element.quantity(key) else {
+                return Value::Fixed(Dd::from_f64(usual));
+            };
+            let own = |p: &Parameter| Some(&p.name) == quantity.parameter.as_ref();
+            match mechanism.parameters().iter().position(own) {
+                Some(p) => Value::Parameter(ParameterId(p)),
+                None => Value::Fixed(quantity.value),
+            }
         };
-        let (inertia, ratio) = (number("inertia", 0.0), number("ratio", 1.0));
         let joint = element.name("joint").unwrap_or_default();
         let Some(coordinate) = graph.coordinate_named(joint) else {
             return;
         };
         let carrier = element.name("on").and_then(|name| {
             let site = graph.sites.iter().find(|s| s.name == name)?;
-            let zero = bgdyn_runtime::Dd::ZERO;
-            let z = [zero, zero, bgdyn_runtime::Dd::ONE];
+            let z = [Dd::ZERO, Dd::ZERO, Dd::ONE];
             let axis = Vec3(element.vector("axis").unwrap_or(z));
             let length = axis.dot(axis).sqrt();
-            let unit = site.place.rotation * axis.map(|x| x / length);
-            site.link.map(|link| Gyrostat {
-                link,
-                momentum: unit.map(|x| x * (inertia * ratio)),
-            })
+            let axis = site.place.rotation * axis.map(|x| x / length);
+            site.link.map(|link| Gyrostat { link, axis })
         });
         graph.rotors.push(RotorStore {
             coordinate,
-            inertia: Value::Fixed(inertia * ratio * ratio),
+            inertia: value("inertia", 0.0),
+            ratio: value("ratio", 1.0),
             carrier,
         });
     }

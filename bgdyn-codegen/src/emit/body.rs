@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::code::{Naming, is_part, leaf_of, leaves};
+use super::code::{Naming, is_part, leaves};
 use super::ident;
 use super::writer::Writer;
 use crate::expr::Leaf;
@@ -80,9 +80,9 @@ fn separate_block(
     let mut parameters = Vec::new();
     let mut arguments = Vec::new();
     for &argument in function.method.arguments() {
-        let component = |j| leaf_of(argument, j).is_some_and(|leaf| read.contains(&leaf));
+        let mut components = naming.components(argument).into_iter();
         let part = |leaf: &Leaf| is_part(argument, *leaf);
-        if (0..naming.joints.len()).any(component) || read.iter().any(part) {
+        if components.any(|(leaf, _)| read.contains(&leaf)) || read.iter().any(part) {
             let (name, ty) = (ident(argument.name()), super::argument_type(argument));
             parameters.push(quote! { #name: #ty });
             arguments.push(quote! { #name });
@@ -120,8 +120,10 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
     let read: BTreeSet<Leaf> = function.blocks.iter().flat_map(of_block).collect();
     let mut unread = Vec::new();
+    let naming = Naming::of_model(model);
     for argument in function.method.arguments() {
-        let is_read = |j: usize| leaf_of(*argument, j).is_some_and(|leaf| read.contains(&leaf));
+        let components = naming.components(*argument);
+        let is_read = |j: usize| read.contains(&components[j].0);
         let joints = &model.bond_graph.coordinates;
         let missing: Vec<_> = (0..joints.len()).filter(|&j| !is_read(j)).collect();
         if missing.len() == joints.len() {

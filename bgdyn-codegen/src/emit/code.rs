@@ -7,9 +7,10 @@ use quote::quote;
 
 use super::ident;
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, reachable};
+use crate::interface::SceneInterface;
 use crate::method::Argument;
 use crate::model::Model;
-use crate::scene::{Layout, Scene};
+use crate::scene::{Layout, Part};
 
 /// How tightly a piece of code binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,17 +37,6 @@ pub(super) fn atom(tokens: TokenStream) -> Code {
     }
 }
 
-/// The leaf that holds component `j` of an argument; `None` for an argument with named parts.
-pub(super) fn leaf_of(argument: Argument, j: usize) -> Option<Leaf> {
-    match argument {
-        Argument::Q => Some(Leaf::Position(j)),
-        Argument::V => Some(Leaf::Velocity(j)),
-        Argument::A => Some(Leaf::Acceleration(j)),
-        Argument::Tau => Some(Leaf::Input(j)),
-        Argument::State | Argument::Input | Argument::Accelerations | Argument::Time => None,
-    }
-}
-
 /// Whether a leaf is part of an argument with named parts.
 pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
     match argument {
@@ -58,6 +48,7 @@ pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
         Argument::Accelerations => matches!(leaf, Leaf::Acceleration(_)),
         Argument::Time => leaf == Leaf::Time,
         Argument::Q | Argument::V | Argument::A | Argument::Tau => false,
+        Argument::Canonical | Argument::Modes => false,
     }
 }
 
@@ -84,12 +75,44 @@ impl<'a> Naming<'a> {
     }
 
     /// Of a scene's functions.
-    pub(super) fn of_scene(scene: &'a Scene) -> Self {
+    pub(super) fn of_scene(scene: &'a SceneInterface) -> Self {
         let coordinates = scene.layout.coordinates.iter();
         Naming {
             joints: coordinates.map(|c| c.name.as_str()).collect(),
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(&scene.layout),
+        }
+    }
+
+    /// The leaves that an argument's components hold, with the names of variables for them; none for
+    /// an argument with named parts.
+    pub(super) fn components(&self, argument: Argument) -> Vec<(Leaf, String)> {
+        let of_joints = |leaf: fn(usize) -> Leaf| {
+            let names = self.joints.iter().enumerate();
+            let named =
+                |(j, name): (usize, &&str)| (leaf(j), format!("{}_{name}", argument.name()));
+            names.map(named).collect()
+        };
+        match (argument, self.layout) {
+            (Argument::Q, _) => of_joints(Leaf::Position),
+            (Argument::V, _) => of_joints(Leaf::Velocity),
+            (Argument::A, _) => of_joints(Leaf::Acceleration),
+            (Argument::Tau, _) => of_joints(Leaf::Input),
+            (Argument::Canonical, Some(layout)) => {
+                let names = layout.coordinates.iter().map(|c| &c.name).enumerate();
+                let places = names.clone().take(layout.nq());
+                let places = places.map(|(j, name)| (Leaf::Position(j), format!("q_{name}")));
+                let momenta = names.map(|(j, name)| (Leaf::Velocity(j), format!("p_{name}")));
+                let states = layout.states.iter().enumerate();
+                let states = states.map(|(i, s)| (Leaf::State(i), format!("x_{}", s.name)));
+                places.chain(momenta).chain(states).collect()
+            }
+            (Argument::Modes, Some(layout)) => {
+                let modes = layout.modes.iter().enumerate();
+                let named = |(i, m): (usize, &Part)| (Leaf::Mode(i), format!("{}_mode", m.name));
+                modes.map(named).collect()
+            }
+            _ => vec![],
         }
     }
 

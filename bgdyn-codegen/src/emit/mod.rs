@@ -253,6 +253,8 @@ fn argument_type(argument: Argument) -> TokenStream {
         Argument::State => quote! { &State<T> },
         Argument::Input => quote! { &Input<T> },
         Argument::Accelerations => quote! { &Coordinates<T> },
+        Argument::Canonical => quote! { &__na::SVector<T, N> },
+        Argument::Modes => quote! { &__na::SVector<T, NM> },
         Argument::Time => quote! { T },
     }
 }

@@ -23,6 +23,11 @@ impl Names {
         Ident::new(&name, Span::call_site())
     }
 
+    /// Keeps a name from being handed out.
+    pub(super) fn reserve(&mut self, name: &str) {
+        self.taken.insert(name.to_owned());
+    }
+
     /// The next number.
     pub(super) fn numbered(&mut self) -> Ident {
         loop {

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::code::{Binding, Code, Naming, atom, leaf_of, leaves};
+use super::code::{Binding, Code, Naming, atom, leaves};
 use super::names::Names;
 use super::{ident, number};
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
@@ -47,8 +47,9 @@ impl<'a> Writer<'a> {
         let reserved = ["q", "v", "a", "tau", "k", "refused"];
         let of_scenes = ["state", "input", "acceleration", "t"];
         let of_scenes = of_scenes.iter().filter(|_| naming.layout.is_some());
-        for reserved in reserved.iter().chain(of_scenes) {
-            names.named(reserved);
+        let arguments = function.method.arguments().iter().map(|a| a.name());
+        for reserved in reserved.iter().chain(of_scenes).copied().chain(arguments) {
+            names.reserve(reserved);
         }
         (0..function.blocks.len()).for_each(|b| drop(names.named(&format!("p{b}"))));
         let mut writer = Writer {
@@ -109,28 +110,24 @@ impl<'a> Writer<'a> {
     fn arguments(&mut self, function: &Function, read: &BTreeSet<Leaf>) -> TokenStream {
         let mut bindings = TokenStream::new();
         for &argument in function.method.arguments() {
+            let components = self.naming.components(argument);
+            if !components.iter().any(|(leaf, _)| read.contains(leaf)) {
+                continue;
+            }
             let name = ident(argument.name());
             let mut parts = Vec::new();
-            for j in 0..self.naming.joints.len() {
-                let Some(leaf) = leaf_of(argument, j) else {
-                    continue;
-                };
+            for (leaf, wanted) in components {
                 if !read.contains(&leaf) {
                     parts.push(quote! { _ });
                     continue;
                 }
-                let variable =
-                    self.names
-                        .named(&format!("{}_{}", argument.name(), self.naming.joints[j]));
+                let variable = self.names.named(&wanted);
                 parts.push(quote! { #variable });
                 if let Some(id) = self.graph.find(&Node::Leaf(leaf)) {
                     self.code[id.0 as usize] = Some(atom(quote! { #variable }));
                 }
             }
-            let is_read = |j| leaf_of(argument, j).is_some_and(|leaf| read.contains(&leaf));
-            if (0..self.naming.joints.len()).any(is_read) {
-                bindings.extend(quote! { let [[#(#parts),*]] = #name.data.0; });
-            }
+            bindings.extend(quote! { let [[#(#parts),*]] = #name.data.0; });
         }
         bindings
     }

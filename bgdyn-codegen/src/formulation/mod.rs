@@ -16,7 +16,7 @@ mod solve;
 
 pub use search::Search;
 
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::{BondGraph, Rotor};
 use crate::expr::{Builder, Ex, Leaf};
 use crate::function::Function;
 use crate::mechanism::{ParameterId, Value};
@@ -101,6 +101,16 @@ impl<'g> Arguments<'g> {
             active: true,
         }
     }
+}
+
+/// What a rotor adds to a joint's inertia: N² J.
+fn reflected<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
+    spin(b, rotor) * value(b, rotor.ratio)
+}
+
+/// Momentum of a rotor about its axis per unit rate of the joint: N J.
+fn spin<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
+    value(b, rotor.inertia) * value(b, rotor.ratio)
 }
 
 /// A number of the spec as an expression.

@@ -5,6 +5,7 @@
 
 mod causality;
 mod check;
+mod integration;
 mod layout;
 mod reduce;
 mod signal;
@@ -18,20 +19,10 @@ use crate::spec::{Located, Raw};
 pub(crate) use causality::algebraic_loop;
 pub use causality::{Chain, Solved};
 pub use check::check;
-pub(crate) use check::{context, taken};
+pub(crate) use check::{context, sketch, taken};
+pub use integration::{Integration, Integrator, Pace};
 pub use layout::{Coordinate, Entered, Layout, Level, Part, Store};
 pub use signal::{Drive, Signal};
-
-/// How a scene asks to be run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Integration {
-    /// The method's name.
-    pub method: String,
-    /// Step, s.
-    pub step: f64,
-    /// When it ends, s.
-    pub end: f64,
-}
 
 /// A scene that passed every check.
 #[derive(Clone, Debug, PartialEq)]

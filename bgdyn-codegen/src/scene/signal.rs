@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Fault, Faults, Place};
-use crate::spec::{Dimension, Key, Raw, Reads};
+use crate::spec::{Dimension, Raw};
 
 /// A course in time.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,15 +64,6 @@ pub enum Drive {
 /// The words that a drive may begin with.
 pub(super) const BUILT_IN: &str =
     "constant, ramp, harmonic, table, pd, computed_torque; or `given` for what Rust code gives";
-
-const fn number(name: &'static str, fit: &'static [Dimension], needed: bool) -> Key {
-    Key {
-        name,
-        reads: Reads::Number(fit),
-        needed,
-        about: "",
-    }
-}
 
 /// Reads what drives an input of this dimension; `follows` is the dimension of the coordinate that
 /// a controller would follow, `effort` whether the input is that coordinate's own effort.
@@ -269,15 +260,3 @@ fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal>
     }
     Some(Signal::Table(points))
 }
-
-/// Keys of the settings of a run.
-pub(super) const INTEGRATION: [Key; 3] = [
-    Key {
-        name: "method",
-        reads: Reads::Word(&["rk4"]),
-        needed: false,
-        about: "integration method",
-    },
-    number("step", &[Dimension::Time], false),
-    number("end", &[Dimension::Time], false),
-];

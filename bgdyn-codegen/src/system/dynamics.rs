@@ -36,7 +36,7 @@ pub(super) fn derivatives(system: &System) -> Vec<Function> {
 }
 
 /// Forward dynamics under the efforts of the laws.
-fn driven<'g>(
+pub(super) fn driven<'g>(
     b: &'g Builder,
     forward: &Function,
     laws: &Laws<'g, '_>,
@@ -55,7 +55,7 @@ fn driven<'g>(
 }
 
 /// The joints' accelerations with those of the other coordinates, and ẋ.
-fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+pub(super) fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
     let mut all = joints;
     for j in all.len()..system.scene.layout.nv() {
         all.push(laws.effort(j) / own_inertia(laws, j));
@@ -65,7 +65,7 @@ fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<
 }
 
 /// Inertia of a coordinate that stores its own momentum.
-fn own_inertia<'g>(laws: &Laws<'g, '_>, j: usize) -> Ex<'g> {
+pub(super) fn own_inertia<'g>(laws: &Laws<'g, '_>, j: usize) -> Ex<'g> {
     laws.inertia_of(j).unwrap_or(laws.b.number(1.0))
 }
 
@@ -91,46 +91,23 @@ pub(super) struct Held<'g> {
     pub holding: Vec<Ex<'g>>,
 }
 
-/// Accelerations where some coordinates are held: their rows of M q̈ = f are replaced by q̈_j = r̈_j,
-/// and what is known goes over to the other rows. A coordinate that stores its own momentum has a
-/// row of its own, I_j q̈_j = f_j.
+/// Accelerations where some coordinates are held.
 pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Held<'g> {
-    let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
-    let triangle = laws.method(Method::MassMatrix);
+    let n = system.graph.coordinates.len();
+    let holds = Holds::new(laws);
     let bias = laws.method(Method::Bias);
-    let entry = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
     let force: Vec<Ex<'g>> = (0..n).map(|j| laws.effort(j) - bias[j]).collect();
-    let holds = Holds::new(laws, nv);
-    let (zero, one) = (b.zero(), b.number(1.0));
-    let mut mass: Vec<Vec<Ex<'g>>> = Vec::new();
-    let mut right = force.clone();
-    for i in 0..n {
-        let row = (0..=i).map(|j| {
-            let own = if i == j { one } else { zero };
-            holds.choose(i, own, holds.choose(j, own, entry(i, j)))
-        });
-        mass.push(row.collect());
-        for j in (0..n).filter(|&j| j != i) {
-            if let Some(reference) = holds.counterpart[j] {
-                right[i] = right[i] - holds.choose(j, entry(i, j) * reference, zero);
-            }
-        }
-    }
-    let known = |j: usize, free: Ex<'g>| match holds.counterpart[j] {
-        Some(reference) => holds.choose(j, reference, free),
-        None => free,
-    };
-    let right = right.into_iter().enumerate().map(|(j, f)| known(j, f));
-    let mut accelerations = formulation::solve_symmetric(b, mass, right.collect());
-    for j in n..nv {
-        accelerations.push(known(j, laws.effort(j) / own_inertia(laws, j)));
+    let mut accelerations = holds.solve(b, &force, &holds.counterpart);
+    for j in n..system.scene.layout.nv() {
+        let free = laws.effort(j) / own_inertia(laws, j);
+        accelerations.push(holds.known(j, free, &holds.counterpart));
     }
     let holding = laws.contacts().iter().map(|c| {
         let j = c.coordinate;
         if j >= n {
             return own_inertia(laws, j) * accelerations[j] - laws.effort(j);
         }
-        let moved = (0..n).map(|k| entry(j, k) * accelerations[k]);
+        let moved = (0..n).map(|k| holds.entry(j, k) * accelerations[k]);
         moved.fold(-force[j], |sum, x| sum + x)
     });
     Held {
@@ -139,18 +116,29 @@ pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> 
     }
 }
 
-/// Which coordinates may be held, and how they move then.
-struct Holds<'g> {
+/// Which coordinates may be held, and how they move then: their rows of M q̈ = f are replaced by
+/// q̈_j = r̈_j, and what is known goes over to the other rows. A coordinate that stores its own
+/// momentum has a row of its own, I_j q̈_j = f_j.
+pub(super) struct Holds<'g> {
     half: Ex<'g>,
+    /// Lower triangle of M.
+    triangle: Vec<Ex<'g>>,
+    /// Number of coordinates that M is about.
+    n: usize,
     /// Of each coordinate that may be held, r̈.
-    counterpart: Vec<Option<Ex<'g>>>,
+    pub counterpart: Vec<Option<Ex<'g>>>,
     modes: Vec<Vec<Ex<'g>>>,
 }
 
 impl<'g> Holds<'g> {
-    fn new(laws: &Laws<'g, '_>, nv: usize) -> Self {
+    pub(super) fn new(laws: &Laws<'g, '_>) -> Self {
+        let triangle = laws.method(Method::MassMatrix);
+        let n = (0..).find(|n| n * (n + 1) / 2 == triangle.len());
+        let nv = laws.v.len();
         let mut holds = Holds {
             half: laws.b.number(0.5),
+            n: n.unwrap_or(0),
+            triangle,
             counterpart: vec![None; nv],
             modes: vec![Vec::new(); nv],
         };
@@ -161,10 +149,51 @@ impl<'g> Holds<'g> {
         holds
     }
 
+    /// M_ij
+    pub(super) fn entry(&self, i: usize, j: usize) -> Ex<'g> {
+        self.triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)]
+    }
+
     /// `yes` where coordinate `j` is held, else `no`.
-    fn choose(&self, j: usize, yes: Ex<'g>, no: Ex<'g>) -> Ex<'g> {
+    pub(super) fn choose(&self, j: usize, yes: Ex<'g>, no: Ex<'g>) -> Ex<'g> {
         let modes = self.modes[j].iter();
         modes.fold(no, |no, mode| mode.abs().if_less(self.half, yes, no))
+    }
+
+    /// The coordinate's counterpart's where it is held, else `free`.
+    pub(super) fn known(&self, j: usize, free: Ex<'g>, counterpart: &[Option<Ex<'g>>]) -> Ex<'g> {
+        match counterpart[j] {
+            Some(reference) => self.choose(j, reference, free),
+            None => free,
+        }
+    }
+
+    /// The accelerations of the links' coordinates under these forces, where the counterparts of
+    /// held ones accelerate so.
+    pub(super) fn solve(
+        &self,
+        b: &'g Builder,
+        force: &[Ex<'g>],
+        counterpart: &[Option<Ex<'g>>],
+    ) -> Vec<Ex<'g>> {
+        let (zero, one) = (b.zero(), b.number(1.0));
+        let mut mass: Vec<Vec<Ex<'g>>> = Vec::new();
+        let mut right = force.to_vec();
+        for i in 0..self.n {
+            let row = (0..=i).map(|j| {
+                let own = if i == j { one } else { zero };
+                self.choose(i, own, self.choose(j, own, self.entry(i, j)))
+            });
+            mass.push(row.collect());
+            for j in (0..self.n).filter(|&j| j != i) {
+                if let Some(reference) = counterpart[j] {
+                    right[i] = right[i] - self.choose(j, self.entry(i, j) * reference, zero);
+                }
+            }
+        }
+        let right = right.into_iter().enumerate();
+        let right = right.map(|(j, f)| self.known(j, f, counterpart));
+        formulation::solve_symmetric(b, mass, right.collect())
     }
 }
 

@@ -5,7 +5,9 @@
 //! store their own momentum, and the laws give ẋ.
 
 mod balance;
+mod canonical;
 mod dynamics;
+mod jacobian;
 mod laws;
 mod range;
 mod signals;
@@ -112,22 +114,49 @@ impl System {
         found
     }
 
-    /// The roles this scene has functions for.
+    /// The roles this scene has functions for, with those that its method of integration needs.
     pub fn roles(&self) -> Vec<Role> {
+        self.roles_with(false, false)
+    }
+
+    /// The same, where the Jacobian and the canonical form may be asked for besides.
+    pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<Role> {
         let layout = &self.scene.layout;
+        let method = self.scene.integration.method;
         let has = |role: &Role| match role {
             Role::Inputs => !layout.inputs.is_empty(),
             Role::Events => !layout.events.is_empty(),
             Role::Contacts => !layout.modes.is_empty(),
             Role::Outputs => !self.outputs.is_empty(),
             Role::Derivative | Role::Inverse | Role::Power | Role::Energy => true,
+            Role::Jacobian => jacobian || method.needs_jacobian(),
+            Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
+                canonical || method.needs_canonical()
+            }
         };
         Role::ALL.into_iter().filter(has).collect()
     }
 
     /// The function of a role.
     pub fn function(&self, role: Role) -> Function {
-        let ways = match role {
+        crate::cut::cut(self.chosen(role))
+    }
+
+    /// The same in one block.
+    fn chosen(&self, role: Role) -> Function {
+        let factored = self.ways(role).into_iter().map(Function::factored);
+        let best = match role {
+            Role::Jacobian | Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
+                Function::cheapest(factored)
+            }
+            _ => factored.min_by_key(|f| f.operations().total()),
+        };
+        best.expect("every role has a function")
+    }
+
+    /// The ways to the function of a role, before factoring. All give the same.
+    pub fn ways(&self, role: Role) -> Vec<Function> {
+        match role {
             Role::Derivative => dynamics::derivatives(self),
             Role::Inverse => vec![self.one(role, dynamics::inverse)],
             Role::Inputs => vec![self.one(role, signals::inputs)],
@@ -140,10 +169,11 @@ impl System {
                 let found = outputs(system, &laws, &mut Faults::default());
                 found.into_iter().map(|(_, e)| e).collect()
             })],
-        };
-        let factored = ways.into_iter().map(Function::factored);
-        let best = factored.min_by_key(|f| f.operations().total());
-        crate::cut::cut(best.expect("every role has a function"))
+            Role::Jacobian => jacobian::ways(self),
+            Role::ToCanonical => canonical::momenta(self),
+            Role::FromCanonical => canonical::velocities(self),
+            Role::CanonicalRates => canonical::rates(self),
+        }
     }
 
     /// The derivative with one effort of its own at every coordinate, in place of the accelerations

@@ -1,7 +1,7 @@
 //! The laws hold whatever effects are called for together.
 
 use super::common::{Random, scene};
-use super::laws;
+use super::{forms, laws};
 
 /// An arm that swings and reaches, with a frame to pull at.
 const ARM: &str = "\
@@ -71,6 +71,8 @@ fn random_combinations_of_effects_balance() {
         let text = format!(
             "scene: 1\nmechanism: arm.yaml\neffects:\n{list}inputs: {{ swing: given, reach: given }}\n"
         );
-        laws::hold(&scene(&text, ARM));
+        let system = scene(&text, ARM);
+        laws::hold(&system);
+        forms::hold(&system);
     }
 }

@@ -2,8 +2,9 @@
 
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
+use bgdyn_runtime::Dd;
 
-use super::common::{scene, told, try_scene};
+use super::common::{Random, scene, state, told, try_scene};
 use super::laws;
 use super::one::{BLOCK, MASS, Tried, close, refused, text};
 
@@ -167,12 +168,6 @@ fn what_gears_and_drives_refuse() {
             "unknown-name",
             "slide",
         ),
-        (
-            "it: { type: rotor, joint: slide, inertia: { parameter: j, value: 1 } }",
-            "{ parameter",
-            "misplaced-parameter",
-            "`inertia` of a `rotor` cannot be a run-time parameter",
-        ),
     ]);
 }
 
@@ -193,5 +188,61 @@ fn second_gears_and_rotors_of_drives_are_refused() {
         let refusal = try_scene(&text, BLOCK).expect_err("a refusal");
         let shown = told(&refusal, &text);
         assert!(shown.starts_with(place) && shown.contains(rule), "{shown}");
+    }
+}
+
+/// Inertia and ratio of a rotor learnt later give what they give where they are known.
+#[test]
+fn a_rotors_numbers_may_be_run_time_parameters() {
+    const ARM: &str = "\
+format: 1
+links:
+  - name: upper
+    joint: { name: shoulder, type: revolute, axis: y }
+    mass: 2
+    com: [0.2, 0, 0.1]
+    inertia: { xx: 0.02, yy: 0.03, zz: 0.03 }
+  - name: lower
+    parent: upper
+    joint: { name: elbow, type: revolute, axis: [0.3, 0, 1], origin: { xyz: [0.4, 0, 0] } }
+    mass: 1
+    com: [0.2, 0.05, 0]
+    inertia: { xx: 0.01, yy: 0.01, zz: 0.01 }
+";
+    let made = |inertia: &str, ratio: &str| {
+        let rotor = format!(
+            "{{ type: rotor, joint: elbow, inertia: {inertia}, ratio: {ratio}, on: upper, axis: [1, 2, 0] }}"
+        );
+        let text = format!(
+            "scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products, gravity, motor: {rotor}]\n"
+        );
+        scene(&text, ARM)
+    };
+    let known = made("2e-4", "40");
+    let open = made(
+        "{ parameter: rotor_inertia, value: 1e-4 }",
+        "{ parameter: gear_ratio, value: 50 }",
+    );
+    let names = open.scene.parameters.iter().map(|p| p.name.as_str());
+    assert_eq!(names.collect::<Vec<_>>(), ["rotor_inertia", "gear_ratio"]);
+    super::forms::hold(&open);
+    super::laws::hold(&open);
+    for seed in 0..10 {
+        let at = state(&known, &mut Random(seed), true);
+        let mut set = at.clone();
+        set.parameters = ["2e-4", "40"]
+            .map(|x| x.parse().expect("a number"))
+            .to_vec();
+        for role in [Role::Derivative, Role::Inverse, Role::Power] {
+            let wanted: Vec<Dd> = known.function(role).evaluate(at.clone()).0;
+            let found: Vec<Dd> = open.function(role).evaluate(set.clone()).0;
+            for (found, wanted) in found.iter().zip(&wanted) {
+                let off = (*found - *wanted).to_f64().abs();
+                assert!(
+                    off < 1e-24 * wanted.to_f64().abs().max(1.0),
+                    "{role:?}: {off:e}"
+                );
+            }
+        }
     }
 }

@@ -8,6 +8,8 @@ mod combined;
 mod common;
 mod cylinders;
 mod drives;
+mod dual;
+mod forms;
 mod friction;
 mod hard_cases;
 mod hydraulics;

@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::model::Refusal;
 
-use super::common::{told, try_scene};
+use super::common::{scene, told, try_scene};
 
 const MECHANISM: &str = "\
 format: 1
@@ -63,6 +63,44 @@ outputs: [elbow, hnad]
 integration: { method: magic, step: 0, end: 5 }
 ";
     insta::assert_snapshot!(said(text));
+}
+
+#[test]
+fn a_method_and_what_its_steps_go_by_fit_together() {
+    let mut told = String::new();
+    for run in [
+        "{ method: rk5 }",
+        "{ method: gauss2, tolerance: 1e-6 }",
+        "{ method: rodas4, step: 1 ms, tolerance: 1e-6 }",
+        "{ method: dop853, tolerance: 0 }",
+        "{ step: 1 ms, tolerance: 1 ms }",
+    ] {
+        let text =
+            format!("scene: 1\nmechanism: arm.yaml\neffects: [inertia]\nintegration: {run}\n");
+        told += &said(&text);
+    }
+    insta::assert_snapshot!(told);
+}
+
+#[test]
+fn a_run_is_as_the_scene_says() {
+    use bgdyn_codegen::scene::{Integration, Integrator, Pace};
+    let run = |text: &str| {
+        let text = format!("scene: 1\nmechanism: arm.yaml\neffects: [inertia]\n{text}");
+        scene(&text, MECHANISM).scene.integration
+    };
+    let wanted = |method, pace, end| Integration { method, pace, end };
+    let usual = wanted(Integrator::Rk4, Pace::Step(1e-3), 1.0);
+    assert_eq!(run(""), usual);
+    let text = "integration: { method: rodas4, end: 2 s }";
+    let chosen = wanted(Integrator::Rodas4, Pace::Tolerance(1e-8), 2.0);
+    assert_eq!(run(text), chosen);
+    let text = "integration: { method: dopri5, step: 2 ms }";
+    assert_eq!(run(text), wanted(Integrator::Dopri5, Pace::Step(2e-3), 1.0));
+    for method in Integrator::ALL {
+        let text = format!("integration: {{ method: {} }}", method.name());
+        assert_eq!(run(&text).method, method);
+    }
 }
 
 #[test]

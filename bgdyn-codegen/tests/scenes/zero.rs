@@ -3,7 +3,7 @@
 use bgdyn_codegen::effect::EFFECTS;
 use bgdyn_codegen::emit::{Place, scene_module};
 use bgdyn_codegen::method::Role;
-use bgdyn_codegen::model::scene_functions;
+use bgdyn_codegen::model::{Options, scene_functions};
 use bgdyn_codegen::system::System;
 
 use super::common::{Random, scene, state};
@@ -11,7 +11,8 @@ use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 
 fn text(system: &System) -> String {
     let place = Place::source_text("scene.yaml".into());
-    scene_module(system, &scene_functions(system), &place).to_string()
+    let functions = scene_functions(system, &Options::default());
+    scene_module(system, &functions, &place).to_string()
 }
 
 #[test]
@@ -119,4 +120,45 @@ fn a_strength_of_zero_changes_nothing() {
             }
         }
     }
+}
+
+/// The Jacobian and the canonical form are there where a method of integration needs them, or where
+/// they are asked for, and leave no trace otherwise.
+#[test]
+fn what_no_method_needs_is_not_there() {
+    let mechanism = mechanism("", TENSOR, "");
+    let run_by = |method: &str| {
+        let run = format!("integration: {{ method: {method} }}\n");
+        text(&scene(&(ALL.to_owned() + &run), &mechanism))
+    };
+    let plain = text(&scene(ALL, &mechanism));
+    for trace in ["jacobian", "Slope", "anonical"] {
+        assert!(!plain.contains(trace), "{trace}");
+    }
+    for method in ["rk4", "semi_implicit_euler", "dopri5", "dop853"] {
+        assert_eq!(run_by(method), plain, "{method}");
+    }
+    for method in ["midpoint", "gauss2", "gauss3", "rodas4"] {
+        let text = run_by(method);
+        assert!(
+            text.contains("Slope") && !text.contains("anonical"),
+            "{method}"
+        );
+    }
+    for method in ["canonical_midpoint", "canonical_gauss2", "canonical_gauss3"] {
+        let text = run_by(method);
+        assert!(
+            text.contains("Canonical") && !text.contains("Slope"),
+            "{method}"
+        );
+    }
+    let system = scene(ALL, &mechanism);
+    let options = Options {
+        jacobian: true,
+        canonical: true,
+        ..Options::default()
+    };
+    let place = Place::source_text("scene.yaml".into());
+    let asked = scene_module(&system, &scene_functions(&system, &options), &place).to_string();
+    assert!(asked.contains("Slope") && asked.contains("Canonical"));
 }

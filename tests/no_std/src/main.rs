@@ -1,10 +1,40 @@
-//! A program without std, alloc or a C library that calls every method of a generated model.
+//! A program without std, alloc or a C library that calls every method of a generated model, and runs
+//! a generated scene by every method of integration.
 #![no_std]
 #![no_main]
 
+mod memory;
+
 use bgdyn::nalgebra::SVector;
 
+use bgdyn_sim::{METHODS, Method, Moment, Run, Scene, Tolerance, WithMethod, with_method};
+
 bgdyn::bgdyn!("../../golden/specs/panda7.yaml");
+bgdyn::bgdyn!("../../../specs/scenes/stick_slip.scene.yaml");
+
+type Block = stick_slip::StickSlip<f64>;
+type State = SVector<f64, { stick_slip::N }>;
+type Modes = SVector<f64, { stick_slip::NM }>;
+
+/// Ten steps of the scene, controlled where the method estimates its error.
+struct Steps<'a>(&'a Block, Moment<State, Modes>);
+
+impl WithMethod<State> for Steps<'_> {
+    type Output = State;
+
+    fn with<M: Method<State>>(self, method: M) -> State {
+        let tolerance = Tolerance {
+            absolute: 1e-9,
+            relative: 1e-9,
+        };
+        let run = Run::by(method, Scene::with_differences(self.0), self.1);
+        let mut run = run.compensated().with_tolerance(tolerance);
+        for _ in 0..10 {
+            let _ = core::hint::black_box(run.step(1e-2));
+        }
+        *run.y()
+    }
+}
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
@@ -23,5 +53,10 @@ pub extern "C" fn _start() -> ! {
     core::hint::black_box(arm.kinetic_energy(&x, &x));
     core::hint::black_box(arm.potential_energy(&x));
     let _ = core::hint::black_box(arm.forward_dynamics(&x, &x, &x));
+    let block = core::hint::black_box(Block::default());
+    for name in METHODS {
+        let steps = Steps(&block, Run::begin(&block));
+        let _ = core::hint::black_box(with_method(name, steps));
+    }
     loop {}
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::model::{beside, read_scene, stem};
-use bgdyn_runtime::System;
+use bgdyn_runtime::{Canonical, Slope, System};
 use nalgebra::SVector;
 
 /// States per scene.
@@ -42,6 +42,29 @@ fn generated(path: &Path) -> bgdyn_codegen::system::System {
     system
 }
 
+/// What the evaluator is given.
+fn inputs<const N: usize, const M: usize, const U: usize>(
+    system: &bgdyn_codegen::system::System,
+    y: &SVector<f64, N>,
+    modes: &SVector<f64, M>,
+    u: &SVector<f64, U>,
+    t: f64,
+) -> Inputs<f64> {
+    let (nq, nv) = (system.scene.layout.nq(), system.scene.layout.nv());
+    let parameters = system.scene.parameters.iter();
+    Inputs {
+        q: y.as_slice()[..nq].to_vec(),
+        v: y.as_slice()[nq..nq + nv].to_vec(),
+        a: vec![],
+        x: y.as_slice()[nq + nv..].to_vec(),
+        u: u.as_slice().to_vec(),
+        modes: modes.as_slice().to_vec(),
+        parameters: parameters.map(|p| p.default.to_f64()).collect(),
+        t: Some(t),
+        passed: vec![],
+    }
+}
+
 fn agrees<
     S,
     const N: usize,
@@ -57,8 +80,7 @@ fn agrees<
     S: System<f64, N, M, U, E, Y, P>,
 {
     let system = generated(path);
-    let layout = &system.scene.layout;
-    let (nq, nv) = (layout.nq(), layout.nv());
+    let nq = system.scene.layout.nq();
     let (start, _) = compiled.start();
     let mut random = Random(2007);
     let functions: Vec<(Role, _)> = system
@@ -75,22 +97,7 @@ fn agrees<
         let m = SVector::<f64, M>::from_fn(|_, _| (random.unit() * 1.5).round());
         let u = random.vector(&SVector::<f64, U>::zeros(), 1.0);
         let t = random.unit().abs();
-        let inputs = Inputs {
-            q: y.as_slice()[..nq].to_vec(),
-            v: y.as_slice()[nq..nq + nv].to_vec(),
-            a: vec![],
-            x: y.as_slice()[nq + nv..].to_vec(),
-            u: u.as_slice().to_vec(),
-            modes: m.as_slice().to_vec(),
-            parameters: system
-                .scene
-                .parameters
-                .iter()
-                .map(|p| p.default.to_f64())
-                .collect(),
-            t: Some(t),
-            passed: vec![],
-        };
+        let inputs = inputs(&system, &y, &m, &u, t);
         let name = &system.scene.name;
         let Ok(rates) = compiled.derivative(&y, &m, &u, t) else {
             panic!("{name}: state {k} is singular");
@@ -150,4 +157,88 @@ macro_rules! agree {
 #[test]
 fn compiled_scenes_equal_the_evaluator() {
     scenes::each_scene!(agree);
+}
+
+/// The Jacobian and the canonical form, by the traits.
+fn forms_agree<
+    S,
+    const N: usize,
+    const M: usize,
+    const U: usize,
+    const E: usize,
+    const Y: usize,
+    const P: usize,
+>(
+    compiled: &S,
+    path: &Path,
+) where
+    S: Slope<f64, N, M, U, E, Y, P> + Canonical<f64, N, M, U, E, Y, P>,
+{
+    let system = generated(path);
+    let layout = &system.scene.layout;
+    let (nq, nv) = (layout.nq(), layout.nv());
+    let functions = [
+        Role::Jacobian,
+        Role::ToCanonical,
+        Role::FromCanonical,
+        Role::CanonicalRates,
+    ];
+    let functions = functions.map(|role| system.function(role));
+    let (start, _) = compiled.start();
+    let mut random = Random(1984);
+    let name = &system.scene.name;
+    for k in 0..STATES {
+        let y = random.vector(&start, 0.02);
+        let m = SVector::<f64, M>::from_fn(|_, _| (random.unit() * 1.5).round());
+        let u = random.vector(&SVector::<f64, U>::zeros(), 1.0);
+        let t = random.unit().abs();
+        let [jacobian, to, from, rates] = &functions;
+        let at = |y: &SVector<f64, N>| inputs(&system, y, &m, &u, t);
+
+        let (slope, along_time) = compiled.slope(&y, &m, &u, t).expect("regular");
+        let wanted = jacobian.evaluate(at(&y)).0;
+        let columns = slope.column_iter().map(|c| c.into_owned());
+        for (k, column) in columns.chain([along_time]).enumerate() {
+            let column = column.as_slice();
+            let rate = |i: usize| if k == nq + i { 1.0 } else { 0.0 };
+            let of_positions: Vec<f64> = (0..nq).map(rate).collect();
+            assert_eq!(column[..nq], of_positions, "{name}: q̇ in column {k}");
+            let n = N - nq;
+            assert_eq!(
+                column[nq..],
+                wanted[k * n..(k + 1) * n],
+                "{name}: column {k}"
+            );
+        }
+
+        let z = compiled.to_canonical(&y, &m, &u, t);
+        let mut wanted = y;
+        let momenta = to.evaluate(at(&y)).0;
+        wanted.as_mut_slice()[nq..nq + nv].copy_from_slice(&momenta);
+        assert_eq!(z, wanted, "{name}: momenta, state {k}");
+
+        let back = compiled.from_canonical(&z, &m, &u, t).expect("regular");
+        let velocities = from.evaluate(at(&z)).0;
+        wanted.as_mut_slice()[nq..nq + nv].copy_from_slice(&velocities);
+        assert_eq!(back, wanted, "{name}: velocities, state {k}");
+
+        let found = compiled.canonical_rates(&z, &m, &u, t).expect("regular");
+        let wanted = rates.evaluate(at(&z)).0;
+        assert_eq!(
+            found.as_slice(),
+            wanted,
+            "{name}: canonical rates, state {k}"
+        );
+    }
+}
+
+macro_rules! forms {
+    ($module:ident, $scene:ident, $path:literal) => {
+        forms_agree(&scenes::$module::$scene::<f64>::default(), Path::new($path));
+    };
+}
+
+#[test]
+fn compiled_jacobians_and_canonical_forms_equal_the_evaluator() {
+    scenes::each_formed!(forms);
 }

@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use crate::bond_graph::{BondGraph, Effort, JunctionId, LinkFrame, Modulus, Transformer};
 use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
 use crate::formulation::placement::Placement;
-use crate::formulation::{Arguments, value};
+use crate::formulation::{Arguments, reflected, spin, value};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{CoordinateId, LinkId, Motion, Tensor};
 
@@ -163,7 +163,7 @@ impl<'a, 'g> Sum<'a, 'g> {
         }
         for rotor in &self.graph.rotors {
             let j = rotor.coordinate.0;
-            efforts[j] = efforts[j] + value(self.b, rotor.inertia) * x.a[j];
+            efforts[j] = efforts[j] + reflected(self.b, rotor) * x.a[j];
         }
         efforts
     }
@@ -171,13 +171,11 @@ impl<'a, 'g> Sum<'a, 'g> {
     /// The joints that turn rotors on link i, with N J e in fixed axes.
     fn spinning(&self, i: usize) -> Vec<(usize, Vec3<Ex<'g>>)> {
         let rotors = self.graph.rotors.iter();
-        let on = rotors.filter_map(|r| Some((r.coordinate.0, r.carrier.as_ref()?)));
+        let on = rotors.filter_map(|r| Some((r, r.carrier.as_ref()?)));
         on.filter(|(_, carrier)| carrier.link == LinkId(i))
-            .map(|(j, carrier)| {
-                (
-                    j,
-                    self.placement.rotations[i] * self.b.vector(carrier.momentum),
-                )
+            .map(|(rotor, carrier)| {
+                let momentum = self.b.vector(carrier.axis).scale(spin(self.b, rotor));
+                (rotor.coordinate.0, self.placement.rotations[i] * momentum)
             })
             .collect()
     }
@@ -210,7 +208,7 @@ impl<'a, 'g> Sum<'a, 'g> {
         }
         for rotor in &self.graph.rotors {
             let j = rotor.coordinate.0;
-            mass[j][j] = mass[j][j] + value(self.b, rotor.inertia);
+            mass[j][j] = mass[j][j] + reflected(self.b, rotor);
         }
         mass
     }
@@ -232,7 +230,7 @@ impl<'a, 'g> Sum<'a, 'g> {
         });
         let rotors = self.graph.rotors.iter().fold(self.b.zero(), |sum, rotor| {
             let rate = v[rotor.coordinate.0];
-            sum + value(self.b, rotor.inertia) * rate * rate
+            sum + reflected(self.b, rotor) * rate * rate
         });
         let twice = twice + rotors;
         twice * Dd::from_f64(0.5)

@@ -14,7 +14,7 @@ use super::mass::Momentum;
 use super::motion::Moving;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
-use crate::formulation::{Arguments, value};
+use crate::formulation::{Arguments, reflected, spin};
 use crate::math::Vec3;
 
 /// The rotors of a mechanism.
@@ -44,17 +44,17 @@ impl<'g> Rotors<'g> {
         };
         for rotor in &graph.rotors {
             let j = rotor.coordinate.0;
-            rotors.armature[j] = rotors.armature[j] + value(b, rotor.inertia);
+            rotors.armature[j] = rotors.armature[j] + reflected(b, rotor);
             let Some(carrier) = &rotor.carrier else {
                 continue;
             };
             for (body, of) in geometry.bodies.iter().enumerate() {
                 if let Some((_, place)) = of.links.iter().find(|(l, _)| *l == carrier.link) {
-                    let own = of.axes.transpose() * (place.rotation * carrier.momentum);
+                    let axis = of.axes.transpose() * (place.rotation * carrier.axis);
                     rotors.spinning.push(Spinning {
                         body,
                         joint: j,
-                        momentum: b.vector(own),
+                        momentum: b.vector(axis).scale(spin(b, rotor)),
                     });
                 }
             }

@@ -1,8 +1,11 @@
 //! What a refused spec still tells of its module: how large it is and what its parts are called.
 
+mod scene;
+
 use crate::mechanism::joint::{JOINT_TYPES, Motion};
 use crate::mechanism::name::is_identifier;
 use crate::spec::{Field, Link, Spec};
+pub use scene::SceneInterface;
 
 /// The interface of a module without the mechanism behind it.
 #[derive(Clone, Debug, PartialEq, Eq)]

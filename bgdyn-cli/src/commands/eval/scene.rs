@@ -1,0 +1,241 @@
+//! The functions of scenes at given states.
+//!
+//! A state's vectors are arrays in the order of the generated names, or objects by name; what is
+//! left out is as the scene begins, and 0 where the scene says nothing.
+
+use anyhow::Result;
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Role;
+use bgdyn_codegen::model::Options;
+use bgdyn_codegen::model::Preference;
+use bgdyn_codegen::system::System;
+use serde_json::{Value, json};
+
+use super::{Eval, Failure, finite, parameters, plain, singular, states};
+use crate::usage::Usage;
+
+impl Eval {
+    /// The same of a scene.
+    pub(super) fn scene(&self, system: &System, options: &Options) -> Result<()> {
+        if options.formulation.is_some() || options.prefer != Preference::Operations {
+            let message = "`--formulation` and `--prefer` are of mechanisms: a scene has one way to each of its functions";
+            return Err(Usage(message.into()).into());
+        }
+        let roles = system.roles_with(true, true);
+        let role = roles.iter().copied().find(|r| r.name() == self.method);
+        let role = role.ok_or_else(|| {
+            let known: Vec<&str> = roles.iter().map(|r| r.name()).collect();
+            let (method, known) = (&self.method, known.join(", "));
+            Usage(format!(
+                "this scene has no function `{method}`; it has {known}"
+            ))
+        })?;
+        let tried = Tried {
+            system,
+            role,
+            parameters: parameters(&system.scene.parameters, &self.parameters)?,
+            function: system.function(role),
+            inputs: roles
+                .contains(&Role::Inputs)
+                .then(|| system.function(Role::Inputs)),
+            names: Names::of(system),
+        };
+        let states = states(&self.states)?;
+        self.report(tried.result_names(), &states, |state| tried.value(state))
+    }
+}
+
+/// The names of a scene's numbers.
+struct Names {
+    state: Vec<String>,
+    modes: Vec<String>,
+    inputs: Vec<String>,
+    coordinates: Vec<String>,
+}
+
+impl Names {
+    fn of(system: &System) -> Self {
+        let layout = &system.scene.layout;
+        let stored = layout.coordinates.iter().filter(|c| c.stored);
+        let rates = layout.coordinates.iter().map(|c| c.rate_name.clone());
+        let states = layout.states.iter().map(|s| s.name.clone());
+        let modes = layout.modes.iter().map(|m| format!("{}_mode", m.name));
+        let coordinates = layout.coordinates.iter().map(|c| c.name.clone());
+        Names {
+            state: stored
+                .map(|c| c.name.clone())
+                .chain(rates)
+                .chain(states)
+                .collect(),
+            modes: modes.collect(),
+            inputs: layout.inputs.iter().map(|i| i.name.clone()).collect(),
+            coordinates: coordinates.collect(),
+        }
+    }
+}
+
+/// A function of a scene, and what its arguments are called.
+struct Tried<'a> {
+    system: &'a System,
+    role: Role,
+    parameters: Vec<f64>,
+    function: Function,
+    /// What the scene drives itself, where it has inputs.
+    inputs: Option<Function>,
+    names: Names,
+}
+
+impl Tried<'_> {
+    /// What the results' parts are called.
+    fn result_names(&self) -> Vec<String> {
+        let (layout, names) = (&self.system.scene.layout, &self.names);
+        let parts = |parts: &[bgdyn_codegen::scene::Part]| {
+            parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>()
+        };
+        let named = |named: &[bgdyn_codegen::system::Named]| {
+            named.iter().map(|n| n.name.clone()).collect::<Vec<_>>()
+        };
+        match self.role {
+            Role::Derivative | Role::Jacobian => names.state.clone(),
+            Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => names.state.clone(),
+            Role::Inverse => names.coordinates.clone(),
+            Role::Inputs => names.inputs.clone(),
+            Role::Events => parts(&layout.events),
+            Role::Contacts => parts(&layout.modes),
+            Role::Power | Role::Energy => named(&self.system.entries),
+            Role::Outputs => named(&self.system.outputs),
+        }
+    }
+
+    fn value(&self, state: &Value) -> Result<Value, Failure> {
+        let at = self.arguments(state)?;
+        let (values, refused) = self.function.evaluate(at.clone());
+        if let Some(j) = refused {
+            return Err(singular(&self.names.coordinates[j]));
+        }
+        if values.iter().any(|x| !x.is_finite()) {
+            return Err(plain(
+                "the result is not finite: the input is too large, or outside of what the scene can be in".into(),
+            ));
+        }
+        Ok(self.shaped(&at, &values))
+    }
+
+    fn arguments(&self, state: &Value) -> Result<Inputs<f64>, Failure> {
+        let layout = &self.system.scene.layout;
+        let (nq, nv) = (layout.nq(), layout.nv());
+        let start = &self.system.initial;
+        let numbers = |x: &[bgdyn_runtime::Dd]| x.iter().map(|x| x.to_f64()).collect::<Vec<_>>();
+        let begin = [&start.q, &start.v, &start.x].map(|x| numbers(x)).concat();
+        let canonical = matches!(self.role, Role::FromCanonical | Role::CanonicalRates);
+        let key = if canonical { "z" } else { "y" };
+        if canonical && state.get(key).is_none() {
+            return Err(plain(
+                "no `z`: the state with momenta in place of velocities".into(),
+            ));
+        }
+        let y = vector(state, key, &self.names.state, begin)?;
+        let modes = vector(state, "modes", &self.names.modes, numbers(&start.modes))?;
+        let a = vec![0.0; nv];
+        let t = match state.get("t") {
+            None => 0.0,
+            Some(t) => finite(t).ok_or_else(|| plain("`t` is not a finite number".into()))?,
+        };
+        let mut at = Inputs {
+            q: y[..nq].to_vec(),
+            v: y[nq..nq + nv].to_vec(),
+            a: vector(state, "acceleration", &self.names.coordinates, a)?,
+            x: y[nq + nv..].to_vec(),
+            modes,
+            parameters: self.parameters.clone(),
+            t: Some(t),
+            ..Inputs::default()
+        };
+        let none = vec![0.0; layout.inputs.len()];
+        at.u = vector(state, "given", &self.names.inputs, none)?;
+        // These drive the inputs themselves.
+        let driving = matches!(
+            self.role,
+            Role::Inputs | Role::Jacobian | Role::CanonicalRates
+        );
+        if driving {
+            return Ok(at);
+        }
+        if state.get("input").is_some() {
+            let none = vec![0.0; layout.inputs.len()];
+            at.u = vector(state, "input", &self.names.inputs, none)?;
+        } else if let (false, Some(inputs)) = (canonical, &self.inputs) {
+            at.u = inputs.evaluate(at.clone()).0;
+        }
+        Ok(at)
+    }
+
+    /// The result as it is printed.
+    fn shaped(&self, at: &Inputs<f64>, values: &[f64]) -> Value {
+        let rows = |n: usize| json!(values.chunks(n).collect::<Vec<_>>());
+        let nq = at.q.len();
+        match self.role {
+            Role::Derivative => json!([&at.v[..nq], values].concat()),
+            Role::ToCanonical | Role::FromCanonical => {
+                json!([&at.q[..], values, &at.x[..]].concat())
+            }
+            Role::Power => rows(3),
+            Role::Contacts => rows(4),
+            Role::Jacobian => self.jacobian(nq, values),
+            _ => json!(values),
+        }
+    }
+
+    /// ∂ẏ/∂y row by row, and ∂ẏ/∂t.
+    fn jacobian(&self, nq: usize, values: &[f64]) -> Value {
+        let n = self.names.state.len();
+        let entry = |i: usize, k: usize| match i.checked_sub(nq) {
+            None => f64::from(u8::from(k == nq + i)),
+            Some(i) => values[k * (n - nq) + i],
+        };
+        let row = |i: usize| (0..n).map(|k| entry(i, k)).collect::<Vec<f64>>();
+        json!({
+            "along_state": (0..n).map(row).collect::<Vec<_>>(),
+            "along_time": (0..n).map(|i| entry(i, n)).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// The numbers of an array, or of an object by name; `usual` where nothing is said.
+fn vector(
+    state: &Value,
+    key: &str,
+    names: &[String],
+    usual: Vec<f64>,
+) -> Result<Vec<f64>, Failure> {
+    let number = |name: &str, value: &Value| {
+        finite(value).ok_or_else(|| plain(format!("`{key}`: `{name}` is not a finite number")))
+    };
+    match state.get(key) {
+        None => Ok(usual),
+        Some(Value::Array(values)) if values.len() == names.len() => {
+            let named = names.iter().zip(values);
+            named.map(|(name, value)| number(name, value)).collect()
+        }
+        Some(Value::Array(values)) => {
+            let (found, wanted) = (values.len(), names.len());
+            Err(plain(format!(
+                "`{key}` has {found} components instead of {wanted}: {}",
+                names.join(", ")
+            )))
+        }
+        Some(Value::Object(parts)) => {
+            let mut all = usual;
+            for (name, value) in parts {
+                let i = names.iter().position(|n| n == name).ok_or_else(|| {
+                    let known = names.join(", ");
+                    plain(format!("`{key}` has no part `{name}`; there are {known}"))
+                })?;
+                all[i] = number(name, value)?;
+            }
+            Ok(all)
+        }
+        Some(_) => Err(plain(format!("`{key}` is neither an array nor an object"))),
+    }
+}

@@ -1,0 +1,258 @@
+//! The functions of a scene as methods of its struct.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::body::{self, vector};
+use super::super::code::Naming;
+use super::super::{argument_type, ident, number};
+use super::parts::{
+    Field, coordinate_parts, input_parts, literal, mode_parts, moving_parts, of_named,
+};
+use crate::function::Function;
+use crate::interface::SceneInterface;
+use crate::method::{Method, Role};
+use crate::scene::Layout;
+
+/// The type that a role's function returns, and its parts.
+fn result_of(role: Role, scene: &SceneInterface) -> (&'static str, Vec<Field>) {
+    let layout = &scene.layout;
+    match role {
+        Role::Derivative => ("Rates", moving_parts(layout)),
+        Role::Inverse => ("Coordinates", coordinate_parts(layout)),
+        Role::Inputs => ("Input", input_parts(layout)),
+        Role::Events => ("Events", vec![]),
+        Role::Contacts => ("Contacts", mode_parts(layout)),
+        Role::Power => ("Power", of_named(&scene.entries)),
+        Role::Energy => ("Energy", of_named(&scene.entries)),
+        Role::Outputs => ("Output", of_named(&scene.outputs)),
+        Role::Jacobian | Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
+            ("", vec![])
+        }
+    }
+}
+
+/// A role's function as a method.
+pub(super) fn method(function: &Function, scene: &SceneInterface) -> TokenStream {
+    let Method::Scene(role) = function.method else {
+        unreachable!("a scene has functions of its own only")
+    };
+    let signature = signature(role, scene);
+    let (_, parts) = result_of(role, scene);
+    let (layout, checked) = (&scene.layout, function.shape().checked());
+    let finish = |values: &[TokenStream]| finish(role, layout, &parts, values, checked);
+    let naming = Naming::of_scene(scene);
+    let body::Body { body, blocks } = body::body(function, &naming, finish);
+    let mut docs = vec![
+        format!(" {}", role.summary()),
+        String::new(),
+        format!(
+            " Operations: {} ({}).",
+            function.operations(),
+            function.formulation
+        ),
+    ];
+    if checked {
+        docs.extend([
+            String::new(),
+            " # Errors".into(),
+            " Names the coordinate whose pivot vanishes where the mass matrix is singular.".into(),
+        ]);
+    }
+    quote! {
+        #(#[doc = #docs])*
+        #signature {
+            #body
+        }
+        #(#blocks)*
+    }
+}
+
+/// What stands before the body of a role's method.
+pub(super) fn signature(role: Role, scene: &SceneInterface) -> TokenStream {
+    let method = Method::Scene(role);
+    let name = ident(role.name());
+    let arguments = method.arguments();
+    let names = arguments.iter().map(|a| ident(a.name()));
+    let types = arguments.iter().map(|a| argument_type(*a));
+    let result = match role {
+        Role::Events => quote! { __na::SVector<T, NE> },
+        Role::Jacobian => quote! { (__na::SMatrix<T, N, N>, __na::SVector<T, N>) },
+        Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
+            quote! { __na::SVector<T, N> }
+        }
+        _ => {
+            let name = ident(result_of(role, scene).0);
+            quote! { #name<T> }
+        }
+    };
+    let result = if method.shape().checked() {
+        quote! { ::core::result::Result<#result, T::Singular<{ NV + NX }>> }
+    } else {
+        result
+    };
+    quote! { pub fn #name(&self, #(#names: #types),*) -> #result }
+}
+
+/// The result of a role from its components.
+fn finish(
+    role: Role,
+    layout: &Layout,
+    parts: &[Field],
+    values: &[TokenStream],
+    checked: bool,
+) -> TokenStream {
+    let refuse = checked.then(|| {
+        quote! {
+            T::finish(__rt::vector([T::from_f64(0.0); NV + NX]), refused, &RATE_NAMES)?;
+        }
+    });
+    let ok = |value: TokenStream| match checked {
+        true => quote! { #refuse ::core::result::Result::Ok(#value) },
+        false => value,
+    };
+    match role {
+        Role::Derivative => {
+            let rates = vector(values);
+            let names: Vec<_> = (0..values.len()).map(|i| format_ident!("r{i}")).collect();
+            let velocities = layout.coordinates.iter().filter(|c| c.stored).map(|c| {
+                let rate = ident(&c.rate_name);
+                quote! { state.#rate }
+            });
+            let all: Vec<TokenStream> = velocities
+                .chain(names.iter().map(|n| quote! { #n }))
+                .collect();
+            let whole = literal("Rates", parts, &all);
+            quote! {
+                let rates = T::finish(#rates, refused, &RATE_NAMES)?;
+                let [[#(#names),*]] = rates.data.0;
+                ::core::result::Result::Ok(#whole)
+            }
+        }
+        Role::Events => ok(vector(values)),
+        Role::Contacts => {
+            let one = |v: &[TokenStream]| match v {
+                [slip, slip_rate, holding, limit] => quote! {
+                    __rt::Contact {
+                        slip: #slip, slip_rate: #slip_rate, holding: #holding, limit: #limit
+                    }
+                },
+                _ => unreachable!("four numbers a contact"),
+            };
+            let all: Vec<TokenStream> = values.chunks(4).map(one).collect();
+            ok(literal("Contacts", parts, &all))
+        }
+        Role::Power => {
+            let one = |v: &[TokenStream]| match v {
+                [supplied, stored, dissipated] => quote! {
+                    __rt::Balance {
+                        supplied: #supplied, stored_rate: #stored, dissipated: #dissipated
+                    }
+                },
+                _ => unreachable!("three numbers an entry"),
+            };
+            let all: Vec<TokenStream> = values.chunks(3).map(one).collect();
+            ok(literal("Power", parts, &all))
+        }
+        Role::Inverse => ok(literal("Coordinates", parts, values)),
+        Role::Inputs => ok(literal("Input", parts, values)),
+        Role::Energy => ok(literal("Energy", parts, values)),
+        Role::Outputs => ok(literal("Output", parts, values)),
+        Role::Jacobian => jacobian(layout, values),
+        Role::ToCanonical => to_canonical(layout, values),
+        Role::FromCanonical => from_canonical(layout, values),
+        Role::CanonicalRates => canonical_rates(layout, values),
+    }
+}
+
+/// Results that pass the check for singular matrices and for what is not finite, under names that
+/// begin with `prefix`; where fewer than all rates are given, zeros stand for the rest.
+fn passed(layout: &Layout, prefix: &str, values: &[TokenStream]) -> (TokenStream, Vec<Ident>) {
+    let all = layout.nv() + layout.nx();
+    let zeros = (values.len()..all).map(|_| quote! { T::from_f64(0.0) });
+    let padded: Vec<TokenStream> = values.iter().cloned().chain(zeros).collect();
+    let padded = vector(&padded);
+    let names = (0..all).map(|i| format_ident!("{prefix}{i}"));
+    let names: Vec<Ident> = names.collect();
+    let bound = names
+        .iter()
+        .enumerate()
+        .map(|(i, name)| match i < values.len() {
+            true => quote! { #name },
+            false => quote! { _ },
+        });
+    let statement = quote! {
+        let [[#(#bound),*]] = T::finish(#padded, refused, &RATE_NAMES)?.data.0;
+    };
+    (statement, names[..values.len()].to_vec())
+}
+
+/// Columns of v̇ and ẋ become those of ẏ: q̇ follows the velocities.
+fn jacobian(layout: &Layout, values: &[TokenStream]) -> TokenStream {
+    let (nq, rates) = (layout.nq(), layout.nv() + layout.nx());
+    let columns = values.chunks(rates.max(1)).enumerate();
+    let mut statements = TokenStream::new();
+    let columns: Vec<TokenStream> = columns
+        .map(|(k, column)| {
+            let (statement, names) = passed(layout, &format!("column{k}_"), column);
+            statements.extend(statement);
+            let of_positions = (0..nq).map(|i| {
+                let slope = if k == nq + i { 1.0 } else { 0.0 };
+                let slope = number(slope);
+                quote! { T::from_f64(#slope) }
+            });
+            quote! { [#(#of_positions,)* #(#names),*] }
+        })
+        .collect();
+    let (along_time, along_state) = columns.split_last().expect("a column of time");
+    quote! {
+        #statements
+        ::core::result::Result::Ok((
+            __rt::matrix([#(#along_state),*]),
+            __rt::vector(#along_time),
+        ))
+    }
+}
+
+/// A state with momenta from its parts.
+fn to_canonical(layout: &Layout, momenta: &[TokenStream]) -> TokenStream {
+    let places = layout.coordinates.iter().filter(|c| c.stored);
+    let places = places.map(|c| &c.name);
+    let states = layout.states.iter().map(|s| &s.name);
+    let field = |name: &String| {
+        let name = ident(name);
+        quote! { state.#name }
+    };
+    let all = places.map(field).chain(momenta.iter().cloned());
+    vector(&all.chain(states.map(field)).collect::<Vec<_>>())
+}
+
+/// A state from one with momenta.
+fn from_canonical(layout: &Layout, velocities: &[TokenStream]) -> TokenStream {
+    let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
+    let (statement, names) = passed(layout, "velocity", velocities);
+    let kept = |prefix: &'static str, n: usize| {
+        (0..n)
+            .map(move |i| format_ident!("{prefix}{i}"))
+            .collect::<Vec<_>>()
+    };
+    let (places, states) = (kept("place", nq), kept("state", nx));
+    let skipped = (0..nv).map(|_| quote! { _ });
+    quote! {
+        #statement
+        let [[#(#places,)* #(#skipped,)* #(#states),*]] = z.data.0;
+        ::core::result::Result::Ok(__rt::vector([#(#places,)* #(#names,)* #(#states),*]))
+    }
+}
+
+/// q̇, ṗ, ẋ
+fn canonical_rates(layout: &Layout, values: &[TokenStream]) -> TokenStream {
+    let (velocities, rates) = values.split_at(layout.nq());
+    let (check_velocities, velocities) = passed(layout, "velocity", velocities);
+    let (check_rates, rates) = passed(layout, "rate", rates);
+    quote! {
+        #check_velocities
+        #check_rates
+        ::core::result::Result::Ok(__rt::vector([#(#velocities,)* #(#rates),*]))
+    }
+}

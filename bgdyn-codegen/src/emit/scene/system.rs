@@ -1,0 +1,182 @@
+//! The traits of scenes, implemented by a scene's methods.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::super::constants::size;
+use super::parts::{mode_parts, names_of, of_named};
+use crate::interface::SceneInterface;
+
+/// The implementation of the trait by the named functions.
+pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
+    let layout = &scene.layout;
+    let mode_fields = names_of(&mode_parts(layout));
+    let entries = names_of(&of_named(&scene.entries));
+    let input = if layout.inputs.is_empty() {
+        quote! { *given }
+    } else {
+        quote! {
+            self.input(&State::from_vectors(y, modes), &Input::from_vector(given), t).vector()
+        }
+    };
+    let events = if layout.events.is_empty() {
+        quote! { ::core::result::Result::Ok(__rt::vector([])) }
+    } else {
+        quote! { self.events(&State::from_vectors(y, modes), &Input::from_vector(input), t) }
+    };
+    let contacts = if layout.modes.is_empty() {
+        quote! { ::core::result::Result::Ok([]) }
+    } else {
+        quote! {
+            let all = self.contacts(&State::from_vectors(y, modes), &Input::from_vector(input), t)?;
+            ::core::result::Result::Ok([#(all.#mode_fields),*])
+        }
+    };
+    let output = if scene.outputs.is_empty() {
+        quote! { __rt::vector([]) }
+    } else {
+        quote! {
+            self.output(&State::from_vectors(y, modes), &Input::from_vector(input), t).vector()
+        }
+    };
+    let count = size(entries.len());
+    let velocities = &scene.mode_coordinates;
+    let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
+    quote! {
+        impl<T: __Scalar> __rt::System<T, N, NM, NU, NE, NY, #count> for #name<T> {
+            type Singular = T::Singular<{ NV + NX }>;
+            fn state_names(&self) -> &'static [&'static str; N] { &STATE_NAMES }
+            fn mode_names(&self) -> &'static [&'static str; NM] { &MODE_NAMES }
+            fn input_names(&self) -> &'static [&'static str; NU] { &INPUT_NAMES }
+            fn event_names(&self) -> &'static [&'static str; NE] { &EVENT_NAMES }
+            fn event_modes(&self) -> &'static [::core::option::Option<usize>; NE] { &EVENT_MODES }
+            fn mode_velocities(&self) -> &'static [usize; NM] { &[#(#mode_velocities),*] }
+            fn output_names(&self) -> &'static [&'static str; NY] { &OUTPUT_NAMES }
+            fn entry_names(&self) -> &'static [&'static str; #count] { &ENTRY_NAMES }
+            fn start(&self) -> (__na::SVector<T, N>, __na::SVector<T, NM>) {
+                let start = State::<T>::default();
+                (start.vector(), start.modes())
+            }
+            fn derivative(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<__na::SVector<T, N>, Self::Singular> {
+                let (state, input) = (State::from_vectors(y, modes), Input::from_vector(input));
+                ::core::result::Result::Ok(self.derivative(&state, &input, t)?.vector())
+            }
+            fn input(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                given: &__na::SVector<T, NU>,
+                t: T,
+            ) -> __na::SVector<T, NU> { #input }
+            fn events(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<__na::SVector<T, NE>, Self::Singular> { #events }
+            fn contacts(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<[__rt::Contact<T>; NM], Self::Singular> { #contacts }
+            fn output(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> __na::SVector<T, NY> { #output }
+            fn energy(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> [T; #count] {
+                let (state, input) = (State::from_vectors(y, modes), Input::from_vector(input));
+                let all = self.energy(&state, &input, t);
+                [#(all.#entries),*]
+            }
+            fn power(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<[__rt::Balance<T>; #count], Self::Singular> {
+                let (state, input) = (State::from_vectors(y, modes), Input::from_vector(input));
+                let all = self.power(&state, &input, t)?;
+                ::core::result::Result::Ok([#(all.#entries),*])
+            }
+        }
+    }
+}
+
+/// The implementation of the trait `Slope`.
+pub(super) fn slope_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
+    let count = size(scene.entries.len());
+    quote! {
+        impl<T: __Scalar> __rt::Slope<T, N, NM, NU, NE, NY, #count> for #name<T> {
+            fn slope(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                given: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<
+                (__na::SMatrix<T, N, N>, __na::SVector<T, N>),
+                T::Singular<{ NV + NX }>,
+            > {
+                self.jacobian(&State::from_vectors(y, modes), &Input::from_vector(given), t)
+            }
+        }
+    }
+}
+
+/// The implementation of the trait `Canonical`.
+pub(super) fn canonical_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
+    let count = size(scene.entries.len());
+    let checked = quote! {
+        ::core::result::Result<__na::SVector<T, N>, T::Singular<{ NV + NX }>>
+    };
+    quote! {
+        impl<T: __Scalar> __rt::Canonical<T, N, NM, NU, NE, NY, #count> for #name<T> {
+            fn to_canonical(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                _given: &__na::SVector<T, NU>,
+                _t: T,
+            ) -> __na::SVector<T, N> {
+                self.to_canonical(&State::from_vectors(y, modes))
+            }
+            fn from_canonical(
+                &self,
+                z: &__na::SVector<T, N>,
+                _modes: &__na::SVector<T, NM>,
+                _given: &__na::SVector<T, NU>,
+                _t: T,
+            ) -> #checked {
+                self.from_canonical(z)
+            }
+            fn canonical_rates(
+                &self,
+                z: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                given: &__na::SVector<T, NU>,
+                t: T,
+            ) -> #checked {
+                self.canonical_rates(z, modes, &Input::from_vector(given), t)
+            }
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! What the parts of a scene's module are called: of a sound scene, and of a refused one.
+
+use std::collections::BTreeSet;
+
+use crate::bond_graph;
+use crate::mechanism::name::is_identifier;
+use crate::mechanism::{CoordinateId, Mechanism, Parameter};
+use crate::scene::{self, Coordinate, Initial, Layout, Part, Store};
+use crate::spec::{Dimension, Located, Raw, SceneSpec, parse_scene};
+use crate::system::{Named, System};
+
+/// The interface of a scene's module without the functions behind it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneInterface {
+    /// The scene's name.
+    pub name: String,
+    /// What the state and the inputs are made of.
+    pub layout: Layout,
+    /// Where the scene begins.
+    pub initial: Initial,
+    /// The parts of its outputs.
+    pub outputs: Vec<Named>,
+    /// The entries of its balance of power.
+    pub entries: Vec<Named>,
+    /// The coordinate of each mode's friction.
+    pub mode_coordinates: Vec<usize>,
+    /// Run-time parameters.
+    pub parameters: Vec<Parameter>,
+}
+
+impl SceneInterface {
+    /// Of a sound scene.
+    pub fn of(system: &System) -> Self {
+        SceneInterface {
+            name: system.scene.name.clone(),
+            layout: system.scene.layout.clone(),
+            initial: system.initial.clone(),
+            outputs: system.outputs.clone(),
+            entries: system.entries.clone(),
+            mode_coordinates: system.mode_coordinates(),
+            parameters: system.scene.parameters.clone(),
+        }
+    }
+
+    /// The interface that the author of a refused scene most likely means. `mechanism` is the text
+    /// and the stem of the mechanism's file. Nothing where the scene's stem cannot name a module.
+    pub fn guess(text: &str, stem: &str, mechanism: Option<(&str, &str)>) -> Option<Self> {
+        if !is_identifier(stem) {
+            return None;
+        }
+        let (spec, _) = parse_scene(text);
+        let (written, of) = mechanism.unwrap_or_default();
+        let mechanism = crate::read(written, Some(of)).0;
+        let mut guess = match (&spec, &mechanism) {
+            (Some(spec), Some(mechanism)) => sketched(spec, mechanism),
+            _ => joints(written),
+        };
+        guess.name = stem.to_owned();
+        guess.parameters = super::parameter_words(text)
+            .into_iter()
+            .chain(super::parameter_words(written))
+            .map(parameter)
+            .collect();
+        if let Some(spec) = &spec {
+            guess.add_words(spec);
+        }
+        guess.each_name_once();
+        Some(guess)
+    }
+
+    /// What the file names and nothing declares: parts that the mended scene will have.
+    fn add_words(&mut self, spec: &SceneSpec) {
+        fn words(field: Option<&Vec<Raw>>) -> impl Iterator<Item = String> {
+            let names = field
+                .into_iter()
+                .flatten()
+                .map(|raw| raw.name.value.clone());
+            names.filter(|name| is_identifier(name))
+        }
+        let layout = &mut self.layout;
+        for word in words(spec.initial.value()) {
+            let stored = |c: &Coordinate| c.stored && c.name == word || c.rate_name == word;
+            let known = layout.coordinates.iter().any(stored)
+                || layout.states.iter().any(|s| s.name == word);
+            match word.strip_suffix("_mode") {
+                Some(mode) if layout.modes.iter().all(|m| m.name != mode) => {
+                    layout.modes.push(part(mode));
+                }
+                None if !known => layout.states.push(part(&word)),
+                _ => {}
+            }
+        }
+        for word in words(spec.inputs.value()) {
+            if layout.inputs.iter().all(|i| i.name != word) {
+                layout.inputs.push(part(&word));
+            }
+        }
+        for word in words(spec.outputs.value()) {
+            let axis = |axis: &str| {
+                self.outputs
+                    .iter()
+                    .any(|o| o.name == format!("{word}_{axis}"))
+            };
+            if !axis("x") && self.outputs.iter().all(|o| o.name != word) {
+                self.outputs.push(named(&word));
+            }
+        }
+        for word in words(spec.effects.value()) {
+            if self.entries.iter().all(|e| e.name != word) {
+                self.entries.push(named(&word));
+            }
+        }
+    }
+
+    /// A name that stands twice would be a mistake in the module as well.
+    fn each_name_once(&mut self) {
+        let new = |seen: &mut BTreeSet<String>, name: &str| seen.insert(name.to_owned());
+        let layout = &mut self.layout;
+        let mut seen = BTreeSet::new();
+        let fresh = |c: &Coordinate| new(&mut seen, &c.name) && new(&mut seen, &c.rate_name);
+        layout.coordinates.retain(fresh);
+        layout.states.retain(|s| new(&mut seen, &s.name));
+        layout
+            .modes
+            .retain(|m| new(&mut seen, &format!("{}_mode", m.name)));
+        let mut seen = BTreeSet::new();
+        layout.inputs.retain(|i| new(&mut seen, &i.name));
+        let mut seen = BTreeSet::new();
+        self.outputs.retain(|o| new(&mut seen, &o.name));
+        let mut seen = BTreeSet::new();
+        self.entries.retain(|e| new(&mut seen, &e.name));
+        let mut seen = BTreeSet::new();
+        self.parameters.retain(|p| new(&mut seen, &p.name));
+        self.mode_coordinates = vec![0; layout.modes.len()];
+        let zeros = |n: usize| vec![bgdyn_runtime::Dd::ZERO; n];
+        self.initial = Initial {
+            q: zeros(layout.nq()),
+            v: zeros(layout.nv()),
+            x: zeros(layout.nx()),
+            modes: zeros(layout.modes.len()),
+        };
+    }
+}
+
+/// What a scene that is not sound has all the same.
+fn sketched(spec: &SceneSpec, mechanism: &Mechanism) -> SceneInterface {
+    let (layout, asked) = scene::sketch(spec, mechanism);
+    let sites = bond_graph::build(mechanism).sites;
+    let outputs = asked.iter().flat_map(|Located { value, .. }| {
+        let place = sites.iter().any(|s| s.name == *value);
+        let axes: &[&str] = if place { &["_x", "_y", "_z"] } else { &[""] };
+        axes.iter()
+            .map(move |axis| named(&format!("{value}{axis}")))
+    });
+    SceneInterface {
+        outputs: outputs.filter(|o| is_identifier(&o.name)).collect(),
+        layout,
+        ..nothing()
+    }
+}
+
+/// The joints that a mechanism's text seems to have.
+fn joints(mechanism: &str) -> SceneInterface {
+    let known = super::Interface::guess(mechanism, "mechanism");
+    let names = known.into_iter().flat_map(|known| known.joints);
+    let names = names.filter(|name| is_identifier(name));
+    let coordinate = |(j, name): (usize, String)| Coordinate {
+        rate_name: format!("{name}_rate"),
+        name,
+        store: Store::Links(CoordinateId(j)),
+        stored: true,
+        dimensions: [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
+        starts_with: None,
+    };
+    SceneInterface {
+        layout: Layout {
+            coordinates: names.enumerate().map(coordinate).collect(),
+            ..Layout::default()
+        },
+        ..nothing()
+    }
+}
+
+fn nothing() -> SceneInterface {
+    let own = ["links", "drives", "dropped_velocity_products"];
+    SceneInterface {
+        name: String::new(),
+        layout: Layout::default(),
+        initial: Initial::default(),
+        outputs: Vec::new(),
+        entries: own.map(named).to_vec(),
+        mode_coordinates: Vec::new(),
+        parameters: Vec::new(),
+    }
+}
+
+fn named(name: &str) -> Named {
+    Named {
+        name: name.to_owned(),
+        about: String::new(),
+    }
+}
+
+fn part(name: &str) -> Part {
+    Part {
+        name: name.to_owned(),
+        dimension: Dimension::One,
+        about: String::new(),
+        drives: None,
+        follows: None,
+        entered: None,
+    }
+}
+
+fn parameter(name: String) -> Parameter {
+    Parameter {
+        name,
+        meaning: String::new(),
+        default: bgdyn_runtime::Dd::ZERO,
+        unit: "",
+    }
+}

@@ -1,0 +1,68 @@
+//! The inputs, and what drives them.
+
+use super::super::layout::{Coordinate, Layout};
+use super::super::signal::{self, Drive};
+use crate::fault::{Fault, Faults, unknown_name};
+use crate::spec::Raw;
+
+/// Efforts of coordinates are inputs where the scene names them.
+pub(super) fn add_efforts(layout: &mut Layout, inputs: &[Raw]) {
+    for raw in inputs {
+        let name = &raw.name.value;
+        let known = layout.inputs.iter().any(|input| input.name == *name);
+        let stored = |c: &&Coordinate| c.name == *name && c.stored;
+        if !known && layout.coordinates.iter().any(|c| stored(&c)) {
+            let about = format!("effort at `{name}`");
+            layout.drive(name.clone(), name, name, about);
+        }
+    }
+}
+
+/// What drives each input.
+pub(super) fn drives(layout: &Layout, inputs: &[Raw], faults: &mut Faults) -> Vec<Drive> {
+    let mut drives = vec![Drive::Given; layout.inputs.len()];
+    for raw in inputs {
+        let name = &raw.name.value;
+        let Some(i) = layout.inputs.iter().position(|part| part.name == *name) else {
+            let known: Vec<&str> = layout.inputs.iter().map(|p| p.name.as_str()).collect();
+            let efforts = layout.coordinates.iter().filter(|c| c.stored);
+            let all: Vec<&str> = known
+                .into_iter()
+                .chain(efforts.map(|c| c.name.as_str()))
+                .collect();
+            let message = unknown_name("input", name, &all, &all.join(", "));
+            let fault = Fault::new(&raw.name.place, "unknown-input", message);
+            faults
+                .push(fault.with_help("inputs are efforts of joints and what the effects declare"));
+            continue;
+        };
+        let part = &layout.inputs[i];
+        let follows = part.follows.as_ref().map(|name| layout.position_of(name));
+        let effort = part.drives.is_some_and(|j| layout.coordinates[j].stored);
+        if let Some(drive) = signal::drive(raw, part.dimension, follows, effort, faults) {
+            drives[i] = drive;
+        }
+    }
+    // A reference's derivatives follow from its course: first its rate, then the rate's rate.
+    for (name, of) in [("_acceleration", "_rate"), ("_rate", "")] {
+        for i in 0..drives.len() {
+            let base = layout.inputs[i].name.strip_suffix(name);
+            let base = base.map(|base| format!("{base}{of}"));
+            let found = |base: String| layout.inputs.iter().position(|p| p.name == base);
+            if let (Some(base), Drive::Given) = (base.and_then(found), &drives[i]) {
+                drives[i] = Drive::RateOf(base);
+            }
+        }
+    }
+    // What follows from what the caller gives is given by the caller.
+    for i in 0..drives.len() {
+        let mut root = i;
+        while let Drive::RateOf(base) = drives[root] {
+            root = base;
+        }
+        if drives[root] == Drive::Given {
+            drives[i] = Drive::Given;
+        }
+    }
+    drives
+}

@@ -1,0 +1,182 @@
+//! The one step that makes a [`Scene`]: a scene's file that obeys every rule, or all that breaks
+//! one.
+
+mod effects;
+mod inputs;
+mod run;
+mod state;
+
+use bgdyn_runtime::Dd;
+
+use super::layout::Layout;
+use super::reduce::held;
+use super::{Initial, Scene, Written};
+use crate::fault::{Fault, Faults, Place, unknown_name, wording};
+use crate::mechanism::name::is_identifier;
+use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
+use crate::spec::{Dimension, Field, Located, Raw, SceneSpec};
+pub(crate) use effects::{context, taken};
+
+/// The only version of the format there is.
+const VERSION: f64 = 1.0;
+
+/// Checks a scene against every rule. `stem` is the file's stem, `mechanism` what it names.
+///
+/// The scene is there exactly if nothing refuses it.
+pub fn check(
+    spec: &SceneSpec,
+    stem: Option<&str>,
+    mechanism: &Mechanism,
+) -> (Option<Scene>, Faults) {
+    let mut faults = Faults::default();
+    let scene = scene(spec, stem, mechanism, &mut faults);
+    faults.sort();
+    let sound = spec.complete && !faults.any_fault();
+    (sound.then_some(scene), faults)
+}
+
+/// The state and the outputs that a scene seems to have, whether it is sound or not.
+pub(crate) fn sketch(spec: &SceneSpec, mechanism: &Mechanism) -> (Layout, Vec<Located<String>>) {
+    let scene = scene(spec, None, mechanism, &mut Faults::default());
+    (scene.layout, scene.outputs)
+}
+
+fn scene(spec: &SceneSpec, stem: Option<&str>, whole: &Mechanism, faults: &mut Faults) -> Scene {
+    version(spec, faults);
+    let name = name(spec, stem, faults);
+    let locked = locks(spec, whole, faults);
+    let mechanism = whole.welded(&locked);
+    let (elements, chains) = effects::elements(spec, whole, &mechanism, faults);
+    let integration = run::integration(&spec.integration, faults);
+    let unloaded = mechanism.clone();
+    let empty = Scene {
+        name: String::new(),
+        description: spec.description.value().cloned(),
+        mechanism,
+        elements,
+        chains,
+        layout: Layout::default(),
+        parameters: Vec::new(),
+        drives: Vec::new(),
+        initial: Initial::default(),
+        outputs: given(&spec.outputs)
+            .iter()
+            .map(|o| o.name.clone())
+            .collect(),
+        integration,
+        written: Written {
+            inputs: given(&spec.inputs).to_vec(),
+            initial: given(&spec.initial).to_vec(),
+            unloaded,
+        },
+    };
+    let scene = assembled(empty, faults);
+    Scene {
+        // Where there is none a fault says so.
+        name: name.unwrap_or_default(),
+        ..scene
+    }
+}
+
+/// The scene with its state laid out: what follows from its elements and what the file says.
+pub(in crate::scene) fn assembled(scene: Scene, faults: &mut Faults) -> Scene {
+    let mechanism = effects::reduced(scene.written.unloaded.clone(), &scene.elements);
+    let scene = Scene { mechanism, ..scene };
+    let mut layout = state::layout(&scene.mechanism, &scene.elements);
+    let inputs = &scene.written.inputs;
+    inputs::add_efforts(&mut layout, inputs);
+    // Names of effects that repeat were told already.
+    let told = faults.0.iter().any(|f| f.rule == "repeated-name");
+    if let Some(name) = layout.repeated().filter(|_| !told) {
+        let message = format!("`{name}` is the name of two parts of the state, or of two inputs");
+        let fault = Fault::new(&Place::file(), "repeated-name", message);
+        faults.push(fault.with_help("give one of the effects or inputs another name"));
+    }
+    Scene {
+        parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
+        drives: inputs::drives(&layout, inputs, faults),
+        initial: state::initial(&layout, &scene.written.initial, faults),
+        layout,
+        ..scene
+    }
+}
+
+fn given(field: &Field<Vec<Raw>>) -> &[Raw] {
+    field.value().map_or(&[], Vec::as_slice)
+}
+
+fn version(spec: &SceneSpec, faults: &mut Faults) {
+    if let Some(version) = spec.version.given()
+        && version.value.value != Dd::from_f64(VERSION)
+    {
+        let message = format!("there is no version {} of the format", version.value.text);
+        let fault = Fault::new(&version.place, "version", message);
+        faults.push(fault.with_help("write `scene: 1`"));
+    }
+}
+
+fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<String> {
+    let stem = stem.map(|stem| stem.split('.').next().unwrap_or(stem));
+    match (&spec.name, stem) {
+        (Field::Broken, _) => None,
+        (Field::Absent, None) => {
+            faults.push(wording::no_name(&spec.place));
+            None
+        }
+        (Field::Absent, Some(stem)) => {
+            if !is_identifier(stem) {
+                faults.push(wording::stem_not_identifier(&spec.place, stem));
+            }
+            Some(stem.to_owned())
+        }
+        (Field::Given(name), stem) => {
+            if !is_identifier(&name.value) {
+                faults.push(wording::not_identifier(&name.place, &name.value));
+            }
+            if let Some(stem) = stem.filter(|stem| *stem != name.value) {
+                let (place, name) = (&name.place, &name.value);
+                faults.push(wording::name_differs_from_file(place, name, stem));
+            }
+            Some(name.value.clone())
+        }
+    }
+}
+
+/// The joints that stand still, with the pose in which they hold their links.
+fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Pose)> {
+    let mut locked = Vec::new();
+    for raw in given(&spec.lock) {
+        let name = &raw.name.value;
+        let joints = mechanism.coordinates().iter();
+        let found = joints
+            .copied()
+            .find(|l| mechanism.links()[l.0].joint.name == *name);
+        let Some(link) = found else {
+            let known: Vec<&str> = joint_names(mechanism);
+            let message = unknown_name("moving joint", name, &known, &known.join(", "));
+            let fault = Fault::new(&raw.name.place, "unknown-name", message);
+            faults
+                .push(fault.with_help("`lock` holds joints at their coordinates: `wrist: 30 deg`"));
+            continue;
+        };
+        let joint = &mechanism.links()[link.0].joint;
+        let [position, ..] = dimensions(joint.kind.motion);
+        if let Some(at) = raw.number(&[position], faults) {
+            locked.push((link, held(joint, at.value.value)));
+        }
+    }
+    locked
+}
+
+fn joint_names(mechanism: &Mechanism) -> Vec<&str> {
+    let of = |link: &LinkId| mechanism.links()[link.0].joint.name.as_str();
+    mechanism.coordinates().iter().map(of).collect()
+}
+
+/// What position, velocity and effort of a joint measure.
+fn dimensions(motion: Motion) -> [Dimension; 3] {
+    match motion {
+        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
+        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
+    }
+}

@@ -1,0 +1,143 @@
+//! How the scene is run.
+
+use bgdyn_runtime::Dd;
+
+use super::super::{Integration, Integrator, Pace};
+use crate::fault::{Fault, Faults, Place, unknown_name};
+use crate::spec::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
+
+/// Step and length of a run whose scene says nothing of them, s.
+const STEP: f64 = 1e-3;
+const END: f64 = 1.0;
+
+/// Tolerance of a method that controls its error, where the scene gives neither step nor tolerance.
+const TOLERANCE: f64 = 1e-8;
+
+/// The keys of `integration`.
+const KEYS: [Key; 4] = [
+    key("method", Reads::Word(&[]), "integration method"),
+    key(
+        "step",
+        Reads::Number(&[Dimension::Time]),
+        "length of a step",
+    ),
+    key(
+        "tolerance",
+        Reads::Number(&[Dimension::One]),
+        "error of a step",
+    ),
+    key(
+        "end",
+        Reads::Number(&[Dimension::Time]),
+        "when the run ends",
+    ),
+];
+
+const fn key(name: &'static str, reads: Reads, about: &'static str) -> Key {
+    Key {
+        name,
+        reads,
+        needed: false,
+        about,
+    }
+}
+
+/// The settings of a run; the usual ones where the scene gives none.
+pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integration {
+    let given = field.value().and_then(|raw| settings(raw, faults));
+    given.unwrap_or(Integration {
+        method: Integrator::Rk4,
+        pace: Pace::Step(STEP),
+        end: END,
+    })
+}
+
+fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
+    let what = (
+        "how the scene is run",
+        "`{ method: rk4, step: 1 ms, end: 5 s }`",
+    );
+    let fields = raw.fields(what, &KEYS, faults)?;
+    let method = method(&fields, faults);
+    let end = positive(&fields, "end", "a time such as `5 s`", faults);
+    let step = positive(&fields, "step", "a time such as `1 ms`", faults);
+    let tolerance = positive(&fields, "tolerance", "a number such as `1e-8`", faults);
+    let method = method?;
+    let pace = match (step, tolerance) {
+        (None, None) if method.controls_its_error() => Pace::Tolerance(TOLERANCE),
+        (None, None) => Pace::Step(STEP),
+        (Some((step, _)), None) => Pace::Step(step),
+        (step, Some((tolerance, place))) => {
+            faults.0.extend(misplaced(method, step.is_some(), place));
+            Pace::Tolerance(tolerance)
+        }
+    };
+    let end = end.map_or(END, |(end, _)| end);
+    Some(Integration { method, pace, end })
+}
+
+/// What is wrong with a tolerance at this place.
+fn misplaced(method: Integrator, stepped: bool, place: &Place) -> Option<Fault> {
+    let name = method.name();
+    let choosing = Integrator::ALL.into_iter();
+    let choosing = choosing.filter(|m| m.controls_its_error());
+    let choosing: Vec<&str> = choosing.map(Integrator::name).collect();
+    let (message, help) = match (method.controls_its_error(), stepped) {
+        (false, _) => (
+            format!("`{name}` takes steps of one length: it has no `tolerance`"),
+            format!("write `step: 1 ms`, or take one of {}", choosing.join(", ")),
+        ),
+        (true, true) => (
+            format!("`{name}` goes by a `step` or by a `tolerance`, not by both"),
+            "leave one of them out".to_owned(),
+        ),
+        (true, false) => return None,
+    };
+    Some(Fault::new(place, "integration", message).with_help(help))
+}
+
+/// The number behind a key and its place; one that is not positive is a fault.
+fn positive<'a>(
+    fields: &'a Fields,
+    key: &str,
+    example: &str,
+    faults: &mut Faults,
+) -> Option<(f64, &'a Place)> {
+    let Some(Located {
+        value: Entry::Number(number),
+        place,
+    }) = fields.get(key)
+    else {
+        return None;
+    };
+    if number.value <= Dd::ZERO {
+        let message = format!("`{key}` is {}: it must be greater than 0", number.text);
+        let rule = if key == "tolerance" {
+            "integration"
+        } else {
+            "time"
+        };
+        let fault = Fault::new(place, rule, message);
+        faults.push(fault.with_help(format!("write {example}")));
+    }
+    Some((number.value.to_f64(), place))
+}
+
+/// The method asked for, RK4 where none is; nothing for a name that is none's.
+fn method(fields: &Fields, faults: &mut Faults) -> Option<Integrator> {
+    let Some(Located {
+        value: Entry::Text(word),
+        place,
+    }) = fields.get("method")
+    else {
+        return Some(Integrator::Rk4);
+    };
+    let found = Integrator::named(word);
+    if found.is_none() {
+        let known = Integrator::ALL.map(Integrator::name);
+        let message = unknown_name("integration method", word, &known, &known.join(", "));
+        let fault = Fault::new(place, "unknown-name", message);
+        faults.push(fault.with_help("leave `method` out for `rk4`"));
+    }
+    found
+}

@@ -1,0 +1,144 @@
+//! What the state is made of, and where the run begins.
+
+use std::collections::BTreeMap;
+
+use bgdyn_runtime::Dd;
+
+use super::super::Initial;
+use super::super::layout::{Coordinate, Layout, Store};
+use super::dimensions;
+use crate::effect::Element;
+use crate::fault::{Fault, Faults, unknown_name};
+use crate::mechanism::{CoordinateId, Mechanism, Parameter};
+use crate::spec::{Dimension, Raw};
+
+/// What the state is made of: the joints, then what the effects add.
+pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> Layout {
+    let coordinate = |j: usize| {
+        let joint = mechanism.joint(CoordinateId(j));
+        Coordinate {
+            name: joint.name.clone(),
+            store: Store::Links(CoordinateId(j)),
+            stored: true,
+            dimensions: dimensions(joint.kind.motion),
+            rate_name: format!("{}_rate", joint.name),
+            starts_with: None,
+        }
+    };
+    let mut layout = Layout {
+        coordinates: (0..mechanism.nv()).map(coordinate).collect(),
+        ..Layout::default()
+    };
+    // Coordinates first: others may act on them.
+    let (adding, rest): (Vec<&Element>, Vec<&Element>) =
+        elements.iter().partition(|e| e.effect.adds_coordinate());
+    for element in adding.into_iter().chain(rest) {
+        element.effect.declare(element, &mut layout);
+    }
+    layout
+}
+
+/// The mechanism's run-time parameters, then those of the effects called for.
+pub(super) fn parameters(
+    mechanism: &Mechanism,
+    elements: &[Element],
+    faults: &mut Faults,
+) -> Vec<Parameter> {
+    let mut all = mechanism.parameters().to_vec();
+    for element in elements {
+        for (key, quantity) in element.quantities() {
+            let Some(name) = &quantity.parameter else {
+                continue;
+            };
+            let meaning = element.meaning(key);
+            let unit = quantity.dimension.si();
+            match all.iter_mut().find(|p| p.name == *name) {
+                Some(known) if known.default != quantity.value || known.unit != unit => {
+                    let message = format!("the parameter `{name}` has two values");
+                    let fault = Fault::new(&quantity.place, "parameter-twice", message);
+                    faults.push(fault.with_help("give one of them another name"));
+                }
+                // A payload's is the mechanism's already.
+                Some(known) if known.meaning == meaning => {}
+                Some(known) => known.meaning += &format!(" and {meaning}"),
+                None => all.push(Parameter {
+                    name: name.clone(),
+                    meaning,
+                    default: quantity.value,
+                    unit,
+                }),
+            }
+        }
+    }
+    all
+}
+
+/// Where the run begins.
+pub(super) fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> Initial {
+    let mut initial = Initial {
+        q: vec![Dd::ZERO; layout.nq()],
+        v: vec![Dd::ZERO; layout.nv()],
+        x: vec![Dd::ZERO; layout.nx()],
+        modes: vec![Dd::ZERO; layout.modes.len()],
+    };
+    let mut places: BTreeMap<String, (usize, usize, Dimension)> = BTreeMap::new();
+    for (j, c) in layout.coordinates.iter().enumerate() {
+        if c.stored {
+            places.insert(c.name.clone(), (0, j, c.dimensions[0]));
+        }
+        places.insert(c.rate_name.clone(), (1, j, c.dimensions[1]));
+    }
+    for (i, part) in layout.states.iter().enumerate() {
+        let given = part.entered.map_or(part.dimension, |e| e.dimension);
+        places.insert(part.name.clone(), (2, i, given));
+    }
+    for (i, part) in layout.modes.iter().enumerate() {
+        places.insert(format!("{}_mode", part.name), (3, i, part.dimension));
+    }
+    let mut given: Vec<(usize, usize)> = Vec::new();
+    for raw in entries {
+        let name = &raw.name.value;
+        let Some(&(kind, i, dimension)) = places.get(name) else {
+            let known: Vec<&str> = places.keys().map(String::as_str).collect();
+            let message = unknown_name("part of the state", name, &known, &known.join(", "));
+            let fault = Fault::new(&raw.name.place, "unknown-name", message);
+            faults.push(fault.with_help("joints by their names, rates as `shoulder_rate`"));
+            continue;
+        };
+        if let Some(number) = raw.number(&[dimension], faults) {
+            let value = number.value.value;
+            given.push((kind, i));
+            let entered = layout.states.get(i).filter(|_| kind == 2);
+            if let Some(entered) = entered.and_then(|part| part.entered)
+                && value < entered.least
+            {
+                let (text, least) = (&number.value.text, entered.least.to_f64());
+                let unit = entered.dimension.si();
+                let message = format!("`{name}` begins with {text}, less than {least} {unit}");
+                let fault = Fault::new(&number.place, "initial", message);
+                faults.push(fault.with_help(entered.way_out));
+            }
+            match kind {
+                0 => initial.q[i] = value,
+                1 => initial.v[i] = value,
+                2 => initial.x[i] = value,
+                _ => initial.modes[i] = value,
+            }
+        }
+    }
+    // A drive stands where its joint stands, and moves with it.
+    for (j, c) in layout.coordinates.iter().enumerate() {
+        let with = c
+            .starts_with
+            .as_ref()
+            .and_then(|name| layout.coordinate_named(name));
+        let Some(k) = with else { continue };
+        if !given.contains(&(0, j)) {
+            initial.q[j] = initial.q[k];
+        }
+        if !given.contains(&(1, j)) {
+            initial.v[j] = initial.v[k];
+        }
+    }
+    initial
+}

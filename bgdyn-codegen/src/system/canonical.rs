@@ -1,0 +1,230 @@
+//! The canonical form of a scene: momenta p = ∂T/∂v in place of velocities.
+//!
+//! p = M v at the joints, I v at coordinates that store their own momentum. With P = M v̇ + bias,
+//! ṗ = d/dt(M v) = E − bias + Ṁ v, which asks for no accelerations. A joint that is held has those
+//! of its counterpart, and the effort that holds it is what is left over: ṗ = M v̇ + Ṁ v. Lagrange's
+//! equations say the same as Ṁ v − bias = ∂T/∂q − gravity.
+
+use bgdyn_runtime::Dd;
+
+use super::dynamics::{Holds, held, own_inertia};
+use super::jacobian::{Response, expressions};
+use super::laws::copied;
+use super::{Laws, System};
+use crate::bond_graph::BondGraph;
+use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
+use crate::formulation::Search;
+use crate::function::Function;
+use crate::math::Vec3;
+use crate::method::{Method, Role};
+
+/// How momenta are computed.
+#[derive(Clone, Copy)]
+enum Momenta {
+    /// M times v.
+    Product,
+    /// Inverse dynamics without weight and velocity products at the accelerations v.
+    Recursion,
+}
+
+/// How Ṁ v − bias is computed.
+#[derive(Clone, Copy)]
+enum Drift {
+    /// As it stands, Ṁ v from M v along q̇ = v.
+    Momenta,
+    /// ∂T/∂q − gravity
+    Energy,
+}
+
+impl Momenta {
+    const ALL: [Momenta; 2] = [Momenta::Product, Momenta::Recursion];
+
+    fn name(self) -> &'static str {
+        match self {
+            Momenta::Product => "M v",
+            Momenta::Recursion => "M v as inverse dynamics without weight at accelerations v",
+        }
+    }
+
+    /// Momenta of the joints.
+    fn of_joints<'g>(self, system: &System, laws: &Laws<'g, '_>) -> Vec<Ex<'g>> {
+        let n = system.graph.coordinates.len();
+        match self {
+            Momenta::Product => {
+                let mass = Holds::new(laws);
+                let row = |i: usize| {
+                    let terms = (0..n).map(|j| mass.entry(i, j) * laws.v[j]);
+                    terms.fold(laws.b.zero(), |sum, x| sum + x)
+                };
+                (0..n).map(row).collect()
+            }
+            Momenta::Recursion => {
+                let still = weightless(&system.graph);
+                let velocities = expressions(&laws.v);
+                let placed = |_: &mut Graph, leaf| match leaf {
+                    Leaf::Acceleration(j) => Some(velocities[j]),
+                    _ => None,
+                };
+                copied(laws.b, &still, Method::InverseDynamics, placed)
+            }
+        }
+    }
+
+    /// Momenta of all coordinates.
+    fn of_all<'g>(self, system: &System, laws: &Laws<'g, '_>) -> Vec<Ex<'g>> {
+        let mut all = self.of_joints(system, laws);
+        for j in all.len()..system.scene.layout.nv() {
+            all.push(own_inertia(laws, j) * laws.v[j]);
+        }
+        all
+    }
+}
+
+/// The same graph without weights and velocity products: P = M q̈.
+fn weightless(graph: &BondGraph) -> BondGraph {
+    let mut graph = graph.clone();
+    for source in &mut graph.sources {
+        source.efforts.clear();
+    }
+    graph.gravity = Vec3([Dd::ZERO; 3]);
+    graph.velocity_products = false;
+    graph
+}
+
+/// The ways to the momenta of a state.
+pub(super) fn momenta(system: &System) -> Vec<Function> {
+    let ways = Momenta::ALL.into_iter();
+    let with = |way: Momenta| {
+        let b = Builder::new();
+        let outputs = {
+            let laws = system.laws_under_driven_inputs(&b);
+            expressions(&way.of_all(system, &laws))
+        };
+        system.flat(Role::ToCanonical, way.name().into(), b, outputs)
+    };
+    ways.map(with).collect()
+}
+
+/// The ways to the velocities of momenta, which stand in their place among the leaves.
+pub(super) fn velocities(system: &System) -> Vec<Function> {
+    let search = Search::new(&system.graph, None);
+    let ways = search.forward_dynamics().iter();
+    let with = |forward: &Function| {
+        let b = Builder::new();
+        let outputs = expressions(&solved(system, &b, forward));
+        let name = format!("M⁻¹ p; {}", forward.formulation);
+        Function {
+            ordered: forward.ordered,
+            ..system.flat(Role::FromCanonical, name, b, outputs)
+        }
+    };
+    ways.map(with).collect()
+}
+
+/// v = M⁻¹ p by a way to forward dynamics.
+fn solved<'g>(system: &System, b: &'g Builder, forward: &Function) -> Vec<Ex<'g>> {
+    let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
+    let laws = system.laws_under_driven_inputs(b);
+    let momenta = &laws.v;
+    let mut all = Response::new(forward).solve(b, &momenta[..n]);
+    for j in n..nv {
+        all.push(momenta[j] / own_inertia(&laws, j));
+    }
+    all
+}
+
+/// The ways to the rates at momenta: q̇, ṗ, ẋ.
+pub(super) fn rates(system: &System) -> Vec<Function> {
+    // Without velocity products the bias lacks what Lagrange's equations have.
+    let drifts: &[Drift] = match system.graph.velocity_products {
+        true => &[Drift::Momenta, Drift::Energy],
+        false => &[Drift::Momenta],
+    };
+    let search = Search::new(&system.graph, None);
+    let Some(forward) = search.forward_dynamics().first() else {
+        return vec![];
+    };
+    let with = |&drift: &Drift| {
+        let (at_velocities, outputs) = at_velocities(system, drift);
+        let b = Builder::new();
+        let outputs = {
+            let velocities = expressions(&solved(system, &b, forward));
+            let placed = |_: &mut Graph, leaf| match leaf {
+                Leaf::Velocity(j) => Some(velocities[j]),
+                _ => None,
+            };
+            b.with_graph(|g| copy_into(g, &at_velocities, &outputs, placed))
+        };
+        let name = format!("{}; M⁻¹ p; {}", drift.name(), forward.formulation);
+        Function {
+            ordered: forward.ordered,
+            ..system.flat(Role::CanonicalRates, name, b, outputs)
+        }
+    };
+    drifts.iter().map(with).collect()
+}
+
+/// q̇, ṗ and ẋ, with velocities among the leaves.
+fn at_velocities(system: &System, drift: Drift) -> (Graph, Vec<Expr>) {
+    let b = Builder::new();
+    let (nq, n) = (system.scene.layout.nq(), system.graph.coordinates.len());
+    let outputs = {
+        let laws = system.laws_under_driven_inputs(&b);
+        let bias = laws.method(Method::Bias);
+        let drifts = drift.of_joints(system, &laws, &bias);
+        let free = |j: usize| laws.effort(j) + drifts.get(j).copied().unwrap_or(b.zero());
+        let mut momenta: Vec<Ex<'_>> = (0..laws.v.len()).map(free).collect();
+        if !laws.contacts().is_empty() {
+            let accelerations = held(system, &laws, &b).accelerations;
+            let holds = Holds::new(&laws);
+            for (j, momentum) in momenta.iter_mut().enumerate() {
+                let moved = if j < n {
+                    let terms = (0..n).map(|k| holds.entry(j, k) * accelerations[k]);
+                    terms.fold(bias[j] + drifts[j], |sum, x| sum + x)
+                } else {
+                    own_inertia(&laws, j) * accelerations[j]
+                };
+                *momentum = holds.choose(j, moved, *momentum);
+            }
+        }
+        let places = laws.v[..nq].iter().copied();
+        let states = laws.rates().iter().copied();
+        let all: Vec<Ex<'_>> = places.chain(momenta).chain(states).collect();
+        expressions(&all)
+    };
+    (b.into_graph(), outputs)
+}
+
+impl Drift {
+    fn name(self) -> &'static str {
+        match self {
+            Drift::Momenta => "ṗ = E − bias + Ṁ v",
+            Drift::Energy => "ṗ = E − gravity + ∂T/∂q",
+        }
+    }
+
+    /// Ṁ v − bias at the joints.
+    fn of_joints<'g>(self, system: &System, laws: &Laws<'g, '_>, bias: &[Ex<'g>]) -> Vec<Ex<'g>> {
+        let b = laws.b;
+        let n = system.graph.coordinates.len();
+        match self {
+            Drift::Momenta => {
+                let rates = expressions(&laws.v);
+                let mut along = Tangent::new(|_: &mut Graph, leaf| match leaf {
+                    Leaf::Position(j) => Some(rates[j]),
+                    _ => None,
+                });
+                let momenta = expressions(&Momenta::Product.of_joints(system, laws)).into_iter();
+                let moved = momenta.map(|p| b.ex(b.with_graph(|g| along.of(g, p))));
+                moved.zip(bias).map(|(moved, &bias)| moved - bias).collect()
+            }
+            Drift::Energy => {
+                let kinetic = laws.method(Method::KineticEnergy)[0];
+                let gravity = laws.method(Method::Gravity);
+                (0..n)
+                    .map(|j| laws.slope(kinetic, j) - gravity[j])
+                    .collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! ∂ẏ/∂y and ∂ẏ/∂t of a scene, along the inputs that it drives itself.
+//!
+//! Two ways. The graph of ẏ differentiated; or, as P(q, v, v̇) = E holds wherever the motion goes,
+//! M ∂v̇ = ∂E − ∂P at fixed v̇, with ∂P as the recursion makes it. Held joints have ∂v̇ = ∂r̈ in place
+//! of their row. The cheaper way is taken.
+
+use bgdyn_runtime::Dd;
+
+use super::dynamics::{Holds, driven, joined, own_inertia, rates};
+use super::laws::copied;
+use super::{Laws, Own, System, signals};
+use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
+use crate::formulation::Search;
+use crate::function::Function;
+use crate::method::{Method, Role};
+
+/// Coordinates up to which ẏ's own graph is differentiated to see whether that costs less: beyond
+/// them it costs more, and its factoring takes long.
+const SMALL: usize = 4;
+
+/// The ways to the Jacobian: column by column, y's parts and then t, the rates v̇ and ẋ of each.
+pub(super) fn ways(system: &System) -> Vec<Function> {
+    let mut ways = implicit(system);
+    if system.graph.coordinates.len() <= SMALL {
+        ways.push(differentiated(system));
+    }
+    ways
+}
+
+/// What the columns are slopes along.
+fn leaves(system: &System) -> impl Iterator<Item = Leaf> + use<> {
+    let layout = &system.scene.layout;
+    let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
+    let y = (0..nq)
+        .map(Leaf::Position)
+        .chain((0..nv).map(Leaf::Velocity));
+    y.chain((0..nx).map(Leaf::State)).chain([Leaf::Time])
+}
+
+/// ∂/∂leaf of expressions.
+fn slopes<'g>(b: &'g Builder, leaf: Leaf, of: impl Iterator<Item = Ex<'g>>) -> Vec<Ex<'g>> {
+    let seed = |g: &mut Graph, l| (l == leaf).then(|| g.constant(Dd::ONE));
+    let mut tangent = Tangent::new(seed);
+    of.map(|x| x.expr())
+        .map(|x| b.ex(b.with_graph(|g| tangent.of(g, x))))
+        .collect()
+}
+
+/// The expressions without their graph.
+pub(super) fn expressions(all: &[Ex<'_>]) -> Vec<Expr> {
+    all.iter().map(|x| x.expr()).collect()
+}
+
+/// The graph of ẏ differentiated.
+fn differentiated(system: &System) -> Function {
+    let b = Builder::new();
+    let derivative = system.chosen(Role::Derivative);
+    let outputs: Vec<Expr> = {
+        let inputs = expressions(&system.driven_inputs(&b));
+        let placed = |_: &mut Graph, leaf| match leaf {
+            Leaf::Input(i) => Some(inputs[i]),
+            _ => None,
+        };
+        let of = &derivative.blocks[0].outputs;
+        let rates = b.with_graph(|g| copy_into(g, &derivative.graph, of, placed));
+        let rates: Vec<Ex<'_>> = rates.into_iter().map(|e| b.ex(e)).collect();
+        let columns = leaves(system).map(|leaf| slopes(&b, leaf, rates.iter().copied()));
+        expressions(&columns.flatten().collect::<Vec<_>>())
+    };
+    let name = format!("{}; differentiated", derivative.formulation);
+    Function {
+        ordered: derivative.ordered,
+        ..system.flat(Role::Jacobian, name, b, outputs)
+    }
+}
+
+/// M ∂v̇ = ∂E − ∂P, with each way to M⁻¹.
+fn implicit(system: &System) -> Vec<Function> {
+    if !system.scene.layout.modes.is_empty() {
+        let b = Builder::new();
+        let columns = {
+            let laws = system.laws_under_driven_inputs(&b);
+            let holds = Holds::new(&laws);
+            let rates = rates(system, &laws, &b);
+            columns(system, &laws, &rates, &holds, None)
+        };
+        let name = "M ∂v̇ = ∂E − ∂P, joints held or free".to_owned();
+        return vec![system.flat(Role::Jacobian, name, b, columns)];
+    }
+    let search = Search::new(&system.graph, None);
+    let ways = search.forward_dynamics().iter();
+    let with = |forward: &Function| {
+        let b = Builder::new();
+        let columns = {
+            let laws = system.laws_under_driven_inputs(&b);
+            let holds = Holds::new(&laws);
+            let joints = driven(&b, forward, &laws, system);
+            let rates = joined(system, &laws, joints);
+            let response = Response::new(forward);
+            columns(system, &laws, &rates, &holds, Some(&response))
+        };
+        let name = format!("M ∂v̇ = ∂E − ∂P; {}", forward.formulation);
+        Function {
+            ordered: forward.ordered,
+            ..system.flat(Role::Jacobian, name, b, columns)
+        }
+    };
+    ways.map(with).collect()
+}
+
+/// The columns of the Jacobian. M⁻¹ f is that of `response`, or of the joints held or free.
+fn columns<'g>(
+    system: &System,
+    laws: &Laws<'g, '_>,
+    rates: &[Ex<'g>],
+    holds: &Holds<'g>,
+    response: Option<&Response>,
+) -> Vec<Expr> {
+    let b = laws.b;
+    let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
+    let at = expressions(&rates[..n]);
+    let links = Method::InverseDynamicsDerivatives;
+    let links = copied(b, &system.graph, links, |_, leaf| match leaf {
+        Leaf::Acceleration(j) => Some(at[j]),
+        _ => None,
+    });
+    // ∂P_i/∂leaf
+    let of_links = |i: usize, leaf| match leaf {
+        Leaf::Position(j) if j < n => links[i * n + j],
+        Leaf::Velocity(j) if j < n => links[(n + i) * n + j],
+        _ => b.zero(),
+    };
+    let mut all = Vec::new();
+    for leaf in leaves(system) {
+        let efforts = (0..n).map(|j| laws.effort(j));
+        let own = (n..nv).map(|j| laws.effort(j) / own_inertia(laws, j));
+        let states = laws.rates().iter().copied();
+        let driven = slopes(b, leaf, efforts.chain(own).chain(states));
+        let counterpart: Vec<Option<Ex<'g>>> = (holds.counterpart.iter())
+            .map(|r| r.map(|r| slopes(b, leaf, [r].into_iter())[0]))
+            .collect();
+        let force: Vec<Ex<'g>> = (0..n).map(|i| driven[i] - of_links(i, leaf)).collect();
+        all.extend(match response {
+            Some(response) => response.solve(b, &force),
+            None => holds.solve(b, &force, &counterpart),
+        });
+        all.extend((n..nv).map(|j| holds.known(j, driven[j], &counterpart)));
+        all.extend_from_slice(&driven[nv..]);
+    }
+    expressions(&all)
+}
+
+/// M⁻¹ f by a way to forward dynamics, which is linear in the efforts: its derivative along f.
+pub(super) struct Response {
+    graph: Graph,
+    /// Of the efforts that stand for the accelerations among the leaves.
+    outputs: Vec<Expr>,
+}
+
+impl Response {
+    pub(super) fn new(forward: &Function) -> Self {
+        let b = Builder::from(forward.graph.clone());
+        let mut tangent = Tangent::new(|g: &mut Graph, leaf| match leaf {
+            Leaf::Input(j) => Some(g.leaf(Leaf::Acceleration(j))),
+            _ => None,
+        });
+        let accelerations = &forward.blocks[0].outputs;
+        let outputs = b.with_graph(|g| accelerations.iter().map(|&e| tangent.of(g, e)).collect());
+        Response {
+            graph: b.into_graph(),
+            outputs,
+        }
+    }
+
+    /// M⁻¹ f
+    pub(super) fn solve<'g>(&self, b: &'g Builder, force: &[Ex<'g>]) -> Vec<Ex<'g>> {
+        let force = expressions(force);
+        let placed = |_: &mut Graph, leaf| match leaf {
+            Leaf::Acceleration(j) => Some(force[j]),
+            _ => None,
+        };
+        let copies = b.with_graph(|g| copy_into(g, &self.graph, &self.outputs, placed));
+        copies.into_iter().map(|e| b.ex(e)).collect()
+    }
+}
+
+impl System {
+    /// The inputs: what the scene drives itself, and the rest as given.
+    pub(super) fn driven_inputs<'g>(&self, b: &'g Builder) -> Vec<Ex<'g>> {
+        match self.scene.layout.inputs.is_empty() {
+            true => vec![],
+            false => signals::inputs(self, b),
+        }
+    }
+
+    /// The laws under those inputs.
+    pub(super) fn laws_under_driven_inputs<'g, 'a>(&'a self, b: &'g Builder) -> Laws<'g, 'a> {
+        let inputs = || self.driven_inputs(b);
+        Laws::under(b, &self.scene, &self.graph, Own::Inputs, inputs)
+    }
+}

@@ -1,0 +1,131 @@
+//! What an effect's law adds.
+
+use bgdyn_runtime::Dd;
+
+use super::{Condition, Contact, Laws, Port, Reading};
+use crate::effect::Element;
+use crate::expr::Ex;
+
+impl<'g> Laws<'g, '_> {
+    /// An effort along a port.
+    pub fn push(&mut self, port: &Port<'g>, effort: Ex<'g>) {
+        for &(j, transformer) in &port.transformers {
+            self.efforts[j] = self.efforts[j] + transformer * effort;
+        }
+    }
+
+    /// An effort on the element's own coordinate.
+    pub fn push_own(&mut self, element: &Element, effort: Ex<'g>) {
+        if let Some(j) = self.scene.layout.coordinate_named(&element.name) {
+            self.efforts[j] = self.efforts[j] + effort;
+        }
+    }
+
+    /// An effort on one coordinate, by its number.
+    pub fn push_on(&mut self, coordinate: usize, effort: Ex<'g>) {
+        self.efforts[coordinate] = self.efforts[coordinate] + effort;
+    }
+
+    /// A gear between a coordinate's own effort and the coordinate.
+    pub fn gear(&mut self, name: &str, efficiency: Ex<'g>) {
+        if let Some(j) = self.scene.layout.coordinate_named(name) {
+            self.gears.insert(j, efficiency);
+            let lost = (self.own_effort(j) - self.drive(j)) * self.v[j];
+            self.dissipate(lost);
+        }
+    }
+
+    /// The inertia of the coordinate that the element adds, and the kinetic (magnetic) energy with
+    /// it: ½ I v².
+    pub fn inertia(&mut self, element: &Element, inertia: Ex<'g>) {
+        if let Some(j) = self.scene.layout.coordinate_named(&element.name) {
+            self.inertias.insert(j, inertia);
+            let rate = self.v[j];
+            self.store(inertia * rate * rate * Dd::from_f64(0.5));
+        }
+    }
+
+    /// ẋ of a first-order state; several effects may add to it.
+    pub fn flow(&mut self, state: &str, rate: Ex<'g>) {
+        if let Some(i) = self
+            .scene
+            .layout
+            .states
+            .iter()
+            .position(|s| s.name == state)
+        {
+            self.rates[i] = self.rates[i] + rate;
+        }
+    }
+
+    /// Power that the element takes from outside, W.
+    pub fn supply(&mut self, power: Ex<'g>) {
+        let balance = &mut self.balances[self.at];
+        balance.supplied = balance.supplied + power;
+    }
+
+    /// Power that another element takes from outside, W: a source of pressure gives it to whatever
+    /// lets fluid run.
+    pub fn supply_by(&mut self, element: &str, power: Ex<'g>) {
+        let found = self.scene.elements.iter().position(|e| e.name == element);
+        if let Some(at) = found {
+            let balance = &mut self.balances[at];
+            balance.supplied = balance.supplied + power;
+        }
+    }
+
+    /// Energy that the element stores, J.
+    pub fn store(&mut self, energy: Ex<'g>) {
+        let balance = &mut self.balances[self.at];
+        balance.stored = balance.stored + energy;
+    }
+
+    /// Power that the element dissipates, W.
+    pub fn dissipate(&mut self, power: Ex<'g>) {
+        let balance = &mut self.balances[self.at];
+        balance.dissipated = balance.dissipated + power;
+    }
+
+    /// A value whose fall through zero is the event with this name.
+    pub fn event(&mut self, name: &str, value: Ex<'g>) {
+        self.events.insert(name.to_owned(), value);
+    }
+
+    /// Dry friction that can hold its coordinate.
+    pub fn contact(&mut self, mode: &str, port: &Port<'g>, reference: [Ex<'g>; 2], limit: Ex<'g>) {
+        let modes = &self.scene.layout.modes;
+        if let (Some(mode), Some(&(coordinate, _))) = (
+            modes.iter().position(|m| m.name == mode),
+            port.transformers.first(),
+        ) {
+            self.contacts.push(Contact {
+                element: self.at,
+                mode,
+                coordinate,
+                slip: port.rate - reference[0],
+                reference,
+                limit,
+            });
+        }
+    }
+
+    /// A quantity worth knowing.
+    pub fn reading(&mut self, name: String, value: Ex<'g>, about: String) {
+        self.readings.push(Reading { name, value, about });
+    }
+
+    /// A value that must be positive, tried at the start and over the limits of the joints.
+    pub fn stays_positive(&mut self, value: Ex<'g>, what: String, way_out: &'static str) {
+        self.conditions.push(Condition {
+            element: self.at,
+            value,
+            what,
+            way_out,
+        });
+    }
+
+    /// A value that one element gives to others: the pressure of a node.
+    pub fn share(&mut self, node: &str, what: &'static str, value: Ex<'g>) {
+        self.shared.insert((node.to_owned(), what), value);
+    }
+}

@@ -1,0 +1,206 @@
+//! What the effects' laws see and what they add: the sums on the junctions of one scene.
+
+mod adds;
+mod joined;
+mod reads;
+
+use std::collections::BTreeMap;
+
+use crate::bond_graph::{BondGraph, SiteId};
+use crate::expr::{Builder, Ex, Graph, Leaf, copy_into};
+use crate::formulation::Search;
+use crate::math::{Mat3, Vec3};
+use crate::method::Method;
+use crate::scene::Scene;
+
+/// Where an effort acts: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
+#[derive(Clone, Debug)]
+pub struct Port<'g> {
+    /// s, rad or m.
+    pub place: Ex<'g>,
+    /// ṡ = Σ ∂s/∂q_j q̇_j
+    pub rate: Ex<'g>,
+    /// Coordinates with their ∂s/∂q_j.
+    pub transformers: Vec<(usize, Ex<'g>)>,
+}
+
+/// What an element supplies, stores and dissipates.
+#[derive(Clone, Copy, Debug)]
+pub struct Balance<'g> {
+    /// Power that comes from outside, W.
+    pub supplied: Ex<'g>,
+    /// Energy stored, J.
+    pub stored: Ex<'g>,
+    /// Power that is lost, W.
+    pub dissipated: Ex<'g>,
+}
+
+/// Dry friction that can hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact<'g> {
+    /// The element it belongs to, by its place in the scene.
+    pub element: usize,
+    /// The mode that tells whether it holds.
+    pub mode: usize,
+    /// The coordinate it acts on.
+    pub coordinate: usize,
+    /// Rate of the coordinate against the counterpart.
+    pub slip: Ex<'g>,
+    /// Speed and acceleration of the counterpart.
+    pub reference: [Ex<'g>; 2],
+    /// The largest effort it holds.
+    pub limit: Ex<'g>,
+}
+
+/// A quantity worth knowing: a force, a pressure.
+#[derive(Clone, Debug)]
+pub struct Reading<'g> {
+    /// `belt_force`
+    pub name: String,
+    /// Its value.
+    pub value: Ex<'g>,
+    /// Unit and meaning.
+    pub about: String,
+}
+
+/// A value that must be positive.
+#[derive(Clone, Debug)]
+pub(super) struct Condition<'g> {
+    /// The element that asks for it, by its place in the scene.
+    pub element: usize,
+    /// The value.
+    pub value: Ex<'g>,
+    /// What it is, with its unit.
+    pub what: String,
+    /// What to do where it is not.
+    pub way_out: &'static str,
+}
+
+/// What the coordinates' own efforts (joint efforts, voltages) are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Own {
+    /// Inputs, where the scene has them.
+    Inputs,
+    /// Sought: the laws run as if there were none, and no drive has a limit.
+    Sought,
+    /// One at every coordinate, in place of its acceleration among the leaves; no drive has a
+    /// limit. Undoes what [`Own::Sought`] finds.
+    Everywhere,
+}
+
+/// The sums that the laws of a scene's effects add to.
+pub struct Laws<'g, 'a> {
+    /// The graph under construction.
+    pub b: &'g Builder,
+    /// Positions.
+    pub q: Vec<Ex<'g>>,
+    /// Velocities.
+    pub v: Vec<Ex<'g>>,
+    /// Time.
+    pub t: Ex<'g>,
+    own: Own,
+    scene: &'a Scene,
+    graph: &'a BondGraph,
+    x: Vec<Ex<'g>>,
+    modes: Vec<Ex<'g>>,
+    u: Vec<Ex<'g>>,
+    /// Which element's law is at work.
+    at: usize,
+    /// On each coordinate.
+    efforts: Vec<Ex<'g>>,
+    /// Efficiency of the gear between a coordinate's own effort and the coordinate.
+    gears: BTreeMap<usize, Ex<'g>>,
+    /// Inertia of the coordinates that store their own momentum.
+    inertias: BTreeMap<usize, Ex<'g>>,
+    /// ẋ
+    rates: Vec<Ex<'g>>,
+    balances: Vec<Balance<'g>>,
+    contacts: Vec<Contact<'g>>,
+    events: BTreeMap<String, Ex<'g>>,
+    readings: Vec<Reading<'g>>,
+    conditions: Vec<Condition<'g>>,
+    shared: BTreeMap<(String, &'static str), Ex<'g>>,
+    poses: BTreeMap<SiteId, (Mat3<Ex<'g>>, Vec3<Ex<'g>>)>,
+}
+
+impl<'g, 'a> Laws<'g, 'a> {
+    /// Every law of the scene, summed.
+    pub(super) fn new(b: &'g Builder, scene: &'a Scene, graph: &'a BondGraph, own: Own) -> Self {
+        let input = |(i, part): (usize, &crate::scene::Part)| match part.drives {
+            Some(_) if own != Own::Inputs => b.zero(),
+            _ => b.leaf(Leaf::Input(i)),
+        };
+        let inputs = || scene.layout.inputs.iter().enumerate().map(input).collect();
+        Laws::under(b, scene, graph, own, inputs)
+    }
+
+    /// The same under these inputs.
+    pub(super) fn under(
+        b: &'g Builder,
+        scene: &'a Scene,
+        graph: &'a BondGraph,
+        own: Own,
+        inputs: impl FnOnce() -> Vec<Ex<'g>>,
+    ) -> Self {
+        let layout = &scene.layout;
+        let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
+            (0..n).map(|i| b.leaf(leaf(i))).collect()
+        };
+        let zeros = |n: usize| vec![b.zero(); n];
+        let none = Balance {
+            supplied: b.zero(),
+            stored: b.zero(),
+            dissipated: b.zero(),
+        };
+        let mut laws = Laws {
+            b,
+            q: leaves(layout.nq(), Leaf::Position),
+            v: leaves(layout.nv(), Leaf::Velocity),
+            t: b.leaf(Leaf::Time),
+            own,
+            scene,
+            graph,
+            x: leaves(layout.nx(), Leaf::State),
+            modes: leaves(layout.modes.len(), Leaf::Mode),
+            u: inputs(),
+            at: 0,
+            efforts: zeros(layout.nv()),
+            gears: BTreeMap::new(),
+            inertias: BTreeMap::new(),
+            rates: zeros(layout.nx()),
+            balances: vec![none; scene.elements.len()],
+            contacts: Vec::new(),
+            events: BTreeMap::new(),
+            readings: Vec::new(),
+            conditions: Vec::new(),
+            shared: BTreeMap::new(),
+            poses: BTreeMap::new(),
+        };
+        for (at, element) in scene.elements.iter().enumerate() {
+            laws.at = at;
+            b.section(|| format!("{}: {}", element.name, element.effect.summary()));
+            element.effect.law(element, &mut laws);
+        }
+        laws
+    }
+}
+
+/// Effort behind a gear of efficiency η: ητ where τ drives (τ·v ≥ 0), τ/η where it is driven.
+pub fn behind_gear<'g>(b: &'g Builder, effort: Ex<'g>, rate: Ex<'g>, efficiency: Ex<'g>) -> Ex<'g> {
+    (effort * rate).if_less(b.zero(), effort / efficiency, effort * efficiency)
+}
+
+/// A method of the mechanism, its expressions copied; `leaf` may replace leaves.
+pub(super) fn copied<'g>(
+    b: &'g Builder,
+    graph: &BondGraph,
+    method: Method,
+    leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Expr>,
+) -> Vec<Ex<'g>> {
+    let Some(function) = Search::new(graph, None).function(method) else {
+        return vec![];
+    };
+    let outputs = &function.blocks[0].outputs;
+    let copies = b.with_graph(|g| copy_into(g, &function.graph, outputs, leaf));
+    copies.into_iter().map(|e| b.ex(e)).collect()
+}

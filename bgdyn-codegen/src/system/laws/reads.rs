@@ -1,0 +1,175 @@
+//! What an effect's law reads.
+
+use bgdyn_runtime::Dd;
+
+use super::{Laws, Own, Port, copied};
+use crate::bond_graph::SiteId;
+use crate::effect::{Element, Quantity};
+use crate::expr::{Ex, Graph, Leaf, Tangent};
+use crate::math::{Mat3, Vec3};
+use crate::method::Method;
+use crate::scene::{Chain, Level};
+
+impl<'g, 'a> Laws<'g, 'a> {
+    /// Whether the limits of drives act: not where the coordinates' own efforts are sought.
+    pub fn limited(&self) -> bool {
+        self.own == Own::Inputs
+    }
+
+    /// The number behind a key; 0 where it is not there.
+    pub fn number(&self, element: &Element, key: &str) -> Ex<'g> {
+        self.optional(element, key).unwrap_or(self.b.zero())
+    }
+
+    /// The number behind a key.
+    pub fn optional(&self, element: &Element, key: &str) -> Option<Ex<'g>> {
+        element.quantity(key).map(|q| self.quantity(q))
+    }
+
+    /// A number as an expression.
+    pub fn quantity(&self, quantity: &Quantity) -> Ex<'g> {
+        let index = quantity.parameter.as_ref().and_then(|name| {
+            let parameters = self.scene.parameters.iter();
+            parameters.clone().position(|p| p.name == *name)
+        });
+        match index {
+            Some(p) => self.b.leaf(Leaf::Parameter(p)),
+            None => self.b.constant(quantity.value),
+        }
+    }
+
+    /// The first-order state with this name.
+    pub fn state(&self, name: &str) -> Ex<'g> {
+        let found = self.scene.layout.states.iter().position(|s| s.name == name);
+        found.map_or(self.b.zero(), |i| self.x[i])
+    }
+
+    /// The mode with this name.
+    pub fn mode(&self, name: &str) -> Ex<'g> {
+        let found = self.scene.layout.modes.iter().position(|m| m.name == name);
+        found.map_or(self.b.zero(), |i| self.modes[i])
+    }
+
+    /// The input with this name; 0 where there is none.
+    pub fn input(&self, name: &str) -> Ex<'g> {
+        let found = self.scene.layout.inputs.iter().position(|m| m.name == name);
+        found.map_or(self.b.zero(), |i| self.u[i])
+    }
+
+    /// A reference's place, rate or acceleration; 0 without one.
+    pub fn reference(&self, name: Option<&str>, level: Level) -> Ex<'g> {
+        name.map_or(self.b.zero(), |name| self.input(&level.name(name)))
+    }
+
+    /// The velocity of the coordinate that the element itself adds.
+    pub fn own_velocity(&self, element: &Element) -> Ex<'g> {
+        let found = self.scene.layout.coordinate_named(&element.name);
+        found.map_or(self.b.zero(), |j| self.v[j])
+    }
+
+    /// Where the element acts: on its `joint`, or along the line between its two places.
+    pub fn port(&mut self, element: &Element) -> Port<'g> {
+        match (element.name("joint"), element.names("between")) {
+            (Some(joint), _) => self.coordinate(joint),
+            (None, Some([a, b])) => self.line(self.site(a), self.site(b)),
+            (None, None) => Port {
+                place: self.b.zero(),
+                rate: self.b.zero(),
+                transformers: vec![],
+            },
+        }
+    }
+
+    /// The place with this name.
+    pub fn site(&self, name: &str) -> SiteId {
+        let found = self.graph.sites.iter().position(|s| s.name == name);
+        SiteId(found.unwrap_or(0))
+    }
+
+    /// A coordinate as a port.
+    pub fn coordinate(&self, name: &str) -> Port<'g> {
+        let j = self.scene.layout.coordinate_named(name).unwrap_or(0);
+        Port {
+            place: self.q.get(j).copied().unwrap_or(self.b.zero()),
+            rate: self.v[j],
+            transformers: vec![(j, self.b.number(1.0))],
+        }
+    }
+
+    /// The distance of two places as a port: s = |r_b − r_a|, ∂s/∂q_j = n · (∂r_b/∂q_j − ∂r_a/∂q_j)
+    /// with the unit vector n from a to b.
+    pub fn line(&mut self, a: SiteId, b: SiteId) -> Port<'g> {
+        let apart = self.pose(b).1 - self.pose(a).1;
+        let length = apart.dot(apart).sqrt();
+        let mut port = Port {
+            place: length,
+            rate: self.b.zero(),
+            transformers: vec![],
+        };
+        for j in 0..self.graph.coordinates.len() {
+            let slope = apart.map(|x| self.slope(x, j));
+            let transformer = apart.dot(slope) / length;
+            if !transformer.is_zero() {
+                port.rate = port.rate + transformer * self.v[j];
+                port.transformers.push((j, transformer));
+            }
+        }
+        port
+    }
+
+    /// ∂x/∂q_j
+    pub(in crate::system) fn slope(&self, x: Ex<'g>, j: usize) -> Ex<'g> {
+        let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| g.constant(Dd::ONE));
+        let x = x.expr();
+        let slope = self.b.with_graph(|g| Tangent::new(seed).of(g, x));
+        self.b.ex(slope)
+    }
+
+    /// Axes and origin of a place in the world.
+    pub fn pose(&mut self, site: SiteId) -> (Mat3<Ex<'g>>, Vec3<Ex<'g>>) {
+        if let Some(pose) = self.poses.get(&site) {
+            return *pose;
+        }
+        let p = self.method(Method::Pose(site));
+        let pose = (
+            Mat3([[p[0], p[1], p[2]], [p[3], p[4], p[5]], [p[6], p[7], p[8]]]),
+            Vec3([p[9], p[10], p[11]]),
+        );
+        self.poses.insert(site, pose);
+        pose
+    }
+
+    /// Jacobian of a place, world axes: a column (angular part first) per joint.
+    pub fn jacobian(&mut self, site: SiteId) -> Vec<[Ex<'g>; 6]> {
+        let n = self.graph.coordinates.len();
+        let rows = self.method(Method::Jacobian(site));
+        (0..n)
+            .map(|j| std::array::from_fn(|i| rows[i * n + j]))
+            .collect()
+    }
+
+    /// Energy of the weights, if anything weighs.
+    pub fn potential_energy(&self) -> Vec<Ex<'g>> {
+        self.method(Method::PotentialEnergy)
+    }
+
+    /// A method of the mechanism, its expressions copied into this graph.
+    pub(in crate::system) fn method(&self, method: Method) -> Vec<Ex<'g>> {
+        copied(self.b, self.graph, method, |_, _| None)
+    }
+
+    /// What an earlier element gave.
+    pub fn shared(&self, node: &str, what: &'static str) -> Option<Ex<'g>> {
+        self.shared.get(&(node.to_owned(), what)).copied()
+    }
+
+    /// The scene's elements, for those that have to know of each other.
+    pub fn elements(&self) -> &'a [Element] {
+        &self.scene.elements
+    }
+
+    /// Elements in series.
+    pub fn chains(&self) -> &'a [Chain] {
+        &self.scene.chains
+    }
+}

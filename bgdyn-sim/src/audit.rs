@@ -1,0 +1,120 @@
+//! An account of the energy of a run.
+
+use bgdyn_runtime::Scalar;
+
+use crate::coefficient::{Words, decimal, ratio};
+use crate::plant::Power;
+use crate::space::{Of, Space};
+
+/// Where the energy of a run went, J: for each entry what it supplied, stores more than at the
+/// start, and dissipated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Audit<E> {
+    /// Work that came from outside.
+    pub supplied: E,
+    /// What is stored more than at the start.
+    pub stored: E,
+    /// Work that was lost.
+    pub dissipated: E,
+}
+
+impl<E: Space> Audit<E> {
+    /// What the sums do not account for: the integration's error, in J.
+    pub fn drift(&self) -> Of<E> {
+        let zero = Of::<E>::from_f64(0.0);
+        let sum = |x: &E| x.entries().iter().fold(zero, |sum, &x| sum + x);
+        sum(&self.stored) + sum(&self.dissipated) - sum(&self.supplied)
+    }
+}
+
+/// Work added up step by step.
+#[derive(Clone, Debug)]
+pub(crate) struct Ledger<E> {
+    /// Energy stored at the start and now, once there was a step.
+    stored: Option<(E, E)>,
+    work: Power<E>,
+}
+
+/// Times and weights of Gauss's quadrature with two points, exact to degree 3.
+const TWO: [(Words, Words); 2] = [
+    (
+        decimal("0.211324865405187117745425609749021"),
+        ratio(1.0, 2.0),
+    ),
+    (
+        decimal("0.788675134594812882254574390250979"),
+        ratio(1.0, 2.0),
+    ),
+];
+
+/// … with four points, exact to degree 7.
+const FOUR: [(Words, Words); 4] = [
+    (
+        decimal("0.069431844202973712388026755553595"),
+        decimal("0.173927422568726928686531974611"),
+    ),
+    (
+        decimal("0.330009478207571867598667120448378"),
+        decimal("0.326072577431273071313468025389"),
+    ),
+    (
+        decimal("0.669990521792428132401332879551622"),
+        decimal("0.326072577431273071313468025389"),
+    ),
+    (
+        decimal("0.930568155797026287611973244446405"),
+        decimal("0.173927422568726928686531974611"),
+    ),
+];
+
+/// Times within a step at which power is looked at, and their weights, for a method of this order.
+pub(crate) fn quadrature(order: u32) -> &'static [(Words, Words)] {
+    if order <= 4 { &TWO } else { &FOUR }
+}
+
+impl<E: Space> Ledger<E> {
+    /// An empty one.
+    pub(crate) fn new(zero: E) -> Self {
+        let work = Power {
+            supplied: zero.clone(),
+            dissipated: zero,
+        };
+        Ledger { stored: None, work }
+    }
+
+    /// Whether there was a step.
+    pub(crate) fn is_open(&self) -> bool {
+        self.stored.is_some()
+    }
+
+    /// Notes the energy stored now.
+    pub(crate) fn note(&mut self, energy: E) {
+        self.stored = Some(match self.stored.take() {
+            Some((start, _)) => (start, energy),
+            None => (energy.clone(), energy),
+        });
+    }
+
+    /// Adds this power for this time.
+    pub(crate) fn add(&mut self, time: Of<E>, power: &Power<E>) {
+        self.work.supplied.add(time, &power.supplied);
+        self.work.dissipated.add(time, &power.dissipated);
+    }
+
+    /// The account.
+    pub(crate) fn audit(&self) -> Audit<E> {
+        let Power {
+            supplied,
+            dissipated,
+        } = self.work.clone();
+        let stored = match &self.stored {
+            Some((start, now)) => now.plus(-Of::<E>::from_f64(1.0), start),
+            None => supplied.zero(),
+        };
+        Audit {
+            supplied,
+            stored,
+            dissipated,
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Dense output: the states within a step.
+
+use bgdyn_runtime::Scalar;
+
+use crate::space::{Of, Space};
+
+/// The most terms of a polynomial: those of degree 7.
+const TERMS: usize = 7;
+
+/// States within a step from t to t + h, as a polynomial in θ = (time − t)/h:
+///
+/// y + θ (r₁ + (1 − θ) (r₂ + θ (r₃ + (1 − θ) (r₄ + …))))
+///
+/// which is y at θ = 0 and y + r₁ at θ = 1 (Hairer, Nørsett, Wanner, Solving Ordinary Differential
+/// Equations I, II.6).
+#[derive(Clone, Debug)]
+pub struct Dense<Y: Space> {
+    t: Of<Y>,
+    h: Of<Y>,
+    y: Y,
+    terms: [Option<Y>; TERMS],
+}
+
+impl<Y: Space> Dense<Y> {
+    /// The polynomial over the step of length `h` from `y` at time `t` with these terms; those after
+    /// the first `None` do not count.
+    pub fn new(t: Of<Y>, h: Of<Y>, y: &Y, terms: [Option<Y>; TERMS]) -> Self {
+        let y = y.clone();
+        Dense { t, h, y, terms }
+    }
+
+    /// Terms of Hermite's cubic: a step by `change` with these rates at its ends.
+    pub fn cubic(h: Of<Y>, change: &Y, first: &Y, last: &Y) -> [Option<Y>; TERMS] {
+        let one = Of::<Y>::from_f64(1.0);
+        let second = first.times(h).plus(-one, change);
+        let third = change.plus(-h, last).plus(-one, &second);
+        let change = Some(change.clone());
+        [change, Some(second), Some(third), None, None, None, None]
+    }
+
+    /// Where the step begins.
+    pub fn start(&self) -> Of<Y> {
+        self.t
+    }
+
+    /// Its length.
+    pub fn length(&self) -> Of<Y> {
+        self.h
+    }
+
+    /// The state at t + θh, for θ from 0 to 1.
+    pub fn at(&self, theta: Of<Y>) -> Y {
+        let rest = Of::<Y>::from_f64(1.0) - theta;
+        let mut sum: Option<Y> = None;
+        for (i, term) in self.terms.iter().enumerate().rev() {
+            let Some(term) = term else { continue };
+            // What stands within the brackets behind this term is multiplied by 1 − θ and θ in turn.
+            let factor = if i % 2 == 0 { rest } else { theta };
+            sum = Some(match sum {
+                Some(inner) => term.plus(factor, &inner),
+                None => term.clone(),
+            });
+        }
+        sum.map_or_else(|| self.y.clone(), |sum| self.y.plus(theta, &sum))
+    }
+
+    /// The state at a time within the step.
+    pub fn at_time(&self, t: Of<Y>) -> Y {
+        self.at((t - self.t) / self.h)
+    }
+}

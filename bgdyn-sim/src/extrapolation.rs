@@ -1,0 +1,106 @@
+//! Extrapolation of the modified midpoint rule.
+
+use bgdyn_runtime::Scalar;
+
+use crate::failure::Reason;
+use crate::method::{Facts, Method, Start, Step};
+use crate::ode::Ode;
+use crate::space::{Of, Real, Space, largest};
+
+/// The method of Gragg, Bulirsch and Stoer with `K` rows, of order 2K: the modified midpoint rule
+/// with 2, 4, … 2K substeps, extrapolated to none (Gragg 1965; Hairer, Nørsett, Wanner, Solving
+/// Ordinary Differential Equations I, II.9).
+///
+/// Its coefficients are whole numbers, so that nothing but the scalar limits it: for references in
+/// double-double. Fixed steps, or controlled by the difference of the last two extrapolations. Its
+/// dense output is Hermite's cubic, of order 3.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extrapolation<const K: usize>;
+
+/// The extrapolation method of order 12.
+pub type Extrapolation12 = Extrapolation<6>;
+
+impl<const K: usize> Extrapolation<K> {
+    /// The change over a step of length h by `substeps` substeps.
+    fn midpoint<O: Ode>(
+        ode: &O,
+        (t, y): (Of<O::State>, &O::State),
+        first: &O::State,
+        h: Of<O::State>,
+        substeps: u32,
+    ) -> Result<O::State, Reason<O::Error>> {
+        let number = |n: u32| Of::<O::State>::from_f64(n.into());
+        let part = h / number(substeps);
+        let mut last = y.zero();
+        let mut now = first.times(part);
+        for i in 1..substeps {
+            let there = y.plus(number(1), &now);
+            let rates = ode.rates(t + part * number(i), &there);
+            let next = last.plus(number(2) * part, &rates.map_err(Reason::Singular)?);
+            (last, now) = (now, next);
+        }
+        Ok(now)
+    }
+}
+
+impl<Y: Space, const K: usize> Method<Y> for Extrapolation<K>
+where
+    Of<Y>: Real,
+{
+    /// The last two extrapolations' difference.
+    type Stages = Y;
+
+    fn facts(&self) -> Facts {
+        const { assert!(1 < K && K < 10, "two to nine rows") }
+        let name = [
+            "extrapolation4",
+            "extrapolation6",
+            "extrapolation8",
+            "extrapolation10",
+            "extrapolation12",
+            "extrapolation14",
+            "extrapolation16",
+            "extrapolation18",
+        ][K - 2];
+        Facts {
+            name,
+            order: 2 * K as u32,
+            estimate: Some(2 * K as u32 - 1),
+            looks: 4,
+        }
+    }
+
+    fn step<O: Ode<State = Y>>(
+        &self,
+        ode: &O,
+        from: &Start<'_, Y, Y>,
+        h: Of<Y>,
+    ) -> Result<Step<Y, Y>, Reason<O::Error>> {
+        let number = |n: usize| Of::<Y>::from_f64(n as f64);
+        let first = ode.rates(from.t, from.y).map_err(Reason::Singular)?;
+        // The last diagonal of the scheme of Aitken and Neville.
+        let mut row: [Y; K] = core::array::from_fn(|_| from.y.zero());
+        for j in 0..K {
+            let substeps = 2 * (j as u32 + 1);
+            let mut best = Self::midpoint(ode, (from.t, from.y), &first, h, substeps)?;
+            for k in 1..=j {
+                // (n_j/n_{j−k})² − 1 with n_j = 2(j + 1)
+                let (n, m) = ((j + 1) * (j + 1), (j + 1 - k) * (j + 1 - k));
+                let difference = best.plus(-number(1), &row[k - 1]);
+                let better = best.plus(number(m) / number(n - m), &difference);
+                row[k - 1] = best;
+                best = better;
+            }
+            row[j] = best;
+        }
+        Ok(Step {
+            h,
+            change: row[K - 1].clone(),
+            stages: row[K - 1].plus(-number(1), &row[K - 2]),
+        })
+    }
+
+    fn error(&self, step: &Step<Y, Y>, scale: &Y) -> Option<Of<Y>> {
+        Some(largest(&step.stages, scale))
+    }
+}

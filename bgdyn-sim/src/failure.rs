@@ -1,0 +1,92 @@
+//! Why an integration cannot go on.
+
+use core::fmt;
+
+use crate::space::{Of, Space};
+
+/// Why a step fails.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason<E> {
+    /// The rates do not exist: the mass matrix is singular.
+    Singular(E),
+    /// A part of the state would be no finite number any more.
+    NotFinite,
+    /// The equations of an implicit method are not solved after so many iterations.
+    NoConvergence {
+        /// How many there were.
+        iterations: usize,
+        /// The last change in units of what rounding leaves of the state.
+        change: f64,
+    },
+    /// The matrix of an implicit method is singular.
+    SingularMatrix,
+    /// The method needs the slopes of the rates, and they are not known.
+    NoJacobian,
+    /// The tolerance asks for steps that time cannot resolve.
+    StepTooSmall {
+        /// The step asked for.
+        h: f64,
+        /// Estimated error of the last step tried, in units of the tolerance.
+        error: f64,
+    },
+    /// So many events followed each other within one step that time would not go on.
+    TooManyEvents {
+        /// How many there were.
+        events: usize,
+    },
+}
+
+/// Why an integration ended early. It stays where it was: at the end of the last step that
+/// succeeded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure<Y: Space, E> {
+    /// Time that was reached, s.
+    pub t: Of<Y>,
+    /// State that was reached.
+    pub y: Y,
+    /// Why it does not go on.
+    pub reason: Reason<E>,
+}
+
+impl<E: fmt::Debug> fmt::Display for Reason<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Singular(at) => write!(f, "there are no accelerations: {at:?}"),
+            Self::NotFinite => f.write_str(
+                "a part of the state would not be finite; a smaller step or a tolerance may help",
+            ),
+            Self::NoConvergence { iterations, change } => write!(
+                f,
+                "the method's equations are not solved after {iterations} iterations, which still change the state by {change:.1e} units of its rounding; a smaller step may help"
+            ),
+            Self::SingularMatrix => f.write_str(
+                "the method's matrix is singular; a smaller step may help",
+            ),
+            Self::NoJacobian => f.write_str(
+                "the method needs the slopes of the rates; generate the scene with them, or take them from differences",
+            ),
+            Self::StepTooSmall { h, error } => write!(
+                f,
+                "the tolerance asks for steps of {h:.1e} s, less than time can resolve (the error is {error:.1e} times what is allowed); a larger tolerance or a method for stiff scenes may help"
+            ),
+            Self::TooManyEvents { events } => write!(
+                f,
+                "{events} events follow each other within one step: the scene chatters"
+            ),
+        }
+    }
+}
+
+impl<Y: Space, E: fmt::Debug> fmt::Display for Failure<Y, E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "at t = {:?} s, y = {:?}: {}",
+            self.t,
+            self.y.entries(),
+            self.reason
+        )
+    }
+}
+
+impl<Y: Space, E: fmt::Debug> core::error::Error for Failure<Y, E> {}

@@ -1,0 +1,89 @@
+//! Linear equations: LU factors with partial pivoting, in any scalar that is one number.
+
+use crate::space::{Of, Real, Space};
+
+/// A factored square matrix.
+#[derive(Clone, Debug)]
+pub(crate) struct Lu<Y: Space> {
+    /// Unit lower and upper factors in one matrix.
+    factors: Y::Matrix,
+    /// The row that came to each place.
+    pivots: Y::Pivots,
+}
+
+impl<Y: Space> Lu<Y>
+where
+    Of<Y>: Real,
+{
+    /// Factors a matrix on the space of `like`; `None` where a pivot is 0 or not finite.
+    pub(crate) fn new(mut factors: Y::Matrix, like: &Y) -> Option<Self> {
+        let mut pivots = like.pivots();
+        let n = like.entries().len();
+        let sound = factor(Y::columns_mut(&mut factors), pivots.as_mut(), n);
+        sound.then_some(Lu { factors, pivots })
+    }
+
+    /// Replaces x by the solution for the right-hand side x.
+    pub(crate) fn solve(&self, x: &mut Y) {
+        solve(
+            Y::columns(&self.factors),
+            self.pivots.as_ref(),
+            x.entries_mut(),
+        );
+    }
+
+    /// Solves for every column of a matrix.
+    pub(crate) fn solve_columns(&self, matrix: &mut Y::Matrix) {
+        let pivots = self.pivots.as_ref();
+        for column in Y::columns_mut(matrix).chunks_mut(pivots.len().max(1)) {
+            solve(Y::columns(&self.factors), pivots, column);
+        }
+    }
+}
+
+/// Factors an n × n matrix, column by column, in place. False where a pivot is 0 or not finite.
+pub(crate) fn factor<T: Real>(a: &mut [T], pivots: &mut [usize], n: usize) -> bool {
+    for k in 0..n {
+        let mut p = k;
+        for i in k + 1..n {
+            if a[k * n + p].abs() < a[k * n + i].abs() {
+                p = i;
+            }
+        }
+        pivots[k] = p;
+        let pivot = a[k * n + p];
+        if pivot == T::from_f64(0.0) || !pivot.is_finite() {
+            return false;
+        }
+        for column in a.chunks_mut(n) {
+            column.swap(k, p);
+        }
+        for i in k + 1..n {
+            a[k * n + i] = a[k * n + i] / pivot;
+        }
+        for j in k + 1..n {
+            let top = a[j * n + k];
+            for i in k + 1..n {
+                a[j * n + i] = a[j * n + i] - a[k * n + i] * top;
+            }
+        }
+    }
+    true
+}
+
+/// Solves with the factors of [`factor`], in place.
+pub(crate) fn solve<T: Real>(a: &[T], pivots: &[usize], x: &mut [T]) {
+    let n = x.len();
+    for k in 0..n {
+        x.swap(k, pivots[k]);
+        for i in k + 1..n {
+            x[i] = x[i] - a[k * n + i] * x[k];
+        }
+    }
+    for k in (0..n).rev() {
+        x[k] = x[k] / a[k * n + k];
+        for i in 0..k {
+            x[i] = x[i] - a[k * n + i] * x[k];
+        }
+    }
+}

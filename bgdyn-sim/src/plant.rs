@@ -1,0 +1,168 @@
+//! What a run drives: an equation with modes, events and an account of its power.
+
+use core::fmt::Debug;
+
+use crate::ode::{Jacobian, Ode};
+use crate::space::{Of, Space};
+
+/// Power that comes from outside and power that is lost, W, by entry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Power<E> {
+    /// What comes from outside.
+    pub supplied: E,
+    /// What is lost.
+    pub dissipated: E,
+}
+
+/// What the integration's state is at an instant of a plant.
+type StateOf<P> = <P as Plant>::State;
+type Time<P> = Of<StateOf<P>>;
+
+/// A plant: between events an equation ẏ = f(t, y) with its modes held, at events a jump.
+///
+/// A compiled scene is one by way of [`crate::Scene`]; a scene whose sizes are known at run time can
+/// be one with `DVector`s.
+pub trait Plant {
+    /// The states.
+    type State: Space;
+    /// The modes.
+    type Modes: Clone + Debug;
+    /// One number per event.
+    type Values: Space<Scalar = Of<Self::State>>;
+    /// One number per entry of the balance of power.
+    type Entries: Space<Scalar = Of<Self::State>>;
+    /// Why there may be no rates: a singular mass matrix.
+    type Error: Debug;
+
+    /// ẏ
+    ///
+    /// # Errors
+    /// Where the rates do not exist.
+    fn rates(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+    ) -> Result<Self::State, Self::Error>;
+
+    /// Slopes of the rates; `None` where they are not known.
+    fn jacobian(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+    ) -> Option<Result<Jacobian<Self::State>, Self::Error>> {
+        let _ = (t, y, modes);
+        None
+    }
+
+    /// How many components, the first ones, are positions.
+    fn positions(&self) -> usize {
+        0
+    }
+
+    /// The rates of the positions; the other components are not read.
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn position_rates(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+    ) -> Result<Self::State, Self::Error> {
+        self.rates(t, y, modes)
+    }
+
+    /// Takes a state back onto the set of possible ones, as [`Ode::project`].
+    fn project(&self, y: &mut Self::State) -> bool {
+        let _ = y;
+        false
+    }
+
+    /// Values whose passage through zero is an event.
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn events(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+    ) -> Result<Self::Values, Self::Error>;
+
+    /// Whether an event may change a mode: the fall of its value through zero does. Of others the
+    /// passage in either direction is a kink of the law.
+    fn changes_mode(&self, event: usize) -> bool;
+
+    /// The state and the modes after the events for which `fell` holds.
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn change(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+        fell: impl Fn(usize) -> bool,
+    ) -> Result<(Self::State, Self::Modes), Self::Error>;
+
+    /// Nothing, for every entry of the balance of power.
+    fn nothing(&self) -> Self::Entries;
+
+    /// Energy stored, J, by entry.
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn energy(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+    ) -> Result<Self::Entries, Self::Error>;
+
+    /// Power, W, by entry.
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn power(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+    ) -> Result<Power<Self::Entries>, Self::Error>;
+}
+
+/// A plant between two events: the equation with its modes held.
+#[derive(Debug)]
+pub struct Held<'a, P: Plant> {
+    /// The plant.
+    pub plant: &'a P,
+    /// Its modes.
+    pub modes: &'a P::Modes,
+}
+
+impl<P: Plant> Ode for Held<'_, P> {
+    type State = P::State;
+    type Error = P::Error;
+
+    fn rates(&self, t: Time<P>, y: &P::State) -> Result<P::State, P::Error> {
+        self.plant.rates(t, y, self.modes)
+    }
+
+    fn jacobian(&self, t: Time<P>, y: &P::State) -> Option<Result<Jacobian<P::State>, P::Error>> {
+        self.plant.jacobian(t, y, self.modes)
+    }
+
+    fn positions(&self) -> usize {
+        self.plant.positions()
+    }
+
+    fn position_rates(&self, t: Time<P>, y: &P::State) -> Result<P::State, P::Error> {
+        self.plant.position_rates(t, y, self.modes)
+    }
+
+    fn project(&self, y: &mut P::State) -> bool {
+        self.plant.project(y)
+    }
+}

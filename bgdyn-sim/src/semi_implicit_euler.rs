@@ -1,0 +1,57 @@
+//! The semi-implicit Euler method.
+
+use bgdyn_runtime::Scalar;
+
+use crate::failure::Reason;
+use crate::method::{Facts, Method, Start, Step};
+use crate::ode::Ode;
+use crate::space::{Of, Space};
+
+/// The semi-implicit Euler method, of order 1 with fixed steps: velocities and first-order states
+/// move by their rates at the start, then positions by the velocities at the end.
+///
+/// One evaluation of the rates per step, and far better on oscillations than the explicit method.
+/// Symplectic where the mass matrix is constant.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SemiImplicitEuler;
+
+impl<Y: Space> Method<Y> for SemiImplicitEuler {
+    type Stages = ();
+
+    fn facts(&self) -> Facts {
+        Facts {
+            name: "semi_implicit_euler",
+            order: 1,
+            estimate: None,
+            looks: 1,
+        }
+    }
+
+    fn step<O: Ode<State = Y>>(
+        &self,
+        ode: &O,
+        from: &Start<'_, Y, ()>,
+        h: Of<Y>,
+    ) -> Result<Step<Y, ()>, Reason<O::Error>> {
+        let rates = ode.rates(from.t, from.y).map_err(Reason::Singular)?;
+        let mut change = rates.times(h);
+        let positions = ode.positions();
+        if positions > 0 {
+            // The old positions with the new velocities.
+            let mut moved = from.y.plus(Of::<Y>::from_f64(1.0), &change);
+            moved.entries_mut()[..positions].copy_from_slice(&from.y.entries()[..positions]);
+            let rates = ode
+                .position_rates(from.t, &moved)
+                .map_err(Reason::Singular)?;
+            let moves = change.entries_mut().iter_mut().zip(rates.entries());
+            for (change, &rate) in moves.take(positions) {
+                *change = h * rate;
+            }
+        }
+        Ok(Step {
+            h,
+            change,
+            stages: (),
+        })
+    }
+}

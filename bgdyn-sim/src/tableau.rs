@@ -1,0 +1,60 @@
+//! Stages of explicit Runge–Kutta methods.
+
+use crate::coefficient::Words;
+use crate::failure::Reason;
+use crate::method::Start;
+use crate::ode::{Ode, ScalarOf};
+use crate::space::{Of, Space};
+
+/// A stage: its time c, and the weights a of the rates before it.
+pub(crate) struct Stage {
+    pub(crate) c: Words,
+    pub(crate) a: &'static [Words],
+}
+
+/// Σ wⱼ kⱼ
+pub(crate) fn combined<Y: Space>(weights: &[Words], rates: &[Y]) -> Y {
+    let mut sum = rates[0].zero();
+    for (w, k) in weights.iter().zip(rates) {
+        if !w.is_zero() {
+            sum.add(w.to(), k);
+        }
+    }
+    sum
+}
+
+/// The rates at these stages, behind those in `rates` already: kᵢ = f(t + cᵢh, y + h Σ aᵢⱼ kⱼ).
+pub(crate) fn fill<O: Ode>(
+    ode: &O,
+    (t, y): (ScalarOf<O>, &O::State),
+    h: ScalarOf<O>,
+    stages: &[Stage],
+    rates: &mut [O::State],
+) -> Result<(), Reason<O::Error>> {
+    let done = rates.len() - stages.len();
+    for (i, stage) in stages.iter().enumerate() {
+        let (before, after) = rates.split_at_mut(done + i);
+        let there = y.plus(h, &combined(stage.a, before));
+        let k = ode.rates(t + stage.c.to::<ScalarOf<O>>() * h, &there);
+        after[0] = k.map_err(Reason::Singular)?;
+    }
+    Ok(())
+}
+
+/// The rates at all stages of a step, of which `stages` lists those after the first; the first one's
+/// are `known` where the step before ended with them.
+pub(crate) fn all<O: Ode, S, const N: usize>(
+    ode: &O,
+    from: &Start<'_, O::State, S>,
+    known: Option<&O::State>,
+    h: Of<O::State>,
+    stages: &[Stage],
+) -> Result<[O::State; N], Reason<O::Error>> {
+    let first = match known {
+        Some(rates) => rates.clone(),
+        None => ode.rates(from.t, from.y).map_err(Reason::Singular)?,
+    };
+    let mut rates = [(); N].map(|()| first.clone());
+    fill(ode, (from.t, from.y), h, stages, &mut rates)?;
+    Ok(rates)
+}

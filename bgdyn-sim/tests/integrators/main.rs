@@ -1,0 +1,11 @@
+//! Integrators: orders, stability, energy, step control, events, failures.
+
+mod controlled;
+mod events;
+mod failures;
+mod orders;
+mod plants;
+mod problems;
+mod spaces;
+mod stiff;
+mod symplectic;

@@ -1,0 +1,185 @@
+//! Stiff equations: what is fast and settled must neither be followed nor grow.
+
+use bgdyn_runtime::vector;
+use bgdyn_sim::{
+    Differenced, Dop853, Dopri5, Extrapolation12, Gauss2, Gauss3, Jacobian, Method, Midpoint,
+    Reason, Rk4, Rodas4, Solver, Start, Tolerance,
+};
+use nalgebra::SVector;
+
+use crate::problems::{Driven, Equation, distance, fixed, ode, slope};
+
+type Y = SVector<f64, 1>;
+
+/// y after one step of y' = z y from 1, with h = 1.
+fn stability<M: Method<Y>>(method: &M, z: f64) -> f64 {
+    struct Decay(f64);
+    impl Equation<f64, 1> for Decay {
+        fn rates(&self, _: f64, y: &Y) -> Y {
+            y * self.0
+        }
+
+        fn jacobian(&self, _: f64, y: &Y) -> Option<Jacobian<Y>> {
+            Some(Jacobian {
+                state: vector([self.0]),
+                time: y * 0.0,
+            })
+        }
+    }
+    let y = vector([1.0]);
+    let start = Start {
+        t: 0.0,
+        y: &y,
+        before: None,
+    };
+    let step = method.step(&ode::<f64, _, 1>(&Decay(z)), &start, 1.0);
+    let Ok(step) = step else {
+        panic!("no step for {z}")
+    };
+    1.0 + step.change[0]
+}
+
+#[test]
+fn rodas4_damps_whatever_is_fast_and_gauss_at_least_does_not_amplify() {
+    // R(∞) = 0, and |R| < 1 on the whole negative axis.
+    for e in [6, 9, 12] {
+        let z = -(10.0_f64.powi(e));
+        let left = stability(&Rodas4, z);
+        assert!(left.abs() < 20.0 / -z + 1e-11, "R({z:e}) = {left}");
+    }
+    for i in 1..400 {
+        let z = -0.05 * f64::from(i);
+        assert!(stability(&Rodas4, z).abs() < 1.0, "R({z})");
+        for grown in [
+            stability(&Midpoint::<f64>::new(), z),
+            stability(&Gauss2::<f64>::new(), z),
+            stability(&Gauss3::<f64>::new(), z),
+        ] {
+            assert!(grown.abs() < 1.0, "Gauss at {z}: {grown}");
+        }
+    }
+    let far = -1e6;
+    assert!((stability(&Midpoint::<f64>::new(), far) + 1.0).abs() < 1e-5);
+    assert!((stability(&Gauss2::<f64>::new(), far) - 1.0).abs() < 1e-4);
+    assert!((stability(&Gauss3::<f64>::new(), far) + 1.0).abs() < 1e-4);
+    // What an explicit method makes of it.
+    assert!(stability(&Rk4, -10.0) > 100.0);
+}
+
+/// y' = −1e6 (y − cos t) from 0, with steps 10,000 times longer than its time constant.
+#[test]
+fn rodas4_follows_a_stiff_equation_with_long_steps() {
+    let problem = Driven { k: 1e6 };
+    let errors = [25, 50, 100, 200].map(|n| {
+        let found = fixed(Rodas4, &ode::<f64, _, 1>(&problem), vector([0.0]), 1.0, n);
+        (found[0] - problem.settled(1.0)).abs()
+    });
+    assert!(errors[2] < 1e-9, "{errors:?}");
+    // From the settled state, where rounding is not yet all.
+    let errors = [2, 4, 8].map(|n| {
+        let start = vector([problem.settled(0.0)]);
+        let found = fixed(Rodas4, &ode::<f64, _, 1>(&problem), start, 2.0, n);
+        (found[0] - problem.settled(2.0)).abs()
+    });
+    println!("rodas4, k = 1e6: {errors:?}");
+    assert!(errors[2] < 1e-9 || slope(&errors) > 2.8, "{errors:?}");
+    let gauss = fixed(
+        Gauss2::new(),
+        &ode::<f64, _, 1>(&problem),
+        vector([problem.settled(0.0)]),
+        1.0,
+        100,
+    );
+    assert!((gauss[0] - problem.settled(1.0)).abs() < 1e-5, "{gauss}");
+}
+
+/// Where the fast part is nearly as fast as the step: the order is that of the smooth case.
+#[test]
+fn rodas4_keeps_its_order_at_moderate_stiffness() {
+    let problem = Driven { k: 300.0 };
+    let errors = [10, 20, 40, 80].map(|n| {
+        let start = vector([problem.settled(0.0)]);
+        let found = fixed(Rodas4, &ode::<f64, _, 1>(&problem), start, 2.0, n);
+        (found[0] - problem.settled(2.0)).abs()
+    });
+    println!("rodas4, k = 300: {errors:?}");
+    assert!(slope(&errors) > 2.8, "{errors:?}");
+}
+
+/// Robertson's reactions: rates from 0.04 to 3e7.
+struct Robertson;
+
+impl Equation<f64, 3> for Robertson {
+    fn rates(&self, _: f64, y: &SVector<f64, 3>) -> SVector<f64, 3> {
+        let slow = 0.04 * y[0] - 1e4 * y[1] * y[2];
+        let fast = 3e7 * y[1] * y[1];
+        vector([-slow, slow - fast, fast])
+    }
+
+    fn jacobian(&self, _: f64, y: &SVector<f64, 3>) -> Option<Jacobian<SVector<f64, 3>>> {
+        let fast = 6e7 * y[1];
+        let state = bgdyn_runtime::matrix([
+            [-0.04, 0.04, 0.0],
+            [1e4 * y[2], -1e4 * y[2] - fast, fast],
+            [1e4 * y[1], -1e4 * y[1], 0.0],
+        ]);
+        Some(Jacobian {
+            state,
+            time: SVector::zeros(),
+        })
+    }
+}
+
+/// The stiff method needs some hundred steps where explicit ones need ten thousands, and they agree.
+#[test]
+fn controlled_steps_on_robertsons_reactions() {
+    fn run<M: Method<SVector<f64, 3>>>(method: M, tolerance: f64) -> (SVector<f64, 3>, usize) {
+        let solver = Solver::new(method, 0.0, vector([1.0, 0.0, 0.0]));
+        let mut solver = solver.with_tolerance(Tolerance {
+            absolute: 1e-4 * tolerance,
+            relative: tolerance,
+        });
+        let mut steps = 0;
+        while solver.t() < 4.0 {
+            let left = 4.0 - solver.t();
+            solver
+                .advance(&ode::<f64, _, 3>(&Robertson), left)
+                .expect("it goes on");
+            steps += 1;
+        }
+        (*solver.y(), steps)
+    }
+    let (reference, explicit) = run(Dop853, 1e-11);
+    let (found, stiff) = run(Rodas4, 1e-7);
+    println!("explicit {explicit} steps, rodas4 {stiff}, {reference:?}");
+    let relative = found.component_div(&reference) - SVector::repeat(1.0);
+    assert!(relative.abs().max() < 1e-6, "{relative}");
+    assert!(explicit > 20 * stiff, "{explicit} and {stiff}");
+    let (pair, _) = run(Dopri5, 1e-8);
+    assert!(distance(&pair, &reference) < 1e-7);
+    let (extrapolated, _) = run(Extrapolation12::default(), 1e-10);
+    assert!(distance(&extrapolated, &reference) < 1e-9);
+}
+
+/// Slopes from differences serve a Rosenbrock method as well as its own do.
+#[test]
+fn slopes_from_differences() {
+    let plain = ode::<f64, _, 3>(&Robertson);
+    let start = vector([1.0, 0.0, 0.0]);
+    let own = fixed(Rodas4, &plain, start, 0.1, 400);
+    let taken = fixed(Rodas4, &Differenced(plain), start, 0.1, 400);
+    assert!(distance(&own, &taken) < 1e-8, "{own} {taken}");
+    assert!(own != taken, "the slopes are not the same numbers");
+    // Without any the method refuses.
+    struct Plain;
+    impl Equation<f64, 1> for Plain {
+        fn rates(&self, _: f64, y: &Y) -> Y {
+            -y
+        }
+    }
+    let mut solver = Solver::new(Rodas4, 0.0, vector([1.0]));
+    let refused = solver
+        .advance(&ode::<f64, _, 1>(&Plain), 0.1)
+        .expect_err("no slopes");
+    assert_eq!(refused.reason, Reason::NoJacobian);
+}

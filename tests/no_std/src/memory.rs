@@ -1,0 +1,46 @@
+//! What a bare-metal target's compiler brings along and a hosted one takes from its C library:
+//! compiled code copies, fills and compares memory through these four functions.
+//!
+//! Volatile, or the compiler would recognise the loops and call the functions from themselves.
+
+/// Copies `n` bytes forwards.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn memcpy(to: *mut u8, from: *const u8, n: usize) -> *mut u8 {
+    for i in 0..n {
+        unsafe { to.add(i).write_volatile(from.add(i).read()) };
+    }
+    to
+}
+
+/// Copies `n` bytes between places that may overlap.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn memmove(to: *mut u8, from: *const u8, n: usize) -> *mut u8 {
+    if to.cast_const() <= from {
+        return unsafe { memcpy(to, from, n) };
+    }
+    for i in (0..n).rev() {
+        unsafe { to.add(i).write_volatile(from.add(i).read()) };
+    }
+    to
+}
+
+/// Fills `n` bytes.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn memset(to: *mut u8, byte: i32, n: usize) -> *mut u8 {
+    for i in 0..n {
+        unsafe { to.add(i).write_volatile(byte as u8) };
+    }
+    to
+}
+
+/// The difference of the first two bytes that differ.
+#[unsafe(no_mangle)]
+unsafe extern "C" fn memcmp(a: *const u8, b: *const u8, n: usize) -> i32 {
+    for i in 0..n {
+        let (a, b) = unsafe { (a.add(i).read_volatile(), b.add(i).read_volatile()) };
+        if a != b {
+            return i32::from(a) - i32::from(b);
+        }
+    }
+    0
+}

@@ -1,0 +1,100 @@
+//! What is outside of what a scene can be in: an error that names a coordinate or a state, never a
+//! number.
+
+use bgdyn_runtime::{Canonical, Slope};
+use nalgebra::SVector;
+
+/// A NaN in a part of the state leaves nothing that depends on the part finite.
+fn nan_is_told<
+    S,
+    const N: usize,
+    const M: usize,
+    const U: usize,
+    const E: usize,
+    const Y: usize,
+    const P: usize,
+>(
+    scene: &S,
+) where
+    S: Slope<f64, N, M, U, E, Y, P> + Canonical<f64, N, M, U, E, Y, P>,
+{
+    let (start, modes) = scene.start();
+    let given = SVector::<f64, U>::from_element(0.1);
+    // Nothing is at a kink, nothing at rest.
+    let start = SVector::<f64, N>::from_fn(|i, _| start[i] * 1.01 + 1e-3 * (i + 1) as f64);
+    let rates = |y: &SVector<f64, N>| {
+        let input = scene.input(y, &modes, &given, 0.3);
+        let rates = scene.derivative(y, &modes, &input, 0.3);
+        rates.map(|r| r.as_slice().to_vec()).ok()
+    };
+    let slopes = |y: &SVector<f64, N>| {
+        let slope = scene.slope(y, &modes, &given, 0.3);
+        slope
+            .map(|(s, t)| [s.as_slice(), t.as_slice()].concat())
+            .ok()
+    };
+    let canonical = |z: &SVector<f64, N>| {
+        let rates = scene.canonical_rates(z, &modes, &given, 0.3);
+        rates.map(|r| r.as_slice().to_vec()).ok()
+    };
+    let functions: [(&str, &dyn Fn(&SVector<f64, N>) -> Option<Vec<f64>>); 3] = [
+        ("derivative", &rates),
+        ("slope", &slopes),
+        ("canonical rates", &canonical),
+    ];
+    for (what, function) in functions {
+        let usual = function(&start).expect("a regular state");
+        for i in 0..N {
+            let (mut moved, mut spoiled) = (start, start);
+            moved[i] *= 1.001;
+            spoiled[i] = f64::NAN;
+            let (moved, spoiled) = (function(&moved).expect("regular"), function(&spoiled));
+            for k in 0..usual.len() {
+                let depends = usual[k] != moved[k];
+                let finite = spoiled.as_ref().is_some_and(|s| s[k].is_finite());
+                let part = scene.state_names()[i];
+                assert!(
+                    !(depends && finite),
+                    "{what}: NaN in `{part}` leaves entry {k} finite"
+                );
+            }
+        }
+    }
+}
+
+macro_rules! nan {
+    ($module:ident, $scene:ident, $path:literal) => {
+        nan_is_told(&scenes::$module::$scene::<f64>::default());
+    };
+}
+
+#[test]
+fn nan_never_becomes_a_number() {
+    scenes::each_formed!(nan);
+}
+
+/// Beyond its end the piston leaves no room for the fluid: the chamber is named.
+#[test]
+fn a_chamber_without_volume_is_an_error() {
+    use scenes::hydraulic_cylinder::{HydraulicCylinder, Input, State};
+    let scene = HydraulicCylinder::<f64>::default();
+    let at = |slide: f64| {
+        let state = State {
+            slide,
+            ..State::default()
+        };
+        let input = scene.input(&state, &Input::default(), 0.0);
+        (
+            scene.derivative(&state, &input, 0.0),
+            scene.jacobian(&state, &Input::default(), 0.0),
+            scene.energy(&state, &input, 0.0).ram,
+        )
+    };
+    let (rates, slope, energy) = at(State::<f64>::default().slide);
+    assert!(rates.is_ok() && slope.is_ok() && energy.is_finite());
+    for slide in [-10.0, 10.0] {
+        let (rates, slope, energy) = at(slide);
+        let (rates, slope) = (rates.expect_err("no room"), slope.expect_err("no room"));
+        assert!(!rates.name.is_empty() && !slope.name.is_empty() && energy.is_nan());
+    }
+}
