@@ -196,6 +196,7 @@ pub trait Canonical<
     ///
     /// # Errors
     /// As [`System::derivative`].
+    #[allow(clippy::wrong_self_convention, reason = "M is the scene's")]
     fn from_canonical(
         &self,
         z: &SVector<T, N>,

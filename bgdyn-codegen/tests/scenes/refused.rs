@@ -143,3 +143,49 @@ fn a_scene_is_told_by_its_first_key() {
     assert!(!is_scene("format: 1\nscene: 1"));
     assert!(!is_scene(""));
 }
+
+/// Whatever line of a scene or of its mechanism is missing or cut short: there is a module to stand
+/// in, with each name once.
+#[test]
+fn every_refused_scene_has_a_stand_in() {
+    use bgdyn_codegen::interface::SceneInterface;
+    use bgdyn_codegen::model::{beside, mechanism_of, stem};
+    let spoiled = |text: &str| -> Vec<String> {
+        let lines: Vec<&str> = text.lines().collect();
+        let without = |i: usize| [&lines[..i], &lines[i + 1..]].concat().join("\n");
+        let cut = |i: usize| {
+            let half = lines[i].chars().count() / 2;
+            let half: String = lines[i].chars().take(half).collect();
+            [&lines[..i], &[half.as_str()], &lines[i + 1..]]
+                .concat()
+                .join("\n")
+        };
+        (0..lines.len())
+            .flat_map(|i| [without(i), cut(i)])
+            .collect()
+    };
+    for path in super::common::specs() {
+        let text = std::fs::read_to_string(&path).expect("a scene");
+        let of = mechanism_of(&text).expect("a mechanism");
+        let file = beside(&path, &of);
+        let mechanism = std::fs::read_to_string(&file).expect("a mechanism");
+        let named = stem(&file);
+        let scenes = spoiled(&text).into_iter().map(|t| (t, mechanism.clone()));
+        let mechanisms = spoiled(&mechanism).into_iter().map(|m| (text.clone(), m));
+        for (text, mechanism) in scenes.chain(mechanisms) {
+            let told = Some((mechanism.as_str(), named.as_str()));
+            let guess = SceneInterface::guess(&text, "scene", told).expect("a stand-in");
+            let layout = &guess.layout;
+            let rates = layout.coordinates.iter().map(|c| &c.rate_name);
+            let names = layout.coordinates.iter().map(|c| &c.name);
+            let states = layout.states.iter().map(|s| &s.name);
+            let mut all: Vec<&String> = names.chain(rates).chain(states).collect();
+            let count = all.len();
+            all.sort();
+            all.dedup();
+            assert_eq!(all.len(), count, "{text}\n{mechanism}");
+            assert_eq!(guess.initial.q.len(), layout.nq());
+            assert_eq!(guess.mode_coordinates.len(), layout.modes.len());
+        }
+    }
+}

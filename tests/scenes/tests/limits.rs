@@ -4,6 +4,9 @@
 use bgdyn_runtime::{Canonical, Slope};
 use nalgebra::SVector;
 
+/// The results at a state; none where it is refused.
+type Function<'a, const N: usize> = &'a dyn Fn(&SVector<f64, N>) -> Option<Vec<f64>>;
+
 /// A NaN in a part of the state leaves nothing that depends on the part finite.
 fn nan_is_told<
     S,
@@ -37,7 +40,7 @@ fn nan_is_told<
         let rates = scene.canonical_rates(z, &modes, &given, 0.3);
         rates.map(|r| r.as_slice().to_vec()).ok()
     };
-    let functions: [(&str, &dyn Fn(&SVector<f64, N>) -> Option<Vec<f64>>); 3] = [
+    let functions: [(&str, Function<'_, N>); 3] = [
         ("derivative", &rates),
         ("slope", &slopes),
         ("canonical rates", &canonical),
