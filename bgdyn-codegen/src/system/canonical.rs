@@ -108,7 +108,7 @@ pub(super) fn momenta(system: &System) -> Vec<Function> {
 /// The ways to the velocities of momenta, which stand in their place among the leaves.
 pub(super) fn velocities(system: &System) -> Vec<Function> {
     let search = Search::new(&system.graph, None);
-    let ways = search.forward_dynamics().iter();
+    let ways = search.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let outputs = expressions(&solved(system, &b, forward));
@@ -141,7 +141,7 @@ pub(super) fn rates(system: &System) -> Vec<Function> {
         false => &[Drift::Momenta],
     };
     let search = Search::new(&system.graph, None);
-    let Some(forward) = search.forward_dynamics().first() else {
+    let Some(forward) = search.forward_dynamics().next() else {
         return vec![];
     };
     let with = |&drift: &Drift| {

@@ -88,7 +88,7 @@ fn implicit(system: &System) -> Vec<Function> {
         return vec![system.flat(Role::Jacobian, name, b, columns)];
     }
     let search = Search::new(&system.graph, None);
-    let ways = search.forward_dynamics().iter();
+    let ways = search.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let columns = {
