@@ -21,6 +21,7 @@ mod refused;
 mod refused_bodies;
 mod settle;
 mod springs;
+mod staged;
 mod written;
 mod zero;
 

@@ -1,0 +1,324 @@
+//! `docs/staged.md`: the two stages of a study (Kuzmin 2007), point masses and then distributed
+//! masses, on the SCARA and the PUMA 560: what the second stage costs, and what it changes. The
+//! page is written with `BGDYN_WRITE=1`; without, its numbers must be up to date.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::Path;
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Role;
+use bgdyn_codegen::system::System;
+
+use super::common::{read, scene};
+
+/// Points of a path.
+const POINTS: usize = 200;
+
+/// A mechanism under study.
+struct Study {
+    name: &'static str,
+    title: &'static str,
+    /// Its scenes: `NAME_lumped`, `NAME_distributed`.
+    scenes: &'static str,
+    /// How far each joint moves on the path, rad or m, and how long that takes, s.
+    path: &'static [f64],
+    period: f64,
+}
+
+const STUDIES: [Study; 2] = [
+    Study {
+        name: "scara",
+        title: "SCARA",
+        scenes: "scara",
+        path: &[1.6, 1.2, 0.1, 3.0],
+        period: 0.8,
+    },
+    Study {
+        name: "puma560",
+        title: "PUMA 560",
+        scenes: "puma",
+        path: &[1.6, 0.8, 0.8, 1.6, 1.0, 2.0],
+        period: 1.2,
+    },
+];
+
+/// What to draw: a curve of each stage.
+struct Panel {
+    title: String,
+    stages: [Vec<f64>; 2],
+}
+
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// Lumped and distributed, every joint free.
+fn free(study: &Study) -> [System; 2] {
+    let file = root().join(format!("specs/{}.yaml", study.name));
+    let mechanism = std::fs::read_to_string(file).expect("a mechanism");
+    ["", ", inertia"].map(|inertia| {
+        let text = format!(
+            "scene: 1\nmechanism: m.yaml\neffects: [gravity, velocity_products{inertia}]\n"
+        );
+        scene(&text, &mechanism)
+    })
+}
+
+/// The scenes that move.
+fn moving(study: &Study) -> [System; 2] {
+    ["lumped", "distributed"].map(|stage| {
+        let file = format!("specs/scenes/{}_{stage}.scene.yaml", study.scenes);
+        read(&root().join(file))
+    })
+}
+
+/// Efforts along the path: there and back, at rest at both ends.
+fn efforts(study: &Study, system: &System) -> Vec<Vec<f64>> {
+    let inverse = system.function(Role::Inverse);
+    let mut at = system.start();
+    let point = |k: usize| {
+        let w = TAU / study.period;
+        let angle = TAU * k as f64 / POINTS as f64;
+        for (j, reach) in study.path.iter().enumerate() {
+            at.q[j] = reach * 0.5 * (1.0 - angle.cos());
+            at.v[j] = reach * 0.5 * w * angle.sin();
+            let a = reach * 0.5 * w * w * angle.cos();
+            at.a.resize(study.path.len(), 0.0);
+            at.a[j] = a;
+        }
+        inverse.evaluate(at.clone()).0
+    };
+    (0..=POINTS).map(point).collect()
+}
+
+/// Positions over time, at `POINTS` + 1 instants, and the time at the end.
+fn motion(system: &System) -> (Vec<Vec<f64>>, f64) {
+    let derivative = system.function(Role::Derivative);
+    let inputs = system.function(Role::Inputs);
+    let (h, end) = (1e-3, system.scene.integration.end);
+    let steps = (end / h).round() as usize;
+    let mut at = system.start();
+    let mut path = Vec::new();
+    for k in 0..=steps {
+        if k % (steps / POINTS) == 0 {
+            path.push(at.q.clone());
+        }
+        at = stepped(&derivative, &inputs, &at, h);
+    }
+    (path, end)
+}
+
+/// A step of the classical Runge–Kutta method.
+fn stepped(derivative: &Function, inputs: &Function, at: &Inputs<f64>, h: f64) -> Inputs<f64> {
+    let rates = |at: &Inputs<f64>| {
+        let mut at = at.clone();
+        at.u = inputs.evaluate(at.clone()).0;
+        let (rates, refused) = derivative.evaluate(at.clone());
+        assert_eq!(refused, None, "no rates");
+        [at.v, rates].concat()
+    };
+    let moved = |k: &[f64], h: f64| {
+        let mut to = at.clone();
+        let parts = to.q.iter_mut().chain(&mut to.v);
+        parts.zip(k).for_each(|(x, k)| *x += h * k);
+        to.t = at.t.map(|t| t + h);
+        to
+    };
+    let k1 = rates(at);
+    let k2 = rates(&moved(&k1, 0.5 * h));
+    let k3 = rates(&moved(&k2, 0.5 * h));
+    let k4 = rates(&moved(&k3, h));
+    let mean: Vec<f64> = (0..k1.len())
+        .map(|i| (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]) / 6.0)
+        .collect();
+    moved(&mean, h)
+}
+
+/// Component j of each point.
+fn column(rows: &[Vec<f64>], j: usize) -> Vec<f64> {
+    rows.iter().map(|row| row[j]).collect()
+}
+
+fn largest(x: impl Iterator<Item = f64>) -> f64 {
+    x.fold(0.0, |most, x| most.max(x.abs()))
+}
+
+fn apart([lumped, distributed]: &[Vec<f64>; 2]) -> f64 {
+    largest(lumped.iter().zip(distributed).map(|(x, y)| y - x))
+}
+
+fn unit(system: &System, j: usize) -> (&'static str, &'static str) {
+    let rotates = system.graph.coordinates[j].motion == bgdyn_codegen::mechanism::Motion::Rotation;
+    if rotates { ("rad", "N·m") } else { ("m", "N") }
+}
+
+/// The names of the coordinates that move.
+fn names(system: &System) -> Vec<String> {
+    let coordinates = system.graph.coordinates.iter();
+    coordinates.map(|c| c.name.clone()).collect()
+}
+
+/// A number with three digits.
+fn figures(value: f64) -> String {
+    let decimals = (2.0 - value.abs().max(1e-12).log10().floor()).clamp(0.0, 5.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+fn figure(panels: &[Panel], end: f64) -> String {
+    let (width, height) = (250.0, 130.0);
+    let rows = panels.len().div_ceil(3);
+    let (wide, high) = (
+        3.0 * (width + 75.0) + 10.0,
+        rows as f64 * (height + 62.0) + 40.0,
+    );
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}\" height=\"{high}\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"{wide}\" height=\"{high}\" fill=\"white\"/>\n"
+    );
+    for (k, panel) in panels.iter().enumerate() {
+        let left = 62.0 + (k % 3) as f64 * (width + 75.0);
+        let top = 30.0 + (k / 3) as f64 * (height + 62.0);
+        let all = || panel.stages.iter().flatten();
+        let low = all().fold(f64::MAX, |m, &x| m.min(x));
+        let most = all().fold(f64::MIN, |m, &x| m.max(x));
+        let span = (most - low).max(1e-9);
+        writeln!(svg, "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#999\"/>\n<text x=\"{left}\" y=\"{}\">{}</text>", top - 8.0, panel.title).unwrap();
+        for (y, value) in [(top + 10.0, most), (top + height, low)] {
+            let at = left - 5.0;
+            writeln!(
+                svg,
+                "<text x=\"{at}\" y=\"{y}\" text-anchor=\"end\" font-size=\"11\">{}</text>",
+                figures(value)
+            )
+            .unwrap();
+        }
+        for (x, text) in [(left, "0".to_owned()), (left + width, format!("{end} s"))] {
+            let y = top + height + 15.0;
+            writeln!(
+                svg,
+                "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\" font-size=\"11\">{text}</text>"
+            )
+            .unwrap();
+        }
+        let styles = [
+            "stroke=\"#555\" stroke-dasharray=\"5 4\"",
+            "stroke=\"#c0392b\" stroke-width=\"2\"",
+        ];
+        for (curve, style) in panel.stages.iter().zip(styles) {
+            let n = curve.len() - 1;
+            let points = curve.iter().enumerate().map(|(i, x)| {
+                let (x, y) = (i as f64 / n as f64, (x - low) / span);
+                format!("{:.1},{:.1}", left + width * x, top + height * (1.0 - y))
+            });
+            let points: Vec<String> = points.collect();
+            let points = points.join(" ");
+            writeln!(svg, "<polyline fill=\"none\" {style} points=\"{points}\"/>").unwrap();
+        }
+    }
+    let y = high - 18.0;
+    write!(svg, "<line x1=\"62\" y1=\"{y}\" x2=\"92\" y2=\"{y}\" stroke=\"#555\" stroke-dasharray=\"5 4\"/><text x=\"98\" y=\"{0}\">point masses</text>\n<line x1=\"222\" y1=\"{y}\" x2=\"252\" y2=\"{y}\" stroke=\"#c0392b\" stroke-width=\"2\"/><text x=\"258\" y=\"{0}\">distributed masses</text>\n</svg>\n", y + 4.0).unwrap();
+    svg
+}
+
+/// Operations of a function, and its sines.
+fn count(system: &System, role: Role) -> String {
+    let o = system.function(role).operations();
+    format!("{} ({} sincos)", o.mul + o.add, o.sincos)
+}
+
+fn section(study: &Study, write: bool) -> String {
+    let (free, moving) = (free(study), moving(study));
+    let mut text = format!(
+        "## {}\n\n| multiplications and additions | point masses | distributed |\n|---|---|---|\n",
+        study.title
+    );
+    let locked = if moving[0].graph.coordinates.len() < free[0].graph.coordinates.len() {
+        ", wrist locked"
+    } else {
+        ""
+    };
+    let mut rows = vec![("`inverse`".to_owned(), &free, Role::Inverse)];
+    if !locked.is_empty() {
+        rows.push((format!("`inverse`{locked}"), &moving, Role::Inverse));
+    }
+    rows.push((format!("`derivative`{locked}"), &moving, Role::Derivative));
+    for (what, systems, role) in rows {
+        let [lumped, distributed] = [0, 1].map(|k| count(&systems[k], role));
+        writeln!(text, "| {what} | {lumped} | {distributed} |").unwrap();
+    }
+    let along = [0, 1].map(|k| efforts(study, &free[k]));
+    text += "\nEfforts along a path on which every joint moves to and fro once";
+    writeln!(text, " ({} s):\n", study.period).unwrap();
+    text += "| joint | largest effort | largest difference | |\n|---|---|---|---|\n";
+    let mut panels = Vec::new();
+    for (j, name) in names(&free[1]).into_iter().enumerate() {
+        let stages = [0, 1].map(|k| column(&along[k], j));
+        let (most, off) = (largest(stages[1].iter().copied()), apart(&stages));
+        let (_, unit) = unit(&free[1], j);
+        writeln!(
+            text,
+            "| {name} | {most:.3} {unit} | {off:.3} {unit} | {:.0} % |",
+            100.0 * off / most
+        )
+        .unwrap();
+        panels.push(Panel {
+            title: format!("{name}, {unit}"),
+            stages,
+        });
+    }
+    let path = format!("images/staged/{}_efforts.svg", study.name);
+    writeln!(text, "\n![Efforts along the path]({path})\n").unwrap();
+    save(&path, &figure(&panels, study.period), write);
+    let [(lumped, end), (distributed, _)] = [0, 1].map(|k| motion(&moving[k]));
+    writeln!(text, "The scenes `{0}_lumped` and `{0}_distributed`{locked}, the same efforts and controllers:\n\n| joint | largest difference in {end} s |\n|---|---|", study.scenes).unwrap();
+    let mut panels = Vec::new();
+    for (j, name) in names(&moving[1]).into_iter().enumerate() {
+        let stages = [column(&lumped, j), column(&distributed, j)];
+        let (unit, _) = unit(&moving[1], j);
+        writeln!(text, "| {name} | {:.3} {unit} |", apart(&stages)).unwrap();
+        panels.push(Panel {
+            title: format!("{name}, {unit}"),
+            stages,
+        });
+    }
+    let path = format!("images/staged/{}_motion.svg", study.name);
+    writeln!(text, "\n![Motion]({path})\n").unwrap();
+    save(&path, &figure(&panels, end), write);
+    text
+}
+
+fn save(path: &str, figure: &str, write: bool) {
+    let path = root().join("docs").join(path);
+    if write {
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder of figures");
+        std::fs::write(path, figure).expect("a figure");
+    } else {
+        assert!(path.exists(), "{} is missing", path.display());
+    }
+}
+
+const HEAD: &str = "# A study in two stages
+
+The first stage takes every link as a point mass at its centre of mass; the second adds the terms of the inertia tensors, ρ·(K̇ − M), to the same equations (Kuzmin 2007). A scene says which: without `inertia` the first, with it the second. This page shows on two arms what the second stage costs and what it changes.
+
+With point masses the inverse dynamics is sound for every arm, but a joint may move nothing that has inertia: the PUMA's hand is such a joint, so the scene in which it moves by itself has the wrist locked. Its waist, too, turns a trunk without mass: where next to nothing is left of a joint's own inertia, `derivative` takes articulated bodies with an error bound on every pivot, which costs more than the elimination that the distributed arm gets. On the SCARA the tensors change numbers only: they fold into constants that are there anyway. Counts are of what is generated.
+
+";
+
+#[test]
+fn the_staged_study_is_up_to_date() {
+    let write = std::env::var_os("BGDYN_WRITE").is_some();
+    let mut page = HEAD.to_owned();
+    for study in &STUDIES {
+        page += &section(study, write);
+    }
+    page += "To write this page again: `BGDYN_WRITE=1 cargo test --release -p bgdyn-codegen --test scenes staged`.\n";
+    let path = root().join("docs/staged.md");
+    if write {
+        std::fs::write(path, page).expect("the page");
+    } else {
+        let found = std::fs::read_to_string(path).expect("docs/staged.md");
+        assert!(found == page, "docs/staged.md is not up to date");
+    }
+}
