@@ -150,7 +150,7 @@ pub enum Refusal {
         /// What is wrong with it.
         faults: Faults,
     },
-    /// Names asked for that the mechanism does not have.
+    /// Names asked for that the mechanism does not have, options that have no place here.
     Options(Vec<Unknown>),
 }
 
@@ -189,6 +189,10 @@ pub fn generate_file(
         return generate(text, stem, place, options);
     }
     let (system, findings) = read_scene(text, stem, load)?;
+    let misplaced = options.of_mechanisms();
+    if !misplaced.is_empty() {
+        return Err(Refusal::Options(misplaced));
+    }
     let functions = scene_functions(&system, options);
     Ok((emit::scene_module(&system, &functions, place), findings))
 }

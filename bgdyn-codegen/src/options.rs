@@ -69,13 +69,11 @@ pub enum Asked {
     Methods,
     /// [`Options::frames`]
     Frames,
-    /// [`Options::jacobian`]
-    Jacobian,
-    /// [`Options::canonical`]
-    Canonical,
+    /// An option as such, by its name.
+    Whole(&'static str),
 }
 
-/// Something asked for that the mechanism does not have.
+/// Something asked for that the mechanism or the scene does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unknown {
     /// The option that asks for it.
@@ -129,18 +127,51 @@ impl Options {
     /// What only scenes have.
     fn of_scenes(&self) -> Vec<Unknown> {
         let asked = [
-            (self.jacobian, Asked::Jacobian, "jacobian", "derivatives"),
-            (self.canonical, Asked::Canonical, "canonical", "mass_matrix"),
+            (self.jacobian, "jacobian", "derivatives"),
+            (self.canonical, "canonical", "mass_matrix"),
         ];
         let asked = asked.into_iter().filter(|(wanted, ..)| *wanted);
-        let unknown = asked.map(|(_, option, name, instead)| Unknown {
-            option,
-            index: 0,
-            message: format!(
-                "`{name}` is of scenes, and this is a mechanism: see `{instead}`, or write a scene"
-            ),
+        let unknown = asked.map(|(_, name, instead)| {
+            let way = format!("this is a mechanism: see `{instead}`, or write a scene");
+            Unknown::whole(name, format!("`{name}` is of scenes, and {way}"))
         });
         unknown.collect()
+    }
+
+    /// What is asked for that only mechanisms have, where a scene is generated.
+    pub fn of_mechanisms(&self) -> Vec<Unknown> {
+        let asked = [
+            (self.methods.is_some(), "methods", "a scene has its own"),
+            (self.frames.is_some(), "frames", "see the key `outputs`"),
+            (self.derivatives, "derivatives", "see `jacobian`"),
+            (
+                self.formulation.is_some(),
+                "formulation",
+                "a scene's functions are chosen by what they cost",
+            ),
+            (
+                self.prefer != Preference::Operations,
+                "prefer",
+                "a scene's functions are chosen by what they cost",
+            ),
+        ];
+        let asked = asked.into_iter().filter(|(wanted, ..)| *wanted);
+        let unknown = asked.map(|(_, name, instead)| {
+            let message = format!("`{name}` is of mechanisms, and this is a scene: {instead}");
+            Unknown::whole(name, message)
+        });
+        unknown.collect()
+    }
+}
+
+impl Unknown {
+    /// An option that has no place here.
+    fn whole(name: &'static str, message: String) -> Self {
+        Unknown {
+            option: Asked::Whole(name),
+            index: 0,
+            message,
+        }
     }
 }
 

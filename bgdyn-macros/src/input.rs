@@ -24,9 +24,8 @@ pub(crate) struct Input {
     /// Where the names in `methods` and `frames` stand.
     methods: Vec<Span>,
     frames: Vec<Span>,
-    /// Where `jacobian` and `canonical` stand.
-    jacobian: Vec<Span>,
-    canonical: Vec<Span>,
+    /// The options, where they stand.
+    given: Vec<Ident>,
     /// What is wrong with the options. The module is made all the same.
     pub(crate) errors: Vec<syn::Error>,
 }
@@ -40,8 +39,7 @@ impl Parse for Input {
             visibility: quote! { pub },
             methods: Vec::new(),
             frames: Vec::new(),
-            jacobian: Vec::new(),
-            canonical: Vec::new(),
+            given: Vec::new(),
             errors: Vec::new(),
         };
         if let Err(error) = parsed.all(input) {
@@ -54,33 +52,33 @@ impl Parse for Input {
 }
 
 impl Input {
-    /// The error on a name that the mechanism does not have.
+    /// The error on a name or an option that has no place here.
     pub(crate) fn error(&self, unknown: &Unknown) -> syn::Error {
-        let spans = match unknown.option {
-            Asked::Methods => &self.methods,
-            Asked::Frames => &self.frames,
-            Asked::Jacobian => &self.jacobian,
-            Asked::Canonical => &self.canonical,
+        let span = match unknown.option {
+            Asked::Methods => self.methods.get(unknown.index).copied(),
+            Asked::Frames => self.frames.get(unknown.index).copied(),
+            Asked::Whole(name) => {
+                let option = self.given.iter().find(|option| *option == name);
+                option.map(Ident::span)
+            }
         };
-        let span = spans.get(unknown.index).copied();
         let span = span.unwrap_or_else(|| self.path.span());
         syn::Error::new(span, format!("bgdyn: {}", unknown.message))
     }
 
     fn all(&mut self, input: ParseStream<'_>) -> syn::Result<()> {
-        let mut seen: Vec<Ident> = Vec::new();
         while !input.is_empty() {
             input.parse::<Token![,]>()?;
             if input.is_empty() {
                 break;
             }
             let option: Ident = input.parse()?;
-            if seen.contains(&option) {
+            if self.given.contains(&option) {
                 self.refuse(option.span(), format!("`{option}` is given twice"));
             }
             input.parse::<Token![=]>()?;
             self.option(&option, input)?;
-            seen.push(option);
+            self.given.push(option);
         }
         Ok(())
     }
@@ -93,14 +91,8 @@ impl Input {
     fn option(&mut self, option: &Ident, input: ParseStream<'_>) -> syn::Result<()> {
         match option.to_string().as_str() {
             "derivatives" => self.options.derivatives = input.parse::<LitBool>()?.value,
-            "jacobian" => {
-                self.options.jacobian = input.parse::<LitBool>()?.value;
-                self.jacobian = vec![option.span()];
-            }
-            "canonical" => {
-                self.options.canonical = input.parse::<LitBool>()?.value;
-                self.canonical = vec![option.span()];
-            }
+            "jacobian" => self.options.jacobian = input.parse::<LitBool>()?.value,
+            "canonical" => self.options.canonical = input.parse::<LitBool>()?.value,
             "formulation" => {
                 let value: LitStr = input.parse()?;
                 match formulation_named(&value.value()) {

@@ -71,6 +71,14 @@ impl Ops {
     }
 
     fn scene(&self, system: &System, options: &Options) -> Result<()> {
+        let misplaced = options.of_mechanisms();
+        if !misplaced.is_empty() {
+            return Err(unknown(misplaced).into());
+        }
+        if self.explain {
+            let message = "`--explain` is for mechanisms; of a scene see `--per-effect`";
+            return Err(Usage(message.into()).into());
+        }
         if self.per_effect {
             return super::per_effect::report(system, self.json, &self.bgdyn);
         }
