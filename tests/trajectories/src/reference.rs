@@ -97,6 +97,19 @@ impl Reference {
         self.compare(found, &self.values(columns), f64::abs, |_| allowed)
     }
 
+    /// Quantities that some columns make up.
+    pub fn parts(
+        &self,
+        columns: &[&str],
+        found: &[Vec<f64>],
+        quantities: impl Fn(&[f64]) -> Vec<f64>,
+        allowed: f64,
+    ) -> Vec<Deviation> {
+        let of = |rows: &[Vec<f64>]| rows.iter().map(|row| quantities(row)).collect::<Vec<_>>();
+        let wanted = of(&self.values(columns));
+        self.compare(&of(found), &wanted, |_| 1.0, |_| allowed)
+    }
+
     /// The largest deviation of each sample, in units of a size.
     fn compare(
         &self,

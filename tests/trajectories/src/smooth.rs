@@ -25,7 +25,11 @@ where
     let reference = reference.only(|k, _| tolerances[k] < LARGEST);
     let states = controlled(Dop853, alike(1e-13), plant, begin, &reference.times);
     let found = of(&states, |y| y.entries().to_vec());
-    let kept: Vec<f64> = tolerances.iter().copied().filter(|&t| t < LARGEST).collect();
+    let kept: Vec<f64> = tolerances
+        .iter()
+        .copied()
+        .filter(|&t| t < LARGEST)
+        .collect();
     let deviations = reference.all(&found, |k| kept[k]);
     vec![Outcome::worst(case, "state; dop853 at 1e-13", deviations)]
 }
