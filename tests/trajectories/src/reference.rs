@@ -119,19 +119,18 @@ impl Reference {
         allowed: impl Fn(usize) -> f64,
     ) -> Vec<Deviation> {
         assert_eq!(found.len(), wanted.len(), "samples");
-        let rows = found.iter().zip(wanted).zip(&self.times).enumerate();
-        let deviation = |(k, ((found, wanted), &t)): (usize, ((&Vec<f64>, &Vec<f64>), &f64))| {
+        let mut deviations = vec![];
+        for (k, (found, wanted)) in found.iter().zip(wanted).enumerate() {
             assert_eq!(found.len(), wanted.len(), "columns");
             let parts = found.iter().zip(wanted);
-            Deviation {
-                t,
-                measured: parts
-                    .map(|(x, w)| (x - w).abs() / size(*w))
-                    .fold(0.0, larger),
+            let parts = parts.map(|(x, w)| (x - w).abs() / size(*w));
+            deviations.push(Deviation {
+                t: self.times[k],
+                measured: parts.fold(0.0, larger),
                 allowed: allowed(k),
-            }
-        };
-        rows.map(deviation).collect()
+            });
+        }
+        deviations
     }
 }
 
