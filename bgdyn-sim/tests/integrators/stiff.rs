@@ -211,7 +211,8 @@ impl Equation<f64, 4> for TwoMasses {
 #[test]
 fn rodas4_keeps_its_order_beside_a_stiff_spring() {
     let start = vector([0.1, 1e-5, 0.0, 0.0]);
-    // The slow mode, and the squares of the rates: their sum and product. Displacements 1 and `second`, M-orthogonal to the fast one.
+    // Squares of the two angular frequencies, by their sum and product. In the slow mode the masses
+    // are displaced as 1 to `second`; its share in a motion is taken M-orthogonally to the fast one.
     let (sum, product) = (1.5e8_f64 + 100.0, 0.5e10);
     let square = 2.0 * product / (sum + (sum * sum - 4.0 * product).sqrt());
     let second = 1.0 + (100.0 - square) / 1e8;
