@@ -74,8 +74,11 @@ pub(crate) fn factor<T: Real>(a: &mut [T], pivots: &mut [usize], n: usize) -> bo
 /// Solves with the factors of [`factor`], in place.
 pub(crate) fn solve<T: Real>(a: &[T], pivots: &[usize], x: &mut [T]) {
     let n = x.len();
+    // The factors' rows stand in their last order: x comes to it before anything is eliminated.
+    for (k, &p) in pivots.iter().enumerate() {
+        x.swap(k, p);
+    }
     for k in 0..n {
-        x.swap(k, pivots[k]);
         for i in k + 1..n {
             x[i] = x[i] - a[k * n + i] * x[k];
         }

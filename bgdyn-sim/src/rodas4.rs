@@ -17,10 +17,9 @@ use crate::tableau::combined;
 ///
 /// For stiff scenes: friction that is all but rigid, motors with fast windings, hydraulics. Six
 /// evaluations of the rates, one of their slopes and one factorisation per step, no iteration. Of
-/// this family it is the one that keeps its order where the fast part is driven. Stiff springs that
-/// swing along are not for it: it then has order 1 until its steps resolve them, where a
-/// [`crate::Gauss`] method with slopes keeps its own. The coefficients
-/// are published to 16 digits: in double-double no more than those are to be had.
+/// this family it is the one that keeps its order where the fast part is driven. What shakes on a
+/// stiff spring is damped away unless the steps resolve it; a [`crate::Gauss`] method keeps it. The
+/// coefficients are published to 16 digits: in double-double no more than those are to be had.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rodas4;
 

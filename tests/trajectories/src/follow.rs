@@ -1,0 +1,80 @@
+//! Plants from sample to sample.
+
+use bgdyn_sim::{Held, Method, Moment, Plant, Solver, Space, Tolerance};
+
+/// The states of a plant without events at some times, s, by controlled steps.
+///
+/// # Panics
+/// Where the run fails.
+pub(crate) fn controlled<P, M>(
+    method: M,
+    tolerance: Tolerance<f64>,
+    plant: &P,
+    begin: &Moment<P::State, P::Modes>,
+    times: &[f64],
+) -> Vec<P::State>
+where
+    P: Plant<State: Space<Scalar = f64>>,
+    M: Method<P::State>,
+{
+    let modes = &begin.modes;
+    let held = Held { plant, modes };
+    let mut solver = Solver::new(method, begin.t, begin.y.clone()).with_tolerance(tolerance);
+    let to = |&t: &f64| {
+        let reached = solver.advance_to(&held, t);
+        reached.unwrap_or_else(|failure| panic!("at {} s, before {t} s", failure.t));
+        solver.y().clone()
+    };
+    times.iter().map(to).collect()
+}
+
+/// The states of a plant without events at some times, s, by fixed steps of `h`, s, of which the times
+/// are multiples.
+///
+/// # Panics
+/// Where the run fails.
+pub(crate) fn fixed<P, M>(
+    method: M,
+    h: f64,
+    plant: &P,
+    begin: &Moment<P::State, P::Modes>,
+    times: &[f64],
+) -> Vec<P::State>
+where
+    P: Plant<State: Space<Scalar = f64>>,
+    M: Method<P::State>,
+{
+    let modes = &begin.modes;
+    let held = Held { plant, modes };
+    let mut solver = Solver::new(method, begin.t, begin.y.clone());
+    let to = |&t: &f64| {
+        while solver.t() < t - 0.5 * h {
+            let step = solver.advance(&held, h);
+            step.unwrap_or_else(|failure| panic!("at {} s, before {t} s", failure.t));
+        }
+        assert!((solver.t() - t).abs() < 1e-12, "{t} s is no multiple");
+        solver.y().clone()
+    };
+    times.iter().map(to).collect()
+}
+
+/// The same tolerance for all, absolute and relative.
+pub(crate) fn alike(tolerance: f64) -> Tolerance<f64> {
+    Tolerance {
+        absolute: tolerance,
+        relative: tolerance,
+    }
+}
+
+/// A relative tolerance, with a small absolute one: some parts of a state are small.
+pub(crate) fn relative(tolerance: f64) -> Tolerance<f64> {
+    Tolerance {
+        absolute: 1e-4 * tolerance,
+        relative: tolerance,
+    }
+}
+
+/// Some quantities of each state.
+pub(crate) fn of<Y>(states: &[Y], quantities: impl Fn(&Y) -> Vec<f64>) -> Vec<Vec<f64>> {
+    states.iter().map(quantities).collect()
+}

@@ -1,0 +1,149 @@
+//! Reference solutions: samples of motions.
+
+use serde_json::Value;
+
+use crate::outcome::Deviation;
+
+/// Samples of a motion.
+pub(crate) struct Reference {
+    file: Value,
+    /// Names of the columns behind the time.
+    columns: Vec<String>,
+    /// Times, s.
+    pub times: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+}
+
+/// The reference solution of this name, from `tests/hard_cases`.
+macro_rules! reference {
+    ($name:literal) => {
+        $crate::reference::Reference::read(include_str!(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../hard_cases/",
+            $name,
+            ".json"
+        )))
+    };
+}
+pub(crate) use reference;
+
+impl Reference {
+    /// From the text of a file.
+    ///
+    /// # Panics
+    /// Where it is no reference solution.
+    pub fn read(text: &str) -> Reference {
+        let file: Value = serde_json::from_str(text).expect("a reference solution");
+        let names = list(&file["columns"]).iter();
+        let names = names.map(|name| name.as_str().expect("a name"));
+        assert_eq!(names.clone().next(), Some("t"), "the time comes first");
+        let columns = names.skip(1).map(str::to_owned).collect();
+        let rows: Vec<Vec<f64>> = list(&file["samples"]).iter().map(numbers).collect();
+        Reference {
+            columns,
+            times: rows.iter().map(|row| row[0]).collect(),
+            rows: rows.into_iter().map(|row| row[1..].to_vec()).collect(),
+            file,
+        }
+    }
+
+    /// The samples for which this holds, by number and time.
+    pub fn only(mut self, holds: impl Fn(usize, f64) -> bool) -> Reference {
+        let numbered = self.times.into_iter().zip(self.rows).enumerate();
+        let held = numbered.filter(|(k, (t, _))| holds(*k, *t));
+        (self.times, self.rows) = held.map(|(_, sample)| sample).unzip();
+        self
+    }
+
+    /// For each sample of the file the deviation that rounding excuses.
+    ///
+    /// # Panics
+    /// Where the file has none.
+    pub fn tolerances(&self) -> Vec<f64> {
+        numbers(&self.file["tolerance_f64_per_sample"])
+    }
+
+    /// A list among the invariants.
+    ///
+    /// # Panics
+    /// Where the file has no such list.
+    pub fn invariants(&self, name: &str) -> Vec<f64> {
+        numbers(&self.file["invariants"][name])
+    }
+
+    /// Values of these columns, sample by sample.
+    fn values(&self, columns: &[&str]) -> Vec<Vec<f64>> {
+        let place = |name: &&str| {
+            let found = self.columns.iter().position(|column| column == name);
+            found.expect("a column of the file")
+        };
+        let places: Vec<usize> = columns.iter().map(place).collect();
+        let of = |row: &Vec<f64>| places.iter().map(|&i| row[i]).collect();
+        self.rows.iter().map(of).collect()
+    }
+
+    /// What was found for all columns against the samples; `allowed` by number.
+    pub fn all(&self, found: &[Vec<f64>], allowed: impl Fn(usize) -> f64) -> Vec<Deviation> {
+        self.compare(found, &self.rows, |_| 1.0, allowed)
+    }
+
+    /// What was found for some columns against the samples.
+    pub fn some(&self, columns: &[&str], found: &[Vec<f64>], allowed: f64) -> Vec<Deviation> {
+        self.compare(found, &self.values(columns), |_| 1.0, |_| allowed)
+    }
+
+    /// [`Reference::some`] relative to what is wanted.
+    pub fn relative(&self, columns: &[&str], found: &[Vec<f64>], allowed: f64) -> Vec<Deviation> {
+        self.compare(found, &self.values(columns), f64::abs, |_| allowed)
+    }
+
+    /// Quantities that some columns make up.
+    pub fn parts(
+        &self,
+        columns: &[&str],
+        found: &[Vec<f64>],
+        quantities: impl Fn(&[f64]) -> Vec<f64>,
+        allowed: f64,
+    ) -> Vec<Deviation> {
+        let of = |rows: &[Vec<f64>]| rows.iter().map(|row| quantities(row)).collect::<Vec<_>>();
+        let wanted = of(&self.values(columns));
+        self.compare(&of(found), &wanted, |_| 1.0, |_| allowed)
+    }
+
+    /// The largest deviation of each sample, in units of a size.
+    fn compare(
+        &self,
+        found: &[Vec<f64>],
+        wanted: &[Vec<f64>],
+        size: impl Fn(f64) -> f64,
+        allowed: impl Fn(usize) -> f64,
+    ) -> Vec<Deviation> {
+        assert_eq!(found.len(), wanted.len(), "samples");
+        let mut deviations = vec![];
+        for (k, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+            assert_eq!(found.len(), wanted.len(), "columns");
+            let parts = found.iter().zip(wanted);
+            let parts = parts.map(|(x, w)| (x - w).abs() / size(*w));
+            deviations.push(Deviation {
+                t: self.times[k],
+                measured: parts.fold(0.0, larger),
+                allowed: allowed(k),
+            });
+        }
+        deviations
+    }
+}
+
+/// The larger one; what is no number is larger than any.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.total_cmp(&b).is_lt() { b } else { a }
+}
+
+fn list(value: &Value) -> &Vec<Value> {
+    value.as_array().expect("a list")
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let number = |x: &Value| x.as_f64().expect("a number");
+    list(value).iter().map(number).collect()
+}

@@ -1,0 +1,88 @@
+//! Smooth motions by the method of order 8 with a tolerance of 1e-13: chaotic ones for as long as
+//! rounding errors have grown to less than 1e-3.
+
+use bgdyn_sim::{Dop853, Moment, Plant, Run, Scene, Space};
+
+use crate::follow::{alike, controlled, of};
+use crate::outcome::Outcome;
+use crate::reference::{Reference, reference};
+use crate::scenes;
+
+/// A sample of which rounding excuses a deviation as large as this says nothing.
+const LARGEST: f64 = 1e-3;
+
+/// A motion against its reference, as far as rounding errors allow.
+fn within<P>(
+    case: &'static str,
+    plant: &P,
+    begin: &Moment<P::State, P::Modes>,
+    reference: Reference,
+    tolerances: &[f64],
+) -> Vec<Outcome>
+where
+    P: Plant<State: Space<Scalar = f64>>,
+{
+    let reference = reference.only(|k, _| tolerances[k] < LARGEST);
+    let states = controlled(Dop853, alike(1e-13), plant, begin, &reference.times);
+    let found = of(&states, |y| y.entries().to_vec());
+    let kept: Vec<f64> = tolerances
+        .iter()
+        .copied()
+        .filter(|&t| t < LARGEST)
+        .collect();
+    let deviations = reference.all(&found, |k| kept[k]);
+    vec![Outcome::worst(case, "state; dop853 at 1e-13", deviations)]
+}
+
+macro_rules! smooth {
+    ($(#[$doc:meta])* $name:ident, $file:literal, $model:ident) => {
+        $(#[$doc])*
+        pub fn $name() -> Vec<Outcome> {
+            let reference = reference!($file);
+            let tolerances = reference.tolerances();
+            let scene = scenes::$name::$model::<f64>::default();
+            within($file, &Scene::new(&scene), &Run::begin(&scene), reference, &tolerances)
+        }
+    };
+}
+
+smooth!(
+    /// A double pendulum let go above its pivot.
+    double_pendulum_chaotic,
+    "double_pendulum_chaotic",
+    DoublePendulumChaotic
+);
+smooth!(
+    /// A planar chain of eight rods.
+    chain8_rods,
+    "chain8_rods",
+    Chain8Rods
+);
+smooth!(
+    /// A spatial arm with full tensors and a spring.
+    arm6_3d,
+    "arm6_3d",
+    Arm63d
+);
+smooth!(
+    /// A light pendulum on one that is a million times heavier.
+    mass_ratio_1e6_1,
+    "mass_ratio_1e6_1",
+    MassRatio1e61
+);
+smooth!(
+    /// A light pendulum on one that is 1e9 times heavier.
+    mass_ratio_1e9_1,
+    "mass_ratio_1e9_1",
+    MassRatio1e91
+);
+
+/// The pendulum of IFToMM's problem A01, to 1e-12 in every sample.
+pub fn a01_simple_pendulum() -> Vec<Outcome> {
+    let reference = reference!("a01_simple_pendulum");
+    let tolerances = vec![1e-12; reference.times.len()];
+    let scene = scenes::a01_simple_pendulum::A01SimplePendulum::<f64>::default();
+    let (plant, begin) = (Scene::new(&scene), Run::begin(&scene));
+    let case = "a01_simple_pendulum";
+    within(case, &plant, &begin, reference, &tolerances)
+}
