@@ -35,13 +35,14 @@ pub(crate) fn draw(path: &Path, title: &str, columns: &[Column], record: &Record
     } else {
         PANEL.0 * 2
     };
-    let size = (width, HEADER + PANEL.1 * down as u32);
+    let marked = !record.events.is_empty() && record.events.len() <= EVENTS;
+    let header = if marked { HEADER } else { HEADER - 20 };
+    let size = (width, header + PANEL.1 * down as u32);
     let root = SVGBackend::new(path, size).into_drawing_area();
     root.fill(&WHITE)?;
-    let (header, rest) = root.split_vertically(HEADER);
+    let (header, rest) = root.split_vertically(header);
     let text = |size: u32| (FONT, size).into_font().color(&INK);
     header.draw_text(title, &text(20), (16, 8))?;
-    let marked = !record.events.is_empty() && record.events.len() <= EVENTS;
     if marked {
         let events = "orange: events, where friction takes hold or breaks away";
         header.draw_text(events, &text(13), (16, 36))?;

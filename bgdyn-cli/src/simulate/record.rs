@@ -172,8 +172,19 @@ impl WithMethod<Numbers> for Start<'_> {
 
 type Failed = Failure<Numbers, Undefined>;
 
-/// Pieces of steps that may follow each other in next to no time before kinks count no more.
-const STALLED: usize = 64;
+/// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
+const CROWDED: usize = 16;
+
+/// A straight line from a state to where a run is now.
+fn straight<M: Method<Numbers>>(
+    t: f64,
+    y: &Numbers,
+    run: &Run<Evaluated<'_>, M>,
+) -> Dense<Numbers> {
+    let mut terms = [const { None }; 7];
+    terms[0] = Some(run.y() - y);
+    Dense::new(t, run.t() - t, y, terms)
+}
 
 /// A run, and what was kept of it so far.
 struct Recorder<'a, M: Method<Numbers>> {
@@ -259,26 +270,31 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
     fn to(&mut self, target: f64) -> Result<(), Failed> {
         let span = target - self.run.t();
         let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
-        let mut stalled = 0;
+        let mut crowded = 0;
         while target - self.run.t() > rest {
             let left = target - self.run.t();
-            if stalled == STALLED {
-                self.run.step(left.min(self.interval()))?;
-                self.steps += 1;
-                stalled = 0;
-                continue;
-            }
             let before = self.run.modes().clone();
-            let events = self.run.events;
-            let dense = self.run.advance_densely(left)?;
+            let passed = (self.run.events, self.run.kinks);
+            if crowded < CROWDED {
+                let dense = self.run.advance_densely(left)?;
+                self.sample(&dense, &before, rest);
+            } else {
+                // On without a halt at every kink.
+                let (t, y) = (self.run.t(), self.run.y().clone());
+                self.run.step(match self.way.integration.pace {
+                    Pace::Step(_) => left,
+                    Pace::Tolerance(_) => left.min(self.interval()),
+                })?;
+                self.sample(&straight(t, &y, &self.run), &before, rest);
+            }
             self.steps += 1;
-            stalled = if dense.length() < rest {
-                stalled + 1
+            let halted = passed != (self.run.events, self.run.kinks);
+            crowded = if halted {
+                (crowded + 1) % (CROWDED + 1)
             } else {
                 0
             };
-            self.sample(&dense, &before, rest);
-            if self.run.events > events {
+            if self.run.events > passed.0 {
                 self.happened(before);
             }
             (self.watch)(self.run.t() / self.way.integration.end);
