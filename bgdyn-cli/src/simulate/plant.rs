@@ -26,7 +26,11 @@ impl fmt::Debug for Undefined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.singular {
             true => write!(f, "the mass matrix is singular at `{}`", self.at),
-            false => write!(f, "the rate of `{}` is not finite", self.at),
+            false => write!(
+                f,
+                "the rate of `{}` is not finite; a smaller step or a tolerance may help",
+                self.at
+            ),
         }
     }
 }

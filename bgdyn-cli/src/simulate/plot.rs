@@ -20,6 +20,8 @@ const PANEL: (u32, u32) = (560, 210);
 const HEADER: u32 = 56;
 /// Columns up to which panels stand one below the other.
 const FEW: usize = 3;
+/// What is larger than this, or smaller than its reciprocal, has no place on an axis.
+const LARGEST: f64 = 1e250;
 /// More events than these would hide the curves.
 const EVENTS: usize = 60;
 
@@ -71,6 +73,10 @@ impl Axis {
     fn new((low, high): (f64, f64)) -> Self {
         let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
         let size = low.abs().max(high.abs());
+        let (low, high, size) = match size < 1.0 / LARGEST {
+            true => (0.0, 0.0, 0.0),
+            false => (low, high, size),
+        };
         // A small change of a large value is shown as a change.
         let change = high - low;
         let flat = change <= 1e-12 * size;
@@ -147,9 +153,9 @@ fn panel(
     (last, marked): (bool, bool),
 ) -> Drawn {
     let points = record.rows.iter().map(|row| (row.t, row.values[i]));
-    let points: Vec<_> = points.filter(|p| p.1.is_finite()).collect();
+    let points: Vec<_> = points.filter(|p| p.1.abs() < LARGEST).collect();
     let axis = Axis::new(range(points.iter().map(|p| p.1)));
-    let end = record.t.max(f64::MIN_POSITIVE);
+    let end = if record.t > 0.0 { record.t } else { 1.0 };
     let seconds = Axis::new((0.0, end));
     let mut chart = ChartBuilder::on(area)
         .caption(axis.title(&column.name), (FONT, 15).into_font().color(&INK))
