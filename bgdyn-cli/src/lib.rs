@@ -6,6 +6,7 @@
 mod commands;
 pub mod import;
 mod output;
+pub mod simulate;
 mod spec_file;
 mod timing;
 mod usage;
@@ -33,6 +34,7 @@ enum Command {
     Ops(commands::ops::Ops),
     Eval(commands::eval::Eval),
     Generate(commands::generate::Generate),
+    Simulate(commands::simulate::Simulate),
     Import(import::ImportArgs),
 }
 
@@ -43,6 +45,7 @@ pub fn run() -> ExitCode {
         Command::Ops(command) => command.run(),
         Command::Eval(command) => command.run(),
         Command::Generate(command) => command.run(),
+        Command::Simulate(command) => command.run(),
         Command::Import(arguments) => import::run(arguments),
     };
     match done {

@@ -48,7 +48,7 @@ pub use num_dual;
 pub use operations::Operations;
 pub use pose::Pose;
 pub use scalar::Scalar;
-pub use settle::settle;
+pub use settle::{settle, settle_by};
 pub use singular::Singular;
 pub use storage::{matrix, vector};
 pub use system::{Balance, Canonical, Contact, Slope, System};

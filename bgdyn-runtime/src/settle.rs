@@ -1,6 +1,7 @@
 //! What holds and what slips, decided for all joints at rest together.
 
-use nalgebra::SVector;
+use nalgebra::allocator::Allocator;
+use nalgebra::{DefaultAllocator, Dim, OVector, SVector};
 
 use crate::{Contact, Scalar, System};
 
@@ -52,29 +53,49 @@ where
     T: Scalar<Mask = bool>,
     S: System<T, N, NM, NU, NE, NY, NP>,
 {
+    settle_by(modes, rest, |modes| system.contacts(y, modes, input, t))
+}
+
+/// [`settle`] for contacts that come from elsewhere, of a number known when compiling or when
+/// running: `contacts` gives one per mode, at the modes it is asked for.
+///
+/// # Errors
+/// Those of `contacts`.
+pub fn settle_by<T, D, C, E>(
+    modes: &OVector<T, D>,
+    rest: T,
+    contacts: impl Fn(&OVector<T, D>) -> Result<C, E>,
+) -> Result<OVector<T, D>, E>
+where
+    T: Scalar<Mask = bool>,
+    D: Dim,
+    C: AsRef<[Contact<T>]>,
+    DefaultAllocator: Allocator<D>,
+{
     let zero = T::from_f64(0.0);
-    let contacts = |modes: &SVector<T, NM>| system.contacts(y, modes, input, t);
-    let mut now = *modes;
-    let mut resting = [false; NM];
-    for (k, contact) in contacts(modes)?.iter().enumerate() {
+    let mut now = modes.clone();
+    let (size, one) = modes.shape_generic();
+    let mut resting = OVector::<bool, D>::from_element_generic(size, one, false);
+    for (k, contact) in contacts(modes)?.as_ref().iter().enumerate() {
         resting[k] = modes[k] == zero || !rest.less(contact.slip.abs());
         if resting[k] {
             now[k] = zero;
         }
     }
     // Which broke away at this instant.
-    let mut broken = [false; NM];
-    for _ in 0..combinations(NM) {
+    let mut broken = resting.map(|_| false);
+    for _ in 0..combinations(modes.len()) {
         let found = contacts(&now)?;
+        let found = found.as_ref();
         let mut changed = None;
-        for k in (0..NM).filter(|&k| resting[k]) {
+        for k in (0..modes.len()).filter(|&k| resting[k]) {
             changed = if now[k] != zero {
                 turns_back(now[k], &found[k]).then_some(zero)
             } else if broken[k] {
                 // Does it slip on against the effort of slipping?
-                let mut tried = now;
+                let mut tried = now.clone();
                 tried[k] = against(&found[k]);
-                let slips = tried[k] * contacts(&tried)?[k].slip_rate;
+                let slips = tried[k] * contacts(&tried)?.as_ref()[k].slip_rate;
                 zero.less(slips).then_some(tried[k])
             } else {
                 broken[k] = found[k].limit.less(found[k].holding.abs());

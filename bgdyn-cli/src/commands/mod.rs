@@ -5,3 +5,4 @@ pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod ops;
 mod per_effect;
+pub(crate) mod simulate;

@@ -6,6 +6,7 @@ mod eval_scenes;
 mod generate;
 mod golden_specs;
 mod ops;
+mod simulate;
 mod usage;
 
 use std::fs;

@@ -168,10 +168,11 @@ impl Effect for DcMotor {
         laws.reading(
             format!("{name}_torque"),
             geared,
+            laws.port_units(element)[2],
             "effort of the motor at the joint".into(),
         );
         if element.quantity("inductance").is_none() {
-            laws.reading(format!("{name}_current"), current, "A".into());
+            laws.reading(format!("{name}_current"), current, "A", "A".into());
         }
     }
 }

@@ -102,6 +102,7 @@ impl Effect for SeriesElastic {
         laws.reading(
             format!("{}_effort", element.name),
             effort,
+            laws.port_units(element)[2],
             "effort of spring and damper on the joint".into(),
         );
     }

@@ -136,6 +136,7 @@ impl Effect for Stop {
         laws.reading(
             format!("{}_effort", element.name),
             pushed,
+            laws.port_units(element)[2],
             "effort of the stops on the joint".into(),
         );
     }

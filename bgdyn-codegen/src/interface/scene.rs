@@ -197,6 +197,7 @@ fn nothing() -> SceneInterface {
 fn named(name: &str) -> Named {
     Named {
         name: name.to_owned(),
+        unit: "",
         about: String::new(),
     }
 }

@@ -241,6 +241,11 @@ impl Layout {
         }
     }
 
+    /// The mode that an event's fall may change; `None` where the law only has a kink.
+    pub fn mode_of(&self, event: &Part) -> Option<usize> {
+        self.modes.iter().position(|m| m.name == event.name)
+    }
+
     /// The coordinate with this name.
     pub fn coordinate_named(&self, name: &str) -> Option<usize> {
         self.coordinates.iter().position(|c| c.name == name)

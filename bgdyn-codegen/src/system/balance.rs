@@ -22,6 +22,12 @@ pub(super) fn entries(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> 
     all.into_iter().map(|(named, _)| named).collect()
 }
 
+/// Its power is in W, its energy in J.
+fn entry(name: String, about: String) -> Named {
+    let unit = "";
+    Named { name, unit, about }
+}
+
 /// The elements' entries that are not nothing, then the scene's own.
 fn all(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<(Named, Source)> {
     let mut found = Vec::new();
@@ -35,12 +41,12 @@ fn all(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<(Named, Sou
         if holds || [supplied, stored, dissipated].iter().any(|x| !x.is_zero()) {
             let about = element.effect.summary().to_owned();
             let name = element.name.clone();
-            found.push((Named { name, about }, Source::Element(i)));
+            found.push((entry(name, about), Source::Element(i)));
         }
     }
     let mut own = |name: &str, about: &str, source| {
         let (name, about) = (name.to_owned(), about.to_owned());
-        found.push((Named { name, about }, source));
+        found.push((entry(name, about), source));
     };
     own(LINKS, "kinetic energy of links and rotors", Source::Links);
     if (0..scene.layout.nq()).any(|j| !laws.own_effort(j).is_zero()) {

@@ -21,6 +21,7 @@ use crate::fault::{Fault, Faults, unknown_name};
 use crate::function::Function;
 use crate::method::{Method, Role};
 use crate::scene::Scene;
+use crate::spec::Dimension;
 pub use laws::{Balance, Contact, Laws, Own, Port, Reading, behind_gear};
 
 /// The equations of a scene.
@@ -43,6 +44,8 @@ pub struct System {
 pub struct Named {
     /// Its name.
     pub name: String,
+    /// Its SI unit; nothing for an entry of the balance of power, whose numbers have several.
+    pub unit: &'static str,
     /// Unit and meaning.
     pub about: String,
 }
@@ -104,7 +107,7 @@ impl System {
     }
 
     /// The coordinate of each mode's friction.
-    pub(crate) fn mode_coordinates(&self) -> Vec<usize> {
+    pub fn mode_coordinates(&self) -> Vec<usize> {
         let b = Builder::silent();
         let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
         let mut found = vec![0; self.scene.layout.modes.len()];
@@ -216,25 +219,25 @@ fn start(scene: &Scene, laws: &Laws<'_, '_>) -> Vec<Dd> {
 fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec<(Named, Ex<'g>)> {
     let layout = &system.scene.layout;
     let mut known: Vec<(Named, Ex<'g>)> = Vec::new();
-    let unit = |c: &crate::scene::Coordinate, k: usize| {
+    let about = |c: &crate::scene::Coordinate, k: usize| {
         let what = ["position", "velocity"][k];
         format!("{what} of `{}`, {}", c.name, c.dimensions[k].si())
     };
-    let mut add = |name: &str, about: &str, value: Ex<'g>| {
+    let mut add = |name: &str, unit: &'static str, about: &str, value: Ex<'g>| {
         let (name, about) = (name.to_owned(), about.to_owned());
-        known.push((Named { name, about }, value));
+        known.push((Named { name, unit, about }, value));
     };
     for (j, c) in layout.coordinates.iter().enumerate() {
         if c.stored {
-            add(&c.name, &unit(c, 0), laws.q[j]);
+            add(&c.name, c.dimensions[0].si(), &about(c, 0), laws.q[j]);
         }
-        add(&c.rate_name, &unit(c, 1), laws.v[j]);
+        add(&c.rate_name, c.dimensions[1].si(), &about(c, 1), laws.v[j]);
     }
     for reading in laws.readings() {
-        add(&reading.name, &reading.about, reading.value);
+        add(&reading.name, reading.unit, &reading.about, reading.value);
     }
     for (part, &x) in layout.states.iter().zip(laws.states()) {
-        add(&part.name, &part.about, x);
+        add(&part.name, part.dimension.si(), &part.about, x);
     }
     let mut wanted = Vec::new();
     for output in &system.scene.outputs {
@@ -252,7 +255,8 @@ fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec
             for (axis, &p) in ["x", "y", "z"].into_iter().zip(&pose[9..]) {
                 let name = format!("{}_{axis}", output.value);
                 let about = format!("{axis} of `{}` in the world, m", output.value);
-                wanted.push((Named { name, about }, p));
+                let unit = Dimension::Length.si();
+                wanted.push((Named { name, unit, about }, p));
             }
             continue;
         }

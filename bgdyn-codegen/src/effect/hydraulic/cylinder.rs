@@ -159,11 +159,13 @@ impl Effect for Cylinder {
         laws.reading(
             format!("{name}_force"),
             force,
+            laws.port_units(element)[2],
             format!("effort of `{name}` towards larger s"),
         );
         laws.reading(
             format!("{name}_length"),
             port.place,
+            laws.port_units(element)[0],
             format!("coordinate or length s of `{name}`"),
         );
     }

@@ -91,7 +91,7 @@ impl Effect for FourWayValve {
         let name = &element.name;
         for (side, flow) in [("a", back(-return_, feed)), ("b", back(feed, -return_))] {
             let about = format!("flow of `{name}` into side {side}, m^3/s");
-            laws.reading(format!("{name}_flow_{side}"), flow, about);
+            laws.reading(format!("{name}_flow_{side}"), flow, "m^3/s", about);
         }
     }
 }

@@ -238,7 +238,7 @@ fn enthalpy<'g>(element: &Element, pressure: Ex<'g>, laws: &Laws<'g, '_>) -> Ex<
 
 fn read_pressure<'g>(node: &str, pressure: Ex<'g>, laws: &mut Laws<'g, '_>) {
     let about = format!("pressure in `{node}`, Pa");
-    laws.reading(format!("{node}_pressure"), pressure, about);
+    laws.reading(format!("{node}_pressure"), pressure, "Pa", about);
 }
 
 /// The pressure of a node.
@@ -365,6 +365,7 @@ fn resist<'g>(
     laws.reading(
         format!("{name}_flow"),
         q,
+        "m^3/s",
         format!("flow through `{name}`, m^3/s"),
     );
 }

@@ -47,15 +47,12 @@ pub(super) fn constants(scene: &SceneInterface) -> TokenStream {
     let outputs = names(of_named(&scene.outputs));
     let outputs = list("OUTPUT_NAMES", "Outputs.", "NY", outputs);
     let events = list("EVENT_NAMES", "Events.", "NE", part_names(&layout.events));
-    let of_event = layout.events.iter().map(|e| {
-        let mode = layout.modes.iter().position(|m| m.name == e.name);
-        match mode {
-            Some(mode) => {
-                let mode = size(mode);
-                quote! { ::core::option::Option::Some(#mode) }
-            }
-            None => quote! { ::core::option::Option::None },
+    let of_event = layout.events.iter().map(|e| match layout.mode_of(e) {
+        Some(mode) => {
+            let mode = size(mode);
+            quote! { ::core::option::Option::Some(#mode) }
         }
+        None => quote! { ::core::option::Option::None },
     });
     let rate_names: Vec<&String> = layout
         .coordinates

@@ -109,9 +109,14 @@ impl<'g> Laws<'g, '_> {
         }
     }
 
-    /// A quantity worth knowing.
-    pub fn reading(&mut self, name: String, value: Ex<'g>, about: String) {
-        self.readings.push(Reading { name, value, about });
+    /// A quantity worth knowing, in this SI unit.
+    pub fn reading(&mut self, name: String, value: Ex<'g>, unit: &'static str, about: String) {
+        self.readings.push(Reading {
+            name,
+            value,
+            unit,
+            about,
+        });
     }
 
     /// A value that must be positive, tried at the start and over the limits of the joints.

@@ -59,6 +59,8 @@ pub struct Reading<'g> {
     pub name: String,
     /// Its value.
     pub value: Ex<'g>,
+    /// Its SI unit.
+    pub unit: &'static str,
     /// Unit and meaning.
     pub about: String,
 }

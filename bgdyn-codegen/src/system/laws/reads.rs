@@ -9,6 +9,7 @@ use crate::expr::{Ex, Graph, Leaf, Tangent};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::{Chain, Level};
+use crate::spec::Dimension;
 
 impl<'g, 'a> Laws<'g, 'a> {
     /// Whether the limits of drives act: not where the coordinates' own efforts are sought.
@@ -78,6 +79,19 @@ impl<'g, 'a> Laws<'g, 'a> {
                 transformers: vec![],
             },
         }
+    }
+
+    /// SI units of place, rate and effort where the element acts: those of its `joint`, or of a
+    /// length.
+    pub fn port_units(&self, element: &Element) -> [&'static str; 3] {
+        let layout = &self.scene.layout;
+        let joint = element
+            .name("joint")
+            .and_then(|j| layout.coordinate_named(j));
+        let length = [Dimension::Length, Dimension::Speed, Dimension::Force];
+        joint
+            .map_or(length, |j| layout.coordinates[j].dimensions)
+            .map(Dimension::si)
     }
 
     /// The place with this name.

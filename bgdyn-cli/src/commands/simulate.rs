@@ -1,0 +1,216 @@
+//! `bgdyn simulate`: a scene's run through the evaluator, to a table and a plot.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail};
+use bgdyn_codegen::scene::{Integration, Integrator, Pace};
+use bgdyn_codegen::system::System;
+use clap::Args;
+
+use crate::output::{print, tell};
+use crate::simulate::progress::Progress;
+use crate::simulate::report::{self, number};
+use crate::simulate::{Column, Record, Way, columns, plot, record};
+use crate::spec_file::SpecFile;
+use crate::usage::Usage;
+
+/// Run a scene, without a compiler: NAME.csv and NAME.svg, events, energy
+///
+/// The run is by the scene's `integration` where nothing else is said. It is made once more with half
+/// the step or a tenth of the tolerance, to tell how far its result can be trusted.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2 --points 201\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
+)]
+pub(crate) struct Simulate {
+    /// The scene
+    file: PathBuf,
+    /// The folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+    /// The method of integration, as scenes name it
+    #[arg(long, value_name = "NAME")]
+    method: Option<String>,
+    /// Length of every step, s
+    #[arg(long, value_name = "S", conflicts_with = "tolerance")]
+    step: Option<f64>,
+    /// Error that a step may have, absolute and relative, in SI units
+    #[arg(long, value_name = "T")]
+    tolerance: Option<f64>,
+    /// When the run ends, s
+    #[arg(long, value_name = "S")]
+    end: Option<f64>,
+    /// Points of the table from 0 to the end; events come besides
+    #[arg(long, value_name = "N", default_value_t = 1001)]
+    points: usize,
+}
+
+/// Drifts, of the energy that moved, above which the result means little.
+const DRIFT: f64 = 1e-2;
+/// The same of errors, of the range of an output.
+const ERROR: f64 = 1e-2;
+/// Steps that no run takes.
+const STEPS: f64 = 1e10;
+
+impl Simulate {
+    pub(crate) fn run(self) -> Result<()> {
+        let file = SpecFile::open(&self.file)?;
+        if !file.is_scene() {
+            let shown = self.file.display();
+            bail!(
+                "{shown} is a mechanism: what is run is a scene, a file with `scene: 1` that names a mechanism and its effects"
+            );
+        }
+        self.numbers()?;
+        let system = file.scene()?;
+        let way = Way {
+            integration: self.integration(system.scene.integration)?,
+            points: self.points,
+            audited: true,
+        };
+        let run = watched("run", &system, &way);
+        let columns = columns(&system);
+        let files = self.write(&file.stem, &columns, &run)?;
+        print(&format!(
+            "{}\n{files}\n",
+            told(&file.stem, &way.integration)
+        ))?;
+        print(&report::report(&system, &run))?;
+        let closed = report::drift(&run);
+        // A drift that is no number is none that is small.
+        if closed.is_nan() || closed > DRIFT {
+            tell(&format!(
+                "bgdyn: warning: the energy does not add up by {} of what moved: the result means little; take a smaller step or tolerance\n",
+                number(closed)
+            ));
+        }
+        if let Some(reason) = &run.failure {
+            let (t, place) = (run.t, report::place(&system, &run));
+            bail!("the run ends early at t = {t} s, {place}: {reason}");
+        }
+        estimate(&system, &way, &columns, &run)
+    }
+
+    /// Numbers that make no sense, whatever the scene.
+    fn numbers(&self) -> Result<(), Usage> {
+        let named = [
+            ("step", self.step),
+            ("tolerance", self.tolerance),
+            ("end", self.end),
+        ];
+        for (name, value) in named {
+            if let Some(x) = value.filter(|x| !(x.is_finite() && *x > 0.0)) {
+                let message = format!("`--{name} {x}`: write a number greater than 0");
+                return Err(Usage(message));
+            }
+        }
+        if self.points < 2 {
+            let message = format!("`--points {}`: the start and the end are 2", self.points);
+            return Err(Usage(message));
+        }
+        Ok(())
+    }
+
+    /// The scene's way to run, as the options change it.
+    fn integration(&self, scene: Integration) -> Result<Integration, Usage> {
+        let method = match &self.method {
+            None => scene.method,
+            Some(name) => Integrator::named(name).ok_or_else(|| {
+                let all: Vec<&str> = Integrator::ALL.iter().map(|m| m.name()).collect();
+                let all = all.join(", ");
+                Usage(format!("there is no method `{name}`; there are {all}"))
+            })?,
+        };
+        let pace = match (self.step, self.tolerance) {
+            (Some(step), _) => Pace::Step(step),
+            (_, Some(tolerance)) => Pace::Tolerance(tolerance),
+            _ => scene.pace,
+        };
+        if matches!(pace, Pace::Tolerance(_)) && !method.controls_its_error() {
+            let name = method.name();
+            let all = Integrator::ALL.iter().filter(|m| m.controls_its_error());
+            let all: Vec<&str> = all.map(|m| m.name()).collect();
+            let all = all.join(", ");
+            return Err(Usage(format!(
+                "`{name}` does not go by a tolerance: give `--step`, or a method that does: {all}"
+            )));
+        }
+        let end = self.end.unwrap_or(scene.end);
+        if let Pace::Step(h) = pace
+            && end / h > STEPS
+        {
+            let steps = number(end / h);
+            return Err(Usage(format!(
+                "{steps} steps of {h} s to t = {end} s: that is more than {STEPS:e}; take a longer step"
+            )));
+        }
+        Ok(Integration { method, pace, end })
+    }
+
+    /// Writes table and plot; gives what is said of them.
+    fn write(&self, name: &str, columns: &[Column], run: &Record) -> Result<String> {
+        let out = &self.out;
+        let shown = |path: &Path| format!("{} cannot be written", path.display());
+        std::fs::create_dir_all(out)
+            .with_context(|| format!("the folder {} cannot be made", out.display()))?;
+        let [table, picture] = ["csv", "svg"].map(|kind| out.join(format!("{name}.{kind}")));
+        std::fs::write(&table, report::csv(columns, run)).with_context(|| shown(&table))?;
+        plot::draw(&picture, name, columns, run)
+            .map_err(|e| anyhow!("{}: {e}", shown(&picture)))?;
+        let rows = run.rows.len();
+        Ok(format!(
+            "written: {} ({rows} rows), {}",
+            table.display(),
+            picture.display()
+        ))
+    }
+}
+
+/// Runs a scene, with a word now and then on how far it has come.
+fn watched(what: &'static str, system: &System, way: &Way) -> Record {
+    let mut progress = Progress::new(what);
+    record(system, way, &mut |share| progress.at(share))
+}
+
+/// "stick_slip: rk4 in steps of 0.001 s, to t = 5 s"
+fn told(name: &str, integration: &Integration) -> String {
+    let Integration { method, pace, end } = integration;
+    let pace = match pace {
+        Pace::Step(h) => format!("in steps of {h} s"),
+        Pace::Tolerance(t) => format!("with the tolerance {t:e}"),
+    };
+    format!("{name}: {} {pace}, to t = {end} s", method.name())
+}
+
+/// Compares the run with a finer one.
+fn estimate(system: &System, way: &Way, columns: &[Column], run: &Record) -> Result<()> {
+    let finer = watched("once more, finer", system, &way.finer());
+    let against = match way.integration.pace {
+        Pace::Step(_) => "half the step",
+        Pace::Tolerance(_) => "a tenth of the tolerance",
+    };
+    if let Some(reason) = finer.failure {
+        let t = finer.t;
+        tell(&format!(
+            "bgdyn: warning: with {against} the run ends early at t = {t} s ({reason}): the result means little\n"
+        ));
+        return Ok(());
+    }
+    let Some(found) = run.difference(&finer) else {
+        return Ok(());
+    };
+    let Column { name, unit } = &columns[found.column];
+    let text = format!(
+        "`{name}` by {}, {} of its range, at t = {} s",
+        format!("{} {unit}", number(found.size)).trim_end(),
+        number(found.share),
+        found.t
+    );
+    print(&format!("a run with {against} differs most in {text}\n"))?;
+    if found.share.is_nan() || found.share > ERROR {
+        tell(&format!(
+            "bgdyn: warning: a run with {against} differs in {text}: the result means little there; take a smaller step or tolerance\n"
+        ));
+    }
+    Ok(())
+}

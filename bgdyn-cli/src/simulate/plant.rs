@@ -1,0 +1,353 @@
+//! A scene through the evaluator, as a plant: what [`bgdyn_sim::Run`] integrates without a compiler.
+
+use std::fmt;
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Role;
+use bgdyn_codegen::system::System;
+use bgdyn_runtime::{Contact, Dd, settle_by};
+use bgdyn_sim::{Jacobian, Moment, Plant, Power};
+use nalgebra::{DMatrix, DVector};
+
+/// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
+pub type Numbers = DVector<f64>;
+
+/// Why a scene has no rates, or no values, in a state.
+#[derive(Clone, PartialEq)]
+pub struct Undefined {
+    /// The coordinate or the first-order state.
+    pub at: String,
+    /// Whether the mass matrix is singular there; otherwise the value is not finite.
+    pub singular: bool,
+}
+
+impl fmt::Debug for Undefined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.singular {
+            true => write!(f, "the mass matrix is singular at `{}`", self.at),
+            false => write!(
+                f,
+                "the rate of `{}` is not finite; a smaller step or a tolerance may help",
+                self.at
+            ),
+        }
+    }
+}
+
+/// The numbers that a scene is integrated in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// y: positions, velocities, first-order states.
+    Natural,
+    /// z: momenta in place of velocities, where Gauss–Legendre methods are symplectic.
+    Canonical,
+}
+
+/// A scene through the evaluator. Inputs that the scene does not drive are 0, run-time parameters as
+/// its files give them.
+#[derive(Debug)]
+pub struct Evaluated<'a> {
+    system: &'a System,
+    parameters: Vec<f64>,
+    derivative: Function,
+    inputs: Option<Function>,
+    events: Option<Function>,
+    contacts: Option<Function>,
+    outputs: Option<Function>,
+    power: Function,
+    energy: Function,
+    jacobian: Option<Function>,
+    canonical: Option<Canonical>,
+    event_modes: Vec<Option<usize>>,
+    /// The coordinate of each mode.
+    mode_coordinates: Vec<usize>,
+}
+
+/// The functions of the canonical form.
+#[derive(Debug)]
+struct Canonical {
+    to: Function,
+    from: Function,
+    rates: Function,
+}
+
+type Tried<T> = Result<T, Undefined>;
+
+impl<'a> Evaluated<'a> {
+    /// The scene in these numbers; `slopes` for methods that take the slope of the rates.
+    pub fn new(system: &'a System, form: Form, slopes: bool) -> Self {
+        let roles = system.roles();
+        let if_there = |role| roles.contains(&role).then(|| system.function(role));
+        let canonical = || Canonical {
+            to: system.function(Role::ToCanonical),
+            from: system.function(Role::FromCanonical),
+            rates: system.function(Role::CanonicalRates),
+        };
+        let layout = &system.scene.layout;
+        Evaluated {
+            system,
+            parameters: numbers(system.scene.parameters.iter().map(|p| &p.default)),
+            derivative: system.function(Role::Derivative),
+            inputs: if_there(Role::Inputs),
+            events: if_there(Role::Events),
+            contacts: if_there(Role::Contacts),
+            outputs: if_there(Role::Outputs),
+            power: system.function(Role::Power),
+            energy: system.function(Role::Energy),
+            // In momenta the slopes are not known: stages are then solved for without them.
+            jacobian: (slopes && form == Form::Natural).then(|| system.function(Role::Jacobian)),
+            canonical: (form == Form::Canonical).then(canonical),
+            event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
+            mode_coordinates: system.mode_coordinates(),
+        }
+    }
+
+    /// Where the scene begins, at t = 0.
+    pub fn begin(&self) -> Moment<Numbers, Numbers> {
+        let start = &self.system.initial;
+        let y = numbers(start.q.iter().chain(&start.v).chain(&start.x)).into();
+        let modes = numbers(&start.modes).into();
+        Moment {
+            t: 0.0,
+            y: self.own(0.0, &y, &modes),
+            modes,
+        }
+    }
+
+    /// y of a state in the plant's own form.
+    ///
+    /// # Errors
+    /// Where the mass matrix is singular.
+    pub fn natural(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+        match &self.canonical {
+            None => Ok(state.clone()),
+            Some(canonical) => {
+                let at = self.arguments(t, state, modes);
+                let v = self.checked(&canonical.from, at)?;
+                Ok(self.with_velocities(state, &v))
+            }
+        }
+    }
+
+    /// A state in the plant's own form, of y.
+    fn own(&self, t: f64, y: &Numbers, modes: &Numbers) -> Numbers {
+        match &self.canonical {
+            None => y.clone(),
+            Some(canonical) => {
+                let (p, _) = canonical.to.evaluate(self.arguments(t, y, modes));
+                self.with_velocities(y, &p)
+            }
+        }
+    }
+
+    fn with_velocities(&self, y: &Numbers, velocities: &[f64]) -> Numbers {
+        let mut all = y.clone();
+        let nq = self.positions();
+        all.as_mut_slice()[nq..nq + velocities.len()].copy_from_slice(velocities);
+        all
+    }
+
+    /// The outputs that the scene asks for, at y; none where it asks for none.
+    pub fn output(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
+        let value = |f: &Function| f.evaluate(self.driven(t, y, modes)).0;
+        self.outputs.as_ref().map_or(vec![], value)
+    }
+
+    /// What functions read, with all inputs 0.
+    fn arguments(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
+        let layout = &self.system.scene.layout;
+        let (nq, nv) = (layout.nq(), layout.nv());
+        let y = y.as_slice();
+        Inputs {
+            q: y[..nq].to_vec(),
+            v: y[nq..nq + nv].to_vec(),
+            x: y[nq + nv..].to_vec(),
+            u: vec![0.0; layout.inputs.len()],
+            modes: modes.as_slice().to_vec(),
+            parameters: self.parameters.clone(),
+            t: Some(t),
+            ..Inputs::default()
+        }
+    }
+
+    /// What functions read, with the inputs that the scene drives.
+    fn driven(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
+        let mut at = self.arguments(t, y, modes);
+        if let Some(inputs) = &self.inputs {
+            at.u = inputs.evaluate(at.clone()).0;
+        }
+        at
+    }
+
+    /// A value that exists where the mass matrix is regular.
+    fn regular(&self, function: &Function, at: Inputs<f64>) -> Tried<Vec<f64>> {
+        let (values, refused) = function.evaluate(at);
+        match refused {
+            None => Ok(values),
+            Some(j) => Err(self.undefined(j, true)),
+        }
+    }
+
+    /// The same of rates, or of columns of rates, which must be finite.
+    fn checked(&self, function: &Function, at: Inputs<f64>) -> Tried<Vec<f64>> {
+        let values = self.regular(function, at)?;
+        let layout = &self.system.scene.layout;
+        match values.iter().position(|x| !x.is_finite()) {
+            None => Ok(values),
+            Some(i) => Err(self.undefined(i % (layout.nv() + layout.nx()).max(1), false)),
+        }
+    }
+
+    /// The coordinates come first, then the first-order states.
+    fn undefined(&self, i: usize, singular: bool) -> Undefined {
+        let layout = &self.system.scene.layout;
+        let at = match i.checked_sub(layout.nv()) {
+            None => &layout.coordinates[i].name,
+            Some(i) => &layout.states[i].name,
+        };
+        let at = at.clone();
+        Undefined { at, singular }
+    }
+
+    /// Dry friction, mode by mode, at y.
+    fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Vec<Contact<f64>>> {
+        let Some(contacts) = &self.contacts else {
+            return Ok(vec![]);
+        };
+        let values = self.regular(contacts, self.driven(t, y, modes))?;
+        let one = |c: &[f64]| Contact {
+            slip: c[0],
+            slip_rate: c[1],
+            holding: c[2],
+            limit: c[3],
+        };
+        Ok(values.chunks_exact(4).map(one).collect())
+    }
+
+    /// What slipped comes to rest, what was held breaks away; all joints at rest are decided
+    /// together.
+    fn changed(
+        &self,
+        t: f64,
+        y: Numbers,
+        modes: &Numbers,
+        fell: impl Fn(usize) -> bool,
+    ) -> Tried<(Numbers, Numbers)> {
+        let (mut rested, mut held) = (y, modes.clone());
+        let of_modes = self.event_modes.iter().enumerate();
+        let fallen = of_modes.filter(|&(event, _)| fell(event));
+        for mode in fallen.filter_map(|(_, mode)| *mode) {
+            if held[mode] != 0.0 {
+                // What the search for the instant has left of its slip would stay for ever.
+                let slip = self.contacts(t, &rested, &held)?[mode].slip;
+                rested[self.positions() + self.mode_coordinates[mode]] -= slip;
+                held[mode] = 0.0;
+            }
+        }
+        let held = settle_by(&held, 0.0, |modes| self.contacts(t, &rested, modes))?;
+        Ok((rested, held))
+    }
+}
+
+fn numbers<'x>(all: impl IntoIterator<Item = &'x Dd>) -> Vec<f64> {
+    all.into_iter().map(|x| x.to_f64()).collect()
+}
+
+impl Plant for Evaluated<'_> {
+    type State = Numbers;
+    type Modes = Numbers;
+    type Values = Numbers;
+    type Entries = Numbers;
+    type Error = Undefined;
+
+    fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+        if let Some(canonical) = &self.canonical {
+            let at = self.arguments(t, state, modes);
+            let rates = self.regular(&canonical.rates, at)?;
+            return match rates.iter().position(|x| !x.is_finite()) {
+                None => Ok(rates.into()),
+                // A position's rate goes by the name of its coordinate.
+                Some(i) => Err(self.undefined(i.checked_sub(self.positions()).unwrap_or(i), false)),
+            };
+        }
+        let at = self.driven(t, state, modes);
+        let mut rates = at.v[..self.positions()].to_vec();
+        rates.extend(self.checked(&self.derivative, at)?);
+        Ok(rates.into())
+    }
+
+    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Tried<Jacobian<Numbers>>> {
+        let jacobian = self.jacobian.as_ref()?;
+        let values = match self.checked(jacobian, self.arguments(t, y, modes)) {
+            Ok(values) => values,
+            Err(undefined) => return Some(Err(undefined)),
+        };
+        // The positions follow the velocities.
+        let (n, nq) = (y.len(), self.positions());
+        let entry = |i: usize, k: usize| match i.checked_sub(nq) {
+            None => f64::from(u8::from(k == nq + i)),
+            Some(i) => values[k * (n - nq) + i],
+        };
+        Some(Ok(Jacobian {
+            state: DMatrix::from_fn(n, n, entry),
+            time: DVector::from_fn(n, |i, _| entry(i, n)),
+        }))
+    }
+
+    fn positions(&self) -> usize {
+        self.system.scene.layout.nq()
+    }
+
+    fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+        let y = self.natural(t, state, modes)?;
+        let mut rates = y.clone();
+        let nq = self.positions();
+        rates.rows_mut(0, nq).copy_from(&y.rows(nq, nq));
+        Ok(rates)
+    }
+
+    fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+        let Some(events) = &self.events else {
+            return Ok(DVector::zeros(0));
+        };
+        let y = self.natural(t, state, modes)?;
+        Ok(self.regular(events, self.driven(t, &y, modes))?.into())
+    }
+
+    fn changes_mode(&self, event: usize) -> bool {
+        self.event_modes[event].is_some()
+    }
+
+    fn change(
+        &self,
+        t: f64,
+        state: &Numbers,
+        modes: &Numbers,
+        fell: impl Fn(usize) -> bool,
+    ) -> Tried<(Numbers, Numbers)> {
+        let y = self.natural(t, state, modes)?;
+        let (y, held) = self.changed(t, y, modes, fell)?;
+        Ok((self.own(t, &y, &held), held))
+    }
+
+    fn nothing(&self) -> Numbers {
+        DVector::zeros(self.system.entries.len())
+    }
+
+    fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+        let y = self.natural(t, state, modes)?;
+        Ok(self.energy.evaluate(self.driven(t, &y, modes)).0.into())
+    }
+
+    fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Power<Numbers>> {
+        let y = self.natural(t, state, modes)?;
+        let values = self.regular(&self.power, self.driven(t, &y, modes))?;
+        // Of three numbers each the first is supplied, the last dissipated.
+        let part = |k: usize| DVector::from_fn(values.len() / 3, |i, _| values[3 * i + k]);
+        Ok(Power {
+            supplied: part(0),
+            dissipated: part(2),
+        })
+    }
+}

@@ -1,0 +1,45 @@
+//! How far a long run has come, on a terminal.
+
+use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
+
+use crate::output::tell;
+
+/// Runs that take less are not told of.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// Time between two lines.
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// A line on stderr, if that is a terminal, that says how far a run has come.
+pub(crate) struct Progress {
+    what: &'static str,
+    next: Option<Instant>,
+    shown: bool,
+}
+
+impl Progress {
+    /// Of a run that begins now.
+    pub(crate) fn new(what: &'static str) -> Self {
+        let next = stderr().is_terminal().then(|| Instant::now() + PATIENCE);
+        let shown = false;
+        Progress { what, next, shown }
+    }
+
+    /// This part of it is done.
+    pub(crate) fn at(&mut self, share: f64) {
+        let now = Instant::now();
+        if self.next.is_some_and(|next| now >= next) {
+            tell(&format!("\rbgdyn: {} {:3.0} %", self.what, 100.0 * share));
+            self.next = Some(now + PAUSE);
+            self.shown = true;
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if self.shown {
+            tell("\r\x1b[K");
+        }
+    }
+}

@@ -1,0 +1,421 @@
+//! A run from its start to its end, and what is kept of it.
+
+use bgdyn_codegen::scene::{Integration, Integrator, Pace};
+use bgdyn_codegen::system::System;
+use bgdyn_sim::{Audit, Dense, Failure, Method, Run, Tolerance, WithMethod, with_method};
+
+use super::plant::{Evaluated, Form, Numbers, Undefined};
+
+/// A quantity that is told of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its SI unit; nothing for a pure number.
+    pub unit: &'static str,
+}
+
+/// The parts of a scene's state, in the order of y.
+pub(crate) fn state_columns(system: &System) -> Vec<Column> {
+    let layout = &system.scene.layout;
+    let column = |name: &str, unit| Column {
+        name: name.to_owned(),
+        unit,
+    };
+    let stored = layout.coordinates.iter().filter(|c| c.stored);
+    let places = stored.map(|c| column(&c.name, c.dimensions[0].si()));
+    let all = layout.coordinates.iter();
+    let rates = all.map(|c| column(&c.rate_name, c.dimensions[1].si()));
+    let states = layout.states.iter();
+    let states = states.map(|s| column(&s.name, s.dimension.si()));
+    places.chain(rates).chain(states).collect()
+}
+
+/// What is told of a scene: its outputs, or its whole state where it names none.
+pub fn columns(system: &System) -> Vec<Column> {
+    if system.outputs.is_empty() {
+        return state_columns(system);
+    }
+    let outputs = system.outputs.iter().map(|output| Column {
+        name: output.name.clone(),
+        unit: output.unit,
+    });
+    outputs.collect()
+}
+
+/// An instant of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Time, s.
+    pub t: f64,
+    /// The columns' values.
+    pub values: Vec<f64>,
+    /// Whether it stands here for an event or for the end, not for one of the points asked for.
+    pub extra: bool,
+}
+
+/// An instant at which a mode changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// Time, s.
+    pub t: f64,
+    /// The modes before it.
+    pub before: Numbers,
+    /// The modes after it.
+    pub after: Numbers,
+}
+
+/// What is kept of a run.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// The points asked for, with rows at events between them.
+    pub rows: Vec<Row>,
+    /// Steps that were taken, those up to events included.
+    pub steps: usize,
+    /// Events that changed a mode.
+    pub events: Vec<Event>,
+    /// Kinks of laws that were passed.
+    pub kinks: usize,
+    /// Where it ended, s.
+    pub t: f64,
+    /// The state there, in positions and velocities.
+    pub y: Numbers,
+    /// The modes there.
+    pub modes: Numbers,
+    /// Where the energy went, J.
+    pub audit: Audit<Numbers>,
+    /// The most energy that was supplied, stored or dissipated at any of the points, J.
+    pub moved: f64,
+    /// Why it ended early, if it did.
+    pub failure: Option<String>,
+}
+
+/// How a run is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// Method, steps, end.
+    pub integration: Integration,
+    /// At how many evenly spaced points from 0 to the end it is told of; at least 2.
+    pub points: usize,
+    /// Whether energy is accounted for.
+    pub audited: bool,
+}
+
+impl Way {
+    /// The same run, but for an error far below its own: half the step, a tenth of the tolerance.
+    #[must_use]
+    pub fn finer(mut self) -> Self {
+        self.integration.pace = match self.integration.pace {
+            Pace::Step(h) => Pace::Step(0.5 * h),
+            Pace::Tolerance(tolerance) => Pace::Tolerance(0.1 * tolerance),
+        };
+        self.audited = false;
+        self
+    }
+}
+
+/// Runs a scene; `watch` hears now and then which part of it is done.
+///
+/// A run that fails ends early, with its reason in [`Record::failure`].
+///
+/// # Panics
+/// Never: every method of scenes is one of `bgdyn_sim`'s.
+pub fn record(system: &System, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
+    let method = way.integration.method;
+    let form = match method.needs_canonical() {
+        true => Form::Canonical,
+        false => Form::Natural,
+    };
+    let plant = Evaluated::new(system, form, method.needs_jacobian());
+    let outputs = !system.outputs.is_empty();
+    let start = Start {
+        plant,
+        outputs,
+        way,
+        watch,
+    };
+    with_method(plain(method), start).expect("a method of the list")
+}
+
+/// What `bgdyn_sim` calls a method: the canonical form is the plant's business there.
+fn plain(method: Integrator) -> &'static str {
+    let name = method.name();
+    name.strip_prefix("canonical_").unwrap_or(name)
+}
+
+/// A run about to begin.
+struct Start<'a> {
+    plant: Evaluated<'a>,
+    outputs: bool,
+    way: &'a Way,
+    watch: &'a mut dyn FnMut(f64),
+}
+
+impl WithMethod<Numbers> for Start<'_> {
+    type Output = Record;
+
+    fn with<M: Method<Numbers>>(self, method: M) -> Record {
+        let begin = self.plant.begin();
+        let mut run = Run::by(method, self.plant, begin);
+        if let Pace::Tolerance(tolerance) = self.way.integration.pace {
+            run = run.with_tolerance(Tolerance {
+                absolute: tolerance,
+                relative: tolerance,
+            });
+        }
+        if !self.way.audited {
+            run = run.unaudited();
+        }
+        Recorder::new(run, self.outputs, self.way, self.watch).all()
+    }
+}
+
+type Failed = Failure<Numbers, Undefined>;
+
+/// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
+const CROWDED: usize = 16;
+
+/// A straight line from a state to where a run is now.
+fn straight<M: Method<Numbers>>(
+    t: f64,
+    y: &Numbers,
+    run: &Run<Evaluated<'_>, M>,
+) -> Dense<Numbers> {
+    let mut terms = [const { None }; 7];
+    terms[0] = Some(run.y() - y);
+    Dense::new(t, run.t() - t, y, terms)
+}
+
+/// A run, and what was kept of it so far.
+struct Recorder<'a, M: Method<Numbers>> {
+    run: Run<Evaluated<'a>, M>,
+    outputs: bool,
+    way: &'a Way,
+    watch: &'a mut dyn FnMut(f64),
+    rows: Vec<Row>,
+    /// How many of the points asked for are among them.
+    points: usize,
+    steps: usize,
+    events: Vec<Event>,
+    moved: f64,
+}
+
+impl<'a, M: Method<Numbers>> Recorder<'a, M> {
+    fn new(
+        run: Run<Evaluated<'a>, M>,
+        outputs: bool,
+        way: &'a Way,
+        watch: &'a mut dyn FnMut(f64),
+    ) -> Self {
+        Recorder {
+            run,
+            outputs,
+            way,
+            watch,
+            rows: vec![],
+            points: 0,
+            steps: 0,
+            events: vec![],
+            moved: 0.0,
+        }
+    }
+
+    fn all(mut self) -> Record {
+        let failed = self.to_the_end().err();
+        let (t, modes) = (self.run.t(), self.run.modes().clone());
+        if self.rows.last().is_none_or(|row| row.t < t) {
+            let y = self.run.y().clone();
+            self.keep(t, &y, true);
+        }
+        let y = self.run.plant().natural(t, self.run.y(), &modes);
+        Record {
+            rows: self.rows,
+            steps: self.steps,
+            events: self.events,
+            kinks: self.run.kinks,
+            t,
+            y: y.unwrap_or_else(|_| self.run.y().clone()),
+            modes,
+            audit: self.run.audit(),
+            moved: self.moved,
+            failure: failed.map(|failure| failure.reason.to_string()),
+        }
+    }
+
+    fn to_the_end(&mut self) -> Result<(), Failed> {
+        let begin = self.run.y().clone();
+        self.keep(0.0, &begin, false);
+        self.points = 1;
+        let Integration { pace, end, .. } = self.way.integration;
+        match pace {
+            Pace::Tolerance(_) => self.to(end),
+            Pace::Step(h) => {
+                let mut steps = 1.0;
+                // A last step that is next to nothing is none.
+                while steps * h < end - 1e-9 * h {
+                    self.to(steps * h)?;
+                    steps += 1.0;
+                }
+                self.to(end)
+            }
+        }
+    }
+
+    /// Time between two points, s.
+    fn interval(&self) -> f64 {
+        self.way.integration.end / (self.way.points - 1) as f64
+    }
+
+    /// On to a time, one step of the method after the other.
+    fn to(&mut self, target: f64) -> Result<(), Failed> {
+        let span = target - self.run.t();
+        let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
+        let mut crowded = 0;
+        while target - self.run.t() > rest {
+            let left = target - self.run.t();
+            let before = self.run.modes().clone();
+            let passed = (self.run.events, self.run.kinks);
+            if crowded < CROWDED {
+                let dense = self.run.advance_densely(left)?;
+                self.sample(&dense, &before, rest);
+            } else {
+                // On without a halt at every kink.
+                let (t, y) = (self.run.t(), self.run.y().clone());
+                self.run.step(match self.way.integration.pace {
+                    Pace::Step(_) => left,
+                    Pace::Tolerance(_) => left.min(self.interval()),
+                })?;
+                self.sample(&straight(t, &y, &self.run), &before, rest);
+            }
+            self.steps += 1;
+            let halted = passed != (self.run.events, self.run.kinks);
+            crowded = if halted {
+                (crowded + 1) % (CROWDED + 1)
+            } else {
+                0
+            };
+            if self.run.events > passed.0 {
+                self.happened(before);
+            }
+            (self.watch)(self.run.t() / self.way.integration.end);
+        }
+        Ok(())
+    }
+
+    /// Keeps the points that lie in a step.
+    fn sample(&mut self, step: &Dense<Numbers>, modes: &Numbers, rest: f64) {
+        let now = self.run.t();
+        while self.points < self.way.points {
+            let last = self.points + 1 == self.way.points;
+            let t = match last {
+                true => self.way.integration.end,
+                false => self.points as f64 * self.interval(),
+            };
+            if t > now + rest {
+                return;
+            }
+            let y = step.at_time(t.min(now));
+            self.keep_with(t, &y, modes, false);
+            self.points += 1;
+        }
+    }
+
+    /// Keeps an event, with the state after it.
+    fn happened(&mut self, before: Numbers) {
+        let (t, y) = (self.run.t(), self.run.y().clone());
+        let after = self.run.modes().clone();
+        self.events.push(Event { t, before, after });
+        self.keep(t, &y, true);
+    }
+
+    fn keep(&mut self, t: f64, state: &Numbers, extra: bool) {
+        let modes = self.run.modes().clone();
+        self.keep_with(t, state, &modes, extra);
+    }
+
+    fn keep_with(&mut self, t: f64, state: &Numbers, modes: &Numbers, extra: bool) {
+        let plant = self.run.plant();
+        let y = plant.natural(t, state, modes);
+        // Where there are no velocities, nothing can be told of them.
+        let y = y.unwrap_or_else(|_| state.map(|_| f64::NAN));
+        let values = match self.outputs {
+            true => plant.output(t, &y, modes),
+            false => y.as_slice().to_vec(),
+        };
+        self.rows.push(Row { t, values, extra });
+        let Audit {
+            supplied,
+            stored,
+            dissipated,
+        } = self.run.audit();
+        for part in [supplied, stored, dissipated] {
+            self.moved = self.moved.max(part.lp_norm(1));
+        }
+    }
+}
+
+/// How far two runs are apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The column in which they are furthest apart, by its number.
+    pub column: usize,
+    /// When, s.
+    pub t: f64,
+    /// How far, in the column's unit.
+    pub size: f64,
+    /// How far, of the range that the column has in the run.
+    pub share: f64,
+}
+
+impl Record {
+    /// How far another run of the same scene is away at the points asked for, where that is furthest
+    /// by the columns' ranges; `None` where there are no columns.
+    pub fn difference(&self, other: &Record) -> Option<Difference> {
+        let columns = self.rows.first()?.values.len();
+        let of = |column| self.difference_in(column, other);
+        (0..columns).map(of).reduce(|most, one| {
+            let further = one.share > most.share || (one.share.is_nan() && !most.share.is_nan());
+            if further { one } else { most }
+        })
+    }
+
+    fn difference_in(&self, column: usize, other: &Record) -> Difference {
+        let values = self.rows.iter().map(|row| row.values[column]);
+        let (low, high) = range(values);
+        // What rounding alone makes of a value that stands still is no range.
+        let scale = (high - low)
+            .max(1e-9 * high.abs().max(low.abs()))
+            .max(1e-15);
+        let points = |record: &'_ Record| {
+            let rows = record.rows.iter().filter(|row| !row.extra);
+            rows.map(|row| (row.t, row.values[column]))
+                .collect::<Vec<_>>()
+        };
+        let mut most = Difference {
+            column,
+            t: 0.0,
+            size: 0.0,
+            share: 0.0,
+        };
+        for ((t, a), (_, b)) in points(self).into_iter().zip(points(other)) {
+            let size = (a - b).abs();
+            if size > most.size || size.is_nan() {
+                let share = size / scale;
+                most = Difference {
+                    t,
+                    size,
+                    share,
+                    ..most
+                };
+            }
+        }
+        most
+    }
+}
+
+/// Smallest and largest of `values`.
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
+}

@@ -1,0 +1,175 @@
+//! `bgdyn simulate`.
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::PathBuf;
+
+use crate::{Run, bgdyn, scratch};
+
+const BLOCK: &str = "\
+format: 1
+links:
+  - name: block
+    joint: { name: slide, type: prismatic, axis: x }
+    mass: 2 kg
+effects:
+  rubber: { type: spring, joint: slide, stiffness: 50 N/m }
+";
+
+/// Let go at 0.1 m, it swings with ω = 5 rad/s.
+const SCENE: &str = "\
+scene: 1
+mechanism: block.yaml
+effects: [rubber]
+initial: { slide: 0.1 m }
+integration: { method: rk4, step: 1 ms, end: 2 s }
+";
+
+/// A run of the block's scene, with its table.
+fn block(test: &str, scene: &str, options: &[&str]) -> (Run, String) {
+    scratch(test, "block.yaml", BLOCK);
+    let scene = scratch(test, "swing.scene.yaml", scene);
+    let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), test, "out"].iter().collect();
+    let folder = out.display().to_string();
+    let arguments = ["simulate", scene.as_str(), "--out", &folder];
+    let run = bgdyn(&[&arguments, options].concat());
+    let table = fs::read_to_string(out.join("swing.csv")).unwrap_or_default();
+    if !table.is_empty() {
+        let picture = fs::read_to_string(out.join("swing.svg")).expect("a plot");
+        assert!(picture.contains("</svg>"));
+    }
+    (run, table)
+}
+
+fn rows(table: &str) -> Vec<Vec<f64>> {
+    let number = |x: &str| x.parse::<f64>().expect("a number");
+    let lines = table.lines().skip(1);
+    lines
+        .map(|line| line.split(',').map(number).collect())
+        .collect()
+}
+
+#[test]
+fn every_kind_of_method_follows_the_known_motion() {
+    let ways: [(&str, &[&str], f64); 6] = [
+        ("as_written", &[], 1e-9),
+        (
+            "controlled",
+            &["--method", "dopri5", "--tolerance", "1e-9"],
+            1e-8,
+        ),
+        (
+            "slopes",
+            &["--method", "rodas4", "--tolerance", "1e-8"],
+            1e-6,
+        ),
+        ("implicit", &["--method", "gauss3", "--step", "0.02"], 1e-8),
+        (
+            "momenta",
+            &["--method", "canonical_gauss3", "--step", "0.02"],
+            1e-8,
+        ),
+        (
+            "euler",
+            &["--method", "semi_implicit_euler", "--step", "1e-4"],
+            1e-3,
+        ),
+    ];
+    for (name, options, allowed) in ways {
+        let options = [options, &["--points", "21"]].concat();
+        let (run, table) = block(&format!("simulate_{name}"), SCENE, &options);
+        let told = run.good();
+        assert!(told.contains("drift: "), "{told}");
+        assert!(table.starts_with("t [s],slide [m],slide_rate [m/s]\n"));
+        let rows = rows(&table);
+        assert_eq!(rows.len(), 21);
+        for (i, row) in rows.iter().enumerate() {
+            let t = 0.1 * i as f64;
+            let wanted = [t, 0.1 * (5.0 * t).cos(), -0.5 * (5.0 * t).sin()];
+            for (found, wanted) in row.iter().zip(wanted) {
+                let off = (found - wanted).abs();
+                assert!(off < allowed, "{name}, t = {t}: {found}, not {wanted}");
+            }
+        }
+    }
+}
+
+/// The block on the belt, in closed form: it slips for 3π/20 s and sticks for 0.2 s.
+#[test]
+fn events_are_told_when_they_are() {
+    let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "simulate_belt"]
+        .iter()
+        .collect();
+    let folder = out.display().to_string();
+    let scene = "specs/scenes/stick_slip.scene.yaml";
+    let told = bgdyn(&["simulate", scene, "--out", &folder, "--points", "6"]).good();
+    let mut wanted = 0.4;
+    let events = told.lines().filter(|line| line.starts_with("  t = "));
+    let mut count = 0;
+    for (i, line) in events.enumerate() {
+        let (t, what) = line["  t = ".len()..].split_once(" s: ").expect("a time");
+        let off = (t.parse::<f64>().expect("a time") - wanted).abs();
+        assert!(off < 1e-9, "{line}, not {wanted}");
+        let expected = ["`belt` breaks away, -1", "`belt` is held"][i % 2];
+        assert_eq!(what, expected);
+        wanted += [3.0 * PI / 20.0, 0.2][i % 2];
+        count += 1;
+    }
+    assert_eq!(count, 14);
+    assert!(told.contains("events: 14\n"));
+    assert!(told.contains("  belt_mode   0\n"), "{told}");
+    // Six points, and a row for each event.
+    let table = fs::read_to_string(out.join("stick_slip.csv")).expect("a table");
+    assert_eq!(rows(&table).len(), 20);
+    // Friction takes what the belt supplies, but for what the spring holds at the end.
+    assert!(told.contains("belt             1.45500              0        1.40960"));
+}
+
+#[test]
+fn coarse_runs_are_warned_of() {
+    let options = ["--method", "semi_implicit_euler", "--step", "0.1"];
+    let (run, _) = block("simulate_coarse", SCENE, &options);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("the energy does not add up"));
+    assert!(run.stderr.contains("a run with half the step differs"));
+    let (run, _) = block("simulate_fine", SCENE, &[]);
+    assert_eq!(run.stderr, "");
+}
+
+/// With ω h = 50 each step multiplies the motion by 50⁴/24.
+#[test]
+fn a_run_that_fails_keeps_what_there_is() {
+    let options = ["--step", "10", "--end", "1000", "--points", "101"];
+    let (run, table) = block("simulate_failing", SCENE, &options);
+    assert!(run.stdout.contains("steps: 5"), "{}", run.stdout);
+    let told = run.bad_input();
+    assert!(told.contains("the run ends early at t = 5"), "{told}");
+    assert!(told.contains("slide = "), "{told}");
+    let rows = rows(&table);
+    let last = rows.last().expect("a row");
+    assert!(rows.len() > 50 && rows.len() < 70, "{}", rows.len());
+    assert!(last.iter().all(|x| x.is_finite()) && last[1].abs() > 1e250);
+}
+
+#[test]
+fn what_is_refused() {
+    let refused: [(&[&str], &str); 7] = [
+        (&["--method", "euler"], "there is no method `euler`"),
+        (&["--tolerance", "1e-8"], "`rk4` does not go by a tolerance"),
+        (&["--step", "0"], "greater than 0"),
+        (&["--end", "inf"], "greater than 0"),
+        (&["--points", "1"], "the start and the end are 2"),
+        (&["--step", "1e-12"], "take a longer step"),
+        (&["--step", "1", "--tolerance", "1"], "cannot be used with"),
+    ];
+    for (i, (options, said)) in refused.iter().enumerate() {
+        let (run, table) = block(&format!("simulate_refused_{i}"), SCENE, options);
+        let told = run.bad_usage();
+        assert!(told.contains(said), "{told}");
+        assert_eq!(table, "");
+    }
+    let told = bgdyn(&["simulate", "specs/slider.yaml"]).bad_input();
+    assert!(told.contains("is a mechanism"), "{told}");
+    let told = bgdyn(&["simulate", "--help"]).good();
+    assert!(told.contains("Example:"), "{told}");
+}

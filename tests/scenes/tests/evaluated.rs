@@ -1,0 +1,87 @@
+//! Runs through the evaluator are those of the compiled scenes, digit by digit.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use bgdyn_cli::simulate::{Evaluated, Form, Numbers};
+use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_codegen::system::System;
+use bgdyn_sim::{CanonicalScene, Gauss2, Method, Moment, Rk4, Rodas4, Run, Scene, Space};
+use scenes::{hydraulic_cylinder, scara_everything, stick_slip, stiff_spring_pendulum};
+
+/// A scene of the repository, by its name.
+fn read(name: &str) -> System {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/scenes");
+    let path: PathBuf = folder.join(format!("{name}.scene.yaml"));
+    let text = fs::read_to_string(&path).expect("a scene's file");
+    let load = |file: &str| fs::read_to_string(beside(&path, file)).map_err(|e| e.to_string());
+    let (system, _) = read_scene(&text, &stem(&path), load).expect("a sound scene");
+    system
+}
+
+/// Runs both by steps of `h` and compares state, modes, events and the energy's account.
+macro_rules! alike {
+    ($compiled:expr, $evaluated:expr, $h:expr, $steps:expr) => {
+        let (mut compiled, mut evaluated) = ($compiled, $evaluated);
+        for step in 0..$steps {
+            compiled.step($h).expect("the compiled scene goes on");
+            evaluated.step($h).expect("the evaluated scene goes on");
+            let states = (compiled.y().entries(), evaluated.y().entries());
+            assert_eq!(states.0, states.1, "state after step {step}");
+            let modes = (compiled.modes().entries(), evaluated.modes().entries());
+            assert_eq!(modes.0, modes.1, "modes after step {step}");
+        }
+        assert_eq!(compiled.events, evaluated.events);
+        assert_eq!(compiled.last_event, evaluated.last_event);
+        assert_eq!(compiled.kinks, evaluated.kinks);
+        let (one, other) = (compiled.audit(), evaluated.audit());
+        assert_eq!(one.supplied.entries(), other.supplied.entries());
+        assert_eq!(one.stored.entries(), other.stored.entries());
+        assert_eq!(one.dissipated.entries(), other.dissipated.entries());
+    };
+}
+
+fn evaluated<M: Method<Numbers>>(
+    method: M,
+    system: &System,
+    form: Form,
+    slopes: bool,
+) -> Run<Evaluated<'_>, M> {
+    let plant = Evaluated::new(system, form, slopes);
+    let begin = plant.begin();
+    Run::by(method, plant, begin)
+}
+
+#[test]
+fn with_events() {
+    let scene = stick_slip::StickSlip::<f64>::default();
+    let system = read("stick_slip");
+    let other = evaluated(Rk4, &system, Form::Natural, false);
+    alike!(Run::new(&scene), other, 1e-3, 2000);
+
+    let scene = scara_everything::ScaraEverything::<f64>::default();
+    let system = read("scara_everything");
+    let other = evaluated(Rk4, &system, Form::Natural, false);
+    alike!(Run::new(&scene), other, 2e-4, 2000);
+}
+
+#[test]
+fn with_slopes() {
+    let scene = hydraulic_cylinder::HydraulicCylinder::<f64>::default();
+    let compiled = Run::by(Rodas4, Scene::with_slope(&scene), Run::begin(&scene));
+    let system = read("hydraulic_cylinder");
+    let other = evaluated(Rodas4, &system, Form::Natural, true);
+    alike!(compiled, other, 1e-5, 500);
+}
+
+#[test]
+fn in_momenta() {
+    let scene = stiff_spring_pendulum::StiffSpringPendulum::<f64>::default();
+    let plant = CanonicalScene::new(&scene);
+    let Moment { t, y, modes } = Run::begin(&scene);
+    let y = plant.to_canonical(t, &y, &modes);
+    let compiled = Run::by(Gauss2::new(), plant, Moment { t, y, modes });
+    let system = read("stiff_spring_pendulum");
+    let other = evaluated(Gauss2::new(), &system, Form::Canonical, false);
+    alike!(compiled, other, 5e-5, 500);
+}
