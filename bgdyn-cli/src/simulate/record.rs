@@ -221,7 +221,7 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
     }
 
     fn all(mut self) -> Record {
-        let failed = self.to_the_end().err();
+        let failed = self.complete().err();
         let (t, modes) = (self.run.t(), self.run.modes().clone());
         if self.rows.last().is_none_or(|row| row.t < t) {
             let y = self.run.y().clone();
@@ -242,21 +242,21 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
         }
     }
 
-    fn to_the_end(&mut self) -> Result<(), Failed> {
+    fn complete(&mut self) -> Result<(), Failed> {
         let begin = self.run.y().clone();
         self.keep(0.0, &begin, false);
         self.points = 1;
         let Integration { pace, end, .. } = self.way.integration;
         match pace {
-            Pace::Tolerance(_) => self.to(end),
+            Pace::Tolerance(_) => self.reach(end),
             Pace::Step(h) => {
                 let mut steps = 1.0;
                 // A last step that is next to nothing is none.
                 while steps * h < end - 1e-9 * h {
-                    self.to(steps * h)?;
+                    self.reach(steps * h)?;
                     steps += 1.0;
                 }
-                self.to(end)
+                self.reach(end)
             }
         }
     }
@@ -267,7 +267,7 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
     }
 
     /// On to a time, one step of the method after the other.
-    fn to(&mut self, target: f64) -> Result<(), Failed> {
+    fn reach(&mut self, target: f64) -> Result<(), Failed> {
         let span = target - self.run.t();
         let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
         let mut crowded = 0;
@@ -418,4 +418,17 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_method_of_scenes_is_one_of_the_integrators() {
+        for method in Integrator::ALL {
+            let name = plain(method);
+            assert!(bgdyn_sim::METHODS.contains(&name), "{name}");
+        }
+    }
 }
