@@ -1,10 +1,12 @@
 //! Runs of scenes through the evaluator, and what is told of them.
 
+mod difference;
 mod plant;
 pub(crate) mod plot;
 pub(crate) mod progress;
 mod record;
 pub(crate) mod report;
 
+pub use difference::Difference;
 pub use plant::{Evaluated, Form, Numbers, Undefined};
-pub use record::{Column, Difference, Event, Record, Row, Way, columns, record};
+pub use record::{Column, Event, Record, Row, Way, columns, record};
