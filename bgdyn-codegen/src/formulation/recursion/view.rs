@@ -61,6 +61,7 @@ pub(super) fn measured(
     after: impl Fn(&Plan) -> Cost,
 ) -> Plan {
     let found = cost(&plan);
+    // How many plans the budget allows; a choice between two would seldom save anything.
     let others = FACTORED / found.operations.total().max(1);
     if others < 3 {
         return plan;
