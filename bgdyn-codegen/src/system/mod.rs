@@ -142,7 +142,7 @@ impl System {
 
     /// The function of a role.
     pub fn function(&self, role: Role) -> Function {
-        crate::cut::cut(self.chosen(role))
+        crate::cut::cut(self.chosen(role).fused())
     }
 
     /// The same in one block.
