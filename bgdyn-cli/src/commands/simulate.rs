@@ -8,13 +8,14 @@ use bgdyn_codegen::system::System;
 use clap::Args;
 
 use crate::output::{print, tell};
+use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{self, number};
 use crate::simulate::{Column, Record, Way, columns, plot, record};
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
 
-/// Run a scene, without a compiler: NAME.csv and NAME.svg, events, energy
+/// Run a scene, without a compiler: table, plots, a page that replays it, events, energy
 ///
 /// The run is by the scene's `integration` where nothing else is said. It is made once more with half
 /// the step or a tenth of the tolerance, to tell how far its result can be trusted.
@@ -73,9 +74,10 @@ impl Simulate {
         let files = self.write(&file.stem, &columns, &run)?;
         print(&format!(
             "{}\n{files}\n",
-            told(&file.stem, &way.integration)
+            summary(&file.stem, &way.integration)
         ))?;
-        print(&report::report(&system, &run))?;
+        let mut told = report::report(&system, &run);
+        print(&told)?;
         let closed = report::drift(&run);
         // A drift that is no number is none that is small.
         if closed.is_nan() || closed > DRIFT {
@@ -85,10 +87,33 @@ impl Simulate {
             ));
         }
         if let Some(reason) = &run.failure {
+            self.page(&file.stem, (&system, &way), &columns, &run, told)?;
             let (t, place) = (run.t, report::place(&system, &run));
             bail!("the run ends early at t = {t} s, {place}: {reason}");
         }
-        estimate(&system, &way, &columns, &run)
+        told += &estimate(&system, &way, &columns, &run)?;
+        self.page(&file.stem, (&system, &way), &columns, &run, told)
+    }
+
+    /// Writes the page that replays the run.
+    fn page(
+        &self,
+        name: &str,
+        (system, way): (&System, &Way),
+        columns: &[Column],
+        run: &Record,
+        report: String,
+    ) -> Result<()> {
+        let path = self.out.join(format!("{name}.html"));
+        let words = Words {
+            name: name.to_owned(),
+            method: summary(name, &way.integration),
+            report,
+        };
+        let text = page::page(system, columns, run, &words);
+        std::fs::write(&path, text)
+            .with_context(|| format!("{} cannot be written", path.display()))?;
+        print(&format!("replay: {}\n", path.display()))
     }
 
     /// Numbers that make no sense, whatever the scene.
@@ -173,7 +198,7 @@ fn watched(what: &'static str, system: &System, way: &Way) -> Record {
 }
 
 /// "stick_slip: rk4 in steps of 0.001 s, to t = 5 s"
-fn told(name: &str, integration: &Integration) -> String {
+fn summary(name: &str, integration: &Integration) -> String {
     let Integration { method, pace, end } = integration;
     let pace = match pace {
         Pace::Step(h) => format!("in steps of {h} s"),
@@ -182,8 +207,8 @@ fn told(name: &str, integration: &Integration) -> String {
     format!("{name}: {} {pace}, to t = {end} s", method.name())
 }
 
-/// Compares the run with a finer one.
-fn estimate(system: &System, way: &Way, columns: &[Column], run: &Record) -> Result<()> {
+/// Compares the run with a finer one; gives what is told of it.
+fn estimate(system: &System, way: &Way, columns: &[Column], run: &Record) -> Result<String> {
     let finer = watched("once more, finer", system, &way.finer());
     let against = match way.integration.pace {
         Pace::Step(_) => "half the step",
@@ -191,13 +216,14 @@ fn estimate(system: &System, way: &Way, columns: &[Column], run: &Record) -> Res
     };
     if let Some(reason) = finer.failure {
         let t = finer.t;
-        tell(&format!(
-            "bgdyn: warning: with {against} the run ends early at t = {t} s ({reason}): the result means little\n"
-        ));
-        return Ok(());
+        let warning = format!(
+            "warning: with {against} the run ends early at t = {t} s ({reason}): the result means little\n"
+        );
+        tell(&format!("bgdyn: {warning}"));
+        return Ok(warning);
     }
     let Some(found) = run.difference(&finer) else {
-        return Ok(());
+        return Ok(String::new());
     };
     let Column { name, unit } = &columns[found.column];
     let text = format!(
@@ -206,11 +232,12 @@ fn estimate(system: &System, way: &Way, columns: &[Column], run: &Record) -> Res
         number(found.share),
         found.t
     );
-    print(&format!("a run with {against} differs most in {text}\n"))?;
+    let told = format!("a run with {against} differs most in {text}\n");
+    print(&told)?;
     if found.share.is_nan() || found.share > ERROR {
         tell(&format!(
             "bgdyn: warning: a run with {against} differs in {text}: the result means little there; take a smaller step or tolerance\n"
         ));
     }
-    Ok(())
+    Ok(told)
 }

@@ -1,6 +1,7 @@
 //! Runs of scenes through the evaluator, and what is told of them.
 
 mod difference;
+pub(crate) mod page;
 mod plant;
 pub(crate) mod plot;
 pub(crate) mod progress;
@@ -9,4 +10,4 @@ pub(crate) mod report;
 
 pub use difference::Difference;
 pub use plant::{Evaluated, Form, Numbers, Undefined};
-pub use record::{Column, Event, Record, Row, Way, columns, record};
+pub use record::{Column, EnergyAt, Event, Record, Row, Way, columns, record};

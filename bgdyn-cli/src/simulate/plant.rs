@@ -154,6 +154,11 @@ impl<'a> Evaluated<'a> {
         self.outputs.as_ref().map_or(vec![], value)
     }
 
+    /// The inputs at y: what the scene drives, and 0.
+    pub fn input(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
+        self.driven(t, y, modes).u
+    }
+
     /// What functions read, with all inputs 0.
     fn arguments(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
         let layout = &self.system.scene.layout;

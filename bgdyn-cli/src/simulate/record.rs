@@ -50,8 +50,29 @@ pub struct Row {
     pub t: f64,
     /// The columns' values.
     pub values: Vec<f64>,
+    /// Positions, velocities, first-order states.
+    pub y: Numbers,
+    /// The modes.
+    pub modes: Numbers,
+    /// The inputs, driven ones and 0 for the others.
+    pub inputs: Vec<f64>,
     /// Whether it stands here for an event or for the end, not for one of the points asked for.
     pub extra: bool,
+}
+
+/// The account of the energy at the end of a step, J, all entries together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyAt {
+    /// Time, s.
+    pub t: f64,
+    /// What came from outside.
+    pub supplied: f64,
+    /// What is stored more than at the start.
+    pub stored: f64,
+    /// What was lost.
+    pub dissipated: f64,
+    /// Stored + dissipated − supplied.
+    pub drift: f64,
 }
 
 /// An instant at which a mode changed.
@@ -70,6 +91,8 @@ pub struct Event {
 pub struct Record {
     /// The points asked for, with rows at events between them.
     pub rows: Vec<Row>,
+    /// The energy at ends of steps, one at most between two points; none of a run without account.
+    pub energy: Vec<EnergyAt>,
     /// Steps that were taken, those up to events included.
     pub steps: usize,
     /// Events that changed a mode.
@@ -197,6 +220,7 @@ struct Recorder<'a, M: Method<Numbers>> {
     points: usize,
     steps: usize,
     events: Vec<Event>,
+    energy: Vec<EnergyAt>,
     moved: f64,
 }
 
@@ -216,6 +240,7 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
             points: 0,
             steps: 0,
             events: vec![],
+            energy: vec![],
             moved: 0.0,
         }
     }
@@ -230,6 +255,7 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
         let y = self.run.plant().natural(t, self.run.y(), &modes);
         Record {
             rows: self.rows,
+            energy: self.energy,
             steps: self.steps,
             events: self.events,
             kinks: self.run.kinks,
@@ -342,14 +368,35 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
             true => plant.output(t, &y, modes),
             false => y.as_slice().to_vec(),
         };
-        self.rows.push(Row { t, values, extra });
-        let Audit {
-            supplied,
-            stored,
-            dissipated,
-        } = self.run.audit();
-        for part in [supplied, stored, dissipated] {
+        let inputs = plant.input(t, &y, modes);
+        self.rows.push(Row {
+            t,
+            values,
+            y,
+            modes: modes.clone(),
+            inputs,
+            extra,
+        });
+        self.book();
+    }
+
+    /// Notes the account of the energy where the run is.
+    fn book(&mut self) {
+        if !self.way.audited {
+            return;
+        }
+        let (t, audit) = (self.run.t(), self.run.audit());
+        for part in [&audit.supplied, &audit.stored, &audit.dissipated] {
             self.moved = self.moved.max(part.lp_norm(1));
+        }
+        if self.energy.last().is_none_or(|last| last.t < t) {
+            self.energy.push(EnergyAt {
+                t,
+                supplied: audit.supplied.sum(),
+                stored: audit.stored.sum(),
+                dissipated: audit.dissipated.sum(),
+                drift: audit.drift(),
+            });
         }
     }
 }
