@@ -184,8 +184,10 @@ impl Bodies {
         if bare {
             self.all[body].beam(place.o, at);
         }
+        let from = self.all[body].nearest(at);
         self.all[body].points.push(Point {
             mass: Some(mass),
+            from,
             ..Point::at(at)
         });
     }

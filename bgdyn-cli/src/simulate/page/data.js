@@ -6,7 +6,9 @@ const T = data.t, END = T[T.length - 1];
 // A curve of whole numbers from 0 to its `levels` over a range; null where there is no number.
 for (const curve of [...data.outputs, ...data.states, ...data.energy.curves]) {
   const step = (curve.high - curve.low) / data.levels;
-  curve.at = curve.counts.map((k) => (k === null ? NaN : curve.low + step * k));
+  curve.unit = curve.unit.replaceAll("*", "·").replaceAll("^2", "²").replaceAll("^3", "³");
+  // What is less than a count from zero is zero.
+  curve.at = curve.counts.map((k) => (k === null ? NaN : Math.abs(curve.low + step * k) < 0.6 * step ? 0 : curve.low + step * k));
 }
 // Unevenly spaced times: where t lies among them, as a row and a part of the way to the next one.
 const place = (times, t) => {
@@ -53,3 +55,5 @@ const element = (kind, parent, name = "", text = "") => {
 };
 // Okabe and Ito's palette, in an order that also tells apart in grey.
 const PALETTE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+// The first and the last of them are too dark on a dark ground.
+const colour = (k) => (css("--solid") === "1" ? { 0: "#56b4e9", 5: "#b3b3ff" }[k] || PALETTE[k] : PALETTE[k]);

@@ -31,9 +31,10 @@ if (data.energy.t.length > 1) {
 for (const plot of plots) {
   const box = element("div", byId("plots"), "plot"), head = element("div", box, "curves");
   if (plot.title) element("b", head, "", plot.title);
+  plot.marks = [];
   plot.values = plot.curves.map((curve, k) => {
     const item = element("span", head, "curve");
-    element("i", item).style.background = PALETTE[k];
+    plot.marks.push(element("i", item));
     const name = element("span", item, "name", curve.name);
     name.title = curve.name;
     return element("span", item, "value");
@@ -125,7 +126,7 @@ const drawPlot = (plot, t) => {
   draw.rect(LEFT, TOP - 2, w + 1, h + 4);
   draw.clip();
   plot.curves.forEach((curve, k) => {
-    draw.strokeStyle = PALETTE[k];
+    draw.strokeStyle = colour(k);
     draw.lineWidth = 1.7;
     draw.beginPath();
     let pen = false;
@@ -141,9 +142,10 @@ const drawPlot = (plot, t) => {
   rule(X(t), TOP, X(t), TOP + h, css("--ink"));
   plot.curves.forEach((curve, k) => {
     const y = value(curve, plot.times, t);
+    plot.marks[k].style.background = colour(k);
     plot.values[k].textContent = `${number(y)} ${curve.unit}`;
     if (Number.isNaN(y)) return;
-    draw.fillStyle = PALETTE[k];
+    draw.fillStyle = colour(k);
     draw.beginPath();
     draw.arc(X(t), Y(y), 3, 0, 2 * Math.PI);
     draw.fill();

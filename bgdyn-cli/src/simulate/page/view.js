@@ -38,12 +38,12 @@ const size = (() => {
   const near = bodies[0].points.some((p) => length(p.at) > 0);
   if (!near || length(add(high, low, -1)) === 0) stretch([0, 0, 0]);
   const lengths = bodies.flatMap((b) => b.points.map((p) => length(p.at))).filter((l) => l > 0).sort((a, b) => a - b);
-  const span = length(add(high, low, -1)) || 1;
+  const extent = length(add(high, low, -1)), span = extent || 0.2;
   const typical = lengths.length ? lengths[Math.floor(0.6 * lengths.length)] : Infinity;
-  const r = Math.min(0.02 * span, 0.14 * typical);
+  const r = Math.min((extent ? 0.015 : 0.07) * span, 0.14 * typical);
   const centre = add(low, add(high, low, -1), 0.5);
   const floor = low[2] - 1.8 * r;
-  const reach = Math.max(0.5 * span, 6 * r) + 2 * r;
+  const reach = Math.max(0.44 * span, 6 * r) + 2 * r;
   const step = 10 ** Math.floor(Math.log10(reach / 2));
   const grid = [1, 2, 5, 10].map((k) => k * step).find((s) => reach / s <= 5) || 10 * step;
   return { low, high, centre, reach, r, floor, grid };
@@ -81,12 +81,15 @@ const solids = (poses, t) => {
     if (link.kind === "cylinder") {
       // The barrel is as long as the shortest length of the run allows.
       const barrel = link.shortest * 0.92, way = unit(add(to, from, -1));
-      beam(from, add(from, way, barrel), 0.85 * r, RAM, 12);
-      beam(add(from, way, barrel), to, 0.42 * r, ROD, 10);
+      beam(from, add(from, way, barrel), 0.7 * r, RAM, 12);
+      beam(add(from, way, barrel), to, 0.35 * r, ROD, 10);
     }
   }
   return faces;
 };
+
+// Whether something hangs on a frame: it needs no axes and no name then.
+const isEnd = (i, point) => data.between.some((l) => l.ends.some((e) => e.body === i && length(add(e.at, point.at, -1)) < 1e-9));
 
 const drawView = (t) => {
   if (!moving) return;
@@ -116,6 +119,7 @@ const drawView = (t) => {
     const [i] = place(T, t);
     trails.forEach((trail) => line([...trail.points.slice(0, i + 1), inWorld(poses[trail.body], trail.at)], css("--accent"), 2.2));
   }
+  bodies.forEach((body, i) => body.points.forEach((p) => p.mass && line([p.from, p.at].map((x) => inWorld(poses[i], x)), colourOf(i), 2)));
   drawMasses(draw, lens, poses, dark);
   const names = [];
   const axes = (pose, at, R, long, wide) => ["#d94a3d", "#3a9e4b", "#3a6fd9"].forEach((colour, k) => {
@@ -125,7 +129,7 @@ const drawView = (t) => {
   axes(poses[0], [0, 0, 0], [[1, 0, 0], [0, 1, 0], [0, 0, 1]], 5 * size.r, 2.2);
   names.push([[0, 0, 0], "world", true]);
   bodies.forEach((body, i) => body.points.forEach((point) => {
-    if (!point.axes) return;
+    if (!point.axes || isEnd(i, point)) return;
     const at = inWorld(poses[i], point.at);
     axes(poses[i], at, point.axes, (point.tip ? 4.2 : 2.6) * size.r, point.tip ? 2.2 : 1.4);
     names.push([at, point.name, point.tip]);
@@ -179,7 +183,7 @@ const drawNames = (draw, lens, names, ink, back, width, height) => {
     const free = ([a, b]) => a > 2 && a + w < width - 2 && b > 8 && b < height - 28 && taken.every(([l, t, r, u]) => a + w < l || a > r || b + 8 < t || b - 8 > u);
     const spot = spots.find(free);
     if (!spot) continue;
-    taken.push([spot[0] - 2, spot[1] - 8, spot[0] + w + 2, spot[1] + 8]);
+    taken.push([spot[0] - 8, spot[1] - 9, spot[0] + w + 8, spot[1] + 9]);
     draw.lineWidth = 3.5;
     draw.lineJoin = "round";
     draw.strokeStyle = back;
