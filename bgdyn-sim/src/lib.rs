@@ -19,7 +19,7 @@
 //!
 //! # Features, off by default
 //! - `std`: states of a size known at run time only, nalgebra's `DVector`. Without it there is neither
-//!   std nor a heap.
+//!   std nor a heap. Also [`batch`]: many runs over all cores.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -27,6 +27,8 @@
 extern crate std;
 
 mod audit;
+#[cfg(feature = "std")]
+pub mod batch;
 mod coefficient;
 mod control;
 mod dense;

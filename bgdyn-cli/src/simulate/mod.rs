@@ -1,5 +1,7 @@
 //! Runs of scenes through the evaluator, and what is told of them.
 
+pub(crate) mod batch;
+pub(crate) mod batch_plot;
 mod difference;
 pub(crate) mod page;
 mod plant;
@@ -7,7 +9,10 @@ pub(crate) mod plot;
 pub(crate) mod progress;
 mod record;
 pub(crate) mod report;
+pub(crate) mod varied;
 
 pub use difference::Difference;
 pub use plant::{Evaluated, Form, Numbers, Undefined};
-pub use record::{Column, EnergyAt, Event, Record, Row, Way, columns, record};
+pub use record::{
+    Column, EnergyAt, Event, Record, Row, Way, columns, prepared, record, record_from,
+};

@@ -137,6 +137,15 @@ impl Way {
     }
 }
 
+/// A scene as a plant for the method that it is to be run by.
+pub fn prepared(system: &System, method: Integrator) -> Evaluated<'_> {
+    let form = match method.needs_canonical() {
+        true => Form::Canonical,
+        false => Form::Natural,
+    };
+    Evaluated::new(system, form, method.needs_jacobian())
+}
+
 /// Runs a scene; `watch` hears now and then which part of it is done.
 ///
 /// A run that fails ends early, with its reason in [`Record::failure`].
@@ -144,20 +153,16 @@ impl Way {
 /// # Panics
 /// Never: every method of scenes is one of `bgdyn_sim`'s.
 pub fn record(system: &System, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
-    let method = way.integration.method;
-    let form = match method.needs_canonical() {
-        true => Form::Canonical,
-        false => Form::Natural,
-    };
-    let plant = Evaluated::new(system, form, method.needs_jacobian());
-    let outputs = !system.outputs.is_empty();
-    let start = Start {
-        plant,
-        outputs,
-        way,
-        watch,
-    };
-    with_method(plain(method), start).expect("a method of the list")
+    record_from(prepared(system, way.integration.method), way, watch)
+}
+
+/// [`record`] of a plant that is there already: [`prepared`] for the method, or as it starts elsewhere.
+///
+/// # Panics
+/// Never.
+pub fn record_from(plant: Evaluated<'_>, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
+    let start = Start { plant, way, watch };
+    with_method(plain(way.integration.method), start).expect("a method of the list")
 }
 
 /// What `bgdyn_sim` calls a method: the canonical form is the plant's business there.
@@ -169,7 +174,6 @@ fn plain(method: Integrator) -> &'static str {
 /// A run about to begin.
 struct Start<'a> {
     plant: Evaluated<'a>,
-    outputs: bool,
     way: &'a Way,
     watch: &'a mut dyn FnMut(f64),
 }
@@ -179,6 +183,7 @@ impl WithMethod<Numbers> for Start<'_> {
 
     fn with<M: Method<Numbers>>(self, method: M) -> Record {
         let begin = self.plant.begin();
+        let outputs = self.plant.has_outputs();
         let mut run = Run::by(method, self.plant, begin);
         if let Pace::Tolerance(tolerance) = self.way.integration.pace {
             run = run.with_tolerance(Tolerance {
@@ -189,7 +194,7 @@ impl WithMethod<Numbers> for Start<'_> {
         if !self.way.audited {
             run = run.unaudited();
         }
-        Recorder::new(run, self.outputs, self.way, self.watch).all()
+        Recorder::new(run, outputs, self.way, self.watch).all()
     }
 }
 
