@@ -38,6 +38,7 @@ mod dopri5;
 mod extrapolation;
 mod failure;
 mod gauss;
+pub mod lanes;
 mod locate;
 mod lu;
 mod mechanism;
