@@ -17,9 +17,49 @@
 //! A step of [`rk4_step`] works on any [`Dynamics`](bgdyn_runtime::Dynamics) model without a scene: positions move by its
 //! `integrate`, so that positions and velocities may be different spaces.
 //!
+//! # A compiled scene, and a mechanism
+//! ```
+//! use bgdyn::nalgebra::SVector;
+//! use bgdyn_sim::batch::{Course, batch, cores, outcome};
+//! use bgdyn_sim::{Moment, Rk4, Run, Scene, State, rk4_step};
+//!
+//! bgdyn::bgdyn!("../specs/scenes/stick_slip.scene.yaml");
+//! bgdyn::bgdyn!("../specs/cart_pole.yaml");
+//!
+//! // A run, from event to event.
+//! let scene = stick_slip::StickSlip::<f64>::default();
+//! let mut run = Run::new(&scene);
+//! for _ in 0..1000 {
+//!     run.step(1e-3).expect("it goes on");
+//! }
+//! assert_eq!(run.events, 2);
+//! assert!(run.audit().drift().abs() < 1e-9);
+//!
+//! // Runs from several places, over all cores.
+//! let begin = Run::begin(&scene);
+//! let course = Course { step: 1e-3, steps: 1000 };
+//! let ends = batch(&[0.0, 0.01, 0.02], cores(), |&slide| {
+//!     let y = SVector::from([slide, begin.y[1]]);
+//!     let run = Run::by(Rk4, Scene::new(&scene), Moment { y, ..begin });
+//!     outcome(run, course, |_, _, y, _| [y[0]]).high[0]
+//! }, |_| {});
+//! assert!(ends.iter().all(|most| (0.04..0.05).contains(most)));
+//!
+//! // A mechanism under efforts of one's own.
+//! let model = cart_pole::CartPole::<f64>::default();
+//! let mut state = State { q: SVector::from([0.0, 0.1]), v: SVector::zeros() };
+//! for k in 0..100 {
+//!     let t = f64::from(k) * 1e-3;
+//!     let push = |_, _: &_| SVector::from([1.0, 0.0]);
+//!     state = rk4_step(&model, t, &state, 1e-3, push).expect("a regular mass matrix");
+//! }
+//! assert!(state.q[0] > 0.0);
+//! ```
+//!
 //! # Features, off by default
 //! - `std`: states of a size known at run time only, nalgebra's `DVector`. Without it there is neither
-//!   std nor a heap. Also [`batch`]: many runs over all cores.
+//!   std nor a heap. Also `batch`: many runs over all cores.
+//! - `wide`: [`lanes`] in the registers of the crate `wide`: a run per lane. Stays `no_std`.
 #![no_std]
 #![forbid(unsafe_code)]
 
