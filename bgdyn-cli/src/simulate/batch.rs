@@ -7,7 +7,8 @@ use bgdyn_codegen::system::System;
 
 use super::difference::range;
 use super::plant::Evaluated;
-use super::record::{Column, Way, record_from};
+use super::record::{Column, Way};
+use super::recorder::record_from;
 use super::report;
 use super::varied::{Given, Varied};
 

@@ -8,6 +8,7 @@ mod plant;
 pub(crate) mod plot;
 pub(crate) mod progress;
 mod record;
+mod recorder;
 pub(crate) mod report;
 pub(crate) mod varied;
 
