@@ -161,6 +161,24 @@ where
         let a = found.unwrap_or_else(T::accelerations);
         Ok(SVector::from_fn(|i, _| if i < N { v[i] } else { a[i - N] }))
     }
+    fn positions(&self) -> usize {
+        N
+    }
+
+    fn position_rates(&self, _: T, y: &SVector<T, Y>) -> Result<SVector<T, Y>, Infallible> {
+        Ok(following(N, y))
+    }
+}
+
+/// The rates of the first components by those that follow them.
+fn following<T: Scalar, const Y: usize>(positions: usize, y: &SVector<T, Y>) -> SVector<T, Y> {
+    SVector::from_fn(|i, _| {
+        if i < positions {
+            y[positions + i]
+        } else {
+            y[i]
+        }
+    })
 }
 
 /// A scene without dry friction that can hold, in any scalar. Kinks of its laws are stepped over: there
@@ -237,14 +255,19 @@ where
         let found = self.scene.derivative(y, &no_modes(), &input, t);
         Ok(found.unwrap_or_else(|error| {
             let rates: SVector<T, ND> = T::accelerations(error);
-            // Positions come first, as many as there are numbers beside the rates; they follow the
-            // velocities.
-            let positions = N - ND;
+            let positions = self.scene.positions();
             SVector::from_fn(|i, _| match i.checked_sub(positions) {
                 None => y[positions + i],
                 Some(i) => rates[i],
             })
         }))
+    }
+    fn positions(&self) -> usize {
+        self.scene.positions()
+    }
+
+    fn position_rates(&self, _: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Infallible> {
+        Ok(following(self.scene.positions(), y))
     }
 }
 

@@ -14,6 +14,5 @@ pub(crate) mod varied;
 
 pub use difference::Difference;
 pub use plant::{Evaluated, Form, Numbers, Undefined};
-pub use record::{
-    Column, EnergyAt, Event, Record, Row, Way, columns, prepared, record, record_from,
-};
+pub use record::{Column, EnergyAt, Event, Record, Row, Way, columns};
+pub use recorder::{prepared, record, record_from};
