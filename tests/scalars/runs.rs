@@ -144,7 +144,7 @@ fn by_threads(starts: &[SVector<f64, 6>], threads: usize) -> Vec<[SVector<f64, 6
 fn in_lanes<T: Lanes<Word = f64>>(starts: &[SVector<f64, 6>]) -> Vec<[SVector<f64, 6>; 2]>
 where
     PumaDistributed<T>: Default + Sync,
-    PumaDistributed<T>: bgdyn::System<T, 6, 0, 3, 0, 6, NP, Singular = T::Singular<3>>,
+    PumaDistributed<T>: bgdyn::runtime::System<T, 6, 0, 3, 0, 6, NP, Singular = T::Singular<3>>,
 {
     let scene = PumaDistributed::<T>::default();
     let groups: Vec<&[SVector<f64, 6>]> = starts.chunks(T::LANES).collect();
