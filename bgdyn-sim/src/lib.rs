@@ -20,8 +20,7 @@
 //! # A compiled scene, and a mechanism
 //! ```
 //! use bgdyn::nalgebra::SVector;
-//! use bgdyn_sim::batch::{Course, batch, cores, outcome};
-//! use bgdyn_sim::{Moment, Rk4, Run, Scene, State, rk4_step};
+//! use bgdyn_sim::{Run, State, rk4_step};
 //!
 //! bgdyn::bgdyn!("../specs/scenes/stick_slip.scene.yaml");
 //! bgdyn::bgdyn!("../specs/cart_pole.yaml");
@@ -34,16 +33,6 @@
 //! }
 //! assert_eq!(run.events, 2);
 //! assert!(run.audit().drift().abs() < 1e-9);
-//!
-//! // Runs from several places, over all cores.
-//! let begin = Run::begin(&scene);
-//! let course = Course { step: 1e-3, steps: 1000 };
-//! let ends = batch(&[0.0, 0.01, 0.02], cores(), |&slide| {
-//!     let y = SVector::from([slide, begin.y[1]]);
-//!     let run = Run::by(Rk4, Scene::new(&scene), Moment { y, ..begin });
-//!     outcome(run, course, |_, _, y, _| [y[0]]).high[0]
-//! }, |_| {});
-//! assert!(ends.iter().all(|most| (0.04..0.05).contains(most)));
 //!
 //! // A mechanism under efforts of one's own.
 //! let model = cart_pole::CartPole::<f64>::default();

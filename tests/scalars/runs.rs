@@ -70,7 +70,7 @@ where
 }
 
 macro_rules! mechanism_in {
-    ($method:expr, $($lanes:ident: $float:ident, $n:literal;)*) => {$(
+    ($method:expr, $($lanes:ident: $float:ident, $n:literal;)*) => {$({
         let starts = starts::<$float, 8>($n, 5);
         let model = Scara4::<$lanes>::default();
         let found = together::<$lanes, _, _, 4, 8>(&model, &$method, &starts, 1e-3);
@@ -82,7 +82,7 @@ macro_rules! mechanism_in {
             let bits = |y: SVector<$float, 8>| y.map($float::to_bits);
             assert_eq!(found[k].map(bits), wanted.map(bits), "lane {k}");
         }
-    )*};
+    })*};
 }
 
 #[test]
