@@ -27,7 +27,7 @@ use crate::usage::Usage;
 /// the step or a tenth of the tolerance, to tell how far its result can be trusted.
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2 --points 201\n  bgdyn simulate arm.scene.yaml --parameter payload=2.5 --initial shoulder=0.3\n  bgdyn simulate arm.scene.yaml --sweep payload=0:5:21\n  bgdyn simulate arm.scene.yaml --random shoulder=-1:1 --random payload=0:5 --runs 500\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
+    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2 --points 201\n  bgdyn simulate arm.scene.yaml --parameter payload=2.5 --initial shoulder=0.3\n  bgdyn simulate arm.scene.yaml --sweep payload=0:5:21\n  bgdyn simulate arm.scene.yaml --random shoulder=-1:1 --random payload=0:5 --runs 500\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
 )]
 pub(crate) struct Simulate {
     /// The scene
