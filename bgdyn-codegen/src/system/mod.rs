@@ -20,7 +20,7 @@ use crate::expr::{Builder, Ex, Expr};
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::function::Function;
 use crate::method::{Method, Role};
-use crate::scene::Scene;
+use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
 pub use laws::{Balance, Contact, Laws, Own, Port, Reading, behind_gear};
 
@@ -78,6 +78,31 @@ impl System {
         let started = start(&system.scene, &laws);
         drop(laws);
         (system.entries, system.outputs) = (entries, outputs);
+        system.initial.x = started;
+        if faults.any_fault() {
+            return Err(faults);
+        }
+        Ok(system)
+    }
+
+    /// The same equations with these values, SI units, at the start and for run-time parameters. The
+    /// functions stay as they are, but for what they read.
+    ///
+    /// # Errors
+    /// Values that a state cannot have, or with which something is not positive that must be.
+    pub fn starting(&self, values: &[(Settable, Dd)]) -> Result<Self, Faults> {
+        let scene = self.scene.starting(values)?;
+        let mut system = System {
+            scene,
+            ..self.clone()
+        };
+        let mut faults = Faults::default();
+        let b = Builder::silent();
+        let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+        range::check(&system.scene, &laws, &mut faults);
+        let started = start(&system.scene, &laws);
+        drop(laws);
+        system.initial = system.scene.initial.clone();
         system.initial.x = started;
         if faults.any_fault() {
             return Err(faults);
