@@ -332,6 +332,7 @@ where
         let mut y = self.y.plus(one, &step.change);
         // x − x is 0 for finite numbers only.
         let zero = Of::<Y>::from_f64(0.0);
+        #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
         let rest = y.entries().iter().fold(zero, |sum, &x| sum + (x - x));
         self.end(|k| !rest.lane(k).is_finite());
         if (0..Of::<Y>::LANES).any(|k| self.ended(k).is_some()) {
