@@ -41,7 +41,7 @@ pub mod scenes {
 }
 
 pub use outcome::Outcome;
-pub use single::single_precision_of_long_chains;
+pub use single::{Single, single_precision_of_long_chains};
 pub use state::State;
 
 /// How much is run.
