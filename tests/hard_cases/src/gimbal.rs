@@ -6,10 +6,10 @@ use bgdyn_runtime::Dd;
 
 use crate::bars::{Digits, Hard, Reference};
 use crate::literal::Literal;
-use crate::model::{model, spec};
 use crate::outcome::{Outcome, Worst};
 use crate::rng::Rng;
 use crate::{Extent, State};
+use hard_cases_compiled::{Compiled, model, spec};
 
 /// A body on a fixed point, by its angles about z, x, z.
 struct Euler {
@@ -111,7 +111,13 @@ impl Reference for Euler {
     }
 }
 
-fn close<T: Digits>(worst: &mut Worst, name: &str, case: &str, reference: &Euler, s: &State) {
+fn close<T: Digits + Compiled>(
+    worst: &mut Worst,
+    name: &str,
+    case: &str,
+    reference: &Euler,
+    s: &State,
+) {
     // Without a condition number: 16 eps.
     let hard = Hard::new::<T>(reference, s, Some(0.0));
     let at = format!("q = {:?}", s.q);

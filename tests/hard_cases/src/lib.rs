@@ -9,7 +9,6 @@ mod follow;
 mod gimbal;
 mod limits;
 mod literal;
-mod model;
 mod motor;
 #[path = "../../../bgdyn-sim/tests/integrators/order.rs"]
 mod order;
@@ -29,16 +28,14 @@ mod smooth;
 mod state;
 mod stick_slip;
 mod stiff;
+mod subject;
 mod uneven;
 #[allow(dead_code)]
 #[path = "../written.rs"]
 mod written;
 mod zero;
 
-/// The scenes, compiled.
-pub mod scenes {
-    include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
-}
+use hard_cases_compiled::scenes;
 
 pub use outcome::Outcome;
 pub use single::{Single, single_precision_of_long_chains};

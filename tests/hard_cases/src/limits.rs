@@ -1,16 +1,13 @@
 //! Bar 13: numbers of any size give numbers or the typed error, and what is no number never becomes one.
-//!
-//! Masks, as the build script writes them: positions from bit 0, velocities from 24, accelerations or
-//! first-order states from 48, efforts or inputs from 72; bit 127 stands for all else.
 
 use bgdyn_runtime::System;
 use nalgebra::SVector;
 
 use crate::bars::Digits;
-use crate::model::{DEPENDS, Model, model};
 use crate::outcome::Outcome;
 use crate::rng::Rng;
 use crate::{Extent, scenes};
+use hard_cases_compiled::{Compiled, DEPENDS, Model, bit, model};
 
 /// The repository's mechanisms.
 pub(crate) const MECHANISMS: [&str; 17] = [
@@ -34,25 +31,29 @@ pub(crate) const MECHANISMS: [&str; 17] = [
 ];
 
 /// How large arguments may be.
-trait Range: Digits {
+trait Range: Digits + Compiled {
     /// Of positions, and of states of first order.
     const POSITION: f64;
     /// Of everything else.
     const RATE: f64;
     /// The smallest positive number.
     const LEAST: f64;
+    /// A number that is larger than any, and whose square is one.
+    const LARGE: f64;
 }
 
 impl Range for f64 {
     const POSITION: f64 = 1e15;
     const RATE: f64 = 1e60;
     const LEAST: f64 = 5e-324;
+    const LARGE: f64 = 1e150;
 }
 
 impl Range for f32 {
     const POSITION: f64 = 1e4;
     const RATE: f64 = 1e6;
     const LEAST: f64 = 1.4e-45;
+    const LARGE: f64 = 1e18;
 }
 
 /// A number of any size up to `most`: in one of eight ±0, in one of eight a denormal, in one of eight the
@@ -76,38 +77,47 @@ struct Tried<'a, T> {
     kinds: [usize; 4],
     /// Whether the third kind are states of first order: bristles, volumes, currents.
     first_order: bool,
+    /// Arguments to stay near to where one of them is spoiled.
+    around: [Vec<f64>; 4],
     run: Box<dyn Fn(&[Vec<T>; 4]) -> Result<Vec<T>, String> + 'a>,
     masks: Vec<u128>,
 }
 
-/// The bit of an argument.
-fn bit(kind: usize, i: usize) -> u128 {
-    1 << (24 * kind + i)
+/// What went wrong, and how often.
+#[derive(Clone, Copy)]
+enum Fault {
+    /// A result is neither a number nor the error.
+    Infinite,
+    /// A component is finite beside an argument that is not a number.
+    Swallowed,
+    /// A component is finite beside an infinite argument, and not what it comes to for large ones.
+    Cut,
+    /// A component is finite beside an infinite argument: its law saturates. No fault.
+    Saturated,
 }
 
-/// What went wrong.
+/// Counts by [`Fault`], and the first of each.
 #[derive(Default)]
 struct Count {
-    /// Results that are neither numbers nor the error.
-    infinite: usize,
-    /// Components that stayed finite beside an argument that is none.
-    survived: usize,
-    /// The first of each.
-    first: [Option<String>; 2],
+    counts: [usize; 4],
+    first: [String; 4],
 }
 
 impl Count {
-    fn note(&mut self, kind: usize, text: impl FnOnce() -> String) {
-        let count = [&mut self.infinite, &mut self.survived];
-        *count.into_iter().nth(kind).expect("one of two") += 1;
-        self.first[kind].get_or_insert_with(text);
+    fn note(&mut self, fault: Fault, text: impl FnOnce() -> String) {
+        let k = fault as usize;
+        self.counts[k] += 1;
+        if self.counts[k] == 1 {
+            self.first[k] = text();
+        }
     }
 
     fn merge(&mut self, other: Count) {
-        self.infinite += other.infinite;
-        self.survived += other.survived;
-        for (own, others) in self.first.iter_mut().zip(other.first) {
-            *own = own.take().or(others);
+        for (k, first) in other.first.into_iter().enumerate() {
+            if self.counts[k] == 0 {
+                self.first[k] = first;
+            }
+            self.counts[k] += other.counts[k];
         }
     }
 }
@@ -135,44 +145,67 @@ impl<T: Range> Tried<'_, T> {
             if let Ok(results) = (self.run)(&arguments)
                 && !results.iter().all(is_finite)
             {
-                count.note(0, || format!("{}: {arguments:?} -> {results:?}", self.name));
+                count.note(Fault::Infinite, || {
+                    format!("{}: {arguments:?} -> {results:?}", self.name)
+                });
             }
         }
+        let mut regular = 0;
         for _ in 0..spoiled {
-            let usual = self.kinds.map(|n| -> Vec<T> {
-                (0..n)
-                    .map(|_| T::from_f64(0.05 + 0.9 * rng.unit()))
-                    .collect()
-            });
+            let near = |x: &Vec<f64>| x.iter().map(|&x| self.near(rng, x)).collect();
+            let usual: Vec<Vec<T>> = self.around.iter().map(near).collect();
+            let usual = usual.try_into().expect("four kinds");
+            regular += usize::from((self.run)(&usual).is_ok());
             self.spoil(&usual, &mut count);
         }
+        assert!(regular > 0, "{}: refused wherever it is tried", self.name);
         count
     }
 
+    /// A number near this one, or of usual size.
+    fn near(&self, rng: &mut Rng, x: f64) -> T {
+        let size = if x == 0.0 { 0.3 } else { 0.02 * x };
+        T::from_f64(x + rng.within(size))
+    }
+
+    /// Each argument in turn not a number, or infinite.
     fn spoil(&self, usual: &[Vec<T>; 4], count: &mut Count) {
-        for (kind, &n) in self.kinds.iter().enumerate() {
-            for i in 0..n {
-                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-                    let mut arguments = usual.clone();
-                    arguments[kind][i] = T::from_f64(bad);
-                    let Ok(results) = (self.run)(&arguments) else {
+        let places = self.kinds.iter().enumerate();
+        for (kind, i) in places.flat_map(|(kind, &n)| (0..n).map(move |i| (kind, i))) {
+            let with = |x: f64| {
+                let mut arguments = usual.clone();
+                arguments[kind][i] = T::from_f64(x);
+                (self.run)(&arguments)
+            };
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let Ok(results) = with(bad) else { continue };
+                let large = with(T::LARGE.copysign(bad));
+                for (k, (result, mask)) in results.iter().zip(&self.masks).enumerate() {
+                    if mask & bit(kind, i) == 0 || !is_finite(result) {
                         continue;
-                    };
-                    for (k, (result, mask)) in results.iter().zip(&self.masks).enumerate() {
-                        if mask & bit(kind, i) != 0 && is_finite(result) {
-                            count.note(1, || {
-                                let kind = ["q", "v", "a or x", "u"][kind];
-                                format!(
-                                    "{}: {bad} in {kind}[{i}] leaves [{k}] {result:?}",
-                                    self.name
-                                )
-                            });
-                        }
                     }
+                    let limit = large.as_ref().ok().map(|large| large[k].to_f64());
+                    let fault = match (bad.is_nan(), limit) {
+                        (true, _) => Fault::Swallowed,
+                        (_, Some(limit)) if alike::<T>(limit, result.to_f64()) => Fault::Saturated,
+                        _ => Fault::Cut,
+                    };
+                    count.note(fault, || {
+                        let kind = ["q", "v", "a or x", "u"][kind];
+                        format!(
+                            "{}: {bad} in {kind}[{i}] leaves [{k}] {result:?}",
+                            self.name
+                        )
+                    });
                 }
             }
         }
     }
+}
+
+/// Equal to within rounding, in units of 1 or of their size.
+fn alike<T: Digits>(x: f64, y: f64) -> bool {
+    (x - y).abs() <= 16.0 * T::EPS * x.abs().max(1.0)
 }
 
 /// The five methods of a mechanism.
@@ -201,6 +234,7 @@ fn of_mechanism<T: Range>(name: &str) -> Vec<Tried<'static, T>> {
                 name: format!("{name}::{method}"),
                 kinds,
                 first_order: false,
+                around: kinds.map(|n| vec![0.0; n]),
                 run: Box::new(move |x| run(&*model, x)),
                 masks: masks.to_vec(),
             }
@@ -231,7 +265,10 @@ fn of_scene<
 ) -> Tried<'static, T> {
     let found = scenes::DEPENDS.iter().find(|(own, ..)| *own == name);
     let (_, [nq, nv, nx], masks) = found.expect(name);
-    let (_, modes) = scene.start();
+    let (start, modes) = scene.start();
+    let mut start = start.iter().map(|x| x.to_f64());
+    let mut part = |n: usize| start.by_ref().take(n).collect::<Vec<f64>>();
+    let around = [part(*nq), part(*nv), part(*nx), vec![0.0; NU]];
     // The rates of positions are velocities.
     let moved = (0..*nq).map(|i| bit(1, i));
     let run = move |x: &[Vec<T>; 4]| {
@@ -246,6 +283,7 @@ fn of_scene<
         name: name.to_owned(),
         kinds: [*nq, *nv, *nx, NU],
         first_order: true,
+        around,
         run: Box::new(run),
         masks: moved.chain(masks.iter().copied()).collect(),
     }
@@ -262,7 +300,7 @@ fn all_scenes<T: Range>() -> Vec<Tried<'static, T>> {
             ));
         };
     }
-    scenes::each_scene!(tried);
+    hard_cases_compiled::each_scene!(tried);
     all
 }
 
@@ -281,18 +319,17 @@ fn outcomes<T: Range>(
         let mut rng = Rng::new(1300 + seed as u64);
         all.merge(one.count(&mut rng, states.div_ceil(tried.len()), extent.of(100, 4)));
     }
-    let [infinite, survived] = all.first.map(Option::unwrap_or_default);
-    let row = |quantity: &str, count: usize, first: String| {
+    let row = |quantity: String, fault: Fault| {
+        let (count, first) = (all.counts[fault as usize], &all.first[fault as usize]);
         let quantity = format!("{quantity}{}", T::MARK);
         Outcome::new(what, "13", quantity, count as f64, 0.0).at(first)
     };
+    let saturated = all.counts[Fault::Saturated as usize];
+    let cut = format!("finite beside ±inf, not its limit ({saturated} are)");
     vec![
-        row("results neither finite nor refused", all.infinite, infinite),
-        row(
-            "components finite beside NaN or ±inf",
-            all.survived,
-            survived,
-        ),
+        row("neither finite nor refused".into(), Fault::Infinite),
+        row("finite beside NaN".into(), Fault::Swallowed),
+        row(cut, Fault::Cut),
     ]
 }
 

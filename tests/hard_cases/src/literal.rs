@@ -32,7 +32,8 @@ impl Literal {
     /// # Panics
     /// Where the spec is refused.
     pub fn new(text: &str) -> Literal {
-        let (mechanism, faults) = bgdyn_codegen::read(text, Some("reference"));
+        let named = (!text.contains("\nname:")).then_some("reference");
+        let (mechanism, faults) = bgdyn_codegen::read(text, named);
         let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render("spec", text)));
         let graph = bond_graph::build(&mechanism);
         let search = Search::new(&graph, None);

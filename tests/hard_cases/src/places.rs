@@ -5,14 +5,14 @@ use nalgebra::DVector;
 
 use crate::bars::{Digits, Found, Reference, Subject, norm, off, rounded};
 use crate::literal::Literal;
-use crate::model::{Model, model, spec};
 use crate::outcome::{Outcome, Worst};
 use crate::rng::Rng;
 use crate::written::{cases, list};
 use crate::{Extent, State};
+use hard_cases_compiled::{Compiled, Model, model, spec};
 
 /// Inverse dynamics at the angles of a case, to 16 eps.
-fn turned<T: Digits>(name: &str, reference: &Literal, s: &State) -> Found {
+fn turned<T: Digits + Compiled>(name: &str, reference: &Literal, s: &State) -> Found {
     let exact = reference.inverse(s);
     let found = Subject::<T>::inverse(&model::<T>(name), s);
     Found {
@@ -90,7 +90,7 @@ struct Differ {
     moved: usize,
 }
 
-fn differ<T: Digits>(here: &str, there: &str, states: usize) -> Differ {
+fn differ<T: Digits + Compiled>(here: &str, there: &str, states: usize) -> Differ {
     let (one, other) = (model::<T>(here), model::<T>(there));
     let bits = |x: Vec<f64>| -> Vec<u64> { x.into_iter().map(f64::to_bits).collect() };
     let mut rng = Rng::new(29);

@@ -5,11 +5,11 @@ use serde_json::Value;
 
 use crate::bars::{Digits, Found, Hard, Reference, Subject, apart, norm, rounded};
 use crate::literal::Literal;
-use crate::model::{model, spec};
 use crate::outcome::{Outcome, Worst};
 use crate::rng::Rng;
 use crate::written::{cases, list};
 use crate::{Extent, State};
+use hard_cases_compiled::{Compiled, model, spec};
 
 /// Joints up to which `f32` has digits for every bar.
 const SHORT: usize = 8;
@@ -46,7 +46,7 @@ fn agrees(reference: &Literal, state: &State, case: &Value) -> Vec<Found> {
 }
 
 /// Bars 1 to 5 in one state in the scalar T.
-fn bars<T: Digits>(
+fn bars<T: Digits + Compiled>(
     worst: &mut Worst,
     name: &str,
     case: &str,

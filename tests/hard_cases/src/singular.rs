@@ -2,14 +2,15 @@
 //! are solved to the last digits.
 
 use crate::bars::Digits;
-use crate::model::{model, narrow, wide};
 use crate::outcome::Outcome;
 use crate::rng::Rng;
+use crate::subject::{narrow, wide};
 use crate::written::{cases, list};
 use crate::{Extent, State};
+use hard_cases_compiled::{Compiled, model};
 
 /// Refused in every state, by the name of this joint.
-fn refused<T: Digits>(case: &str, name: &str, joint: &str, states: usize) -> Outcome {
+fn refused<T: Digits + Compiled>(case: &str, name: &str, joint: &str, states: usize) -> Outcome {
     let subject = model::<T>(name);
     let mut rng = Rng::new(7);
     let mut wrong = 0;
@@ -24,7 +25,7 @@ fn refused<T: Digits>(case: &str, name: &str, joint: &str, states: usize) -> Out
 }
 
 /// Solved to 16 eps, component by component.
-fn solved<T: Digits>(case: &str, name: &str, s: &State, wanted: &[f64]) -> Outcome {
+fn solved<T: Digits + Compiled>(case: &str, name: &str, s: &State, wanted: &[f64]) -> Outcome {
     let subject = model::<T>(name);
     let found = subject.forward_dynamics(&narrow(&s.q), &narrow(&s.v), &narrow(&s.tau));
     let error = match found {

@@ -192,14 +192,13 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
     }
     format!(
         "{includes}
-/// The model of this name.
-pub fn named<T: Scalar>(name: &str) -> Option<Box<dyn Model<T>>> {{
+fn any<T: Scalar>(name: &str) -> Option<Box<dyn Model<T>>> {{
     match name {{ {models} _ => None }}
 }}
 /// The specs by name.
 pub const TEXTS: &[(&str, &str)] = &[{texts}];
 /// For each model, and each component of inverse dynamics, mass matrix, bias, gravity and forward
-/// dynamics, the inputs that it depends on: see [`crate::limits`].
+/// dynamics, the inputs that it depends on: in masks of [`bit`].
 pub const DEPENDS: &[(&str, [&[u128]; 5])] = &[{depends}];
 "
     )

@@ -1,10 +1,8 @@
-//! Compiled mechanisms by name, whatever their size.
+//! The mechanisms of the hard cases by name, whatever their size, and the scenes.
+#![forbid(unsafe_code)]
 
+use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::{Dynamics, Scalar};
-use nalgebra::{SMatrix, SVector};
-
-use crate::State;
-use crate::bars::{Digits, Subject};
 
 /// A compiled mechanism. Matrices are given row by row.
 pub trait Model<T> {
@@ -68,12 +66,41 @@ impl<T: Scalar, M: Dynamics<T, N, N>, const N: usize> Model<T> for Erased<M, N> 
 
 include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
 
+/// Scalars in which all models are compiled, here and only once.
+pub trait Compiled: Scalar {
+    /// The model of this name, if there is one.
+    fn named(name: &str) -> Option<Box<dyn Model<Self>>>;
+}
+
+impl Compiled for f64 {
+    fn named(name: &str) -> Option<Box<dyn Model<f64>>> {
+        any(name)
+    }
+}
+
+impl Compiled for f32 {
+    fn named(name: &str) -> Option<Box<dyn Model<f32>>> {
+        any(name)
+    }
+}
+
 /// The model of this name.
 ///
 /// # Panics
 /// Where there is none.
-pub fn model<T: Scalar>(name: &str) -> Box<dyn Model<T>> {
-    named(name).unwrap_or_else(|| panic!("no model is called {name}"))
+pub fn model<T: Compiled>(name: &str) -> Box<dyn Model<T>> {
+    T::named(name).unwrap_or_else(|| panic!("no model is called {name}"))
+}
+
+/// The bit of argument `i` of a kind in a mask of what a result depends on: positions (0), velocities
+/// (1), accelerations or states of first order (2), efforts or inputs (3). Bit 127 stands for all else.
+pub fn bit(kind: usize, i: usize) -> u128 {
+    1 << (24 * kind + i)
+}
+
+/// The scenes.
+pub mod scenes {
+    include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 }
 
 /// The spec of the model of this name.
@@ -83,29 +110,4 @@ pub fn model<T: Scalar>(name: &str) -> Box<dyn Model<T>> {
 pub fn spec(name: &str) -> &'static str {
     let found = TEXTS.iter().find(|(own, _)| *own == name);
     found.expect(name).1
-}
-
-impl<T: Digits> Subject<T> for Box<dyn Model<T>> {
-    fn inverse(&self, s: &State) -> Vec<f64> {
-        wide(self.inverse_dynamics(&narrow(&s.q), &narrow(&s.v), &narrow(&s.a)))
-    }
-
-    fn mass(&self, s: &State) -> Vec<f64> {
-        wide(self.mass_matrix(&narrow(&s.q)))
-    }
-
-    fn forward(&self, s: &State) -> Option<Vec<f64>> {
-        let found = self.forward_dynamics(&narrow(&s.q), &narrow(&s.v), &narrow(&s.tau));
-        found.ok().map(wide)
-    }
-}
-
-/// Numbers in the scalar under test.
-pub(crate) fn narrow<T: Digits>(x: &[f64]) -> Vec<T> {
-    x.iter().map(|&x| T::from_f64(x)).collect()
-}
-
-/// The same numbers as `f64`.
-pub(crate) fn wide<T: Digits>(x: Vec<T>) -> Vec<f64> {
-    x.into_iter().map(T::to_f64).collect()
 }

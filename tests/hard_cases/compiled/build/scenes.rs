@@ -124,10 +124,10 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
     format!(
         "{includes}
 /// Calls the macro `run` with each of the repository's scenes.
+#[macro_export]
 macro_rules! each_scene {{ ($run:ident) => {{ {calls} }} }}
-pub(crate) use each_scene;
 /// Of each of them the numbers of positions, velocities and states of first order, and what the rates
-/// of velocities and states depend on: see [`crate::limits`].
+/// of velocities and states depend on: in masks of [`bit`].
 pub const DEPENDS: &[(&str, [usize; 3], &[u128])] = &[{depends}];
 "
     )
