@@ -11,7 +11,7 @@ use crate::outcome::Outcome;
 use crate::scenes::double_pendulum_chaotic::DoublePendulumChaotic;
 use crate::{Curve, Extent, Measured, Panel};
 
-/// Twice the energy between hanging down and standing up over four: the unit of the bars, J.
+/// Energy between hanging down and standing up, halved: the unit of the bars, J.
 const UNIT: f64 = 29.43;
 const GRAVITY: f64 = 9.81;
 /// Steps for which the bars hold.

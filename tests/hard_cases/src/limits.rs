@@ -88,7 +88,7 @@ struct Tried<'a, T> {
 enum Fault {
     /// A result is neither a number nor the error.
     Infinite,
-    /// A component is finite beside an argument that is not a number.
+    /// A component is finite beside an argument that is not a number, and changes with that argument.
     Swallowed,
     /// A component is finite beside an infinite argument, and not what it comes to for large ones.
     Cut,
@@ -168,6 +168,17 @@ impl<T: Range> Tried<'_, T> {
         T::from_f64(x + rng.within(size))
     }
 
+    /// Whether another value of an argument changes a result.
+    fn moves(&self, usual: &[Vec<T>; 4], (kind, i): (usize, usize), k: usize) -> bool {
+        let at = |x: T| {
+            let mut arguments = usual.clone();
+            arguments[kind][i] = x;
+            (self.run)(&arguments).ok().map(|results| results[k])
+        };
+        let here = at(usual[kind][i]);
+        OTHERS.iter().any(|&x| at(T::from_f64(x)) != here)
+    }
+
     /// Each argument in turn not a number, or infinite.
     fn spoil(&self, usual: &[Vec<T>; 4], count: &mut Count) {
         let places = self.kinds.iter().enumerate();
@@ -185,6 +196,10 @@ impl<T: Range> Tried<'_, T> {
                         continue;
                     }
                     let limit = large.as_ref().ok().map(|large| large[k].to_f64());
+                    // A branch that is not taken here is no dependence: friction that holds.
+                    if bad.is_nan() && !self.moves(usual, (kind, i), k) {
+                        continue;
+                    }
                     let fault = match (bad.is_nan(), limit) {
                         (true, _) => Fault::Swallowed,
                         (_, Some(limit)) if alike::<T>(limit, result.to_f64()) => Fault::Saturated,
@@ -202,6 +217,9 @@ impl<T: Range> Tried<'_, T> {
         }
     }
 }
+
+/// Other values for an argument.
+const OTHERS: [f64; 8] = [0.0, 0.5, -0.5, 3.0, -3.0, 1e3, -1e3, 1e8];
 
 /// Equal to within rounding, in units of 1 or of their size.
 fn alike<T: Digits>(x: f64, y: f64) -> bool {
