@@ -8,7 +8,7 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Motion;
 use bgdyn_codegen::method::Method;
-use bgdyn_runtime::{Dd, Scalar};
+use bgdyn_runtime::Dd;
 
 use super::rng::Rng;
 use super::{Robot, State, full};
@@ -16,6 +16,7 @@ use super::{Robot, State, full};
 #[path = "../../../tests/hard_cases/src/bars.rs"]
 mod measure;
 
+#[allow(unused_imports)] // each test file uses a part
 pub use measure::{Digits, Found, Hard, Reference, Subject, apart, norm, off, rounded};
 
 /// The methods of a mechanism as they are generated.

@@ -10,6 +10,7 @@ use super::Robot;
 #[path = "../../../tests/hard_cases/written.rs"]
 mod written;
 
+#[allow(unused_imports)] // each test file uses a part
 pub use written::{Chain, links_of, list, sliders_of};
 
 /// The cases of a file.
