@@ -43,6 +43,11 @@ impl NodeId {
     pub fn at(place: usize) -> Self {
         NodeId(place as u32)
     }
+
+    /// Its place in its graph.
+    pub fn place(self) -> usize {
+        self.0 as usize
+    }
 }
 
 /// A node with a sign.
