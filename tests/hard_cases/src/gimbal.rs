@@ -117,9 +117,9 @@ fn close<T: Digits + Compiled>(
     case: &str,
     reference: &Euler,
     s: &State,
+    condition: f64,
 ) {
-    // Without a condition number: 16 eps.
-    let hard = Hard::new::<T>(reference, s, Some(0.0));
+    let hard = Hard::new::<T>(reference, s, Some(condition));
     let at = format!("q = {:?}", s.q);
     let subject = model::<T>(name);
     let mut found = vec![
@@ -154,9 +154,11 @@ pub(crate) fn near_lock(extent: Extent) -> Vec<Outcome> {
         [[1.0, 0.1, -0.05], [0.1, 1.1, 0.0], [-0.05, 0.0, 1.2]],
     );
     let mut outcomes = vec![];
-    for (name, case, reference) in [
-        ("gimbal_round", "gimbal near lock, round body", &round),
-        ("gimbal_skew", "gimbal near lock, any body", &skew),
+    // No condition number is known where M is singular but for its rounding: 16 eps for the round body,
+    // whose inertia has no part in what is small; as much as of inverse dynamics, 32 eps, for any other.
+    for (name, case, reference, condition) in [
+        ("gimbal_round", "gimbal near lock, round body", &round, 0.0),
+        ("gimbal_skew", "gimbal near lock, any body", &skew, 16.0),
     ] {
         let mut worst = Worst::default();
         let mut rng = Rng::new(19);
@@ -172,8 +174,8 @@ pub(crate) fn near_lock(extent: Extent) -> Vec<Outcome> {
                 };
                 let sign = if rng.chance(0.5) { 1.0 } else { -1.0 };
                 s.q[1] = sign * 10_f64.powi(-exponent) * (1.0 + rng.unit());
-                close::<f64>(&mut worst, name, case, reference, &s);
-                close::<f32>(&mut worst, name, case, reference, &s);
+                close::<f64>(&mut worst, name, case, reference, &s, condition);
+                close::<f32>(&mut worst, name, case, reference, &s, condition);
             }
         }
         outcomes.extend(worst.finish());
