@@ -43,10 +43,10 @@ pub use bgdyn_runtime::Dd;
 pub use bgdyn_sim;
 pub use contender::{Contender, Grid, Pace, Ran, Runner, Stop};
 pub use converge::{Finding, Verdict, verdicts};
-//F
+pub use figures::{Figure, figures};
 pub use integrate::{Integrate, Measured};
 pub use ladder::Plan;
-//P
+pub use page::{Machine, page, readme};
 pub use pareto::{Choice, front, targets};
 pub use row::{Row, Status, csv};
 pub use study::{Facts, Failed, Study, study};
