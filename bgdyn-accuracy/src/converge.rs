@@ -14,6 +14,9 @@ pub enum Finding {
     Converges(f64),
     /// They fall too slowly, or not at all.
     DoesNot(f64),
+    /// They fall too slowly, at steps at which the classical Runge–Kutta method is not stable: there the
+    /// order of implicit methods falls as well (Prothero, Robinson 1974).
+    Stiff(f64),
     /// Too few of them lie between the size of the motion and rounding.
     TooFew,
 }
@@ -47,6 +50,8 @@ const ROUGH: f64 = 8.0;
 const SHARE: f64 = 0.75;
 /// The least power of the tolerance that an error has to follow.
 const FOLLOWS: f64 = 0.5;
+/// Errors below this part of the motion are as good as none.
+const EXACT: f64 = 1e-11;
 /// Rungs of a fit.
 const WINDOW: usize = 3;
 
@@ -67,7 +72,7 @@ pub fn verdicts(study: &Study) -> Vec<Verdict> {
         let (order, controlled) = order(&method).unwrap_or((1, false));
         let errors = rows.iter().filter(|r| r.holds()).filter_map(|r| r.error);
         Verdict {
-            finding: finding(rows, &study.facts, order),
+            finding: finding(rows, &study.facts, order, stable_step(study)),
             best: errors.reduce(f64::min),
             scene: study.facts.scene.clone(),
             method,
@@ -80,16 +85,36 @@ pub fn verdicts(study: &Study) -> Vec<Verdict> {
     names.iter().map(verdict).collect()
 }
 
+/// The longest step at which the classical Runge–Kutta method follows the motion; 0 where none does.
+fn stable_step(study: &Study) -> f64 {
+    let rows = study
+        .rows
+        .iter()
+        .filter(|r| r.effects == "all" && r.holds());
+    let rows = rows.filter(|r| r.method == "rk4" && r.scalar == "f64");
+    let follows = |r: &&Row| r.error.is_some_and(|e| e < COARSE * study.facts.size);
+    rows.filter(follows)
+        .map(|r| r.pace.value())
+        .fold(0.0, f64::max)
+}
+
 /// What the errors of one method say, from the coarsest to the finest.
-fn finding(rows: &[&Row], facts: &Facts, order: u32) -> Finding {
+fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     let epsilon = match rows[0].scalar.as_str() {
         "f32" => f64::from(f32::EPSILON) / f64::EPSILON,
         _ => 1.0,
     };
     let rounding = ROUGH * epsilon * facts.floor;
     let held = rows.iter().filter(|r| r.holds());
-    let points: Vec<(Pace, f64)> = held.filter_map(|r| Some((r.pace, r.error?))).collect();
-    let reached = points.iter().any(|p| p.1 <= rounding);
+    let mut points: Vec<(Pace, f64)> = held.filter_map(|r| Some((r.pace, r.error?))).collect();
+    // The scene's own pace, which comes last, is no part of the ladder.
+    let ladder = points
+        .windows(2)
+        .take_while(|p| p[1].0.value() < p[0].0.value());
+    points.truncate(ladder.count() + 1);
+    let reached = points
+        .iter()
+        .any(|p| p.1 <= rounding || p.1 < EXACT * facts.size);
     let fine = points.iter().filter(|p| p.1 < COARSE * facts.size);
     // The floor itself says nothing of an order, and neither does what lies beyond it.
     let fine = fine.take_while(|p| p.1 > rounding);
@@ -98,12 +123,22 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32) -> Finding {
         return match logs.len() {
             0..=2 if reached => Finding::Converges(slope(&logs).unwrap_or(1.0)),
             0..=2 => Finding::TooFew,
-            _ => judged(slope(&logs), FOLLOWS),
+            _ => match judged(slope(&logs), FOLLOWS) {
+                // Every tolerance was met with errors that are as good as none.
+                Finding::DoesNot(p) if logs[0].1 < (EXACT * facts.size).ln() => {
+                    Finding::Converges(p)
+                }
+                finding => finding,
+            },
         };
     }
     let slopes = logs.windows(WINDOW).filter_map(slope);
+    let beyond = logs.windows(WINDOW).all(|w| w[WINDOW - 1].0 > stable.ln());
     match slopes.reduce(f64::max) {
-        Some(best) => judged(Some(best), SHARE * f64::from(order)),
+        Some(best) => match judged(Some(best), SHARE * f64::from(order)) {
+            Finding::DoesNot(p) if beyond => Finding::Stiff(p),
+            finding => finding,
+        },
         None => Finding::TooFew,
     }
 }
@@ -142,7 +177,8 @@ impl Verdict {
             (Finding::Converges(p), false) => format!("order {p:.1} of {order}"),
             (Finding::DoesNot(p), true) => format!("error follows tolerance^{p:.2} only"),
             (Finding::DoesNot(p), false) => format!("does not converge: order {p:.1} of {order}"),
-            (Finding::TooFew, _) => "too few steps between motion and rounding".into(),
+            (Finding::Stiff(p), _) => format!("order {p:.1} of {order} at stiff steps"),
+            (Finding::TooFew, _) => "too few steps to judge".into(),
         }
     }
 }

@@ -46,9 +46,13 @@ pub(crate) trait Callable<T: Real, const N: usize, const NM: usize, const NE: us
     fn measured(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Vec<T>;
 }
 
-/// Why there are no rates, in words.
+/// Where there are no rates: the name that the error holds, in quotes.
 fn told<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
-    result.map_err(|e| format!("{e:?}"))
+    result.map_err(|e| {
+        let text = format!("{e:?}");
+        let named = text.split('"').nth(1).map(str::to_owned);
+        named.unwrap_or(text)
+    })
 }
 
 impl<T: Real, P, const N: usize, const NM: usize, const NE: usize> Callable<T, N, NM, NE> for P

@@ -75,7 +75,7 @@ where
 /// A reason in a few words.
 fn in_short<E: Debug>(reason: &Reason<E>) -> String {
     match reason {
-        Reason::Singular(at) => format!("no accelerations ({at:?})"),
+        Reason::Singular(at) => format!("no rate of {}", format!("{at:?}").trim_matches('"')),
         Reason::NotFinite => "unstable: not finite".into(),
         Reason::NoConvergence { .. } => "stages not solved".into(),
         Reason::SingularMatrix => "matrix of the stages singular".into(),

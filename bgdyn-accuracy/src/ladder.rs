@@ -29,7 +29,7 @@ impl Plan {
         steps: 1 << 17,
         implicit_steps: 1 << 13,
         tolerance: 1e-13,
-        resolution: 1e-3,
+        resolution: 4e-4,
     };
 
     /// For a quick look, and for tests.
@@ -39,7 +39,7 @@ impl Plan {
         steps: 1 << 11,
         implicit_steps: 1 << 9,
         tolerance: 1e-9,
-        resolution: 2e-4,
+        resolution: 1e-4,
     };
 }
 
@@ -125,9 +125,9 @@ pub(crate) fn ladder(
         let error = tried.outcome.as_ref().map(|(error, _)| *error).ok();
         all.push(tried);
         if let Some(error) = error {
-            stalled = if error < 0.7 * best { 0 } else { stalled + 1 };
+            stalled = if error < 0.95 * best { 0 } else { stalled + 1 };
             best = best.min(error);
-            if error <= scale.floor(contender.epsilon) || (stalled >= 2 && best < 1e-3 * scale.size)
+            if error <= scale.floor(contender.epsilon) || (stalled >= 3 && best < 1e-3 * scale.size)
             {
                 break;
             }

@@ -72,7 +72,7 @@ fn today() -> String {
 /// What is measured, in words: the same in both reports.
 const ERROR: &str = "The error of a run is the largest distance of the scene's measured output from the reference over equally spaced sample times. The reference is made by extrapolation of order 12; what it is off by is taken from a second one with a tolerance a hundred times as large.";
 const VARIED: &str = "One factor is varied at a time, from all effects in f64 by the cheapest formulation: the method with its step or tolerance, the scalar, the way the equations are written, the effects. Steps are halved, tolerances divided by ten, until the error is rounding or falls no more.";
-const TIMES: &str = "Times are of compiled code, runs of the whole scene with what the method needs, medians of five rounds in which every run is timed in turn.";
+const TIMES: &str = "Times are of compiled code, runs of the whole scene with what the method needs, medians of five rounds in which every run is timed in turn, in each round the best of three measurements. Integrators call the scene's functions through a pointer.";
 const GUESSES: &str = "Times are estimates from the weighted count of operations: no cargo, or no crates, to compile the scene with. Nothing of the evaluator's own speed is in them.";
 
 /// What a study is about, in a sentence.

@@ -68,7 +68,7 @@ impl fmt::Display for Failed {
 impl std::error::Error for Failed {}
 
 /// References that differ by more than this part of the motion tell nothing.
-const CERTAIN: f64 = 1e-9;
+const CERTAIN: f64 = 1e-6;
 
 /// Studies a scene.
 ///

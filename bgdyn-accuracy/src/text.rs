@@ -15,7 +15,7 @@ pub(crate) fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".into()
-    } else if (1e-2..1e3).contains(&size) {
+    } else if (1e-2..1e6).contains(&size) {
         let decimals = (2 - size.log10().floor() as i32).clamp(0, 4) as usize;
         let text = format!("{x:.decimals$}");
         match text.contains('.') {

@@ -14,7 +14,7 @@ const SCENES: [(&str, Option<f64>); 8] = [
     ("scara_everything", None),
     ("puma_distributed", None),
     ("ur5_contact", None),
-    ("series_elastic_arm", None),
+    ("stiff_spring_pendulum", Some(0.2)),
     ("hydraulic_cylinder", Some(0.1)),
     ("motor_linear_stiff", None),
     ("stick_slip", None),

@@ -119,6 +119,8 @@ fn series<'a>(
             rows.push(row);
         }
     }
+    // The scene's own pace comes last in the study.
+    rows.sort_by(|a, b| b.pace.value().total_cmp(&a.pace.value()));
     Series {
         label,
         note: verdict.words(),
@@ -259,7 +261,10 @@ fn formulations(study: &Study) -> Option<Figure> {
                 about(study),
                 step(pace.value())
             ),
-            right: format!("least error of `{}`, {}", facts.output, facts.unit),
+            right: format!(
+                "least error of `{}`, {} (log scale)",
+                facts.output, facts.unit
+            ),
             bars,
         }
         .draw(),
@@ -326,7 +331,10 @@ fn left_out(study: &Study) -> Option<Figure> {
         svg: Bars {
             title: format!("{}{what}", facts.scene),
             left: format!("{}cost of the effect, ns per simulated ms", about(study)),
-            right: format!("change of `{}` without it, {}", facts.output, facts.unit),
+            right: format!(
+                "change of `{}` without it, {} (log scale)",
+                facts.output, facts.unit
+            ),
             bars,
         }
         .draw(),
@@ -375,7 +383,7 @@ fn added(study: &Study) -> Option<Figure> {
         svg: Bars {
             title,
             left: format!("{}time, ns per simulated ms", about(study)),
-            right: format!("distance from the full scene, {}", facts.unit),
+            right: format!("distance from the full scene, {} (log scale)", facts.unit),
             bars,
         }
         .draw(),
