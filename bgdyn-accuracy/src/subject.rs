@@ -23,6 +23,8 @@ pub struct Subject {
     pub end: f64,
     /// The scene's own method and pace, by which effects are compared.
     pub own: (String, Pace),
+    /// Whether its laws have kinks, which steps end at only as exactly as they are found.
+    pub kinked: bool,
     /// The reference.
     pub reference: Option<References>,
     /// Tolerances of the reference and of the coarser run that its error is taken from.
@@ -48,6 +50,7 @@ impl Subject {
             unit: unit.into(),
             end,
             own: (method.into(), pace),
+            kinked: false,
             reference: None,
             tolerances: (1e-20, 1e-18),
             contenders: Vec::new(),
