@@ -185,10 +185,17 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
         add(&level.effects, &model, &mut calls);
     }
     text += &format!(
-        "/// What is measured of it.\npub fn subject() -> bgdyn_accuracy::Subject {{\nlet mut subject = {};\n{calls}subject\n}}\n}}\n",
-        opening(&full, end)
+        "/// What is measured of it.\npub fn subject() -> bgdyn_accuracy::Subject {{\nlet mut subject = {};\nsubject.kinked = {};\n{calls}subject\n}}\n}}\n",
+        opening(&full, end),
+        kinked(&full)
     );
     Ok(text)
+}
+
+/// Whether a scene's laws have kinks: events that change no mode.
+pub fn kinked(system: &System) -> bool {
+    let layout = &system.scene.layout;
+    layout.events.iter().any(|e| layout.mode_of(e).is_none())
 }
 
 /// The call that makes a subject.

@@ -127,7 +127,8 @@ pub(crate) fn ladder(
         if let Some(error) = error {
             stalled = if error < 0.95 * best { 0 } else { stalled + 1 };
             best = best.min(error);
-            if error <= scale.floor(contender.epsilon) || (stalled >= 3 && best < 1e-3 * scale.size)
+            if error <= scale.floor(contender.epsilon)
+                || (stalled >= 3 && !contender.controlled && best < 1e-3 * scale.size)
             {
                 break;
             }

@@ -87,6 +87,7 @@ mod tests {
                 unit: "m".into(),
                 end: 1.0,
                 samples: 10,
+                kinked: false,
                 size: 1.0,
                 floor: 1e-15,
                 reference_error: 1e-20,

@@ -24,6 +24,8 @@ pub struct Facts {
     pub end: f64,
     /// How many samples they are compared at.
     pub samples: usize,
+    /// Whether its laws have kinks.
+    pub kinked: bool,
     /// How far the output moves from where it begins.
     pub size: f64,
     /// Errors in `f64` below this are rounding, or the reference's.
@@ -117,6 +119,7 @@ pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
             unit: subject.unit.clone(),
             end: subject.end,
             samples: plan.samples,
+            kinked: subject.kinked,
             size,
             floor: scale.floor(f64::EPSILON),
             reference_error: error,
@@ -177,9 +180,12 @@ impl Study {
         let words = [&f.scene, &f.description, &f.output, &f.unit];
         let words: Vec<&str> = words.into_iter().map(String::as_str).collect();
         let numbers = numbers.join("\t");
-        let samples = f.samples;
+        let (samples, kinked) = (f.samples, f.kinked);
         let rows = crate::row::csv(&self.rows);
-        format!("#\t{}\t{samples}\t{numbers}\n{rows}", words.join("\t"))
+        format!(
+            "#\t{}\t{samples}\t{kinked}\t{numbers}\n{rows}",
+            words.join("\t")
+        )
     }
 
     /// The studies in a text of [`Study::write`], one after the other; `None` where it is none.
@@ -214,11 +220,12 @@ impl Facts {
             output,
             unit,
             samples,
+            kinked,
             end,
             size,
             floor,
             error,
-        ] = <[&str; 9]>::try_from(fields).ok()?;
+        ] = <[&str; 10]>::try_from(fields).ok()?;
         Some(Facts {
             scene: scene.into(),
             description: description.into(),
@@ -226,6 +233,7 @@ impl Facts {
             unit: unit.into(),
             end: end.parse().ok()?,
             samples: samples.parse().ok()?,
+            kinked: kinked.parse().ok()?,
             size: size.parse().ok()?,
             floor: floor.parse().ok()?,
             reference_error: error.parse().ok()?,

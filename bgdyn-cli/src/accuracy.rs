@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use bgdyn_accuracy::generate::{levels, measured, own_way};
+use bgdyn_accuracy::generate::{kinked, levels, measured, own_way};
 use bgdyn_accuracy::{Contender, Integrate, Measured, Pace, Ran, Runner, Stop, Subject, order};
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
@@ -172,6 +172,7 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
     ];
     let end = end.unwrap_or(scene.integration.end);
     let mut subject = Subject::new(words, end, method, pace);
+    subject.kinked = kinked(&full);
     subject.tolerances = TOLERANCES;
     let levels = levels(&full);
     let counted = Counted::new(full);

@@ -116,8 +116,13 @@ fn told(study: &Study) -> bool {
         .filter(Verdict::is_failure)
         .collect();
     for verdict in &wrong {
-        let Verdict { method, scalar, .. } = verdict;
-        println!("  {method} in {scalar}: {}", verdict.words());
+        let Verdict {
+            method,
+            scalar,
+            formulation,
+            ..
+        } = verdict;
+        println!("  {method} in {scalar}, {formulation}: {}", verdict.words());
     }
     wrong.is_empty()
 }
