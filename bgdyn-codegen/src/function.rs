@@ -3,7 +3,7 @@
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
-use crate::expr::{Cost, Expr, Graph, Inputs, Operations, cost, count, evaluate, factored};
+use crate::expr::{Cost, Expr, Graph, Inputs, Operations, cost, count, evaluate, factored, fused};
 use crate::method::{Method, Shape};
 
 /// A straight line of code: what it computes. Later blocks read its results as
@@ -86,6 +86,15 @@ impl Function {
         if let ([Block { outputs }], false) = (&mut self.blocks[..], self.ordered) {
             let graph = std::mem::take(&mut self.graph);
             (self.graph, *outputs) = factored(graph, std::mem::take(outputs));
+        }
+        self
+    }
+
+    /// The same function with its products joined to the sums that read them, unless the order of its
+    /// operations is what it is made for.
+    pub(crate) fn fused(mut self) -> Self {
+        if let ([Block { outputs }], false) = (&mut self.blocks[..], self.ordered) {
+            (self.graph, *outputs) = fused(&self.graph, outputs);
         }
         self
     }

@@ -45,7 +45,7 @@ impl Model {
             .filter_map(|m| chosen(&search, m, options));
         let found: Vec<Function> = found.collect();
         drop(search);
-        let functions = found.into_iter().map(cut).collect();
+        let functions = found.into_iter().map(Function::fused).map(cut).collect();
         Ok(Model {
             mechanism,
             bond_graph,
@@ -62,7 +62,9 @@ impl Model {
 /// One function of a mechanism, without the others.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
     let graph = bond_graph::build(mechanism);
-    chosen(&Search::new(&graph, options.formulation), method, options).map(cut)
+    chosen(&Search::new(&graph, options.formulation), method, options)
+        .map(Function::fused)
+        .map(cut)
 }
 
 /// The function of a method that these options mean.

@@ -41,13 +41,7 @@ fn worst(robot: &Robot, f: &Function, seed: u64) -> f64 {
 }
 
 fn heavy(last: f64) -> Robot {
-    let chain = Chain {
-        links: 6,
-        planar: false,
-        moments: [1.0 / 512.0, 1.0 / 16.0, 1.0 / 16.0],
-        last,
-    };
-    chain.robot()
+    common::hard::robot(&Chain::of_ratio(6, last))
 }
 
 /// A gimbal with light rings: where its first and last axis fall together, only the rings resist.

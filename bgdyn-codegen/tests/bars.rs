@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::model::stem;
 use common::Robot;
-use common::bars::{Generated, Hard, driven, near_aligned};
+use common::bars::{Generated, all, driven, near_aligned};
 use common::rng::Rng;
 
 /// Joints up to which `f32` has digits for every bar.
@@ -22,10 +22,9 @@ fn check(robot: &Robot, name: &str, states: usize) {
         let state = near_aligned(&mut rng, robot);
         for state in [driven(&state, &generated), state] {
             let what = format!("{name}, state {k}");
-            Hard::new::<f64>(what.clone(), &generated, &state, None).all::<f64>(&generated);
+            all::<f64>(&what, &generated, &state, None);
             if robot.nv() <= SHORT {
-                let hard = Hard::new::<f32>(format!("{what}, f32"), &generated, &state, None);
-                hard.all::<f32>(&generated);
+                all::<f32>(&format!("{what}, f32"), &generated, &state, None);
             }
         }
     }

@@ -3,12 +3,10 @@
 
 mod common;
 
-use std::fmt::Write;
-
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::{Dd, Scalar};
-use common::hard::{cases, list};
+use common::hard::{cases, links_of, list, sliders_of};
 use common::random::Draft;
 use common::rng::Rng;
 use common::{Robot, State};
@@ -228,35 +226,6 @@ fn two_joints_on_one_axis_of_random_mechanisms() {
     assert!(passed.is_empty(), "{} of {tried}: {passed:?}", passed.len());
 }
 
-/// The links of a hard case; joints have the names of their links.
-fn links_of(bodies: &[Value]) -> String {
-    let mut text = String::new();
-    for body in bodies {
-        let word = |key: &str| body[key].as_str().expect("a word").to_owned();
-        let numbers = |key: &str| list(&body[key]);
-        writeln!(text, "  - name: {}", word("name")).unwrap();
-        if word("parent") != "world" {
-            writeln!(text, "    parent: {}", word("parent")).unwrap();
-        }
-        let (name, joint) = (word("name"), word("joint"));
-        let (axis, origin) = (numbers("axis"), numbers("origin_in_parent"));
-        writeln!(
-            text,
-            "    joint: {{ name: {name}, type: {joint}, axis: {axis:?}, origin: {{ xyz: {origin:?} }} }}"
-        )
-        .unwrap();
-        let (mass, com) = (&body["mass"], numbers("com"));
-        writeln!(text, "    mass: {mass}\n    com: {com:?}").unwrap();
-        let moments = numbers("inertia_com");
-        let names = ["xx", "yy", "zz", "xy", "xz", "yz"].iter().zip(moments);
-        // A moment about one axis alone is no body's.
-        let terms: Vec<String> = names.map(|(name, x)| format!("{name}: {x:.110}")).collect();
-        writeln!(text, "    nonphysical: allow").unwrap();
-        writeln!(text, "    inertia: {{ {} }}", terms.join(", ")).unwrap();
-    }
-    text
-}
-
 fn solves(what: &str, robot: &Robot, case: &Value) {
     let zero = || vec![0.0; robot.nv()];
     let given = |key: &str| case.get(key).map_or_else(zero, list);
@@ -283,13 +252,7 @@ fn exact_answers() {
         let expected = case["expect_forward"].as_str().expect("an expectation");
         if let Some(items) = case["items"].as_array() {
             for item in items {
-                let text: String = [("a", "mA"), ("b", "mB")]
-                    .map(|(name, mass)| {
-                        let parent = if name == "b" { "    parent: a\n" } else { "" };
-                        let mass = item[mass].as_f64().expect("a mass");
-                        format!("  - name: {name}\n{parent}    joint: {{ name: {name}, type: prismatic, axis: x }}\n    mass: {mass:.110}\n")
-                    })
-                    .concat();
+                let text = sliders_of(item);
                 solves(id, &robot(&text), item);
                 kinds[0] += 1;
             }

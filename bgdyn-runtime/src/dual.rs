@@ -7,7 +7,8 @@
 use nalgebra::{Const, SVector};
 use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
 
-use crate::float::{Float, exact_sum};
+use crate::float::exact_sum;
+use crate::sine;
 use crate::singular::{finish, note_refused};
 use crate::{Scalar, Singular};
 
@@ -29,7 +30,7 @@ macro_rules! float_part {
                 offset: (f64, f64),
             ) -> (Self, Self) {
                 let (angle, tail) = exact_sum(angles, offset);
-                $float::turn(<$float as Scalar>::sin_cos(angle), tail)
+                sine::one(angle, tail)
             }
         }
     )*};

@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::sine::{self, Pack};
 use crate::singular::{finish, note_refused};
 use crate::{Scalar, Singular};
 
@@ -43,52 +44,69 @@ pub(crate) fn exact_sum<T: Split>(angles: impl Iterator<Item = T>, offset: (f64,
 }
 
 macro_rules! float_scalar {
-    ($float:ident, $small_tail:expr, $sincos:path, $sqrt:path, $exp:path, $ln:path, $tanh:path) => {
+    ($float:ident, $small_tail:expr, $sqrt:path, $exp:path, $ln:path, $tanh:path) => {
         impl Scalar for $float {
             type Mask = bool;
             type Refused = Option<usize>;
             type Singular<const N: usize> = Singular;
 
+            #[inline]
             fn from_f64(x: f64) -> Self {
                 x as $float
             }
 
+            #[inline]
             fn mul_add(self, b: Self, c: Self) -> Self {
-                // Without a fused instruction a fused result costs a library call.
-                self * b + c
+                self.fused(b, c)
             }
 
+            #[inline]
             fn sqrt(self) -> Self {
                 $sqrt(self)
             }
 
+            #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                $sincos(self)
+                sine::one(self, 0.0)
             }
 
             // The tail's own rounding is |q|·eps², so the sum is good to eps for |q| up to 1/eps:
             // 4e15 rad for `f64`, 8e6 rad for `f32`.
+            #[inline]
             fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
-                let (angle, tail) = exact_sum(angles.iter().copied(), offset);
-                Self::turn($sincos(angle), tail)
+                let (angle, tail) = sine::plain_or_sum(angles, offset);
+                sine::one(angle, tail)
             }
 
+            #[inline(always)]
+            fn sin_cos_all<const K: usize>(
+                angles: [&[Self]; K],
+                offsets: [(f64, f64); K],
+            ) -> [(Self, Self); K] {
+                sine::all(angles, offsets)
+            }
+
+            #[inline]
             fn exp(self) -> Self {
                 $exp(self)
             }
 
+            #[inline]
             fn ln(self) -> Self {
                 $ln(self)
             }
 
+            #[inline]
             fn tanh(self) -> Self {
                 $tanh(self)
             }
 
+            #[inline]
             fn abs(self) -> Self {
                 $float::abs(self)
             }
 
+            #[inline]
             fn min(self, other: Self) -> Self {
                 if self < other || self.is_nan() {
                     self
@@ -97,6 +115,7 @@ macro_rules! float_scalar {
                 }
             }
 
+            #[inline]
             fn max(self, other: Self) -> Self {
                 if self > other || self.is_nan() {
                     self
@@ -105,6 +124,7 @@ macro_rules! float_scalar {
                 }
             }
 
+            #[inline]
             fn sign(self) -> Self {
                 if self > 0.0 {
                     1.0
@@ -115,18 +135,22 @@ macro_rules! float_scalar {
                 }
             }
 
+            #[inline]
             fn less(self, other: Self) -> bool {
                 self < other
             }
 
+            #[inline]
             fn select(mask: bool, a: Self, b: Self) -> Self {
                 if mask { a } else { b }
             }
 
+            #[inline]
             fn none_refused() -> Option<usize> {
                 None
             }
 
+            #[inline]
             fn checked_pivot(
                 self,
                 magnitude: Self,
@@ -143,6 +167,7 @@ macro_rules! float_scalar {
                 }
             }
 
+            #[inline]
             fn finish<const N: usize>(
                 accelerations: SVector<Self, N>,
                 refused: Option<usize>,
@@ -171,7 +196,7 @@ macro_rules! float_scalar {
                         c - tail * (s + 0.5 * tail * c),
                     )
                 } else if tail.is_finite() {
-                    let (ds, dc) = $sincos(tail);
+                    let (ds, dc) = sine::one(tail, 0.0);
                     (s * dc + c * ds, c * dc - s * ds)
                 } else {
                     (s, c)
@@ -183,19 +208,10 @@ macro_rules! float_scalar {
 
 // Up to 2⁻¹⁸ (2⁻⁸), in radians, two terms of a Taylor series stand for the sine and cosine of a
 // tail: what they leave out, tail³/6, is less than a tenth of the spacing of the numbers above 1.
-float_scalar!(
-    f64,
-    3.8e-6,
-    libm::sincos,
-    libm::sqrt,
-    libm::exp,
-    libm::log,
-    libm::tanh
-);
+float_scalar!(f64, 3.8e-6, libm::sqrt, libm::exp, libm::log, libm::tanh);
 float_scalar!(
     f32,
     3.9e-3,
-    libm::sincosf,
     libm::sqrtf,
     libm::expf,
     libm::logf,

@@ -1,16 +1,17 @@
 //! [`Scalar`] for lanes of a SIMD register: several states at once.
 //!
 //! Lane k of every result equals, bit for bit, what `f64` (or `f32`) makes of lane k of the
-//! inputs; only where the compilation target has fused multiply-add may [`Scalar::mul_add`] round
-//! once instead of twice. Elementary functions are those of the scalar, lane by lane: the ones of
-//! `wide` lose the reduction of large angles.
+//! inputs. Sines and cosines are computed in the lanes, but for large angles (`sine/`); the ones of
+//! `wide` lose the reduction of large angles. The other elementary functions are those of the scalar,
+//! lane by lane.
 
 use core::fmt;
 
 use nalgebra::SVector;
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
-use crate::float::{Float, Split, exact_sum};
+use crate::float::{Float, Split};
+use crate::sine::{self, Pack};
 use crate::{Scalar, Singular};
 
 /// The mass matrix is singular in at least one lane; the other lanes have their accelerations.
@@ -67,84 +68,93 @@ macro_rules! lane_scalar {
             type Refused = Self;
             type Singular<const N: usize> = LaneSingular<Self, $n, N>;
 
+            #[inline]
             fn from_f64(x: f64) -> Self {
                 Self::splat(x as $float)
             }
 
             // One instruction where the target has it, else a product and a sum: never a call.
+            #[inline]
             fn mul_add(self, b: Self, c: Self) -> Self {
                 $lanes::mul_add(self, b, c)
             }
 
+            #[inline]
             fn sqrt(self) -> Self {
                 $lanes::sqrt(self)
             }
 
+            #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                let both = self.to_array().map(<$float as Scalar>::sin_cos);
-                (Self::new(both.map(|x| x.0)), Self::new(both.map(|x| x.1)))
+                Self::sin_cos_sum(&[self], (0.0, 0.0))
             }
 
+            #[inline]
             fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
-                let (angle, tail) = exact_sum(angles.iter().copied(), offset);
-                let (s, c) = Scalar::sin_cos(angle);
-                let small = $lanes::abs(tail).simd_le(Self::splat($float::SMALL_TAIL));
-                if small.all() {
-                    let half = Self::splat(0.5);
-                    return (
-                        s + tail * (c - half * tail * s),
-                        c - tail * (s + half * tail * c),
-                    );
+                let (angle, tail) = sine::plain_or_sum(angles, offset);
+                if angle.within() {
+                    return sine::sin_cos(angle, tail);
                 }
-                let (mut s, mut c) = (s.to_array(), c.to_array());
-                for ((s, c), tail) in s.iter_mut().zip(&mut c).zip(tail.to_array()) {
-                    (*s, *c) = $float::turn((*s, *c), tail);
+                let (mut s, mut c) = (angle.to_array(), tail.to_array());
+                for (s, c) in s.iter_mut().zip(&mut c) {
+                    (*s, *c) = sine::one(*s, *c);
                 }
                 (Self::new(s), Self::new(c))
             }
 
+            #[inline]
             fn exp(self) -> Self {
                 Self::new(self.to_array().map(<$float as Scalar>::exp))
             }
 
+            #[inline]
             fn ln(self) -> Self {
                 Self::new(self.to_array().map(<$float as Scalar>::ln))
             }
 
+            #[inline]
             fn tanh(self) -> Self {
                 Self::new(self.to_array().map(<$float as Scalar>::tanh))
             }
 
+            #[inline]
             fn abs(self) -> Self {
                 $lanes::abs(self)
             }
 
+            #[inline]
             fn min(self, other: Self) -> Self {
                 (self.simd_lt(other) | self.is_nan()).select(self, other)
             }
 
+            #[inline]
             fn max(self, other: Self) -> Self {
                 (self.simd_gt(other) | self.is_nan()).select(self, other)
             }
 
+            #[inline]
             fn sign(self) -> Self {
                 let (zero, one) = (Self::splat(0.0), Self::splat(1.0));
                 let not_positive = self.simd_lt(zero).select(-one, self * zero);
                 self.simd_gt(zero).select(one, not_positive)
             }
 
+            #[inline]
             fn less(self, other: Self) -> Self {
                 self.simd_lt(other)
             }
 
+            #[inline]
             fn select(mask: Self, a: Self, b: Self) -> Self {
                 mask.select(a, b)
             }
 
+            #[inline]
             fn none_refused() -> Self {
                 Self::splat(-1.0)
             }
 
+            #[inline]
             fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self) -> Self {
                 let zero = Self::splat(0.0);
                 let floor = magnitude * Self::splat($float::PIVOT_FLOOR);
@@ -157,6 +167,7 @@ macro_rules! lane_scalar {
                 ok.select(self, Self::splat(1.0))
             }
 
+            #[inline]
             fn finish<const N: usize>(
                 accelerations: SVector<Self, N>,
                 refused: Self,

@@ -31,6 +31,7 @@ mod pose;
 pub mod rotation;
 mod scalar;
 mod settle;
+mod sine;
 mod singular;
 mod storage;
 mod system;

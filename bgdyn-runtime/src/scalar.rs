@@ -54,6 +54,18 @@ pub trait Scalar:
     /// The additions are part of the sine: they do not count as operations.
     fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self);
 
+    /// Sines and cosines of all angles of a call, each as [`Scalar::sin_cos_sum`] gives it: `f64` and
+    /// `f32` compute them in lanes.
+    fn sin_cos_all<const K: usize>(
+        angles: [&[Self]; K],
+        offsets: [(f64, f64); K],
+    ) -> [(Self, Self); K] {
+        core::array::from_fn(|k| match (angles[k], offsets[k]) {
+            (&[angle], (0.0, 0.0)) => angle.sin_cos(),
+            (angles, offset) => Self::sin_cos_sum(angles, offset),
+        })
+    }
+
     /// e to the power of `self`.
     fn exp(self) -> Self;
     /// Natural logarithm.

@@ -49,6 +49,9 @@ pub trait System<
 
     /// Names of the parts of the state.
     fn state_names(&self) -> &'static [&'static str; N];
+    /// How many parts of the state are positions: they come first, and as many velocities, their rates,
+    /// come next. A winding's charge is no part of the state, its current follows the other velocities.
+    fn positions(&self) -> usize;
     /// Names of the modes.
     fn mode_names(&self) -> &'static [&'static str; NM];
     /// Names of the inputs.

@@ -49,6 +49,9 @@ impl<const K: usize> System<f64, 0, K, 0, 0, 0, 0> for Blocks<K> {
     fn state_names(&self) -> &'static [&'static str; 0] {
         &[]
     }
+    fn positions(&self) -> usize {
+        0
+    }
     fn mode_names(&self) -> &'static [&'static str; K] {
         &["block"; K]
     }

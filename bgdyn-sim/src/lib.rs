@@ -17,9 +17,38 @@
 //! A step of [`rk4_step`] works on any [`Dynamics`](bgdyn_runtime::Dynamics) model without a scene: positions move by its
 //! `integrate`, so that positions and velocities may be different spaces.
 //!
+//! # A compiled scene, and a mechanism
+//! ```
+//! use bgdyn::nalgebra::SVector;
+//! use bgdyn_sim::{Run, State, rk4_step};
+//!
+//! bgdyn::bgdyn!("../specs/scenes/stick_slip.scene.yaml");
+//! bgdyn::bgdyn!("../specs/cart_pole.yaml");
+//!
+//! // A run, from event to event.
+//! let scene = stick_slip::StickSlip::<f64>::default();
+//! let mut run = Run::new(&scene);
+//! for _ in 0..1000 {
+//!     run.step(1e-3).expect("it goes on");
+//! }
+//! assert_eq!(run.events, 2);
+//! assert!(run.audit().drift().abs() < 1e-9);
+//!
+//! // A mechanism under efforts of one's own.
+//! let model = cart_pole::CartPole::<f64>::default();
+//! let mut state = State { q: SVector::from([0.0, 0.1]), v: SVector::zeros() };
+//! for k in 0..100 {
+//!     let t = f64::from(k) * 1e-3;
+//!     let push = |_, _: &_| SVector::from([1.0, 0.0]);
+//!     state = rk4_step(&model, t, &state, 1e-3, push).expect("a regular mass matrix");
+//! }
+//! assert!(state.q[0] > 0.0);
+//! ```
+//!
 //! # Features, off by default
 //! - `std`: states of a size known at run time only, nalgebra's `DVector`. Without it there is neither
-//!   std nor a heap.
+//!   std nor a heap. Also `batch`: many runs over all cores.
+//! - `wide`: [`lanes`] in the registers of the crate `wide`: a run per lane. Stays `no_std`.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -27,6 +56,8 @@
 extern crate std;
 
 mod audit;
+#[cfg(feature = "std")]
+pub mod batch;
 mod coefficient;
 mod control;
 mod dense;
@@ -36,6 +67,7 @@ mod dopri5;
 mod extrapolation;
 mod failure;
 mod gauss;
+pub mod lanes;
 mod locate;
 mod lu;
 mod mechanism;

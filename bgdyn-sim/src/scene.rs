@@ -45,7 +45,6 @@ pub struct Scene<
     /// Inputs that the scene does not drive itself.
     pub given: SVector<T, NU>,
     slope: Slopes<SlopeOf<S, T, S::Singular, N, NM, NU>>,
-    positions: usize,
 }
 
 impl<
@@ -68,7 +67,6 @@ where
             scene,
             given: SVector::repeat(T::from_f64(0.0)),
             slope: Slopes::Unknown,
-            positions: positions(scene.state_names()),
         }
     }
 
@@ -106,14 +104,6 @@ where
     pub fn output(&self, t: T, y: &SVector<T, N>, modes: &SVector<T, NM>) -> SVector<T, NY> {
         self.scene.output(y, modes, &self.input(t, y, modes), t)
     }
-}
-
-/// How many of a state's parts are positions: they come first, and are those of the first
-/// velocities. A position NAME has the velocity `NAME_rate`.
-fn positions(names: &[&str]) -> usize {
-    let Some(first) = names.first() else { return 0 };
-    let is_rate = |name: &&str| name.strip_suffix("_rate") == Some(*first);
-    names.iter().position(is_rate).unwrap_or(0)
 }
 
 impl<
@@ -164,7 +154,7 @@ where
     }
 
     fn positions(&self) -> usize {
-        self.positions
+        self.scene.positions()
     }
 
     fn position_rates(
@@ -174,8 +164,9 @@ where
         _: &SVector<T, NM>,
     ) -> Result<SVector<T, N>, S::Singular> {
         let mut rates = *y;
-        for i in 0..self.positions {
-            rates[i] = y[self.positions + i];
+        let positions = self.positions();
+        for i in 0..positions {
+            rates[i] = y[positions + i];
         }
         Ok(rates)
     }

@@ -286,7 +286,7 @@ where
 }
 
 /// a + b rounded, and what rounding leaves (Knuth's two-sum).
-fn sum_in_two<T: Real>(a: T, b: T) -> (T, T) {
+pub(crate) fn sum_in_two<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let back = sum - a;
     (sum, (a - (sum - back)) + (b - back))

@@ -5,3 +5,4 @@ mod duals;
 mod lanes;
 mod models;
 mod parameters;
+mod runs;

@@ -1,26 +1,33 @@
-//! `bgdyn simulate`: a scene's run through the evaluator, to a table and a plot.
+//! `bgdyn simulate`: a scene's run through the evaluator, to a table, plots and a page; or many runs.
+
+mod many;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
+use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::scene::{Integration, Integrator, Pace};
 use bgdyn_codegen::system::System;
 use clap::Args;
 
+use self::many::{Batch, Many};
 use crate::output::{print, tell};
+use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{self, number};
-use crate::simulate::{Column, Record, Way, columns, plot, record};
+use crate::simulate::{
+    Column, Evaluated, Record, Way, columns, plot, prepared, record_from, varied,
+};
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
 
-/// Run a scene, without a compiler: NAME.csv and NAME.svg, events, energy
+/// Run a scene, without a compiler: table, plots, a page that replays it, events, energy
 ///
 /// The run is by the scene's `integration` where nothing else is said. It is made once more with half
 /// the step or a tenth of the tolerance, to tell how far its result can be trusted.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2 --points 201\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
+    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2 --points 201\n  bgdyn simulate arm.scene.yaml --parameter payload=2.5 --initial shoulder=0.3\n  bgdyn simulate arm.scene.yaml --sweep payload=0:5:21\n  bgdyn simulate arm.scene.yaml --random shoulder=-1:1 --random payload=0:5 --runs 500\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
 )]
 pub(crate) struct Simulate {
     /// The scene
@@ -43,6 +50,14 @@ pub(crate) struct Simulate {
     /// Points of the table from 0 to the end; events come besides
     #[arg(long, value_name = "N", default_value_t = 1001)]
     points: usize,
+    /// Set a run-time parameter, in SI units; the file's value otherwise. May be repeated
+    #[arg(long = "parameter", value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// Begin with this position, velocity (`NAME_rate`), state or mode, in SI units. May be repeated
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    initial: Vec<String>,
+    #[command(flatten)]
+    many: Many,
 }
 
 /// Drifts, of the energy that moved, above which the result means little.
@@ -63,19 +78,36 @@ impl Simulate {
         }
         self.numbers()?;
         let system = file.scene()?;
+        let given = varied::fixed(&system.scene, &self.parameters, &self.initial)?;
         let way = Way {
             integration: self.integration(system.scene.integration)?,
             points: self.points,
             audited: true,
         };
-        let run = watched("run", &system, &way);
+        let plant = prepared(&system, way.integration.method);
         let columns = columns(&system);
+        if let Some(varied) = self.many.varied(&system.scene)? {
+            let batch = Batch {
+                name: &file.stem,
+                out: &self.out,
+                system: &system,
+                plant: &plant,
+                way,
+                columns: &columns,
+            };
+            print(&format!("{}\n", summary(&file.stem, &way.integration)))?;
+            return self.many.run(&batch, &given, &varied);
+        }
+        let system = system.starting(&given).map_err(|f| start_refused(&f))?;
+        let plant = plant.starting(&system);
+        let run = watched("run", &plant, &way);
         let files = self.write(&file.stem, &columns, &run)?;
         print(&format!(
             "{}\n{files}\n",
-            told(&file.stem, &way.integration)
+            summary(&file.stem, &way.integration)
         ))?;
-        print(&report::report(&system, &run))?;
+        let mut told = report::report(&system, &run);
+        print(&told)?;
         let closed = report::drift(&run);
         // A drift that is no number is none that is small.
         if closed.is_nan() || closed > DRIFT {
@@ -85,10 +117,33 @@ impl Simulate {
             ));
         }
         if let Some(reason) = &run.failure {
+            self.page(&file.stem, (&system, &way), &columns, &run, told)?;
             let (t, place) = (run.t, report::place(&system, &run));
             bail!("the run ends early at t = {t} s, {place}: {reason}");
         }
-        estimate(&system, &way, &columns, &run)
+        told += &estimate(&plant, &way, &columns, &run)?;
+        self.page(&file.stem, (&system, &way), &columns, &run, told)
+    }
+
+    /// Writes the page that replays the run.
+    fn page(
+        &self,
+        name: &str,
+        (system, way): (&System, &Way),
+        columns: &[Column],
+        run: &Record,
+        report: String,
+    ) -> Result<()> {
+        let path = self.out.join(format!("{name}.html"));
+        let words = Words {
+            name: name.to_owned(),
+            method: summary(name, &way.integration),
+            report,
+        };
+        let text = page::page(system, columns, run, &words);
+        std::fs::write(&path, text)
+            .with_context(|| format!("{} cannot be written", path.display()))?;
+        print(&format!("replay: {}\n", path.display()))
     }
 
     /// Numbers that make no sense, whatever the scene.
@@ -166,14 +221,24 @@ impl Simulate {
     }
 }
 
+/// Why a scene cannot start as it is told to.
+fn start_refused(faults: &Faults) -> anyhow::Error {
+    let one = |f: &Fault| match &f.help {
+        Some(help) => format!("{}: {help}", f.message),
+        None => f.message.clone(),
+    };
+    let all: Vec<String> = faults.0.iter().map(one).collect();
+    anyhow!("the scene cannot start so: {}", all.join("; "))
+}
+
 /// Runs a scene, with a word now and then on how far it has come.
-fn watched(what: &'static str, system: &System, way: &Way) -> Record {
+fn watched(what: &'static str, plant: &Evaluated<'_>, way: &Way) -> Record {
     let mut progress = Progress::new(what);
-    record(system, way, &mut |share| progress.at(share))
+    record_from(plant.clone(), way, &mut |share| progress.at(share))
 }
 
 /// "stick_slip: rk4 in steps of 0.001 s, to t = 5 s"
-fn told(name: &str, integration: &Integration) -> String {
+fn summary(name: &str, integration: &Integration) -> String {
     let Integration { method, pace, end } = integration;
     let pace = match pace {
         Pace::Step(h) => format!("in steps of {h} s"),
@@ -182,22 +247,23 @@ fn told(name: &str, integration: &Integration) -> String {
     format!("{name}: {} {pace}, to t = {end} s", method.name())
 }
 
-/// Compares the run with a finer one.
-fn estimate(system: &System, way: &Way, columns: &[Column], run: &Record) -> Result<()> {
-    let finer = watched("once more, finer", system, &way.finer());
+/// Compares the run with a finer one; gives what is told of it.
+fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) -> Result<String> {
+    let finer = watched("once more, finer", plant, &way.finer());
     let against = match way.integration.pace {
         Pace::Step(_) => "half the step",
         Pace::Tolerance(_) => "a tenth of the tolerance",
     };
     if let Some(reason) = finer.failure {
         let t = finer.t;
-        tell(&format!(
-            "bgdyn: warning: with {against} the run ends early at t = {t} s ({reason}): the result means little\n"
-        ));
-        return Ok(());
+        let warning = format!(
+            "warning: with {against} the run ends early at t = {t} s ({reason}): the result means little\n"
+        );
+        tell(&format!("bgdyn: {warning}"));
+        return Ok(warning);
     }
     let Some(found) = run.difference(&finer) else {
-        return Ok(());
+        return Ok(String::new());
     };
     let Column { name, unit } = &columns[found.column];
     let text = format!(
@@ -206,11 +272,12 @@ fn estimate(system: &System, way: &Way, columns: &[Column], run: &Record) -> Res
         number(found.share),
         found.t
     );
-    print(&format!("a run with {against} differs most in {text}\n"))?;
+    let told = format!("a run with {against} differs most in {text}\n");
+    print(&told)?;
     if found.share.is_nan() || found.share > ERROR {
         tell(&format!(
             "bgdyn: warning: a run with {against} differs in {text}: the result means little there; take a smaller step or tolerance\n"
         ));
     }
-    Ok(())
+    Ok(told)
 }

@@ -1,6 +1,7 @@
 //! A scene through the evaluator, as a plant: what [`bgdyn_sim::Run`] integrates without a compiler.
 
 use std::fmt;
+use std::sync::Arc;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
@@ -46,10 +47,16 @@ pub enum Form {
 
 /// A scene through the evaluator. Inputs that the scene does not drive are 0, run-time parameters as
 /// its files give them.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
     system: &'a System,
     parameters: Vec<f64>,
+    functions: Arc<Functions>,
+}
+
+/// What is evaluated of a scene: the same from whichever state it starts.
+#[derive(Debug)]
+struct Functions {
     derivative: Function,
     inputs: Option<Function>,
     events: Option<Function>,
@@ -85,9 +92,7 @@ impl<'a> Evaluated<'a> {
             rates: system.function(Role::CanonicalRates),
         };
         let layout = &system.scene.layout;
-        Evaluated {
-            system,
-            parameters: numbers(system.scene.parameters.iter().map(|p| &p.default)),
+        let functions = Functions {
             derivative: system.function(Role::Derivative),
             inputs: if_there(Role::Inputs),
             events: if_there(Role::Events),
@@ -100,6 +105,20 @@ impl<'a> Evaluated<'a> {
             canonical: (form == Form::Canonical).then(canonical),
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
             mode_coordinates: system.mode_coordinates(),
+        };
+        Evaluated {
+            system,
+            parameters: parameters(system),
+            functions: Arc::new(functions),
+        }
+    }
+
+    /// The same scene as it starts there ([`System::starting`]), with the functions of this one.
+    pub fn starting<'b>(&self, system: &'b System) -> Evaluated<'b> {
+        Evaluated {
+            system,
+            parameters: parameters(system),
+            functions: Arc::clone(&self.functions),
         }
     }
 
@@ -120,7 +139,7 @@ impl<'a> Evaluated<'a> {
     /// # Errors
     /// Where the mass matrix is singular.
     pub fn natural(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
-        match &self.canonical {
+        match &self.functions.canonical {
             None => Ok(state.clone()),
             Some(canonical) => {
                 let at = self.arguments(t, state, modes);
@@ -132,7 +151,7 @@ impl<'a> Evaluated<'a> {
 
     /// A state in the plant's own form, of y.
     fn own(&self, t: f64, y: &Numbers, modes: &Numbers) -> Numbers {
-        match &self.canonical {
+        match &self.functions.canonical {
             None => y.clone(),
             Some(canonical) => {
                 let (p, _) = canonical.to.evaluate(self.arguments(t, y, modes));
@@ -148,10 +167,20 @@ impl<'a> Evaluated<'a> {
         all
     }
 
+    /// Whether the scene asks for outputs.
+    pub fn has_outputs(&self) -> bool {
+        self.functions.outputs.is_some()
+    }
+
     /// The outputs that the scene asks for, at y; none where it asks for none.
     pub fn output(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
         let value = |f: &Function| f.evaluate(self.driven(t, y, modes)).0;
-        self.outputs.as_ref().map_or(vec![], value)
+        self.functions.outputs.as_ref().map_or(vec![], value)
+    }
+
+    /// The inputs at y: what the scene drives, and 0.
+    pub fn input(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
+        self.driven(t, y, modes).u
     }
 
     /// What functions read, with all inputs 0.
@@ -174,7 +203,7 @@ impl<'a> Evaluated<'a> {
     /// What functions read, with the inputs that the scene drives.
     fn driven(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
         let mut at = self.arguments(t, y, modes);
-        if let Some(inputs) = &self.inputs {
+        if let Some(inputs) = &self.functions.inputs {
             at.u = inputs.evaluate(at.clone()).0;
         }
         at
@@ -212,7 +241,7 @@ impl<'a> Evaluated<'a> {
 
     /// Dry friction, mode by mode, at y.
     fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Vec<Contact<f64>>> {
-        let Some(contacts) = &self.contacts else {
+        let Some(contacts) = &self.functions.contacts else {
             return Ok(vec![]);
         };
         let values = self.regular(contacts, self.driven(t, y, modes))?;
@@ -235,19 +264,23 @@ impl<'a> Evaluated<'a> {
         fell: impl Fn(usize) -> bool,
     ) -> Tried<(Numbers, Numbers)> {
         let (mut rested, mut held) = (y, modes.clone());
-        let of_modes = self.event_modes.iter().enumerate();
+        let of_modes = self.functions.event_modes.iter().enumerate();
         let fallen = of_modes.filter(|&(event, _)| fell(event));
         for mode in fallen.filter_map(|(_, mode)| *mode) {
             if held[mode] != 0.0 {
                 // What the search for the instant has left of its slip would stay for ever.
                 let slip = self.contacts(t, &rested, &held)?[mode].slip;
-                rested[self.positions() + self.mode_coordinates[mode]] -= slip;
+                rested[self.positions() + self.functions.mode_coordinates[mode]] -= slip;
                 held[mode] = 0.0;
             }
         }
         let held = settle_by(&held, 0.0, |modes| self.contacts(t, &rested, modes))?;
         Ok((rested, held))
     }
+}
+
+fn parameters(system: &System) -> Vec<f64> {
+    numbers(system.scene.parameters.iter().map(|p| &p.default))
 }
 
 fn numbers<'x>(all: impl IntoIterator<Item = &'x Dd>) -> Vec<f64> {
@@ -262,7 +295,7 @@ impl Plant for Evaluated<'_> {
     type Error = Undefined;
 
     fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
-        if let Some(canonical) = &self.canonical {
+        if let Some(canonical) = &self.functions.canonical {
             let at = self.arguments(t, state, modes);
             let rates = self.regular(&canonical.rates, at)?;
             return match rates.iter().position(|x| !x.is_finite()) {
@@ -273,12 +306,12 @@ impl Plant for Evaluated<'_> {
         }
         let at = self.driven(t, state, modes);
         let mut rates = at.v[..self.positions()].to_vec();
-        rates.extend(self.checked(&self.derivative, at)?);
+        rates.extend(self.checked(&self.functions.derivative, at)?);
         Ok(rates.into())
     }
 
     fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Tried<Jacobian<Numbers>>> {
-        let jacobian = self.jacobian.as_ref()?;
+        let jacobian = self.functions.jacobian.as_ref()?;
         let values = match self.checked(jacobian, self.arguments(t, y, modes)) {
             Ok(values) => values,
             Err(undefined) => return Some(Err(undefined)),
@@ -308,7 +341,7 @@ impl Plant for Evaluated<'_> {
     }
 
     fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
-        let Some(events) = &self.events else {
+        let Some(events) = &self.functions.events else {
             return Ok(DVector::zeros(0));
         };
         let y = self.natural(t, state, modes)?;
@@ -316,7 +349,7 @@ impl Plant for Evaluated<'_> {
     }
 
     fn changes_mode(&self, event: usize) -> bool {
-        self.event_modes[event].is_some()
+        self.functions.event_modes[event].is_some()
     }
 
     fn change(
@@ -337,12 +370,17 @@ impl Plant for Evaluated<'_> {
 
     fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
         let y = self.natural(t, state, modes)?;
-        Ok(self.energy.evaluate(self.driven(t, &y, modes)).0.into())
+        Ok(self
+            .functions
+            .energy
+            .evaluate(self.driven(t, &y, modes))
+            .0
+            .into())
     }
 
     fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Power<Numbers>> {
         let y = self.natural(t, state, modes)?;
-        let values = self.regular(&self.power, self.driven(t, &y, modes))?;
+        let values = self.regular(&self.functions.power, self.driven(t, &y, modes))?;
         // Of three numbers each the first is supplied, the last dissipated.
         let part = |k: usize| DVector::from_fn(values.len() / 3, |i, _| values[3 * i + k]);
         Ok(Power {

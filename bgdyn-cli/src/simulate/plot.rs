@@ -8,21 +8,21 @@ use plotters::prelude::*;
 use super::difference::range;
 use super::record::{Column, Record};
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 // Blue of Okabe and Ito's palette.
-const LINE: RGBColor = RGBColor(0, 114, 178);
+pub(super) const LINE: RGBColor = RGBColor(0, 114, 178);
 const EVENT: RGBColor = RGBColor(213, 94, 0);
-const INK: RGBColor = RGBColor(40, 40, 40);
-const FONT: &str = "sans-serif";
+pub(super) const INK: RGBColor = RGBColor(40, 40, 40);
+pub(super) const FONT: &str = "sans-serif";
 
 const PANEL: (u32, u32) = (560, 210);
 const HEADER: u32 = 56;
 /// Columns up to which panels stand one below the other.
 const FEW: usize = 3;
 /// What is larger than this, or smaller than its reciprocal, has no place on an axis.
-const LARGEST: f64 = 1e250;
+pub(super) const LARGEST: f64 = 1e250;
 /// More events than these would hide the curves.
 const EVENTS: usize = 60;
 
@@ -61,17 +61,17 @@ pub(crate) fn draw(path: &Path, title: &str, columns: &[Column], record: &Record
 }
 
 /// How values become numbers of an axis: (value − offset)/10^exponent.
-struct Axis {
+pub(super) struct Axis {
     offset: f64,
     exponent: i32,
     decimals: usize,
-    low: f64,
-    high: f64,
+    pub(super) low: f64,
+    pub(super) high: f64,
 }
 
 impl Axis {
     /// For values in this range.
-    fn new((low, high): (f64, f64)) -> Self {
+    pub(super) fn new((low, high): (f64, f64)) -> Self {
         let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
         let size = low.abs().max(high.abs());
         let (low, high, size) = match size < 1.0 / LARGEST {
@@ -109,15 +109,15 @@ impl Axis {
         }
     }
 
-    fn of(&self, value: f64) -> f64 {
+    pub(super) fn of(&self, value: f64) -> f64 {
         (value - self.offset) / 10_f64.powi(self.exponent)
     }
 
-    fn number(&self, x: f64) -> String {
+    pub(super) fn number(&self, x: f64) -> String {
         number(x, self.decimals)
     }
 
-    fn title(&self, name: &str) -> String {
+    pub(super) fn title(&self, name: &str) -> String {
         let sign = if self.offset < 0.0 { '+' } else { '−' };
         match self.offset {
             0.0 => name.to_owned(),
@@ -125,7 +125,7 @@ impl Axis {
         }
     }
 
-    fn label(&self, unit: &str) -> String {
+    pub(super) fn label(&self, unit: &str) -> String {
         match (self.exponent, unit) {
             (0, unit) => unit.to_owned(),
             (e, "") => format!("1e{e}"),

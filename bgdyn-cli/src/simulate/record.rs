@@ -1,10 +1,10 @@
-//! A run from its start to its end, and what is kept of it.
+//! What is kept of a run, and how one is made: data.
 
-use bgdyn_codegen::scene::{Integration, Integrator, Pace};
+use bgdyn_codegen::scene::{Integration, Pace};
 use bgdyn_codegen::system::System;
-use bgdyn_sim::{Audit, Dense, Failure, Method, Run, Tolerance, WithMethod, with_method};
+use bgdyn_sim::Audit;
 
-use super::plant::{Evaluated, Form, Numbers, Undefined};
+use super::plant::Numbers;
 
 /// A quantity that is told of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +50,29 @@ pub struct Row {
     pub t: f64,
     /// The columns' values.
     pub values: Vec<f64>,
+    /// Positions, velocities, first-order states.
+    pub y: Numbers,
+    /// The modes.
+    pub modes: Numbers,
+    /// The inputs, driven ones and 0 for the others.
+    pub inputs: Vec<f64>,
     /// Whether it stands here for an event or for the end, not for one of the points asked for.
     pub extra: bool,
+}
+
+/// The account of the energy at the end of a step, J, all entries together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyAt {
+    /// Time, s.
+    pub t: f64,
+    /// What came from outside.
+    pub supplied: f64,
+    /// What is stored more than at the start.
+    pub stored: f64,
+    /// What was lost.
+    pub dissipated: f64,
+    /// Stored + dissipated − supplied.
+    pub drift: f64,
 }
 
 /// An instant at which a mode changed.
@@ -70,6 +91,8 @@ pub struct Event {
 pub struct Record {
     /// The points asked for, with rows at events between them.
     pub rows: Vec<Row>,
+    /// The energy at ends of steps, one at most between two points; none of a run without account.
+    pub energy: Vec<EnergyAt>,
     /// Steps that were taken, those up to events included.
     pub steps: usize,
     /// Events that changed a mode.
@@ -111,258 +134,5 @@ impl Way {
         };
         self.audited = false;
         self
-    }
-}
-
-/// Runs a scene; `watch` hears now and then which part of it is done.
-///
-/// A run that fails ends early, with its reason in [`Record::failure`].
-///
-/// # Panics
-/// Never: every method of scenes is one of `bgdyn_sim`'s.
-pub fn record(system: &System, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
-    let method = way.integration.method;
-    let form = match method.needs_canonical() {
-        true => Form::Canonical,
-        false => Form::Natural,
-    };
-    let plant = Evaluated::new(system, form, method.needs_jacobian());
-    let outputs = !system.outputs.is_empty();
-    let start = Start {
-        plant,
-        outputs,
-        way,
-        watch,
-    };
-    with_method(plain(method), start).expect("a method of the list")
-}
-
-/// What `bgdyn_sim` calls a method: the canonical form is the plant's business there.
-fn plain(method: Integrator) -> &'static str {
-    let name = method.name();
-    name.strip_prefix("canonical_").unwrap_or(name)
-}
-
-/// A run about to begin.
-struct Start<'a> {
-    plant: Evaluated<'a>,
-    outputs: bool,
-    way: &'a Way,
-    watch: &'a mut dyn FnMut(f64),
-}
-
-impl WithMethod<Numbers> for Start<'_> {
-    type Output = Record;
-
-    fn with<M: Method<Numbers>>(self, method: M) -> Record {
-        let begin = self.plant.begin();
-        let mut run = Run::by(method, self.plant, begin);
-        if let Pace::Tolerance(tolerance) = self.way.integration.pace {
-            run = run.with_tolerance(Tolerance {
-                absolute: tolerance,
-                relative: tolerance,
-            });
-        }
-        if !self.way.audited {
-            run = run.unaudited();
-        }
-        Recorder::new(run, self.outputs, self.way, self.watch).all()
-    }
-}
-
-type Failed = Failure<Numbers, Undefined>;
-
-/// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
-const CROWDED: usize = 16;
-
-/// A straight line from a state to where a run is now.
-fn straight<M: Method<Numbers>>(
-    t: f64,
-    y: &Numbers,
-    run: &Run<Evaluated<'_>, M>,
-) -> Dense<Numbers> {
-    let mut terms = [const { None }; 7];
-    terms[0] = Some(run.y() - y);
-    Dense::new(t, run.t() - t, y, terms)
-}
-
-/// A run, and what was kept of it so far.
-struct Recorder<'a, M: Method<Numbers>> {
-    run: Run<Evaluated<'a>, M>,
-    outputs: bool,
-    way: &'a Way,
-    watch: &'a mut dyn FnMut(f64),
-    rows: Vec<Row>,
-    /// How many of the points asked for are among them.
-    points: usize,
-    steps: usize,
-    events: Vec<Event>,
-    moved: f64,
-}
-
-impl<'a, M: Method<Numbers>> Recorder<'a, M> {
-    fn new(
-        run: Run<Evaluated<'a>, M>,
-        outputs: bool,
-        way: &'a Way,
-        watch: &'a mut dyn FnMut(f64),
-    ) -> Self {
-        Recorder {
-            run,
-            outputs,
-            way,
-            watch,
-            rows: vec![],
-            points: 0,
-            steps: 0,
-            events: vec![],
-            moved: 0.0,
-        }
-    }
-
-    fn all(mut self) -> Record {
-        let failed = self.complete().err();
-        let (t, modes) = (self.run.t(), self.run.modes().clone());
-        if self.rows.last().is_none_or(|row| row.t < t) {
-            let y = self.run.y().clone();
-            self.keep(t, &y, true);
-        }
-        let y = self.run.plant().natural(t, self.run.y(), &modes);
-        Record {
-            rows: self.rows,
-            steps: self.steps,
-            events: self.events,
-            kinks: self.run.kinks,
-            t,
-            y: y.unwrap_or_else(|_| self.run.y().clone()),
-            modes,
-            audit: self.run.audit(),
-            moved: self.moved,
-            failure: failed.map(|failure| failure.reason.to_string()),
-        }
-    }
-
-    fn complete(&mut self) -> Result<(), Failed> {
-        let begin = self.run.y().clone();
-        self.keep(0.0, &begin, false);
-        self.points = 1;
-        let Integration { pace, end, .. } = self.way.integration;
-        match pace {
-            Pace::Tolerance(_) => self.reach(end),
-            Pace::Step(h) => {
-                let mut steps = 1.0;
-                // A last step that is next to nothing is none.
-                while steps * h < end - 1e-9 * h {
-                    self.reach(steps * h)?;
-                    steps += 1.0;
-                }
-                self.reach(end)
-            }
-        }
-    }
-
-    /// Time between two points, s.
-    fn interval(&self) -> f64 {
-        self.way.integration.end / (self.way.points - 1) as f64
-    }
-
-    /// On to a time, one step of the method after the other.
-    fn reach(&mut self, target: f64) -> Result<(), Failed> {
-        let span = target - self.run.t();
-        let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
-        let mut crowded = 0;
-        while target - self.run.t() > rest {
-            let left = target - self.run.t();
-            let before = self.run.modes().clone();
-            let passed = (self.run.events, self.run.kinks);
-            if crowded < CROWDED {
-                let dense = self.run.advance_densely(left)?;
-                self.sample(&dense, &before, rest);
-            } else {
-                // On without a halt at every kink.
-                let (t, y) = (self.run.t(), self.run.y().clone());
-                self.run.step(match self.way.integration.pace {
-                    Pace::Step(_) => left,
-                    Pace::Tolerance(_) => left.min(self.interval()),
-                })?;
-                self.sample(&straight(t, &y, &self.run), &before, rest);
-            }
-            self.steps += 1;
-            let halted = passed != (self.run.events, self.run.kinks);
-            crowded = if halted {
-                (crowded + 1) % (CROWDED + 1)
-            } else {
-                0
-            };
-            if self.run.events > passed.0 {
-                self.happened(before);
-            }
-            (self.watch)(self.run.t() / self.way.integration.end);
-        }
-        Ok(())
-    }
-
-    /// Keeps the points that lie in a step.
-    fn sample(&mut self, step: &Dense<Numbers>, modes: &Numbers, rest: f64) {
-        let now = self.run.t();
-        while self.points < self.way.points {
-            let last = self.points + 1 == self.way.points;
-            let t = match last {
-                true => self.way.integration.end,
-                false => self.points as f64 * self.interval(),
-            };
-            if t > now + rest {
-                return;
-            }
-            let y = step.at_time(t.min(now));
-            self.keep_with(t, &y, modes, false);
-            self.points += 1;
-        }
-    }
-
-    /// Keeps an event, with the state after it.
-    fn happened(&mut self, before: Numbers) {
-        let (t, y) = (self.run.t(), self.run.y().clone());
-        let after = self.run.modes().clone();
-        self.events.push(Event { t, before, after });
-        self.keep(t, &y, true);
-    }
-
-    fn keep(&mut self, t: f64, state: &Numbers, extra: bool) {
-        let modes = self.run.modes().clone();
-        self.keep_with(t, state, &modes, extra);
-    }
-
-    fn keep_with(&mut self, t: f64, state: &Numbers, modes: &Numbers, extra: bool) {
-        let plant = self.run.plant();
-        let y = plant.natural(t, state, modes);
-        // Where there are no velocities, nothing can be told of them.
-        let y = y.unwrap_or_else(|_| state.map(|_| f64::NAN));
-        let values = match self.outputs {
-            true => plant.output(t, &y, modes),
-            false => y.as_slice().to_vec(),
-        };
-        self.rows.push(Row { t, values, extra });
-        let Audit {
-            supplied,
-            stored,
-            dissipated,
-        } = self.run.audit();
-        for part in [supplied, stored, dissipated] {
-            self.moved = self.moved.max(part.lp_norm(1));
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_method_of_scenes_is_one_of_the_integrators() {
-        for method in Integrator::ALL {
-            let name = plain(method);
-            assert!(bgdyn_sim::METHODS.contains(&name), "{name}");
-        }
     }
 }

@@ -56,7 +56,7 @@ fn events(system: &System, record: &Record) -> String {
 }
 
 /// What an event changed: "`belt` is held".
-fn changes(system: &System, event: &Event) -> String {
+pub(crate) fn changes(system: &System, event: &Event) -> String {
     let modes = system.scene.layout.modes.iter().enumerate();
     let changed = modes.filter(|&(i, _)| event.before[i] != event.after[i]);
     let told: Vec<String> = changed

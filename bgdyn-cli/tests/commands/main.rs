@@ -8,6 +8,8 @@ mod generate;
 mod golden_specs;
 mod ops;
 mod simulate;
+mod simulate_many;
+mod simulate_page;
 mod usage;
 
 use std::fs;

@@ -6,6 +6,7 @@ mod constants;
 mod fallback;
 mod names;
 mod scene;
+mod sines;
 mod writer;
 
 pub use fallback::fallback;

@@ -3,11 +3,12 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::code::{Binding, Code, Naming, atom, leaves};
 use super::names::Names;
+use super::sines::Pair;
 use super::{ident, number};
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
 use crate::function::Function;
@@ -21,19 +22,19 @@ pub(super) const COMMENT: &str = "//";
 
 /// Writes the statements of a function.
 pub(super) struct Writer<'a> {
-    graph: &'a Graph,
-    naming: &'a Naming<'a>,
-    names: Names,
+    pub(super) graph: &'a Graph,
+    pub(super) naming: &'a Naming<'a>,
+    pub(super) names: Names,
     /// Code to write where a node is used: a variable's name, or the whole operation.
-    code: Vec<Option<Code>>,
+    pub(super) code: Vec<Option<Code>>,
     /// Sine and cosine of a node.
-    sines: QuickMap<NodeId, (Ident, Ident)>,
+    pub(super) sines: QuickMap<NodeId, Pair>,
     /// How often a node is used in the block.
-    uses: Vec<usize>,
+    pub(super) uses: Vec<usize>,
     statements: Vec<TokenStream>,
     /// The section of the last statement.
     section: Option<&'a str>,
-    needed: Vec<bool>,
+    pub(super) needed: Vec<bool>,
     /// Whether the block is a function of its own.
     separate: bool,
     constants: bool,
@@ -132,7 +133,7 @@ impl<'a> Writer<'a> {
         bindings
     }
 
-    fn node(&mut self, id: NodeId) {
+    pub(super) fn node(&mut self, id: NodeId) {
         let i = id.0 as usize;
         let code = match self.graph.node(id) {
             Node::Leaf(leaf) => match self.leaf(*leaf) {
@@ -156,11 +157,11 @@ impl<'a> Writer<'a> {
             // Written with the sine.
             Node::Angle(..) => return,
             Node::Sin(a) => {
-                let sine = self.sine_cosine(*a).0;
+                let sine = self.sine_cosine(*a).sine;
                 atom(quote! { #sine })
             }
             Node::Cos(a) => {
-                let cosine = self.sine_cosine(*a).1;
+                let cosine = self.sine_cosine(*a).cosine;
                 atom(quote! { #cosine })
             }
             node => self.operation(&node.clone()),
@@ -193,7 +194,7 @@ impl<'a> Writer<'a> {
 
     /// Adds a statement that computes the node. Where a section begins, its title stands above as a
     /// comment: tokens have none, so it is a doc attribute until [`super::source_text`].
-    fn push(&mut self, id: NodeId, statement: TokenStream) {
+    pub(super) fn push(&mut self, id: NodeId, statement: TokenStream) {
         let section = self.graph.section(id);
         let begins = section.filter(|_| section != self.section);
         let title = begins.map(|title| {
@@ -314,7 +315,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Code of a signed operand, in parentheses where its place binds tighter.
-    fn operand(&mut self, e: Expr, place: Binding) -> TokenStream {
+    pub(super) fn operand(&mut self, e: Expr, place: Binding) -> TokenStream {
         let code = self.code[e.node.0 as usize]
             .clone()
             .unwrap_or_else(unreachable_node);
@@ -326,67 +327,6 @@ impl<'a> Writer<'a> {
             (true, _) => quote! { (-(#tokens)) },
             (false, binding) if binding < place => quote! { (#tokens) },
             (false, _) => tokens,
-        }
-    }
-
-    /// Sine and cosine of an angle, computed once as a pair.
-    fn sine_cosine(&mut self, angle: NodeId) -> (Ident, Ident) {
-        if let Some(pair) = self.sines.get(&angle) {
-            return pair.clone();
-        }
-        let name = self.angle_name(angle);
-        let (sine, cosine) = (
-            self.names.named(&format!("sin_{name}")),
-            self.names.named(&format!("cos_{name}")),
-        );
-        let value = match self.graph.node(angle).clone() {
-            Node::Angle(terms, offset, negative) => {
-                let terms: Vec<_> = terms
-                    .iter()
-                    .map(|&t| self.operand(t, Binding::Sum))
-                    .collect();
-                let offset = if negative {
-                    -offset.value()
-                } else {
-                    offset.value()
-                };
-                let (hi, lo) = (number(offset.hi()), number(offset.lo()));
-                quote! { T::sin_cos_sum(&[#(#terms),*], (#hi, #lo)) }
-            }
-            _ => {
-                let operand = self.operand(Expr::plus(angle), Binding::Sum);
-                quote! { T::sin_cos(#operand) }
-            }
-        };
-        let used = |id: Option<NodeId>| id.is_some_and(|id| self.uses[id.0 as usize] > 0);
-        let left = if used(self.graph.find(&Node::Sin(angle))) {
-            quote! { #sine }
-        } else {
-            quote! { _ }
-        };
-        let right = if used(self.graph.find(&Node::Cos(angle))) {
-            quote! { #cosine }
-        } else {
-            quote! { _ }
-        };
-        self.push(angle, quote! { let (#left, #right) = #value; });
-        self.sines.insert(angle, (sine.clone(), cosine.clone()));
-        (sine, cosine)
-    }
-
-    /// The joints whose angles are summed: `shoulder_elbow`.
-    fn angle_name(&self, angle: NodeId) -> String {
-        let joint = |id: NodeId| match self.graph.node(id) {
-            Node::Leaf(Leaf::Position(j)) => self.naming.joints[*j].to_string(),
-            _ => "angle".to_string(),
-        };
-        match self.graph.node(angle) {
-            Node::Angle(terms, ..) => terms
-                .iter()
-                .map(|t| joint(t.node))
-                .collect::<Vec<_>>()
-                .join("_"),
-            _ => joint(angle),
         }
     }
 }

@@ -19,11 +19,9 @@ use super::{Expr, Graph, Node};
 /// A multiplication or an addition; both took the same time.
 const OPERATION: usize = 100;
 
-/// What a fused multiply-add saves. Compiled Rust fuses nothing: its compiler never contracts a
-/// product and a sum, and the emitter writes both; so nothing could be seen of it in the times. On
-/// a machine that fuses, an addition that takes a product with it saves half an operation (8.3
-/// fused against 12.5 separate ones in a ns on a Zen 5 core). A fifth decides between near equals
-/// in favour of such a machine, and only between finished functions.
+/// What a fused multiply-add saves where the target has one (`fuse.rs`): half an operation (8.3 fused
+/// against 12.5 separate ones in a ns on a Zen 5 core). Elsewhere it saves nothing. A fifth decides
+/// between near equals in favour of such a machine, and only between finished functions.
 const FUSABLE: usize = 20;
 
 /// A division: 8.0 times a multiplication in a loop of independent ones, 3.5 times in a chain.
@@ -48,7 +46,7 @@ const DEPTH: usize = 20;
 pub struct Cost {
     /// The operations, counted as everywhere.
     pub operations: Operations,
-    /// Additions of a product that nothing else reads: the two can be fused.
+    /// Additions of a product that nothing else reads: the two can be fused, or are.
     pub fusable: usize,
     /// The critical path: how long the longest chain of operations is of which each waits for the
     /// one before, in multiplications.
@@ -118,33 +116,46 @@ impl fmt::Display for Hundredths {
 /// What computing the outputs once costs.
 pub fn cost(graph: &Graph, outputs: &[Expr]) -> Cost {
     let reads = reads(graph, outputs);
+    let ready = ready(graph, &reads);
     let mut counter = Counter::new(graph.len());
-    // When each value is there, at the earliest.
-    let mut ready = vec![0; graph.len()];
-    let (mut fusable, mut depth) = (0, 0);
-    for (i, node) in graph.nodes.iter().enumerate() {
-        if reads[i] == 0 {
-            continue;
-        }
+    let mut fusable = 0;
+    for (_, node) in needed(graph, &reads) {
         counter.add(node);
-        let mut begin = 0;
-        node.for_each_operand(|operand| begin = begin.max(ready[operand.0 as usize]));
-        ready[i] = begin + latency(node);
-        depth = depth.max(ready[i]);
-        if let Node::Add(a, b) = node {
-            let fuses = |i: usize| reads[i] == 1 && matches!(graph.nodes[i], Node::Mul(..));
-            fusable += usize::from(fuses(a.0 as usize) || fuses(b.node.0 as usize));
-        }
+        fusable += match node {
+            Node::Add(a, b) => {
+                let fuses = |i: usize| reads[i] == 1 && matches!(graph.nodes[i], Node::Mul(..));
+                usize::from(fuses(a.0 as usize) || fuses(b.node.0 as usize))
+            }
+            Node::MulAdd(..) => 1,
+            _ => 0,
+        };
     }
     Cost {
         operations: counter.operations,
         fusable,
-        depth,
+        depth: ready.into_iter().max().unwrap_or(0),
     }
 }
 
+/// The nodes that are read.
+fn needed<'a>(graph: &'a Graph, reads: &'a [u32]) -> impl Iterator<Item = (usize, &'a Node)> {
+    let nodes = graph.nodes.iter().enumerate();
+    nodes.filter(|&(i, _)| reads[i] > 0)
+}
+
+/// When each value that is read is there at the earliest, in multiplications.
+pub(super) fn ready(graph: &Graph, reads: &[u32]) -> Vec<usize> {
+    let mut ready = vec![0; graph.len()];
+    for (i, node) in needed(graph, reads) {
+        let mut begin = 0;
+        node.for_each_operand(|operand| begin = begin.max(ready[operand.0 as usize]));
+        ready[i] = begin + latency(node);
+    }
+    ready
+}
+
 /// How often each node is read, by needed nodes and as an output; 0 for those that are not needed.
-fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
+pub(super) fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
     let mut reads = vec![0; graph.len()];
     for e in outputs {
         reads[e.node.0 as usize] += 1;

@@ -14,6 +14,7 @@ mod error;
 mod eval;
 mod factor;
 mod fold;
+mod fuse;
 mod index;
 
 use std::collections::HashMap;
@@ -30,6 +31,7 @@ pub use diff::Tangent;
 pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
 pub use factor::{factored, factored_cost};
+pub use fuse::fused;
 use index::{Index, mix};
 
 /// A node of a [`Graph`].
@@ -40,6 +42,11 @@ impl NodeId {
     /// The node at this place of its graph.
     pub fn at(place: usize) -> Self {
         NodeId(place as u32)
+    }
+
+    /// Its place in its graph.
+    pub fn place(self) -> usize {
+        self.0 as usize
     }
 }
 

@@ -9,6 +9,7 @@ mod integration;
 mod layout;
 mod reduce;
 mod signal;
+mod start;
 mod subset;
 
 use bgdyn_runtime::Dd;
@@ -23,6 +24,7 @@ pub(crate) use check::{context, sketch, taken};
 pub use integration::{Integration, Integrator, Pace};
 pub use layout::{Coordinate, Entered, Layout, Level, Part, Store};
 pub use signal::{Drive, Signal};
+pub use start::{Settable, SettableKind};
 
 /// A scene that passed every check.
 #[derive(Clone, Debug, PartialEq)]

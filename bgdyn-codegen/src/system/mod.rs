@@ -21,7 +21,7 @@ use crate::fault::{Fault, Faults, unknown_name};
 use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::method::{Method, Role};
-use crate::scene::Scene;
+use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
 pub use laws::{Balance, Contact, Laws, Own, Port, Reading, behind_gear};
 
@@ -86,6 +86,31 @@ impl System {
         Ok(system)
     }
 
+    /// The same equations with these values, SI units, at the start and for run-time parameters. The
+    /// functions stay as they are, but for what they read.
+    ///
+    /// # Errors
+    /// Values that a state cannot have, or with which something is not positive that must be.
+    pub fn starting(&self, values: &[(Settable, Dd)]) -> Result<Self, Faults> {
+        let scene = self.scene.starting(values)?;
+        let mut system = System {
+            scene,
+            ..self.clone()
+        };
+        let mut faults = Faults::default();
+        let b = Builder::silent();
+        let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+        range::check(&system.scene, &laws, &mut faults);
+        let started = start(&system.scene, &laws);
+        drop(laws);
+        system.initial = system.scene.initial.clone();
+        system.initial.x = started;
+        if faults.any_fault() {
+            return Err(faults);
+        }
+        Ok(system)
+    }
+
     /// Joints that nothing in the scene gives inertia, in any position.
     pub fn without_inertia(&self) -> Vec<&str> {
         let b = Builder::silent();
@@ -143,7 +168,7 @@ impl System {
 
     /// The function of a role.
     pub fn function(&self, role: Role) -> Function {
-        crate::cut::cut(self.chosen(role))
+        crate::cut::cut(self.chosen(role).fused())
     }
 
     /// The same in one block.

@@ -68,6 +68,9 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize>
     fn state_names(&self) -> &'static [&'static str; N] {
         &[""; N]
     }
+    fn positions(&self) -> usize {
+        self.nq
+    }
     fn mode_names(&self) -> &'static [&'static str; NM] {
         &[""; NM]
     }

@@ -19,13 +19,13 @@ const TINY: f64 = 1.0 / (1_u64 << 63) as f64;
 
 /// A fraction of a turn in [0, 1), of 320 binary digits, the highest word first.
 #[derive(Clone, Copy)]
-struct Turn([u64; WORDS]);
+pub(crate) struct Turn([u64; WORDS]);
 
 impl Turn {
     const ZERO: Self = Self([0; WORDS]);
 
     /// The finite angle `x` in radians, less its whole turns; short by less than 2⁻²⁶⁷ turns.
-    fn of_word(x: f64) -> Self {
+    pub(crate) fn of_word(x: f64) -> Self {
         let bits = x.to_bits();
         let biased = (bits >> 52) & 0x7ff;
         let fraction = bits & ((1 << 52) - 1);
@@ -73,7 +73,7 @@ impl Turn {
     }
 
     /// The quarter turn nearest to the angle, modulo 4, and the radians from there, in ±π/4.
-    fn split(self) -> (u64, Dd) {
+    pub(crate) fn split(self) -> (u64, Dd) {
         let mut rest = self;
         rest.0[0] = rest.0[0].wrapping_add(EIGHTH);
         let quarter = rest.0[0] / QUARTER;
@@ -114,7 +114,7 @@ impl Turn {
 }
 
 /// 64 digits of 1/2π, from behind the `start`-th after the point; zeros in front of the point.
-fn inverse_tau_digits(start: i32) -> u64 {
+pub(crate) fn inverse_tau_digits(start: i32) -> u64 {
     let word = |i: i32| {
         usize::try_from(i)
             .ok()

@@ -7,6 +7,8 @@ mod elementary;
 mod scalar;
 mod text;
 
+pub(crate) use angle::{Turn, inverse_tau_digits};
+
 pub use text::ParseDdError;
 
 use core::cmp::Ordering;

@@ -3,6 +3,7 @@
 mod controlled;
 mod events;
 mod failures;
+mod order;
 mod orders;
 mod plants;
 mod problems;

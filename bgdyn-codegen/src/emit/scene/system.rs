@@ -46,6 +46,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
         impl<T: __Scalar> __rt::System<T, N, NM, NU, NE, NY, #count> for #name<T> {
             type Singular = T::Singular<{ NV + NX }>;
             fn state_names(&self) -> &'static [&'static str; N] { &STATE_NAMES }
+            fn positions(&self) -> usize { NQ }
             fn mode_names(&self) -> &'static [&'static str; NM] { &MODE_NAMES }
             fn input_names(&self) -> &'static [&'static str; NU] { &INPUT_NAMES }
             fn event_names(&self) -> &'static [&'static str; NE] { &EVENT_NAMES }

@@ -7,13 +7,13 @@ use nalgebra::SVector;
 use crate::follow::{alike, controlled, fixed, of, relative};
 use crate::outcome::Outcome;
 use crate::reference::reference;
-use crate::scenes;
+use crate::{Extent, scenes};
 
 /// When the cylinder's pressures have settled, s.
 const SETTLED: f64 = 0.02;
 
 /// A motor whose current settles within 1e-5 s, by steps of 1e-2 s.
-pub fn motor_linear_stiff() -> Vec<Outcome> {
+pub(crate) fn motor_linear_stiff(_: Extent) -> Vec<Outcome> {
     let case = "motor_linear_stiff";
     let reference = reference!("motor_linear_stiff").only(|_, t| t >= 0.1);
     let scene = scenes::motor_linear_stiff::MotorLinearStiff::<f64>::default();
@@ -23,13 +23,13 @@ pub fn motor_linear_stiff() -> Vec<Outcome> {
     let found = of(&states, |y| vec![y[1], y[0]]);
     let deviations = reference.relative(&["omega", "theta"], &found, 1e-6);
     let quantity = "rate, angle, relative; rodas4, 10 ms";
-    vec![Outcome::worst(case, quantity, deviations)]
+    vec![Outcome::worst(case, "9", quantity, deviations)]
 }
 
 /// A load on a hydraulic cylinder: pressures that settle within 1e-5 s … 1e-3 s, a load that swings on
 /// the oil at 200 rad/s. By controlled steps; and, from 20 ms on, by steps 50 times longer than what
 /// settles first.
-pub fn hydraulic_cylinder() -> Vec<Outcome> {
+pub(crate) fn hydraulic_cylinder(_: Extent) -> Vec<Outcome> {
     let case = "hydraulic_cylinder";
     let reference = reference!("hydraulic_cylinder").only(|_, t| t >= SETTLED);
     let scene = scenes::hydraulic_cylinder::HydraulicCylinder::<f64>::default();
@@ -65,15 +65,15 @@ pub fn hydraulic_cylinder() -> Vec<Outcome> {
         let pressed = of(&outputs, |output| output[2..].to_vec());
         let moved = reference.relative(&["x", "v"], &moved, 1e-6);
         let pressed = reference.relative(&["p1", "p2", "pl"], &pressed, 1e-5);
-        outcomes.push(Outcome::worst(case, motion, moved));
-        outcomes.push(Outcome::worst(case, pressures, pressed));
+        outcomes.push(Outcome::worst(case, "9", motion, moved));
+        outcomes.push(Outcome::worst(case, "9", pressures, pressed));
     }
     outcomes
 }
 
 /// A mass that swings on a stiff spring and shakes on it 1600 times as often. Its length is 1 m and the
 /// stretch.
-pub fn stiff_spring_pendulum() -> Vec<Outcome> {
+pub(crate) fn stiff_spring_pendulum(_: Extent) -> Vec<Outcome> {
     let case = "stiff_spring_pendulum";
     let reference = reference!("stiff_spring_pendulum");
     let scene = scenes::stiff_spring_stretch::StiffSpringStretch::<f64>::default();
@@ -92,18 +92,19 @@ pub fn stiff_spring_pendulum() -> Vec<Outcome> {
     vec![
         Outcome::worst(
             case,
+            "9",
             "angle, rate; dop853 at 1e-14",
             swing(&resolved, 1e-10),
         ),
-        Outcome::worst(case, "length; dop853 at 1e-14", length),
-        Outcome::worst(case, "angle, rate; rodas4, 4 ms", swing(&long, 1e-6)),
-        Outcome::worst(case, "angle, rate; gauss3, 4 ms", swing(&kept, 1e-6)),
+        Outcome::worst(case, "9", "length; dop853 at 1e-14", length),
+        Outcome::worst(case, "9", "angle, rate; rodas4, 4 ms", swing(&long, 1e-6)),
+        Outcome::worst(case, "9", "angle, rate; gauss3, 4 ms", swing(&kept, 1e-6)),
     ]
 }
 
 /// Two masses that swing together on a soft spring, and 2100 times as fast against each other: all of
 /// it, and the slow part by steps 120 times longer than a radian of the fast one.
-pub fn stiff_spring_two_mass() -> Vec<Outcome> {
+pub(crate) fn stiff_spring_two_mass(_: Extent) -> Vec<Outcome> {
     let case = "stiff_spring_two_mass";
     let reference = reference!("stiff_spring_two_mass");
     let scene = scenes::stiff_spring_two_mass::StiffSpringTwoMass::<f64>::default();
@@ -117,8 +118,8 @@ pub fn stiff_spring_two_mass() -> Vec<Outcome> {
     let columns = ["x1", "x2", "v1", "v2"];
     let slow = reference.parts(&columns, &of(&long, apart), slow_mode, 1e-6);
     vec![
-        Outcome::worst(case, "state; dop853 at 1e-14", resolved),
-        Outcome::worst(case, "slow mode; rodas4, 10 ms", slow),
+        Outcome::worst(case, "9", "state; dop853 at 1e-14", resolved),
+        Outcome::worst(case, "9", "slow mode; rodas4, 10 ms", slow),
     ]
 }
 

@@ -5,13 +5,13 @@ use bgdyn_sim::{Dop853, Rodas4, Run, Scene};
 use crate::follow::{alike, of, relative};
 use crate::outcome::{Deviation, Outcome};
 use crate::reference::reference;
-use crate::scenes;
+use crate::{Extent, scenes};
 
 /// A block on bristles, pulled by a spring: its law has a kink where the velocity is 0.
 ///
 /// # Panics
 /// Where the run fails.
-pub fn lugre_stick_slip() -> Vec<Outcome> {
+pub(crate) fn lugre_stick_slip(_: Extent) -> Vec<Outcome> {
     let reference = reference!("lugre_stick_slip");
     let scene = scenes::lugre_stick_slip::LugreStickSlip::<f64>::default();
     let (plant, begin) = (Scene::with_slope(&scene), Run::begin(&scene));
@@ -24,14 +24,19 @@ pub fn lugre_stick_slip() -> Vec<Outcome> {
     let states: Vec<_> = reference.times.iter().map(to).collect();
     let deviations = reference.some(&["x"], &of(&states, |y| vec![y[0]]), 1e-7);
     let quantity = "place; rodas4 at 1e-9";
-    vec![Outcome::worst("lugre_stick_slip", quantity, deviations)]
+    vec![Outcome::worst(
+        "lugre_stick_slip",
+        "10",
+        quantity,
+        deviations,
+    )]
 }
 
 /// A block on a moving belt, held by a spring: when it breaks away and when it sticks again.
 ///
 /// # Panics
 /// Where the run fails, or meets another number of events than it should.
-pub fn coulomb_stick_slip_belt() -> Vec<Outcome> {
+pub(crate) fn coulomb_stick_slip_belt(_: Extent) -> Vec<Outcome> {
     let wanted = reference!("coulomb_stick_slip_belt").invariants("event_times");
     let scene = scenes::stick_slip::StickSlip::<f64>::default();
     let mut run = Run::by(Dop853, Scene::new(&scene), Run::begin(&scene)).unaudited();
@@ -52,5 +57,5 @@ pub fn coulomb_stick_slip_belt() -> Vec<Outcome> {
     });
     let quantity = "instants of events, s; dop853 at 1e-12";
     let case = "coulomb_stick_slip_belt";
-    vec![Outcome::worst(case, quantity, deviations)]
+    vec![Outcome::worst(case, "10", quantity, deviations)]
 }

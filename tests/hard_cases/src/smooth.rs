@@ -6,7 +6,7 @@ use bgdyn_sim::{Dop853, Moment, Plant, Run, Scene, Space};
 use crate::follow::{alike, controlled, of};
 use crate::outcome::Outcome;
 use crate::reference::{Reference, reference};
-use crate::scenes;
+use crate::{Extent, scenes};
 
 /// A sample of which rounding excuses a deviation as large as this says nothing.
 const LARGEST: f64 = 1e-3;
@@ -31,13 +31,18 @@ where
         .filter(|&t| t < LARGEST)
         .collect();
     let deviations = reference.all(&found, |k| kept[k]);
-    vec![Outcome::worst(case, "state; dop853 at 1e-13", deviations)]
+    vec![Outcome::worst(
+        case,
+        "6",
+        "state; dop853 at 1e-13",
+        deviations,
+    )]
 }
 
 macro_rules! smooth {
     ($(#[$doc:meta])* $name:ident, $file:literal, $model:ident) => {
         $(#[$doc])*
-        pub fn $name() -> Vec<Outcome> {
+        pub(crate) fn $name(_: Extent) -> Vec<Outcome> {
             let reference = reference!($file);
             let tolerances = reference.tolerances();
             let scene = scenes::$name::$model::<f64>::default();
@@ -78,7 +83,7 @@ smooth!(
 );
 
 /// The pendulum of IFToMM's problem A01, to 1e-12 in every sample.
-pub fn a01_simple_pendulum() -> Vec<Outcome> {
+pub(crate) fn a01_simple_pendulum(_: Extent) -> Vec<Outcome> {
     let reference = reference!("a01_simple_pendulum");
     let tolerances = vec![1e-12; reference.times.len()];
     let scene = scenes::a01_simple_pendulum::A01SimplePendulum::<f64>::default();

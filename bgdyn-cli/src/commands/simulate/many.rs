@@ -1,0 +1,146 @@
+//! The options and the report of a batch.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail};
+use bgdyn_codegen::scene::Scene;
+use bgdyn_codegen::system::System;
+use clap::Args;
+
+use super::number;
+use crate::output::print;
+use crate::simulate::progress::Progress;
+use crate::simulate::varied::{self, Given, Varied};
+use crate::simulate::{Column, Evaluated, Way, batch, batch_plot};
+use crate::spec_file::read_text;
+use crate::usage::Usage;
+
+/// Failed runs that are told one by one.
+const FAILURES: usize = 10;
+
+/// Many runs in place of one.
+#[derive(Args)]
+#[command(
+    next_help_heading = "Many runs: NAME_batch.csv and NAME_batch.svg in place of one run's files"
+)]
+pub(super) struct Many {
+    /// One run per row of a table with commas: names of initial states and parameters in its first
+    /// line, values in SI units
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "random"])]
+    batch: Option<PathBuf>,
+    /// N values from FROM to TO, both included. May be repeated: all combinations
+    #[arg(
+        long,
+        value_name = "NAME=FROM:TO:N",
+        conflicts_with = "random",
+        allow_hyphen_values = true
+    )]
+    sweep: Vec<String>,
+    /// A value between LOW and HIGH by chance, evenly. May be repeated
+    #[arg(
+        long,
+        value_name = "NAME=LOW:HIGH",
+        requires = "runs",
+        allow_hyphen_values = true
+    )]
+    random: Vec<String>,
+    /// How many runs by chance
+    #[arg(long, value_name = "N", requires = "random")]
+    runs: Option<usize>,
+    /// What chance begins with: the same seed, the same runs
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// How many runs go at once; as many as there are cores without it. The results are the same
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+/// What a batch is made of.
+pub(super) struct Batch<'a> {
+    pub(super) name: &'a str,
+    pub(super) out: &'a Path,
+    pub(super) system: &'a System,
+    pub(super) plant: &'a Evaluated<'a>,
+    pub(super) way: Way,
+    pub(super) columns: &'a [Column],
+}
+
+impl Many {
+    /// The runs asked for; `None` where it is one run only.
+    pub(super) fn varied(&self, scene: &Scene) -> Result<Option<Varied>> {
+        if let Some(path) = &self.batch {
+            let text = read_text(path)?;
+            return varied::table(scene, &text, &path.display().to_string()).map(Some);
+        }
+        if !self.sweep.is_empty() {
+            return Ok(Some(varied::grid(scene, &self.sweep)?));
+        }
+        if let Some(runs) = self.runs {
+            let varied = varied::chance(scene, &self.random, runs, self.seed)?;
+            return Ok(Some(varied));
+        }
+        Ok(None)
+    }
+
+    /// Makes the runs, writes table and plot.
+    pub(super) fn run(&self, of: &Batch<'_>, given: &[Given], varied: &Varied) -> Result<()> {
+        let twice = varied.quantities.iter();
+        if let Some(s) = twice.clone().find(|&s| given.iter().any(|(g, _)| g == s)) {
+            let message = format!("`{}` is set, and varied as well: leave one of them", s.name);
+            return Err(Usage(message).into());
+        }
+        let threads = self.threads.unwrap_or_else(bgdyn_sim::batch::cores);
+        let total = varied.runs.len();
+        let mut progress = Progress::new("runs");
+        let watch = |done: usize| progress.at(done as f64 / total as f64);
+        let told = batch::run(
+            of.system,
+            of.plant,
+            &of.way,
+            (given, varied),
+            threads,
+            watch,
+        );
+        drop(progress);
+        let out = of.out;
+        std::fs::create_dir_all(out)
+            .with_context(|| format!("the folder {} cannot be made", out.display()))?;
+        let [table, picture] =
+            ["csv", "svg"].map(|kind| out.join(format!("{}_batch.{kind}", of.name)));
+        let shown = |path: &Path| format!("{} cannot be written", path.display());
+        std::fs::write(&table, batch::csv(of.columns, varied, &told))
+            .with_context(|| shown(&table))?;
+        batch_plot::draw(&picture, of.name, of.columns, (varied, &told))
+            .map_err(|e| anyhow!("{}: {e}", shown(&picture)))?;
+        print(&format!(
+            "written: {} ({total} runs), {}\n",
+            table.display(),
+            picture.display()
+        ))?;
+        let drift = told.iter().filter(|run| run.failure.is_none());
+        let drift = drift.map(|run| run.drift).fold(0.0, f64::max);
+        print(&format!(
+            "largest drift: {} of the energy that moved\n",
+            number(drift)
+        ))?;
+        let failed: Vec<_> = told.iter().enumerate().collect();
+        let failed: Vec<_> = failed
+            .into_iter()
+            .filter_map(|(i, run)| Some((i, run, run.failure.as_ref()?)))
+            .collect();
+        for (i, run, reason) in failed.iter().take(FAILURES) {
+            let values = varied.quantities.iter().zip(&varied.runs[*i]);
+            let values: Vec<String> = values.map(|(s, x)| format!("{} = {x:?}", s.name)).collect();
+            let (run, t) = (i + 1, run.t);
+            print(&format!(
+                "run {run}, {}: ends at t = {t} s: {reason}\n",
+                values.join(", ")
+            ))?;
+        }
+        match failed.len() {
+            0 => Ok(()),
+            n => bail!("{n} of {total} runs failed"),
+        }
+    }
+}

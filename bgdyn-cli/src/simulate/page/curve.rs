@@ -1,0 +1,43 @@
+//! A quantity over time in few characters.
+
+use serde::Serialize;
+
+use super::super::difference::range;
+use super::super::record::Column;
+
+/// Counts that a curve's range is divided into.
+pub(super) const LEVELS: f64 = 1e5;
+/// What is larger is not shown.
+const LARGEST: f64 = 1e250;
+
+/// Values over time: whole numbers from 0 to [`LEVELS`] over their range, none where there is no
+/// number.
+#[derive(Serialize)]
+pub(super) struct Curve {
+    name: String,
+    unit: &'static str,
+    low: f64,
+    high: f64,
+    counts: Vec<Option<u32>>,
+}
+
+impl Curve {
+    pub(super) fn new(column: &Column, values: impl Iterator<Item = f64>) -> Self {
+        let values: Vec<f64> = values.collect();
+        let shown = |x: &f64| x.is_finite() && x.abs() < LARGEST;
+        let (low, high) = range(values.iter().copied().filter(shown));
+        let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
+        let span = high - low;
+        let count = |x: &f64| {
+            let part = if span > 0.0 { (x - low) / span } else { 0.0 };
+            shown(x).then(|| (LEVELS * part).round() as u32)
+        };
+        Curve {
+            name: column.name.clone(),
+            unit: column.unit,
+            low,
+            high,
+            counts: values.iter().map(count).collect(),
+        }
+    }
+}

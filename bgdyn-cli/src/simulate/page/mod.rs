@@ -1,0 +1,349 @@
+//! The page that replays a run: one file with everything in it, for a browser without a network.
+
+mod body;
+mod curve;
+
+use bgdyn_codegen::bond_graph::SiteId;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{Options, function};
+use bgdyn_codegen::system::System;
+use serde::Serialize;
+
+use self::body::{Bodies, Body, End};
+use self::curve::{Curve, LEVELS};
+use super::difference::range;
+use super::record::{Column, Record, Row};
+use super::report::changes;
+
+/// Poses that a page holds: more rows than this allows are thinned out.
+const POSES: usize = 36_000;
+/// Rows that a page holds.
+const ROWS: usize = 4_000;
+/// Counts of a quaternion's components.
+const TURN: f64 = 1e5;
+/// Digits of an instant.
+const DIGITS: usize = 9;
+
+const PARTS: [&str; 5] = [
+    include_str!("data.js"),
+    include_str!("solid.js"),
+    include_str!("view.js"),
+    include_str!("plots.js"),
+    include_str!("player.js"),
+];
+
+/// What is shown of a run beside its numbers.
+pub(crate) struct Words {
+    pub(crate) name: String,
+    pub(crate) method: String,
+    pub(crate) report: String,
+}
+
+#[derive(Serialize)]
+struct Data<'a> {
+    name: &'a str,
+    description: &'a str,
+    method: &'a str,
+    report: &'a str,
+    failure: Option<String>,
+    levels: f64,
+    /// What a count of a place is, m.
+    grain: f64,
+    t: Vec<f64>,
+    bodies: Vec<Body>,
+    between: Vec<Between>,
+    outputs: Vec<Curve>,
+    states: Vec<Curve>,
+    modes: Vec<Modes>,
+    events: Vec<Mark>,
+    energy: Energy,
+}
+
+/// What hangs between two places.
+#[derive(Serialize)]
+struct Between {
+    name: String,
+    kind: &'static str,
+    ends: [End; 2],
+    /// The least distance of the ends in the run, m.
+    shortest: f64,
+}
+
+#[derive(Serialize)]
+struct Modes {
+    name: String,
+    at: Vec<i8>,
+}
+
+#[derive(Serialize)]
+struct Mark {
+    t: f64,
+    text: String,
+}
+
+#[derive(Serialize)]
+struct Energy {
+    t: Vec<f64>,
+    curves: Vec<Curve>,
+}
+
+/// A run as a page.
+pub(crate) fn page(system: &System, columns: &[Column], run: &Record, words: &Words) -> String {
+    let data = serde_json::to_string(&data(system, columns, run, words));
+    // In a page `<` could end the data.
+    let data = data.unwrap_or_default().replace('<', "\\u003c");
+    let mut page = String::new();
+    let mut rest = include_str!("page.html");
+    let parts = [
+        ("@NAME@", words.name.as_str()),
+        ("@STYLE@", include_str!("style.css")),
+        ("@DATA@", &data),
+        ("@SCRIPT@", &PARTS.concat()),
+    ];
+    for (mark, text) in parts {
+        let (before, after) = rest.split_once(mark).unwrap_or((rest, ""));
+        page += before;
+        page += text;
+        rest = after;
+    }
+    page + rest
+}
+
+fn data<'a>(system: &'a System, columns: &[Column], run: &Record, words: &'a Words) -> Data<'a> {
+    let rows = shown(system, run);
+    let (bodies, grain) = replayed(system, &rows);
+    let between = between(system, &bodies, grain, rows.len());
+    let outputs = columns.iter().enumerate();
+    let outputs = outputs.map(|(i, c)| Curve::new(c, rows.iter().map(|row| row.values[i])));
+    let mark = |event: &super::Event| Mark {
+        t: instant(event.t),
+        text: changes(system, event),
+    };
+    Data {
+        name: &words.name,
+        description: system.scene.description.as_deref().unwrap_or(""),
+        method: &words.method,
+        report: &words.report,
+        failure: run
+            .failure
+            .as_ref()
+            .map(|reason| format!("ends early at t = {} s: {reason}", run.t)),
+        levels: LEVELS,
+        grain,
+        t: rows.iter().map(|row| instant(row.t)).collect(),
+        outputs: outputs.collect(),
+        states: states(system, &rows),
+        modes: modes(system, &rows),
+        events: run.events.iter().map(mark).collect(),
+        energy: energy(run),
+        between,
+        bodies: bodies.all,
+    }
+}
+
+/// The rows that a page has room for: all of them, or evenly chosen ones with the last.
+fn shown<'r>(system: &System, run: &'r Record) -> Vec<&'r Row> {
+    let bodies = system.scene.mechanism.nv().max(1);
+    let room = (POSES / bodies).clamp(100, ROWS);
+    let stride = run.rows.len().div_ceil(room).max(1);
+    let last = run.rows.len().saturating_sub(1);
+    let kept = |&(i, _): &(usize, &Row)| i % stride == 0 || i == last;
+    let rows = run.rows.iter().enumerate().filter(kept);
+    rows.map(|(_, row)| row).collect()
+}
+
+/// A time with so many digits as a page needs.
+fn instant(t: f64) -> f64 {
+    format!("{t:.DIGITS$e}").parse().unwrap_or(t)
+}
+
+/// The bodies with their poses by the mechanism's own functions, and what a count of a place is, m.
+fn replayed(system: &System, rows: &[&Row]) -> (Bodies, f64) {
+    let mechanism = &system.scene.mechanism;
+    let joints = mechanism.nv();
+    let travel: Vec<(f64, f64)> = (0..joints)
+        .map(|j| range(rows.iter().map(|row| row.y[j]).filter(|q| q.is_finite())))
+        .map(
+            |(low, high)| {
+                if low <= high { (low, high) } else { (0.0, 0.0) }
+            },
+        )
+        .collect();
+    let mut bodies = Bodies::new(&system.scene, &travel);
+    let poses: Vec<Vec<[f64; 12]>> = bodies
+        .all
+        .iter()
+        .filter_map(|body| body.link)
+        .map(|link| poses(system, link, rows))
+        .collect();
+    let places = poses.iter().flatten().flat_map(|pose| &pose[9..]);
+    let most = places.fold(0.0_f64, |most, x| most.max(x.abs()));
+    let grain = if most > 0.0 {
+        10_f64.powi(most.log10().ceil() as i32 - 5)
+    } else {
+        1e-5
+    };
+    let moving = bodies.all.iter_mut().filter(|body| body.link.is_some());
+    for (body, poses) in moving.zip(poses) {
+        let place = poses.iter().flat_map(|pose| &pose[9..]);
+        body.place = Some(place.map(|x| (x / grain).round() as i64).collect());
+        body.turn = Some(turns(&poses));
+    }
+    (bodies, grain)
+}
+
+/// Poses of a link at all rows: its axes row by row, its origin. Where there is none, the one before.
+fn poses(system: &System, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
+    let mechanism = &system.scene.mechanism;
+    let pose = function(mechanism, Method::Pose(SiteId(link)), &Options::default());
+    let pose = pose.expect("every formulation knows poses");
+    let mut last = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    let at = |row: &&Row| {
+        let inputs = bgdyn_codegen::expr::Inputs {
+            q: row.y.as_slice()[..mechanism.nq()].to_vec(),
+            ..Default::default()
+        };
+        let (values, _) = pose.evaluate::<f64>(inputs);
+        if values.iter().all(|x| x.is_finite() && x.abs() < 1e9) {
+            last.copy_from_slice(&values);
+        }
+        last
+    };
+    rows.iter().map(at).collect()
+}
+
+/// Quaternions of rotation matrices, each on the side of the one before.
+fn turns(poses: &[[f64; 12]]) -> Vec<i64> {
+    let mut before = [1.0, 0.0, 0.0, 0.0];
+    let mut counts = Vec::with_capacity(4 * poses.len());
+    for pose in poses {
+        let mut q = quaternion(pose);
+        if q.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
+            q = q.map(|x| -x);
+        }
+        counts.extend(q.map(|x| (TURN * x).round() as i64));
+        before = q;
+    }
+    counts
+}
+
+/// The unit quaternion w, x, y, z of a rotation matrix, from its largest component (Shepperd 1978).
+fn quaternion(r: &[f64; 12]) -> [f64; 4] {
+    let r = |i: usize, j: usize| r[3 * i + j];
+    let trace = r(0, 0) + r(1, 1) + r(2, 2);
+    let squares = [
+        1.0 + trace,
+        1.0 + 2.0 * r(0, 0) - trace,
+        1.0 + 2.0 * r(1, 1) - trace,
+        1.0 + 2.0 * r(2, 2) - trace,
+    ];
+    let largest = (1..4).fold(0, |k, i| if squares[i] > squares[k] { i } else { k });
+    let s = squares[largest].max(1e-300).sqrt();
+    let (half, k) = (0.5 * s, 0.5 / s);
+    let skew = [r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)];
+    if largest == 0 {
+        return [half, k * skew[0], k * skew[1], k * skew[2]];
+    }
+    let i = largest - 1;
+    let mut q = [k * skew[i], 0.0, 0.0, 0.0];
+    for j in 0..3 {
+        q[1 + j] = if i == j {
+            half
+        } else {
+            k * (r(i, j) + r(j, i))
+        };
+    }
+    q
+}
+
+/// Springs, dampers and cylinders between two places.
+fn between(system: &System, bodies: &Bodies, grain: f64, rows: usize) -> Vec<Between> {
+    let mechanism = &system.scene.mechanism;
+    let found = system.scene.elements.iter().filter_map(|element| {
+        let [from, to] = element.names("between")?;
+        let ends = [bodies.end(mechanism, from)?, bodies.end(mechanism, to)?];
+        let distance = |row| {
+            let [a, b] = ends.map(|end| in_world(&bodies.all[end.body], end.at, grain, row));
+            (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+        };
+        Some(Between {
+            name: element.name.clone(),
+            kind: element.effect.keyword(),
+            ends,
+            shortest: (0..rows).map(distance).fold(f64::INFINITY, f64::min),
+        })
+    });
+    found.collect()
+}
+
+/// A place on a body in the world at a row, as the page unpacks it.
+fn in_world(body: &Body, at: [f64; 3], grain: f64, row: usize) -> [f64; 3] {
+    let (Some(place), Some(turn)) = (&body.place, &body.turn) else {
+        return at;
+    };
+    let q: [f64; 4] = std::array::from_fn(|k| turn[4 * row + k] as f64 / TURN);
+    let [w, x, y, z] = q;
+    // p + 2 u × (u × p + w p), u the vector part.
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]
+    };
+    let u = [x, y, z];
+    let inner = cross(u, at);
+    let twice = cross(u, std::array::from_fn(|k| inner[k] + w * at[k]));
+    std::array::from_fn(|k| place[3 * row + k] as f64 * grain + at[k] + 2.0 * twice[k])
+}
+
+/// Inputs, coordinates beside the joints and first-order states.
+fn states(system: &System, rows: &[&Row]) -> Vec<Curve> {
+    let layout = &system.scene.layout;
+    let joints = system.scene.mechanism.nv();
+    let inputs = layout.inputs.iter().enumerate().map(|(i, part)| {
+        let column = column(&part.name, part.dimension.si());
+        Curve::new(&column, rows.iter().map(|row| row.inputs[i]))
+    });
+    let parts = super::record::state_columns(system);
+    let beside = |i: usize| (i >= joints && i < layout.nq()) || i >= layout.nq() + joints;
+    let own = parts.iter().enumerate().filter(|&(i, _)| beside(i));
+    let own = own.map(|(i, column)| Curve::new(column, rows.iter().map(|row| row.y[i])));
+    inputs.chain(own).collect()
+}
+
+fn column(name: &str, unit: &'static str) -> Column {
+    Column {
+        name: name.to_owned(),
+        unit,
+    }
+}
+
+fn modes(system: &System, rows: &[&Row]) -> Vec<Modes> {
+    let modes = system.scene.layout.modes.iter().enumerate();
+    let modes = modes.map(|(i, mode)| Modes {
+        name: mode.name.clone(),
+        at: rows.iter().map(|row| row.modes[i] as i8).collect(),
+    });
+    modes.collect()
+}
+
+fn energy(run: &Record) -> Energy {
+    let stride = run.energy.len().div_ceil(ROWS).max(1);
+    let kept = run.energy.iter().enumerate();
+    let last = run.energy.len().saturating_sub(1);
+    let kept = kept.filter(|&(i, _)| i % stride == 0 || i == last);
+    let kept: Vec<_> = kept.map(|(_, at)| at).collect();
+    let curve = |name, part: fn(&super::record::EnergyAt) -> f64| {
+        Curve::new(&column(name, "J"), kept.iter().map(|at| part(at)))
+    };
+    Energy {
+        t: kept.iter().map(|at| instant(at.t)).collect(),
+        curves: vec![
+            curve("supplied", |at| at.supplied),
+            curve("stored, change", |at| at.stored),
+            curve("dissipated", |at| at.dissipated),
+            curve("stored + dissipated − supplied", |at| at.drift),
+        ],
+    }
+}

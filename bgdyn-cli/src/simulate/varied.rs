@@ -1,0 +1,241 @@
+//! What runs are given in place of what the scene says: by name on the command line, in a file, over a
+//! grid, by chance.
+
+use anyhow::{Result, anyhow};
+use bgdyn_codegen::scene::{Scene, Settable, SettableKind};
+use bgdyn_runtime::Dd;
+
+use crate::usage::Usage;
+
+/// Runs that a batch may have.
+const RUNS: usize = 1_000_000;
+
+/// A quantity and its value, SI units.
+pub(crate) type Given = (Settable, Dd);
+
+/// Quantities, and their values run by run.
+#[derive(Default)]
+pub(crate) struct Varied {
+    pub(crate) quantities: Vec<Settable>,
+    pub(crate) runs: Vec<Vec<f64>>,
+}
+
+impl Varied {
+    /// What a run is given, after what all of them are given.
+    pub(crate) fn given(&self, fixed: &[Given], run: &[f64]) -> Vec<Given> {
+        let own = self.quantities.iter().zip(run);
+        let own = own.map(|(s, &x)| (s.clone(), Dd::from_f64(x)));
+        fixed.iter().cloned().chain(own).collect()
+    }
+}
+
+/// `NAME=VALUE`s of the options `--parameter` and `--initial`.
+pub(crate) fn fixed(
+    scene: &Scene,
+    parameters: &[String],
+    initial: &[String],
+) -> Result<Vec<Given>, Usage> {
+    let mut found: Vec<Given> = Vec::new();
+    let parameters = parameters.iter().map(|text| ("parameter", text));
+    let initial = initial.iter().map(|text| ("initial", text));
+    for (option, text) in parameters.chain(initial) {
+        let wrong = |what: String| Usage(format!("`--{option} {text}`: {what}"));
+        let (name, value) = text
+            .split_once('=')
+            .ok_or_else(|| wrong("write NAME=VALUE".into()))?;
+        let is_parameter = option == "parameter";
+        let what = if is_parameter {
+            "parameter"
+        } else {
+            "part of the state"
+        };
+        let wanted = |kind: SettableKind| kind.is_parameter() == is_parameter;
+        let settable = scene
+            .settable_named(what, name.trim(), wanted)
+            .map_err(wrong)?;
+        if found.iter().any(|(s, _)| *s == settable) {
+            return Err(wrong(format!("`{}` is set twice", settable.name)));
+        }
+        let value = finite(value).ok_or_else(|| wrong(no_number(value, &settable)))?;
+        found.push((settable, Dd::from_f64(value)));
+    }
+    Ok(found)
+}
+
+/// Runs of a table: names of quantities in the first line, a run per further line.
+pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<Varied> {
+    let mut lines = text.lines().enumerate().filter(|(_, line)| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with('#')
+    });
+    let (_, header) = lines
+        .next()
+        .ok_or_else(|| anyhow!("{shown} is empty: write names of quantities in its first line"))?;
+    let mut varied = Varied::default();
+    for field in header.trim_start_matches('\u{feff}').split(',') {
+        let quantity = headed(scene, field.trim()).map_err(|e| anyhow!("{shown}:1: {e}"))?;
+        if varied.quantities.contains(&quantity) {
+            return Err(anyhow!("{shown}:1: `{}` stands there twice", quantity.name));
+        }
+        varied.quantities.push(quantity);
+    }
+    for (i, line) in lines {
+        let at = i + 1;
+        let fields: Vec<&str> = line.split(',').collect();
+        let (found, wanted) = (fields.len(), varied.quantities.len());
+        if found != wanted {
+            return Err(anyhow!(
+                "{shown}:{at}: {found} values for {wanted} quantities"
+            ));
+        }
+        let values = fields.iter().zip(&varied.quantities).map(|(text, s)| {
+            finite(text).ok_or_else(|| anyhow!("{shown}:{at}: {}", no_number(text, s)))
+        });
+        varied.runs.push(values.collect::<Result<_>>()?);
+    }
+    match varied.runs.len() {
+        0 => Err(anyhow!(
+            "{shown} has no runs: write one line of values per run"
+        )),
+        n if n > RUNS => Err(anyhow!("{shown} has {n} runs: more than {RUNS}")),
+        _ => Ok(varied),
+    }
+}
+
+/// A column's name, with or without its unit: `shoulder`, `shoulder [rad]`.
+fn headed(scene: &Scene, field: &str) -> Result<Settable, String> {
+    let (name, unit) = match field.split_once('[') {
+        Some((name, rest)) => (name.trim(), Some(rest.trim_end_matches(']').trim())),
+        None => (field, None),
+    };
+    let quantity = named(scene, name)?;
+    let own = if quantity.unit.is_empty() {
+        "1"
+    } else {
+        quantity.unit
+    };
+    match unit.filter(|unit| *unit != own) {
+        Some(unit) => Err(format!("`{name}` in {unit}: values are in SI units, {own}")),
+        None => Ok(quantity),
+    }
+}
+
+fn named(scene: &Scene, name: &str) -> Result<Settable, String> {
+    scene.settable_named("part of the state or parameter", name, |_| true)
+}
+
+/// Runs over a grid: `NAME=FROM:TO:N` each, the last one fastest.
+pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<Varied, Usage> {
+    let mut varied = Varied::default();
+    varied.runs.push(vec![]);
+    for text in sweeps {
+        let wrong = |what: String| Usage(format!("`--sweep {text}`: {what}"));
+        let (name, range) = text
+            .split_once('=')
+            .ok_or_else(|| wrong("write NAME=FROM:TO:N".into()))?;
+        let quantity = new(scene, name, &varied).map_err(wrong)?;
+        let parts: Vec<&str> = range.split(':').collect();
+        let [from, to, n] = parts.as_slice() else {
+            return Err(wrong("write NAME=FROM:TO:N".into()));
+        };
+        let [from, to] = ends(from, to, &quantity).map_err(wrong)?;
+        let n: usize = n
+            .trim()
+            .parse()
+            .ok()
+            .filter(|n| *n >= 2)
+            .ok_or_else(|| wrong(format!("`{n}`: write how many values, 2 or more")))?;
+        let total = varied.runs.len().saturating_mul(n);
+        if total > RUNS {
+            return Err(wrong(format!("that makes {total} runs: more than {RUNS}")));
+        }
+        let value = |k: usize| match k + 1 == n {
+            true => to,
+            false => from + (to - from) * (k as f64 / (n - 1) as f64),
+        };
+        let longer = |run: &Vec<f64>, k| run.iter().copied().chain([value(k)]).collect();
+        varied.runs = varied
+            .runs
+            .iter()
+            .flat_map(|run| (0..n).map(move |k| longer(run, k)))
+            .collect();
+        varied.quantities.push(quantity);
+    }
+    Ok(varied)
+}
+
+/// Runs by chance: `NAME=LOW:HIGH` each, evenly distributed and independent.
+pub(crate) fn chance(
+    scene: &Scene,
+    ranges: &[String],
+    runs: usize,
+    seed: u64,
+) -> Result<Varied, Usage> {
+    let mut varied = Varied::default();
+    let mut of = Vec::new();
+    for text in ranges {
+        let wrong = |what: String| Usage(format!("`--random {text}`: {what}"));
+        let usage = "write NAME=LOW:HIGH";
+        let (name, range) = text.split_once('=').ok_or_else(|| wrong(usage.into()))?;
+        let quantity = new(scene, name, &varied).map_err(wrong)?;
+        let (low, high) = range.split_once(':').ok_or_else(|| wrong(usage.into()))?;
+        of.push(ends(low, high, &quantity).map_err(wrong)?);
+        varied.quantities.push(quantity);
+    }
+    if !(1..=RUNS).contains(&runs) {
+        return Err(Usage(format!(
+            "`--runs {runs}`: write a number from 1 to {RUNS}"
+        )));
+    }
+    let mut random = SplitMix(seed);
+    let one = |random: &mut SplitMix| {
+        let value = |&[low, high]: &[f64; 2]| low + (high - low) * random.number();
+        of.iter().map(value).collect()
+    };
+    varied.runs = (0..runs).map(|_| one(&mut random)).collect();
+    Ok(varied)
+}
+
+fn new(scene: &Scene, name: &str, varied: &Varied) -> Result<Settable, String> {
+    let quantity = named(scene, name.trim())?;
+    match varied.quantities.contains(&quantity) {
+        true => Err(format!("`{}` is varied twice", quantity.name)),
+        false => Ok(quantity),
+    }
+}
+
+fn ends(low: &str, high: &str, quantity: &Settable) -> Result<[f64; 2], String> {
+    let end = |text: &str| finite(text).ok_or_else(|| no_number(text, quantity));
+    Ok([end(low)?, end(high)?])
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|x: &f64| x.is_finite())
+}
+
+fn no_number(text: &str, of: &Settable) -> String {
+    let unit = if of.unit.is_empty() {
+        String::new()
+    } else {
+        format!(", in {}", of.unit)
+    };
+    format!(
+        "`{}` is no value of `{}`: write a finite number{unit}",
+        text.trim(),
+        of.name
+    )
+}
+
+/// SplitMix64 (Steele, Lea and Flood 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    /// From 0 up to 1, in steps of 2⁻⁵³.
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}

@@ -1,0 +1,154 @@
+//! Sines and cosines: a pair for each angle, several angles in one call.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::code::Binding;
+use super::number;
+use super::writer::Writer;
+use crate::expr::{Expr, Leaf, Node, NodeId};
+
+/// Angles of one call at the most: the lanes of the widest register.
+const AT_ONCE: usize = 8;
+
+/// The variables that hold the sine and cosine of an angle.
+#[derive(Clone)]
+pub(super) struct Pair {
+    pub(super) sine: Ident,
+    pub(super) cosine: Ident,
+}
+
+impl Writer<'_> {
+    /// Sine and cosine of an angle, computed once as a pair. An angle that needs nothing but arguments
+    /// is computed together with the next ones of its kind.
+    pub(super) fn sine_cosine(&mut self, angle: NodeId) -> Pair {
+        if let Some(pair) = self.sines.get(&angle) {
+            return pair.clone();
+        }
+        let together = match self.is_given(angle) {
+            true => self.next_given(angle),
+            false => vec![angle],
+        };
+        let pairs: Vec<Pair> = together.iter().map(|&a| self.pair(a)).collect();
+        let parts: Vec<TokenStream> = (together.iter().zip(&pairs))
+            .map(|(&a, pair)| self.used(a, pair))
+            .collect();
+        // Arguments stand in the graph where they are first used, which may be further on.
+        for &angle in &together {
+            self.bound(angle);
+        }
+        let terms: Vec<_> = together.iter().map(|&a| self.terms(a)).collect();
+        let statement = match (terms.as_slice(), parts.as_slice()) {
+            ([(angle, None)], [part]) => quote! { let #part = T::sin_cos(#(#angle)*); },
+            ([(angles, Some(offset))], [part]) => {
+                quote! { let #part = T::sin_cos_sum(&[#(#angles),*], #offset); }
+            }
+            _ => {
+                let none = quote! { (0.0, 0.0) };
+                let angles = terms.iter().map(|(angles, _)| quote! { &[#(#angles),*] });
+                let offsets = terms
+                    .iter()
+                    .map(|(_, offset)| offset.as_ref().unwrap_or(&none));
+                quote! { let [#(#parts),*] = T::sin_cos_all([#(#angles),*], [#(#offsets),*]); }
+            }
+        };
+        self.push(angle, statement);
+        self.sines
+            .extend(together.into_iter().zip(pairs.iter().cloned()));
+        pairs[0].clone()
+    }
+
+    /// Whether an angle is one of the arguments, or a sum of them.
+    fn is_given(&self, angle: NodeId) -> bool {
+        let is_leaf = |id: NodeId| matches!(self.graph.node(id), Node::Leaf(_));
+        match self.graph.node(angle) {
+            Node::Angle(terms, ..) => terms.iter().all(|t| is_leaf(t.node)),
+            _ => is_leaf(angle),
+        }
+    }
+
+    /// This angle and the next ones that need nothing but arguments and are not computed yet, in the
+    /// order in which they are needed.
+    fn next_given(&self, angle: NodeId) -> Vec<NodeId> {
+        let mut found = vec![angle];
+        for i in (0..self.needed.len()).filter(|&i| self.needed[i]) {
+            if let Node::Sin(a) | Node::Cos(a) = self.graph.node(NodeId(i as u32))
+                && !found.contains(a)
+                && !self.sines.contains_key(a)
+                && self.is_given(*a)
+            {
+                found.push(*a);
+                if found.len() == AT_ONCE {
+                    break;
+                }
+            }
+        }
+        found
+    }
+
+    /// Sees to the code of the arguments in an angle.
+    fn bound(&mut self, angle: NodeId) {
+        let mut read = vec![angle];
+        self.graph.node(angle).for_each_operand(|a| read.push(a));
+        for id in read {
+            if matches!(self.graph.node(id), Node::Leaf(_)) && self.code[id.0 as usize].is_none() {
+                self.node(id);
+            }
+        }
+    }
+
+    /// Variables for sine and cosine of an angle.
+    fn pair(&mut self, angle: NodeId) -> Pair {
+        let name = self.angle_name(angle);
+        Pair {
+            sine: self.names.named(&format!("sin_{name}")),
+            cosine: self.names.named(&format!("cos_{name}")),
+        }
+    }
+
+    /// The pattern that binds what is used of a pair.
+    fn used(&self, angle: NodeId, Pair { sine, cosine }: &Pair) -> TokenStream {
+        let used = |node: &Node| {
+            let id = self.graph.find(node);
+            id.is_some_and(|id| self.uses[id.0 as usize] > 0)
+        };
+        match (used(&Node::Sin(angle)), used(&Node::Cos(angle))) {
+            (true, true) => quote! { (#sine, #cosine) },
+            (true, false) => quote! { (#sine, _) },
+            (false, true) => quote! { (_, #cosine) },
+            (false, false) => quote! { _ },
+        }
+    }
+
+    /// The terms of an angle; its offset if it is a sum.
+    fn terms(&mut self, angle: NodeId) -> (Vec<TokenStream>, Option<TokenStream>) {
+        let Node::Angle(terms, offset, negative) = self.graph.node(angle).clone() else {
+            return (vec![self.operand(Expr::plus(angle), Binding::Sum)], None);
+        };
+        let terms = terms.iter();
+        let terms = terms.map(|&t| self.operand(t, Binding::Sum)).collect();
+        let offset = if negative {
+            -offset.value()
+        } else {
+            offset.value()
+        };
+        let (hi, lo) = (number(offset.hi()), number(offset.lo()));
+        (terms, Some(quote! { (#hi, #lo) }))
+    }
+
+    /// The joints whose angles are summed: `shoulder_elbow`.
+    fn angle_name(&self, angle: NodeId) -> String {
+        let joint = |id: NodeId| match self.graph.node(id) {
+            Node::Leaf(Leaf::Position(j)) => self.naming.joints[*j].to_string(),
+            _ => "angle".to_string(),
+        };
+        match self.graph.node(angle) {
+            Node::Angle(terms, ..) => terms
+                .iter()
+                .map(|t| joint(t.node))
+                .collect::<Vec<_>>()
+                .join("_"),
+            _ => joint(angle),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Joins a product and the addition that alone reads it in one node, which a machine with fused
+//! multiply-adds executes as one instruction and rounds once.
+
+use super::{Expr, Graph, Node, NodeId, QuickMap, cost};
+
+/// Copies of `outputs` in a graph of their own, with every addition of a product that nothing else
+/// reads as a [`Node::MulAdd`]. The count of operations stays. Of two such products the one that is
+/// there later is joined: the other is done by then.
+pub fn fused(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+    let reads = cost::reads(from, outputs);
+    let ready = cost::ready(from, &reads);
+    let is_free = |id: NodeId| reads[id.0 as usize] == 1 && matches!(from.node(id), Node::Mul(..));
+    // Which operand of an addition goes in with it; the second one where `true`.
+    let joined = |node: &Node| {
+        let Node::Add(a, b) = node else { return None };
+        match (is_free(*a), is_free(b.node)) {
+            (true, true) => Some(ready[b.node.0 as usize] >= ready[a.0 as usize]),
+            (first, second) => (first || second).then_some(second),
+        }
+    };
+    let mut inside = vec![false; from.len()];
+    for node in (0..from.len())
+        .filter(|&i| reads[i] > 0)
+        .map(|i| &from.nodes[i])
+    {
+        if let (Some(second), Node::Add(a, b)) = (joined(node), node) {
+            inside[if second { b.node } else { *a }.0 as usize] = true;
+        }
+    }
+    let mut to = Graph::default();
+    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
+    let titles = to.adopt_sections(from);
+    for i in (0..from.len()).filter(|&i| reads[i] > 0 && !inside[i]) {
+        let id = NodeId(i as u32);
+        to.reopen_section(from, id, titles);
+        let at = |e: Expr| copies[&e.node].flipped(e.negative);
+        let node = from.node(id);
+        let copy = match (joined(node), node) {
+            (Some(second), Node::Add(a, b)) => {
+                let a = Expr::plus(*a);
+                let (product, rest) = if second { (*b, a) } else { (a, *b) };
+                let Node::Mul(x, y) = from.node(product.node) else {
+                    unreachable!("only products are joined")
+                };
+                let x = at(Expr::plus(*x)).flipped(product.negative);
+                let (y, rest) = (at(Expr::plus(*y)), at(rest));
+                to.mul_add(x, y, rest)
+            }
+            _ => to.rebuilt(node, at),
+        };
+        if let Some(name) = from.name(id) {
+            to.set_name(copy.node, || name.to_string());
+        }
+        copies.insert(id, copy);
+    }
+    let outputs = outputs.iter();
+    let outputs = outputs.map(|e| copies[&e.node].flipped(e.negative));
+    (to, outputs.collect())
+}

@@ -1,0 +1,159 @@
+//! What a run can begin with in place of what the scene's file gives: parts of the state and run-time
+//! parameters, by name.
+
+use bgdyn_runtime::Dd;
+
+use super::Scene;
+use crate::fault::{Fault, Faults, Place, unknown_name};
+
+/// Something that a run can be given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settable {
+    /// Its name.
+    pub name: String,
+    /// Its SI unit; nothing for a pure number.
+    pub unit: &'static str,
+    /// What it is.
+    pub kind: SettableKind,
+}
+
+/// What kind of thing a run can be given, by its place in the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SettableKind {
+    /// A position at the start.
+    Position(usize),
+    /// A velocity at the start.
+    Velocity(usize),
+    /// A first-order state at the start, as the scene enters it: of a fluid volume, its pressure.
+    State(usize),
+    /// A mode at the start: −1 and 1 slipping, 0 stuck.
+    Mode(usize),
+    /// A run-time parameter.
+    Parameter(usize),
+}
+
+impl SettableKind {
+    /// Whether it is a run-time parameter, not a part of the state.
+    pub fn is_parameter(self) -> bool {
+        matches!(self, SettableKind::Parameter(_))
+    }
+}
+
+impl Scene {
+    /// Everything that a run can be given: positions, velocities, first-order states, modes (`NAME_mode`),
+    /// run-time parameters.
+    pub fn settable(&self) -> Vec<Settable> {
+        use SettableKind::{Mode, Parameter, Position, State, Velocity};
+        let layout = &self.layout;
+        let one = |name: &str, unit, kind| Settable {
+            name: name.to_owned(),
+            unit,
+            kind,
+        };
+        let coordinates = layout.coordinates.iter().enumerate();
+        let stored = coordinates.clone().filter(|(_, c)| c.stored);
+        let positions = stored.map(|(j, c)| one(&c.name, c.dimensions[0].si(), Position(j)));
+        let velocities =
+            coordinates.map(|(j, c)| one(&c.rate_name, c.dimensions[1].si(), Velocity(j)));
+        let states = layout.states.iter().enumerate().map(|(i, part)| {
+            let dimension = part.entered.map_or(part.dimension, |e| e.dimension);
+            one(&part.name, dimension.si(), State(i))
+        });
+        let modes = layout.modes.iter().enumerate();
+        let modes = modes.map(|(i, part)| one(&format!("{}_mode", part.name), "", Mode(i)));
+        let parameters = self.parameters.iter().enumerate();
+        let parameters = parameters.map(|(i, p)| one(&p.name, p.unit, Parameter(i)));
+        positions
+            .chain(velocities)
+            .chain(states)
+            .chain(modes)
+            .chain(parameters)
+            .collect()
+    }
+
+    /// What has this name among those for which `wanted` holds.
+    ///
+    /// # Errors
+    /// With the names that there are, or the nearest one. `what` says what was looked for.
+    pub fn settable_named(
+        &self,
+        what: &str,
+        name: &str,
+        wanted: impl Fn(SettableKind) -> bool,
+    ) -> Result<Settable, String> {
+        let mut all = self.settable();
+        all.retain(|s| wanted(s.kind));
+        let found: Vec<&Settable> = all.iter().filter(|s| s.name == name).collect();
+        match found.as_slice() {
+            [one] => Ok((*one).clone()),
+            [] if all.is_empty() => {
+                Err(format!("no {what} is called `{name}`: the scene has none"))
+            }
+            [] => {
+                let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
+                Err(unknown_name(what, name, &names, &names.join(", ")))
+            }
+            _ => Err(format!(
+                "`{name}` is a part of the state and a parameter: rename the parameter"
+            )),
+        }
+    }
+
+    /// The same scene with these values, SI units, in place of its file's. A drive that the file does
+    /// not place starts with its joint.
+    ///
+    /// # Errors
+    /// Values that a state cannot have.
+    pub fn starting(&self, values: &[(Settable, Dd)]) -> Result<Scene, Faults> {
+        let mut scene = self.clone();
+        let mut faults = Faults::default();
+        for (settable, value) in values {
+            let value = *value;
+            match settable.kind {
+                SettableKind::Position(j) => scene.initial.q[j] = value,
+                SettableKind::Velocity(j) => scene.initial.v[j] = value,
+                SettableKind::Mode(i) => scene.initial.modes[i] = value,
+                SettableKind::Parameter(i) => scene.parameters[i].default = value,
+                SettableKind::State(i) => {
+                    scene.initial.x[i] = value;
+                    let entered = scene.layout.states[i].entered;
+                    if let Some(entered) = entered.filter(|e| value < e.least) {
+                        let (name, least) = (&settable.name, entered.least.to_f64());
+                        let message = format!(
+                            "`{name}` begins with {}, less than {least} {}",
+                            value.to_f64(),
+                            settable.unit
+                        );
+                        let fault = Fault::new(&Place::file(), "initial", message);
+                        faults.push(fault.with_help(entered.way_out));
+                    }
+                }
+            }
+        }
+        if faults.any_fault() {
+            return Err(faults);
+        }
+        let given = |name: &str| {
+            let written = self
+                .written
+                .initial
+                .iter()
+                .any(|raw| raw.name.value == name);
+            written || values.iter().any(|(s, _)| s.name == name)
+        };
+        let layout = &self.layout;
+        for (j, c) in layout.coordinates.iter().enumerate() {
+            let with = c.starts_with.as_ref();
+            let Some(k) = with.and_then(|name| layout.coordinate_named(name)) else {
+                continue;
+            };
+            if !given(&c.name) {
+                scene.initial.q[j] = scene.initial.q[k];
+            }
+            if !given(&c.rate_name) {
+                scene.initial.v[j] = scene.initial.v[k];
+            }
+        }
+        Ok(scene)
+    }
+}

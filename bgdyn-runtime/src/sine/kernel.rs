@@ -1,0 +1,73 @@
+//! The branch-free path: reduction by π/2 in parts, then two polynomials.
+
+use super::pack::{Coefficients, Pack};
+
+/// Sine and cosine of `angle` + `tail`, for an angle within [`Pack::LIMIT`] and a tail of half a
+/// unit in its last place at most.
+#[inline(always)]
+pub(crate) fn sin_cos<P: Pack>(angle: P, tail: P) -> (P, P) {
+    let (quarters, r, low) = reduced(angle, tail);
+    let (s, c) = of_rest(r, low);
+    P::turned(quarters, s, c)
+}
+
+/// n, with its last two digits at the end of the significand, and angle + tail − n π/2 as r + low.
+#[inline(always)]
+fn reduced<P: Pack>(angle: P, tail: P) -> (P, P, P) {
+    let Coefficients {
+        exact,
+        middle,
+        last,
+        ..
+    } = P::COEFFICIENTS;
+    // Adding 1.5·2^52 (or 2^23) rounds to a whole number and leaves it in the low digits.
+    let magic = P::splat(P::MAGIC);
+    let quarters = angle.fused(P::splat(core::f64::consts::FRAC_2_PI), magic);
+    let n = quarters - magic;
+    // n times these parts is exact, and so are the differences: at most as many digits are left as
+    // a number has.
+    let mut rest = angle;
+    for &part in exact {
+        rest = n.minus_product(P::splat(part), rest);
+    }
+    // n times the middle part is exact. Its difference is, where the rest is smaller; where it is
+    // not, this is Dekker's sum, and `error` is what was rounded off.
+    let part = P::splat(middle);
+    let difference = n.minus_product(part, rest);
+    let error = n.minus_product(part, rest - difference);
+    let low = n.fused(P::splat(last), -error) - tail;
+    let r = difference - low;
+    (quarters, r, (difference - r) - low)
+}
+
+/// Sine and cosine of r + low, |r| ≤ π/4.
+///
+/// sin r = r + r³ S(r²), cos r = 1 − r²/2 + r⁴ C(r²). The large terms are added last, so that theirs
+/// are the only roundings that count; 1 − r²/2 keeps what its rounding leaves.
+#[inline(always)]
+pub(super) fn of_rest<P: Pack>(r: P, low: P) -> (P, P) {
+    let Coefficients { sine, cosine, .. } = P::COEFFICIENTS;
+    let (one, half) = (P::splat(1.0), P::splat(0.5));
+    let square = r * r;
+    let (s, c) = (polynomial(square, sine), polynomial(square, cosine));
+    let halved = half * square;
+    let small = (r * square).fused(s, halved.minus_product(low, low));
+    let rounded = one - halved;
+    let rest = (one - rounded) - halved;
+    let tiny = (square * square).fused(c, r.minus_product(low, rest));
+    (r + small, rounded + tiny)
+}
+
+/// k₀ + k₁x + k₂x² + …, by pairs, so that half of the steps wait for each other.
+#[inline(always)]
+fn polynomial<P: Pack>(x: P, coefficients: &[f64]) -> P {
+    let square = x * x;
+    let pair = |pair: &[f64]| match *pair {
+        [constant, linear] => x.fused(P::splat(linear), P::splat(constant)),
+        [constant, ..] => P::splat(constant),
+        [] => P::splat(0.0),
+    };
+    let mut pairs = coefficients.chunks(2).rev();
+    let highest = pair(pairs.next().unwrap_or(&[]));
+    pairs.fold(highest, |sum, next| sum.fused(square, pair(next)))
+}

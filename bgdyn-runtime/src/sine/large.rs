@@ -1,0 +1,87 @@
+//! Angles beyond the branch-free path: exact reduction (Payne and Hanek 1983).
+//!
+//! A number is a whole number times a power of two. Multiplied by the digits of 1/2π that matter it
+//! is a fraction of a turn in fixed point, from which whole turns drop out by themselves.
+
+use super::Pack;
+use super::kernel::of_rest;
+use crate::dd::{Turn, inverse_tau_digits};
+
+/// Scalars with an exact reduction.
+pub(crate) trait Large: Pack {
+    /// The quarter turn nearest to the finite angle, modulo 4, and the radians from there.
+    fn split(self) -> (u32, Self, Self);
+    /// n as [`Pack::turned`] takes it.
+    fn quarters(n: u32) -> Self;
+    /// Whether it is a number.
+    fn finite(self) -> bool;
+}
+
+/// Sine and cosine of an angle of any size; NaN where it is none.
+#[cold]
+#[inline(never)]
+pub(super) fn sin_cos<T: Large>(angle: T) -> (T, T) {
+    if !angle.finite() {
+        return (T::splat(f64::NAN), T::splat(f64::NAN));
+    }
+    let (n, r, low) = angle.split();
+    let (s, c) = of_rest(r, low);
+    T::turned(T::quarters(n), s, c)
+}
+
+impl Large for f64 {
+    fn split(self) -> (u32, f64, f64) {
+        let (quarter, radians) = Turn::of_word(self).split();
+        (quarter as u32, radians.hi(), radians.lo())
+    }
+    fn quarters(n: u32) -> f64 {
+        f64::from_bits(u64::from(n))
+    }
+    fn finite(self) -> bool {
+        self.is_finite()
+    }
+}
+
+/// 2π in units of 2⁻⁶¹.
+const TAU: u64 = 0xc90f_daa2_2168_c234;
+/// An eighth and a quarter of a turn, in units of 2⁻⁶⁴ turns.
+const EIGHTH: u64 = 1 << 61;
+const QUARTER: u64 = 1 << 62;
+
+/// In whole numbers and `f32` only: a controller without double precision has nothing else.
+impl Large for f32 {
+    fn split(self) -> (u32, f32, f32) {
+        let bits = self.to_bits();
+        let mantissa = u64::from(bits & 0x7f_ffff | 0x80_0000);
+        let exponent = ((bits >> 23) & 0xff) as i32 - 150;
+        // |x| = mantissa · 2^exponent. No f32 comes closer than 2⁻³⁴ turns to a quarter turn, so
+        // that 64 digits leave 30.
+        let high = inverse_tau_digits(exponent).wrapping_mul(mantissa);
+        let low = (u128::from(inverse_tau_digits(exponent + 64)) * u128::from(mantissa)) >> 64;
+        let turn = high.wrapping_add(low as u64);
+        let turn = if self < 0.0 {
+            turn.wrapping_neg()
+        } else {
+            turn
+        };
+        let shifted = turn.wrapping_add(EIGHTH);
+        let (quarter, rest) = (shifted / QUARTER, (shifted % QUARTER).wrapping_sub(EIGHTH));
+        let negative = rest >> 63 == 1;
+        let size = if negative { rest.wrapping_neg() } else { rest };
+        // In units of 2⁻⁶¹ rad.
+        let radians = ((u128::from(size) * u128::from(TAU)) >> 64) as u64;
+        let zeros = radians.leading_zeros();
+        let digits = radians.checked_shl(zeros).unwrap_or(0);
+        let word = |from: u32| (digits << from >> 40) as u32 as f32;
+        let unit = |from: u32| f32::from_bits((127 - 61 + 40 - from - zeros) << 23);
+        let (r, low) = (word(0) * unit(0), word(24) * unit(24));
+        let (r, low) = if negative { (-r, -low) } else { (r, low) };
+        (quarter as u32, r, low)
+    }
+    fn quarters(n: u32) -> f32 {
+        f32::from_bits(n)
+    }
+    fn finite(self) -> bool {
+        self.is_finite()
+    }
+}

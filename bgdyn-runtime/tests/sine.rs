@@ -1,0 +1,229 @@
+//! Sine and cosine of `f64` and `f32` against double-double: errors in units of the last place.
+
+use bgdyn_runtime::{Dd, Scalar};
+
+/// A stream of random words (splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// In [−1, 1).
+    fn unit(&mut self) -> f64 {
+        (self.word() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// A float of the two.
+trait Float: Scalar {
+    /// Binary digits.
+    const DIGITS: i32;
+    /// The largest angle that takes the branch-free path.
+    const LIMIT: f64;
+    /// The least normal number's exponent.
+    const LEAST: i32;
+    fn of(x: f64) -> Self;
+    fn wide(self) -> f64;
+    /// The numbers next to it, `steps` away.
+    fn beside(self, steps: i32) -> Self;
+}
+
+macro_rules! float {
+    ($float:ident, $int:ident, $digits:literal, $limit:literal, $least:literal) => {
+        impl Float for $float {
+            const DIGITS: i32 = $digits;
+            const LIMIT: f64 = $limit;
+            const LEAST: i32 = $least;
+            fn of(x: f64) -> Self {
+                x as $float
+            }
+            fn wide(self) -> f64 {
+                f64::from(self)
+            }
+            fn beside(self, steps: i32) -> Self {
+                $float::from_bits(self.to_bits().wrapping_add_signed($int::from(steps)))
+            }
+        }
+    };
+}
+float!(f64, i64, 53, 1e5, -1022);
+float!(f32, i32, 24, 1e4, -126);
+
+/// How far `found` is from `exact`, in units of the last place of `exact`.
+fn units<T: Float>(found: T, exact: Dd) -> f64 {
+    let exponent = libm::ilogb(exact.hi()).max(T::LEAST);
+    let off = (Dd::from(found.wide()) - exact).hi();
+    libm::scalbn(off.abs(), T::DIGITS - 1 - exponent)
+}
+
+/// The larger error of sine and cosine of x.
+fn error<T: Float>(x: T) -> f64 {
+    let (s, c) = x.sin_cos();
+    let (sin, cos) = Dd::from(x.wide()).sin_cos();
+    units(s, sin).max(units(c, cos))
+}
+
+/// The largest error over arguments of `count` draws, and where it is.
+fn worst<T: Float>(count: u64, mut draw: impl FnMut() -> f64) -> (f64, f64) {
+    let mut found = (0.0, 0.0);
+    for _ in 0..count {
+        let x = T::of(draw());
+        let e = error(x);
+        // NaN is worse than any error.
+        if e.is_nan() || e > found.0 {
+            found = (e, x.wide());
+        }
+    }
+    found
+}
+
+/// Uniform angles, angles of all sizes, and those next to every multiple of a quarter turn.
+fn measure<T: Float>(count: u64, seed: u64) {
+    let mut random = Random(seed);
+    let check = |what: &str, (units, x): (f64, f64)| {
+        println!("{what}: {units:.4} units at {x:e}");
+        assert!(units < 1.0, "{what}: {units} units at {x:e}");
+    };
+    let (mut a, mut b, mut c) = (
+        Random(random.word()),
+        Random(random.word()),
+        Random(random.word()),
+    );
+    check(
+        "|x| <= π",
+        worst::<T>(count, || a.unit() * core::f64::consts::PI),
+    );
+    check("to the limit", worst::<T>(count, || b.unit() * T::LIMIT));
+    let sizes = worst::<T>(count, || {
+        let sign = c.unit();
+        libm::copysign(libm::exp2(c.unit() * 50.0), sign)
+    });
+    check("of all sizes to 1e15", sizes);
+    let quarters = (T::LIMIT * core::f64::consts::FRAC_2_PI) as i32;
+    let (mut n, mut step) = (1, -3);
+    let near = worst::<T>(u64::from(quarters as u32) * 5, || {
+        step += 1;
+        if step > 2 {
+            (n, step) = (n + 1, -2);
+        }
+        T::of(f64::from(n) * core::f64::consts::FRAC_PI_2)
+            .beside(step)
+            .wide()
+    });
+    check("next to quarter turns", near);
+}
+
+#[test]
+fn errors_of_f64() {
+    measure::<f64>(200_000, 1);
+}
+
+#[test]
+fn errors_of_f32() {
+    measure::<f32>(200_000, 2);
+}
+
+/// A hundred million arguments.
+#[test]
+#[ignore = "five minutes"]
+fn errors_of_f64_over_many() {
+    measure::<f64>(34_000_000, 3);
+}
+
+/// Every `f32` there is, against double precision where that is good enough to tell.
+#[test]
+#[ignore = "five minutes"]
+fn errors_of_every_f32() {
+    let mut found = (0.0, 0.0_f32);
+    for bits in 0..f32::INFINITY.to_bits() {
+        let x = f32::from_bits(bits);
+        let (s, c) = Scalar::sin_cos(x);
+        let (sin, cos) = libm::sincos(f64::from(x));
+        let e = units(s, Dd::from(sin)).max(units(c, Dd::from(cos)));
+        // NaN is worse than any error.
+        if e.is_nan() || e > found.0 {
+            found = (e, x);
+        }
+    }
+    println!("every f32: {:.4} units at {:e}", found.0, found.1);
+    assert!(found.0 < 1.0, "{} units at {:e}", found.0, found.1);
+}
+
+/// What is no angle has no sine, small ones are their own.
+#[test]
+fn ends_of_the_range() {
+    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (s, c) = Scalar::sin_cos(x);
+        assert!(s.is_nan() && c.is_nan());
+        let (s, c) = Scalar::sin_cos(x as f32);
+        assert!(s.is_nan() && c.is_nan());
+    }
+    for x in [0.0, 5e-324, 1e-310, 1e-200, 1e-9] {
+        assert_eq!(Scalar::sin_cos(x), (x, 1.0));
+        assert_eq!(Scalar::sin_cos(-x), (-x, 1.0));
+    }
+    for x in [f64::MAX, 1e300, 1e22, 100_000.000_000_1] {
+        assert!(error(x) < 1.0 && error(-x) < 1.0);
+    }
+    for x in [f32::MAX, 1e30, 1e20, 10_000.1] {
+        assert!(error(x) < 1.0 && error(-x) < 1.0);
+    }
+}
+
+/// All angles of a call at once are what each is alone, however many there are, with large ones and
+/// what is no number among them.
+#[test]
+fn at_once_as_alone() {
+    fn same<T: Float, const K: usize>(random: &mut Random) {
+        for round in 0..200 {
+            let angles: [T; K] = core::array::from_fn(|k| {
+                let size = if (round + k) % 37 == 0 { 1e9 } else { 10.0 };
+                T::of(
+                    random.unit()
+                        * if round == 199 && k == 0 {
+                            f64::NAN
+                        } else {
+                            size
+                        },
+                )
+            });
+            let other = T::of(random.unit());
+            let offset = (core::f64::consts::FRAC_PI_4, 3.061_616_997_868_383e-17);
+            let pairs = angles.map(|a| [a, other]);
+            let plain = T::sin_cos_all(
+                angles.each_ref().map(core::slice::from_ref),
+                [(0.0, 0.0); K],
+            );
+            let sums = T::sin_cos_all(pairs.each_ref().map(|p| &p[..]), [offset; K]);
+            for k in 0..K {
+                let bits = |(s, c): (T, T)| (s.wide().to_bits(), c.wide().to_bits());
+                let alone = T::sin_cos_sum(&pairs[k], offset);
+                assert_eq!(bits(plain[k]), bits(angles[k].sin_cos()), "{:?}", angles[k]);
+                assert_eq!(bits(sums[k]), bits(alone), "{:?}", pairs[k]);
+            }
+        }
+    }
+    fn counts<T: Float>(random: &mut Random) {
+        same::<T, 1>(random);
+        same::<T, 2>(random);
+        same::<T, 3>(random);
+        same::<T, 4>(random);
+        same::<T, 5>(random);
+        same::<T, 6>(random);
+        same::<T, 7>(random);
+        same::<T, 8>(random);
+        same::<T, 9>(random);
+        same::<T, 11>(random);
+        same::<T, 13>(random);
+        same::<T, 16>(random);
+        same::<T, 17>(random);
+    }
+    counts::<f64>(&mut Random(5));
+    counts::<f32>(&mut Random(6));
+}

@@ -1,0 +1,364 @@
+//! Several runs at once, one per lane of a SIMD register, by fixed steps of an explicit method.
+//!
+//! Every lane does what a [`crate::Solver`] with fixed steps does, operation by operation, so that its
+//! states are those of that run bit for bit; where the target has fused multiply-add, if both are
+//! compiled for it. Lanes differ in their states and in the model's run-time parameters, which are
+//! lanes themselves.
+//!
+//! A lane whose mass matrix is singular, or whose state would not be finite, ends where it was; the
+//! others go on.
+
+use core::convert::Infallible;
+use core::marker::PhantomData;
+
+use bgdyn_runtime::{Dynamics, Scalar, System};
+use nalgebra::SVector;
+
+use crate::method::{Method, Start};
+use crate::ode::Ode;
+use crate::solver::sum_in_two;
+use crate::space::{Of, Real, Space};
+
+/// A scalar that holds one number per lane; a number by itself has one lane.
+pub trait Lanes: Scalar {
+    /// How many lanes there are.
+    const LANES: usize;
+    /// The number in a lane.
+    type Word: Real;
+
+    /// One number per lane.
+    fn pack(lane: impl FnMut(usize) -> Self::Word) -> Self;
+
+    /// The number in lane `k`, below [`Lanes::LANES`].
+    fn lane(self, k: usize) -> Self::Word;
+
+    /// The accelerations of an error: those of the lanes that succeeded, NaN in the others.
+    fn accelerations<const N: usize>(error: Self::Singular<N>) -> SVector<Self, N>;
+}
+
+macro_rules! one_lane {
+    ($($float:ident),*) => {$(
+        impl Lanes for $float {
+            const LANES: usize = 1;
+            type Word = $float;
+
+            fn pack(mut lane: impl FnMut(usize) -> $float) -> Self {
+                lane(0)
+            }
+
+            fn lane(self, _: usize) -> $float {
+                self
+            }
+
+            fn accelerations<const N: usize>(_: Self::Singular<N>) -> SVector<Self, N> {
+                SVector::repeat($float::NAN)
+            }
+        }
+    )*};
+}
+
+one_lane!(f32, f64);
+
+#[cfg(feature = "wide")]
+mod registers {
+    use bgdyn_runtime::LaneSingular;
+    use bgdyn_runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
+    use nalgebra::SVector;
+
+    use super::Lanes;
+
+    macro_rules! lanes {
+        ($($lanes:ident: $float:ident, $n:literal;)*) => {$(
+            impl Lanes for $lanes {
+                const LANES: usize = $n;
+                type Word = $float;
+
+                fn pack(lane: impl FnMut(usize) -> $float) -> Self {
+                    Self::new(core::array::from_fn(lane))
+                }
+
+                fn lane(self, k: usize) -> $float {
+                    self.to_array()[k]
+                }
+
+                fn accelerations<const N: usize>(
+                    error: LaneSingular<Self, $n, N>,
+                ) -> SVector<Self, N> {
+                    error.accelerations.map(|a| {
+                        let of = |k: usize| match error.joint[k] {
+                            None => a.to_array()[k],
+                            Some(_) => $float::NAN,
+                        };
+                        Self::pack(of)
+                    })
+                }
+            }
+        )*};
+    }
+
+    lanes! {
+        f64x2: f64, 2;
+        f64x4: f64, 4;
+        f64x8: f64, 8;
+        f32x4: f32, 4;
+        f32x8: f32, 8;
+        f32x16: f32, 16;
+    }
+}
+
+/// States lane by lane as one; lanes beyond the last state repeat it.
+///
+/// # Panics
+/// Where there are none.
+pub fn packed<T: Lanes, const N: usize>(states: &[SVector<T::Word, N>]) -> SVector<T, N> {
+    SVector::from_fn(|i, _| T::pack(|k| states[k.min(states.len() - 1)][i]))
+}
+
+/// The state in lane `k`.
+pub fn unpacked<T: Lanes, const N: usize>(states: &SVector<T, N>, k: usize) -> SVector<T::Word, N> {
+    states.map(|x| x.lane(k))
+}
+
+/// A mechanism under the efforts τ(t, q, v), in any scalar; y is q, then v, so that `Y` is 2 `N`.
+#[derive(Debug)]
+pub struct Driven<'a, T, M, F, const N: usize, const Y: usize> {
+    model: &'a M,
+    efforts: F,
+    scalar: PhantomData<T>,
+}
+
+impl<'a, T, M, F, const N: usize, const Y: usize> Driven<'a, T, M, F, N, Y>
+where
+    T: Lanes,
+    M: Dynamics<T, N, N>,
+    F: Fn(T, &SVector<T, N>, &SVector<T, N>) -> SVector<T, N>,
+{
+    /// The mechanism under these efforts.
+    pub fn new(model: &'a M, efforts: F) -> Self {
+        const { assert!(Y == 2 * N, "y is q, then v") };
+        Driven {
+            model,
+            efforts,
+            scalar: PhantomData,
+        }
+    }
+}
+
+impl<T, M, F, const N: usize, const Y: usize> Ode for Driven<'_, T, M, F, N, Y>
+where
+    T: Lanes,
+    M: Dynamics<T, N, N>,
+    F: Fn(T, &SVector<T, N>, &SVector<T, N>) -> SVector<T, N>,
+{
+    type State = SVector<T, Y>;
+    type Error = Infallible;
+
+    fn rates(&self, t: T, y: &SVector<T, Y>) -> Result<SVector<T, Y>, Infallible> {
+        let q: SVector<T, N> = SVector::from_fn(|i, _| y[i]);
+        let v: SVector<T, N> = SVector::from_fn(|i, _| y[N + i]);
+        let tau = (self.efforts)(t, &q, &v);
+        let found = self.model.forward_dynamics(&q, &v, &tau);
+        let a = found.unwrap_or_else(T::accelerations);
+        Ok(SVector::from_fn(|i, _| if i < N { v[i] } else { a[i - N] }))
+    }
+    fn positions(&self) -> usize {
+        N
+    }
+
+    fn position_rates(&self, _: T, y: &SVector<T, Y>) -> Result<SVector<T, Y>, Infallible> {
+        Ok(following(N, y))
+    }
+}
+
+/// The rates of the first components by those that follow them.
+fn following<T: Scalar, const Y: usize>(positions: usize, y: &SVector<T, Y>) -> SVector<T, Y> {
+    SVector::from_fn(|i, _| {
+        if i < positions {
+            y[positions + i]
+        } else {
+            y[i]
+        }
+    })
+}
+
+/// A scene without dry friction that can hold, in any scalar. Kinks of its laws are stepped over: there
+/// the method loses its order, and [`crate::Run`] would not.
+///
+/// `ND` is the number of velocities and first-order states: what the scene's error names.
+#[derive(Debug)]
+pub struct SmoothScene<
+    'a,
+    T: Lanes,
+    S,
+    const N: usize,
+    const ND: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+> {
+    scene: &'a S,
+    /// Inputs that the scene does not drive itself.
+    pub given: SVector<T, NU>,
+}
+
+impl<
+    'a,
+    T: Lanes,
+    S,
+    const N: usize,
+    const ND: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+> SmoothScene<'a, T, S, N, ND, NU, NE, NY, NP>
+where
+    S: System<T, N, 0, NU, NE, NY, NP, Singular = T::Singular<ND>>,
+{
+    /// The scene, with all given inputs at 0.
+    pub fn new(scene: &'a S) -> Self {
+        let given = SVector::repeat(T::from_f64(0.0));
+        SmoothScene { scene, given }
+    }
+
+    /// All inputs at an instant.
+    pub fn input(&self, t: T, y: &SVector<T, N>) -> SVector<T, NU> {
+        self.scene.input(y, &no_modes(), &self.given, t)
+    }
+
+    /// The outputs that the scene asks for, at an instant.
+    pub fn output(&self, t: T, y: &SVector<T, N>) -> SVector<T, NY> {
+        let input = self.input(t, y);
+        self.scene.output(y, &no_modes(), &input, t)
+    }
+}
+
+impl<
+    T: Lanes,
+    S,
+    const N: usize,
+    const ND: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+> Ode for SmoothScene<'_, T, S, N, ND, NU, NE, NY, NP>
+where
+    S: System<T, N, 0, NU, NE, NY, NP, Singular = T::Singular<ND>>,
+{
+    type State = SVector<T, N>;
+    type Error = Infallible;
+
+    fn rates(&self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Infallible> {
+        let input = self.input(t, y);
+        let found = self.scene.derivative(y, &no_modes(), &input, t);
+        Ok(found.unwrap_or_else(|error| {
+            let rates: SVector<T, ND> = T::accelerations(error);
+            let positions = self.scene.positions();
+            SVector::from_fn(|i, _| match i.checked_sub(positions) {
+                None => y[positions + i],
+                Some(i) => rates[i],
+            })
+        }))
+    }
+    fn positions(&self) -> usize {
+        self.scene.positions()
+    }
+
+    fn position_rates(&self, _: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Infallible> {
+        Ok(following(self.scene.positions(), y))
+    }
+}
+
+/// Runs in lanes, where they are now.
+#[derive(Clone, Debug)]
+pub struct LaneRun<Y: Space> {
+    t: Of<Y>,
+    /// What rounding has taken from the time.
+    low_time: Of<Y>,
+    y: Y,
+    /// When each lane ended; infinity while it goes on.
+    ended: Of<Y>,
+}
+
+impl<Y: Space> LaneRun<Y>
+where
+    Of<Y>: Lanes,
+{
+    /// From these states, at t = 0.
+    pub fn new(y: Y) -> Self {
+        let zero = Of::<Y>::from_f64(0.0);
+        LaneRun {
+            t: zero,
+            low_time: zero,
+            y,
+            ended: Of::<Y>::from_f64(f64::INFINITY),
+        }
+    }
+
+    /// Time, s: of the lanes that go on.
+    pub fn t(&self) -> Of<Y> {
+        self.t
+    }
+
+    /// States; of a lane that ended, the last one.
+    pub fn y(&self) -> &Y {
+        &self.y
+    }
+
+    /// When a lane ended, s; `None` while it goes on.
+    pub fn ended(&self, k: usize) -> Option<<Of<Y> as Lanes>::Word> {
+        Some(self.ended.lane(k)).filter(|t| t.is_finite())
+    }
+
+    /// A step of the length `h`, s, in all lanes that go on.
+    pub fn step<M, O>(&mut self, method: &M, ode: &O, h: f64)
+    where
+        M: Method<Y>,
+        O: Ode<State = Y, Error = Infallible>,
+    {
+        let (h, one) = (Of::<Y>::from_f64(h), Of::<Y>::from_f64(1.0));
+        let start = Start {
+            t: self.t,
+            y: &self.y,
+            before: None,
+        };
+        // An explicit method has no other reason to fail than its rates.
+        let Ok(step) = method.step(ode, &start, h) else {
+            self.end(|_| true);
+            return;
+        };
+        let mut y = self.y.plus(one, &step.change);
+        // x − x is 0 for finite numbers only.
+        let zero = Of::<Y>::from_f64(0.0);
+        #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
+        let rest = y.entries().iter().fold(zero, |sum, &x| sum + (x - x));
+        self.end(|k| !rest.lane(k).is_finite());
+        if (0..Of::<Y>::LANES).any(|k| self.ended(k).is_some()) {
+            for (new, &old) in y.entries_mut().iter_mut().zip(self.y.entries()) {
+                let made = *new;
+                *new = Of::<Y>::pack(|k| match self.ended(k) {
+                    None => made.lane(k),
+                    Some(_) => old.lane(k),
+                });
+            }
+        }
+        self.y = y;
+        (self.t, self.low_time) = sum_in_two(self.t, self.low_time + h);
+    }
+
+    /// Ends the lanes for which `fails` holds.
+    fn end(&mut self, fails: impl Fn(usize) -> bool) {
+        let before = self.ended;
+        self.ended = Of::<Y>::pack(|k| match self.ended(k) {
+            None if fails(k) => self.t.lane(k),
+            _ => before.lane(k),
+        });
+    }
+}
+
+/// The modes of a scene that has none.
+fn no_modes<T: Scalar>() -> SVector<T, 0> {
+    SVector::repeat(T::from_f64(0.0))
+}

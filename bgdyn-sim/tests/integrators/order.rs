@@ -1,0 +1,53 @@
+//! Errors of a method by halvings of its step. Shared with the hard cases' package.
+
+use bgdyn_runtime::Dd;
+use bgdyn_sim::{Facts, Method, Ode, Start, WithMethod};
+use nalgebra::SVector;
+
+use crate::problems::{Known, dd, distance, known, ode};
+
+/// States of the known problem.
+pub type Y = SVector<Dd, 4>;
+
+/// Errors at t = 2 for 12 steps and three halvings.
+pub struct Errors {
+    /// Whether the problem tells its slopes.
+    pub slopes: bool,
+}
+
+impl WithMethod<Y> for Errors {
+    type Output = (Facts, Vec<f64>);
+
+    fn with<M: Method<Y>>(self, method: M) -> Self::Output {
+        let facts = method.facts();
+        let problem = Known {
+            slopes: self.slopes,
+        };
+        let after = |n| {
+            let found = known_run(&method, &ode::<Dd, _, 4>(&problem), n);
+            distance(&found, &known(dd(2.0)))
+        };
+        (facts, [12, 24, 48, 96].map(after).to_vec())
+    }
+}
+
+/// A method by reference.
+pub fn known_run<M: Method<Y>, O: Ode<State = Y>>(method: &M, ode: &O, n: u32) -> Y {
+    let h = dd(2.0) / dd(n.into());
+    let (mut y, mut before) = (known(dd(0.0)), None);
+    for i in 0..n {
+        let t = h * dd(i.into());
+        let start = Start {
+            t,
+            y: &y,
+            before: before.as_ref(),
+        };
+        let step = method.step(ode, &start, h);
+        let Ok(step) = step else {
+            panic!("a step fails")
+        };
+        y += step.change;
+        before = Some(step);
+    }
+    y
+}

@@ -1,0 +1,55 @@
+//! What the components of a function depend on, by its expression graph.
+
+use bgdyn_codegen::expr::{Leaf, Node};
+use bgdyn_codegen::function::Function;
+
+/// How many of each kind of input there may be.
+const MOST: usize = 24;
+
+/// The bit of an input in a mask: positions from 0, velocities from 24, accelerations or a scene's
+/// first-order states from 48, inputs (efforts) from 72, 127 for all else. A mechanism has no states of
+/// first order, and a scene's derivative takes no accelerations. Components beyond 24 count to the
+/// last bit.
+fn bit(leaf: Leaf) -> u128 {
+    let place = |from: usize, i: usize| if i < MOST { 1 << (from + i) } else { 1 << 127 };
+    match leaf {
+        Leaf::Position(i) => place(0, i),
+        Leaf::Velocity(i) => place(MOST, i),
+        Leaf::Acceleration(i) | Leaf::State(i) => place(2 * MOST, i),
+        Leaf::Input(i) => place(3 * MOST, i),
+        Leaf::Mode(_) | Leaf::Parameter(_) | Leaf::Time | Leaf::Passed { .. } => 1 << 127,
+    }
+}
+
+/// For each result of a function the mask of its inputs.
+pub(crate) fn masks(function: &Function) -> Vec<u128> {
+    let mut passed: Vec<Vec<u128>> = vec![];
+    for block in &function.blocks {
+        // Operands stand before their users.
+        let mut of_nodes = vec![0_u128; function.graph.len()];
+        for i in 0..of_nodes.len() {
+            let id = bgdyn_codegen::expr::NodeId::at(i);
+            let node = function.graph.node(id);
+            let mut mask = match node {
+                Node::Leaf(Leaf::Passed { block, index }) => {
+                    // Of a later block it is not read here.
+                    passed.get(*block).map_or(0, |results| results[*index])
+                }
+                Node::Leaf(leaf) => bit(*leaf),
+                _ => 0,
+            };
+            node.for_each_operand(|operand| mask |= of_nodes[operand.place()]);
+            of_nodes[i] = mask;
+        }
+        let results = block.outputs.iter().map(|e| of_nodes[e.node.place()]);
+        passed.push(results.collect());
+    }
+    passed.pop().expect("at least one block")
+}
+
+/// The masks as a list in Rust.
+pub(crate) fn text(function: &Function) -> String {
+    let masks = masks(function);
+    let masks: Vec<String> = masks.iter().map(|mask| format!("{mask:#x}")).collect();
+    format!("&[{}]", masks.join(", "))
+}

@@ -1,0 +1,28 @@
+//! Generates the modules: mechanisms in single states, and scenes whose motions are known. Their specs
+//! stand in `OUT_DIR` beside them.
+
+#[allow(dead_code)]
+#[path = "../../../../bgdyn-codegen/tests/scenes/written.rs"]
+mod arm;
+mod dependence;
+mod mechanisms;
+mod scenes;
+#[path = "../../written.rs"]
+mod written;
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+fn main() {
+    let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap());
+    let folder = root.join("..");
+    let out = PathBuf::from(env::var("OUT_DIR").unwrap());
+    println!("cargo::rerun-if-changed=build");
+    for watched in ["written.rs", "specs", "scenes", "../../specs"] {
+        println!("cargo::rerun-if-changed={}", folder.join(watched).display());
+    }
+    let mechanisms = mechanisms::write(&folder, &out);
+    let scenes = scenes::write(&folder, &out);
+    fs::write(out.join("mechanisms.rs"), mechanisms).unwrap();
+    fs::write(out.join("scenes.rs"), scenes).unwrap();
+}

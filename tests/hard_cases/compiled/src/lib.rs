@@ -1,0 +1,113 @@
+//! The mechanisms of the hard cases by name, whatever their size, and the scenes.
+#![forbid(unsafe_code)]
+
+use bgdyn::nalgebra::{SMatrix, SVector};
+use bgdyn::{Dynamics, Scalar};
+
+/// A compiled mechanism. Matrices are given row by row.
+pub trait Model<T> {
+    /// Number of joints.
+    fn nv(&self) -> usize;
+    /// Joint efforts.
+    fn inverse_dynamics(&self, q: &[T], v: &[T], a: &[T]) -> Vec<T>;
+    /// The mass matrix.
+    fn mass_matrix(&self, q: &[T]) -> Vec<T>;
+    /// Efforts at zero accelerations.
+    fn bias(&self, q: &[T], v: &[T]) -> Vec<T>;
+    /// Efforts at rest.
+    fn gravity(&self, q: &[T]) -> Vec<T>;
+    /// Accelerations, or the error as text.
+    ///
+    /// # Errors
+    /// Where the mass matrix is singular.
+    fn forward_dynamics(&self, q: &[T], v: &[T], tau: &[T]) -> Result<Vec<T>, String>;
+}
+
+/// A generated struct whose number of joints is no longer seen.
+struct Erased<M, const N: usize>(M);
+
+fn vector<T: Scalar, const N: usize>(x: &[T]) -> SVector<T, N> {
+    SVector::from_column_slice(x)
+}
+
+fn list<T: Scalar, const N: usize>(x: &SVector<T, N>) -> Vec<T> {
+    x.as_slice().to_vec()
+}
+
+impl<T: Scalar, M: Dynamics<T, N, N>, const N: usize> Model<T> for Erased<M, N> {
+    fn nv(&self) -> usize {
+        N
+    }
+
+    fn inverse_dynamics(&self, q: &[T], v: &[T], a: &[T]) -> Vec<T> {
+        list(&self.0.inverse_dynamics(&vector(q), &vector(v), &vector(a)))
+    }
+
+    fn mass_matrix(&self, q: &[T]) -> Vec<T> {
+        let m: SMatrix<T, N, N> = self.0.mass_matrix(&vector(q));
+        (0..N * N).map(|k| m[(k / N, k % N)]).collect()
+    }
+
+    fn bias(&self, q: &[T], v: &[T]) -> Vec<T> {
+        list(&self.0.bias(&vector(q), &vector(v)))
+    }
+
+    fn gravity(&self, q: &[T]) -> Vec<T> {
+        list(&self.0.gravity(&vector(q)))
+    }
+
+    fn forward_dynamics(&self, q: &[T], v: &[T], tau: &[T]) -> Result<Vec<T>, String> {
+        let found = self
+            .0
+            .forward_dynamics(&vector(q), &vector(v), &vector(tau));
+        found.map(|a| list(&a)).map_err(|e| format!("{e:?}"))
+    }
+}
+
+include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
+
+/// Scalars in which all models are compiled, here and only once.
+pub trait Compiled: Scalar {
+    /// The model of this name, if there is one.
+    fn named(name: &str) -> Option<Box<dyn Model<Self>>>;
+}
+
+impl Compiled for f64 {
+    fn named(name: &str) -> Option<Box<dyn Model<f64>>> {
+        any(name)
+    }
+}
+
+impl Compiled for f32 {
+    fn named(name: &str) -> Option<Box<dyn Model<f32>>> {
+        any(name)
+    }
+}
+
+/// The model of this name.
+///
+/// # Panics
+/// Where there is none.
+pub fn model<T: Compiled>(name: &str) -> Box<dyn Model<T>> {
+    T::named(name).unwrap_or_else(|| panic!("no model is called {name}"))
+}
+
+/// The bit of argument `i` of a kind in a mask of what a result depends on: positions (0), velocities
+/// (1), accelerations or states of first order (2), efforts or inputs (3). Bit 127 stands for all else.
+pub fn bit(kind: usize, i: usize) -> u128 {
+    1 << (24 * kind + i)
+}
+
+/// The scenes.
+pub mod scenes {
+    include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
+}
+
+/// The spec of the model of this name.
+///
+/// # Panics
+/// Where there is none.
+pub fn spec(name: &str) -> &'static str {
+    let found = TEXTS.iter().find(|(own, _)| *own == name);
+    found.expect(name).1
+}

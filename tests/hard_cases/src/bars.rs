@@ -1,0 +1,299 @@
+//! The bars of one state of a mechanism: errors of what is under test, in a scalar, against a reference
+//! in double-double at the same arguments, beside what they may be.
+
+use bgdyn_runtime::{Dd, Scalar};
+use nalgebra::DMatrix;
+
+use super::State;
+
+/// Scalars under test.
+pub trait Digits: Scalar<Refused = Option<usize>> {
+    /// The distance from 1 to the next number.
+    const EPS: f64;
+    /// What stands behind a case's name.
+    const MARK: &'static str;
+    /// The same number.
+    fn to_f64(self) -> f64;
+}
+
+impl Digits for f64 {
+    const EPS: f64 = f64::EPSILON;
+    const MARK: &'static str = "";
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Digits for f32 {
+    const EPS: f64 = f32::EPSILON as f64;
+    const MARK: &'static str = ", f32";
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// In how many units of rounding of what it is subtracted from a pivot is refused.
+const PIVOT_ULPS: f64 = 64.0;
+
+/// A mechanism's methods in the scalar T: what is under test. Results are given as `f64`, matrices row
+/// by row.
+pub trait Subject<T> {
+    /// Joint efforts.
+    fn inverse(&self, s: &State) -> Vec<f64>;
+    /// The mass matrix.
+    fn mass(&self, s: &State) -> Vec<f64>;
+    /// Accelerations; none where they are refused.
+    fn forward(&self, s: &State) -> Option<Vec<f64>>;
+}
+
+/// The same methods in double-double: the reference.
+pub trait Reference {
+    /// Joint efforts.
+    fn inverse(&self, s: &State) -> Vec<Dd>;
+    /// The mass matrix.
+    fn mass(&self, s: &State) -> Vec<Dd>;
+    /// Efforts at zero accelerations.
+    fn bias(&self, s: &State) -> Vec<Dd>;
+    /// Efforts at rest.
+    fn gravity(&self, s: &State) -> Vec<Dd>;
+    /// Accelerations where one joint's position, velocity or effort (argument 0, 1, 2) is multiplied by
+    /// a factor.
+    fn forward_off(&self, s: &State, argument: usize, joint: usize, factor: Dd) -> Vec<Dd>;
+    /// Accelerations.
+    fn forward(&self, s: &State) -> Vec<Dd> {
+        self.forward_off(s, 0, 0, Dd::ONE)
+    }
+}
+
+/// ‖x‖
+pub fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// ‖x − y‖
+pub fn apart(x: &[f64], y: &[f64]) -> f64 {
+    let off: Vec<f64> = x.iter().zip(y).map(|(x, y)| x - y).collect();
+    norm(&off)
+}
+
+/// x − y, rounded.
+pub fn off(x: &[f64], y: &[Dd]) -> Vec<f64> {
+    x.iter()
+        .zip(y)
+        .map(|(&x, &y)| (Dd::from_f64(x) - y).to_f64())
+        .collect()
+}
+
+/// The nearest `f64`s.
+pub fn rounded(x: &[Dd]) -> Vec<f64> {
+    x.iter().map(|x| x.to_f64()).collect()
+}
+
+/// An error, beside what it may be.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The bar.
+    pub bar: &'static str,
+    /// What is measured.
+    pub what: &'static str,
+    /// The error.
+    pub measured: f64,
+    /// What it may be.
+    pub allowed: f64,
+}
+
+/// One state of a mechanism and its sizes.
+#[derive(Debug)]
+pub struct Hard {
+    /// Number of joints.
+    pub n: usize,
+    /// Arguments as the scalar has them.
+    pub state: State,
+    /// M, row by row.
+    pub mass: Vec<f64>,
+    /// Bias force.
+    pub bias: Vec<f64>,
+    /// ‖M‖
+    pub most: f64,
+    /// ‖M⁻¹‖
+    pub inverse: f64,
+}
+
+impl Hard {
+    /// The state with its arguments rounded to T. `cond` is the condition number of M, where M in
+    /// `f64` is not to tell it.
+    pub fn new<T: Digits>(reference: &impl Reference, state: &State, cond: Option<f64>) -> Self {
+        let round = |x: &[f64]| x.iter().map(|&x| T::from_f64(x).to_f64()).collect();
+        let state = State {
+            q: round(&state.q),
+            v: round(&state.v),
+            a: round(&state.a),
+            tau: round(&state.tau),
+            parameters: state.parameters.clone(),
+        };
+        let n = state.q.len();
+        let mass = rounded(&reference.mass(&state));
+        let moments = DMatrix::from_row_slice(n, n, &mass).symmetric_eigenvalues();
+        let most = moments.max();
+        Hard {
+            n,
+            bias: rounded(&reference.bias(&state)),
+            state,
+            mass,
+            most,
+            inverse: cond.map_or(1.0 / moments.min(), |cond| cond / most),
+        }
+    }
+
+    /// Σ_j |M_ij||x_j| for each i.
+    fn weighed(&self, x: &[f64]) -> Vec<f64> {
+        let row = |row: &[f64]| row.iter().zip(x).map(|(m, x)| (m * x).abs()).sum();
+        self.mass.chunks(self.n).map(row).collect()
+    }
+
+    /// Inverse dynamics: ‖τ − τ_ref‖ ≤ 32 eps (‖M q̈‖ + ‖c‖ + ‖g‖).
+    pub fn inverse_dynamics<T: Digits>(
+        &self,
+        subject: &impl Subject<T>,
+        reference: &impl Reference,
+    ) -> Found {
+        let s = &self.state;
+        let exact = reference.inverse(s);
+        let g = rounded(&reference.gravity(s));
+        let moved = apart(&rounded(&exact), &self.bias);
+        let size = moved + apart(&self.bias, &g) + norm(&g);
+        Found {
+            bar: "1",
+            what: "inverse dynamics",
+            measured: norm(&off(&subject.inverse(s), &exact)),
+            allowed: 32.0 * T::EPS * size,
+        }
+    }
+
+    /// ‖M − M_ref‖ ≤ 8 n eps ‖M‖, and M = Mᵀ.
+    pub fn mass_matrix<T: Digits>(
+        &self,
+        subject: &impl Subject<T>,
+        reference: &impl Reference,
+    ) -> Found {
+        let (found, n) = (subject.mass(&self.state), self.n);
+        let even = (0..n).all(|i| (0..i).all(|j| found[i * n + j] == found[j * n + i]));
+        let error = norm(&off(&found, &reference.mass(&self.state)));
+        Found {
+            bar: "4",
+            what: "mass matrix",
+            measured: if even { error } else { f64::INFINITY },
+            allowed: 8.0 * n as f64 * T::EPS * self.most,
+        }
+    }
+
+    /// Backward error of accelerations: each joint's effort is met to 8 n eps of its terms. The joint
+    /// where most of that is used.
+    pub fn backward<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
+        let s = &self.state;
+        let moved = State {
+            a: found.to_vec(),
+            ..s.clone()
+        };
+        let met = off(&s.tau, &reference.inverse(&moved));
+        let terms = self.weighed(found);
+        let joints = (0..self.n).map(|i| {
+            let size = terms[i] + s.tau[i].abs() + self.bias[i].abs();
+            (met[i].abs(), 8.0 * self.n as f64 * T::EPS * size)
+        });
+        // Where nothing acts on a joint at all, nothing is to be met.
+        let part = |(error, allowed): (f64, f64)| if error == 0.0 { 0.0 } else { error / allowed };
+        let worst = joints.max_by(|a, b| part(*a).total_cmp(&part(*b)));
+        let (measured, allowed) = worst.expect("a joint");
+        Found {
+            bar: "2",
+            what: "forward dynamics, efforts met",
+            measured,
+            allowed,
+        }
+    }
+
+    /// Error of accelerations ≤ (16 + cond M) eps ‖q̈‖; but where rounding the arguments alone changes
+    /// q̈ by more than that, which is where efforts and bias all but balance, four times what it
+    /// changes.
+    pub fn forward<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
+        let exact = reference.forward(&self.state);
+        let (measured, bar) = (norm(&off(found, &exact)), self.forward_bar::<T>(&exact));
+        let found = |what, allowed| Found {
+            bar: "3",
+            what,
+            measured,
+            allowed,
+        };
+        if measured > bar {
+            let rounding = self.rounding::<T>(reference);
+            if rounding > bar {
+                return found("forward dynamics, as rounded arguments", 4.0 * rounding);
+            }
+        }
+        found("forward dynamics", bar)
+    }
+
+    /// (16 + cond M) eps ‖q̈‖
+    pub fn forward_bar<T: Digits>(&self, exact: &[Dd]) -> f64 {
+        (16.0 + self.most * self.inverse) * T::EPS * norm(&rounded(exact))
+    }
+
+    /// How far forward dynamics moves where each argument is rounded, by half an eps of itself:
+    /// the sum over all of them.
+    pub fn rounding<T: Digits>(&self, reference: &impl Reference) -> f64 {
+        let exact = reference.forward(&self.state);
+        let slightly = Dd::ONE + Dd::from_f64(T::EPS / 2.0);
+        let mut sum = 0.0;
+        for (joint, argument) in (0..self.n).flat_map(|j| (0..3).map(move |a| (j, a))) {
+            let moved = reference.forward_off(&self.state, argument, joint, slightly);
+            let by = moved.iter().zip(&exact).map(|(&x, &y)| (x - y).to_f64());
+            sum += norm(&by.collect::<Vec<f64>>());
+        }
+        sum
+    }
+
+    /// ‖FD(ID(q̈)) − q̈‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖q̈‖ + ‖h‖)
+    pub fn back_and_forth<T: Digits>(&self, subject: &impl Subject<T>) -> Option<Found> {
+        let state = State {
+            tau: subject.inverse(&self.state),
+            ..self.state.clone()
+        };
+        let found = subject.forward(&state)?;
+        let size = self.most * norm(&state.a) + norm(&self.bias);
+        Some(Found {
+            bar: "5",
+            what: "forward of inverse dynamics",
+            measured: apart(&found, &state.a),
+            allowed: 8.0 * self.n as f64 * T::EPS * self.inverse * size,
+        })
+    }
+
+    /// Bars 1 to 5. Where 1/cond M is within the rounding at which a pivot is refused, forward dynamics
+    /// may say so instead.
+    pub fn all<T: Digits>(
+        &self,
+        subject: &impl Subject<T>,
+        reference: &impl Reference,
+    ) -> Vec<Found> {
+        let refused = |bar| Found {
+            bar,
+            what: "refused, 1/(cond eps)",
+            measured: 1.0 / (self.most * self.inverse * T::EPS),
+            allowed: PIVOT_ULPS,
+        };
+        let mut all = vec![
+            self.inverse_dynamics(subject, reference),
+            self.mass_matrix(subject, reference),
+        ];
+        match subject.forward(&self.state) {
+            Some(found) => all.extend([
+                self.backward::<T>(&found, reference),
+                self.forward::<T>(&found, reference),
+            ]),
+            None => all.push(refused("2")),
+        }
+        all.push(self.back_and_forth(subject).unwrap_or(refused("5")));
+        all
+    }
+}

@@ -1,0 +1,162 @@
+//! Hard cases, compiled: what is measured of them, beside what is allowed. Single states that are hard
+//! to compute, motions against reference solutions, energy over long runs, numbers of any size.
+//! `README.md` says where the references come from, `docs/hard_cases.md` lists the bars.
+#![forbid(unsafe_code)]
+
+mod bars;
+mod energy;
+mod follow;
+mod gimbal;
+mod limits;
+mod literal;
+mod motor;
+#[path = "../../../bgdyn-sim/tests/integrators/order.rs"]
+mod order;
+mod orders;
+mod outcome;
+mod places;
+#[allow(dead_code)]
+#[path = "../../../bgdyn-sim/tests/integrators/problems.rs"]
+mod problems;
+mod reference;
+#[allow(dead_code)]
+#[path = "../../../bgdyn-codegen/tests/common/rng.rs"]
+mod rng;
+mod single;
+mod singular;
+mod smooth;
+mod state;
+mod stick_slip;
+mod stiff;
+mod subject;
+mod uneven;
+#[allow(dead_code)]
+#[path = "../written.rs"]
+mod written;
+mod zero;
+
+use hard_cases_compiled::scenes;
+
+pub use outcome::Outcome;
+pub use single::{Single, single_precision_of_long_chains};
+pub use state::State;
+
+/// How much is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// All of it.
+    Full,
+    /// Every case and every bar, with shorter horizons and fewer samples.
+    Quick,
+}
+
+impl Extent {
+    /// One number for the whole run, another for the quick one.
+    fn of<T>(self, full: T, quick: T) -> T {
+        match self {
+            Extent::Full => full,
+            Extent::Quick => quick,
+        }
+    }
+
+    /// Steps of a run of the energy: 1e7, of which the first 1e6 have bars.
+    fn steps(self, quick: u32) -> u32 {
+        self.of(10_000_000, quick)
+    }
+}
+
+/// Where a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Panel {
+    /// A regular motion.
+    Regular,
+    /// A chaotic one.
+    Chaotic,
+}
+
+/// The error of the energy along a run.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Where it is drawn.
+    pub panel: Panel,
+    /// The method.
+    pub name: &'static str,
+    /// Number of steps, and the largest error since the point before, in units of 29.43 J.
+    pub points: Vec<(f64, f64)>,
+    /// The largest error of the run.
+    pub most: f64,
+}
+
+/// What comes of a topic.
+#[derive(Clone, Debug, Default)]
+pub struct Measured {
+    /// Rows of the table.
+    pub outcomes: Vec<Outcome>,
+    /// Curves of the figure.
+    pub curves: Vec<Curve>,
+}
+
+impl From<Vec<Outcome>> for Measured {
+    fn from(outcomes: Vec<Outcome>) -> Self {
+        let curves = vec![];
+        Measured { outcomes, curves }
+    }
+}
+
+/// A group of cases that are run together.
+#[derive(Clone, Copy, Debug)]
+pub struct Topic {
+    /// Its name.
+    pub name: &'static str,
+    /// What the quick run shortens, if anything.
+    pub shortened: Option<&'static str>,
+    /// Runs them.
+    pub run: fn(Extent) -> Measured,
+}
+
+macro_rules! topics {
+    ($($name:ident: $run:path $(, $shortened:literal)?;)*) => {
+        /// All topics, in the order of the table.
+        pub const TOPICS: &[Topic] = &[$(Topic {
+            name: stringify!($name),
+            shortened: [$(Some($shortened),)? None][0],
+            run: |extent| $run(extent).into(),
+        }),*];
+    };
+}
+
+topics! {
+    chains: single::chains;
+    mass_ratios: single::ratios;
+    uneven_masses: single::uneven, "10 states a mechanism instead of 100";
+    robots: single::robots, "3 states a mechanism instead of 100";
+    large_angles: places::large_angles;
+    moved_base: places::moved_base, "200 states instead of 10,000, a motion of 1,000 steps instead of 10,000";
+    singular: singular::exact_answers, "1,000 states a mechanism instead of 100,000";
+    near_lock: gimbal::near_lock, "20 states an angle instead of 1,000";
+    a01_simple_pendulum: smooth::a01_simple_pendulum;
+    double_pendulum_chaotic: smooth::double_pendulum_chaotic;
+    chain8_rods: smooth::chain8_rods;
+    arm6_3d: smooth::arm6_3d;
+    mass_ratio_1e6_1: smooth::mass_ratio_1e6_1;
+    mass_ratio_1e9_1: smooth::mass_ratio_1e9_1;
+    mass_ratio_1e12_1: uneven::heavy_first;
+    mass_ratio_1_1e12: uneven::heavy_last;
+    stiff_spring_pendulum: stiff::stiff_spring_pendulum;
+    stiff_spring_two_mass: stiff::stiff_spring_two_mass;
+    motor_linear_stiff: stiff::motor_linear_stiff;
+    motor_pendulum: motor::motor_pendulum;
+    hydraulic_cylinder: stiff::hydraulic_cylinder;
+    lugre_stick_slip: stick_slip::lugre_stick_slip;
+    coulomb_stick_slip_belt: stick_slip::coulomb_stick_slip_belt;
+    orders: orders::orders;
+    energy_rk4: energy::rk4, "20,000 steps instead of 1e7";
+    energy_gauss2: energy::gauss2, "20,000 steps instead of 1e7";
+    energy_gauss3: energy::gauss3, "10,000 steps instead of 1e7";
+    energy_compensated: energy::compensated, "10,000 steps instead of 1e7";
+    energy_chaotic_gauss2: energy::chaotic_gauss2, "100,000 steps instead of 1e7";
+    energy_chaotic_midpoint: energy::chaotic_midpoint, "100,000 steps instead of 1e7";
+    limits_f64: limits::double, "1e5 states instead of 1e7, 4 ordinary ones to spoil instead of 100";
+    limits_f32: limits::single, "1e5 states instead of 1e7, 4 ordinary ones to spoil instead of 100";
+    no_strength: zero::no_strength, "10,000 states instead of 1e6";
+}

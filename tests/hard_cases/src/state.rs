@@ -1,0 +1,44 @@
+//! A state of a mechanism, and seeded ones.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::rng::Rng;
+
+/// Positions, velocities, accelerations, efforts, run-time parameters.
+#[derive(Clone, Debug, Default)]
+pub struct State {
+    /// Positions.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+    /// Accelerations.
+    pub a: Vec<f64>,
+    /// Efforts.
+    pub tau: Vec<f64>,
+    /// Run-time parameters.
+    pub parameters: Vec<f64>,
+}
+
+impl State {
+    /// A seeded one of n joints. In half of them every joint is a quarter turn, or a hair more, from
+    /// zero or from another.
+    pub(crate) fn seeded(rng: &mut Rng, n: usize) -> State {
+        let mut some = |size: f64| -> Vec<f64> { (0..n).map(|_| rng.within(size)).collect() };
+        let mut state = State {
+            q: some(1.0),
+            v: some(2.0),
+            a: some(3.0),
+            tau: some(20.0),
+            parameters: vec![],
+        };
+        if rng.chance(0.5) {
+            let hair = *rng.pick(&[0.0, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2]);
+            for q in &mut state.q {
+                if rng.chance(0.8) {
+                    *q = rng.below(4) as f64 * FRAC_PI_2 + hair;
+                }
+            }
+        }
+        state
+    }
+}

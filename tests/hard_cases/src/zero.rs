@@ -1,0 +1,92 @@
+//! Bar 14: effects of no strength leave nothing behind.
+
+use bgdyn_runtime::System;
+use nalgebra::SVector;
+
+use crate::outcome::Outcome;
+use crate::rng::Rng;
+use crate::{Extent, scenes};
+
+/// Rates of the arm and sled in a state: turn, slide, their rates, then their efforts.
+type Rates = Box<dyn Fn(&SVector<f64, 4>, &[f64; 2]) -> SVector<f64, 4>>;
+
+/// The rates of a scene, with all inputs but the two efforts at 0.
+fn rates<
+    S: System<f64, 4, NM, NU, NE, NY, NP> + 'static,
+    const NM: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+>(
+    scene: S,
+) -> Rates {
+    let (_, modes) = scene.start();
+    let places = ["turn", "slide"].map(|name| {
+        let found = scene.input_names().iter().position(|own| *own == name);
+        found.expect("an effort")
+    });
+    Box::new(move |y, efforts| {
+        let mut input = SVector::<f64, NU>::zeros();
+        for (place, effort) in places.into_iter().zip(efforts) {
+            input[place] = *effort;
+        }
+        scene.derivative(y, &modes, &input, 0.0).expect("regular")
+    })
+}
+
+/// Constant strengths at 0 against the scene without the effect, bit for bit; run-time ones to 4 eps of
+/// the largest rate.
+pub(crate) fn no_strength(extent: Extent) -> Vec<Outcome> {
+    macro_rules! of {
+        ($module:ident, $scene:ident) => {
+            rates(scenes::$module::$scene::<f64>::default())
+        };
+    }
+    let plain = of!(without, Without);
+    let constant: [(&str, Rates); 4] = [
+        ("viscous", of!(constant_viscous, ConstantViscous)),
+        ("spring", of!(constant_spring, ConstantSpring)),
+        ("damper", of!(constant_damper, ConstantDamper)),
+        ("drag", of!(constant_drag, ConstantDrag)),
+    ];
+    let run_time: [(&str, Rates); 5] = [
+        ("viscous", of!(parameter_viscous, ParameterViscous)),
+        ("spring", of!(parameter_spring, ParameterSpring)),
+        ("damper", of!(parameter_damper, ParameterDamper)),
+        ("drag", of!(parameter_drag, ParameterDrag)),
+        ("wrench", of!(input_wrench, InputWrench)),
+    ];
+    let states = extent.of(1_000_000, 10_000);
+    let mut rng = Rng::new(14);
+    let (mut differ, mut off) = ([0_usize; 4], [0.0_f64; 5]);
+    for _ in 0..states {
+        let y = SVector::from_fn(|_, _| rng.within(2.0));
+        let efforts = [rng.within(20.0), rng.within(20.0)];
+        let wanted = plain(&y, &efforts);
+        for (count, (_, found)) in differ.iter_mut().zip(&constant) {
+            let found = found(&y, &efforts);
+            let same = |(x, w): (&f64, &f64)| x.to_bits() == w.to_bits();
+            *count += usize::from(!found.iter().zip(&wanted).all(same));
+        }
+        for (most, (_, found)) in off.iter_mut().zip(&run_time) {
+            *most = most.max((found(&y, &efforts) - wanted).amax() / wanted.amax());
+        }
+    }
+    let mut outcomes = vec![];
+    for ((name, _), count) in constant.iter().zip(differ) {
+        let quantity = "states that differ in a bit, constant 0";
+        outcomes.push(Outcome::new(*name, "14", quantity, count as f64, 0.0));
+    }
+    for ((name, _), most) in run_time.iter().zip(off) {
+        let quantity = "relative to the largest rate, run-time 0";
+        outcomes.push(Outcome::new(
+            *name,
+            "14",
+            quantity,
+            most,
+            4.0 * f64::EPSILON,
+        ));
+    }
+    outcomes
+}
