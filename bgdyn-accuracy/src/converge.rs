@@ -142,8 +142,11 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     }
     let slopes = logs.windows(WINDOW).filter_map(slope);
     let beyond = logs.windows(WINDOW).all(|w| w[0].0 > stable.ln());
-    match slopes.reduce(f64::max) {
-        Some(best) => match judged(Some(best), SHARE * f64::from(order)) {
+    let least = SHARE * f64::from(order);
+    // Of those that show the order the finest: coarser ones may fall into stability.
+    let shown = slopes.clone().filter(|p| *p >= least).last();
+    match shown.or_else(|| slopes.reduce(f64::max)) {
+        Some(best) => match judged(Some(best), least) {
             Finding::DoesNot(p) if beyond => Finding::Stiff(p),
             Finding::DoesNot(p) if facts.kinked && p > KINKED => Finding::Kinked(p),
             finding => finding,
@@ -182,6 +185,7 @@ impl Verdict {
             order, controlled, ..
         } = self;
         match (self.finding, controlled) {
+            (Finding::Converges(p), true) if p < FOLLOWS => "error keeps to the tolerance".into(),
             (Finding::Converges(p), true) => format!("error follows tolerance^{p:.2}"),
             (Finding::Converges(p), false) => format!("order {p:.1} of {order}"),
             (Finding::DoesNot(p), true) => format!("error follows tolerance^{p:.2} only"),

@@ -137,7 +137,7 @@ pub fn page(studies: &[Study], machine: &Machine) -> String {
     text += "<nav>";
     for study in studies {
         let scene = &study.facts.scene;
-        write!(text, "<a href=\"#{scene}\">{scene}</a>").expect("text");
+        write!(text, "<a href=\"#{scene}\">{scene}</a> ").expect("text");
     }
     text += "</nav>\n";
     for study in studies {

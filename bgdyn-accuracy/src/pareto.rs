@@ -28,12 +28,15 @@ pub fn front(study: &Study) -> Vec<Row> {
     front
 }
 
-/// Rows with error and time, of the scene with all effects.
+/// Rows with error and time, of the scene with all effects and its equations as they are by default, in
+/// velocities or momenta.
 fn of_scene(study: &Study) -> Vec<(&Row, f64, f64)> {
+    let usual = |r: &&Row| ["cheapest", "canonical"].contains(&r.formulation.as_str());
     let full = study
         .rows
         .iter()
         .filter(|r| r.effects == "all" && r.holds());
+    let full = full.filter(usual);
     full.filter_map(|r| Some((r, r.error?, r.ns?))).collect()
 }
 
