@@ -144,7 +144,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     let beyond = logs.windows(WINDOW).all(|w| w[0].0 > stable.ln());
     let least = SHARE * f64::from(order);
     // Of those that show the order the finest: coarser ones may fall into stability.
-    let shown = slopes.clone().filter(|p| *p >= least).last();
+    let shown = slopes.clone().rfind(|p| *p >= least);
     match shown.or_else(|| slopes.reduce(f64::max)) {
         Some(best) => match judged(Some(best), least) {
             Finding::DoesNot(p) if beyond => Finding::Stiff(p),
