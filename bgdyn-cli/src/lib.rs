@@ -3,9 +3,11 @@
 //! Errors go to stderr; exit 1 for a bad input, 2 for bad usage.
 #![forbid(unsafe_code)]
 
+mod accuracy;
 mod commands;
 pub mod import;
 mod output;
+mod scratch;
 pub mod simulate;
 mod spec_file;
 mod timing;
@@ -35,6 +37,7 @@ enum Command {
     Eval(commands::eval::Eval),
     Generate(commands::generate::Generate),
     Simulate(commands::simulate::Simulate),
+    Accuracy(commands::accuracy::Accuracy),
     Import(import::ImportArgs),
 }
 
@@ -46,6 +49,7 @@ pub fn run() -> ExitCode {
         Command::Eval(command) => command.run(),
         Command::Generate(command) => command.run(),
         Command::Simulate(command) => command.run(),
+        Command::Accuracy(command) => command.run(),
         Command::Import(arguments) => import::run(arguments),
     };
     match done {

@@ -1,5 +1,6 @@
 //! The subcommands.
 
+pub(crate) mod accuracy;
 pub(crate) mod check;
 pub(crate) mod eval;
 pub(crate) mod generate;

@@ -1,7 +1,6 @@
 //! `bgdyn ops SCENE --per-effect`: what each effect costs.
 
 use anyhow::Result;
-use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
@@ -9,7 +8,7 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use crate::output::{print, tell};
-use crate::timing::times;
+use crate::timing::{estimate, times};
 
 /// A scene with some of its effects.
 #[derive(Serialize)]
@@ -98,13 +97,6 @@ fn variants(whole: &System) -> Result<Vec<(String, System)>> {
         }
     }
     Ok(found)
-}
-
-/// A guess of a call's time from its operations, ns: what such a call takes on a machine of 3 GHz
-/// that starts two operations a cycle and waits for one in three.
-fn estimate(o: Operations) -> f64 {
-    let quick = (o.total() + o.other) as f64;
-    0.4 * quick + 4.0 * (o.div + o.sqrt) as f64 + 12.0 * o.sincos as f64
 }
 
 /// 1 / |λ| of the fastest mode at the start.

@@ -1,5 +1,6 @@
 //! The command `bgdyn` as scripts see it: what it prints, where, and how it exits.
 
+mod accuracy;
 mod check;
 mod eval;
 mod eval_scenes;

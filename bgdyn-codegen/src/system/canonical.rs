@@ -65,7 +65,7 @@ impl Momenta {
                     Leaf::Acceleration(j) => Some(velocities[j]),
                     _ => None,
                 };
-                copied(laws.b, &still, Method::InverseDynamics, placed)
+                copied(laws.b, (&still, None), Method::InverseDynamics, placed)
             }
         }
     }

@@ -3,36 +3,57 @@
 use super::laws::copied;
 use super::{Laws, Own, System};
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, copy_into};
-use crate::formulation::{self, Search};
+use crate::formulation::{self, Formulation, Search};
 use crate::function::Function;
 use crate::method::{Method, Role};
 
 /// The ways to v̇ and ẋ.
 pub(super) fn derivatives(system: &System) -> Vec<Function> {
     if !system.scene.layout.modes.is_empty() {
-        return vec![system.one(Role::Derivative, |system, b| {
-            let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
-            rates(system, &laws, b)
-        })];
+        return vec![with_modes(system, None)];
     }
     let search = Search::new(&system.graph, None);
-    let with = |forward: &Function| {
-        let b = Builder::new();
-        let outputs: Vec<Expr> = {
-            let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
-            let joints = driven(&b, forward, &laws, system);
-            joined(system, &laws, joints)
-                .into_iter()
-                .map(Ex::expr)
-                .collect()
-        };
-        let name = format!("{}; under the scene's efforts", forward.formulation);
-        Function {
-            ordered: forward.ordered,
-            ..system.flat(Role::Derivative, name, b, outputs)
-        }
+    let ways = search.forward_dynamics();
+    ways.map(|forward| without_modes(system, forward)).collect()
+}
+
+/// The way to v̇ and ẋ on this formulation; `None` where it does not know what that takes.
+pub(super) fn derivative_by(
+    system: &System,
+    formulation: &'static dyn Formulation,
+) -> Option<Function> {
+    if system.scene.layout.modes.is_empty() {
+        let search = Search::new(&system.graph, Some(formulation));
+        let forward = formulation.function(&search, Method::ForwardDynamics)?;
+        return Some(without_modes(system, &forward));
+    }
+    let known = [Method::MassMatrix, Method::Bias].map(|m| formulation.knows(m));
+    (known == [true, true]).then(|| with_modes(system, Some(formulation)))
+}
+
+/// v̇ and ẋ where joints may be held.
+fn with_modes(system: &System, asked: Option<&'static dyn Formulation>) -> Function {
+    system.one(Role::Derivative, |system, b| {
+        let mut laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+        laws.asked = asked;
+        rates(system, &laws, b)
+    })
+}
+
+/// v̇ and ẋ on a way to forward dynamics.
+fn without_modes(system: &System, forward: &Function) -> Function {
+    let b = Builder::new();
+    let outputs: Vec<Expr> = {
+        let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+        let joints = driven(&b, forward, &laws, system);
+        let all = joined(system, &laws, joints).into_iter();
+        all.map(Ex::expr).collect()
     };
-    search.forward_dynamics().map(with).collect()
+    let name = format!("{}; under the scene's efforts", forward.formulation);
+    Function {
+        ordered: forward.ordered,
+        ..system.flat(Role::Derivative, name, b, outputs)
+    }
 }
 
 /// Forward dynamics under the efforts of the laws.
@@ -211,7 +232,7 @@ pub(super) fn efforts<'g>(system: &System, laws: &Laws<'g, '_>, at: &[Ex<'g>]) -
     let placed: Vec<Expr> = at.iter().map(|a| a.expr()).collect();
     let links = copied(
         laws.b,
-        &system.graph,
+        (&system.graph, laws.asked),
         Method::InverseDynamics,
         |_, leaf| match leaf {
             Leaf::Acceleration(j) => Some(placed[j]),

@@ -120,7 +120,7 @@ fn columns<'g>(
     let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
     let at = expressions(&rates[..n]);
     let links = Method::InverseDynamicsDerivatives;
-    let links = copied(b, &system.graph, links, |_, leaf| match leaf {
+    let links = copied(b, (&system.graph, None), links, |_, leaf| match leaf {
         Leaf::Acceleration(j) => Some(at[j]),
         _ => None,
     });

@@ -18,6 +18,7 @@ use bgdyn_runtime::Dd;
 use crate::bond_graph::{self, BondGraph};
 use crate::expr::{Builder, Ex, Expr};
 use crate::fault::{Fault, Faults, unknown_name};
+use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::method::{Method, Role};
 use crate::scene::{Scene, Settable};
@@ -202,6 +203,13 @@ impl System {
             Role::FromCanonical => canonical::velocities(self),
             Role::CanonicalRates => canonical::rates(self),
         }
+    }
+
+    /// The derivative on this formulation instead of the cheapest: to compare them. `None` where the
+    /// formulation does not know what the derivative rests on.
+    pub fn derivative_by(&self, formulation: &'static dyn Formulation) -> Option<Function> {
+        let way = dynamics::derivative_by(self, formulation)?;
+        Some(crate::cut::cut(way.factored()))
     }
 
     /// The derivative with one effort of its own at every coordinate, in place of the accelerations

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::bond_graph::{BondGraph, SiteId};
 use crate::expr::{Builder, Ex, Graph, Leaf, copy_into};
-use crate::formulation::Search;
+use crate::formulation::{Formulation, Search};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Scene;
@@ -101,6 +101,8 @@ pub struct Laws<'g, 'a> {
     /// Time.
     pub t: Ex<'g>,
     own: Own,
+    /// The formulation asked for; the cheapest of each method where `None`.
+    pub(super) asked: Option<&'static dyn Formulation>,
     scene: &'a Scene,
     graph: &'a BondGraph,
     x: Vec<Ex<'g>>,
@@ -160,6 +162,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             v: leaves(layout.nv(), Leaf::Velocity),
             t: b.leaf(Leaf::Time),
             own,
+            asked: None,
             scene,
             graph,
             x: leaves(layout.nx(), Leaf::State),
@@ -192,14 +195,15 @@ pub fn behind_gear<'g>(b: &'g Builder, effort: Ex<'g>, rate: Ex<'g>, efficiency:
     (effort * rate).if_less(b.zero(), effort / efficiency, effort * efficiency)
 }
 
-/// A method of the mechanism, its expressions copied; `leaf` may replace leaves.
+/// A method of the mechanism by the formulation asked for, its expressions copied; `leaf` may replace
+/// leaves.
 pub(super) fn copied<'g>(
     b: &'g Builder,
-    graph: &BondGraph,
+    (graph, asked): (&BondGraph, Option<&'static dyn Formulation>),
     method: Method,
     leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Expr>,
 ) -> Vec<Ex<'g>> {
-    let Some(function) = Search::new(graph, None).function(method) else {
+    let Some(function) = Search::new(graph, asked).function(method) else {
         return vec![];
     };
     let outputs = &function.blocks[0].outputs;

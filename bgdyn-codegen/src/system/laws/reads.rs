@@ -169,7 +169,7 @@ impl<'g, 'a> Laws<'g, 'a> {
 
     /// A method of the mechanism, its expressions copied into this graph.
     pub(in crate::system) fn method(&self, method: Method) -> Vec<Ex<'g>> {
-        copied(self.b, self.graph, method, |_, _| None)
+        copied(self.b, (self.graph, self.asked), method, |_, _| None)
     }
 
     /// What an earlier element gave.

@@ -1,0 +1,59 @@
+//! Times, measured in turn.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use crate::contender::{Contender, Grid, Pace};
+use crate::ladder::Plan;
+
+/// Runs of one measurement at the most.
+const RUNS: usize = 1000;
+
+/// Measurements of a round, of which the best counts: what interrupts one of them is no part of it.
+const BEST_OF: usize = 3;
+
+/// Time of each of these runs per simulated millisecond, ns: the median of the plan's rounds. Every
+/// round takes all of them in turn, so that what slows the machine down for a while slows all alike.
+pub(crate) fn times(jobs: &[(&Contender, Pace)], grid: &Grid, plan: &Plan) -> Vec<f64> {
+    let repeat: Vec<usize> = jobs
+        .iter()
+        .map(|job| {
+            let once = seconds(job, grid, 1).max(1e-9);
+            ((plan.resolution / once).ceil() as usize).clamp(1, RUNS)
+        })
+        .collect();
+    let mut rounds = vec![Vec::with_capacity(plan.rounds); jobs.len()];
+    for _ in 0..plan.rounds {
+        for ((job, &runs), found) in jobs.iter().zip(&repeat).zip(&mut rounds) {
+            let tried = (0..BEST_OF).map(|_| seconds(job, grid, runs));
+            found.push(tried.fold(f64::INFINITY, f64::min) / runs as f64);
+        }
+    }
+    let per_ms = 1e9 / (1e3 * grid.end);
+    rounds
+        .iter_mut()
+        .map(|found| per_ms * median(found))
+        .collect()
+}
+
+/// So many runs, s.
+fn seconds((contender, pace): &(&Contender, Pace), grid: &Grid, runs: usize) -> f64 {
+    let begin = Instant::now();
+    for _ in 0..runs {
+        let _ = black_box((contender.run)(black_box(grid), black_box(*pace)));
+    }
+    begin.elapsed().as_secs_f64()
+}
+
+fn median(numbers: &mut [f64]) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_middle_one_counts() {
+        assert_eq!(super::median(&mut [9.0, 1.0, 2.0, 100.0, 3.0]), 3.0);
+    }
+}

@@ -1,0 +1,247 @@
+//! The variants of a scene as source text: what is compiled to be measured. Build scripts and the
+//! command `bgdyn accuracy` write the same.
+
+use std::fmt::Write;
+
+use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
+use bgdyn_codegen::fault::Place as Where;
+use bgdyn_codegen::formulation::FORMULATIONS;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::{Method, Role};
+use bgdyn_codegen::model::{Options, scene_functions};
+use bgdyn_codegen::scene::{Integrator, Pace, Scene};
+use bgdyn_codegen::spec::Located;
+use bgdyn_codegen::system::System;
+
+/// Coordinates up to which the literal sum is written out: it grows with the cube of their number.
+const LITERAL: usize = 4;
+
+/// A scene with some of its effects.
+#[derive(Debug)]
+pub struct Level {
+    /// Which: `none`, `gravity+inertia`, `all but friction`.
+    pub effects: String,
+    /// Its equations; `None` where the measured output is not there without the others.
+    pub system: Option<System>,
+}
+
+/// The scene with one output, the measured one: the first place among its outputs, else the first
+/// coordinate of a joint among them, else the first, and where it asks for none the first coordinate.
+///
+/// `None` where a scene has nothing to measure.
+pub fn measured(system: &System) -> Option<System> {
+    let outputs = &system.scene.outputs;
+    let is_site = |name: &str| system.graph.sites.iter().any(|s| s.name == name);
+    let joints = &system.graph.coordinates;
+    let is_joint = |name: &str| joints.iter().any(|c| c.name == name);
+    let first = |holds: &dyn Fn(&str) -> bool| outputs.iter().find(|o| holds(&o.value)).cloned();
+    let coordinate = || {
+        let value = joints.first()?.name.clone();
+        let place = Where::file();
+        Some(Located { value, place })
+    };
+    let found = first(&is_site)
+        .or_else(|| first(&is_joint))
+        .or_else(|| outputs.first().cloned())
+        .or_else(coordinate)?;
+    with_output(&system.scene, found)
+}
+
+fn with_output(scene: &Scene, output: Located<String>) -> Option<System> {
+    let mut scene = scene.clone();
+    scene.outputs = vec![output];
+    System::new(scene).ok()
+}
+
+/// The scene with ever more of its effects, family by family, and with all but each one; `system` is
+/// as [`measured`] gives it.
+pub fn levels(system: &System) -> Vec<Level> {
+    let elements = &system.scene.elements;
+    let mut families: Vec<&str> = Vec::new();
+    for element in elements {
+        if !families.contains(&element.effect.family()) {
+            families.push(element.effect.family());
+        }
+    }
+    let with = |effects: String, kept: &[&str]| {
+        let scene = system
+            .scene
+            .with_only(|e| kept.contains(&e.effect.family()));
+        let system = with_output(&scene, system.scene.outputs[0].clone());
+        Level { effects, system }
+    };
+    let mut found = Vec::new();
+    for n in 0..families.len() {
+        let effects = match n {
+            0 => "none".into(),
+            _ => families[..n].join("+"),
+        };
+        found.push(with(effects, &families[..n]));
+    }
+    for family in families.iter().filter(|_| families.len() > 1) {
+        let rest: Vec<&str> = families.iter().copied().filter(|f| f != family).collect();
+        found.push(with(format!("all but {family}"), &rest));
+    }
+    found
+}
+
+/// How a scene is run by its own method: the method, its constructor, whether it takes slopes.
+struct Own {
+    method: Integrator,
+    constructor: &'static str,
+    slopes: bool,
+}
+
+/// The scene's own method; one on momenta stands for the same in velocities.
+fn own(system: &System) -> Own {
+    use Integrator as I;
+    let (method, constructor) = match system.scene.integration.method {
+        I::SemiImplicitEuler => (I::SemiImplicitEuler, "SemiImplicitEuler"),
+        I::Rk4 => (I::Rk4, "Rk4"),
+        I::Midpoint | I::CanonicalMidpoint => (I::Midpoint, "Midpoint::<f64>::new()"),
+        I::Gauss2 | I::CanonicalGauss2 => (I::Gauss2, "Gauss2::<f64>::new()"),
+        I::Gauss3 | I::CanonicalGauss3 => (I::Gauss3, "Gauss3::<f64>::new()"),
+        I::Rodas4 => (I::Rodas4, "Rodas4"),
+        I::Dopri5 => (I::Dopri5, "Dopri5"),
+        I::Dop853 => (I::Dop853, "Dop853"),
+    };
+    Own {
+        method,
+        constructor,
+        slopes: method.needs_jacobian(),
+    }
+}
+
+/// The method and the pace of a scene, as a study names them.
+pub fn own_way(system: &System) -> (&'static str, crate::Pace) {
+    let pace = match system.scene.integration.pace {
+        Pace::Step(h) => crate::Pace::Step(h),
+        Pace::Tolerance(tolerance) => crate::Pace::Tolerance(tolerance),
+    };
+    (own(system).method.name(), pace)
+}
+
+/// The text of a module with the scene's name: its variants, and `subject()`, which gives the
+/// [`Subject`](crate::Subject) of them. The crate that includes it depends on `bgdyn` and
+/// `bgdyn-accuracy`; `end` stands in for the scene's own, s.
+///
+/// # Errors
+/// In a sentence, where the scene has nothing to measure.
+pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
+    let name = &system.scene.name;
+    let full =
+        measured(system).ok_or_else(|| format!("the scene `{name}` has nothing to measure"))?;
+    let structure = struct_ident(name);
+    let own = own(&full);
+    let mut text = format!("/// The scene `{name}` and its variants.\npub mod {name} {{\n");
+    let mut calls = String::new();
+    let all = Options {
+        jacobian: true,
+        canonical: true,
+        ..Options::default()
+    };
+    let functions = scene_functions(&full, &all);
+    text += &module(&full, &functions, "all")?;
+    for call in ["methods", "momenta"] {
+        writeln!(calls, "subject.{call}(all::{structure}::<f64>::default());").expect("text");
+    }
+    writeln!(calls, "subject.single(all::{structure}::<f32>::default());").expect("text");
+    let dd = "bgdyn_accuracy::Dd";
+    writeln!(
+        calls,
+        "subject.reference(all::{structure}::<{dd}>::default());"
+    )
+    .expect("text");
+    for (formulation, functions) in formulations(&full) {
+        text += &module(&full, &functions, formulation)?;
+        let model = format!("{formulation}::{structure}::<f64>::default()");
+        writeln!(calls, "subject.formulation({formulation:?}, {model});").expect("text");
+    }
+    let options = Options {
+        jacobian: own.slopes,
+        ..Options::default()
+    };
+    let call = match own.slopes {
+        true => "level_with_slope",
+        false => "level",
+    };
+    let method = format!("bgdyn_accuracy::bgdyn_sim::{}", own.constructor);
+    let add = |effects: &str, model: &str, text: &mut String| {
+        writeln!(text, "subject.{call}({effects:?}, {model}, || {method});").expect("text");
+    };
+    add(
+        "all",
+        &format!("all::{structure}::<f64>::default()"),
+        &mut calls,
+    );
+    for (i, level) in levels(&full).iter().enumerate() {
+        let Some(system) = &level.system else {
+            writeln!(calls, "subject.missing_level({:?});", level.effects).expect("text");
+            continue;
+        };
+        let inner = format!("level_{i}");
+        text += &module(system, &scene_functions(system, &options), &inner)?;
+        let model = format!("{inner}::{structure}::<f64>::default()");
+        add(&level.effects, &model, &mut calls);
+    }
+    text += &format!(
+        "/// What is measured of it.\npub fn subject() -> bgdyn_accuracy::Subject {{\nlet mut subject = {};\nsubject.kinked = {};\n{calls}subject\n}}\n}}\n",
+        opening(&full, end),
+        kinked(&full)
+    );
+    Ok(text)
+}
+
+/// Whether a scene's laws have kinks: events that change no mode.
+pub fn kinked(system: &System) -> bool {
+    let layout = &system.scene.layout;
+    layout.events.iter().any(|e| layout.mode_of(e).is_none())
+}
+
+/// The call that makes a subject.
+fn opening(full: &System, end: Option<f64>) -> String {
+    let scene = &full.scene;
+    let (method, pace) = own_way(full);
+    let pace = match pace {
+        crate::Pace::Step(h) => format!("Step({h:?})"),
+        crate::Pace::Tolerance(t) => format!("Tolerance({t:?})"),
+    };
+    let names = [
+        &scene.name,
+        &scene.description.clone().unwrap_or_default(),
+        &scene.outputs[0].value,
+        full.outputs[0].unit,
+    ];
+    let end = end.unwrap_or(scene.integration.end);
+    format!(
+        "bgdyn_accuracy::Subject::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::Pace::{pace})"
+    )
+}
+
+/// The functions of the scene with its derivative by each formulation that knows it.
+fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
+    let few = full.graph.coordinates.len() <= LITERAL;
+    let mut found = Vec::new();
+    for formulation in FORMULATIONS {
+        let name = formulation.name();
+        if name == "literal" && !few {
+            continue;
+        }
+        let Some(derivative) = full.derivative_by(formulation) else {
+            continue;
+        };
+        let functions = scene_functions(full, &Options::default()).into_iter();
+        let replaced = functions.map(|f| match f.method {
+            Method::Scene(Role::Derivative) => derivative.clone(),
+            _ => f,
+        });
+        found.push((name, replaced.collect()));
+    }
+    found
+}
+
+/// One variant's module.
+fn module(system: &System, functions: &[Function], name: &str) -> Result<String, String> {
+    let place = Place::source_text(system.scene.name.clone()).with_module(name)?;
+    Ok(source_text(scene_module(system, functions, &place)))
+}

@@ -1,0 +1,114 @@
+//! One run of a plant by a method, sample by sample.
+
+use bgdyn_sim::{Method, Moment, Plant, Reason, Run, Tolerance, WithMethod};
+use bgdyn_sim::{Of, Real};
+use std::fmt::Debug;
+
+use crate::contender::{Grid, Pace, Stop};
+
+/// A plant with a measured output.
+pub trait Measured: Plant {
+    /// The measured output at a time, in a state; what does not exist is no number.
+    fn measured(
+        &self,
+        t: Of<Self::State>,
+        state: &Self::State,
+        modes: &Self::Modes,
+    ) -> Vec<Of<Self::State>>;
+}
+
+/// A run that is to be made, by whichever method.
+#[derive(Debug)]
+pub struct Integrate<'a, P: Plant> {
+    /// What is run.
+    pub plant: P,
+    /// Where it begins.
+    pub begin: Moment<P::State, P::Modes>,
+    /// When it is looked at.
+    pub grid: &'a Grid,
+    /// What its steps go by.
+    pub pace: Pace,
+}
+
+/// The measured output at each sample, or why the run ended early.
+type Sampled<Y> = Result<Vec<Vec<Of<Y>>>, Stop>;
+
+impl<P: Measured> WithMethod<P::State> for Integrate<'_, P>
+where
+    Of<P::State>: Real,
+{
+    type Output = Sampled<P::State>;
+
+    fn with<M: Method<P::State>>(self, method: M) -> Self::Output {
+        let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
+        // Divided in the run's own scalar: steps in double-double end where they should.
+        let interval = number(self.grid.end) / number(self.grid.samples as f64);
+        let mut run = Run::by(method, self.plant, self.begin).unaudited();
+        let (steps, h) = match self.pace {
+            Pace::Step(h) => {
+                let parts = self.grid.parts(h);
+                (parts, interval / number(parts as f64))
+            }
+            Pace::Tolerance(tolerance) => {
+                let tolerance = number(tolerance);
+                run = run.with_tolerance(Tolerance {
+                    absolute: tolerance,
+                    relative: tolerance,
+                });
+                (1, interval)
+            }
+        };
+        let mut samples = Vec::with_capacity(self.grid.samples);
+        for _ in 0..self.grid.samples {
+            for _ in 0..steps {
+                run.step(h).map_err(|failure| Stop {
+                    t: failure.t.to_f64(),
+                    why: in_short(&failure.reason),
+                })?;
+            }
+            samples.push(run.plant().measured(run.t(), run.y(), run.modes()));
+        }
+        Ok(samples)
+    }
+}
+
+/// A reason in a few words.
+fn in_short<E: Debug>(reason: &Reason<E>) -> String {
+    match reason {
+        Reason::Singular(at) => format!("no rate of {}", format!("{at:?}").trim_matches('"')),
+        Reason::NotFinite => "unstable: not finite".into(),
+        Reason::NoConvergence { .. } => "stages not solved".into(),
+        Reason::SingularMatrix => "matrix of the stages singular".into(),
+        Reason::NoJacobian => "needs slopes".into(),
+        Reason::StepTooSmall { h, .. } => format!("steps below {h:.0e} s"),
+        Reason::TooManyEvents { .. } => "too many events".into(),
+    }
+}
+
+/// Whether all of these are numbers.
+pub(crate) fn finite(values: &[Vec<f64>]) -> bool {
+    values.iter().flatten().all(|x| x.is_finite())
+}
+
+/// The largest distance between two courses of an output.
+pub(crate) fn distance<T: Real>(a: &[Vec<T>], b: &[Vec<T>]) -> f64 {
+    let apart = |(a, b): (&Vec<T>, &Vec<T>)| {
+        let parts = a.iter().zip(b).map(|(&a, &b)| (a - b).to_f64());
+        parts.map(|d| d * d).sum::<f64>().sqrt()
+    };
+    a.iter().zip(b).map(apart).fold(0.0, |most: f64, x| {
+        // What is no number is farther than any.
+        if x.is_nan() {
+            f64::INFINITY
+        } else {
+            most.max(x)
+        }
+    })
+}
+
+/// The same numbers in `f64`.
+pub(crate) fn numbers<T: Real>(values: Vec<Vec<T>>) -> Vec<Vec<f64>> {
+    let all = values.into_iter();
+    all.map(|row| row.into_iter().map(Real::to_f64).collect())
+        .collect()
+}

@@ -1,0 +1,53 @@
+//! What accuracy costs in time: a scene's motion by many methods, steps, scalars, formulations and
+//! levels of effects, each with its error against a reference in double-double and with its time.
+//!
+//! One factor is varied at a time, from all effects in `f64` by the cheapest formulation. The path:
+//!
+//! ```text
+//! scene ──generate──▶ variants, compiled ──▶ Subject ──study──▶ Study (rows) ──▶ verdicts, front, figures, page
+//! ```
+//!
+//! - [`generate`](crate::generate) (feature `generate`) writes the modules of a scene's variants with a function that
+//!   makes a [`Subject`] of them. Build scripts and the command `bgdyn accuracy` call it alike.
+//! - [`Subject`] is what is measured: runs of compiled scenes behind plain closures, so that what
+//!   follows knows no scene.
+//! - [`study()`] runs each of them, takes the time and gives rows: `accuracy.csv`.
+//! - [`verdicts`], [`front`], [`figures`] and [`page`] read rows only.
+//!
+//! # The error
+//! A scene has one measured output: the first place among its outputs, else the first coordinate
+//! among them. The error of a run is the largest distance, over equally spaced sample times, of that
+//! output from the reference, in the output's own unit (m or rad). For fewer effects it is the change
+//! of the motion: the distance from the reference of the scene with all effects.
+#![forbid(unsafe_code)]
+
+mod clock;
+mod compiled;
+mod contender;
+mod converge;
+mod erased;
+mod figures;
+#[cfg(feature = "generate")]
+pub mod generate;
+mod integrate;
+mod ladder;
+mod page;
+mod pareto;
+mod row;
+mod study;
+mod subject;
+mod svg;
+mod text;
+
+pub use bgdyn_runtime::Dd;
+pub use bgdyn_sim;
+pub use contender::{Contender, Grid, Pace, Ran, Runner, Stop};
+pub use converge::{Finding, Verdict, verdicts};
+pub use figures::{Figure, figures};
+pub use integrate::{Integrate, Measured};
+pub use ladder::Plan;
+pub use page::{Machine, page, readme};
+pub use pareto::{Choice, front, targets};
+pub use row::{Row, Status, csv};
+pub use study::{Facts, Failed, Study, study};
+pub use subject::{References, Subject, order};

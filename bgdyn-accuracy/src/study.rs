@@ -1,0 +1,242 @@
+//! The study of one scene: reference, runs, times.
+
+use std::fmt;
+
+use crate::clock::times;
+use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::integrate::{distance, numbers};
+use crate::ladder::{Plan, Scale, Tried, ladder};
+use crate::row::{Row, Status};
+use crate::subject::Subject;
+
+/// What a study is about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// The scene's name.
+    pub scene: String,
+    /// What it is, in a line.
+    pub description: String,
+    /// The measured output.
+    pub output: String,
+    /// Its unit.
+    pub unit: String,
+    /// When the runs end, s.
+    pub end: f64,
+    /// How many samples they are compared at.
+    pub samples: usize,
+    /// Whether its laws have kinks.
+    pub kinked: bool,
+    /// How far the output moves from where it begins.
+    pub size: f64,
+    /// Errors in `f64` below this are rounding, or the reference's.
+    pub floor: f64,
+    /// What the reference is off by: the difference from one with a hundred times the tolerance.
+    pub reference_error: f64,
+}
+
+/// A scene's study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// What it is about.
+    pub facts: Facts,
+    /// What came of it.
+    pub rows: Vec<Row>,
+}
+
+/// Why a scene cannot be studied.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failed {
+    /// It has no reference.
+    NoReference,
+    /// Its reference's run ends early.
+    Reference(Stop),
+    /// Two references differ by so much of the motion.
+    Uncertain(f64),
+}
+
+impl fmt::Display for Failed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failed::NoReference => f.write_str("the scene has no reference"),
+            Failed::Reference(stop) => write!(f, "the reference ends early: {stop}"),
+            Failed::Uncertain(part) => write!(
+                f,
+                "two references differ by {part:.1e} of the motion: the scene is chaotic; a shorter end (`--end`) may help"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Failed {}
+
+/// References that differ by more than this part of the motion tell nothing.
+const CERTAIN: f64 = 1e-6;
+
+/// Studies a scene.
+///
+/// # Errors
+/// Where there is no reference to go by.
+pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
+    let grid = Grid {
+        end: subject.end,
+        samples: plan.samples,
+    };
+    let run = subject.reference.as_ref().ok_or(Failed::NoReference)?;
+    let (fine, coarse) = subject.tolerances;
+    let reference = run(&grid, fine).map_err(Failed::Reference)?;
+    let error = distance(&reference, &run(&grid, coarse).map_err(Failed::Reference)?);
+    let reference = numbers(reference);
+    let size = moved(&reference);
+    if error.is_nan() || error > CERTAIN * size {
+        return Err(Failed::Uncertain(error / size));
+    }
+    let zero = vec![vec![0.0; reference[0].len()]; reference.len()];
+    let scale = Scale {
+        largest: distance(&reference, &zero).max(size),
+        reference: &reference,
+        error,
+        size,
+    };
+    let mut tried: Vec<(&Contender, Tried)> = Vec::new();
+    for contender in &subject.contenders {
+        let steps = ladder(contender, &grid, &scale, plan);
+        tried.extend(steps.into_iter().map(|t| (contender, t)));
+    }
+    for level in &subject.levels {
+        let pace = own_pace(subject, &grid);
+        // A motion far from the reference is a finding here, not a failure.
+        let far = Scale {
+            size: f64::INFINITY,
+            ..scale
+        };
+        tried.push((level, far.attempt(level, &grid, pace)));
+    }
+    Ok(Study {
+        facts: Facts {
+            scene: subject.scene.clone(),
+            description: subject.description.clone(),
+            output: subject.output.clone(),
+            unit: subject.unit.clone(),
+            end: subject.end,
+            samples: plan.samples,
+            kinked: subject.kinked,
+            size,
+            floor: scale.floor(f64::EPSILON),
+            reference_error: error,
+        },
+        rows: rows(&subject.scene, &tried, &grid, plan),
+    })
+}
+
+/// How far an output moves from its first sample.
+fn moved(reference: &[Vec<f64>]) -> f64 {
+    let still = vec![reference[0].clone(); reference.len()];
+    distance(reference, &still).max(f64::MIN_POSITIVE)
+}
+
+/// The scene's own pace; a step is taken as often as fits between two samples.
+fn own_pace(subject: &Subject, grid: &Grid) -> Pace {
+    match subject.own.1 {
+        Pace::Step(h) => Pace::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64),
+        tolerance => tolerance,
+    }
+}
+
+/// The rows of what was tried, with times.
+fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) -> Vec<Row> {
+    let measured = |t: &Tried| matches!(t.outcome, Ok((_, None)));
+    let jobs = tried.iter().filter(|(_, t)| measured(t));
+    let jobs: Vec<(&Contender, Pace)> = jobs.map(|(c, t)| (*c, t.pace)).collect();
+    let mut times = times(&jobs, grid, plan).into_iter();
+    let row = |(contender, t): &(&Contender, Tried)| {
+        let (error, ns, status) = match &t.outcome {
+            Ok((error, None)) => (Some(*error), times.next(), Status::Ok),
+            Ok((error, Some(ns))) => {
+                let ns = ns / (1e3 * grid.end);
+                (Some(*error), Some(ns), Status::Estimated)
+            }
+            Err(stop) => (None, None, Status::Failed(stop.to_string())),
+        };
+        Row {
+            scene: scene.into(),
+            effects: contender.effects.clone(),
+            method: contender.method.clone(),
+            pace: t.pace,
+            scalar: contender.scalar.into(),
+            formulation: contender.formulation.clone(),
+            error,
+            ns,
+            status,
+        }
+    };
+    tried.iter().map(row).collect()
+}
+
+impl Study {
+    /// As text: a line of facts, then CSV. For programs that measure and programs that show.
+    pub fn write(&self) -> String {
+        let f = &self.facts;
+        let numbers = [f.end, f.size, f.floor, f.reference_error].map(|x| format!("{x:e}"));
+        let words = [&f.scene, &f.description, &f.output, &f.unit];
+        let words: Vec<&str> = words.into_iter().map(String::as_str).collect();
+        let numbers = numbers.join("\t");
+        let (samples, kinked) = (f.samples, f.kinked);
+        let rows = crate::row::csv(&self.rows);
+        format!(
+            "#\t{}\t{samples}\t{kinked}\t{numbers}\n{rows}",
+            words.join("\t")
+        )
+    }
+
+    /// The studies in a text of [`Study::write`], one after the other; `None` where it is none.
+    pub fn read(text: &str) -> Option<Vec<Study>> {
+        let mut all: Vec<Study> = Vec::new();
+        for line in text.lines() {
+            if let Some(facts) = line.strip_prefix("#\t") {
+                let facts = Facts::of_line(facts)?;
+                all.push(Study {
+                    facts,
+                    rows: Vec::new(),
+                });
+            } else if !line.starts_with("scene,effects,") {
+                all.last_mut()?.rows.push(Row::of_line(line)?);
+            }
+        }
+        Some(all)
+    }
+
+    /// Whether times were measured.
+    pub fn is_measured(&self) -> bool {
+        !self.rows.iter().any(|r| r.status == Status::Estimated)
+    }
+}
+
+impl Facts {
+    fn of_line(line: &str) -> Option<Facts> {
+        let fields: Vec<&str> = line.split('\t').collect();
+        let [
+            scene,
+            description,
+            output,
+            unit,
+            samples,
+            kinked,
+            end,
+            size,
+            floor,
+            error,
+        ] = <[&str; 10]>::try_from(fields).ok()?;
+        Some(Facts {
+            scene: scene.into(),
+            description: description.into(),
+            output: output.into(),
+            unit: unit.into(),
+            end: end.parse().ok()?,
+            samples: samples.parse().ok()?,
+            kinked: kinked.parse().ok()?,
+            size: size.parse().ok()?,
+            floor: floor.parse().ok()?,
+            reference_error: error.parse().ok()?,
+        })
+    }
+}

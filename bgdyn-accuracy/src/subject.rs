@@ -1,0 +1,90 @@
+//! A scene as it is studied: its reference and everything that is held against it.
+
+use bgdyn_runtime::Dd;
+use bgdyn_sim::{Method, WithMethod, with_method};
+use nalgebra::SVector;
+
+use crate::contender::{Contender, Grid, Pace, Stop};
+
+/// The measured output at each sample, in double-double, by a tolerance.
+pub type References = Box<dyn Fn(&Grid, f64) -> Result<Vec<Vec<Dd>>, Stop>>;
+
+/// A scene as it is studied.
+pub struct Subject {
+    /// The scene's name.
+    pub scene: String,
+    /// What it is, in a line.
+    pub description: String,
+    /// The measured output: a place or a coordinate.
+    pub output: String,
+    /// The measured output's unit.
+    pub unit: String,
+    /// When it ends, s.
+    pub end: f64,
+    /// The scene's own method and pace, by which effects are compared.
+    pub own: (String, Pace),
+    /// Whether its laws have kinks, which steps end at only as exactly as they are found.
+    pub kinked: bool,
+    /// The reference.
+    pub reference: Option<References>,
+    /// Tolerances of the reference and of the coarser run that its error is taken from.
+    pub tolerances: (f64, f64),
+    /// Ways to run the scene with all effects, each with its own ladder of steps or tolerances.
+    pub contenders: Vec<Contender>,
+    /// The scene with fewer effects, each at the scene's own pace.
+    pub levels: Vec<Contender>,
+}
+
+impl Subject {
+    /// A scene that nothing is known of yet: names, unit, end and the scene's own way to run.
+    pub fn new(
+        [scene, description, output, unit]: [&str; 4],
+        end: f64,
+        method: &str,
+        pace: Pace,
+    ) -> Self {
+        Subject {
+            scene: scene.into(),
+            description: description.into(),
+            output: output.into(),
+            unit: unit.into(),
+            end,
+            own: (method.into(), pace),
+            kinked: false,
+            reference: None,
+            tolerances: (1e-20, 1e-18),
+            contenders: Vec::new(),
+            levels: Vec::new(),
+        }
+    }
+}
+
+/// Without the closures.
+impl std::fmt::Debug for Subject {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Subject")
+            .field("scene", &self.scene)
+            .field("output", &self.output)
+            .field("contenders", &self.contenders)
+            .field("levels", &self.levels)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What is known of a method beforehand.
+struct Known;
+
+impl WithMethod<SVector<f64, 1>> for Known {
+    type Output = (u32, bool);
+
+    fn with<M: Method<SVector<f64, 1>>>(self, method: M) -> Self::Output {
+        let facts = method.facts();
+        (facts.order, facts.estimate.is_some())
+    }
+}
+
+/// Order of a method and whether it goes by a tolerance, by its name in scenes: one with `canonical_`
+/// in front is that method on momenta. `None` where there is no such method.
+pub fn order(name: &str) -> Option<(u32, bool)> {
+    with_method(name.strip_prefix("canonical_").unwrap_or(name), Known)
+}

@@ -1,0 +1,160 @@
+//! A study of a motion in closed form, x(t) = cos t, by methods whose results are known: right ones
+//! and one with a wrong coefficient.
+
+use bgdyn_accuracy::{
+    Contender, Finding, Grid, Pace, Plan, Ran, Status, Stop, Study, Subject, csv, figures, page,
+    study, targets, verdicts,
+};
+use bgdyn_runtime::Dd;
+
+/// A few steps and one round: times are looked at by nobody.
+const PLAN: Plan = Plan {
+    rounds: 1,
+    resolution: 1e-6,
+    ..Plan::QUICK
+};
+
+/// ẋ = y, ẏ = −x by the classical Runge–Kutta method, the weights of its slopes given.
+fn oscillator(grid: &Grid, pace: Pace, weights: [f64; 4]) -> Result<Ran, Stop> {
+    let parts = grid.parts(pace.value());
+    let h = grid.interval() / parts as f64;
+    let rates = |[x, y]: [f64; 2]| [y, -x];
+    let at = |[x, y]: [f64; 2], k: f64, [a, b]: [f64; 2]| [x + k * a, y + k * b];
+    let mut z = [1.0, 0.0];
+    let mut values = Vec::new();
+    for _ in 0..grid.samples {
+        for _ in 0..parts {
+            let a = rates(z);
+            let b = rates(at(z, 0.5 * h, a));
+            let c = rates(at(z, 0.5 * h, b));
+            let d = rates(at(z, h, c));
+            for (weight, slope) in weights.into_iter().zip([a, b, c, d]) {
+                z = at(z, h * weight, slope);
+            }
+        }
+        values.push(vec![z[0]]);
+    }
+    let estimate = None;
+    Ok(Ran { values, estimate })
+}
+
+const RIGHT: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
+/// Two weights have changed places: consistent, of order 1.
+const WRONG: [f64; 4] = [1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0, 1.0 / 6.0];
+
+fn contender(formulation: &str, weights: [f64; 4]) -> Contender {
+    Contender {
+        effects: "all".into(),
+        method: "rk4".into(),
+        order: 4,
+        controlled: false,
+        scalar: "f64",
+        epsilon: f64::EPSILON,
+        formulation: formulation.into(),
+        run: Box::new(move |grid, pace| oscillator(grid, pace, weights)),
+    }
+}
+
+fn subject(contenders: Vec<Contender>) -> Subject {
+    let words = ["oscillator", "A mass on a spring", "x", "m"];
+    let mut subject = Subject::new(words, 2.0, "rk4", Pace::Step(0.05));
+    subject.reference = Some(Box::new(|grid, _| {
+        let times = (1..=grid.samples).map(|k| grid.interval() * k as f64);
+        Ok(times.map(|t| vec![Dd::from_f64(t.cos())]).collect())
+    }));
+    subject.contenders = contenders;
+    subject
+}
+
+fn studied(weights: [f64; 4]) -> Study {
+    study(&subject(vec![contender("cheapest", weights)]), &PLAN).expect("a reference")
+}
+
+#[test]
+fn errors_are_those_of_the_closed_form() {
+    let study = studied(RIGHT);
+    // A step multiplies x − iy by R(ih), R(z) = 1 + z + z²/2 + z³/6 + z⁴/24.
+    for row in &study.rows[..2] {
+        let h = row.pace.value();
+        let (re, im) = (1.0 - h * h / 2.0 + h.powi(4) / 24.0, h - h.powi(3) / 6.0);
+        let (size, angle) = (re.hypot(im), im.atan2(re));
+        let parts = (0.2 / h).round() as i32;
+        let apart = (1..=10).map(|k| {
+            let n = k * parts;
+            (size.powi(n) * (f64::from(n) * angle).cos() - (0.2 * f64::from(k)).cos()).abs()
+        });
+        let wanted = apart.fold(0.0, f64::max);
+        let error = row.error.expect("an error");
+        assert!((error - wanted).abs() < 1e-14, "{error} at {h}: {wanted}");
+    }
+    assert!(
+        study
+            .rows
+            .iter()
+            .all(|r| r.status == Status::Ok && r.ns.is_some())
+    );
+}
+
+#[test]
+fn a_wrong_coefficient_is_found() {
+    let right = &verdicts(&studied(RIGHT))[0];
+    assert!(!right.is_failure(), "{right:?}");
+    let Finding::Converges(order) = right.finding else {
+        panic!("{right:?}")
+    };
+    assert!((order - 4.0).abs() < 0.3, "{order}");
+
+    let wrong = &verdicts(&studied(WRONG))[0];
+    assert!(wrong.is_failure(), "{wrong:?}");
+    assert!(
+        wrong.words().contains("does not converge"),
+        "{}",
+        wrong.words()
+    );
+}
+
+#[test]
+fn a_run_that_fails_is_a_row_with_its_reason() {
+    let mut failing = contender("cheapest", RIGHT);
+    failing.run = Box::new(|grid, pace| match grid.parts(pace.value()) {
+        1 => Err(Stop {
+            t: 0.4,
+            why: "unstable: not finite".into(),
+        }),
+        _ => oscillator(grid, pace, RIGHT),
+    });
+    let study = study(&subject(vec![failing]), &PLAN).expect("a reference");
+    let first = &study.rows[0];
+    let why = "unstable: not finite at 0.4 s";
+    assert_eq!(first.status, Status::Failed(why.into()));
+    assert_eq!((first.error, first.ns), (None, None));
+    assert!(csv([first]).ends_with(&format!("failed: {why}\n")));
+    let drawn = figures(&study);
+    assert!(drawn[0].svg.contains(">failed<"), "{}", drawn[0].svg);
+}
+
+#[test]
+fn a_study_is_read_as_it_was_written() {
+    let study = studied(RIGHT);
+    let again = Study::read(&study.write()).expect("a study");
+    assert_eq!(again.len(), 1);
+    assert_eq!(again[0].rows.len(), study.rows.len());
+    assert_eq!(again[0].facts.scene, "oscillator");
+    assert_eq!(again[0].write(), study.write());
+    assert_eq!(Study::read("scene,effects\n1,2"), None);
+}
+
+#[test]
+fn the_page_fetches_nothing_and_holds_every_figure() {
+    let study = studied(RIGHT);
+    assert!(!targets(&study).is_empty());
+    let machine = bgdyn_accuracy::Machine::here();
+    let page = page(std::slice::from_ref(&study), &machine);
+    for figure in figures(&study) {
+        assert!(page.contains(&figure.svg), "{}", figure.name);
+    }
+    let fetched = page.replace("http://www.w3.org/2000/svg", "");
+    for word in ["http", "<script", "<link", "src="] {
+        assert!(!fetched.contains(word), "{word}");
+    }
+}

@@ -1,0 +1,147 @@
+//! `bgdyn accuracy`: what accuracy costs in time, on one scene.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail};
+use bgdyn_accuracy::generate::variants;
+use bgdyn_accuracy::{Machine, Plan, Study, csv, figures, page, study, targets, verdicts};
+use bgdyn_codegen::system::System;
+use clap::Args;
+
+use crate::output::{print, tell};
+use crate::scratch::Scratch;
+use crate::spec_file::SpecFile;
+use crate::usage::Usage;
+
+/// What accuracy costs in time on a scene: error and time by method, step, scalar, formulation, effects
+///
+/// The scene is compiled by your cargo in a crate that is kept, and timed. Where that cannot be, times
+/// are estimates from the operations, and marked as such.
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  bgdyn accuracy specs/scenes/stick_slip.scene.yaml --out accuracy --bgdyn .\n\nWrites accuracy.csv, figures (SVG) and report.html. Exit 1 where a method that should converge does not."
+)]
+pub(crate) struct Accuracy {
+    /// The scene
+    file: PathBuf,
+    /// The folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "accuracy")]
+    out: PathBuf,
+    /// When the runs end, s
+    #[arg(long, value_name = "S")]
+    end: Option<f64>,
+    /// Fewer steps and samples
+    #[arg(long)]
+    quick: bool,
+    /// The bgdyn that times are measured with: a path or a version
+    #[arg(long, value_name = "PATH|VERSION", default_value = env!("CARGO_PKG_VERSION"))]
+    bgdyn: String,
+}
+
+/// What stands in front of a reason why the scene cannot be studied, in the program's output.
+const REFUSED: &str = "refused: ";
+
+impl Accuracy {
+    pub(crate) fn run(self) -> Result<()> {
+        let file = SpecFile::open(&self.file)?;
+        if !file.is_scene() {
+            let shown = self.file.display();
+            bail!(
+                "{shown} is a mechanism: what is compared are runs of a scene, a file with `scene: 1`"
+            );
+        }
+        if let Some(end) = self.end.filter(|x| !(x.is_finite() && *x > 0.0)) {
+            let message = format!("`--end {end}`: write a number greater than 0");
+            return Err(Usage(message).into());
+        }
+        let system = file.scene()?;
+        let study = self.study(&system)?;
+        write(&study, &self.out)?;
+        print(&told(&study, &self.out))?;
+        let wrong = verdicts(&study).into_iter().filter(|v| v.is_failure());
+        let wrong: Vec<String> = wrong
+            .map(|v| format!("{} in {}: {}", v.method, v.scalar, v.words()))
+            .collect();
+        match wrong.is_empty() {
+            true => Ok(()),
+            false => bail!("methods that should converge do not: {}", wrong.join("; ")),
+        }
+    }
+
+    /// The study of compiled code, or of the evaluator where there is no cargo.
+    fn study(&self, system: &System) -> Result<Study> {
+        let program = match self.compiled(system) {
+            Ok(text) => text,
+            Err(why) => {
+                tell(&format!(
+                    "bgdyn: times are estimated from operations: {why:#}\n"
+                ));
+                return self.evaluated(system);
+            }
+        };
+        if let Some(why) = program.strip_prefix(REFUSED) {
+            bail!("{}", why.trim_end());
+        }
+        let studies = Study::read(&program).context("the program's output is no study")?;
+        studies
+            .into_iter()
+            .next()
+            .context("the program gave no study")
+    }
+
+    /// What the program prints that studies the compiled scene.
+    fn compiled(&self, system: &System) -> Result<String> {
+        let scratch = Scratch::new("accuracy", &self.bgdyn, &["bgdyn-accuracy"])?;
+        let text = variants(system, self.end).map_err(|e| anyhow!(e))?;
+        scratch.write("src/scene.rs", &text)?;
+        let name = &system.scene.name;
+        let plan = if self.quick { "QUICK" } else { "FULL" };
+        let main = format!(
+            "//! Written by `bgdyn accuracy`.\ninclude!(\"scene.rs\");\n\nfn main() {{\n    match bgdyn_accuracy::study(&{name}::subject(), &bgdyn_accuracy::Plan::{plan}) {{\n        Ok(study) => print!(\"{{}}\", study.write()),\n        Err(why) => print!(\"{REFUSED}{{why}}\"),\n    }}\n}}\n"
+        );
+        scratch.write("src/main.rs", &main)?;
+        scratch.run()
+    }
+
+    /// The study through the evaluator.
+    fn evaluated(&self, system: &System) -> Result<Study> {
+        let subject = crate::accuracy::subject(system, self.end)
+            .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
+        // The evaluator takes its time.
+        study(&subject, &Plan::QUICK).map_err(|e| anyhow!("{e}"))
+    }
+}
+
+/// Writes table, figures and page.
+fn write(study: &Study, out: &Path) -> Result<()> {
+    std::fs::create_dir_all(out)
+        .with_context(|| format!("the folder {} cannot be made", out.display()))?;
+    let put = |name: &str, text: &str| {
+        let path = out.join(name);
+        std::fs::write(&path, text).with_context(|| format!("{} cannot be written", path.display()))
+    };
+    put("accuracy.csv", &csv(&study.rows))?;
+    for figure in figures(study) {
+        put(&figure.name, &figure.svg)?;
+    }
+    put(
+        "report.html",
+        &page(std::slice::from_ref(study), &Machine::here()),
+    )
+}
+
+/// The cheapest ways, and where the rest is.
+fn told(study: &Study, out: &Path) -> String {
+    let facts = &study.facts;
+    let mark = if study.is_measured() { "" } else { "~" };
+    let mut text = String::new();
+    for choice in targets(study) {
+        let row = &choice.row;
+        let ns = row.ns.unwrap_or(f64::NAN);
+        text += &format!(
+            "{:.0e} {} at {}: {} at {} in {}, {mark}{ns:.0} ns per simulated ms\n",
+            choice.target, facts.unit, facts.output, row.method, row.pace, row.scalar
+        );
+    }
+    text + &format!("written: {}\n", out.join("report.html").display())
+}

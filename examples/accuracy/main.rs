@@ -1,0 +1,141 @@
+//! What accuracy costs in time, on scenes of the repository: error and time of compiled code by
+//! method, step, scalar, formulation and level of effects.
+//!
+//! Writes `accuracy.csv`, the figures, `README.md` and `report.html`, which needs nothing but a
+//! browser. Exit 1 where a method that should converge does not.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use accuracy_scenes::SUBJECTS;
+use bgdyn_accuracy::{
+    Machine, Plan, Study, Verdict, csv, figures, page, readme, study, targets, verdicts,
+};
+
+const USAGE: &str = "What accuracy costs in time, on scenes of the repository
+
+Usage: cargo run --release --example accuracy [-- OPTIONS] [SCENE …]
+
+Options:
+      --quick    Fewer steps and samples: for a look, and for tests
+      --out DIR  Where to write [default: target/accuracy/]
+  -h, --help     Print help";
+
+/// The command that writes the figures of the documentation.
+const AGAIN: &str = "cargo run --release --example accuracy -- --out docs/accuracy";
+
+/// What the user asked for.
+struct Options {
+    plan: Plan,
+    out: PathBuf,
+    scenes: Vec<String>,
+}
+
+impl Options {
+    /// Reads the arguments; `None` where help was asked for, and printed.
+    fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Option<Self>, String> {
+        let mut options = Options {
+            plan: Plan::FULL,
+            out: PathBuf::from("target/accuracy"),
+            scenes: Vec::new(),
+        };
+        while let Some(argument) = arguments.next() {
+            match argument.as_str() {
+                "-h" | "--help" => {
+                    println!("{USAGE}");
+                    return Ok(None);
+                }
+                "--quick" => options.plan = Plan::QUICK,
+                "--out" => options.out = arguments.next().ok_or("`--out` needs a folder")?.into(),
+                name if SUBJECTS.iter().any(|(known, _)| *known == name) => {
+                    options.scenes.push(argument);
+                }
+                other if other.starts_with('-') => {
+                    return Err(format!("unknown argument `{other}`"));
+                }
+                other => {
+                    let all: Vec<&str> = SUBJECTS.iter().map(|(name, _)| *name).collect();
+                    let all = all.join(", ");
+                    return Err(format!("there is no scene `{other}`; there are {all}"));
+                }
+            }
+        }
+        Ok(Some(options))
+    }
+}
+
+fn main() -> ExitCode {
+    let options = match Options::parse(std::env::args().skip(1)) {
+        Ok(Some(options)) => options,
+        Ok(None) => return ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}\n\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match run(&options) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) => {
+            eprintln!("accuracy: {error}");
+            ExitCode::from(1)
+        }
+    }
+}
+
+/// Studies the scenes and writes what came of it: whether every method converges that should.
+fn run(options: &Options) -> Result<bool, Box<dyn std::error::Error>> {
+    let mut studies: Vec<Study> = Vec::new();
+    for (name, subject) in SUBJECTS {
+        if options.scenes.is_empty() || options.scenes.iter().any(|s| s == name) {
+            eprintln!("{name} …");
+            studies.push(study(&subject(), &options.plan).map_err(|e| format!("{name}: {e}"))?);
+        }
+    }
+    let sound = studies.iter().filter(|study| !told(study)).count() == 0;
+    write(&studies, &options.out).map_err(|e| format!("{}: {e}", options.out.display()))?;
+    println!("wrote {}", options.out.join("report.html").display());
+    Ok(sound)
+}
+
+/// Prints the cheapest ways and what does not converge; whether all does.
+fn told(study: &Study) -> bool {
+    let facts = &study.facts;
+    println!("{}", facts.scene);
+    for choice in targets(study) {
+        let row = &choice.row;
+        let way = format!("{} {} {}", row.method, row.pace, row.scalar);
+        let ns = row.ns.unwrap_or(f64::NAN);
+        println!(
+            "  {:.0e} {} at {}: {way}, {ns:.0} ns per simulated ms",
+            choice.target, facts.unit, facts.output
+        );
+    }
+    let wrong: Vec<Verdict> = verdicts(study)
+        .into_iter()
+        .filter(Verdict::is_failure)
+        .collect();
+    for verdict in &wrong {
+        let Verdict {
+            method,
+            scalar,
+            formulation,
+            ..
+        } = verdict;
+        println!("  {method} in {scalar}, {formulation}: {}", verdict.words());
+    }
+    wrong.is_empty()
+}
+
+/// Writes table, figures and both reports.
+fn write(studies: &[Study], out: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(out)?;
+    let machine = Machine::here();
+    let rows = studies.iter().flat_map(|study| &study.rows);
+    std::fs::write(out.join("accuracy.csv"), csv(rows))?;
+    for figure in studies.iter().flat_map(figures) {
+        std::fs::write(out.join(&figure.name), &figure.svg)?;
+    }
+    std::fs::write(out.join("README.md"), readme(studies, &machine, AGAIN))?;
+    std::fs::write(out.join("report.html"), page(studies, &machine))
+}

@@ -1,0 +1,55 @@
+//! Generates the variants of the scenes that the example `accuracy` compares.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use bgdyn_accuracy::generate::variants;
+use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_codegen::system::System;
+
+/// The scenes, and when their runs end where that is not as the file says, s.
+const SCENES: [(&str, Option<f64>); 8] = [
+    ("cart_and_pole", None),
+    ("scara_everything", None),
+    ("puma_distributed", None),
+    ("ur5_contact", None),
+    ("stiff_spring_pendulum", Some(0.2)),
+    ("hydraulic_cylinder", Some(0.1)),
+    ("motor_linear_stiff", None),
+    ("stick_slip", None),
+];
+
+fn main() {
+    let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").expect("cargo"));
+    let out = PathBuf::from(env::var("OUT_DIR").expect("cargo"));
+    let (mut modules, mut list) = (String::new(), String::new());
+    for (name, end) in SCENES {
+        let path = root.join(format!("../../specs/scenes/{name}.scene.yaml"));
+        let text = variants(&read(&path), end).unwrap_or_else(|e| panic!("{e}"));
+        fs::write(out.join(format!("{name}.rs")), text).expect("OUT_DIR is writable");
+        let file = out.join(format!("{name}.rs")).display().to_string();
+        writeln!(modules, "include!({file:?});").expect("text");
+        write!(list, "({name:?}, {name}::subject), ").expect("text");
+    }
+    let count = SCENES.len();
+    modules += &format!(
+        "/// The scenes' names, and what is measured of each.\npub const SUBJECTS: [(&str, fn() -> bgdyn_accuracy::Subject); {count}] = [{list}];\n"
+    );
+    fs::write(out.join("modules.rs"), modules).expect("OUT_DIR is writable");
+}
+
+/// A scene.
+fn read(path: &Path) -> System {
+    println!("cargo::rerun-if-changed={}", path.display());
+    let text = fs::read_to_string(path).expect("a scene");
+    let load = |mechanism: &str| {
+        let path = beside(path, mechanism);
+        println!("cargo::rerun-if-changed={}", path.display());
+        fs::read_to_string(path).map_err(|e| e.to_string())
+    };
+    let found = read_scene(&text, &stem(path), load);
+    found
+        .unwrap_or_else(|e| panic!("{}: {e:?}", path.display()))
+        .0
+}
