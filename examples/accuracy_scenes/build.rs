@@ -34,7 +34,7 @@ fn main() {
     }
     let count = SCENES.len();
     modules += &format!(
-        "/// The scenes' names, and what is measured of each.\npub const SUBJECTS: [(&str, fn() -> bgdyn_accuracy::Subject); {count}] = [{list}];\n"
+        "/// The scenes' names, and what is measured of each.\npub const SUBJECTS: [(&str, Study); {count}] = [{list}];\n"
     );
     fs::write(out.join("modules.rs"), modules).expect("OUT_DIR is writable");
 }

@@ -1,4 +1,7 @@
 //! Scenes of the repository, compiled in the variants that the example `accuracy` compares.
 #![forbid(unsafe_code)]
 
+/// Measures a scene.
+type Study = fn() -> bgdyn_accuracy::Subject;
+
 include!(concat!(env!("OUT_DIR"), "/modules.rs"));

@@ -45,7 +45,7 @@ impl Euler {
         for (i, row) in inertia.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
                 let own = if i == j { square } else { Dd::ZERO };
-                *entry = *entry + Dd::from_f64(2.0) * (own - com[i] * com[j]);
+                *entry += Dd::from_f64(2.0) * (own - com[i] * com[j]);
             }
         }
         Euler {
@@ -105,7 +105,7 @@ impl Reference for Euler {
     fn forward_off(&self, s: &State, argument: usize, joint: usize, factor: Dd) -> Vec<Dd> {
         let all = |x: &[f64]| [x[0], x[1], x[2]].map(Dd::from_f64);
         let mut arguments = [all(&s.q), all(&s.v), all(&s.tau)];
-        arguments[argument][joint] = arguments[argument][joint] * factor;
+        arguments[argument][joint] *= factor;
         let [q, v, tau] = arguments;
         self.accelerations(q, v, tau)
     }

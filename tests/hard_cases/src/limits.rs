@@ -69,6 +69,9 @@ fn wild<T: Range>(rng: &mut Rng, most: f64) -> T {
     })
 }
 
+/// A compiled function: its results, or why there are none.
+type Run<'a, T> = dyn Fn(&[Vec<T>; 4]) -> Result<Vec<T>, String> + 'a;
+
 /// A function of a list of arguments, its results, and the mask of each result.
 struct Tried<'a, T> {
     /// Its name, with that of the mechanism or the scene.
@@ -79,7 +82,7 @@ struct Tried<'a, T> {
     first_order: bool,
     /// Arguments to stay near to where one of them is spoiled.
     around: [Vec<f64>; 4],
-    run: Box<dyn Fn(&[Vec<T>; 4]) -> Result<Vec<T>, String> + 'a>,
+    run: Box<Run<'a, T>>,
     masks: Vec<u128>,
 }
 

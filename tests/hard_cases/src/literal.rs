@@ -109,7 +109,7 @@ impl Reference for Literal {
             1 => &mut inputs.v,
             _ => &mut inputs.u,
         };
-        argument[joint] = argument[joint] * factor;
+        argument[joint] *= factor;
         self.value(&self.forward, inputs)
     }
 }

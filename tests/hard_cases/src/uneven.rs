@@ -85,7 +85,7 @@ where
     let mut amplified = vec![1.0_f64; times.len()];
     for k in 0..4 {
         let mut moved = start;
-        moved[k] = moved[k] + Dd::from_f64(nudge);
+        moved[k] += Dd::from_f64(nudge);
         let moved = solution(&equation, moved, &times, h);
         for (most, (x, y)) in amplified.iter_mut().zip(moved.iter().zip(&exact)) {
             *most = most.max(largest(&(x - y)) / nudge);

@@ -36,7 +36,8 @@ fn rates<
 }
 
 /// Constant strengths at 0 against the scene without the effect, bit for bit; run-time ones to 4 eps of
-/// the largest rate there is with the efforts or without them: what they cancel of it is no error.
+/// the rates that the efforts and everything else make, each by itself: what they cancel of each other
+/// is no error.
 pub(crate) fn no_strength(extent: Extent) -> Vec<Outcome> {
     macro_rules! of {
         ($module:ident, $scene:ident) => {
@@ -64,7 +65,8 @@ pub(crate) fn no_strength(extent: Extent) -> Vec<Outcome> {
         let y = SVector::from_fn(|_, _| rng.within(2.0));
         let efforts = [rng.within(20.0), rng.within(20.0)];
         let wanted = plain(&y, &efforts);
-        let size = wanted.amax().max(plain(&y, &[0.0; 2]).amax());
+        let rest = plain(&y, &[0.0; 2]);
+        let size = rest.amax() + (wanted - rest).amax();
         for (count, (_, found)) in differ.iter_mut().zip(&constant) {
             let found = found(&y, &efforts);
             let same = |(x, w): (&f64, &f64)| x.to_bits() == w.to_bits();
@@ -80,7 +82,7 @@ pub(crate) fn no_strength(extent: Extent) -> Vec<Outcome> {
         outcomes.push(Outcome::new(*name, "14", quantity, count as f64, 0.0));
     }
     for ((name, _), most) in run_time.iter().zip(off) {
-        let quantity = "relative to the largest rate with or without efforts, run-time 0";
+        let quantity = "relative to what efforts and the rest add up to, run-time 0";
         outcomes.push(Outcome::new(
             *name,
             "14",
