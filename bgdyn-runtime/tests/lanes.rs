@@ -1,21 +1,18 @@
 //! Lane k of every result equals the scalar's result for lane k, bit for bit.
 
+mod random;
+
 use bgdyn_runtime::nalgebra::{SVector, Vector2};
 use bgdyn_runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 use bgdyn_runtime::{Scalar, Singular};
+use random::Random;
 
-/// Equally distributed 64-bit words: splitmix64.
-struct Random(u64);
+/// Numbers to try.
+trait Numbers {
+    fn number(&mut self) -> f64;
+}
 
-impl Random {
-    fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
+impl Numbers for Random {
     /// Numbers of every size, and the special ones.
     fn number(&mut self) -> f64 {
         const SPECIAL: [f64; 16] = [
@@ -36,7 +33,7 @@ impl Random {
             1e22,
             -1e-40,
         ];
-        let unit = (self.word() >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        let unit = self.unit();
         match self.word() % 8 {
             0 => SPECIAL[(self.word() % 16) as usize],
             1 => f64::from_bits(self.word()),

@@ -1,24 +1,9 @@
 //! Sine and cosine of `f64` and `f32` against double-double: errors in units of the last place.
 
+mod random;
+
 use bgdyn_runtime::{Dd, Scalar};
-
-/// A stream of random words (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In [−1, 1).
-    fn unit(&mut self) -> f64 {
-        (self.word() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
+use random::Random;
 
 /// A float of the two.
 trait Float: Scalar {
