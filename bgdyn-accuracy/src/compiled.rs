@@ -12,7 +12,7 @@ use nalgebra::SVector;
 
 use crate::contender::{Contender, Grid, Pace, Ran, Runner, Stop};
 use crate::erased::{Callable, Erased};
-use crate::integrate::{Integrate, Measured, finite, numbers};
+use crate::integrate::{Integrate, Measured, numbers};
 use crate::subject::{Subject, order};
 
 /// The measured output at each sample.
@@ -20,21 +20,6 @@ type Sampled<T> = Result<Vec<Vec<T>>, Stop>;
 
 /// What equations are called that are written as they are by default.
 const CHEAPEST: &str = "cheapest";
-
-/// A run that came to its end with finite numbers.
-fn ran<T: Real>(sampled: Sampled<T>) -> Result<Ran, Stop> {
-    let values = numbers(sampled?);
-    match finite(&values) {
-        true => Ok(Ran {
-            values,
-            estimate: None,
-        }),
-        false => Err(Stop {
-            t: 0.0,
-            why: "unstable: not finite".into(),
-        }),
-    }
-}
 
 /// A contender of this method's order and way to go.
 fn contender(
@@ -145,7 +130,7 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Started<T, N, NM
         T: 'static,
     {
         let started = self.clone();
-        Box::new(move |grid, pace| ran(started.run(method(), grid, pace)))
+        Box::new(move |grid, pace| Ran::finite(numbers(started.run(method(), grid, pace)?), None))
     }
 }
 

@@ -59,6 +59,19 @@ pub struct Ran {
     pub estimate: Option<f64>,
 }
 
+impl Ran {
+    /// A run that came to its end with these values; it failed where they are not all finite.
+    pub fn finite(values: Vec<Vec<f64>>, estimate: Option<f64>) -> Result<Ran, Stop> {
+        if values.iter().flatten().all(|x| x.is_finite()) {
+            return Ok(Ran { values, estimate });
+        }
+        Err(Stop {
+            t: 0.0,
+            why: "unstable: not finite".into(),
+        })
+    }
+}
+
 /// A run that ended early.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {

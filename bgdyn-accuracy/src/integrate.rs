@@ -85,11 +85,6 @@ fn in_short<E: Debug>(reason: &Reason<E>) -> String {
     }
 }
 
-/// Whether all of these are numbers.
-pub(crate) fn finite(values: &[Vec<f64>]) -> bool {
-    values.iter().flatten().all(|x| x.is_finite())
-}
-
 /// The largest distance between two courses of an output.
 pub(crate) fn distance<T: Real>(a: &[Vec<T>], b: &[Vec<T>]) -> f64 {
     let apart = |(a, b): (&Vec<T>, &Vec<T>)| {

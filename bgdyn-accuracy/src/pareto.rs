@@ -40,7 +40,7 @@ fn of_scene(study: &Study) -> Vec<(&Row, f64, f64)> {
     full.filter_map(|r| Some((r, r.error?, r.ns?))).collect()
 }
 
-/// For each second decade of the error the cheapest row that has it.
+/// For each decade of the error the cheapest row that has it.
 pub fn targets(study: &Study) -> Vec<Choice> {
     let front = front(study);
     let decades = (-14..=0).rev().map(|k| 10_f64.powi(k));

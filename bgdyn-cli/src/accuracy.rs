@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use bgdyn_accuracy::generate::{kinked, levels, measured, own_way};
-use bgdyn_accuracy::{Contender, Integrate, Measured, Pace, Ran, Runner, Stop, Subject, order};
+use bgdyn_accuracy::{Contender, Integrate, Measured, Pace, Ran, Runner, Subject, order};
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
 use bgdyn_runtime::Dd;
@@ -80,16 +80,7 @@ impl Counted {
                 pace,
             };
             let values = with_method(&method, run).expect("a method of bgdyn-sim")?;
-            match values.iter().flatten().all(|x| x.is_finite()) {
-                true => Ok(Ran {
-                    values,
-                    estimate: Some(counted.spent.get()),
-                }),
-                false => Err(Stop {
-                    t: 0.0,
-                    why: "unstable: not finite".into(),
-                }),
-            }
+            Ran::finite(values, Some(counted.spent.get()))
         })
     }
 }

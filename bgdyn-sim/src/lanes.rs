@@ -161,6 +161,7 @@ where
         let a = found.unwrap_or_else(T::accelerations);
         Ok(SVector::from_fn(|i, _| if i < N { v[i] } else { a[i - N] }))
     }
+
     fn positions(&self) -> usize {
         N
     }
@@ -262,6 +263,7 @@ where
             })
         }))
     }
+
     fn positions(&self) -> usize {
         self.scene.positions()
     }
@@ -330,7 +332,6 @@ where
             return;
         };
         let mut y = self.y.plus(one, &step.change);
-        // x − x is 0 for finite numbers only.
         let zero = Of::<Y>::from_f64(0.0);
         #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
         let rest = y.entries().iter().fold(zero, |sum, &x| sum + (x - x));

@@ -209,7 +209,7 @@ impl System {
     /// formulation does not know what the derivative rests on.
     pub fn derivative_by(&self, formulation: &'static dyn Formulation) -> Option<Function> {
         let way = dynamics::derivative_by(self, formulation)?;
-        Some(crate::cut::cut(way.factored()))
+        Some(crate::cut::cut(way.factored().fused()))
     }
 
     /// The derivative with one effort of its own at every coordinate, in place of the accelerations

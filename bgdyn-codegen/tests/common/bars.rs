@@ -111,7 +111,7 @@ impl Reference for Generated {
 /// Bars 1 to 5 of what is generated.
 pub fn all<T: Digits>(what: &str, generated: &Generated, state: &State, cond: Option<f64>) {
     let hard = Hard::new::<T>(generated, state, cond);
-    for found in hard.all::<T>(&generated.within::<T>(), generated) {
+    for found in hard.all::<T>(&generated.within::<T>(), generated, 1.0) {
         let Found {
             bar,
             what: of,

@@ -1,7 +1,8 @@
 //! The Jacobian and the canonical form of scenes, by every way to them, against dual numbers over
-//! double-double through the plain functions.
+//! double-double through the plain functions; the derivative by every formulation.
 
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
@@ -17,6 +18,8 @@ const STATES: u64 = 2;
 struct Tried<'a> {
     system: &'a System,
     derivative: Function,
+    /// The derivative by each formulation that knows what it rests on.
+    formulations: Vec<Function>,
     inputs: Option<Function>,
     jacobians: Vec<Function>,
     momenta: Vec<Function>,
@@ -34,6 +37,10 @@ pub fn hold(system: &System) {
     let tried = Tried {
         system,
         derivative: system.function(Role::Derivative),
+        formulations: FORMULATIONS
+            .iter()
+            .filter_map(|f| system.derivative_by(*f))
+            .collect(),
         inputs: driven.then(|| system.function(Role::Inputs)),
         jacobians: all(Role::Jacobian),
         momenta: all(Role::ToCanonical),
@@ -52,6 +59,7 @@ pub fn hold(system: &System) {
                 let mut mode = || Dd::from_f64((random.unit() * 1.5).round());
                 at.modes.iter_mut().for_each(|m| *m = mode());
             }
+            tried.formulations(&at);
             tried.slopes(&at);
             tried.canonical(&at);
         }
@@ -68,6 +76,17 @@ impl Tried<'_> {
         assert!(refused.is_none(), "{}: singular", self.system.scene.name);
         let positions = at.v[..at.q.len()].to_vec();
         positions.into_iter().chain(rates).collect()
+    }
+
+    fn formulations(&self, at: &Inputs<Dd>) {
+        let (wanted, refused) = self.derivative.evaluate(at.clone());
+        assert!(refused.is_none());
+        assert!(!self.formulations.is_empty(), "no formulation");
+        for way in &self.formulations {
+            let (found, refused) = way.evaluate(at.clone());
+            assert!(refused.is_none());
+            self.equal(&format!("derivative, {}", way.formulation), &found, &wanted);
+        }
     }
 
     fn slopes(&self, at: &Inputs<Dd>) {

@@ -4,7 +4,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::bars::{Digits, Hard, Reference};
+use crate::bars::{Digits, Found, Hard, Reference, Subject};
 use crate::literal::Literal;
 use crate::outcome::{Outcome, Worst};
 use crate::rng::Rng;
@@ -111,6 +111,21 @@ impl Reference for Euler {
     }
 }
 
+/// Bar 1; but where rounding the accelerations alone changes τ by more, which is where their efforts
+/// all but cancel in M q̈, four times what it changes: near lock two rings turn about almost one axis.
+fn inverse_dynamics<T: Digits>(hard: &Hard, subject: &impl Subject<T>, reference: &Euler) -> Found {
+    let found = hard.inverse_dynamics::<T>(subject, reference);
+    let rounding = hard.rounded_accelerations::<T>();
+    if found.measured > found.allowed && rounding > found.allowed {
+        return Found {
+            what: "inverse dynamics, as rounded accelerations",
+            allowed: 4.0 * rounding,
+            ..found
+        };
+    }
+    found
+}
+
 fn close<T: Digits + Compiled>(
     worst: &mut Worst,
     name: &str,
@@ -123,15 +138,15 @@ fn close<T: Digits + Compiled>(
     let at = format!("q = {:?}", s.q);
     let subject = model::<T>(name);
     let mut found = vec![
-        hard.inverse_dynamics::<T>(&subject, reference),
+        inverse_dynamics::<T>(&hard, &subject, reference),
         hard.mass_matrix::<T>(&subject, reference),
     ];
-    match crate::bars::Subject::<T>::forward(&subject, &hard.state) {
+    match Subject::<T>::forward(&subject, &hard.state) {
         Some(a) => found.extend([
             hard.backward::<T>(&a, reference),
             hard.forward::<T>(&a, reference),
         ]),
-        None => found.push(crate::bars::Found {
+        None => found.push(Found {
             bar: "12",
             what: "refused",
             measured: 1.0,

@@ -127,7 +127,7 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
 #[macro_export]
 macro_rules! each_scene {{ ($run:ident) => {{ {calls} }} }}
 /// Of each of them the numbers of positions, velocities and states of first order, and what the rates
-/// of velocities and states depend on: in masks of [`bit`].
+/// of velocities and states depend on: one mask of parts of the state for each.
 pub const DEPENDS: &[(&str, [usize; 3], &[u128])] = &[{depends}];
 "
     )
