@@ -28,6 +28,7 @@ pub(crate) trait Float: Split {
 
 /// The sum of `angles` and `offset`, rounded, and what the rounding leaves; in any arithmetic that
 /// rounds as [`Float`]s do, lane by lane.
+#[inline]
 pub(crate) fn exact_sum<T: Split>(angles: impl Iterator<Item = T>, offset: (f64, f64)) -> (T, T) {
     let (mut sum, mut tail) = T::split(offset.0, offset.1);
     for angle in angles {
@@ -178,6 +179,7 @@ macro_rules! float_scalar {
         }
 
         impl Split for $float {
+            #[inline]
             fn split(hi: f64, lo: f64) -> (Self, Self) {
                 let sum = hi as $float;
                 (sum, (hi - f64::from(sum) + lo) as $float)

@@ -11,7 +11,7 @@ use nalgebra::SVector;
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 use crate::float::{Float, Split};
-use crate::sine::{self, Pack};
+use crate::sine;
 use crate::{Scalar, Singular};
 
 /// The mass matrix is singular in at least one lane; the other lanes have their accelerations.
@@ -92,14 +92,15 @@ macro_rules! lane_scalar {
             #[inline]
             fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
                 let (angle, tail) = sine::plain_or_sum(angles, offset);
-                if angle.within() {
-                    return sine::sin_cos(angle, tail);
-                }
-                let (mut s, mut c) = (angle.to_array(), tail.to_array());
-                for (s, c) in s.iter_mut().zip(&mut c) {
-                    (*s, *c) = sine::one(*s, *c);
-                }
-                (Self::new(s), Self::new(c))
+                sine::one(angle, tail)
+            }
+
+            #[inline(always)]
+            fn sin_cos_all<const K: usize>(
+                angles: [&[Self]; K],
+                offsets: [(f64, f64); K],
+            ) -> [(Self, Self); K] {
+                sine::all(angles, offsets)
             }
 
             #[inline]
@@ -194,6 +195,7 @@ macro_rules! lane_scalar {
         }
 
         impl Split for $lanes {
+            #[inline]
             fn split(hi: f64, lo: f64) -> (Self, Self) {
                 let (hi, lo) = $float::split(hi, lo);
                 (Self::splat(hi), Self::splat(lo))

@@ -9,22 +9,38 @@
 //!
 //! Errors stay below one unit in the last place for angles of any size; `tests/sine.rs` measures it.
 
+/// The step with k = 0, 1, … below `count`, each a constant to the compiler: so arrays of numbers stay
+/// in registers.
+macro_rules! unrolled {
+    ($count:expr, |$k:ident| $step:expr) => {
+        unrolled!($count, $k, $step; 0 1 2 3 4 5 6 7);
+        for $k in (0..$count).skip(8) {
+            $step;
+        }
+    };
+    ($count:expr, $k:ident, $step:expr; $($n:literal)*) => {$(
+        if $n < $count {
+            let $k: usize = $n;
+            $step;
+        }
+    )*};
+}
+
 mod kernel;
 mod large;
 mod pack;
 
-use crate::float::{Float, Split, exact_sum};
+use crate::float::{Split, exact_sum};
 pub(crate) use kernel::sin_cos;
-use large::Large;
 pub(crate) use pack::Pack;
 
 /// Sine and cosine of a + tail; `tail` is what the rounding of a sum a has left.
 #[inline(always)]
-pub(crate) fn one<T: Float + Large>(angle: T, tail: T) -> (T, T) {
+pub(crate) fn one<T: Pack>(angle: T, tail: T) -> (T, T) {
     if angle.within() {
         sin_cos(angle, tail)
     } else {
-        T::turn(large::sin_cos(angle), tail)
+        angle.beyond(tail)
     }
 }
 
@@ -36,15 +52,22 @@ pub(crate) fn all<T: AtOnce, const K: usize>(
 ) -> [(T, T); K] {
     let mut sums = [(T::from_f64(0.0), T::from_f64(0.0)); K];
     let mut within = true;
-    for ((sum, angles), offset) in sums.iter_mut().zip(angles).zip(offsets) {
-        *sum = plain_or_sum(angles, offset);
-        within &= sum.0.within();
-    }
+    unrolled!(K, |k| {
+        sums[k] = plain_or_sum(angles[k], offsets[k]);
+        within &= sums[k].0.within();
+    });
     if within {
         T::at_once(sums)
     } else {
-        sums.map(|(angle, tail)| one(angle, tail))
+        some_beyond(sums)
     }
+}
+
+/// Where not all angles are within the limit.
+#[cold]
+#[inline(never)]
+fn some_beyond<T: Pack, const K: usize>(sums: [(T, T); K]) -> [(T, T); K] {
+    sums.map(|(angle, tail)| one(angle, tail))
 }
 
 /// The sum of angles and an offset, in two words.
@@ -57,7 +80,7 @@ pub(crate) fn plain_or_sum<T: Split>(angles: &[T], offset: (f64, f64)) -> (T, T)
 }
 
 /// Numbers whose sines can be taken several at once.
-pub(crate) trait AtOnce: Float + Large {
+pub(crate) trait AtOnce: Pack + Split {
     /// Sines and cosines of the sums `(angle, tail)`, all of them within the limit.
     fn at_once<const K: usize>(sums: [(Self, Self); K]) -> [(Self, Self); K];
 }
@@ -71,30 +94,53 @@ macro_rules! at_once {
             fn at_once<const K: usize>(sums: [($float, $float); K]) -> [($float, $float); K] {
                 let mut found = [(0.0, 0.0); K];
                 let mut done = 0;
-                $(
-                    while K - done >= $least {
-                        // Lanes beyond the last angle repeat it.
-                        let lane = |k: usize| sums[(done + k).min(K - 1)];
-                        let (mut angles, mut tails) = ([0.0; $n], [0.0; $n]);
-                        for k in 0..$n {
-                            (angles[k], tails[k]) = lane(k);
-                        }
-                        let (s, c) = sin_cos(wide::$lanes::new(angles), wide::$lanes::new(tails));
-                        let (s, c) = (s.to_array(), c.to_array());
-                        for k in 0..$n.min(K - done) {
-                            found[done + k] = (s[k], c[k]);
-                        }
-                        done = K.min(done + $n);
-                    }
-                )+
-                for (found, sum) in found.iter_mut().zip(sums).skip(done) {
-                    *found = sin_cos(sum.0, sum.1);
+                $(if K - done >= $least {
+                    let (mut angles, mut tails) = ([0.0; $n], [0.0; $n]);
+                    // Lanes beyond the last angle repeat it.
+                    unrolled!($n, |k| (angles[k], tails[k]) = sums[(done + k).min(K - 1)]);
+                    let (s, c) = sin_cos(wide::$lanes::new(angles), wide::$lanes::new(tails));
+                    let (s, c) = (s.to_array(), c.to_array());
+                    unrolled!($n, |k| if done + k < K {
+                        found[done + k] = (s[k], c[k]);
+                    });
+                    done = K.min(done + $n);
+                })+
+                for k in done..K {
+                    found[k] = sin_cos(sums[k].0, sums[k].1);
                 }
                 found
             }
         }
     };
 }
+
+/// Lanes of states are full as they are: one angle after the other.
+#[cfg(any(
+    feature = "wide",
+    not(any(target_arch = "x86_64", target_arch = "aarch64"))
+))]
+macro_rules! one_by_one {
+    ($($lanes:ty),+) => {$(
+        impl AtOnce for $lanes {
+            #[inline(always)]
+            fn at_once<const K: usize>(mut sums: [(Self, Self); K]) -> [(Self, Self); K] {
+                unrolled!(K, |k| sums[k] = sin_cos(sums[k].0, sums[k].1));
+                sums
+            }
+        }
+    )+};
+}
+#[cfg(feature = "wide")]
+one_by_one!(
+    wide::f64x2,
+    wide::f64x4,
+    wide::f64x8,
+    wide::f32x4,
+    wide::f32x8,
+    wide::f32x16
+);
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+one_by_one!(f64, f32);
 
 #[cfg(all(
     any(target_arch = "x86_64", target_arch = "aarch64"),
@@ -106,25 +152,11 @@ at_once!(f64: f64x8 8 from 5, f64x4 4 from 3, f64x2 2 from 2);
     not(target_feature = "avx512f"),
     target_feature = "avx"
 ))]
-at_once!(f64: f64x4 4 from 3, f64x2 2 from 2);
+at_once!(f64: f64x4 4 from 3, f64x4 4 from 3, f64x2 2 from 2);
 #[cfg(all(
     any(target_arch = "x86_64", target_arch = "aarch64"),
     not(target_feature = "avx")
 ))]
-at_once!(f64: f64x2 2 from 2);
+at_once!(f64: f64x2 2 from 2, f64x2 2 from 2, f64x2 2 from 2, f64x2 2 from 2);
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 at_once!(f32: f32x8 8 from 5, f32x4 4 from 2);
-
-/// Elsewhere one after the other.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-macro_rules! one_by_one {
-    ($($float:ident)*) => {$(
-        impl AtOnce for $float {
-            fn at_once<const K: usize>(sums: [($float, $float); K]) -> [($float, $float); K] {
-                sums.map(|(angle, tail)| sin_cos(angle, tail))
-            }
-        }
-    )*};
-}
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-one_by_one!(f64 f32);

@@ -2,6 +2,9 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
+use super::large;
+use crate::float::Float;
+
 /// The numbers that the kernel of a scalar type works with.
 #[derive(Clone, Copy)]
 pub(crate) struct Coefficients {
@@ -86,6 +89,9 @@ pub(crate) trait Pack:
     }
     /// Whether all angles are within the limit; NaN is not.
     fn within(self) -> bool;
+    /// Sine and cosine of `self` + `tail` where not all angles are within the limit: reduced exactly,
+    /// each by itself.
+    fn beyond(self, tail: Self) -> (Self, Self);
     /// Sine and cosine of r + n π/2 from those of r; the last two binary digits of n are the last two
     /// of `quarters`.
     fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self);
@@ -156,6 +162,10 @@ macro_rules! scalar_pack {
             fn within(self) -> bool {
                 self.abs() <= $limit
             }
+            #[cold]
+            fn beyond(self, tail: Self) -> (Self, Self) {
+                <$float as Float>::turn(large::sin_cos(self), tail)
+            }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {
                 use core::num::Wrapping as W;
@@ -197,6 +207,14 @@ macro_rules! lane_pack {
             #[inline(always)]
             fn within(self) -> bool {
                 self.abs().simd_le(wide::$lanes::splat(<$float as Pack>::LIMIT as $float)).all()
+            }
+            #[cold]
+            fn beyond(self, tail: Self) -> (Self, Self) {
+                let (mut s, mut c) = (self.to_array(), tail.to_array());
+                for (s, c) in s.iter_mut().zip(&mut c) {
+                    (*s, *c) = super::one(*s, *c);
+                }
+                (Self::new(s), Self::new(c))
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {

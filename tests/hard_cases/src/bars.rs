@@ -99,6 +99,39 @@ pub struct Found {
     pub allowed: f64,
 }
 
+/// How bars are read where a mechanism is so uneven that they say nothing of a method.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading {
+    /// 1/(cond M · eps) up to which forward dynamics may refuse.
+    pub singular: f64,
+    /// Whether efforts may be met as by rounded arguments, see [`Hard::backward_rounded`].
+    pub rounded_arguments: bool,
+}
+
+impl Reading {
+    /// As the bars are written: what may be refused is singular but for its rounding.
+    pub const STRICT: Reading = Reading {
+        singular: 1.0,
+        rounded_arguments: false,
+    };
+}
+
+/// Of joints' errors beside what they may be the one where most of that is used.
+fn worst(joints: Vec<(f64, f64)>) -> Found {
+    // Where nothing acts on a joint at all, nothing is to be met.
+    let part = |(error, allowed): (f64, f64)| if error == 0.0 { 0.0 } else { error / allowed };
+    let worst = joints
+        .into_iter()
+        .max_by(|a, b| part(*a).total_cmp(&part(*b)));
+    let (measured, allowed) = worst.expect("a joint");
+    Found {
+        bar: "",
+        what: "",
+        measured,
+        allowed,
+    }
+}
+
 /// One state of a mechanism and its sizes.
 #[derive(Debug)]
 pub struct Hard {
@@ -197,6 +230,29 @@ impl Hard {
     /// Backward error of accelerations: each joint's effort is met to 8 n eps of its terms. The joint
     /// where most of that is used.
     pub fn backward<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
+        Found {
+            bar: "2",
+            what: "forward dynamics, efforts met",
+            ..worst(self.unmet::<T>(found, reference))
+        }
+    }
+
+    /// The same; but where rounding the arguments alone changes an effort by more than that, by half
+    /// an eps of each, as much as that: the accelerations are the exact ones of arguments that round
+    /// to the same numbers.
+    pub fn backward_rounded<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
+        let changed = self.rounded_arguments::<T>(found, reference);
+        let unmet = self.unmet::<T>(found, reference).into_iter().zip(changed);
+        let rounded = unmet.map(|((error, bar), changed)| (error, changed.max(bar)));
+        Found {
+            bar: "2",
+            what: "forward dynamics, efforts met, as rounded arguments",
+            ..worst(rounded.collect())
+        }
+    }
+
+    /// What is left of each joint's effort, and 8 n eps of its terms.
+    fn unmet<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<(f64, f64)> {
         let s = &self.state;
         let moved = State {
             a: found.to_vec(),
@@ -204,20 +260,40 @@ impl Hard {
         };
         let met = off(&s.tau, &reference.inverse(&moved));
         let terms = self.weighed(found);
-        let joints = (0..self.n).map(|i| {
+        let joint = |i: usize| {
             let size = terms[i] + s.tau[i].abs() + self.bias[i].abs();
             (met[i].abs(), 8.0 * self.n as f64 * T::EPS * size)
-        });
-        // Where nothing acts on a joint at all, nothing is to be met.
-        let part = |(error, allowed): (f64, f64)| if error == 0.0 { 0.0 } else { error / allowed };
-        let worst = joints.max_by(|a, b| part(*a).total_cmp(&part(*b)));
-        let (measured, allowed) = worst.expect("a joint");
-        Found {
-            bar: "2",
-            what: "forward dynamics, efforts met",
-            measured,
-            allowed,
+        };
+        (0..self.n).map(joint).collect()
+    }
+
+    /// How far each effort of these accelerations moves where each position and velocity is rounded,
+    /// by half an eps of itself: the sum over all of them.
+    fn rounded_arguments<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<f64> {
+        // Far above the reference's digits, far below the curvature.
+        const PART: f64 = 1.0 / (1u64 << 30) as f64;
+        let at = State {
+            a: found.to_vec(),
+            ..self.state.clone()
+        };
+        let efforts = reference.inverse(&at);
+        let mut changed = vec![0.0; self.n];
+        for (joint, velocity) in (0..self.n).flat_map(|j| [(j, false), (j, true)]) {
+            let mut moved = at.clone();
+            let of = if velocity { &mut moved.v } else { &mut moved.q };
+            let from = of[joint];
+            of[joint] += from * PART;
+            // What it moved by, which is rounded too.
+            let by = of[joint] - from;
+            if by == 0.0 {
+                continue;
+            }
+            let part = T::EPS / 2.0 * (from / by).abs();
+            for (i, (new, &old)) in reference.inverse(&moved).iter().zip(&efforts).enumerate() {
+                changed[i] += (*new - old).to_f64().abs() * part;
+            }
         }
+        changed
     }
 
     /// Error of accelerations ≤ (16 + cond M) eps ‖q̈‖; but where rounding the arguments alone changes
@@ -276,29 +352,31 @@ impl Hard {
         })
     }
 
-    /// Bars 1 to 5. Forward dynamics may refuse where 1/(cond M · eps) is at most `singular`: 1, where
-    /// M is singular but for its rounding.
+    /// Bars 1 to 5.
     pub fn all<T: Digits>(
         &self,
         subject: &impl Subject<T>,
         reference: &impl Reference,
-        singular: f64,
+        reading: Reading,
     ) -> Vec<Found> {
         let refused = |bar| Found {
             bar,
             what: "refused, 1/(cond eps)",
             measured: 1.0 / (self.most * self.inverse * T::EPS),
-            allowed: singular,
+            allowed: reading.singular,
         };
         let mut all = vec![
             self.inverse_dynamics(subject, reference),
             self.mass_matrix(subject, reference),
         ];
         match subject.forward(&self.state) {
-            Some(found) => all.extend([
-                self.backward::<T>(&found, reference),
-                self.forward::<T>(&found, reference),
-            ]),
+            Some(found) => {
+                let mut met = self.backward::<T>(&found, reference);
+                if reading.rounded_arguments && met.measured > met.allowed {
+                    met = self.backward_rounded::<T>(&found, reference);
+                }
+                all.extend([met, self.forward::<T>(&found, reference)]);
+            }
             None => all.push(refused("2")),
         }
         all.push(self.back_and_forth(subject).unwrap_or(refused("5")));
