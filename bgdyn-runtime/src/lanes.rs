@@ -84,22 +84,29 @@ macro_rules! lane_scalar {
                 $lanes::sqrt(self)
             }
 
-            #[inline]
+            // Part of the caller: handed over in memory, lanes would be stored in halves and waited for.
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 Self::sin_cos_sum(&[self], (0.0, 0.0))
             }
 
-            #[inline]
+            #[inline(always)]
             fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
+                #[cold]
+                #[inline(never)]
+                fn one_by_one(angle: $lanes, tail: $lanes) -> ($lanes, $lanes) {
+                    let (mut s, mut c) = (angle.to_array(), tail.to_array());
+                    for (s, c) in s.iter_mut().zip(&mut c) {
+                        (*s, *c) = sine::one(*s, *c);
+                    }
+                    ($lanes::new(s), $lanes::new(c))
+                }
                 let (angle, tail) = sine::plain_or_sum(angles, offset);
                 if angle.within() {
-                    return sine::sin_cos(angle, tail);
+                    sine::sin_cos(angle, tail)
+                } else {
+                    one_by_one(angle, tail)
                 }
-                let (mut s, mut c) = (angle.to_array(), tail.to_array());
-                for (s, c) in s.iter_mut().zip(&mut c) {
-                    (*s, *c) = sine::one(*s, *c);
-                }
-                (Self::new(s), Self::new(c))
             }
 
             #[inline]

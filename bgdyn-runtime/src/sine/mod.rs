@@ -87,8 +87,10 @@ macro_rules! at_once {
                         done = K.min(done + $n);
                     }
                 )+
-                for (found, sum) in found.iter_mut().zip(sums).skip(done) {
-                    *found = sin_cos(sum.0, sum.1);
+                // By number: this folds away where nothing is left, an iterator's `skip` does not.
+                while done < K {
+                    found[done] = sin_cos(sums[done].0, sums[done].1);
+                    done += 1;
                 }
                 found
             }
