@@ -57,7 +57,7 @@ impl<T: RealField + Copy> ArticulatedInertia<T> {
     }
 
     /// The same in the carrier's axes, about its origin.
-    fn to_carrier(&self, x: &Transform<T>) -> Self {
+    fn in_carrier(&self, x: &Transform<T>) -> Self {
         let turned = |m: &Matrix3<T>| x.rotation * m * x.rotation.transpose();
         let (tensor, cross, mass) = (
             turned(&self.tensor),
@@ -84,7 +84,7 @@ impl<T: RealField + Copy> Textbook<T> {
         for i in 0..self.joints() {
             let carried = self.parent[i].map_or(self.base, |p| self.acceleration[p]);
             // a' = X a_parent + c, q̈ = (u − Uᵀ a') / d, a = a' + S q̈
-            let acceleration = self.transform[i].to_body(&carried).plus(&self.bias[i]);
+            let acceleration = self.transform[i].in_body(&carried).plus(&self.bias[i]);
             let u = &self.reaction[i];
             let held = u.moment.dot(&acceleration.angular) + u.force.dot(&acceleration.linear);
             a[i] = (self.effort[i] - held) / self.pivot[i];
@@ -98,7 +98,7 @@ impl<T: RealField + Copy> Textbook<T> {
             let x = self.joint[i].place(q[i]);
             let rate = self.joint[i].motion(v[i]);
             let velocity = match self.parent[i] {
-                Some(p) => x.to_body(&self.velocity[p]).plus(&rate),
+                Some(p) => x.in_body(&self.velocity[p]).plus(&rate),
                 None => rate,
             };
             let momentum = self.inertia[i].times(&velocity);
@@ -126,8 +126,8 @@ impl<T: RealField + Copy> Textbook<T> {
                     force: u.force * share,
                 };
                 let force = self.force[i].plus(&released.times(&self.bias[i]));
-                let force = self.transform[i].to_carrier(&force.plus(&pushed));
-                let carried = released.to_carrier(&self.transform[i]);
+                let force = self.transform[i].in_carrier(&force.plus(&pushed));
+                let carried = released.in_carrier(&self.transform[i]);
                 self.articulated[p] = self.articulated[p].plus(&carried);
                 self.force[p] = self.force[p].plus(&force);
             }

@@ -14,7 +14,7 @@ impl<T: RealField + Copy> Textbook<T> {
         m.fill(T::zero());
         for i in (0..self.joints()).rev() {
             if let Some(p) = self.parent[i] {
-                let carried = self.composite[i].to_carrier(&self.transform[i]);
+                let carried = self.composite[i].in_carrier(&self.transform[i]);
                 self.composite[p] = self.composite[p].plus(&carried);
             }
             // The force that moves the composite body at the joint's unit acceleration, seen by every
@@ -23,7 +23,7 @@ impl<T: RealField + Copy> Textbook<T> {
             m[(i, i)] = self.joint[i].effort(&force);
             let mut at = i;
             while let Some(p) = self.parent[at] {
-                force = self.transform[at].to_carrier(&force);
+                force = self.transform[at].in_carrier(&force);
                 let entry = self.joint[p].effort(&force);
                 m[(i, p)] = entry;
                 m[(p, i)] = entry;

@@ -13,10 +13,10 @@ impl<T: RealField + Copy> Textbook<T> {
             // v = X v_parent + S q̇, a = X a_parent + S q̈ + v × S q̇
             let (velocity, carried) = match self.parent[i] {
                 Some(p) => (
-                    x.to_body(&self.velocity[p]).plus(&rate),
-                    x.to_body(&self.acceleration[p]),
+                    x.in_body(&self.velocity[p]).plus(&rate),
+                    x.in_body(&self.acceleration[p]),
                 ),
-                None => (rate, x.to_body(&self.base)),
+                None => (rate, x.in_body(&self.base)),
             };
             let acceleration = carried.plus(&push).plus(&velocity.cross(&rate));
             // f = I a + v ×* I v
@@ -30,7 +30,7 @@ impl<T: RealField + Copy> Textbook<T> {
         for i in (0..self.joints()).rev() {
             tau[i] = self.joint[i].effort(&self.force[i]);
             if let Some(p) = self.parent[i] {
-                self.force[p] = self.force[p].plus(&self.transform[i].to_carrier(&self.force[i]));
+                self.force[p] = self.force[p].plus(&self.transform[i].in_carrier(&self.force[i]));
             }
         }
     }

@@ -98,7 +98,7 @@ impl<T: RealField + Copy> Transform<T> {
     }
 
     /// What a motion of the carrier is for the body.
-    pub fn to_body(&self, m: &Motion<T>) -> Motion<T> {
+    pub fn in_body(&self, m: &Motion<T>) -> Motion<T> {
         Motion {
             angular: self.rotation.tr_mul(&m.angular),
             linear: self
@@ -108,7 +108,7 @@ impl<T: RealField + Copy> Transform<T> {
     }
 
     /// What a force on the body is for the carrier.
-    pub fn to_carrier(&self, f: &Force<T>) -> Force<T> {
+    pub fn in_carrier(&self, f: &Force<T>) -> Force<T> {
         let force = self.rotation * f.force;
         Force {
             moment: self.rotation * f.moment + self.origin.cross(&force),
@@ -161,7 +161,7 @@ impl<T: RealField + Copy> Inertia<T> {
     }
 
     /// The same inertia in the carrier's axes, about its origin.
-    pub fn to_carrier(&self, x: &Transform<T>) -> Self {
+    pub fn in_carrier(&self, x: &Transform<T>) -> Self {
         let (p, h) = (x.origin, x.rotation * self.moment);
         let tensor = x.rotation * self.tensor * x.rotation.transpose();
         // 2 (h·p) + m p·p on the diagonal, less h pᵀ + p hᵀ + m p pᵀ.

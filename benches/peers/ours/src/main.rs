@@ -98,7 +98,8 @@ macro_rules! robots {
     ($($size:ident $module:ident $model:ident $spec:literal,)*) => {
         mod timed {
             use super::*;
-            $(pub(super) fn $module(operation: &str, lanes: usize) -> Outcome {
+            $(#[allow(clippy::result_large_err, reason = "in lanes it has the accelerations")]
+            pub(super) fn $module(operation: &str, lanes: usize) -> Outcome {
                 const N: usize = super::$module::NV;
                 let mechanism = benches::read($spec.as_ref()).unwrap_or_else(|e| panic!("{e}"));
                 let states = &states(&slides(&bodies(&mechanism)));
