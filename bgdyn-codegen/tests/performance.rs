@@ -141,6 +141,11 @@ fn the_page_holds_what_is_generated() {
              without `BGDYN_WRITE` the test fails where the page is not up to date, or a count is \
              above the best known one.\n";
     text += "\nArms outside this table: [outside.md](outside.md).\n";
+    text += "\n## How fast\n\n\
+             [peers.md](peers.md) has times beside Pinocchio, MuJoCo, KDL, dynibo and the C that CasADi and \
+             CppADCodeGen generate, measured in turn by `benches/peers/run.sh`, which takes any spec. \
+             `cargo bench` times every method of the specs beside a textbook's recursions, without any \
+             of them.\n";
     let page = folder("docs/performance.md");
     if std::env::var_os("BGDYN_WRITE").is_some() {
         fs::write(&page, &text).expect("the page is written");

@@ -84,12 +84,13 @@ macro_rules! lane_scalar {
                 $lanes::sqrt(self)
             }
 
-            #[inline]
+            // Part of the caller: handed over in memory, lanes would be stored in halves and waited for.
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 Self::sin_cos_sum(&[self], (0.0, 0.0))
             }
 
-            #[inline]
+            #[inline(always)]
             fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
                 let (angle, tail) = sine::plain_or_sum(angles, offset);
                 sine::one(angle, tail)

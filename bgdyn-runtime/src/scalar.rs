@@ -56,6 +56,7 @@ pub trait Scalar:
 
     /// Sines and cosines of all angles of a call, each as [`Scalar::sin_cos_sum`] gives it: `f64` and
     /// `f32` compute them in lanes.
+    #[inline(always)]
     fn sin_cos_all<const K: usize>(
         angles: [&[Self]; K],
         offsets: [(f64, f64); K],

@@ -1,0 +1,58 @@
+//! Generates the mechanisms of `specs/`, each with the methods that are timed: `models.rs` has their
+//! modules, `robots.rs` a call of the macro `robots!` with all of them, which whoever includes it defines.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use bgdyn_codegen::build_script::Build;
+use bgdyn_codegen::emit::struct_ident;
+use bgdyn_codegen::model::stem;
+
+const METHODS: [&str; 5] = [
+    "inverse_dynamics",
+    "mass_matrix",
+    "forward_dynamics",
+    "bias",
+    "gravity",
+];
+
+fn main() {
+    let specs = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../specs");
+    let out = PathBuf::from(env::var("OUT_DIR").unwrap());
+    println!("cargo::rerun-if-changed={}", specs.display());
+    let entries = fs::read_dir(&specs).expect("a folder of specs");
+    let mut paths: Vec<PathBuf> = entries.map(|e| e.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "yaml"));
+    paths.sort();
+    let (mut models, mut robots) = (String::new(), String::new());
+    for path in paths {
+        let (name, tip) = (stem(&path), tip(&path));
+        let methods = METHODS.map(String::from).into_iter();
+        let methods = methods.chain([format!("jacobian_world_{tip}")]);
+        let written = Build::new(&path).methods(methods).write();
+        written.unwrap_or_else(|error| panic!("{error}"));
+        let model = struct_ident(&name);
+        let include = format!("include!(concat!(env!(\"OUT_DIR\"), \"/{name}.rs\"));");
+        writeln!(models, "{include}").unwrap();
+        writeln!(
+            robots,
+            "{name} {model} jacobian_world_{tip} \"{tip}\" {path:?},"
+        )
+        .unwrap();
+    }
+    fs::write(out.join("models.rs"), models).unwrap();
+    let robots = format!("robots! {{\n{robots}}}\n");
+    fs::write(out.join("robots.rs"), robots).unwrap();
+}
+
+/// The frame named last on a link, else the last link.
+fn tip(path: &Path) -> String {
+    let text = fs::read_to_string(path).expect("a spec");
+    let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem(path)));
+    let shown = path.display().to_string();
+    let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render(&shown, &text)));
+    let frame = mechanism.frames().iter().rev().find(|f| f.link.is_some());
+    let link = mechanism.links().last().expect("a link");
+    frame.map_or(&link.name, |f| &f.name).clone()
+}

@@ -1,0 +1,84 @@
+# Sourced by run.sh: compiles the programs that are timed, and the C that the peers generate.
+packages=$(echo "$venv"/lib/python3*/site-packages)
+mujoco=$packages/mujoco
+pinocchio="-isystem $packages/cmeel.prefix/include -isystem $packages/cmeel.prefix/include/eigen3
+  -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_LIMIT_VECTOR_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS
+  -DBOOST_FUSION_INVOKE_MAX_ARITY=12"
+fast="-O3 -march=native"
+
+# program NAME COMPILER OPTIONS: bin/NAME from cpp/NAME.cpp, where that is newer.
+program() {
+  local to=$PEERS_DIR/bin/$1 from=$here/cpp/$1.cpp compiler=$2
+  shift 2
+  [ "$to" -nt "$from" ] || "$compiler" -std=c++17 -DNDEBUG "$from" "$@" -o "$to"
+}
+program generated g++ $fast -ldl
+program generated_lanes g++ $fast -ldl
+program pinocchio clang++-19 $fast $pinocchio
+program mujoco clang++-19 $fast -isystem "$mujoco/include" "$mujoco"/libmujoco.so.* -Wl,-rpath,"$mujoco"
+# Its library is compiled for any x86-64: with -march=native Eigen would align memory in another way.
+program kdl clang++-19 -O3 -isystem /usr/include/eigen3 -lorocos-kdl
+program casadi_codegen clang++-19 -O1 -isystem "$packages/casadi/include" $pinocchio \
+  -L"$packages/casadi" -lcasadi -Wl,-rpath,"$packages/casadi"
+program cppad_codegen clang++-19 -O1 -isystem "$PEERS_DIR/include" $pinocchio -ldl
+
+# Ours, with the machine's instructions and with those of any x86-64 (or other) machine. The generator runs while
+# compiling, so it need not be fast itself.
+host=$(rustc -vV | sed -n 's/^host: //p')
+ours() {
+  BGDYN_PEERS=$specs RUSTFLAGS=$2 cargo build --release --manifest-path "$root/Cargo.toml" -p peers --target "$host" \
+    --target-dir "$PEERS_DIR/rust" --config 'profile.release.package.bgdyn-codegen.opt-level=1'
+  cp "$PEERS_DIR/rust/$host/release/ours" "$PEERS_DIR/bin/$1"
+}
+ours ours "-C target-cpu=native"
+ours ours_portable ""
+cp "$PEERS_DIR/rust/$host/release/describe" "$PEERS_DIR/bin/"
+RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$here/dynibo/Cargo.toml" \
+  --target-dir "$PEERS_DIR/rust"
+cp "$PEERS_DIR/rust/release/dynibo-peer" "$PEERS_DIR/bin/dynibo"
+
+# What a compiler, or a generator, may take for one function: beyond it, the table has a dash.
+patience=${PEERS_PATIENCE:-90}
+
+# generate SPEC: the description for the peers, and their C, by both compilers.
+generate() {
+  local name folder
+  name=$(basename "$1" .yaml)
+  folder=$PEERS_DIR/robots/$name
+  [ "$folder/done" -nt "$1" ] && return
+  echo "generating C for $name"
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  "$PEERS_DIR/bin/describe" "$1" "$folder"
+  # CasADi stops at 70,000 instructions: compilers take minutes for more.
+  timeout "$patience" "$PEERS_DIR/bin/casadi_codegen" "$folder/$name.flat" "$folder" 70000 || echo "CasADi: no more for $name"
+  timeout "$patience" "$PEERS_DIR/bin/cppad_codegen" "$folder/$name.flat" "$folder" || echo "CppADCodeGen: no more for $name"
+  local c
+  for c in "$folder"/*.c; do
+    compile "$c" clang-19 -ffp-contract=fast
+    compile "$c" gcc
+    case $c in */casadi_*) lanes "$c" ;; esac
+  done
+  touch "$folder/done"
+}
+
+# compile C COMPILER OPTIONS
+compile() {
+  local c=$1 compiler=$2
+  shift 2
+  timeout "$patience" "$compiler" $fast -fno-math-errno -DNDEBUG "$@" -fPIC -shared -w "$c" -o "${c%.c}.$compiler.so" -lm \
+    || echo "$compiler gave up $c"
+}
+
+# CasADi's C for vectors of 8 doubles: constants spread over the lanes, arguments taken as given, everything but the
+# function itself left out.
+lanes() {
+  grep -q avx512f /proc/cpuinfo || return 0
+  local c=${1%.c}
+  sed -E 's/=([-+]?[0-9][0-9.e+-]*);/=all_lanes(\1);/
+    s/=(arg\[[0-9]\])\? (arg\[[0-9]\]\[[0-9]+\]) : 0;/=\2;/
+    /casadi_real casadi_sq/d; /define casadi_sq/d; /casadi_int_size/d; /casadi_real_size/d
+    /f_default_in\(/,/^}/d' "$1" > "$c.lanes"
+  timeout "$patience" gcc $fast -mprefer-vector-width=512 -DNDEBUG -fPIC -shared -w -include "$here/cpp/lanes.h" -x c "$c.lanes" \
+    -o "$c.lanes.so" -lmvec -lm || echo "no lanes for $1"
+}

@@ -1,0 +1,129 @@
+"""The page of results."""
+
+import datetime
+import platform
+import re
+import subprocess
+
+TITLES = {
+    "inverse_dynamics": "Inverse dynamics",
+    "mass_matrix": "Mass matrix",
+    "forward_dynamics": "Forward dynamics",
+    "inverse_dynamics_derivatives": "∂τ/∂q, ∂τ/∂v",
+    "forward_dynamics_derivatives": "∂q̈/∂q, ∂q̈/∂v, M⁻¹",
+}
+PEERS = {
+    "generated C": ["casadi", "cppad"],
+    "Pinocchio": ["pinocchio"],
+    "MuJoCo": ["mujoco"],
+    "KDL": ["kdl"],
+    "dynibo": ["dynibo"],
+}
+
+
+def entry(result, columns):
+    """The best of a result's columns: the one that ours takes the largest share of."""
+    found = [result["columns"][c] for c in columns if c in result["columns"]]
+    return max(found, key=lambda e: e["ratio"], default=None)
+
+
+def ratio(entry):
+    return f"{entry['ratio']:.2f}" if entry else "–"
+
+
+def time(ns):
+    return f"{ns:.1f}" if ns < 100 else f"{ns:.0f}"
+
+
+def table(heads, rows):
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def alone(results):
+    """A table for each operation, one state a call."""
+    text = ""
+    for operation, title in TITLES.items():
+        some = [r for r in results if r["operation"] == operation]
+        peers = {p: c for p, c in PEERS.items() if any(entry(r, c) for r in some)}
+        if not some:
+            continue
+        rows = [[r["robot"], time(r["ours"]), *[ratio(entry(r, c)) for c in peers.values()]] for r in some]
+        text += f"### {title}\n\n{table(['robot', 'bgdyn, ns', *peers], rows)}\n"
+    return text
+
+
+def lanes(results):
+    rows = []
+    for r in results:
+        eight, four, casadi = [r["columns"].get(c) for c in ["ours 8 lanes", "ours 4 lanes", "casadi lanes"]]
+        if not eight:
+            continue
+        compared = f"{eight['time'] / casadi['time']:.2f}" if casadi else "–"
+        peer = time(casadi["time"]) if casadi else "–"
+        cells = [time(four["time"]), time(eight["time"]), peer, compared]
+        rows.append([r["robot"], TITLES[r["operation"]].lower(), time(r["ours"]), *cells])
+    heads = ["robot", "function", "one state, ns", "4 lanes", "8 lanes", "CasADi, 8 lanes", "8 lanes over CasADi's"]
+    return table(heads, rows) if rows else ""
+
+
+def portable(results):
+    rows = []
+    for r in results:
+        other = r["columns"].get("ours portable")
+        if other:
+            rows.append([r["robot"], TITLES[r["operation"]].lower(), time(r["ours"]), time(other["time"])])
+    return table(["robot", "function", "this machine's instructions, ns", "any x86-64, ns"], rows)
+
+
+def output(*command):
+    return subprocess.run(command, capture_output=True, text=True).stdout
+
+
+def machine():
+    found = re.search(r"Model name:\s*(.*)", output("lscpu"))
+    return found.group(1).strip() if found else platform.processor()
+
+
+def versions(folder):
+    pip = output(str(folder / "venv/bin/pip"), "list", "--format=freeze")
+    pip = dict(line.split("==") for line in pip.split() if "==" in line)
+    kdl = re.search(r"Version: ([0-9.]+)", output("dpkg", "-s", "liborocos-kdl-dev"))
+    clang = re.search(r"version ([0-9.]+)", output("clang-19", "--version"))
+    gcc = output("gcc", "-dumpfullversion").strip()
+    rustc = output("rustc", "--version").split()[1]
+    return (
+        f"Pinocchio {pip['pin']}, CasADi {pip['casadi']}, CppADCodeGen 2.4.3, MuJoCo {pip['mujoco']}, "
+        f"KDL {kdl.group(1) if kdl else '?'}, dynibo 0.5.3; rustc {rustc}, clang {clang.group(1)}, gcc {gcc}"
+    )
+
+
+def text(results, rounds, undisturbed, folder):
+    date = datetime.date.today().isoformat()
+    quiet = "on a core of their own (`chrt -f`, `taskset`)" if undisturbed else "on a machine that did other work too"
+    return f"""# How fast, beside other systems
+
+{machine()}, {date}. {versions(folder)}. Written by `benches/peers/run.sh --docs`.
+
+![How many times as long as bgdyn](peers.svg)
+
+Every program runs over the same 1024 random states (any angle, ±0.3 m, velocities and accelerations within ±2, efforts within ±10) and prints the median time of a call and the sum of all its outputs; the sums agree to 1e-7. Each peer ran in turn with bgdyn, {rounds} rounds, {quiet}; columns are medians of **bgdyn's time over the peer's**: 0.25 means four times as fast. Only ratios carry over to other machines.
+
+- Generated C is Pinocchio's algorithms over CasADi's expressions (common subexpressions shared) or over CppADCodeGen's tape, compiled by clang and by gcc with `-O3 -march=native`: of the four, the fastest for each function.
+- Pinocchio is compiled from its headers, `-O3 -march=native`. MuJoCo and KDL are their packages' libraries, MuJoCo with only the parts that the function needs. dynibo is compiled like bgdyn, for this machine.
+- A dash: the peer has no such function, or cannot take the mechanism, or its C was not compiled in the time given to it.
+
+`scara4`, `puma560`, `panda7` and the chains (8 to 64 revolute joints about skew axes) are those of [`tests/golden`](../tests/golden), `ur5` and `torso` those of [`specs`](../specs), `tree9` is a random tree of nine joints ([`benches/peers/specs`](../benches/peers/specs)); `chain16` is the first half of `chain32`.
+
+## One state a call, f64
+
+{alone(results)}## States in lanes
+
+Times per state, ns: `f64x4` and `f64x8` of the crate `wide` as scalars of the same generated code; CasADi's C compiled for vectors of eight doubles, with the sines of glibc's vector library.
+
+{lanes(results)}
+## Without the machine's own instructions
+
+Compiled with `-C target-cpu=native`, and as cargo does by default.
+
+{portable(results)}"""

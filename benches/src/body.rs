@@ -1,0 +1,189 @@
+//! A mechanism as programs for any tree take it: moving bodies only, numbers in `f64`.
+
+use bgdyn_codegen::math::{Mat3, Vec3};
+use bgdyn_codegen::mechanism::{Inertial, LinkId, Mechanism, Motion, Pose, Value};
+use bgdyn_runtime::Dd;
+use nalgebra::{Matrix3, Vector3};
+
+/// A moving body and the joint that carries it. Links fixed to it are part of it.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// The joint's name.
+    pub name: String,
+    /// Number of the body that carries it; `None` for the world.
+    pub parent: Option<usize>,
+    /// Whether the joint is prismatic; else it is revolute.
+    pub slides: bool,
+    /// Body axes in the carrier's at coordinate zero.
+    pub placement: Placement,
+    /// Unit vector of the joint's axis, in body axes.
+    pub axis: Vector3<f64>,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass in body axes, m.
+    pub com: Vector3<f64>,
+    /// Inertia about the centre of mass in body axes, kg·m².
+    pub inertia: Matrix3<f64>,
+}
+
+/// Axes and origin of one frame in another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Columns are the placed frame's axes.
+    pub rotation: Matrix3<f64>,
+    /// The placed frame's origin, m.
+    pub translation: Vector3<f64>,
+}
+
+impl Placement {
+    /// No rotation, no displacement.
+    pub fn identity() -> Self {
+        Placement {
+            rotation: Matrix3::identity(),
+            translation: Vector3::zeros(),
+        }
+    }
+
+    /// What `inner` is seen from where `self` is placed.
+    pub fn of(&self, inner: &Placement) -> Self {
+        Placement {
+            rotation: self.rotation * inner.rotation,
+            translation: self.rotation * inner.translation + self.translation,
+        }
+    }
+}
+
+/// A place on a moving body, or in the world (`body: None`).
+#[derive(Clone, Copy, Debug)]
+pub struct Site {
+    /// The body.
+    pub body: Option<usize>,
+    /// The place in its axes.
+    pub placement: Placement,
+}
+
+/// The moving bodies in the order of the coordinates. Run-time parameters take the values of the
+/// spec. Links fixed to the world are left out.
+pub fn bodies(mechanism: &Mechanism) -> Vec<Body> {
+    let mut bodies: Vec<Body> = mechanism
+        .coordinates()
+        .iter()
+        .map(|&link| empty(mechanism, link))
+        .collect();
+    for (i, link) in mechanism.links().iter().enumerate() {
+        let site = site(mechanism, LinkId(i));
+        if let Some(body) = site.body {
+            add(
+                &mut bodies[body],
+                mechanism,
+                &link.inertial,
+                &site.placement,
+            );
+        }
+    }
+    bodies
+}
+
+/// Which joints are prismatic.
+pub fn slides(bodies: &[Body]) -> Vec<bool> {
+    bodies.iter().map(|b| b.slides).collect()
+}
+
+/// Where the link or frame of this name is.
+pub fn place(mechanism: &Mechanism, name: &str) -> Option<Site> {
+    let links = mechanism.links();
+    if let Some(link) = links.iter().position(|l| l.name == name) {
+        return Some(site(mechanism, LinkId(link)));
+    }
+    let frame = mechanism.frames().iter().find(|f| f.name == name)?;
+    let carrier = carrier(mechanism, frame.link);
+    Some(Site {
+        placement: carrier.placement.of(&placement(&frame.origin)),
+        ..carrier
+    })
+}
+
+/// Where a link's frame is on the body that it is part of.
+fn site(mechanism: &Mechanism, link: LinkId) -> Site {
+    let link = &mechanism.links()[link.0];
+    if let Some(coordinate) = link.joint.coordinate {
+        return Site {
+            body: Some(coordinate.0),
+            placement: Placement::identity(),
+        };
+    }
+    let carrier = carrier(mechanism, link.parent);
+    Site {
+        body: carrier.body,
+        placement: carrier.placement.of(&placement(&link.joint.origin)),
+    }
+}
+
+fn carrier(mechanism: &Mechanism, parent: Option<LinkId>) -> Site {
+    let world = Site {
+        body: None,
+        placement: Placement::identity(),
+    };
+    parent.map_or(world, |parent| site(mechanism, parent))
+}
+
+/// The body of a moving link, without its inertia.
+fn empty(mechanism: &Mechanism, link: LinkId) -> Body {
+    let link = &mechanism.links()[link.0];
+    let carrier = carrier(mechanism, link.parent);
+    Body {
+        name: link.joint.name.clone(),
+        parent: carrier.body,
+        slides: link.joint.kind.motion == Motion::Translation,
+        placement: carrier.placement.of(&placement(&link.joint.origin)),
+        axis: vector(link.joint.axis),
+        mass: 0.0,
+        com: Vector3::zeros(),
+        inertia: Matrix3::zeros(),
+    }
+}
+
+/// Adds a rigid part, whose frame is placed in the body's.
+fn add(body: &mut Body, mechanism: &Mechanism, part: &Inertial, at: &Placement) {
+    let number = |value: Value| match value {
+        Value::Fixed(x) => x.to_f64(),
+        Value::Parameter(p) => mechanism.parameters()[p.0].default.to_f64(),
+    };
+    let mass = number(part.mass);
+    let com = Vector3::from(part.com.0.map(number));
+    let com = at.rotation * com + at.translation;
+    let [xx, yy, zz, xy, xz, yz] = part.inertia.entries.map(number);
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let axes = at.rotation * matrix(part.inertia.axes);
+    let tensor = axes * tensor * axes.transpose();
+    // Both tensors are about their own centres: Steiner's terms of the pair about the common one.
+    let sum = body.mass + mass;
+    if sum > 0.0 {
+        let between = com - body.com;
+        body.inertia += steiner(body.mass * mass / sum, &between);
+        body.com += between * (mass / sum);
+    }
+    body.mass = sum;
+    body.inertia += tensor;
+}
+
+/// What a point mass adds to the inertia about a point at the distance `r`: m (r·r 1 − r rᵀ).
+pub(crate) fn steiner(mass: f64, r: &Vector3<f64>) -> Matrix3<f64> {
+    (Matrix3::identity() * r.dot(r) - r * r.transpose()) * mass
+}
+
+fn placement(pose: &Pose) -> Placement {
+    Placement {
+        rotation: matrix(pose.rotation),
+        translation: vector(pose.translation),
+    }
+}
+
+/// In `f64`.
+pub fn vector(v: Vec3<Dd>) -> Vector3<f64> {
+    Vector3::from(v.0.map(Dd::to_f64))
+}
+
+fn matrix(m: Mat3<Dd>) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| m.0[i][j].to_f64())
+}

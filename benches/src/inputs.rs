@@ -1,0 +1,89 @@
+//! The states as generated models take them: one number per joint, or one lane per state.
+
+use bgdyn_runtime::Scalar;
+use bgdyn_runtime::wide::{f64x4, f64x8};
+use nalgebra::SVector;
+
+use crate::states::State;
+
+/// A scalar that holds as many states as it has lanes.
+pub trait Lanes: Scalar {
+    /// How many.
+    const LANES: usize;
+
+    /// The number with `value(lane)` in each lane.
+    fn gather(value: impl Fn(usize) -> f64) -> Self;
+
+    /// The number in a lane.
+    fn lane(self, lane: usize) -> f64;
+}
+
+macro_rules! lanes {
+    ($($scalar:ident: $lanes:literal;)*) => {$(
+        impl Lanes for $scalar {
+            const LANES: usize = $lanes;
+
+            fn gather(value: impl Fn(usize) -> f64) -> Self {
+                Self::new(std::array::from_fn(value))
+            }
+
+            fn lane(self, lane: usize) -> f64 {
+                self.to_array()[lane]
+            }
+        }
+    )*};
+}
+lanes! { f64x4: 4; f64x8: 8; }
+
+impl Lanes for f64 {
+    const LANES: usize = 1;
+
+    fn gather(value: impl Fn(usize) -> f64) -> Self {
+        value(0)
+    }
+
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+}
+
+impl Lanes for f32 {
+    const LANES: usize = 1;
+
+    fn gather(value: impl Fn(usize) -> f64) -> Self {
+        value(0) as f32
+    }
+
+    fn lane(self, _: usize) -> f64 {
+        self.into()
+    }
+}
+
+/// The arguments of one call: [`Lanes::LANES`] states.
+#[derive(Clone, Debug)]
+pub struct Input<T: Lanes, const N: usize> {
+    /// Positions.
+    pub q: SVector<T, N>,
+    /// Velocities.
+    pub v: SVector<T, N>,
+    /// Accelerations.
+    pub a: SVector<T, N>,
+    /// Efforts.
+    pub tau: SVector<T, N>,
+}
+
+/// All states, `LANES` a call.
+pub fn inputs<T: Lanes, const N: usize>(states: &[State]) -> Vec<Input<T, N>> {
+    let input = |states: &[State]| {
+        let part = |part: fn(&State) -> &Vec<f64>| {
+            SVector::from_fn(|i, _| T::gather(|lane| part(&states[lane])[i]))
+        };
+        Input {
+            q: part(|s| &s.q),
+            v: part(|s| &s.v),
+            a: part(|s| &s.a),
+            tau: part(|s| &s.tau),
+        }
+    };
+    states.chunks_exact(T::LANES).map(input).collect()
+}

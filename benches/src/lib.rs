@@ -1,0 +1,26 @@
+//! What the benchmarks share: a mechanism as a list of moving bodies, random states, and the
+//! recursions of a textbook to compare with.
+#![forbid(unsafe_code)]
+
+pub mod body;
+pub mod clock;
+pub mod inputs;
+pub mod plain;
+pub mod states;
+pub mod textbook;
+
+use std::path::Path;
+
+use bgdyn_codegen::mechanism::Mechanism;
+
+/// The mechanism of a spec.
+///
+/// # Errors
+/// The file cannot be read, or every fault of the spec, as the command shows them.
+pub fn read(path: &Path) -> Result<Mechanism, String> {
+    let shown = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|e| format!("{shown}: {e}"))?;
+    let stem = bgdyn_codegen::model::stem(path);
+    let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem));
+    mechanism.ok_or_else(|| faults.render(&shown, &text))
+}

@@ -1,0 +1,34 @@
+//! The mass matrix from composite bodies: everything beyond a joint as one rigid body.
+
+use nalgebra::{DMatrix, RealField};
+
+use super::Textbook;
+
+impl<T: RealField + Copy> Textbook<T> {
+    /// The mass matrix, into `m`.
+    pub fn mass_matrix(&mut self, q: &[T], m: &mut DMatrix<T>) {
+        self.composite.copy_from_slice(&self.inertia);
+        for i in 0..self.joints() {
+            self.transform[i] = self.joint[i].place(q[i]);
+        }
+        m.fill(T::zero());
+        for i in (0..self.joints()).rev() {
+            if let Some(p) = self.parent[i] {
+                let carried = self.composite[i].in_carrier(&self.transform[i]);
+                self.composite[p] = self.composite[p].plus(&carried);
+            }
+            // The force that moves the composite body at the joint's unit acceleration, seen by every
+            // joint on the way to the base.
+            let mut force = self.composite[i].times(&self.joint[i].motion(T::one()));
+            m[(i, i)] = self.joint[i].effort(&force);
+            let mut at = i;
+            while let Some(p) = self.parent[at] {
+                force = self.transform[at].in_carrier(&force);
+                let entry = self.joint[p].effort(&force);
+                m[(i, p)] = entry;
+                m[(p, i)] = entry;
+                at = p;
+            }
+        }
+    }
+}
