@@ -4,6 +4,7 @@
 
 pub mod body;
 pub mod clock;
+pub mod counts;
 pub mod inputs;
 pub mod plain;
 pub mod states;

@@ -1,0 +1,124 @@
+//! Instructions of a call of each method of each robot of `specs/`, counted by callgrind in code for
+//! x86-64-v3, beside those on file for this compiler: `benches/instructions/VERSION.csv`.
+//!
+//! `cargo bench -p benches --bench instructions` counts and compares, and exits with 1 where a call takes
+//! over 2 % more. Counts of a compiler that has no file yet are recorded, and so are all with
+//! `-- --write`. Counts are exact: the same on every machine and whatever else it does.
+
+mod probes;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::{env, fs};
+
+use benches::counts;
+
+const TARGET: &str = "x86_64-unknown-linux-gnu";
+const FLAGS: &str = "-C target-cpu=x86-64-v3";
+
+fn main() -> ExitCode {
+    let has = |flag: &str| env::args().any(|a| a == flag);
+    if has("--probes") {
+        probes::run();
+        return ExitCode::SUCCESS;
+    }
+    match count(has("--write")) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Counts and compares, or records. Whether nothing is too much worse.
+fn count(write: bool) -> Result<bool, String> {
+    if cfg!(not(all(target_arch = "x86_64", target_os = "linux"))) || !is_there("valgrind") {
+        println!("instructions are not counted here: that takes valgrind and x86-64 Linux");
+        return Ok(true);
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("instructions");
+    let file = folder.join(format!("{}.csv", compiler()?));
+    let found = measured(&program()?)?;
+    if found.is_empty() {
+        return Err("the profile names no probe".into());
+    }
+    let known = match fs::read_to_string(&file) {
+        Ok(text) if !write => counts::of_file(&text)?,
+        _ => {
+            fs::write(&file, counts::file(&found)).map_err(shown(&file))?;
+            println!("recorded {} counts in {}", found.len(), file.display());
+            return Ok(true);
+        }
+    };
+    let (text, worse) = counts::compared(&known, &found);
+    print!("{text}");
+    println!(
+        "{} counts; at most {} % above those in {}: {}",
+        found.len(),
+        100.0 * counts::WORSE,
+        file.display(),
+        if worse { "no" } else { "yes" }
+    );
+    Ok(!worse)
+}
+
+fn is_there(program: &str) -> bool {
+    let asked = Command::new(program).arg("--version").output();
+    asked.is_ok_and(|done| done.status.success())
+}
+
+fn shown(path: &Path) -> impl Fn(std::io::Error) -> String + '_ {
+    move |e| format!("{}: {e}", path.display())
+}
+
+/// What a command prints.
+fn printed(command: &mut Command) -> Result<String, String> {
+    let done = command.output().map_err(|e| format!("{command:?}: {e}"))?;
+    if !done.status.success() {
+        let said = String::from_utf8_lossy(&done.stderr);
+        return Err(format!("{command:?} failed:\n{said}"));
+    }
+    Ok(String::from_utf8_lossy(&done.stdout).into_owned())
+}
+
+/// The compiler's version: `1.95.0`.
+fn compiler() -> Result<String, String> {
+    let rustc = env::var_os("RUSTC").unwrap_or("rustc".into());
+    let text = printed(Command::new(rustc).arg("--version"))?;
+    let version = text.split_whitespace().nth(1);
+    version.map(str::to_owned).ok_or(text)
+}
+
+/// This benchmark, built for x86-64-v3, with names for the profile.
+fn program() -> Result<PathBuf, String> {
+    let cargo = env::var_os("CARGO").unwrap_or("cargo".into());
+    let mut build = Command::new(cargo);
+    build.args(["bench", "-p", "benches", "--bench", "instructions"]);
+    build.args(["--no-run", "--target", TARGET, "--message-format=json"]);
+    build.current_dir(env!("CARGO_MANIFEST_DIR"));
+    build
+        .env("RUSTFLAGS", FLAGS)
+        .env_remove("CARGO_ENCODED_RUSTFLAGS");
+    let messages = printed(&mut build)?;
+    let named = |line: &str| {
+        let path = line.split_once("\"executable\":\"")?.1.split('"').next()?;
+        Some(PathBuf::from(path))
+    };
+    let found = messages.lines().filter_map(named).next_back();
+    found.ok_or_else(|| "cargo names no program".into())
+}
+
+/// Runs the probes under callgrind.
+fn measured(program: &Path) -> Result<counts::Counts, String> {
+    let profile = program.with_extension("callgrind");
+    let mut run = Command::new("valgrind");
+    run.args(["--tool=callgrind", "--dump-line=no"]);
+    run.arg(format!("--callgrind-out-file={}", profile.display()));
+    printed(run.arg(program).arg("--probes"))?;
+    let mut annotate = Command::new("callgrind_annotate");
+    annotate.args(["--inclusive=yes", "--threshold=100", "--auto=no"]);
+    let text = printed(annotate.arg(&profile))?;
+    Ok(counts::of_profile(&text, probes::CALLS))
+}

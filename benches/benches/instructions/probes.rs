@@ -1,0 +1,81 @@
+//! What is counted: each method of each robot of `specs/` over the same states, in a function of its own.
+
+use std::hint::black_box;
+
+use benches::body::{bodies, slides};
+use benches::inputs::{Input, Lanes, inputs};
+use benches::states::states;
+use bgdyn::runtime::wide::f64x4;
+
+/// Calls of each probe.
+pub const CALLS: usize = 32;
+
+/// The generated modules.
+mod models {
+    include!(concat!(env!("OUT_DIR"), "/models.rs"));
+}
+
+/// The first states of a mechanism.
+fn first<T: Lanes, const N: usize>(spec: &str) -> Vec<Input<T, N>> {
+    let mechanism = benches::read(spec.as_ref()).expect("a spec");
+    let mut all = inputs(&states(&slides(&bodies(&mechanism))));
+    all.truncate(CALLS);
+    all
+}
+
+/// A module for a scalar, with one function for each method: by its name the counts of its calls are
+/// found again.
+macro_rules! probes {
+    ($model:ident, $spec:literal, $scalar:ident as $module:ident, $($name:ident: |$m:ident, $s:ident| $call:expr;)*) => {
+        pub mod $module {
+            use super::*;
+
+            type States = [Input<$scalar, NV>];
+
+            $(
+                #[inline(never)]
+                fn $name($m: &$model<$scalar>, states: &States) {
+                    for $s in states {
+                        let _ = black_box($call);
+                    }
+                }
+            )*
+
+            pub fn run() {
+                let (model, states) = (black_box($model::default()), first::<$scalar, NV>($spec));
+                $( $name(&model, &states); )*
+            }
+        }
+    };
+}
+
+macro_rules! robots {
+    ($($robot:ident $model:ident $jacobian:ident $tip:literal $spec:literal,)*) => {
+        $(
+            mod $robot {
+                use super::models::$robot::{$model, NV};
+                use super::*;
+
+                robots!(@scalar $model $jacobian $spec f64 as double);
+                robots!(@scalar $model $jacobian $spec f32 as single);
+                robots!(@scalar $model $jacobian $spec f64x4 as lanes);
+            }
+        )*
+
+        /// Calls everything.
+        pub fn run() {
+            $( $robot::double::run(); $robot::single::run(); $robot::lanes::run(); )*
+        }
+    };
+    (@scalar $model:ident $jacobian:ident $spec:literal $scalar:ident as $module:ident) => {
+        probes! { $model, $spec, $scalar as $module,
+            inverse_dynamics: |m, s| m.inverse_dynamics(&s.q, &s.v, &s.a);
+            mass_matrix: |m, s| m.mass_matrix(&s.q);
+            forward_dynamics: |m, s| m.forward_dynamics(&s.q, &s.v, &s.tau);
+            bias: |m, s| m.bias(&s.q, &s.v);
+            gravity: |m, s| m.gravity(&s.q);
+            jacobian: |m, s| m.$jacobian(&s.q);
+        }
+    };
+}
+include!(concat!(env!("OUT_DIR"), "/robots.rs"));
