@@ -194,8 +194,10 @@ fn axis<'g>(b: &'g Builder, frame: &Frame<'g>, place: &Placed<'g>) -> Axis<'g> {
 }
 
 impl<'g> Axis<'g> {
-    /// z · L + w · l
+    /// z · L + w · l, one product after the other.
     fn along(&self, momentum: &Momentum<'g>) -> Ex<'g> {
-        self.angular.dot(momentum.angular) + self.linear.dot(momentum.linear)
+        let pairs = self.linear.0.into_iter().zip(momentum.linear.0);
+        let start = self.angular.dot(momentum.angular);
+        pairs.fold(start, |sum, (w, l)| sum + w * l)
     }
 }

@@ -81,15 +81,14 @@ impl<'g> Composite<'g> {
         let unit = unit_momentum(b, j, frame, &whole, j_zz);
         Composite { whole, unit }
     }
+}
 
-    /// Seen from the carrier: in its axes, or in the basis that continues.
-    fn handed_on(&self, b: &'g Builder, frame: &Frame<'g>) -> Inertia<'g> {
-        let inertia = self.whole.shifted(frame.position);
-        if frame.continues {
-            inertia
-        } else {
-            inertia.rotated(b, frame.twist)
-        }
+/// Inertia about the carrier's origin, in the carrier's axes or in the basis that continues.
+fn turned_on<'g>(b: &'g Builder, frame: &Frame<'g>, shifted: &Inertia<'g>) -> Inertia<'g> {
+    if frame.continues {
+        *shifted
+    } else {
+        shifted.rotated(b, frame.twist)
     }
 }
 
@@ -109,7 +108,8 @@ pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentu
         } else {
             &mut own[p]
         };
-        *home = home.plus(&composite.handed_on(b, frame));
+        let shifted = composite.whole.shifted(frame.position);
+        *home = home.plus(&turned_on(b, frame, &shifted));
     }
     units.reverse();
     units
@@ -153,6 +153,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             .named(|| format!("m_{}_{}", frame.joint, frame.joint));
         momenta.push(unit);
         let Some(p) = frame.parent else { continue };
+        let shifted = composite.whole.shifted(frame.position);
         let carried = momenta.into_iter().map(|m| m.carried(frame.position));
         let twist = frame.twist.map(|x| b.constant(x));
         let (home, momenta) = if frame.continues {
@@ -161,7 +162,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             let turned: Vec<_> = carried.map(|m| m.map(|v| twist * v)).collect();
             (&mut own[p], turned)
         };
-        home.inertia = home.inertia.plus(&composite.handed_on(b, frame));
+        home.inertia = home.inertia.plus(&turned_on(b, frame, &shifted));
         home.momenta.extend(momenta);
     }
     mass
