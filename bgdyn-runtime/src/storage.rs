@@ -16,15 +16,15 @@ pub fn matrix<T, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatri
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
 
-/// The symmetric matrix of these columns, of which the entries above the diagonal are not read.
+/// Copies what is below the diagonal to above it.
 #[inline]
-pub fn symmetric<T: Copy, const N: usize>(mut columns: [[T; N]; N]) -> SMatrix<T, N, N> {
+pub fn mirror<T: Copy, const N: usize>(matrix: &mut SMatrix<T, N, N>) {
+    let columns = &mut matrix.data.0;
     for j in 1..N {
         for i in 0..j {
             columns[j][i] = columns[i][j];
         }
     }
-    matrix(columns)
 }
 
 /// Entries of a matrix that are inner products of a vector of their row and one of their column.
@@ -34,7 +34,7 @@ pub fn symmetric<T: Copy, const N: usize>(mut columns: [[T; N]; N]) -> SMatrix<T
 /// columns that the matrix lacks are left out.
 #[inline]
 pub fn inner_products<T, const N: usize, const L: usize, const C: usize, const K: usize>(
-    matrix: &mut [[T; N]; N],
+    matrix: &mut SMatrix<T, N, N>,
     rows: &[[T; L]; C],
     columns: &[[T; C]; K],
     runs: &[[usize; 3]; K],
@@ -42,7 +42,7 @@ pub fn inner_products<T, const N: usize, const L: usize, const C: usize, const K
     T: Scalar,
 {
     for (column, &[j, from, to]) in columns.iter().zip(runs) {
-        let Some(entries) = matrix.get_mut(j) else {
+        let Some(entries) = matrix.data.0.get_mut(j) else {
             continue;
         };
         for i in from..to.min(N).min(L) {

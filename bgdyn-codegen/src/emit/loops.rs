@@ -31,17 +31,18 @@ pub(super) fn matrix(function: &Function, naming: &Naming<'_>, block: &Block) ->
     let values = writer.results(&written);
     let entries = alone.iter().zip(values).map(|(&(row, column), value)| {
         let (row, column) = (place(row), place(column));
-        quote! { entries[#column][#row] = #value; }
+        quote! { entries.data.0[#column][#row] = #value; }
     });
     let entries: Vec<TokenStream> = entries.collect();
     let loops = products.iter().map(|p| inner_products(&mut writer, p));
     let loops: Vec<TokenStream> = loops.collect();
     quote! {
         #statements
-        let mut entries = [[T::from_f64(0.0); NV]; NV];
+        let mut entries = __rt::matrix([[T::from_f64(0.0); NV]; NV]);
         #(#entries)*
         #(#loops)*
-        __rt::symmetric(entries)
+        __rt::mirror(&mut entries);
+        entries
     }
 }
 

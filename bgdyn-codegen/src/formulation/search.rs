@@ -76,16 +76,16 @@ impl<'a> Search<'a> {
         own.into_iter().collect()
     }
 
-    /// The ways to the mass matrix, before factoring: the second one where it costs less than the
-    /// first.
+    /// The cheaper way to the mass matrix before factoring, unless one is asked for.
     fn mass_matrix(&self) -> Vec<Function> {
         let method = Method::MassMatrix;
-        let mut ways = self.own(method);
-        if self.asked.is_none() {
-            let limit = ways.first().map(|way| way.cost().unfinished());
-            ways.extend(recursion::CommonAxes.cheaper(self, method, limit));
+        let joint_by_joint = self.own(method);
+        if self.asked.is_some() {
+            return joint_by_joint;
         }
-        ways
+        let limit = joint_by_joint.first().map(|way| way.cost().unfinished());
+        let common = recursion::CommonAxes.cheaper(self, method, limit);
+        common.map_or(joint_by_joint, |common| vec![common])
     }
 
     /// The ways to forward dynamics that keep their digits, the cheapest first, as their formulations
