@@ -2,10 +2,13 @@
 //!
 //! Compilers take time and stack that grow faster than the length of one straight line; a block
 //! becomes a function of its own. Sines stay with their cosines, and a comparison with what reads
-//! it, so that a cut costs no operation.
+//! it, so that a cut costs no operation. Entries of a matrix that are inner products of two tables
+//! make the last block, whose code is loops.
 
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
-use crate::function::{Block, Function};
+use crate::function::{Block, Function, Products, in_triangle};
+use crate::method::Shape;
+use crate::products::products;
 
 /// Operations in a block at the most. Arms of seven axes stay in one piece.
 const BLOCK: usize = 2500;
@@ -17,9 +20,16 @@ pub fn cut(function: Function) -> Function {
         return function;
     }
     let outputs = &function.blocks[0].outputs;
-    let homes = homes(&function.graph, outputs);
+    let products = match function.shape() {
+        Shape::Symmetric => products(&function.graph, outputs),
+        _ => Vec::new(),
+    };
+    let homes = homes(&function.graph, outputs, &products);
     let mut cutter = Cutter::new(&function.graph, homes, outputs);
-    let blocks = (0..cutter.blocks()).map(|b| cutter.block(b)).collect();
+    let mut blocks: Vec<Block> = (0..cutter.blocks()).map(|b| cutter.block(b)).collect();
+    if let Some(last) = blocks.last_mut() {
+        cutter.enter(products, last);
+    }
     Function {
         graph: cutter.made,
         blocks,
@@ -28,12 +38,13 @@ pub fn cut(function: Function) -> Function {
 }
 
 /// The block in which each node is computed; `None` for what stands where it is used.
-fn homes(graph: &Graph, outputs: &[Expr]) -> Vec<Option<usize>> {
+fn homes(graph: &Graph, outputs: &[Expr], products: &[Products]) -> Vec<Option<usize>> {
     let needed = reachable(graph, outputs);
+    let in_loops = in_loops(graph, outputs, products);
     let mut homes = vec![None; graph.len()];
     let mut angles: QuickMap<NodeId, usize> = QuickMap::default();
     let mut done = 0;
-    for i in (0..graph.len()).filter(|&i| needed[i]) {
+    for i in (0..graph.len()).filter(|&i| needed[i] && !in_loops[i]) {
         homes[i] = match graph.node(NodeId(i as u32)) {
             Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) | Node::Less(..) => None,
             Node::Sin(a) | Node::Cos(a) => Some(*angles.entry(*a).or_insert(done / BLOCK)),
@@ -47,7 +58,24 @@ fn homes(graph: &Graph, outputs: &[Expr]) -> Vec<Option<usize>> {
             }
         };
     }
+    for i in (0..graph.len()).filter(|&i| in_loops[i]) {
+        homes[i] = Some(done / BLOCK + 1);
+    }
     homes
+}
+
+/// The nodes that are sums of products, or parts of such a sum.
+fn in_loops(graph: &Graph, outputs: &[Expr], products: &[Products]) -> Vec<bool> {
+    let mut found = vec![false; graph.len()];
+    for (row, column) in products.iter().flat_map(Products::places) {
+        let mut sum = outputs[in_triangle(row, column)].node;
+        found[sum.place()] = true;
+        while let Node::MulAdd(_, _, _, rest) = graph.node(sum) {
+            sum = rest.node;
+            found[sum.place()] = true;
+        }
+    }
+    found
 }
 
 struct Cutter<'a> {
@@ -138,6 +166,25 @@ impl<'a> Cutter<'a> {
         }
         Block {
             outputs: wanted.into_iter().map(|e| self.copy_signed(e)).collect(),
+            products: Vec::new(),
+        }
+    }
+
+    /// Enters inner products in the last block, each summed in the order of its vectors.
+    fn enter(&mut self, products: Vec<Products>, block: &mut Block) {
+        for mut found in products {
+            for e in (found.rows.values_mut().chain(found.columns.values_mut())).flatten() {
+                *e = self.copy_signed(*e);
+            }
+            for (row, column) in found.places() {
+                let mut terms = found.rows[&row].iter().zip(&found.columns[&column]);
+                let first = terms.next().map(|(&x, &y)| self.made.mul(x, y));
+                let add = |sum, (&x, &y): (&Expr, &Expr)| self.made.mul_add(x, y, sum);
+                if let Some(first) = first {
+                    block.outputs[in_triangle(row, column)] = terms.fold(first, add);
+                }
+            }
+            block.products.push(found);
         }
     }
 

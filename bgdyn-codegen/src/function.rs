@@ -1,5 +1,8 @@
 //! A function ready to be counted, evaluated or emitted.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
@@ -12,6 +15,33 @@ use crate::method::{Method, Shape};
 pub struct Block {
     /// Its results, in order.
     pub outputs: Vec<Expr>,
+    /// Those of its results that are computed in loops; each is one of `outputs` as well.
+    pub products: Vec<Products>,
+}
+
+/// Entries of a symmetric matrix that are inner products of a vector of their row and one of their
+/// column: M_ij = x₀ y₀ + x₁ y₁ + …, summed in this order. All vectors are equally long.
+#[derive(Clone, Debug, Default)]
+pub struct Products {
+    /// Vectors by row.
+    pub rows: BTreeMap<usize, Vec<Expr>>,
+    /// Vectors by column.
+    pub columns: BTreeMap<usize, Vec<Expr>>,
+    /// The entries: columns, with rows below the diagonal.
+    pub runs: Vec<(usize, Range<usize>)>,
+}
+
+impl Products {
+    /// Row and column of each entry.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+        let runs = self.runs.iter().cloned();
+        runs.flat_map(|(column, rows)| rows.map(move |row| (row, column)))
+    }
+}
+
+/// Where an entry on or below the diagonal stands among those of the lower triangle, row by row.
+pub fn in_triangle(row: usize, column: usize) -> usize {
+    row * (row + 1) / 2 + column
 }
 
 /// Something that was tried for a function, and what it costs.
@@ -68,7 +98,10 @@ impl Function {
             passed_over: Vec::new(),
             ordered: false,
             graph,
-            blocks: vec![Block { outputs }],
+            blocks: vec![Block {
+                outputs,
+                products: Vec::new(),
+            }],
         }
     }
 
@@ -83,7 +116,7 @@ impl Function {
     /// The same function with fewer operations, where factoring finds a way. A function that is cut
     /// into blocks stays as it is.
     pub fn factored(mut self) -> Self {
-        if let ([Block { outputs }], false) = (&mut self.blocks[..], self.ordered) {
+        if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
             let graph = std::mem::take(&mut self.graph);
             (self.graph, *outputs) = factored(graph, std::mem::take(outputs));
         }
@@ -93,7 +126,7 @@ impl Function {
     /// The same function with its products joined to the sums that read them, unless the order of its
     /// operations is what it is made for.
     pub(crate) fn fused(mut self) -> Self {
-        if let ([Block { outputs }], false) = (&mut self.blocks[..], self.ordered) {
+        if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
             (self.graph, *outputs) = fused(&self.graph, outputs);
         }
         self

@@ -22,6 +22,7 @@ pub mod mechanism;
 pub mod method;
 pub mod model;
 mod options;
+mod products;
 mod read;
 pub mod scene;
 pub mod spec;

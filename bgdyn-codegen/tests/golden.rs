@@ -172,6 +172,7 @@ fn every_method_of_every_golden_robot() {
             let methods = [Method::ForwardDynamics];
             check(&name, &robot, formulation, &methods, &values);
         }
+        check(&name, &robot, "common_axes", &[Method::MassMatrix], &values);
         robots += 1;
     }
     assert!(robots >= 15);

@@ -51,7 +51,7 @@ pub use pose::Pose;
 pub use scalar::Scalar;
 pub use settle::{settle, settle_by};
 pub use singular::Singular;
-pub use storage::{matrix, vector};
+pub use storage::{inner_products, matrix, mirror, vector};
 pub use system::{Balance, Canonical, Contact, Slope, System};
 #[cfg(feature = "wide")]
 pub use wide;

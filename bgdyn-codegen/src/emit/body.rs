@@ -7,6 +7,7 @@ use quote::{format_ident, quote};
 
 use super::code::{Naming, is_part, leaves};
 use super::ident;
+use super::loops;
 use super::writer::Writer;
 use crate::expr::Leaf;
 use crate::function::{Block, Function};
@@ -43,11 +44,18 @@ pub(super) fn body(
     }
     let mut blocks = Vec::new();
     let mut calls = TokenStream::new();
-    for b in 0..function.blocks.len() {
+    let last = &function.blocks[function.blocks.len() - 1];
+    let looped = !last.products.is_empty();
+    for b in 0..function.blocks.len() - usize::from(looped) {
         let (block, call) = separate_block(function, naming, b);
         let passed = format_ident!("p{b}");
         calls.extend(quote! { let #passed = #call; });
         blocks.push(block);
+    }
+    if looped {
+        let matrix = loops::matrix(function, naming, last);
+        let body = quote! { #calls #matrix };
+        return Body { body, blocks };
     }
     let refused = shape
         .checked()

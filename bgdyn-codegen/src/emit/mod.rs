@@ -4,6 +4,7 @@ mod body;
 mod code;
 mod constants;
 mod fallback;
+mod loops;
 mod names;
 mod scene;
 mod sines;

@@ -155,7 +155,7 @@ pub(super) fn ready(graph: &Graph, reads: &[u32]) -> Vec<usize> {
 }
 
 /// How often each node is read, by needed nodes and as an output; 0 for those that are not needed.
-pub(super) fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
+pub(crate) fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
     let mut reads = vec![0; graph.len()];
     for e in outputs {
         reads[e.node.0 as usize] += 1;

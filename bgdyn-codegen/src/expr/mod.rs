@@ -25,6 +25,7 @@ use bgdyn_runtime::Dd;
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Ex};
 pub use copy::copy_into;
+pub(crate) use cost::reads;
 pub use cost::{Cost, cost};
 pub use count::{count, reachable};
 pub use diff::Tangent;

@@ -48,10 +48,11 @@ impl std::fmt::Debug for dyn Formulation {
 }
 
 /// Every formulation there is.
-pub static FORMULATIONS: [&dyn Formulation; 5] = [
+pub static FORMULATIONS: [&dyn Formulation; 6] = [
     &literal::Literal,
     &recursion::Recursion,
     &recursion::OwnInertia,
+    &recursion::CommonAxes,
     &recursion::Articulated::Own,
     &recursion::Articulated::Base,
 ];

@@ -73,39 +73,53 @@ pub(crate) fn aligned(graph: &BondGraph) -> Vec<Inputs<f64>> {
 }
 
 /// For each joint the aligned states in which it moves least, exactly and by a hair: there its row of
-/// M is what is left of terms that cancel. `moved` is the inertia that a joint moves.
-pub(crate) fn folded(
+/// M is what is left of terms that cancel. At most so many of them, spread over the joints. `moved`
+/// gives the inertia that a joint moves, as a function of the state.
+pub(crate) fn folded<F: Fn(&Inputs<f64>) -> f64>(
     graph: &BondGraph,
-    moved: impl Fn(&Inputs<f64>, usize) -> f64,
+    most: usize,
+    moved: impl Fn(usize) -> F,
 ) -> Vec<Inputs<f64>> {
     let in_line = in_line(graph);
-    let turned = |j: usize, q: f64| {
-        let start = in_line[j].map_or(q, |q: Dd| q.to_f64());
-        (0..4).map(move |turns| start + f64::from(turns) * FRAC_PI_2)
-    };
     let n = in_line.len();
+    let every = (0..n).flat_map(|i| OFF.map(|off| (i, off)));
+    let kept = spread(&every.collect::<Vec<_>>(), most);
     let mut states = Vec::new();
-    for i in 0..n {
-        let mut state = anywhere(graph, 2000 + 4 * i as u64);
-        for j in (0..n).rev().filter(|&j| in_line[j].is_some()) {
-            let mut least = (f64::INFINITY, state.q[j]);
-            for q in turned(j, state.q[j]) {
-                state.q[j] = q;
-                let moved = moved(&state, i);
-                if moved < least.0 {
-                    least = (moved, q);
-                }
-            }
-            state.q[j] = least.1;
-        }
-        for off in OFF {
-            let mut state = state.clone();
+    for of_joint in kept.chunk_by(|(i, _), (k, _)| i == k) {
+        let i = of_joint[0].0;
+        let least = moving_least(graph, &in_line, i, moved(i));
+        for (_, off) in of_joint {
+            let mut state = least.clone();
             let joints = (0..n).filter(|&j| in_line[j].is_some());
             joints.for_each(|j| state.q[j] += off);
             states.push(state);
         }
     }
     states
+}
+
+/// The state in which joint i moves least, found joint by joint from the tips inwards.
+fn moving_least(
+    graph: &BondGraph,
+    in_line: &[Option<Dd>],
+    i: usize,
+    moved: impl Fn(&Inputs<f64>) -> f64,
+) -> Inputs<f64> {
+    let mut state = anywhere(graph, 2000 + 4 * i as u64);
+    for j in (0..in_line.len()).rev() {
+        let Some(start) = in_line[j] else { continue };
+        let mut least = (f64::INFINITY, state.q[j]);
+        for turns in 0..4 {
+            let q = start.to_f64() + f64::from(turns) * FRAC_PI_2;
+            state.q[j] = q;
+            let moved = moved(&state);
+            if moved < least.0 {
+                least = (moved, q);
+            }
+        }
+        state.q[j] = least.1;
+    }
+    state
 }
 
 /// At most so many items, spread over the list.

@@ -63,6 +63,7 @@ impl<'a> Search<'a> {
                 let ways = self.ways().kept.iter();
                 return Function::cheapest(ways.map(|way| way.generated.clone()));
             }
+            Method::MassMatrix => self.mass_matrix(),
             _ => self.own(method),
         };
         Function::cheapest(ways.into_iter().map(Function::factored))
@@ -73,6 +74,18 @@ impl<'a> Search<'a> {
         let asked = self.asked.and_then(|f| f.function(self, method));
         let own = asked.or_else(|| recursion::Recursion.function(self, method));
         own.into_iter().collect()
+    }
+
+    /// The cheaper way to the mass matrix before factoring, unless one is asked for.
+    fn mass_matrix(&self) -> Vec<Function> {
+        let method = Method::MassMatrix;
+        let joint_by_joint = self.own(method);
+        if self.asked.is_some() {
+            return joint_by_joint;
+        }
+        let limit = joint_by_joint.first().map(|way| way.cost().unfinished());
+        let common = recursion::CommonAxes.cheaper(self, method, limit);
+        common.map_or(joint_by_joint, |common| vec![common])
     }
 
     /// The ways to forward dynamics that keep their digits, the cheapest first, as their formulations

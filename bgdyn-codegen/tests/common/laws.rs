@@ -34,6 +34,8 @@ pub struct Case {
     pub recursion: Methods,
     /// The recursion with each body's own inertia.
     pub own: Methods,
+    /// The mass matrix in common axes.
+    pub common: Function,
     /// Forward dynamics by articulated bodies, and what is generated.
     pub bodies: [Function; 3],
     pub state: State,
@@ -72,6 +74,7 @@ impl Case {
             literal: Methods::new(&robot, "literal"),
             recursion: Methods::new(&robot, "recursion"),
             own: Methods::new(&robot, "recursion_own"),
+            common: robot.function("common_axes", Method::MassMatrix),
             effort: natural_effort(&robot, &state),
             inertia: natural_inertia(&robot, &state).1,
             draft,
@@ -95,8 +98,8 @@ impl Case {
         natural_size(&self.robot, &self.state, method)
     }
 
-    /// recursion = literal, with base parameters and without, for every method but the solved one. Gives the worst difference,
-    /// relative to natural size.
+    /// recursion = literal, with base parameters and without, for every method but the solved one; the
+    /// mass matrix in common axes too. Gives the worst difference, relative to natural size.
     pub fn formulations_agree(&self) -> f64 {
         let mut worst = 0.0_f64;
         for method in Method::OF_TRAIT {
@@ -105,8 +108,10 @@ impl Case {
             }
             let y: Vec<Dd> = self.literal.value(method, &self.state);
             let tolerance = EXACT * self.size(method);
-            for way in [&self.recursion, &self.own] {
-                let x: Vec<Dd> = way.value(method, &self.state);
+            let common = (method == Method::MassMatrix).then_some(&self.common);
+            let ways = [&self.recursion, &self.own].map(|way| way.function(method));
+            for way in ways.into_iter().chain(common) {
+                let x: Vec<Dd> = self.state.value(way);
                 assert_close(&x, &y, tolerance, self.place(&format!("{method:?}")));
                 let off = x.iter().zip(&y).map(|(x, y)| (*x - *y).abs().to_f64());
                 let off = off.fold(0.0, f64::max);

@@ -17,10 +17,10 @@ use super::frames::{Frames, Plan};
 use super::geometry::Geometry;
 use super::{inverse, mass};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, Inputs, evaluate};
+use crate::expr::{Builder, Expr, Graph, Inputs, copy_into, evaluate};
 use crate::formulation::Arguments;
 use crate::formulation::sample::{aligned, folded, generic, spread};
-use crate::function::Function;
+use crate::function::{Function, in_triangle};
 use crate::method::Method;
 
 const EPS: f64 = f64::EPSILON;
@@ -81,11 +81,13 @@ impl Bars {
         let few = |most: usize| (most * ALL * ALL / n.max(ALL).pow(2)).max(2);
         let mut states = spread(&generic(graph), few(STATES[0]));
         states.extend(spread(&aligned(graph), few(STATES[1])));
-        let moved = |state: &Inputs<f64>, i: usize| {
-            let diagonal = &outputs[i * (i + 3) / 2..=i * (i + 3) / 2];
-            evaluate(&made, diagonal, state, &mut None)[0]
+        let moved = |i: usize| {
+            let mut own = Graph::default();
+            let diagonal = [outputs[in_triangle(i, i)]];
+            let diagonal = copy_into(&mut own, &made, &diagonal, |_, _| None);
+            move |state: &Inputs<f64>| evaluate(&own, &diagonal, state, &mut None)[0]
         };
-        states.extend(spread(&folded(graph, moved), few(STATES[2])));
+        states.extend(folded(graph, few(STATES[2]), moved));
         let states = states.into_iter().enumerate();
         let terms =
             |inputs: &Inputs<Dd>| Terms::new(&evaluate(&made, &outputs, inputs, &mut None), n);

@@ -54,6 +54,67 @@ struct Gathered<'g> {
     momenta: Vec<Momentum<'g>>,
 }
 
+/// All that a joint moves as one body, in the axes of its basis, and what a unit rate gives it.
+struct Composite<'g> {
+    whole: Inertia<'g>,
+    unit: Momentum<'g>,
+}
+
+impl<'g> Composite<'g> {
+    /// Of body j with `inner`, what it carries in its own axes, and `outer`, in those of its basis.
+    fn new(
+        b: &'g Builder,
+        j: usize,
+        frame: &Frame<'g>,
+        inner: &Inertia<'g>,
+        outer: &Inertia<'g>,
+    ) -> Self {
+        let composite = frame.inertia.plus(inner);
+        let turned = if composite.round() {
+            composite
+        } else {
+            composite.turned(frame.turn)
+        };
+        let whole = turned.plus(outer);
+        // Turning about z leaves J_zz as it is.
+        let j_zz = (composite.d(0, 0) + composite.d(1, 1)) + (outer.d(0, 0) + outer.d(1, 1));
+        let unit = unit_momentum(b, j, frame, &whole, j_zz);
+        Composite { whole, unit }
+    }
+}
+
+/// Inertia about the carrier's origin, in the carrier's axes or in the basis that continues.
+fn turned_on<'g>(b: &'g Builder, frame: &Frame<'g>, shifted: &Inertia<'g>) -> Inertia<'g> {
+    if frame.continues {
+        *shifted
+    } else {
+        shifted.rotated(b, frame.twist)
+    }
+}
+
+/// The momentum that a unit rate of each joint gives to all it moves, in the axes of its basis.
+pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentum<'g>> {
+    let n = frames.bodies.len();
+    let (mut own, mut basis) = (vec![Inertia::zero(b); n], vec![Inertia::zero(b); n]);
+    let mut units = Vec::new();
+    for j in (0..n).rev() {
+        let frame = &frames.bodies[j];
+        b.section(|| format!("{}: inertia with all it carries", frame.name));
+        let composite = Composite::new(b, j, frame, &own[j], &basis[j]);
+        units.push(composite.unit);
+        let Some(p) = frame.parent else { continue };
+        let home = if frame.continues {
+            &mut basis[p]
+        } else {
+            &mut own[p]
+        };
+        let shifted = composite.whole.shifted(frame.position);
+        *home = home.plus(&turned_on(b, frame, &shifted));
+    }
+    units.reverse();
+    units
+}
+
 /// Lower triangle of M.
 pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
     let n = frames.bodies.len();
@@ -73,16 +134,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             )
         });
         let (inner, outer) = (&own[j], &basis[j]);
-        let composite = frame.inertia.plus(&inner.inertia);
-        let turned = if composite.round() {
-            composite
-        } else {
-            composite.turned(frame.turn)
-        };
-        let whole = turned.plus(&outer.inertia);
-        // Turning about z leaves J_zz as it is.
-        let j_zz = (composite.d(0, 0) + composite.d(1, 1))
-            + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
+        let composite = Composite::new(b, j, frame, &inner.inertia, &outer.inertia);
         let mut momenta: Vec<Momentum<'g>> = inner
             .momenta
             .iter()
@@ -95,22 +147,22 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             mass[m.joint][j] = (m.along(frame) * frame.effort * other.effort)
                 .named(|| format!("m_{}_{}", frame.joint, other.joint));
         }
-        let unit = unit_momentum(b, j, frame, &whole, j_zz);
+        let unit = composite.unit;
         let diagonal = unit.along(frame) * (frame.effort * frame.effort);
         mass[j][j] = (diagonal + frames.rotors.armature(j))
             .named(|| format!("m_{}_{}", frame.joint, frame.joint));
         momenta.push(unit);
         let Some(p) = frame.parent else { continue };
-        let inertia = whole.shifted(frame.position);
+        let shifted = composite.whole.shifted(frame.position);
         let carried = momenta.into_iter().map(|m| m.carried(frame.position));
         let twist = frame.twist.map(|x| b.constant(x));
-        let (home, inertia, momenta) = if frame.continues {
-            (&mut basis[p], inertia, carried.collect())
+        let (home, momenta) = if frame.continues {
+            (&mut basis[p], carried.collect())
         } else {
             let turned: Vec<_> = carried.map(|m| m.map(|v| twist * v)).collect();
-            (&mut own[p], inertia.rotated(b, frame.twist), turned)
+            (&mut own[p], turned)
         };
-        home.inertia = home.inertia.plus(&inertia);
+        home.inertia = home.inertia.plus(&turned_on(b, frame, &shifted));
         home.momenta.extend(momenta);
     }
     mass
