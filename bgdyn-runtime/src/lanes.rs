@@ -59,6 +59,16 @@ impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> core::error::Error
 {
 }
 
+/// The sines of a call, written out: a loop would not be unrolled, and would keep its lanes in memory,
+/// where what was stored in halves is waited for.
+macro_rules! one_by_one {
+    ($found:ident, $angles:ident, $offsets:ident; $($k:literal)*) => {$(
+        if $k < K {
+            $found[$k] = Self::sin_cos_sum($angles[$k], $offsets[$k]);
+        }
+    )*};
+}
+
 macro_rules! lane_scalar {
     ($($lanes:ident: $float:ident, $n:literal;)*) => {$(
         impl Scalar for $lanes {
@@ -94,7 +104,7 @@ macro_rules! lane_scalar {
             fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
                 #[cold]
                 #[inline(never)]
-                fn one_by_one(angle: $lanes, tail: $lanes) -> ($lanes, $lanes) {
+                fn beyond(angle: $lanes, tail: $lanes) -> ($lanes, $lanes) {
                     let (mut s, mut c) = (angle.to_array(), tail.to_array());
                     for (s, c) in s.iter_mut().zip(&mut c) {
                         (*s, *c) = sine::one(*s, *c);
@@ -105,8 +115,21 @@ macro_rules! lane_scalar {
                 if angle.within() {
                     sine::sin_cos(angle, tail)
                 } else {
-                    one_by_one(angle, tail)
+                    beyond(angle, tail)
                 }
+            }
+
+            #[inline(always)]
+            fn sin_cos_all<const K: usize>(
+                angles: [&[Self]; K],
+                offsets: [(f64, f64); K],
+            ) -> [(Self, Self); K] {
+                let mut found = [(Self::splat(0.0), Self::splat(0.0)); K];
+                one_by_one!(found, angles, offsets; 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
+                for k in 16..K {
+                    found[k] = Self::sin_cos_sum(angles[k], offsets[k]);
+                }
+                found
             }
 
             #[inline]
