@@ -1,6 +1,6 @@
 """Times the peers in turn with ours, compares the results, writes results.json, the page and the plot.
 
-    measure.py [--docs] ROBOT ...
+    measure.py [--docs] SPEC ...
 """
 
 import json
@@ -14,7 +14,7 @@ import page
 import plot
 
 DIR = Path(os.environ["PEERS_DIR"])
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+ROOT = Path(__file__).resolve().parents[2]
 ROUNDS = int(os.environ.get("PEERS_ROUNDS", 5))
 # Checksums of two programs may differ by this much of their size.
 AGREE = 1e-7
@@ -104,13 +104,15 @@ def measure(robot, operation):
 
 def main():
     arguments = sys.argv[1:]
-    target = DOCS if "--docs" in arguments else DIR
+    target = ROOT / "docs" if "--docs" in arguments else DIR
     results = []
-    for robot in [a for a in arguments if a != "--docs"]:
+    for spec in [Path(a) for a in arguments if a != "--docs"]:
+        robot = spec.stem
         for operation in OPERATIONS:
             result = measure(robot, operation)
             if result is None:
                 continue
+            result["spec"] = os.path.relpath(spec, ROOT)
             results.append(result)
             shares = [f"{name} {c['ratio']:.2f}" for name, c in result["columns"].items()]
             print(f"{robot} {operation}: {result['ours']:.1f} ns; over {', '.join(shares)}", flush=True)

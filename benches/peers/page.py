@@ -4,6 +4,7 @@ import datetime
 import platform
 import re
 import subprocess
+from pathlib import Path
 
 TITLES = {
     "inverse_dynamics": "Inverse dynamics",
@@ -35,6 +36,11 @@ def time(ns):
     return f"{ns:.1f}" if ns < 100 else f"{ns:.0f}"
 
 
+def function(result):
+    title = TITLES[result["operation"]]
+    return title[0].lower() + title[1:]
+
+
 def table(heads, rows):
     lines = [heads, ["---"] * len(heads), *rows]
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
@@ -62,7 +68,7 @@ def lanes(results):
         compared = f"{eight['time'] / casadi['time']:.2f}" if casadi else "–"
         peer = time(casadi["time"]) if casadi else "–"
         cells = [time(four["time"]), time(eight["time"]), peer, compared]
-        rows.append([r["robot"], TITLES[r["operation"]].lower(), time(r["ours"]), *cells])
+        rows.append([r["robot"], function(r), time(r["ours"]), *cells])
     heads = ["robot", "function", "one state, ns", "4 lanes", "8 lanes", "CasADi, 8 lanes", "8 lanes over CasADi's"]
     return table(heads, rows) if rows else ""
 
@@ -72,8 +78,17 @@ def portable(results):
     for r in results:
         other = r["columns"].get("ours portable")
         if other:
-            rows.append([r["robot"], TITLES[r["operation"]].lower(), time(r["ours"]), time(other["time"])])
+            rows.append([r["robot"], function(r), time(r["ours"]), time(other["time"])])
     return table(["robot", "function", "this machine's instructions, ns", "any x86-64, ns"], rows)
+
+
+def origin(results):
+    """Where the specs are."""
+    folders = {}
+    for spec in dict.fromkeys(r["spec"] for r in results):
+        folders.setdefault(str(Path(spec).parent), []).append(f"`{Path(spec).stem}`")
+    places = [f"{', '.join(names)} from [`{f}`](../{f})" for f, names in folders.items()]
+    return f"Robots: {'; '.join(places)}. Chains have revolute joints about skew axes, as many as their names say.\n"
 
 
 def output(*command):
@@ -113,8 +128,7 @@ Every program runs over the same 1024 random states (any angle, ±0.3 m, velocit
 - Pinocchio is compiled from its headers, `-O3 -march=native`. MuJoCo and KDL are their packages' libraries, MuJoCo with only the parts that the function needs. dynibo is compiled like bgdyn, for this machine.
 - A dash: the peer has no such function, or cannot take the mechanism, or its C was not compiled in the time given to it.
 
-`scara4`, `puma560`, `panda7` and the chains (8 to 64 revolute joints about skew axes) are those of [`tests/golden`](../tests/golden), `ur5` and `torso` those of [`specs`](../specs), `tree9` is a random tree of nine joints ([`benches/peers/specs`](../benches/peers/specs)); `chain16` is the first half of `chain32`.
-
+{origin(results)}
 ## One state a call, f64
 
 {alone(results)}## States in lanes

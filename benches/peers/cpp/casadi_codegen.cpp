@@ -63,7 +63,7 @@ int main(int, char** argv) {
     aba(model, data, q, v, x);
     write("forward_dynamics", {dense(data.ddq)});
   }
-  if (n > 16) return 0;
+  if (n > 12) return 0;
   {
     Data data(model);
     computeRNEADerivatives(model, data, q, v, x);

@@ -69,7 +69,7 @@ int main(int, char** argv) {
     return joined({{data.M, true}});
   });
   record("forward_dynamics", [&](Data& data, auto& q, auto& v, auto& tau) -> Vector { return aba(model, data, q, v, tau); });
-  if (n > 16) return 0;
+  if (n > 12) return 0;
   record("inverse_dynamics_derivatives", [&](Data& data, auto& q, auto& v, auto& a) -> Vector {
     computeRNEADerivatives(model, data, q, v, a);
     return joined({{data.dtau_dq, false}, {data.dtau_dv, false}});

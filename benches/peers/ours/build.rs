@@ -11,7 +11,7 @@ use bgdyn_codegen::model::stem;
 
 /// Joints up to which derivatives are generated, and states in lanes timed: beyond, the C of the
 /// peers takes minutes to compile.
-const SMALL: usize = 16;
+const SMALL: usize = 12;
 
 fn main() {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../../..");
