@@ -57,17 +57,18 @@ pub(crate) fn all<T: AtOnce, const K: usize>(
         within &= sums[k].0.within();
     });
     if within {
-        T::at_once(sums)
-    } else {
-        some_beyond(sums)
+        return T::at_once(sums);
     }
+    unrolled!(K, |k| sums[k] = apart(sums[k].0, sums[k].1));
+    sums
 }
 
-/// Where not all angles are within the limit.
+/// [`one`], out of the way of calls whose angles are all within the limit: handed over as an array,
+/// they would be stored in each of those.
 #[cold]
 #[inline(never)]
-fn some_beyond<T: Pack, const K: usize>(sums: [(T, T); K]) -> [(T, T); K] {
-    sums.map(|(angle, tail)| one(angle, tail))
+fn apart<T: Pack>(angle: T, tail: T) -> (T, T) {
+    one(angle, tail)
 }
 
 /// The sum of angles and an offset, in two words.
