@@ -70,7 +70,7 @@ pub fn products(graph: &Graph, triangle: &[Expr]) -> Vec<Products> {
     let mut found = Vec::new();
     let mut tried = vec![false; entries.len()];
     for first in 0..entries.len() {
-        let grown = (!tried[first]).then(|| Tables::grown(&entries, &by_node, first));
+        let grown = (!tried[first]).then(|| Tables::grown(&entries, &by_node, first, &tried));
         let Some(tables) = grown.flatten() else {
             continue;
         };
@@ -129,12 +129,13 @@ struct Tables {
 }
 
 impl Tables {
-    /// All that hangs together with an entry. The vector of its row is what it shares with another
-    /// one of that row.
+    /// All that hangs together with an entry, but for entries that were tried before. The vector of
+    /// its row is what it shares with another one of that row.
     fn grown(
         entries: &[Entry],
         by_node: &QuickMap<NodeId, Vec<usize>>,
         first: usize,
+        tried: &[bool],
     ) -> Option<Tables> {
         let start = &entries[first];
         let [a, b] = start.terms[0].factors;
@@ -144,7 +145,7 @@ impl Tables {
         let row = vectors.find(|v| start.beside(v).is_some())?;
         let mut tables = Tables::default();
         tables.meet(0, &row);
-        let mut seen = vec![false; entries.len()];
+        let mut seen = tried.to_vec();
         while let Some(key) = tables.open.pop_front() {
             let (side, vector) = tables.known[&key].clone();
             for &e in &by_node[&key] {

@@ -1,0 +1,120 @@
+//! Mechanisms of many links: mass matrices in common axes, and their inner products in loops.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use bgdyn_codegen::expr::count;
+use bgdyn_codegen::function::{Function, Products, in_triangle};
+use bgdyn_codegen::method::Method;
+use bgdyn_runtime::Dd;
+use common::random::Draft;
+use common::rng::Rng;
+use common::{Robot, State, assert_close, golden, natural_inertia};
+
+const M: Method = Method::MassMatrix;
+
+/// Of double-double results, relative to their natural size.
+const EXACT: f64 = 1e-28;
+
+fn products(function: &Function) -> &[Products] {
+    &function.blocks.last().expect("a block").products
+}
+
+/// What is emitted equals the joint-by-joint way and, where that is not too long, the literal sum.
+fn equals_the_other_ways(name: &str, robot: &Robot, rng: &mut Rng) {
+    let found = robot.function("common_axes", M);
+    let state = State::random(rng, &robot.motions());
+    let x: Vec<Dd> = state.value(&found);
+    for way in ["recursion", "literal"] {
+        if way == "literal" && robot.nv() > 24 {
+            continue;
+        }
+        let y: Vec<Dd> = state.value(&robot.whole(way, M));
+        let size = natural_inertia(robot, &state).1;
+        let what = || format!("{name}: {way}\n{state:?}");
+        assert_close(&x, &y, EXACT * size, what);
+    }
+}
+
+#[test]
+fn common_axes_equal_the_other_ways() {
+    for seed in 0..12 {
+        let mut rng = Rng::new(4000 + seed);
+        let draft = Draft::moving(&mut rng, 16 + 2 * seed as usize);
+        let robot = Robot::read(&draft.yaml(), None);
+        equals_the_other_ways(&format!("seed {seed}"), &robot, &mut rng);
+    }
+    let branched = include_str!("../../tests/chains/branched.yaml");
+    let branched = Robot::read(branched, Some("branched"));
+    equals_the_other_ways("branched", &branched, &mut Rng::new(1));
+    let found = branched.function("common_axes", M);
+    let looped = products(&found).iter().flat_map(Products::places).count();
+    assert!(looped > 100, "{looped} entries in loops");
+    for name in ["chain32", "chain64"] {
+        equals_the_other_ways(name, &golden::robot(name), &mut Rng::new(1));
+    }
+}
+
+/// Counting takes common axes for chains in general position from some length on, and the
+/// joint-by-joint way for short ones.
+#[test]
+fn counting_chooses() {
+    for (name, operations) in [
+        ("chain8", None),
+        ("chain32", Some(9961)),
+        ("chain64", Some(31543)),
+    ] {
+        let robot = golden::robot(name);
+        let chosen = robot.chosen(M);
+        let total = chosen.operations().total();
+        let common = chosen.formulation.starts_with("common_axes");
+        assert_eq!(
+            operations.is_some(),
+            common,
+            "{name}: {}",
+            chosen.formulation
+        );
+        assert!(
+            operations.is_none_or(|most| total <= most),
+            "{name}: {total}"
+        );
+        let other = if common { "recursion" } else { "common_axes" };
+        let other = robot.function(other, M).operations().total();
+        assert!(total <= other, "{name}: {total} against {other}");
+    }
+}
+
+/// Cutting and looping change neither the count nor the entries; no entry is computed twice.
+#[test]
+fn loops_compute_what_is_counted() {
+    for name in ["chain32", "chain64"] {
+        let robot = golden::robot(name);
+        let (whole, cut) = (robot.chosen(M), robot.function("common_axes", M));
+        assert_eq!(whole.operations(), cut.operations(), "{name}");
+        let last = cut.blocks.last().expect("a block");
+        let [products] = products(&cut) else {
+            panic!("{name}: one table")
+        };
+        let places: Vec<(usize, usize)> = products.places().collect();
+        let distinct: BTreeSet<_> = places.iter().collect();
+        assert_eq!(distinct.len(), places.len(), "{name}");
+        let n = robot.nv();
+        assert!(
+            places.len() >= (n - 3) * (n - 3) / 2,
+            "{name}: {}",
+            places.len()
+        );
+        // Each entry of the table is the sum of its products, and nothing else is left to compute.
+        let mut terms = 0;
+        for &(row, column) in &places {
+            let entry = [last.outputs[in_triangle(row, column)]];
+            let found = count(&cut.graph, &entry);
+            let wanted = products.rows[&row].len();
+            assert_eq!(products.columns[&column].len(), wanted);
+            assert_eq!((found.mul, found.add), (wanted, wanted - 1));
+            terms += found.total();
+        }
+        assert_eq!(count(&cut.graph, &last.outputs).total(), terms, "{name}");
+    }
+}
