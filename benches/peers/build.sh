@@ -34,8 +34,8 @@ ours ours "-C target-cpu=native"
 ours ours_portable ""
 cp "$PEERS_DIR/rust/$host/release/describe" "$PEERS_DIR/bin/"
 RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$here/dynibo/Cargo.toml" \
-  --target-dir "$PEERS_DIR/rust"
-cp "$PEERS_DIR/rust/release/dynibo-peer" "$PEERS_DIR/bin/dynibo"
+  --target-dir "$PEERS_DIR/dynibo"
+cp "$PEERS_DIR/dynibo/release/dynibo-peer" "$PEERS_DIR/bin/dynibo"
 
 # What a compiler, or a generator, may take for one function: beyond it, the table has a dash.
 patience=${PEERS_PATIENCE:-90}
@@ -53,9 +53,12 @@ generate() {
   # CasADi stops at 70,000 instructions: compilers take minutes for more.
   timeout "$patience" "$PEERS_DIR/bin/casadi_codegen" "$folder/$name.flat" "$folder" 70000 || echo "CasADi: no more for $name"
   timeout "$patience" "$PEERS_DIR/bin/cppad_codegen" "$folder/$name.flat" "$folder" || echo "CppADCodeGen: no more for $name"
-  local c
+  local c small
+  small=$(awk '$1 == "bodies" { print $2 <= 12 }' "$folder/$name.flat")
   for c in "$folder"/*.c; do
     compile "$c" clang-19 -ffp-contract=fast
+    # Long ones take gcc minutes, and lanes are measured for short ones only.
+    [ "$small" = 1 ] || continue
     compile "$c" gcc
     case $c in */casadi_*) lanes "$c" ;; esac
   done

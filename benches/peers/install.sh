@@ -1,5 +1,5 @@
 # Sourced by run.sh: the peers' packages.
-if ! command -v clang++-19 g++ > /dev/null || [ ! -e /usr/include/kdl/tree.hpp ]; then
+if ! command -v clang++-19 > /dev/null || ! command -v g++ > /dev/null || [ ! -e /usr/include/kdl/tree.hpp ]; then
   apt-get update -qq
   apt-get install -y -qq --no-install-recommends clang-19 g++ liborocos-kdl-dev libeigen3-dev
 fi

@@ -46,6 +46,10 @@ def table(heads, rows):
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
+def section(title, text, heads, rows):
+    return f"## {title}\n\n{text}\n\n{table(heads, rows)}\n" if rows else ""
+
+
 def alone(results):
     """A table for each operation, one state a call."""
     text = ""
@@ -70,7 +74,11 @@ def lanes(results):
         cells = [time(four["time"]), time(eight["time"]), peer, compared]
         rows.append([r["robot"], function(r), time(r["ours"]), *cells])
     heads = ["robot", "function", "one state, ns", "4 lanes", "8 lanes", "CasADi, 8 lanes", "8 lanes over CasADi's"]
-    return table(heads, rows) if rows else ""
+    text = (
+        "Times per state, ns: `f64x4` and `f64x8` of the crate `wide` as scalars of the same generated code; CasADi's C "
+        "compiled for vectors of eight doubles, with the sines of glibc's vector library."
+    )
+    return section("States in lanes", text, heads, rows)
 
 
 def portable(results):
@@ -79,7 +87,9 @@ def portable(results):
         other = r["columns"].get("ours portable")
         if other:
             rows.append([r["robot"], function(r), time(r["ours"]), time(other["time"])])
-    return table(["robot", "function", "this machine's instructions, ns", "any x86-64, ns"], rows)
+    heads = ["robot", "function", "this machine's instructions, ns", "any x86-64, ns"]
+    text = "Compiled with `-C target-cpu=native`, and as cargo does by default."
+    return section("Without the machine's own instructions", text, heads, rows)
 
 
 def origin(results):
@@ -131,13 +141,4 @@ Every program runs over the same 1024 random states (any angle, ±0.3 m, velocit
 {origin(results)}
 ## One state a call, f64
 
-{alone(results)}## States in lanes
-
-Times per state, ns: `f64x4` and `f64x8` of the crate `wide` as scalars of the same generated code; CasADi's C compiled for vectors of eight doubles, with the sines of glibc's vector library.
-
-{lanes(results)}
-## Without the machine's own instructions
-
-Compiled with `-C target-cpu=native`, and as cargo does by default.
-
-{portable(results)}"""
+{alone(results)}{lanes(results)}{portable(results)}""".rstrip() + "\n"

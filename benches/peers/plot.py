@@ -7,6 +7,7 @@ import page
 OPERATIONS = {"inverse_dynamics": "inverse dynamics", "mass_matrix": "mass matrix", "forward_dynamics": "forward dynamics"}
 # Colours that colour-blind readers can tell apart (Okabe, Ito 2008).
 COLOURS = dict(zip(page.PEERS, ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9"]))
+TICKS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
 LEFT, TOP, WIDTH, ROW, GAP = 190, 64, 560, 15, 9
 
 
@@ -14,8 +15,8 @@ def svg(results):
     robots = list(dict.fromkeys(r["robot"] for r in results))
     by_place = {(r["robot"], r["operation"]): r for r in results}
     ratios = [e["ratio"] for r in results for c in page.PEERS.values() if (e := page.entry(r, c))]
-    most = 10 ** math.ceil(math.log10(1.05 / min(ratios, default=0.1)))
-    least = min(1.0, 1 / max(ratios, default=1.0))
+    most = next(t for t in TICKS if t >= 1.05 / min(ratios, default=0.1))
+    least = min(1.0, 0.9 / max(ratios, default=1.0))
     x = lambda times: LEFT + WIDTH * (math.log(times / least) / math.log(most / least))
     height = TOP + len(robots) * (len(OPERATIONS) * ROW + GAP) + 34
     text = lambda at, y, what, more="": f'<text x="{at:.1f}" y="{y:.1f}" {more}>{what}</text>'
@@ -29,8 +30,7 @@ def svg(results):
         lines.append(f'<circle cx="{LEFT + 100 * i:.1f}" cy="36" r="4" fill="{colour}"/>')
         lines.append(text(LEFT + 100 * i + 8, 40, peer))
     bottom = height - 30
-    ticks = [t for t in [0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] if least <= t <= most]
-    for t in ticks:
+    for t in [t for t in TICKS if least <= t <= most]:
         stroke = 'stroke="#222"' if t == 1 else 'stroke="#ddd"'
         lines.append(f'<line x1="{x(t):.1f}" x2="{x(t):.1f}" y1="{TOP - 8}" y2="{bottom}" {stroke}/>')
         lines.append(text(x(t), bottom + 15, f"{t:g}×", 'text-anchor="middle"'))
