@@ -38,7 +38,7 @@ RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$here/dy
 cp "$PEERS_DIR/dynibo/release/dynibo-peer" "$PEERS_DIR/bin/dynibo"
 
 # What a compiler, or a generator, may take for one function: beyond it, the table has a dash.
-patience=${PEERS_PATIENCE:-90}
+patience=${PEERS_PATIENCE:-60}
 
 # generate SPEC: the description for the peers, and their C, by both compilers.
 generate() {

@@ -87,7 +87,7 @@ def portable(results):
         other = r["columns"].get("ours portable")
         if other:
             rows.append([r["robot"], function(r), time(r["ours"]), time(other["time"])])
-    heads = ["robot", "function", "this machine's instructions, ns", "any x86-64, ns"]
+    heads = ["robot", "function", "this machine's instructions, ns", "cargo's default, ns"]
     text = "Compiled with `-C target-cpu=native`, and as cargo does by default."
     return section("Without the machine's own instructions", text, heads, rows)
 
@@ -134,7 +134,7 @@ def text(results, rounds, undisturbed, folder):
 
 Every program runs over the same 1024 random states (any angle, ±0.3 m, velocities and accelerations within ±2, efforts within ±10) and prints the median time of a call and the sum of all its outputs; the sums agree to 1e-7. Each peer ran in turn with bgdyn, {rounds} rounds, {quiet}; columns are medians of **bgdyn's time over the peer's**: 0.25 means four times as fast. Only ratios carry over to other machines.
 
-- Generated C is Pinocchio's algorithms over CasADi's expressions (common subexpressions shared) or over CppADCodeGen's tape, compiled by clang and by gcc with `-O3 -march=native`: of the four, the fastest for each function.
+- Generated C is Pinocchio's algorithms over CasADi's expressions (common subexpressions shared) or over CppADCodeGen's tape, compiled by clang and by gcc with `-O3 -march=native`: of the four, the fastest for each function. Beyond 12 joints clang alone, in a minute at most for each.
 - Pinocchio is compiled from its headers, `-O3 -march=native`. MuJoCo and KDL are their packages' libraries, MuJoCo with only the parts that the function needs. dynibo is compiled like bgdyn, for this machine.
 - A dash: the peer has no such function, or cannot take the mechanism, or its C was not compiled in the time given to it.
 
