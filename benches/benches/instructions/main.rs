@@ -101,6 +101,8 @@ fn program() -> Result<PathBuf, String> {
     build
         .env("RUSTFLAGS", FLAGS)
         .env_remove("CARGO_ENCODED_RUSTFLAGS");
+    // In several units what is inlined depends on what else is compiled.
+    build.env("CARGO_PROFILE_BENCH_CODEGEN_UNITS", "1");
     let messages = printed(&mut build)?;
     let named = |line: &str| {
         let path = line.split_once("\"executable\":\"")?.1.split('"').next()?;
