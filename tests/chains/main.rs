@@ -66,7 +66,9 @@ fn inputs<const N: usize>([q, v, a]: &[SVector<f64, N>; 3]) -> Inputs<f64> {
 }
 
 fn generated(text: &str, method: Method, formulation: Option<&str>) -> Function {
-    let mechanism = bgdyn_codegen::read(text, Some("chain")).0.expect("a sound spec");
+    let mechanism = bgdyn_codegen::read(text, Some("chain"))
+        .0
+        .expect("a sound spec");
     let options = Options {
         formulation: formulation.map(|name| by_name(name).expect("a formulation")),
         ..Options::default()
