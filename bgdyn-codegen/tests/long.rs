@@ -56,6 +56,39 @@ fn common_axes_equal_the_other_ways() {
     }
 }
 
+/// The largest error in `f64` of an entry, in roundings of √(M_ii M_jj).
+fn lost(robot: &Robot, way: &str) -> f64 {
+    let (function, mut rng) = (robot.function(way, M), Rng::new(7));
+    let mut worst = 0.0_f64;
+    for _ in 0..5 {
+        let state = State::random(&mut rng, &robot.motions());
+        let rounded: Vec<f64> = state.value(&function);
+        let exact: Vec<Dd> = state.value(&function);
+        let diagonal = |i: usize| exact[in_triangle(i, i)].to_f64();
+        for (i, j) in (0..robot.nv()).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let k = in_triangle(i, j);
+            let off = (Dd::from_f64(rounded[k]) - exact[k]).abs().to_f64();
+            worst = worst.max(off / (diagonal(i) * diagonal(j)).sqrt());
+        }
+    }
+    worst / f64::EPSILON
+}
+
+/// Moments about a far origin are larger than those about the joint; but what is lost by that is no
+/// more than what the way inwards loses.
+#[test]
+fn common_axes_lose_no_more_digits() {
+    for name in ["chain8", "chain32", "chain64"] {
+        let robot = golden::robot(name);
+        let (common, carried) = (lost(&robot, "common_axes"), lost(&robot, "recursion"));
+        println!("{name}: {common:.1} roundings in common axes, {carried:.1} joint by joint");
+        assert!(
+            common <= 2.0 * carried,
+            "{name}: {common} against {carried}"
+        );
+    }
+}
+
 /// Counting takes common axes for chains in general position from some length on, and the
 /// joint-by-joint way for short ones.
 #[test]

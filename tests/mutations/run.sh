@@ -80,6 +80,10 @@ mutate "laws: formulations equal" $recursion/mass.rs \
     'linear: Vec3([-y, x, b.zero()])' 'linear: Vec3([y, x, b.zero()])' "${codegen[@]}" laws
 mutate "laws: forward undoes inverse" $src/formulation/solve.rs \
     'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" laws
+mutate "long: momenta meet axes" $recursion/common_axes.rs \
+    'sum + w * l' 'sum - w * l' "${codegen[@]}" long
+mutate "long: signs in tables" $src/products.rs \
+    'negative: negative ^ minus' 'negative' "${codegen[@]}" long
 mutate "laws: gravity = dV/dq" $recursion/mass.rs \
     'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" laws
 mutate "properties: T" $recursion/mass.rs \

@@ -153,6 +153,7 @@ fn explanations_stand_beside_the_json() {
         "literal",
         "recursion",
         "recursion_own",
+        "common_axes",
         "articulated",
         "articulated_base",
     ] {

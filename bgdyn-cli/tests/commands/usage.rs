@@ -39,7 +39,7 @@ fn bad_usage_exits_with_two() {
         assert!(!stderr.is_empty(), "{arguments:?}");
     }
     let stderr = bgdyn(&["ops", SCARA, "--formulation", "fastest"]).bad_usage();
-    let told = "bgdyn: no formulation is called `fastest`; there are literal, recursion, recursion_own, articulated, articulated_base\n";
+    let told = "bgdyn: no formulation is called `fastest`; there are literal, recursion, recursion_own, common_axes, articulated, articulated_base\n";
     assert_eq!(stderr, told);
     let stderr = bgdyn(&["ops", SCARA, "--prefer", "acuracy"]).bad_usage();
     let told = "bgdyn: no preference is called `acuracy`: did you mean `accuracy`?\n";
