@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+/// Calls of each probe.
+pub const CALLS: usize = 32;
+
 /// How much more a probe may take than the count on file says.
 pub const WORSE: f64 = 0.02;
 
@@ -10,12 +13,12 @@ pub const WORSE: f64 = 0.02;
 pub type Counts = BTreeMap<String, f64>;
 
 /// The counts of a profile, as `callgrind_annotate --inclusive=yes` prints it: a line
-/// `12,345 (1.00%)  file:instructions::probes::panda::double::mass_matrix::h… [program]` for each function.
+/// `12,345 (1.00%)  file:probes::panda::double::mass_matrix::h… [program]` for each function.
 pub fn of_profile(text: &str, calls: usize) -> Counts {
     let probe = |line: &str| {
         let (count, rest) = line.trim_start().split_once(' ')?;
         let count: f64 = count.replace(',', "").parse().ok()?;
-        let name = rest.split_once("::probes::")?.1;
+        let name = rest.split_once(":probes::")?.1;
         let name = name.split([' ', '\'']).next()?;
         let name = name.rsplit_once("::h").map_or(name, |(name, _)| name);
         let counted = name.matches("::").count() == 2 && !name.ends_with("::run");
@@ -79,9 +82,9 @@ mod tests {
     #[test]
     fn probes_are_found_in_a_profile() {
         let text = "\
- 14,246,489 ( 4.08%)  ???:instructions::probes::panda::double::run [program]
-     21,657 ( 0.01%)  ???:instructions::probes::panda::double::mass_matrix [program]
-     10,400 ( 0.01%)  a.rs:instructions::probes::panda::lanes::bias::h0123456789abcdef [program]
+ 14,246,489 ( 4.08%)  ???:probes::panda::double::run [program]
+     21,657 ( 0.01%)  ???:probes::panda::double::mass_matrix [program]
+     10,400 ( 0.01%)  a.rs:probes::panda::lanes::bias::h0123456789abcdef [program]
      20,000 ( 0.01%)  ???:bgdyn_runtime::sine::large::sin_cos [program]
 ";
         let found = of_profile(text, 100);

@@ -1,14 +1,12 @@
-//! What is counted: each method of each robot of `specs/` over the same states, in a function of its own.
+//! What `instructions` counts: each method of each robot of `specs/` over the same states, in a function of its own.
 
 use std::hint::black_box;
 
 use benches::body::{bodies, slides};
+use benches::counts::CALLS;
 use benches::inputs::{Input, Lanes, inputs};
 use benches::states::states;
 use bgdyn::runtime::wide::f64x4;
-
-/// Calls of each probe.
-pub const CALLS: usize = 32;
 
 /// The generated modules.
 mod models {
@@ -62,8 +60,7 @@ macro_rules! robots {
             }
         )*
 
-        /// Calls everything.
-        pub fn run() {
+        fn main() {
             $( $robot::double::run(); $robot::single::run(); $robot::lanes::run(); )*
         }
     };

@@ -5,8 +5,6 @@
 //! over 2 % more. Counts of a compiler that has no file yet are recorded, and so are all with
 //! `-- --write`. Counts are exact: the same on every machine and whatever else it does.
 
-mod probes;
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::{env, fs};
@@ -17,12 +15,7 @@ const TARGET: &str = "x86_64-unknown-linux-gnu";
 const FLAGS: &str = "-C target-cpu=x86-64-v3";
 
 fn main() -> ExitCode {
-    let has = |flag: &str| env::args().any(|a| a == flag);
-    if has("--probes") {
-        probes::run();
-        return ExitCode::SUCCESS;
-    }
-    match count(has("--write")) {
+    match count(env::args().any(|a| a == "--write")) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(message) => {
@@ -91,11 +84,11 @@ fn compiler() -> Result<String, String> {
     version.map(str::to_owned).ok_or(text)
 }
 
-/// This benchmark, built for x86-64-v3, with names for the profile.
+/// The probes, built for x86-64-v3, with names for the profile.
 fn program() -> Result<PathBuf, String> {
     let cargo = env::var_os("CARGO").unwrap_or("cargo".into());
     let mut build = Command::new(cargo);
-    build.args(["bench", "-p", "benches", "--bench", "instructions"]);
+    build.args(["bench", "-p", "benches", "--bench", "probes"]);
     build.args(["--no-run", "--target", TARGET, "--message-format=json"]);
     build.current_dir(env!("CARGO_MANIFEST_DIR"));
     build
@@ -118,9 +111,9 @@ fn measured(program: &Path) -> Result<counts::Counts, String> {
     let mut run = Command::new("valgrind");
     run.args(["--tool=callgrind", "--dump-line=no"]);
     run.arg(format!("--callgrind-out-file={}", profile.display()));
-    printed(run.arg(program).arg("--probes"))?;
+    printed(run.arg(program))?;
     let mut annotate = Command::new("callgrind_annotate");
     annotate.args(["--inclusive=yes", "--threshold=100", "--auto=no"]);
     let text = printed(annotate.arg(&profile))?;
-    Ok(counts::of_profile(&text, probes::CALLS))
+    Ok(counts::of_profile(&text, counts::CALLS))
 }
