@@ -7,7 +7,7 @@
 //! scene ──generate──▶ variants, compiled ──▶ Subject ──study──▶ Study (rows) ──▶ verdicts, front, figures, page
 //! ```
 //!
-//! - [`generate`](crate::generate) (feature `generate`) writes the modules of a scene's variants with a function that
+//! - `generate` (the feature of this name) writes the modules of a scene's variants with a function that
 //!   makes a [`Subject`] of them. Build scripts and the command `bgdyn accuracy` call it alike.
 //! - [`Subject`] is what is measured: runs of compiled scenes behind plain closures, so that what
 //!   follows knows no scene.
