@@ -9,7 +9,7 @@ use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
 
 use crate::float::exact_sum;
 use crate::sine;
-use crate::singular::{finish, note_refused};
+use crate::singular::finish;
 use crate::{Scalar, Singular};
 
 /// What dual numbers may be made of: `f64`, `f32`, or dual numbers again (for derivatives of
@@ -171,13 +171,8 @@ macro_rules! dual_scalar {
                 joint: usize,
                 refused: &mut Option<usize>,
             ) -> Self {
-                let mut here = None;
-                let _ = self.re.checked_pivot(magnitude.re, joint, &mut here);
-                if note_refused(here.is_none(), joint, refused) {
-                    self
-                } else {
-                    <Self as Scalar>::from_f64(1.0)
-                }
+                let _ = self.re.checked_pivot(magnitude.re, joint, refused);
+                self
             }
 
             fn finish<const M: usize>(

@@ -26,22 +26,39 @@ pub(crate) trait Float: Split {
     fn turn(sine_cosine: (Self, Self), tail: Self) -> (Self, Self);
 }
 
-/// The sum of `angles` and `offset`, rounded, and what the rounding leaves; in any arithmetic that
-/// rounds as [`Float`]s do, lane by lane.
-#[inline]
-pub(crate) fn exact_sum<T: Split>(angles: impl Iterator<Item = T>, offset: (f64, f64)) -> (T, T) {
-    let (mut sum, mut tail) = T::split(offset.0, offset.1);
+/// The sum of `angles` and `offset`, rounded, and what the rounding leaves, but for a single angle;
+/// in any arithmetic that rounds as [`Float`]s do, lane by lane.
+#[inline(always)]
+pub(crate) fn exact_sum<T: Split>(
+    mut angles: impl Iterator<Item = T>,
+    offset: (f64, f64),
+) -> (T, Option<T>) {
+    let zero = T::from_f64(0.0);
+    let (mut sum, mut tail) = match offset {
+        (0.0, 0.0) => (angles.next().unwrap_or(zero), zero),
+        (hi, lo) => T::split(hi, lo),
+    };
+    let mut sums = 0;
     for angle in angles {
+        sums += 1;
         // Knuth's two-sum: the rounding error of the addition, exactly.
         let next = sum + angle;
         let back = next - sum;
         tail = tail + ((sum - (next - back)) + (angle - back));
         sum = next;
     }
-    // And once more, so that the tail is half a unit in the last place at most.
-    let angle = sum + tail;
-    let back = angle - sum;
-    (angle, (sum - (angle - back)) + (tail - back))
+    match sums {
+        0 => (sum, None),
+        // The tail is half a unit in the last place: where more than that is left of the offset, the
+        // angle has cancelled it, and has no digits that the offset's first word has not.
+        1 => (sum, Some(tail)),
+        // And once more, so that it is.
+        _ => {
+            let angle = sum + tail;
+            let back = angle - sum;
+            (angle, Some((sum - (angle - back)) + (tail - back)))
+        }
+    }
 }
 
 macro_rules! float_scalar {
@@ -66,26 +83,7 @@ macro_rules! float_scalar {
                 $sqrt(self)
             }
 
-            #[inline]
-            fn sin_cos(self) -> (Self, Self) {
-                sine::one(self, 0.0)
-            }
-
-            // The tail's own rounding is |q|·eps², so the sum is good to eps for |q| up to 1/eps:
-            // 4e15 rad for `f64`, 8e6 rad for `f32`.
-            #[inline]
-            fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
-                let (angle, tail) = sine::plain_or_sum(angles, offset);
-                sine::one(angle, tail)
-            }
-
-            #[inline(always)]
-            fn sin_cos_all<const K: usize>(
-                angles: [&[Self]; K],
-                offsets: [(f64, f64); K],
-            ) -> [(Self, Self); K] {
-                sine::all(angles, offsets)
-            }
+            sine::methods!();
 
             #[inline]
             fn exp(self) -> Self {
@@ -159,13 +157,11 @@ macro_rules! float_scalar {
                 refused: &mut Option<usize>,
             ) -> Self {
                 let floor = magnitude * Self::PIVOT_FLOOR;
-                // Written so that a NaN on either side is refused.
-                let ok = self > 0.0 && self > floor && self < $float::INFINITY;
-                if note_refused(ok, joint, refused) {
-                    self
-                } else {
-                    1.0
-                }
+                // Written so that a NaN on either side is refused, and without `self > 0`, which
+                // together with infinity is compiled to thirty instructions on bits.
+                let floor = if floor < 0.0 { 0.0 } else { floor };
+                note_refused(self > floor && self < $float::INFINITY, joint, refused);
+                self
             }
 
             #[inline]
@@ -198,7 +194,7 @@ macro_rules! float_scalar {
                         c - tail * (s + 0.5 * tail * c),
                     )
                 } else if tail.is_finite() {
-                    let (ds, dc) = sine::one(tail, 0.0);
+                    let (ds, dc) = sine::one(tail, None);
                     (s * dc + c * ds, c * dc - s * ds)
                 } else {
                     (s, c)

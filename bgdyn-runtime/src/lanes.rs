@@ -12,6 +12,7 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 use crate::float::{Float, Split};
 use crate::sine;
+use crate::singular::zero_if_finite;
 use crate::{Scalar, Singular};
 
 /// The mass matrix is singular in at least one lane; the other lanes have their accelerations.
@@ -84,25 +85,7 @@ macro_rules! lane_scalar {
                 $lanes::sqrt(self)
             }
 
-            // Part of the caller: handed over in memory, lanes would be stored in halves and waited for.
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                Self::sin_cos_sum(&[self], (0.0, 0.0))
-            }
-
-            #[inline(always)]
-            fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
-                let (angle, tail) = sine::plain_or_sum(angles, offset);
-                sine::one(angle, tail)
-            }
-
-            #[inline(always)]
-            fn sin_cos_all<const K: usize>(
-                angles: [&[Self]; K],
-                offsets: [(f64, f64); K],
-            ) -> [(Self, Self); K] {
-                sine::all(angles, offsets)
-            }
+            sine::methods!();
 
             #[inline]
             fn exp(self) -> Self {
@@ -160,13 +143,12 @@ macro_rules! lane_scalar {
             fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self) -> Self {
                 let zero = Self::splat(0.0);
                 let floor = magnitude * Self::splat($float::PIVOT_FLOOR);
-                // Written so that a NaN on either side is refused.
                 let ok = self.simd_gt(zero)
                     & self.simd_gt(floor)
                     & self.simd_lt(Self::splat($float::INFINITY));
                 let first = refused.simd_lt(zero).select(Self::splat(joint as $float), *refused);
                 *refused = ok.select(*refused, first);
-                ok.select(self, Self::splat(1.0))
+                self
             }
 
             #[inline]
@@ -175,23 +157,36 @@ macro_rules! lane_scalar {
                 refused: Self,
                 names: &'static [&'static str; N],
             ) -> Result<SVector<Self, N>, LaneSingular<Self, $n, N>> {
+                // One comparison for all of them.
                 let zero = Self::splat(0.0);
-                let mut refused = refused;
-                for (j, a) in accelerations.iter().enumerate() {
-                    #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
-                    let finite = (*a - *a).simd_eq(zero);
-                    let noted = refused.simd_lt(zero).select(Self::splat(j as $float), refused);
+                let wild = accelerations.iter().fold(zero, |sum, &x| sum + zero_if_finite(x));
+                if (refused.simd_lt(zero) & wild.simd_eq(zero)).all() {
+                    return Ok(accelerations);
+                }
+                Err(LaneSingular::<Self, $n, N>::of(accelerations, refused, names))
+            }
+        }
+
+        impl<const N: usize> LaneSingular<$lanes, $n, N> {
+            /// The error of lanes some of which have a joint noted, or an acceleration that is not finite.
+            #[cold]
+            fn of(
+                accelerations: SVector<$lanes, N>,
+                mut refused: $lanes,
+                names: &'static [&'static str; N],
+            ) -> Self {
+                let zero = $lanes::splat(0.0);
+                for (j, &a) in accelerations.iter().enumerate() {
+                    let finite = zero_if_finite(a).simd_eq(zero);
+                    let noted = refused.simd_lt(zero).select($lanes::splat(j as $float), refused);
                     refused = finite.select(refused, noted);
                 }
                 let regular = refused.simd_lt(zero);
-                if regular.all() {
-                    return Ok(accelerations);
-                }
-                Err(LaneSingular {
+                LaneSingular {
                     accelerations: accelerations.map(|a| regular.select(a, zero)),
                     joint: refused.to_array().map(|j| (j >= 0.0).then_some(j as usize)),
                     names,
-                })
+                }
             }
         }
 

@@ -93,9 +93,9 @@ pub trait Scalar:
     /// Checks a pivot of a factorisation of the mass matrix. `self` came out of subtractions whose
     /// terms were as large as `magnitude`.
     ///
-    /// Gives `self` where it is positive and stands clear of the rounding error of those terms.
-    /// Otherwise notes `joint` in `refused` (the first one stays) and gives 1, so that what
-    /// follows stays finite.
+    /// Notes `joint` in `refused` (the first one stays) where `self` is not positive and finite, or does
+    /// not stand clear of the rounding error of those terms. Gives `self` either way: a division need not
+    /// wait for the comparisons, and [`Scalar::finish`] throws away what a refused pivot led to.
     fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self::Refused) -> Self;
 
     /// The accelerations, or the error that names the joint; `names` are those of the model's

@@ -35,27 +35,46 @@ impl fmt::Display for Singular {
 impl core::error::Error for Singular {}
 
 /// [`crate::Scalar::checked_pivot`] for scalars that are one number.
-pub(crate) fn note_refused(ok: bool, joint: usize, refused: &mut Option<usize>) -> bool {
+#[inline]
+pub(crate) fn note_refused(ok: bool, joint: usize, refused: &mut Option<usize>) {
     if !ok && refused.is_none() {
         *refused = Some(joint);
     }
-    ok
 }
 
 /// [`crate::Scalar::finish`] for scalars that are one number. A result that is not finite, out of
 /// an input that is not or is too large, is an error as well.
+#[inline]
 pub(crate) fn finish<T: Scalar, const N: usize>(
     accelerations: SVector<T, N>,
     refused: Option<usize>,
     names: &'static [&'static str; N],
 ) -> Result<SVector<T, N>, Singular> {
-    #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
-    let wild = |x: &T| *x - *x != T::from_f64(0.0);
-    match refused.or_else(|| accelerations.iter().position(wild)) {
-        None => Ok(accelerations),
-        Some(joint) => Err(Singular {
-            joint,
-            name: names.get(joint).copied().unwrap_or(""),
-        }),
+    // One comparison for all of them.
+    let zero = T::from_f64(0.0);
+    let wild = accelerations
+        .iter()
+        .fold(zero, |sum, &x| sum + zero_if_finite(x));
+    if refused.is_none() && wild == zero {
+        return Ok(accelerations);
     }
+    let joint = refused.unwrap_or_else(|| first_wild(&accelerations));
+    Err(Singular {
+        joint,
+        name: names.get(joint).copied().unwrap_or(""),
+    })
+}
+
+/// The first joint whose acceleration is not finite.
+#[cold]
+fn first_wild<T: Scalar, const N: usize>(accelerations: &SVector<T, N>) -> usize {
+    let wild = |&x: &T| zero_if_finite(x) != T::from_f64(0.0);
+    accelerations.iter().position(wild).unwrap_or(0)
+}
+
+/// 0 for finite numbers, NaN for others.
+#[allow(clippy::eq_op, reason = "that is how")]
+#[inline]
+pub(crate) fn zero_if_finite<T: Scalar>(x: T) -> T {
+    x - x
 }

@@ -3,9 +3,9 @@
 use super::pack::{Coefficients, Pack};
 
 /// Sine and cosine of `angle` + `tail`, for an angle within [`Pack::LIMIT`] and a tail of half a
-/// unit in its last place at most.
+/// unit in its last place at most. Without a tail the polynomials begin 8 cycles earlier.
 #[inline(always)]
-pub(crate) fn sin_cos<P: Pack>(angle: P, tail: P) -> (P, P) {
+pub(crate) fn sin_cos<P: Pack>(angle: P, tail: Option<P>) -> (P, P) {
     let (quarters, r, low) = reduced(angle, tail);
     let (s, c) = of_rest(r, low);
     P::turned(quarters, s, c)
@@ -13,7 +13,7 @@ pub(crate) fn sin_cos<P: Pack>(angle: P, tail: P) -> (P, P) {
 
 /// n, with its last two digits at the end of the significand, and angle + tail − n π/2 as r + low.
 #[inline(always)]
-fn reduced<P: Pack>(angle: P, tail: P) -> (P, P, P) {
+fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
     let Coefficients {
         exact,
         middle,
@@ -35,9 +35,14 @@ fn reduced<P: Pack>(angle: P, tail: P) -> (P, P, P) {
     let part = P::splat(middle);
     let difference = n.minus_product(part, rest);
     let error = n.minus_product(part, rest - difference);
-    let low = n.fused(P::splat(last), -error) - tail;
-    let r = difference - low;
-    (quarters, r, (difference - r) - low)
+    let low = n.minus_product(P::splat(last), error);
+    let Some(tail) = tail else {
+        return (quarters, difference, low);
+    };
+    // A tail may be far larger than half a unit in the last place of the rest: a sum once more. The
+    // low part is not waited for.
+    let r = difference + tail;
+    (quarters, r, (tail - (r - difference)) + low)
 }
 
 /// Sine and cosine of r + low, |r| ≤ π/4.

@@ -26,6 +26,36 @@ macro_rules! unrolled {
     )*};
 }
 
+/// The methods of [`Scalar`](crate::Scalar) that this module stands behind.
+///
+/// They become part of the caller: handed over in memory, lanes would be stored in halves and waited
+/// for, and a constant offset would be no constant.
+macro_rules! methods {
+    () => {
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            $crate::sine::one(self, None)
+        }
+
+        // The tail's own rounding is |q|·eps², so the sum is good to eps for |q| up to 1/eps:
+        // 4e15 rad for `f64`, 8e6 rad for `f32`.
+        #[inline(always)]
+        fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
+            let (angle, tail) = $crate::float::exact_sum(angles.iter().copied(), offset);
+            $crate::sine::one(angle, tail)
+        }
+
+        #[inline(always)]
+        fn sin_cos_all<const K: usize>(
+            angles: [&[Self]; K],
+            offsets: [(f64, f64); K],
+        ) -> [(Self, Self); K] {
+            $crate::sine::all(angles, offsets)
+        }
+    };
+}
+pub(crate) use methods;
+
 mod kernel;
 mod large;
 mod pack;
@@ -36,11 +66,11 @@ pub(crate) use pack::Pack;
 
 /// Sine and cosine of a + tail; `tail` is what the rounding of a sum a has left.
 #[inline(always)]
-pub(crate) fn one<T: Pack>(angle: T, tail: T) -> (T, T) {
+pub(crate) fn one<T: Pack>(angle: T, tail: Option<T>) -> (T, T) {
     if angle.within() {
         sin_cos(angle, tail)
     } else {
-        angle.beyond(tail)
+        angle.beyond(tail.unwrap_or(T::splat(0.0)))
     }
 }
 
@@ -50,17 +80,21 @@ pub(crate) fn all<T: AtOnce, const K: usize>(
     angles: [&[T]; K],
     offsets: [(f64, f64); K],
 ) -> [(T, T); K] {
-    let mut sums = [(T::from_f64(0.0), T::from_f64(0.0)); K];
+    let mut sums = [(T::from_f64(0.0), None); K];
     let mut within = true;
     unrolled!(K, |k| {
-        sums[k] = plain_or_sum(angles[k], offsets[k]);
+        sums[k] = exact_sum(angles[k].iter().copied(), offsets[k]);
         within &= sums[k].0.within();
     });
     if within {
         return T::at_once(sums);
     }
-    unrolled!(K, |k| sums[k] = apart(sums[k].0, sums[k].1));
-    sums
+    let mut found = [(T::from_f64(0.0), T::from_f64(0.0)); K];
+    unrolled!(K, |k| {
+        let (angle, tail) = sums[k];
+        found[k] = apart(angle, tail.unwrap_or(T::from_f64(0.0)));
+    });
+    found
 }
 
 /// [`one`], out of the way of calls whose angles are all within the limit: handed over as an array,
@@ -68,22 +102,13 @@ pub(crate) fn all<T: AtOnce, const K: usize>(
 #[cold]
 #[inline(never)]
 fn apart<T: Pack>(angle: T, tail: T) -> (T, T) {
-    one(angle, tail)
-}
-
-/// The sum of angles and an offset, in two words.
-#[inline(always)]
-pub(crate) fn plain_or_sum<T: Split>(angles: &[T], offset: (f64, f64)) -> (T, T) {
-    match angles {
-        [angle] if offset == (0.0, 0.0) => (*angle, T::from_f64(0.0)),
-        _ => exact_sum(angles.iter().copied(), offset),
-    }
+    one(angle, Some(tail))
 }
 
 /// Numbers whose sines can be taken several at once.
 pub(crate) trait AtOnce: Pack + Split {
     /// Sines and cosines of the sums `(angle, tail)`, all of them within the limit.
-    fn at_once<const K: usize>(sums: [(Self, Self); K]) -> [(Self, Self); K];
+    fn at_once<const K: usize>(sums: [(Self, Option<Self>); K]) -> [(Self, Self); K];
 }
 
 /// Fills lanes with one angle after the other, several at a time; what is left over goes in fewer.
@@ -92,14 +117,21 @@ macro_rules! at_once {
     ($float:ident: $($lanes:ident $n:literal from $least:literal),+) => {
         impl AtOnce for $float {
             #[inline(always)]
-            fn at_once<const K: usize>(sums: [($float, $float); K]) -> [($float, $float); K] {
+            fn at_once<const K: usize>(
+                sums: [($float, Option<$float>); K],
+            ) -> [($float, $float); K] {
                 let mut found = [(0.0, 0.0); K];
                 let mut done = 0;
                 $(if K - done >= $least {
-                    let (mut angles, mut tails) = ([0.0; $n], [0.0; $n]);
+                    let (mut angles, mut tails, mut any) = ([0.0; $n], [0.0; $n], false);
                     // Lanes beyond the last angle repeat it.
-                    unrolled!($n, |k| (angles[k], tails[k]) = sums[(done + k).min(K - 1)]);
-                    let (s, c) = sin_cos(wide::$lanes::new(angles), wide::$lanes::new(tails));
+                    unrolled!($n, |k| {
+                        let (angle, tail) = sums[(done + k).min(K - 1)];
+                        any |= tail.is_some();
+                        (angles[k], tails[k]) = (angle, tail.unwrap_or(0.0));
+                    });
+                    let tails = any.then(|| wide::$lanes::new(tails));
+                    let (s, c) = sin_cos(wide::$lanes::new(angles), tails);
                     let (s, c) = (s.to_array(), c.to_array());
                     unrolled!($n, |k| if done + k < K {
                         found[done + k] = (s[k], c[k]);
@@ -124,9 +156,10 @@ macro_rules! one_by_one {
     ($($lanes:ty),+) => {$(
         impl AtOnce for $lanes {
             #[inline(always)]
-            fn at_once<const K: usize>(mut sums: [(Self, Self); K]) -> [(Self, Self); K] {
-                unrolled!(K, |k| sums[k] = sin_cos(sums[k].0, sums[k].1));
-                sums
+            fn at_once<const K: usize>(sums: [(Self, Option<Self>); K]) -> [(Self, Self); K] {
+                let mut found = [(Self::splat(0.0), Self::splat(0.0)); K];
+                unrolled!(K, |k| found[k] = sin_cos(sums[k].0, sums[k].1));
+                found
             }
         }
     )+};

@@ -212,7 +212,7 @@ macro_rules! lane_pack {
             fn beyond(self, tail: Self) -> (Self, Self) {
                 let (mut s, mut c) = (self.to_array(), tail.to_array());
                 for (s, c) in s.iter_mut().zip(&mut c) {
-                    (*s, *c) = super::one(*s, *c);
+                    (*s, *c) = super::one(*s, Some(*c));
                 }
                 (Self::new(s), Self::new(c))
             }
