@@ -2,8 +2,9 @@
 //! macro, time of the compiler behind it, code size, the compiler's peak memory. A release build of a crate of
 //! its own, as Cargo makes it for a user who sets nothing: the macro itself unoptimised.
 //!
-//! `cargo bench -p benches --bench compile_time -- panda` measures one; two minutes for all. Three crates are
-//! compared: with the macro, with its text, and with neither; of each the shortest of three builds.
+//! `cargo bench -p benches --bench compile_time -- panda` measures one; six minutes for all, and with `--docs`
+//! they are written to `docs/compile_time.md`. Three crates are compared: with the macro, with its text, and with
+//! neither; of each the shortest of three builds.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -47,7 +48,8 @@ fn main() -> ExitCode {
         .skip(1)
         .filter(|a| !a.starts_with('-'))
         .collect();
-    match measure(&wanted) {
+    let docs = env::args().any(|a| a == "--docs");
+    match measure(&wanted).and_then(|table| if docs { write(&table) } else { Ok(()) }) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("{message}");
@@ -56,13 +58,55 @@ fn main() -> ExitCode {
     }
 }
 
-fn measure(wanted: &[String]) -> Result<(), String> {
+/// The repository.
+fn root() -> Result<PathBuf, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let root = fs::canonicalize(&root).map_err(|e| e.to_string())?;
+    fs::canonicalize(root).map_err(|e| e.to_string())
+}
+
+/// `docs/compile_time.md`.
+fn write(table: &str) -> Result<(), String> {
+    let said = |program: &str, arguments: &[&str]| {
+        let done = Command::new(program).args(arguments).output().ok()?;
+        let text = String::from_utf8_lossy(&done.stdout);
+        Some(text.lines().next()?.trim().to_string())
+    };
+    let model = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = model
+        .lines()
+        .find_map(|l| l.strip_prefix("model name")?.split_once(':'));
+    let machine = model.map_or(env::consts::ARCH, |(_, name)| name.trim());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let compiler = said("rustc", &["--version"]).unwrap_or_default();
+    let date = said("date", &["+%F"]).unwrap_or_default();
+    let text = format!(
+        "# What a model costs while compiling\n\n\
+         {machine}, {cores} cores; {compiler}; {date}. Written by\n\n\
+         ```sh\ncargo bench -p benches --bench compile_time -- --docs\n```\n\n\
+         A release build of a crate that calls every method once, as Cargo makes it for a user who sets nothing: the \
+         macro itself unoptimised. \"Macro\" is what the crate takes longer to build than with the generated text in \
+         the macro's place, \"compiler\" what that one takes longer than an empty program; the shortest of three \
+         builds each. Code is that of the program less the empty one's, memory what the build has at its peak. The \
+         methods are {five}, of the chains {three}.\n\n{table}",
+        five = METHODS.join(", "),
+        three = LONG.join(", "),
+    );
+    fs::write(root()?.join("docs/compile_time.md"), text).map_err(|e| e.to_string())
+}
+
+/// The table, printed row by row.
+fn measure(wanted: &[String]) -> Result<String, String> {
+    let root = root()?;
     let scratch = Scratch::new(&root)?;
     let empty = scratch.built("fn main() {}\n")?;
-    println!("| mechanism | methods | macro, s | compiler, s | code, kB | peak memory, MB |");
-    println!("|---|---|---|---|---|---|");
+    let mut table = String::new();
+    let mut row = |line: String| {
+        println!("{line}");
+        table += &line;
+        table.push('\n');
+    };
+    row("| mechanism | methods | macro, s | compiler, s | code, kB | peak memory, MB |".into());
+    row("|---|---|---|---|---|---|".into());
     for (spec, methods) in specs(&root)? {
         let name = stem(&spec);
         if !wanted.is_empty() && !wanted.contains(&name) {
@@ -81,15 +125,15 @@ fn measure(wanted: &[String]) -> Result<(), String> {
         let peak = whole
             .peak
             .map_or("?".into(), |kb| format!("{:.0}", kb / 1024.0));
-        println!(
+        row(format!(
             "| `{name}` | {} | {:.2} | {:.2} | {:.1} | {peak} |",
             methods.len(),
             whole.time - text.time,
             text.time - empty.time,
             (text.size - empty.size) / 1024.0,
-        );
+        ));
     }
-    Ok(())
+    Ok(table)
 }
 
 /// The specs with the methods asked for.

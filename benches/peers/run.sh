@@ -19,7 +19,7 @@ docs=
 if [ $# -eq 0 ]; then
   cd "$root"
   set -- tests/golden/specs/{scara4,puma560,panda7}.yaml specs/{ur5,torso}.yaml "$here"/specs/tree9.yaml \
-    tests/golden/specs/chain8.yaml "$here"/specs/chain16.yaml tests/golden/specs/chain{32,64}.yaml
+    tests/golden/specs/chain8.yaml tests/chains/chain16.yaml tests/golden/specs/chain{32,64}.yaml
 fi
 specs=$(for spec in "$@"; do realpath "$spec"; done)
 

@@ -6,7 +6,9 @@ use std::ops::Range;
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
-use crate::expr::{Cost, Expr, Graph, Inputs, Operations, cost, count, evaluate, factored, fused};
+use crate::expr::{
+    Cost, Expr, Graph, Inputs, Operations, arranged, cost, count, evaluate, factored, fused,
+};
 use crate::method::{Method, Shape};
 
 /// A straight line of code: what it computes. Later blocks read its results as
@@ -127,6 +129,7 @@ impl Function {
     /// operations is what it is made for.
     pub(crate) fn fused(mut self) -> Self {
         if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
+            (self.graph, *outputs) = arranged(&self.graph, outputs);
             (self.graph, *outputs) = fused(&self.graph, outputs);
         }
         self
@@ -170,6 +173,7 @@ impl Function {
         for block in &self.blocks {
             let c = cost(&self.graph, &block.outputs);
             all.operations += c.operations;
+            all.angles += c.angles;
             all.fusable += c.fusable;
             all.depth += c.depth;
         }

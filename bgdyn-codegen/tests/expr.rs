@@ -1,6 +1,9 @@
 //! The expression graph: what folds, what is one node, what counts.
 
-use bgdyn_codegen::expr::{Builder, Ex, Expr, Graph, Leaf, Node, Operations, count, reachable};
+use bgdyn_codegen::expr::{
+    Builder, Ex, Expr, Graph, Inputs, Leaf, Node, Operations, arranged, cost, count, evaluate,
+    reachable,
+};
 use bgdyn_runtime::Dd;
 
 /// Three arguments of a graph.
@@ -268,4 +271,34 @@ fn operands_stand_before_their_users() {
             ids.push(operand);
         });
     }
+}
+
+/// A late term is added last, whatever the order in which the sum was written; products that go in
+/// with their sum count as there one multiplication earlier.
+#[test]
+fn sums_are_arranged_by_arrival() {
+    let mut g = Graph::default();
+    let [x, y, z] = xyz(&mut g);
+    let late = g.div(x, y);
+    let late = g.sqrt(late);
+    let (xy, yz, xz) = (g.mul(x, y), g.mul(y, z), g.mul(x, z));
+    let mut sum = g.add(late, minus(xy));
+    for term in [yz, minus(xz), z] {
+        sum = g.add(sum, term);
+    }
+    let total = g.mul(minus(sum), z);
+    let before = cost(&g, &[total]);
+    let (h, outputs) = arranged(&g, &[total]);
+    let after = cost(&h, &outputs);
+    assert_eq!(after.operations, before.operations);
+    // √(x/y), one addition, one multiplication.
+    assert_eq!((before.depth, after.depth), (14, 11));
+    let inputs = || {
+        let mut inputs = Inputs::<Dd>::default();
+        inputs.q = [0.3, 0.7, -1.9].map(Dd::from_f64).to_vec();
+        inputs
+    };
+    let at = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs(), &mut None)[0];
+    let off = at(&h, &outputs) - at(&g, &[total]);
+    assert!(off.abs() < Dd::from_f64(1e-30), "{off}");
 }

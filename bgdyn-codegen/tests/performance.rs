@@ -145,7 +145,9 @@ fn the_page_holds_what_is_generated() {
              [peers.md](peers.md) has times beside Pinocchio, MuJoCo, KDL, dynibo and the C that CasADi and \
              CppADCodeGen generate, measured in turn by `benches/peers/run.sh`, which takes any spec. \
              `cargo bench` times every method of the specs beside a textbook's recursions, without any \
-             of them.\n";
+             of them. [order.md](order.md) says what each choice of order gains, \
+             [compile_time.md](compile_time.md) what a model costs while compiling, [chains.md](chains.md) \
+             what long chains take.\n";
     let page = folder("docs/performance.md");
     if std::env::var_os("BGDYN_WRITE").is_some() {
         fs::write(&page, &text).expect("the page is written");

@@ -11,7 +11,7 @@
 
 use std::fmt;
 
-use bgdyn_runtime::Operations;
+use bgdyn_runtime::{Dd, Operations};
 
 use super::count::Counter;
 use super::{Expr, Graph, Node};
@@ -33,6 +33,14 @@ const ROOT: usize = 1200;
 /// A pair of sine and cosine: 6.4 to 7.5 ns in the fit, about 30 operations.
 const SINE_COSINE: usize = 3000;
 
+/// An angle or a constant more in the sum inside a sine, which is carried exactly: nine operations by
+/// the code, a sum in two words and the second word on the way through the reduction. Five are enough
+/// to decide against turning a link's axes for the sake of four operations (which took 4 to 9 % of the
+/// time of SCARA and Panda); with nine, axes of parallel joints in common would go as well, at the price
+/// of 33 operations in a UR5's inverse dynamics. Counted in finished functions only: plans are searched
+/// by operations, and the ones found are weighed with and without turned axes.
+const ANGLE: usize = 500;
+
 /// A comparison, a selection, a checked pivot: a comparison and what it multiplies. Estimated.
 const OTHER: usize = 200;
 
@@ -46,6 +54,8 @@ const DEPTH: usize = 20;
 pub struct Cost {
     /// The operations, counted as everywhere.
     pub operations: Operations,
+    /// Angles and constants that are added to others inside sines.
+    pub angles: usize,
     /// Additions of a product that nothing else reads: the two can be fused, or are.
     pub fusable: usize,
     /// The critical path: how long the longest chain of operations is of which each waits for the
@@ -55,9 +65,13 @@ pub struct Cost {
 
 impl Cost {
     /// The cost of a graph that is not finished: which product meets which sum in it says nothing
-    /// about what factoring will leave, so it is not counted.
+    /// about what factoring will leave, so it is not counted; nor are sums of angles.
     pub(crate) fn unfinished(self) -> Self {
-        Cost { fusable: 0, ..self }
+        Cost {
+            fusable: 0,
+            angles: 0,
+            ..self
+        }
     }
 
     /// The weighted sum, in hundredths of an operation.
@@ -67,6 +81,7 @@ impl Cost {
             + DIVISION * o.div
             + ROOT * o.sqrt
             + SINE_COSINE * o.sincos
+            + ANGLE * self.angles
             + OTHER * o.other;
         // There are no more fusable additions than additions.
         executed + DEPTH * self.depth - FUSABLE * self.fusable
@@ -88,6 +103,7 @@ impl fmt::Display for Cost {
             ("+", DIVISION, o.div, "div"),
             ("+", ROOT, o.sqrt, "sqrt"),
             ("+", SINE_COSINE, o.sincos, "sincos"),
+            ("+", ANGLE, self.angles, "angles summed"),
             ("+", OTHER, o.other, "other"),
             ("−", FUSABLE, self.fusable, "fusable"),
             ("+", DEPTH, self.depth, "in a row"),
@@ -118,7 +134,7 @@ pub fn cost(graph: &Graph, outputs: &[Expr]) -> Cost {
     let reads = reads(graph, outputs);
     let ready = ready(graph, &reads);
     let mut counter = Counter::new(graph.len());
-    let mut fusable = 0;
+    let (mut fusable, mut angles) = (0, 0);
     for (_, node) in needed(graph, &reads) {
         counter.add(node);
         fusable += match node {
@@ -129,9 +145,13 @@ pub fn cost(graph: &Graph, outputs: &[Expr]) -> Cost {
             Node::MulAdd(..) => 1,
             _ => 0,
         };
+        if let Node::Angle(terms, offset, _) = node {
+            angles += terms.len() - usize::from(offset.value() == Dd::ZERO);
+        }
     }
     Cost {
         operations: counter.operations,
+        angles,
         fusable,
         depth: ready.into_iter().max().unwrap_or(0),
     }
@@ -170,15 +190,18 @@ pub(crate) fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
 
 /// How long a chain waits for an operation, in multiplications: measured for division (3.5), root
 /// (4.6) and sine (18), estimated for the others.
-fn latency(node: &Node) -> usize {
+pub(super) fn latency(node: &Node) -> usize {
     match node {
-        Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) => 0,
+        Node::Constant(_) | Node::Leaf(_) => 0,
+        // A sum of two, and the second word of it behind the reduction.
+        Node::Angle(..) => 3,
+        // Nothing waits for the comparisons.
+        Node::Pivot(..) => 0,
         Node::Add(..) | Node::Mul(..) | Node::MulAdd(..) => 1,
         Node::Div(..) => 4,
         Node::Sqrt(_) => 5,
         Node::Sin(_) | Node::Cos(_) | Node::Exp(_) | Node::Ln(_) | Node::Tanh(_) => 18,
         Node::Abs(_) | Node::Min(..) | Node::Max(..) | Node::Sign(_) => 1,
         Node::Less(..) | Node::Select(..) => 1,
-        Node::Pivot(..) => 2,
     }
 }

@@ -5,6 +5,7 @@
 //! folded exactly enough to prove one regrouping equal to another. Counting, evaluation,
 //! differentiation and emission are passes over the graph and live in their own files.
 
+mod arrange;
 mod build;
 mod copy;
 mod cost;
@@ -22,6 +23,7 @@ use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use bgdyn_runtime::Dd;
 
+pub use arrange::arranged;
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Ex};
 pub use copy::copy_into;

@@ -57,8 +57,7 @@ fn agrees(reference: &Literal, state: &State, case: &Value) -> Vec<Found> {
 fn bars<T: Digits + Compiled>(
     worst: &mut Worst,
     name: &str,
-    case: &str,
-    at: &str,
+    (case, at): (&str, &str),
     reference: &impl Reference,
     (state, cond): (&State, Option<f64>),
     reading: Reading,
@@ -77,25 +76,10 @@ fn of_file<'a>(name: &str, case: &str, states: impl Iterator<Item = &'a Value>, 
         let at = of["config"].as_str().unwrap_or(name);
         let n = state.q.len();
         worst.add(case, "", at, agrees(&reference, &state, of));
-        bars::<f64>(
-            worst,
-            name,
-            case,
-            at,
-            &reference,
-            (&state, cond),
-            Reading::STRICT,
-        );
+        let at = (case, at);
+        bars::<f64>(worst, name, at, &reference, (&state, cond), Reading::STRICT);
         if n <= SHORT {
-            bars::<f32>(
-                worst,
-                name,
-                case,
-                at,
-                &reference,
-                (&state, cond),
-                Reading::STRICT,
-            );
+            bars::<f32>(worst, name, at, &reference, (&state, cond), Reading::STRICT);
         }
         seen += 1;
     }
@@ -155,25 +139,10 @@ fn seeded(case: &str, names: &[String], states: usize, reading: Reading) -> Vec<
             };
             let at = format!("{name}, state {k}");
             for state in [&driven, &state] {
-                bars::<f64>(
-                    &mut worst,
-                    name,
-                    case,
-                    &at,
-                    &reference,
-                    (state, None),
-                    reading,
-                );
+                let at = (case, at.as_str());
+                bars::<f64>(&mut worst, name, at, &reference, (state, None), reading);
                 if n <= SHORT {
-                    bars::<f32>(
-                        &mut worst,
-                        name,
-                        case,
-                        &at,
-                        &reference,
-                        (state, None),
-                        reading,
-                    );
+                    bars::<f32>(&mut worst, name, at, &reference, (state, None), reading);
                 }
             }
         }

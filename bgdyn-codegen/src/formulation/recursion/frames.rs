@@ -84,6 +84,14 @@ impl Plan {
             views: vec![View::default(); n],
         }
     }
+
+    /// The same with the axes of the tips as they are.
+    pub(super) fn unturned(&self) -> Self {
+        Plan {
+            aimed: vec![false; self.aimed.len()],
+            ..self.clone()
+        }
+    }
 }
 
 /// A body as the recursion sees it. Lengths are in units of the plan.

@@ -1,0 +1,139 @@
+//! Arranges sums: what is there first is added first, so that little is left to do when the last
+//! term arrives. The operations stay as they are; the critical path becomes shorter.
+
+use super::cost::{latency, reads};
+use super::{Expr, Graph, Node, NodeId, QuickMap};
+
+/// Copies of `outputs` in a graph of their own, with the terms of every sum in the order in which
+/// they are there. Sums that something else reads as well, or that have a name, stay terms.
+pub fn arranged(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+    let mut sums = Sums {
+        from,
+        reads: reads(from, outputs),
+        to: Graph::default(),
+        copies: QuickMap::default(),
+        ready: Vec::new(),
+    };
+    let titles = sums.to.adopt_sections(from);
+    for id in sums.wanted() {
+        sums.to.reopen_section(from, id, titles);
+        let copy = match from.node(id) {
+            Node::Add(..) => sums.sum(id),
+            node => sums.copied(node),
+        };
+        if let Some(name) = from.name(id) {
+            sums.to.set_name(copy.node, || name.to_string());
+        }
+        sums.copies.insert(id, copy);
+    }
+    let outputs = outputs.iter().map(|&e| sums.at(e)).collect();
+    (sums.to, outputs)
+}
+
+/// The pass.
+struct Sums<'a> {
+    from: &'a Graph,
+    reads: Vec<u32>,
+    to: Graph,
+    copies: QuickMap<NodeId, Expr>,
+    /// When each node of `to` is there, in multiplications.
+    ready: Vec<usize>,
+}
+
+impl Sums<'_> {
+    /// Whether a node is part of the sum that reads it: nothing else does, and it has no name.
+    fn is_part(&self, id: NodeId) -> bool {
+        let is_sum = matches!(self.from.node(id), Node::Add(..));
+        is_sum && self.reads[id.0 as usize] == 1 && self.from.name(id).is_none()
+    }
+
+    /// The nodes that are needed, but for sums that become part of another.
+    fn wanted(&self) -> Vec<NodeId> {
+        let needed = |i: usize| self.reads[i] > 0;
+        let mut wanted: Vec<bool> = (0..self.from.len()).map(needed).collect();
+        for i in (0..self.from.len()).filter(|&i| needed(i)) {
+            if let Node::Add(a, b) = &self.from.nodes[i] {
+                for part in [*a, b.node].into_iter().filter(|&p| self.is_part(p)) {
+                    wanted[part.0 as usize] = false;
+                }
+            }
+        }
+        let wanted = wanted.into_iter().enumerate();
+        wanted
+            .filter_map(|(i, w)| w.then_some(NodeId(i as u32)))
+            .collect()
+    }
+
+    fn at(&self, e: Expr) -> Expr {
+        self.copies[&e.node].flipped(e.negative)
+    }
+
+    /// The same operation on the copies.
+    fn copied(&mut self, node: &Node) -> Expr {
+        let copies = &self.copies;
+        let copy = self
+            .to
+            .rebuilt(node, |e| copies[&e.node].flipped(e.negative));
+        self.note(None);
+        copy
+    }
+
+    /// Notes when nodes made since the last call are there; the last one at `last`, if that is known.
+    fn note(&mut self, last: Option<usize>) {
+        for i in self.ready.len()..self.to.len() {
+            let node = &self.to.nodes[i];
+            let mut begin = 0;
+            node.for_each_operand(|operand| begin = begin.max(self.ready[operand.0 as usize]));
+            self.ready.push(begin + latency(node));
+        }
+        if let (Some(at), Some(ready)) = (last, self.ready.last_mut()) {
+            *ready = at;
+        }
+    }
+
+    /// The sum with its terms in the order in which they are there.
+    fn sum(&mut self, id: NodeId) -> Expr {
+        let mut terms = Vec::new();
+        self.terms(Expr::plus(id), &mut terms);
+        let mut terms: Vec<(usize, Expr)> = terms
+            .into_iter()
+            .map(|term| (self.arrival(term), self.at(term)))
+            .collect();
+        terms.sort_by_key(|(arrival, _)| *arrival);
+        let mut terms = terms.into_iter();
+        let (mut ready, mut sum) = terms.next().expect("a sum has terms");
+        ready = ready.max(self.ready[sum.node.0 as usize]);
+        for (arrival, term) in terms {
+            let before = self.to.len();
+            sum = self.to.add(sum, term);
+            ready = ready.max(arrival) + 1;
+            self.note((self.to.len() > before).then_some(ready));
+        }
+        sum
+    }
+
+    /// The terms of a sum, those of its parts among them.
+    fn terms(&self, e: Expr, terms: &mut Vec<Expr>) {
+        let Node::Add(a, b) = self.from.node(e.node) else {
+            unreachable!("only sums have terms")
+        };
+        for term in [Expr::plus(*a), *b] {
+            let term = term.flipped(e.negative);
+            match self.is_part(term.node) {
+                true => self.terms(term, terms),
+                false => terms.push(term),
+            }
+        }
+    }
+
+    /// When a term can be added: a product that nothing else reads goes in together with its
+    /// multiplication.
+    fn arrival(&self, term: Expr) -> usize {
+        let ready = self.ready[self.at(term).node.0 as usize];
+        let is_product = matches!(self.from.node(term.node), Node::Mul(..));
+        match is_product && self.reads[term.node.0 as usize] == 1 {
+            true => ready.saturating_sub(1),
+            false => ready,
+        }
+    }
+}
