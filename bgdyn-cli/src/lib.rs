@@ -7,7 +7,9 @@ mod accuracy;
 mod commands;
 pub mod import;
 mod output;
+pub mod promises;
 mod scratch;
+pub mod schema;
 pub mod simulate;
 mod spec_file;
 mod timing;
@@ -39,6 +41,7 @@ enum Command {
     Simulate(commands::simulate::Simulate),
     Accuracy(commands::accuracy::Accuracy),
     Import(import::ImportArgs),
+    Schema(commands::schema::Schema),
 }
 
 /// Runs the command line.
@@ -51,6 +54,7 @@ pub fn run() -> ExitCode {
         Command::Simulate(command) => command.run(),
         Command::Accuracy(command) => command.run(),
         Command::Import(arguments) => import::run(arguments),
+        Command::Schema(command) => command.run(),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

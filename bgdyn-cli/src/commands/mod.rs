@@ -6,4 +6,5 @@ pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod ops;
 mod per_effect;
+pub(crate) mod schema;
 pub(crate) mod simulate;

@@ -7,6 +7,7 @@ mod eval_scenes;
 mod generate;
 mod golden_specs;
 mod ops;
+mod schema;
 mod simulate;
 mod simulate_many;
 mod simulate_page;

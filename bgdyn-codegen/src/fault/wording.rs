@@ -1,10 +1,12 @@
 //! Every sentence about a spec: rule by rule, with the numbers seen and the way out.
 
 mod checking;
+mod inertia;
 mod reading;
 
 use super::suggest::nearest;
 pub(crate) use checking::*;
+pub(crate) use inertia::*;
 pub(crate) use reading::*;
 
 /// How many characters of a user's text a message repeats.

@@ -7,6 +7,7 @@ mod joint;
 mod names;
 mod order;
 mod parameters;
+mod solid;
 
 use bgdyn_runtime::Dd;
 

@@ -83,7 +83,7 @@ pub struct Link {
     pub mass: Field<Number>,
     /// Centre of mass.
     pub com: Field<Vector>,
-    /// Tensor about the centre of mass.
+    /// Tensor, or the solid that it is of.
     pub inertia: Field<Inertia>,
     /// `allow`, or a slip.
     pub nonphysical: Field<String>,
@@ -130,14 +130,29 @@ pub struct Limits {
     pub effort: Field<Number>,
 }
 
-/// A link's `inertia`.
+/// A link's `inertia`: entries of a tensor, or a solid of even density.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inertia {
     /// xx, yy, zz, xy, xz, yz: entries of the tensor.
     pub entries: [Field<Number>; 6],
-    /// Axes of the entries in the link's.
+    /// xy, xz, yz: products of inertia, ∫xy dm, in place of the tensor's entries.
+    pub products: Field<[Field<Number>; 3]>,
+    /// `com` or `origin`: the point that the tensor is about.
+    pub about: Field<String>,
+    /// Axes of the entries, or of the solid, in the link's.
     pub rpy: Field<Vector>,
+    /// What solid it is: `box`, …
+    pub solid: Field<String>,
+    /// Edges of a box.
+    pub size: Field<Vector>,
+    /// Lengths of a solid, in the order of [`LENGTHS`].
+    pub lengths: [Field<Number>; 3],
+    /// Axis of a round solid; a letter is read as the unit vector it stands for.
+    pub axis: Field<Vector>,
 }
+
+/// The keys of [`Inertia::lengths`].
+pub const LENGTHS: [&str; 3] = ["radius", "inner_radius", "length"];
 
 /// An entry of `frames`.
 #[derive(Clone, Debug, PartialEq)]

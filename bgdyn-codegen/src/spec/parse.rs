@@ -3,7 +3,9 @@
 use super::unit::Dimension;
 use super::walk::{At, Mapping, Reader};
 use super::yaml::{self, Data};
-use super::{Field, Frame, Inertia, Joint, Limits, Link, Located, Number, Origin, Spec, Vector};
+use super::{
+    Field, Frame, Inertia, Joint, LENGTHS, Limits, Link, Located, Number, Origin, Spec, Vector,
+};
 use crate::fault::{Faults, wording};
 use bgdyn_runtime::Dd;
 
@@ -196,14 +198,32 @@ impl Reader {
     }
 
     fn inertia(&mut self, at: &At<'_>) -> Option<Inertia> {
-        let keys = ["xx", "yy", "zz", "xy", "xz", "yz", "rpy"];
-        let map = self.mapping(at, ("a tensor", "`{ xx: …, yy: …, zz: … }`"), &keys)?;
+        let entries = ["xx", "yy", "zz", "xy", "xz", "yz"];
+        let others = ["products", "about", "rpy", "solid", "size", "axis"];
+        let keys: Vec<&'static str> = [&entries[..], &others, &LENGTHS].concat();
+        let what = (
+            "a tensor or a solid",
+            "`{ xx: …, yy: …, zz: … }` or `{ solid: box, size: [x, y, z] }`",
+        );
+        let map = self.mapping(at, what, &keys)?;
         Some(Inertia {
-            entries: std::array::from_fn(|i| {
-                self.field(&map, keys[i], |r, at| r.value(at, &[Dimension::Inertia]))
-            }),
+            entries: entries
+                .map(|key| self.field(&map, key, |r, at| r.value(at, &[Dimension::Inertia]))),
+            products: self.field(&map, "products", Self::products),
+            about: self.text_field(&map, "about"),
             rpy: self.vector_field(&map, "rpy", &[Dimension::Angle]),
+            solid: self.text_field(&map, "solid"),
+            size: self.vector_field(&map, "size", &[Dimension::Length]),
+            lengths: LENGTHS.map(|key| self.number_field(&map, key, &[Dimension::Length])),
+            axis: self.field(&map, "axis", Self::axis),
         })
+    }
+
+    fn products(&mut self, at: &At<'_>) -> Option<[Field<Number>; 3]> {
+        let keys = ["xy", "xz", "yz"];
+        let what = ("products of inertia", "`{ xy: …, xz: …, yz: … }`");
+        let map = self.mapping(at, what, &keys)?;
+        Some(keys.map(|key| self.number_field(&map, key, &[Dimension::Inertia])))
     }
 
     fn frame(&mut self, at: &At<'_>) -> Option<Frame> {

@@ -1,6 +1,7 @@
 //! The check: what a sound spec becomes, and which rule a slip breaks.
 
 mod directions;
+mod inertia;
 mod parameters;
 
 use bgdyn_codegen::fault::Faults;

@@ -290,36 +290,6 @@ pub(crate) fn negative_mass(place: &Place, text: &str) -> Fault {
     .with_help("a mass is 0 (which may be left out) or positive, in kg")
 }
 
-pub(crate) fn not_semidefinite(place: &Place, moments: [f64; 3]) -> Fault {
-    let message = format!(
-        "no body has this tensor: it is not positive semidefinite, its principal moments are {} kg·m²",
-        figures(&moments)
-    );
-    Fault::new(place, "not-semidefinite", message).with_help(
-        "check signs and units; `xy`, `xz`, `yz` are the tensor's entries (minus the products of \
-         inertia), about the centre of mass",
-    )
-}
-
-pub(crate) fn triangle_inequality(place: &Place, moments: [f64; 3]) -> Fault {
-    let [a, b, c] = moments.map(figure);
-    let short = figure(moments[2] - moments[0] - moments[1]);
-    let message = format!(
-        "no body has this tensor: its principal moments are {a}, {b}, {c} kg·m², and {a} + {b} falls short of {c} by {short}"
-    );
-    Fault::new(place, "triangle-inequality", message)
-        .with_help("check the numbers, or write `nonphysical: allow` in the link if they are meant")
-}
-
-pub(crate) fn nonphysical_word(place: &Place, word: &str) -> Fault {
-    Fault::new(
-        place,
-        "nonphysical-word",
-        format!("{} means nothing here", quote(word)),
-    )
-    .with_help("write `nonphysical: allow`, or leave it out")
-}
-
 // Directions
 
 pub(crate) fn snap_out_of_range(place: &Place, text: &str) -> Fault {

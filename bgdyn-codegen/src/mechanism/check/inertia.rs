@@ -1,10 +1,12 @@
-//! Inertia tensors: positive semidefinite, triangle inequality, turned into link axes.
+//! Inertia tensors: as entries, products or a solid; about the centre of mass; positive semidefinite,
+//! triangle inequality, turned into link axes.
 
 use bgdyn_runtime::Dd;
 use bgdyn_runtime::nalgebra::Matrix3;
 
 use super::direction::Directions;
 use super::parameters::Parameters;
+use super::solid;
 use crate::fault::{Faults, Place, wording};
 use crate::math::Mat3;
 use crate::mechanism::{Pose, Tensor, Value};
@@ -37,7 +39,17 @@ pub(super) fn tensor(
         Field::Given(inertia) => inertia,
     };
     let rotation = directions.rotation(&inertia.value.rpy, faults);
-    let entries = entries(link, &inertia.value, parameters, faults)?;
+    let entries = match written(link, &inertia.value, directions, parameters, faults)? {
+        Written::AboutCentre(entries) => entries,
+        Written::AboutOrigin(numbers, shift) => {
+            let about = minus(turned(numbers, rotation?), shift);
+            physical(&inertia.place, &about, allowed, faults);
+            return Some(Tensor {
+                entries: about.map(Value::Fixed),
+                axes: straight,
+            });
+        }
+    };
     let numbers = entries.map(|entry| parameters.default_of(entry));
     physical(&inertia.place, &numbers, allowed, faults);
     let known = entries.iter().all(|e| matches!(e, Value::Fixed(_)));
@@ -55,6 +67,88 @@ pub(super) fn tensor(
             axes: rotation?,
         },
     })
+}
+
+/// A tensor in its own axes.
+enum Written {
+    /// About the centre of mass.
+    AboutCentre([Value; 6]),
+    /// About the link's origin, and what a mass in its place adds there, in link axes.
+    AboutOrigin([Dd; 6], [Dd; 6]),
+}
+
+fn written(
+    link: &Link,
+    inertia: &Inertia,
+    directions: &Directions,
+    parameters: &mut Parameters,
+    faults: &mut Faults,
+) -> Option<Written> {
+    if inertia.solid.is_broken() || solid::conflicts(inertia, faults) {
+        return None;
+    }
+    if let Some(word) = inertia.solid.given() {
+        let tensor = solid::tensor(word, link, inertia, directions, faults)?;
+        return Some(Written::AboutCentre(tensor.map(Value::Fixed)));
+    }
+    let entries = entries(link, inertia, parameters, faults);
+    let about = match &inertia.about {
+        Field::Absent => return entries.map(Written::AboutCentre),
+        Field::Broken => return None,
+        Field::Given(about) => about,
+    };
+    match about.value.as_str() {
+        "com" => entries.map(Written::AboutCentre),
+        "origin" => {
+            let shift = parallel_axis(link, &about.place, faults);
+            let fixed = entries?.map(|entry| match entry {
+                Value::Fixed(x) => Some(x),
+                Value::Parameter(_) => None,
+            });
+            let numbers: Option<Vec<Dd>> = fixed.into_iter().collect();
+            let Some(numbers) = numbers.and_then(|n| <[Dd; 6]>::try_from(n).ok()) else {
+                faults.push(wording::parameter_about_origin(&about.place, "entry"));
+                return None;
+            };
+            Some(Written::AboutOrigin(numbers, shift?))
+        }
+        word => {
+            faults.push(wording::about_word(&about.place, word));
+            None
+        }
+    }
+}
+
+/// m (c·c 1 − c cᵀ) of the link's mass and centre of mass.
+fn parallel_axis(link: &Link, about: &Place, faults: &mut Faults) -> Option<[Dd; 6]> {
+    let mass = link.mass.given().map(|m| &m.value);
+    let com = link.com.given().map(|c| &c.value);
+    let centre = com.into_iter().flatten().map(|x| &x.value);
+    if mass
+        .into_iter()
+        .chain(centre)
+        .any(|x| x.parameter.is_some())
+    {
+        faults.push(wording::parameter_about_origin(
+            about,
+            "mass or centre of mass",
+        ));
+        return None;
+    }
+    if link.mass.is_broken() || link.com.is_broken() {
+        return None;
+    }
+    let mass = mass.map_or(Dd::ZERO, |m| m.value);
+    let c = com.map_or([Dd::ZERO; 3], |c| c.each_ref().map(|x| x.value.value));
+    let square = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    Some(PLACES.map(|(i, j)| {
+        let product = c[i] * c[j];
+        mass * if i == j { square - product } else { -product }
+    }))
+}
+
+fn minus(a: [Dd; 6], b: [Dd; 6]) -> [Dd; 6] {
+    std::array::from_fn(|k| a[k] - b[k])
 }
 
 fn allows_nonphysical(link: &Link, faults: &mut Faults) -> bool {
@@ -79,8 +173,17 @@ fn entries(
 ) -> Option<[Value; 6]> {
     let link = link.name.value().map_or("", String::as_str);
     let mut entries = [Value::Fixed(Dd::ZERO); 6];
-    let mut whole = true;
+    let mut whole = !inertia.products.is_broken();
     let names = ["xx", "yy", "zz", "xy", "xz", "yz"];
+    if let Some(products) = inertia.products.value() {
+        // The tensor's entry is minus the product.
+        for (entry, product) in entries[3..].iter_mut().zip(products) {
+            whole &= !product.is_broken();
+            if let Some(product) = product.value() {
+                *entry = Value::Fixed(-product.value);
+            }
+        }
+    }
     for ((entry, field), name) in entries.iter_mut().zip(&inertia.entries).zip(names) {
         match field {
             Field::Absent => {}

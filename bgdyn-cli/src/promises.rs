@@ -1,0 +1,73 @@
+//! What reader, check and importer promise for any text at all. Property tests and the fuzzer in `fuzz/` call it.
+
+use bgdyn_codegen::fault::Faults;
+use bgdyn_codegen::interface::Interface;
+use bgdyn_codegen::spec::is_scene;
+use bgdyn_codegen::{model, read};
+
+use crate::import;
+
+/// Feeds a text to the reader of mechanisms, to that of scenes and to the importer.
+///
+/// # Panics
+/// Where a promise is broken: a mechanism exists exactly where there is no fault; every fault has a place in the
+/// text and one line; whatever the importer makes can be read; its errors start with a line and a column.
+pub fn any_text(text: &str) {
+    let (mechanism, faults) = read(text, Some("arm"));
+    assert_eq!(mechanism.is_none(), faults.any_fault(), "a mechanism and a fault, or neither");
+    well_said(&faults, text);
+    // What the macro writes in place of a refused spec.
+    let _ = Interface::guess(text, "arm");
+    if is_scene(text) {
+        scene(text);
+    }
+    urdf(text);
+}
+
+/// A mechanism that scenes may stand on, with one element to call for.
+const ARM: &str = "\
+format: 1
+links:
+  - { name: arm, joint: { name: shoulder, type: revolute, axis: y }, mass: 1, com: [1, 0, 0] }
+effects:
+  grease: { type: viscous, joint: shoulder, damping: 0.1 }
+";
+
+fn scene(text: &str) {
+    let read = model::read_scene(text, "arm", |_| Ok(ARM.to_owned()));
+    if let Err(model::Refusal::Spec(faults)) = read {
+        well_said(&faults, text);
+    }
+}
+
+/// Faults are told in single lines, each with a place in the text.
+fn well_said(faults: &Faults, text: &str) {
+    let lines = text.split(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}']).count();
+    for fault in &faults.0 {
+        let line = fault.headline("arm.yaml");
+        assert!(!line.contains(['\n', '\r']), "{line}");
+        let at = fault.place.position.line;
+        assert!((1..=lines + 1).contains(&at), "line {at} of {lines}: {line}");
+    }
+    let rendered = faults.render("arm.yaml", text);
+    assert_eq!(rendered.is_empty(), faults.0.is_empty(), "{rendered}");
+}
+
+fn urdf(text: &str) {
+    match import::import(text) {
+        Ok(made) => {
+            let (_, faults) = read(&made.yaml, None);
+            let unread = ["syntax", "unknown-key", "missing-key", "wrong-type", "name", "repeated-name"];
+            let broken = faults.0.iter().find(|fault| unread.contains(&fault.rule));
+            assert!(broken.is_none(), "{broken:?} in\n{}", made.yaml);
+            let told = made.notes.iter().chain(&made.warnings);
+            assert!(told.into_iter().all(|line| !line.contains('\n')));
+        }
+        Err(error) => {
+            let error = error.to_string();
+            let mut parts = error.splitn(3, ':');
+            let number = |part: Option<&str>| part.and_then(|p| p.parse::<u64>().ok()).is_some_and(|n| n > 0);
+            assert!(number(parts.next()) && number(parts.next()), "{error}");
+        }
+    }
+}

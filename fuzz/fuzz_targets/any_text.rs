@@ -1,0 +1,4 @@
+//! No text makes reader, check or importer panic, or break what they promise.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|text: &str| bgdyn_cli::promises::any_text(text));
