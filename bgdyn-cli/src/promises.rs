@@ -14,7 +14,11 @@ use crate::import;
 /// text and one line; whatever the importer makes can be read; its errors start with a line and a column.
 pub fn any_text(text: &str) {
     let (mechanism, faults) = read(text, Some("arm"));
-    assert_eq!(mechanism.is_none(), faults.any_fault(), "a mechanism and a fault, or neither");
+    assert_eq!(
+        mechanism.is_none(),
+        faults.any_fault(),
+        "a mechanism and a fault, or neither"
+    );
     well_said(&faults, text);
     // What the macro writes in place of a refused spec.
     let _ = Interface::guess(text, "arm");
@@ -42,12 +46,17 @@ fn scene(text: &str) {
 
 /// Faults are told in single lines, each with a place in the text.
 fn well_said(faults: &Faults, text: &str) {
-    let lines = text.split(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}']).count();
+    let lines = text
+        .split(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}'])
+        .count();
     for fault in &faults.0 {
         let line = fault.headline("arm.yaml");
         assert!(!line.contains(['\n', '\r']), "{line}");
-        let at = fault.place.position.line;
-        assert!((1..=lines + 1).contains(&at), "line {at} of {lines}: {line}");
+        let at = fault.position.line;
+        assert!(
+            (1..=lines + 1).contains(&at),
+            "line {at} of {lines}: {line}"
+        );
     }
     let rendered = faults.render("arm.yaml", text);
     assert_eq!(rendered.is_empty(), faults.0.is_empty(), "{rendered}");
@@ -57,7 +66,14 @@ fn urdf(text: &str) {
     match import::import(text) {
         Ok(made) => {
             let (_, faults) = read(&made.yaml, None);
-            let unread = ["syntax", "unknown-key", "missing-key", "wrong-type", "name", "repeated-name"];
+            let unread = [
+                "syntax",
+                "unknown-key",
+                "missing-key",
+                "wrong-type",
+                "name",
+                "repeated-name",
+            ];
             let broken = faults.0.iter().find(|fault| unread.contains(&fault.rule));
             assert!(broken.is_none(), "{broken:?} in\n{}", made.yaml);
             let told = made.notes.iter().chain(&made.warnings);
@@ -66,7 +82,10 @@ fn urdf(text: &str) {
         Err(error) => {
             let error = error.to_string();
             let mut parts = error.splitn(3, ':');
-            let number = |part: Option<&str>| part.and_then(|p| p.parse::<u64>().ok()).is_some_and(|n| n > 0);
+            let number = |part: Option<&str>| {
+                part.and_then(|p| p.parse::<u64>().ok())
+                    .is_some_and(|n| n > 0)
+            };
             assert!(number(parts.next()) && number(parts.next()), "{error}");
         }
     }

@@ -11,10 +11,25 @@ use serde_json::{Map, Value, json};
 pub fn mechanism() -> Value {
     let mut keys = object(
         &[
-            ("format", json!({ "const": 1, "description": "version of the format" })),
-            ("name", described("snake_case identifier, equal to the file's stem", identifier())),
-            ("label", described("the name elsewhere (a URDF's, a drawing's)", text())),
-            ("description", described("text for the docs of the generated module", text())),
+            (
+                "format",
+                json!({ "const": 1, "description": "version of the format" }),
+            ),
+            (
+                "name",
+                described(
+                    "snake_case identifier, equal to the file's stem",
+                    identifier(),
+                ),
+            ),
+            (
+                "label",
+                described("the name elsewhere (a URDF's, a drawing's)", text()),
+            ),
+            (
+                "description",
+                described("text for the docs of the generated module", text()),
+            ),
             (
                 "gravity",
                 described(
@@ -29,8 +44,14 @@ pub fn mechanism() -> Value {
                     quantity(&[Dimension::Angle]),
                 ),
             ),
-            ("links", json!({ "type": "array", "minItems": 1, "items": { "$ref": "#/$defs/link" } })),
-            ("frames", json!({ "type": "array", "items": { "$ref": "#/$defs/frame" } })),
+            (
+                "links",
+                json!({ "type": "array", "minItems": 1, "items": { "$ref": "#/$defs/link" } }),
+            ),
+            (
+                "frames",
+                json!({ "type": "array", "items": { "$ref": "#/$defs/frame" } }),
+            ),
             (
                 "effects",
                 json!({
@@ -61,14 +82,29 @@ fn link() -> Value {
     let mass = value(&[Dimension::Mass]);
     object(
         &[
-            ("name", described("unique among links and frames; `world` is the base", identifier())),
+            (
+                "name",
+                described(
+                    "unique among links and frames; `world` is the base",
+                    identifier(),
+                ),
+            ),
             ("label", described("the name elsewhere", text())),
-            ("parent", described("the link that carries this one; the fixed base without it", identifier())),
+            (
+                "parent",
+                described(
+                    "the link that carries this one; the fixed base without it",
+                    identifier(),
+                ),
+            ),
             ("joint", json!({ "$ref": "#/$defs/joint" })),
             ("mass", described("kg, not negative; 0 without it", mass)),
             (
                 "com",
-                described("centre of mass in link axes, m", triple(value(&[Dimension::Length]))),
+                described(
+                    "centre of mass in link axes, m",
+                    triple(value(&[Dimension::Length])),
+                ),
             ),
             ("inertia", json!({ "$ref": "#/$defs/inertia" })),
             (
@@ -84,10 +120,19 @@ fn joint() -> Value {
     let kinds = ["revolute", "continuous", "prismatic", "fixed"];
     object(
         &[
-            ("name", described("unique among joints; needed unless it is fixed", identifier())),
+            (
+                "name",
+                described(
+                    "unique among joints; needed unless it is fixed",
+                    identifier(),
+                ),
+            ),
             ("label", described("the name elsewhere", text())),
             ("type", json!({ "enum": kinds })),
-            ("axis", described("direction in link axes; z without it", axis())),
+            (
+                "axis",
+                described("direction in link axes; z without it", axis()),
+            ),
             ("origin", json!({ "$ref": "#/$defs/origin" })),
             ("limits", json!({ "$ref": "#/$defs/limits" })),
         ],
@@ -99,8 +144,14 @@ fn origin() -> Value {
     let turns = "roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll)";
     object(
         &[
-            ("xyz", described("displacement, m", triple(quantity(&[Dimension::Length])))),
-            ("rpy", described(turns, triple(quantity(&[Dimension::Angle])))),
+            (
+                "xyz",
+                described("displacement, m", triple(quantity(&[Dimension::Length]))),
+            ),
+            (
+                "rpy",
+                described(turns, triple(quantity(&[Dimension::Angle]))),
+            ),
         ],
         &[],
     )
@@ -114,11 +165,17 @@ fn limits() -> Value {
             ("upper", described("largest coordinate", position())),
             (
                 "velocity",
-                described("largest speed", quantity(&[Dimension::AngularSpeed, Dimension::Speed])),
+                described(
+                    "largest speed",
+                    quantity(&[Dimension::AngularSpeed, Dimension::Speed]),
+                ),
             ),
             (
                 "effort",
-                described("largest effort", quantity(&[Dimension::Torque, Dimension::Force])),
+                described(
+                    "largest effort",
+                    quantity(&[Dimension::Torque, Dimension::Force]),
+                ),
             ),
         ],
         &[],
@@ -126,24 +183,47 @@ fn limits() -> Value {
 }
 
 fn inertia() -> Value {
-    let entry = |key: &str| described(&format!("entry {key} of the tensor"), value(&[Dimension::Inertia]));
+    let entry = |key: &str| {
+        described(
+            &format!("entry {key} of the tensor"),
+            value(&[Dimension::Inertia]),
+        )
+    };
     let entries = ["xx", "yy", "zz", "xy", "xz", "yz"].map(|key| (key, entry(key)));
     let product = quantity(&[Dimension::Inertia]);
     let products = object(&["xy", "xz", "yz"].map(|key| (key, product.clone())), &[]);
     let lengths = LENGTHS.map(|key| (key, quantity(&[Dimension::Length])));
     let others = [
-        ("products", described("∫xy dm and so on, in place of the off-diagonal entries", products)),
-        ("about", json!({ "enum": ["com", "origin"], "description": "the point that the tensor is about" })),
+        (
+            "products",
+            described(
+                "∫xy dm and so on, in place of the off-diagonal entries",
+                products,
+            ),
+        ),
+        (
+            "about",
+            json!({ "enum": ["com", "origin"], "description": "the point that the tensor is about" }),
+        ),
         (
             "rpy",
-            described("axes of the entries, or of the solid, in the link's", triple(quantity(&[Dimension::Angle]))),
+            described(
+                "axes of the entries, or of the solid, in the link's",
+                triple(quantity(&[Dimension::Angle])),
+            ),
         ),
         (
             "solid",
             json!({ "enum": ["box", "cylinder", "sphere", "rod"], "description": "a body of even density" }),
         ),
-        ("size", described("edges of a box", triple(quantity(&[Dimension::Length])))),
-        ("axis", described("axis of a cylinder or rod; z without it", axis())),
+        (
+            "size",
+            described("edges of a box", triple(quantity(&[Dimension::Length]))),
+        ),
+        (
+            "axis",
+            described("axis of a cylinder or rod; z without it", axis()),
+        ),
     ];
     object(&[&entries[..], &others, &lengths].concat(), &[])
 }
@@ -153,7 +233,10 @@ fn frame() -> Value {
         &[
             ("name", identifier()),
             ("label", described("the name elsewhere", text())),
-            ("link", described("the link it is fixed to, or `world`", identifier())),
+            (
+                "link",
+                described("the link it is fixed to, or `world`", identifier()),
+            ),
             ("origin", json!({ "$ref": "#/$defs/origin" })),
         ],
         &["name", "link"],
@@ -192,8 +275,12 @@ fn reads(reads: Reads) -> Value {
     match reads {
         Reads::Number(fit) => value(fit),
         Reads::Word(words) => json!({ "enum": words }),
-        Reads::Coordinate | Reads::Joint | Reads::Place | Reads::Node | Reads::Input => identifier(),
-        Reads::Places => json!({ "type": "array", "items": identifier(), "minItems": 2, "maxItems": 2 }),
+        Reads::Coordinate | Reads::Joint | Reads::Place | Reads::Node | Reads::Input => {
+            identifier()
+        }
+        Reads::Places => {
+            json!({ "type": "array", "items": identifier(), "minItems": 2, "maxItems": 2 })
+        }
         Reads::Vector(fit) => triple(value(fit)),
         Reads::Words(words) => json!({ "type": "array", "items": { "enum": words } }),
         Reads::Group(names, fit) => group(names, fit),
@@ -202,7 +289,9 @@ fn reads(reads: Reads) -> Value {
 
 /// Numbers under the last words of `names`; three may be a list.
 fn group(names: &[&'static str], fit: &[Dimension]) -> Value {
-    let short = names.iter().map(|name| name.split_once('.').map_or(*name, |(_, own)| own));
+    let short = names
+        .iter()
+        .map(|name| name.split_once('.').map_or(*name, |(_, own)| own));
     let keys: Vec<_> = short.map(|name| (name, value(fit))).collect();
     let mapping = object(&keys, &[]);
     match names.len() {
@@ -213,7 +302,10 @@ fn group(names: &[&'static str], fit: &[Dimension]) -> Value {
 
 /// A mapping with these keys and no others.
 fn object(keys: &[(&str, Value)], needed: &[&str]) -> Value {
-    let properties: Map<String, Value> = keys.iter().map(|(key, v)| (key.to_string(), v.clone())).collect();
+    let properties: Map<String, Value> = keys
+        .iter()
+        .map(|(key, v)| (key.to_string(), v.clone()))
+        .collect();
     let mut schema = json!({
         "type": "object",
         "properties": properties,

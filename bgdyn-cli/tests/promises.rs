@@ -10,7 +10,12 @@ use proptest::sample::{Index, select};
 /// Specs, scenes and URDFs of the repository, sound ones and others.
 fn seeds() -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let folders = ["specs", "specs/invalid", "specs/scenes", "bgdyn-cli/tests/urdf"];
+    let folders = [
+        "specs",
+        "specs/invalid",
+        "specs/scenes",
+        "bgdyn-cli/tests/urdf",
+    ];
     let mut files: Vec<_> = (folders.iter())
         .flat_map(|folder| fs::read_dir(root.join(folder)).expect("a folder"))
         .map(|entry| entry.expect("an entry").path())
@@ -18,7 +23,9 @@ fn seeds() -> Vec<String> {
         .collect();
     files.sort();
     assert!(files.len() > 80);
-    let texts = files.into_iter().map(|path| fs::read_to_string(path).expect("a text"));
+    let texts = files
+        .into_iter()
+        .map(|path| fs::read_to_string(path).expect("a text"));
     texts.collect()
 }
 
@@ -29,11 +36,60 @@ fn every_file_of_the_repository() {
 
 /// Words of the formats, and what may do harm to a reader.
 const WORDS: &[&str] = &[
-    "solid: sphere", "solid: box", "radius: 0", "size: [1, 1]", "about: origin", "products: { xy: 1 }", "- a\n",
-    "inertia:", "{ parameter: p, value: 1 }", "parameter: p", "effects:", "type: viscous", "lock: { a: 1 }",
-    "scene: 1\n", "mechanism: a.yaml\n", "&a ", "*a", "<<: *a", "!t ", "---\n", "- ", "[", "]", "{", "}", "\"", "'", "|",
-    "#", "\t", "\r\n", "\u{feff}", "\0", ".nan", "1e999", "-0", "90 deg", "5 mm", "kg", "é", "\u{2028}", "\n", "  ", "<",
-    "/>", "<link name='x'/>", "<mimic joint='x'/>", "<joint", "</robot>", "&#0;", "&lt;", "]]>", "name: a", "parent: a",
+    "solid: sphere",
+    "solid: box",
+    "radius: 0",
+    "size: [1, 1]",
+    "about: origin",
+    "products: { xy: 1 }",
+    "- a\n",
+    "inertia:",
+    "{ parameter: p, value: 1 }",
+    "parameter: p",
+    "effects:",
+    "type: viscous",
+    "lock: { a: 1 }",
+    "scene: 1\n",
+    "mechanism: a.yaml\n",
+    "&a ",
+    "*a",
+    "<<: *a",
+    "!t ",
+    "---\n",
+    "- ",
+    "[",
+    "]",
+    "{",
+    "}",
+    "\"",
+    "'",
+    "|",
+    "#",
+    "\t",
+    "\r\n",
+    "\u{feff}",
+    "\0",
+    ".nan",
+    "1e999",
+    "-0",
+    "90 deg",
+    "5 mm",
+    "kg",
+    "é",
+    "\u{2028}",
+    "\n",
+    "  ",
+    "<",
+    "/>",
+    "<link name='x'/>",
+    "<mimic joint='x'/>",
+    "<joint",
+    "</robot>",
+    "&#0;",
+    "&lt;",
+    "]]>",
+    "name: a",
+    "parent: a",
 ];
 
 proptest! {

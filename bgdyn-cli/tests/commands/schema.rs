@@ -38,12 +38,16 @@ fn files(folder: &str) -> Vec<(String, String)> {
 #[test]
 fn every_spec_fits() {
     let validator = validator();
-    let all = ["specs", "tests/golden/specs", "bgdyn-codegen/tests/outside"].map(files).concat();
+    let all = ["specs", "tests/golden/specs", "bgdyn-codegen/tests/outside"]
+        .map(files)
+        .concat();
     assert!(all.len() > 30);
     for (name, text) in all {
         let instance = yaml(&text);
-        let faults: Vec<String> =
-            validator.iter_errors(&instance).map(|e| format!("{}: {e}", e.instance_path())).collect();
+        let faults: Vec<String> = validator
+            .iter_errors(&instance)
+            .map(|e| format!("{}: {e}", e.instance_path()))
+            .collect();
         assert!(faults.is_empty(), "{name}: {faults:#?}");
     }
 }
@@ -67,9 +71,15 @@ fn what_is_no_spec_does_not_fit() {
     let validator = validator();
     let mut seen = BTreeSet::new();
     for (name, text) in files("specs/invalid") {
-        let stem = name.rsplit('/').next().and_then(|n| n.strip_suffix(".yaml"));
+        let stem = name
+            .rsplit('/')
+            .next()
+            .and_then(|n| n.strip_suffix(".yaml"));
         let faults = bgdyn_codegen::read(&text, stem).1;
-        let Some(rule) = TOLD.iter().find(|rule| faults.0.iter().any(|f| f.rule == **rule)) else {
+        let Some(rule) = TOLD
+            .iter()
+            .find(|rule| faults.0.iter().any(|f| f.rule == **rule))
+        else {
             continue;
         };
         let Ok(instance) = serde_yaml::from_str::<Value>(&text) else {
@@ -116,7 +126,10 @@ fn keys(schema: &Value, path: &str) -> BTreeSet<String> {
         "frames[0]" => "/$defs/frame/properties",
         other => panic!("no such mapping: {other}"),
     };
-    let properties = schema.pointer(pointer).and_then(Value::as_object).expect("properties");
+    let properties = schema
+        .pointer(pointer)
+        .and_then(Value::as_object)
+        .expect("properties");
     properties.keys().cloned().collect()
 }
 
@@ -128,8 +141,13 @@ fn keys_are_those_of_the_reader_and_of_the_page() {
     let mut mappings = 0;
     for fault in faults.0.iter().filter(|f| f.rule == "unknown-key") {
         let help = fault.help.as_deref().expect("the keys that it knows");
-        let known: BTreeSet<String> = help.split('`').skip(1).step_by(2).map(String::from).collect();
-        assert_eq!(keys(&schema, &fault.place.path), known, "{}", fault.place.path);
+        let known: BTreeSet<String> = help
+            .split('`')
+            .skip(1)
+            .step_by(2)
+            .map(String::from)
+            .collect();
+        assert_eq!(keys(&schema, &fault.path), known, "{}", fault.path);
         for key in known {
             assert!(page.contains(&key), "docs/spec.md does not know `{key}`");
         }
@@ -143,16 +161,43 @@ fn keys_are_those_of_the_reader_and_of_the_page() {
 fn quantities_are_those_of_the_reader() {
     let validator = validator();
     let texts = [
-        "3", "3 kg", "3kg", "250 g", "2.5e-3 kg", "-1 g", ".5 kg", "5. kg", "3 m", "3 kgs", "kg", "1e kg", "+2 kg", "0x10", "\"3\"",
+        "3",
+        "3 kg",
+        "3kg",
+        "250 g",
+        "2.5e-3 kg",
+        "-1 g",
+        ".5 kg",
+        "5. kg",
+        "3 m",
+        "3 kgs",
+        "kg",
+        "1e kg",
+        "+2 kg",
+        "0x10",
+        "\"3\"",
     ];
     for text in texts {
         let spec = format!("format: 1\nlinks: [{{ name: a, mass: {text} }}]\n");
         let faults = bgdyn_codegen::read(&spec, Some("a")).1;
         let read = faults.0.iter().all(|fault| fault.rule == "negative-mass");
-        assert_eq!(validator.is_valid(&yaml(&spec)), read, "{text}: {:?}", faults.0);
+        assert_eq!(
+            validator.is_valid(&yaml(&spec)),
+            read,
+            "{text}: {:?}",
+            faults.0
+        );
     }
-    for (text, fits) in [("90 deg", true), ("90 °", true), ("1 m", true), ("1 m/s", false), ("1 kg", false)] {
-        let spec = format!("format: 1\nlinks: [{{ name: a, joint: {{ name: j, type: revolute, limits: {{ upper: {text} }} }} }}]\n");
+    for (text, fits) in [
+        ("90 deg", true),
+        ("90 °", true),
+        ("1 m", true),
+        ("1 m/s", false),
+        ("1 kg", false),
+    ] {
+        let spec = format!(
+            "format: 1\nlinks: [{{ name: a, joint: {{ name: j, type: revolute, limits: {{ upper: {text} }} }} }}]\n"
+        );
         assert_eq!(validator.is_valid(&yaml(&spec)), fits, "{text}");
     }
 }

@@ -1,6 +1,6 @@
 //! What the check finds: names, the tree, joints, masses, directions.
 
-use super::{figure, figures, listed, meant, quote};
+use super::{figure, listed, meant, quote};
 use crate::fault::{Fault, Place};
 use crate::mechanism::name::{is_keyword, to_identifier};
 use crate::spec::Dimension;
