@@ -26,18 +26,24 @@ impl Chart {
         flows.flat_map(|flow| &flow.transformers)
     }
 
-    /// Everything that stands on a junction.
-    pub fn ports(&self) -> Vec<&Port> {
+    /// Whether a modulus varies with the coordinates.
+    pub fn varies(&self) -> bool {
+        self.transformers().any(|t| t.symbol() == "MTF")
+    }
+
+    /// Whether something with this property stands on a junction.
+    pub fn has(&self, property: impl Fn(&Port) -> bool) -> bool {
         let flows = self.links.iter().flat_map(|link| &link.flows);
         let on_links = flows.flat_map(|flow| &flow.ports);
-        let mut waiting: Vec<&Port> = self.velocities.iter().flat_map(|v| &v.ports).collect();
-        waiting.extend(on_links);
-        let mut all = Vec::new();
+        let on_velocities = self.velocities.iter().flat_map(|v| &v.ports);
+        let mut waiting: Vec<&Port> = on_velocities.chain(on_links).collect();
         while let Some(port) = waiting.pop() {
+            if property(port) {
+                return true;
+            }
             waiting.extend(&port.ports);
-            all.push(port);
         }
-        all
+        false
     }
 
     /// How much of the graph is there.
@@ -52,7 +58,9 @@ impl Chart {
         let varying = count(|c| *c == Component::Varying);
         let constant = 3 * there - zero - varying;
         let mut text = format!(
-            "{nv} velocities, {links} links: {there} of {} transformers exist; of their {} components {zero} are zero, {constant} constant, {varying} vary with the coordinates",
+            "{}, {}: {there} of {} transformers are there; of their {} components {zero} are zero, {constant} constant, {varying} vary with the coordinates",
+            counted(nv, "velocity", "velocities"),
+            counted(links, "link", "links"),
             2 * nv * links,
             3 * there
         );
@@ -61,6 +69,11 @@ impl Chart {
         }
         text
     }
+}
+
+/// `1 link`, `2 links`
+fn counted(n: usize, one: &str, several: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { several })
 }
 
 /// The 1-junction of a generalized velocity.
@@ -85,7 +98,7 @@ pub(crate) struct Link {
     pub name: String,
     /// The velocity that its joint adds, as its place among [`Chart::velocities`].
     pub velocity: Option<usize>,
-    /// Its flows that transformers feed.
+    /// Its flows that transformers feed and on which something acts.
     pub flows: Vec<Flow>,
 }
 
@@ -163,7 +176,7 @@ impl fmt::Display for Component {
 /// What stands on a junction, by one bond.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Port {
-    /// `Se`, `I`, `R`, `C`, `GY`, or a junction of its own: `1`, `0`.
+    /// `Se`, `Sf`, `I`, `R`, `C`, `GY`, `TF`, or a junction of its own: `1`, `0`.
     pub symbol: &'static str,
     /// `m₂ = 4.5 kg`
     pub text: String,

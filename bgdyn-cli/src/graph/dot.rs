@@ -91,7 +91,7 @@ fn words(t: &Transformer) -> String {
 /// What stands on a junction, and what stands behind it.
 fn one_port(text: &mut String, port: &Port, junction: &str, own: &str, triple: bool) {
     let words = match port.symbol {
-        "0" | "1" => format!("{}\n{}", port.symbol, port.text),
+        sign @ ("0" | "1") => format!("{sign}\n{}", port.text).trim_end().to_owned(),
         symbol => format!("{symbol}: {}", port.text),
     };
     let more = port.more.iter().map(|more| format!("\n{more}"));

@@ -26,16 +26,18 @@ impl Chart {
         let links = depth_first(&graph.frames);
         let of_link = |i: &LinkId| graph.frames[i.0].coordinate;
         let order: Vec<CoordinateId> = links.iter().filter_map(of_link).collect();
-        let (moving, still) = links
-            .into_iter()
-            .map(|i| link(graph, &order, i))
-            .partition::<Vec<Link>, _>(|link| !link.flows.is_empty());
+        let moved = |i: &LinkId| {
+            let junctions = [graph.translation(*i), graph.rotation(*i)];
+            graph.transformers.iter().any(|t| junctions.contains(&t.to))
+        };
+        let (moving, still): (Vec<_>, Vec<_>) = links.into_iter().partition(moved);
+        let name = |i: LinkId| graph.frames[i.0].name.clone();
         Chart {
             title: title.to_owned(),
             description: description.map(str::to_owned),
             velocities: order.iter().map(|&j| velocity(graph, j)).collect(),
-            links: moving,
-            still: still.into_iter().map(|link| link.name).collect(),
+            links: moving.into_iter().map(|i| link(graph, &order, i)).collect(),
+            still: still.into_iter().map(name).collect(),
             notes: Vec::new(),
         }
     }

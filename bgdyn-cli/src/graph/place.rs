@@ -38,6 +38,8 @@ const ABOVE_HEAD: f64 = 34.0;
 pub(super) const PITCH: f64 = 27.0;
 /// Space between links.
 const GAP: f64 = 10.0;
+/// Between a link's left edge and the first bar in it.
+const INDENT: f64 = 12.0;
 /// Between the columns and the 0-junctions.
 const BEFORE_ZERO: f64 = 16.0;
 /// From a 0-junction to the 1-junction that it feeds, and from there to what stands on it.
@@ -90,6 +92,7 @@ pub(super) fn place(chart: &Chart, top: f64) -> Places {
     for link in &chart.links {
         if let Some(j) = link.velocity {
             columns[j].head = y + ABOVE_HEAD;
+            columns[j].end = columns[j].head;
             y += head_height(&chart.velocities[j]);
         }
         let band = band(link, &columns, y);
@@ -118,7 +121,7 @@ pub(super) fn place(chart: &Chart, top: f64) -> Places {
 
 /// Columns as wide as the widest modulus in them.
 fn columns(chart: &Chart) -> Vec<Column> {
-    let mut x = MARGIN + 12.0;
+    let mut x = MARGIN + INDENT;
     let mut columns = Vec::new();
     for j in 0..chart.velocities.len() {
         let flows = chart.links.iter().flat_map(|link| &link.flows);
@@ -151,19 +154,21 @@ pub(super) fn vector_width(transformer: &Transformer) -> f64 {
 
 fn band(link: &Link, columns: &[Column], top: f64) -> Band {
     let transformers = || link.flows.iter().flat_map(|flow| &flow.transformers);
-    let used = || transformers().map(|t| &columns[t.velocity]);
-    let left = used().map(|c| c.x).fold(f64::MAX, f64::min);
-    let zero = used().map(|c| c.x + c.width).fold(0.0, f64::max) + BEFORE_ZERO;
+    let used = transformers().map(|t| t.velocity).chain(link.velocity);
+    let used: Vec<&Column> = used.map(|j| &columns[j]).collect();
+    let left = used.iter().map(|c| c.x).reduce(f64::min);
+    let left = left.unwrap_or(MARGIN + INDENT);
+    let zero = used.iter().map(|c| c.x + c.width).fold(left, f64::max) + BEFORE_ZERO;
     let rows: Vec<f64> = (0..link.flows.len())
         .map(|row| top + FIRST + ROW * row as f64)
         .collect();
-    let bottom = rows.last().map_or(top, |row| row + DROP + LAST);
+    let bottom = rows.last().map_or(top + FIRST, |row| row + DROP + LAST);
     let widths = link.flows.iter().map(flow_width);
     let right = zero + widths.fold(text_width(&link.name, 13) + 24.0, f64::max);
     Band {
         top,
         bottom,
-        left: left - 12.0,
+        left: left - INDENT,
         zero,
         right,
         rows,

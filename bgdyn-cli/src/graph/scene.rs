@@ -1,8 +1,8 @@
 //! What a scene's effects add to the drawing: friction, springs, stops, rotors, gears, motors and
 //! elastic drives on the joints.
 //!
-//! What acts elsewhere than on one joint (hydraulics, wrenches, springs between places, references
-//! that move) is not drawn but named.
+//! What acts elsewhere than on one joint (hydraulics, wrenches, springs between places) is not drawn
+//! but named.
 
 use bgdyn_codegen::effect::{Checked, Element};
 use bgdyn_codegen::system::System;
@@ -22,7 +22,7 @@ impl Chart {
             let drive = Port::drive(format!("P{}, {}", subscript(number), velocity.effort));
             velocity.ports = ports(system, &velocity.name, drive);
         }
-        if !graph.velocity_products {
+        if !graph.velocity_products && chart.varies() {
             let note = "The rates of the transformers are left out: no velocity products.";
             chart.notes.push(note.into());
         }
@@ -40,8 +40,8 @@ impl Chart {
 
 /// Whether an element acts on one coordinate, and on nothing else.
 fn is_drawn(element: &Element) -> bool {
-    let one_port = ["R", "C", "I", "GY", "TF"].contains(&element.effect.symbol());
-    one_port && element.name("joint").is_some() && element.get("reference").is_none()
+    let known = ["R", "C", "I", "GY", "TF"].contains(&element.effect.symbol());
+    known && element.name("joint").is_some()
 }
 
 /// What stands on the junction of a coordinate, its drive first where an effort from outside acts.
@@ -92,12 +92,34 @@ fn give(port: &mut Port) {
 fn port(element: &Element, system: &System) -> Option<Port> {
     let named = format!("{} ({})", element.name, element.effect.keyword());
     match element.effect.symbol() {
-        "R" => Some(Port::taking("R", named)),
         "C" if element.effect.adds_coordinate() => Some(elastic(element, system)),
-        "C" => Some(Port::taking("C", named)),
+        symbol @ ("R" | "C") => {
+            let port = Port::taking(symbol, named);
+            Some(match element.name("reference") {
+                Some(reference) => relative(port, reference),
+                None => port,
+            })
+        }
         "I" => Some(rotor(element)),
         "GY" => Some(motor(element)),
         _ => None,
+    }
+}
+
+/// What acts between a joint and a reference that moves by itself: of the joint's flow the
+/// reference takes its own, the rest is the element's.
+fn relative(port: Port, reference: &str) -> Port {
+    let difference = Port {
+        ports: vec![port],
+        ..Port::junction("1", format!("q̇ − {reference}"), false)
+    };
+    let moving = Port {
+        symbol: "Sf",
+        ..Port::store(format!("rate of {reference}"))
+    };
+    Port {
+        ports: vec![difference, moving],
+        ..Port::junction("0", String::new(), false)
     }
 }
 
@@ -115,15 +137,14 @@ fn rotor(element: &Element) -> Port {
     }
 }
 
-/// L di/dt + R i + k N q̇ = u, τ = k N i.
+/// L di/dt + R i + k N q̇ = u, τ = k N i; N is 1 without a ratio.
 fn motor(element: &Element) -> Port {
-    let gyrator = match value(element, "ratio") {
-        Some(ratio) => format!(
-            "k N, {}, N = {ratio}",
-            number(element, "k", "torque_constant")
-        ),
-        None => number(element, "k", "torque_constant"),
-    };
+    let of_gear = [("N", "ratio"), ("η", "efficiency")];
+    let of_gear = of_gear.iter().filter(|(_, key)| element.get(key).is_some());
+    let mut gyrator = number(element, "k", "torque_constant");
+    for (symbol, key) in of_gear {
+        gyrator += &format!(", {}", number(element, symbol, key));
+    }
     let resistor = Port::taking("R", number(element, "R", "resistance"));
     let mut winding = vec![Port::source(format!("u, {}", element.name))];
     // Without inductance the current follows from the voltage: the resistor gives the flow.
@@ -142,7 +163,7 @@ fn motor(element: &Element) -> Port {
     Port {
         symbol: "GY",
         ports: vec![current],
-        ..Port::source(gyrator)
+        ..Port::source(format!("k N, {gyrator}"))
     }
 }
 

@@ -2,19 +2,33 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::PathBuf;
 
 use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::mechanism::{CoordinateId, Mechanism};
+use bgdyn_codegen::model::{beside, read_scene, stem};
 
 use crate::{bgdyn, root, scratch};
 
+/// The files of a folder.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let entries = root().join(folder).read_dir().expect("the folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let mut files: Vec<_> = paths.filter(|path| path.is_file()).collect();
+    files.sort();
+    files
+}
+
+/// Every mechanism and every scene of `specs/`.
+fn all() -> Vec<String> {
+    let all = [files("specs"), files("specs/scenes")].concat();
+    all.iter().map(|path| path.display().to_string()).collect()
+}
+
 /// Every spec of `specs/`, with its mechanism.
 fn specs() -> Vec<(String, Mechanism)> {
-    let files = root().join("specs").read_dir().expect("the folder");
-    let files = files.map(|entry| entry.expect("an entry").path());
-    let mut specs: Vec<_> = files.filter(|path| path.is_file()).collect();
-    specs.sort();
-    let read = |path: std::path::PathBuf| {
+    let specs = files("specs");
+    let read = |path: PathBuf| {
         let text = fs::read_to_string(&path).expect("the spec");
         let stem = path.file_stem().expect("a name").to_string_lossy();
         let (mechanism, _) = bgdyn_codegen::read(&text, Some(&stem));
@@ -112,7 +126,7 @@ fn parsed(dot: &str) -> (BTreeMap<&str, &str>, Vec<Bond<'_>>) {
 /// What Graphviz reads: brackets in pairs, names that are names, bonds between nodes that exist.
 #[test]
 fn dot_is_sound() {
-    for (file, _) in specs() {
+    for file in all() {
         let dot = dot(&file);
         for (open, close) in [("{", "}"), ("[", "]")] {
             assert_eq!(
@@ -122,7 +136,7 @@ fn dot_is_sound() {
             );
         }
         let quotes = dot.replace("\\\"", "").matches('"').count();
-        assert!(quotes % 2 == 0, "{file}");
+        assert!(quotes.is_multiple_of(2), "{file}");
         let (nodes, bonds) = parsed(&dot);
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
         assert!(nodes.keys().all(|name| name.chars().all(plain)), "{file}");
@@ -131,11 +145,12 @@ fn dot_is_sound() {
     }
 }
 
-/// The rules of causality: one effort given to a 0-junction, one flow to a link's 1-junction, one
-/// stroke at a transformer. A velocity's 1-junction waits for its drive.
+/// The rules of causality: one effort given to a 0-junction, one flow to a 1-junction, one stroke
+/// at a transformer, none or two at a gyrator. A velocity's 1-junction may wait for what is asked:
+/// so may a drive behind a gear.
 #[test]
 fn causal_strokes_obey_the_junctions() {
-    for (file, _) in specs() {
+    for file in all() {
         let dot = dot(&file);
         let (nodes, bonds) = parsed(&dot);
         for (name, label) in nodes {
@@ -145,15 +160,46 @@ fn causal_strokes_obey_the_junctions() {
             };
             let own: Vec<bool> = bonds.iter().filter_map(at).collect();
             let strokes = own.iter().filter(|stroke| **stroke).count();
-            let allowed = match label.split("\\n").collect::<Vec<_>>()[..] {
-                ["0"] => strokes == 1 && own.len() > 2,
-                ["1", _] | [_, "1", _] => strokes + 1 == own.len(),
-                ["MTF" | "TF", ..] => strokes == 1 && own.len() == 2,
-                _ => strokes == 0 && own.len() == 1,
+            let words: Vec<&str> = label.split(&[':', '\\'][..]).collect();
+            let allowed = match (words[0], own.len()) {
+                ("0", 3..) => strokes == 1,
+                ("1", bonds) => strokes + 1 == bonds,
+                (velocity, bonds) if velocity.starts_with('q') => bonds - strokes <= 1,
+                ("MTF" | "TF", 2) if label.contains("\\n(") => strokes == 1,
+                ("TF", 2) => strokes <= 1,
+                ("GY", 2) => strokes != 1,
+                ("I" | "R", 1) => true,
+                ("Sf", 1) => strokes == 1,
+                ("Se" | "C", 1) => strokes == 0,
+                _ => false,
             };
             assert!(allowed, "{file}: {name}, {label}: {own:?}");
         }
     }
+}
+
+/// What a scene calls for stands in its drawing, or is named as not drawn.
+#[test]
+fn every_effect_of_a_scene_is_named() {
+    for path in files("specs/scenes") {
+        let text = fs::read_to_string(&path).expect("the scene");
+        let load = |name: &str| fs::read_to_string(beside(&path, name)).map_err(|e| e.to_string());
+        let (system, _) = read_scene(&text, &stem(&path), load).expect("a good scene");
+        let file = path.display().to_string();
+        let (svg, dot) = (svg(&file), dot(&file));
+        let elements = system.scene.elements.iter();
+        for element in elements.filter(|e| !e.effect.built_in()) {
+            let name = &element.name;
+            assert!(svg.contains(name) && dot.contains(name), "{file}: {name}");
+        }
+    }
+    let crane = svg("specs/scenes/crane.scene.yaml");
+    assert!(crane.contains("Not drawn: ") && crane.contains("slew_friction (viscous)"));
+}
+
+#[test]
+fn an_elastic_drive_as_dot() {
+    insta::assert_snapshot!(dot("specs/scenes/series_elastic_arm.scene.yaml"));
 }
 
 #[test]

@@ -39,61 +39,73 @@ const TF: &str = "transformer whose modulus is the same at all times";
 const PARAMETER: &str = "the same at all times, but a run-time parameter";
 const STORE: &str = "inertial store: mass m, kg; inertia J, kg·m², about the centre of mass in the link's axes. Derivative causality: every link's flow follows from the q̇, so the stores meet in the mass matrix";
 const INTEGRAL: &str = ". Where its stroke is at the store, its own state gives the flow.";
-const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N. Moments M on links are zero unless a scene calls for them.";
+const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N; u the voltage of a motor, V";
 
+const FLOW: &str = "source of flow: a reference that moves by itself";
+const GEAR: &str = "on a joint's drive: a gear, at the joint's scale, with its efficiency η";
 const RESISTOR: &str = "resistor: friction, a damper, a winding; takes power and stores none";
 const COMPLIANCE: &str = "compliance: a spring, a stop, a soft drive; stores by displacement";
-const GYRATOR: &str = "gyrator: torque = k N · current, voltage = k N · velocity";
+const GYRATOR: &str =
+    "gyrator: effort on the joint = k N · current, induced voltage = k N · velocity";
 
-/// The entries for a drawing of this width.
+/// The entries for a drawing, in lines of this width.
 pub(super) fn lines(chart: &Chart, width: f64) -> Vec<Entry> {
-    let transformers = || chart.transformers();
-    let parameter = |c: &Component| *c == Component::Parameter;
-    let all = chart.ports();
-    let free = all.iter().any(|port| port.on_junction.is_none());
-    let integral = all
-        .iter()
-        .any(|p| p.symbol == "I" && p.on_junction == Some(false));
-    let bond = [BOND, if free { DRIVES } else { "." }].concat();
-    let store = [STORE, if integral { INTEGRAL } else { "." }].concat();
-    let mut entries = vec![
-        (Sign::None, EQUATION),
-        (Sign::One, ONE),
-        (Sign::Zero, ZERO),
-        (Sign::Bond, bond.as_str()),
-        (Sign::Triple, TRIPLE),
-    ];
-    if transformers().any(|t| t.symbol() == "MTF") {
-        entries.push((Sign::Word("MTF"), MTF));
-    }
-    if transformers().any(|t| t.symbol() == "TF") {
-        entries.push((Sign::Word("TF"), TF));
-    }
-    if transformers().any(|t| t.modulus.iter().any(parameter)) {
-        entries.push((Sign::Word("p"), PARAMETER));
-    }
-    entries.extend([
-        (Sign::Word("I"), store.as_str()),
-        (Sign::Word("Se"), SOURCE),
-    ]);
-    for (symbol, words) in [("R", RESISTOR), ("C", COMPLIANCE), ("GY", GYRATOR)] {
-        if all.iter().any(|port| port.symbol == symbol) {
-            entries.push((Sign::Word(symbol), words));
-        }
-    }
-    let entry = |(sign, words): (Sign, &str)| {
-        let room = width
-            - if matches!(sign, Sign::None) {
-                0.0
-            } else {
-                WORDS
-            };
+    let entry = |(sign, words): (Sign, String)| {
+        let room = match sign {
+            Sign::None => width,
+            _ => width - WORDS,
+        };
         Entry {
             sign,
-            lines: wrapped(words, SIZE, room),
+            lines: wrapped(&words, SIZE, room),
         }
     };
-    entries.into_iter().map(entry).collect()
+    let all = [junctions_and_bonds(chart), elements(chart)].concat();
+    all.into_iter().map(entry).collect()
+}
+
+/// What the drawing has of junctions and bonds.
+fn junctions_and_bonds(chart: &Chart) -> Vec<(Sign, String)> {
+    let mut entries = vec![(Sign::None, EQUATION.into()), (Sign::One, ONE.into())];
+    let mut flows = chart.links.iter().flat_map(|link| &link.flows);
+    if flows.any(|flow| flow.sums()) || chart.has(|port| port.symbol == "0") {
+        entries.push((Sign::Zero, ZERO.into()));
+    }
+    let asked = chart.has(|port| port.on_junction.is_none());
+    let drives = if asked { DRIVES } else { "." };
+    entries.push((Sign::Bond, [BOND, drives].concat()));
+    entries.push((Sign::Triple, TRIPLE.into()));
+    entries
+}
+
+/// What it has of transformers, stores and the rest.
+fn elements(chart: &Chart) -> Vec<(Sign, String)> {
+    let of_symbol = |symbol| chart.transformers().any(|t| t.symbol() == symbol);
+    let mut components = chart.transformers().flat_map(|t| &t.modulus);
+    let integral = chart.has(|p| p.symbol == "I" && p.on_junction == Some(false));
+    let own = if integral { INTEGRAL } else { "." };
+    let store = [STORE, own].concat();
+    let stands = |symbol| chart.has(|port| port.symbol == symbol);
+    let entries = [
+        ("MTF", MTF, of_symbol("MTF")),
+        ("TF", TF, of_symbol("TF")),
+        (
+            "p",
+            PARAMETER,
+            components.any(|c| *c == Component::Parameter),
+        ),
+        ("I", store.as_str(), stands("I")),
+        ("Se", SOURCE, stands("Se")),
+        ("Sf", FLOW, stands("Sf")),
+        ("TF", GEAR, stands("TF")),
+        ("R", RESISTOR, stands("R")),
+        ("C", COMPLIANCE, stands("C")),
+        ("GY", GYRATOR, stands("GY")),
+    ];
+    let there = entries.into_iter().filter(|(_, _, there)| *there);
+    there
+        .map(|(symbol, words, _)| (Sign::Word(symbol), words.to_owned()))
+        .collect()
 }
 
 /// How high the entries are, with the margin below.

@@ -20,6 +20,8 @@ const SUM: &str = "#8a5a12";
 const SUM_BAR: &str = "#ead3a8";
 /// Colour behind a link.
 const BAND: &str = "#f5f6f7";
+/// Said of a link without flows.
+const NOTHING: &str = "moves, but has no store and no source";
 /// No drawing is narrower than this.
 const NARROWEST: f64 = 860.0;
 /// No lines of the legend are wider.
@@ -64,6 +66,13 @@ impl Chart {
                 Anchor::Start,
                 &link.name,
             );
+            if link.flows.is_empty() {
+                let at = (
+                    band.zero + text_width(&link.name, 13) + 12.0,
+                    band.top + 16.0,
+                );
+                d.text(at, 11, FAINT, Anchor::Start, NOTHING);
+            }
             for (flow, &row) in link.flows.iter().zip(&band.rows) {
                 for transformer in &flow.transformers {
                     let column = &places.columns[transformer.velocity];
