@@ -39,14 +39,13 @@ const TF: &str = "transformer whose modulus is the same at all times";
 const PARAMETER: &str = "the same at all times, but a run-time parameter";
 const STORE: &str = "inertial store: mass m, kg; inertia J, kg·m², about the centre of mass in the link's axes. Derivative causality: every link's flow follows from the q̇, so the stores meet in the mass matrix";
 const INTEGRAL: &str = ". Where its stroke is at the store, its own state gives the flow.";
-const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N; u the voltage of a motor, V";
+const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N";
 
 const FLOW: &str = "source of flow: a reference that moves by itself";
 const GEAR: &str = "on a joint's drive: a gear, at the joint's scale, with its efficiency η";
 const RESISTOR: &str = "resistor: friction, a damper, a winding; takes power and stores none";
 const COMPLIANCE: &str = "compliance: a spring, a stop, a soft drive; stores by displacement";
-const GYRATOR: &str =
-    "gyrator: effort on the joint = k N · current, induced voltage = k N · velocity";
+const GYRATOR: &str = "gyrator, a DC motor: effort on the joint = k N · current, induced voltage = k N · velocity; u is the voltage fed to it, V";
 
 /// The entries for a drawing, in lines of this width.
 pub(super) fn lines(chart: &Chart, width: f64) -> Vec<Entry> {

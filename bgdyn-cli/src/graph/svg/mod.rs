@@ -211,7 +211,9 @@ fn ports(d: &mut Drawing, all: &[Port], (x, mut y): Point) {
         if port.is_junction() {
             let (at, colour) = ((behind.0 + 10.0, y + 17.0), colours(port.symbol).0);
             junction(d, behind, port.symbol, colour);
-            d.text(at, 11, colour, Anchor::Start, &port.text);
+            if !port.text.is_empty() {
+                d.text(at, 11, colour, Anchor::Start, &port.text);
+            }
         }
         ports(d, &port.ports, behind);
         y += PITCH * port.lines() as f64;
