@@ -36,7 +36,7 @@ mod pareto;
 mod row;
 mod study;
 mod subject;
-mod svg;
+pub mod svg;
 mod text;
 
 pub use bgdyn_runtime::Dd;

@@ -1,44 +1,53 @@
-//! Drawings as SVG text: the few shapes that figures are made of.
+//! Drawings as SVG text: the few shapes that figures are made of. Colours are written as CSS has
+//! them (`#282828`); dashes as `stroke-dasharray` has them, empty for a line without gaps.
 
 use std::fmt::Write;
 
 use crate::text::escaped;
 
 /// Colour of axes and words.
-pub(crate) const INK: &str = "#282828";
+pub const INK: &str = "#282828";
 /// Colour of what stands back.
-pub(crate) const FAINT: &str = "#777777";
+pub const FAINT: &str = "#777777";
 /// Colour of failures.
-pub(crate) const ALARM: &str = "#c2410c";
+pub const ALARM: &str = "#c2410c";
 /// Colour of grid lines.
-pub(crate) const GRID: &str = "#e3e3e3";
+pub const GRID: &str = "#e3e3e3";
 
 /// Where a text stands from its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Anchor {
+pub enum Anchor {
+    /// It begins there.
     Start,
+    /// It is centred there.
     Middle,
+    /// It ends there.
     End,
 }
 
 /// The shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Marker {
+pub enum Marker {
+    /// A disc.
     Circle,
+    /// A filled square.
     Square,
+    /// A filled triangle that points up.
     Triangle,
+    /// Two strokes.
     Cross,
 }
 
 /// A drawing under way. Units are pixels, y points down.
 #[derive(Debug)]
-pub(crate) struct Drawing {
+pub struct Drawing {
     width: f64,
     height: f64,
     body: String,
 }
 
 impl Drawing {
+    /// An empty drawing of this size.
     pub fn new(width: f64, height: f64) -> Self {
         Drawing {
             width,
@@ -47,6 +56,12 @@ impl Drawing {
         }
     }
 
+    /// Its width.
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// A straight line, one pixel wide.
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, dashes: &str) {
         let dashes = match dashes {
             "" => String::new(),
@@ -60,7 +75,17 @@ impl Drawing {
         .expect("text");
     }
 
+    /// A line through points.
     pub fn curve(&mut self, points: &[(f64, f64)], colour: &str, dashes: &str) {
+        self.polyline(points, colour, 1.8, dashes);
+    }
+
+    /// A line through points, so many pixels wide.
+    pub fn stroke(&mut self, points: &[(f64, f64)], colour: &str, width: f64) {
+        self.polyline(points, colour, width, "");
+    }
+
+    fn polyline(&mut self, points: &[(f64, f64)], colour: &str, width: f64, dashes: &str) {
         let path: Vec<String> = points
             .iter()
             .map(|(x, y)| format!("{x:.1},{y:.1}"))
@@ -71,12 +96,13 @@ impl Drawing {
         };
         writeln!(
             self.body,
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"{dashes}/>",
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{dashes}/>",
             path.join(" ")
         )
         .expect("text");
     }
 
+    /// A filled rectangle from its upper left corner.
     pub fn rectangle(&mut self, (x, y): (f64, f64), (w, h): (f64, f64), colour: &str) {
         writeln!(
             self.body,
@@ -85,6 +111,7 @@ impl Drawing {
         .expect("text");
     }
 
+    /// A point.
     pub fn marker(&mut self, (x, y): (f64, f64), marker: Marker, colour: &str) {
         let r = 4.0;
         let path = |points: &[(f64, f64)]| {
@@ -115,13 +142,22 @@ impl Drawing {
         writeln!(self.body, "{shape}").expect("text");
     }
 
-    pub fn text(
+    /// A line of text; the point is on its baseline.
+    pub fn text(&mut self, at: (f64, f64), size: u32, colour: &str, anchor: Anchor, text: &str) {
+        self.words(at, size, "", (colour, anchor, text));
+    }
+
+    /// The same in bold.
+    pub fn bold(&mut self, at: (f64, f64), size: u32, colour: &str, anchor: Anchor, text: &str) {
+        self.words(at, size, " font-weight=\"bold\"", (colour, anchor, text));
+    }
+
+    fn words(
         &mut self,
         (x, y): (f64, f64),
         size: u32,
-        colour: &str,
-        anchor: Anchor,
-        text: &str,
+        weight: &str,
+        (colour, anchor, text): (&str, Anchor, &str),
     ) {
         let anchor = match anchor {
             Anchor::Start => "start",
@@ -131,7 +167,7 @@ impl Drawing {
         let text = escaped(text);
         writeln!(
             self.body,
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" fill=\"{colour}\" text-anchor=\"{anchor}\">{text}</text>"
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\"{weight} fill=\"{colour}\" text-anchor=\"{anchor}\">{text}</text>"
         )
         .expect("text");
     }
@@ -144,6 +180,16 @@ impl Drawing {
             "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" font-size=\"{size}\" fill=\"{INK}\" text-anchor=\"middle\">{text}</text>"
         )
         .expect("text");
+    }
+
+    /// Begins a group of shapes; viewers show the title where the pointer rests on one of them.
+    pub fn group(&mut self, title: &str) {
+        writeln!(self.body, "<g><title>{}</title>", escaped(title)).expect("text");
+    }
+
+    /// Ends the group.
+    pub fn end_group(&mut self) {
+        self.body.push_str("</g>\n");
     }
 
     /// The drawing as a file's text.

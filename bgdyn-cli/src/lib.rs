@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod commands;
+mod graph;
 pub mod import;
 mod output;
 pub mod promises;
@@ -38,6 +39,7 @@ enum Command {
     Ops(commands::ops::Ops),
     Eval(commands::eval::Eval),
     Generate(commands::generate::Generate),
+    Graph(commands::graph::Graph),
     Simulate(commands::simulate::Simulate),
     Accuracy(commands::accuracy::Accuracy),
     Import(import::ImportArgs),
@@ -51,6 +53,7 @@ pub fn run() -> ExitCode {
         Command::Ops(command) => command.run(),
         Command::Eval(command) => command.run(),
         Command::Generate(command) => command.run(),
+        Command::Graph(command) => command.run(),
         Command::Simulate(command) => command.run(),
         Command::Accuracy(command) => command.run(),
         Command::Import(arguments) => import::run(arguments),

@@ -4,6 +4,7 @@ pub(crate) mod accuracy;
 pub(crate) mod check;
 pub(crate) mod eval;
 pub(crate) mod generate;
+pub(crate) mod graph;
 pub(crate) mod ops;
 mod per_effect;
 pub(crate) mod schema;

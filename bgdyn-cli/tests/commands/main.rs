@@ -6,6 +6,7 @@ mod eval;
 mod eval_scenes;
 mod generate;
 mod golden_specs;
+mod graph;
 mod ops;
 mod schema;
 mod simulate;

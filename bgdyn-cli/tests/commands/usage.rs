@@ -7,7 +7,7 @@ use crate::{bgdyn, root};
 
 const SCARA: &str = "tests/golden/specs/scara4.yaml";
 const VALUES: &str = "tests/golden/values/scara4.json";
-const COMMANDS: [&str; 5] = ["check", "ops", "eval", "generate", "import"];
+const COMMANDS: [&str; 6] = ["check", "ops", "eval", "generate", "graph", "import"];
 
 #[test]
 fn bad_usage_exits_with_two() {
@@ -17,6 +17,7 @@ fn bad_usage_exits_with_two() {
         &["check"],
         &["check", "--fast", SCARA],
         &["check", SCARA, SCARA],
+        &["graph", SCARA, "--format", "png"],
         &["ops", SCARA, "--formulation"],
         &["ops", SCARA, "--formulation", "fastest"],
         &["generate", SCARA, "--formulation", "fastest"],
@@ -52,6 +53,7 @@ fn bad_input_exits_with_one() {
         &["check", "nowhere.yaml"] as &[&str],
         &["ops", "nowhere.yaml"],
         &["generate", "nowhere.yaml"],
+        &["graph", "nowhere.yaml"],
         &["import", "nowhere.urdf"],
         &["import", SCARA],
         &["eval", "nowhere.yaml", "bias", "--states", VALUES],

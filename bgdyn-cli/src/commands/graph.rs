@@ -1,0 +1,70 @@
+//! `bgdyn graph`: the bond graph as a drawing.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+
+use crate::graph::Chart;
+use crate::output::print;
+use crate::spec_file::SpecFile;
+use crate::usage::Usage;
+
+/// Draw the bond graph
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  bgdyn graph specs/scara.yaml -o scara.svg\n  bgdyn graph specs/scara.yaml --format dot | dot -Tpdf > scara.pdf\n\ndocs/graph.md says how to read it."
+)]
+pub(crate) struct Graph {
+    /// The mechanism or the scene
+    file: PathBuf,
+    /// Where to write it; stdout by default
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// SVG, or the language of Graphviz; by default what the output's name ends with, else SVG
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Svg,
+    Dot,
+}
+
+impl Graph {
+    pub(crate) fn run(self) -> Result<()> {
+        let format = self.format()?;
+        let spec = SpecFile::open(&self.file)?;
+        let chart = match spec.is_scene() {
+            true => Chart::of_scene(&spec.scene()?),
+            false => Chart::new(&spec.mechanism()?),
+        };
+        let text = match format {
+            Format::Svg => chart.svg(),
+            Format::Dot => chart.dot(),
+        };
+        match &self.output {
+            None => print(&text),
+            Some(path) => std::fs::write(path, text)
+                .with_context(|| format!("{} cannot be written", path.display())),
+        }
+    }
+
+    /// The format asked for, or that of the output's name.
+    fn format(&self) -> Result<Format> {
+        let ending = self.output.as_deref().and_then(Path::extension);
+        let ending = ending.map(|e| e.to_string_lossy().to_lowercase());
+        match (self.format, ending.as_deref()) {
+            (Some(format), _) => Ok(format),
+            (None, None | Some("svg")) => Ok(Format::Svg),
+            (None, Some("dot" | "gv")) => Ok(Format::Dot),
+            (None, Some(other)) => {
+                let message = format!(
+                    "`.{other}` is no format of drawings: end the name with .svg or .dot, or say --format svg or --format dot"
+                );
+                Err(Usage(message).into())
+            }
+        }
+    }
+}

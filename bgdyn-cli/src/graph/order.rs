@@ -1,0 +1,203 @@
+//! From the bond graph to what is drawn of it, in the order of the tree.
+
+use bgdyn_codegen::bond_graph::{
+    self, BondGraph, Effort, Inertia, JunctionId, LinkFrame, Modulus, Source, Store,
+};
+use bgdyn_codegen::math::Vec3;
+use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose, Value};
+use bgdyn_runtime::Dd;
+
+use super::chart::{Chart, Component, Flow, Link, Port, Transformer, Velocity};
+use super::notation::{coordinates, number, subscript, superscript};
+
+impl Chart {
+    /// The drawing of a mechanism's bond graph.
+    pub(crate) fn new(mechanism: &Mechanism) -> Self {
+        let title = mechanism.label().unwrap_or(mechanism.name());
+        Chart::of_graph(
+            &bond_graph::build(mechanism),
+            title,
+            mechanism.description(),
+        )
+    }
+
+    /// The drawing of a bond graph. A flow on which nothing acts is left out.
+    pub(super) fn of_graph(graph: &BondGraph, title: &str, description: Option<&str>) -> Self {
+        let links = depth_first(&graph.frames);
+        let of_link = |i: &LinkId| graph.frames[i.0].coordinate;
+        let order: Vec<CoordinateId> = links.iter().filter_map(of_link).collect();
+        let moved = |i: &LinkId| {
+            let junctions = [graph.translation(*i), graph.rotation(*i)];
+            graph.transformers.iter().any(|t| junctions.contains(&t.to))
+        };
+        let (moving, still): (Vec<_>, Vec<_>) = links.into_iter().partition(moved);
+        let name = |i: LinkId| graph.frames[i.0].name.clone();
+        Chart {
+            title: title.to_owned(),
+            description: description.map(str::to_owned),
+            velocities: order.iter().map(|&j| velocity(graph, j)).collect(),
+            links: moving.into_iter().map(|i| link(graph, &order, i)).collect(),
+            still: still.into_iter().map(name).collect(),
+            notes: Vec::new(),
+        }
+    }
+}
+
+/// The links, each before all that it carries and those before the next one.
+fn depth_first(frames: &[LinkFrame]) -> Vec<LinkId> {
+    let carried = |by: Option<LinkId>| {
+        let ids = (0..frames.len()).rev().map(LinkId);
+        ids.filter(move |i| frames[i.0].parent == by)
+    };
+    let mut waiting: Vec<LinkId> = carried(None).collect();
+    let mut order = Vec::with_capacity(frames.len());
+    while let Some(i) = waiting.pop() {
+        order.push(i);
+        waiting.extend(carried(Some(i)));
+    }
+    order
+}
+
+fn velocity(graph: &BondGraph, j: CoordinateId) -> Velocity {
+    let coordinate = &graph.coordinates[j.0];
+    let (n, turns) = (subscript(j.0 + 1), coordinate.motion == Motion::Rotation);
+    let (unit, effort) = if turns {
+        ("rad/s", "N·m")
+    } else {
+        ("m/s", "N")
+    };
+    Velocity {
+        symbol: format!("q̇{n}"),
+        name: coordinate.name.clone(),
+        unit,
+        effort,
+        ports: vec![Port::drive(format!("P{n}, {effort}"))],
+    }
+}
+
+fn link(graph: &BondGraph, order: &[CoordinateId], i: LinkId) -> Link {
+    let frame = &graph.frames[i.0];
+    let flows = [('ṙ', graph.translation(i)), ('ω', graph.rotation(i))];
+    let flows = flows.map(|(letter, junction)| Flow {
+        symbol: format!("{letter}{}", subscript(i.0 + 1)),
+        transformers: transformers(graph, order, i, junction),
+        ports: ports(graph, i, junction),
+    });
+    let acts = |f: &Flow| !f.transformers.is_empty() && !f.ports.is_empty();
+    let flows = flows.into_iter().filter(acts);
+    Link {
+        name: frame.name.clone(),
+        velocity: frame
+            .coordinate
+            .and_then(|j| order.iter().position(|&k| k == j)),
+        flows: flows.collect(),
+    }
+}
+
+/// The transformers into a link's flow, in the order of the velocities.
+fn transformers(
+    graph: &BondGraph,
+    order: &[CoordinateId],
+    i: LinkId,
+    junction: JunctionId,
+) -> Vec<Transformer> {
+    let mut found = Vec::new();
+    for (place, &j) in order.iter().enumerate() {
+        let own = |t: &&bond_graph::Transformer| t.from == graph.velocity(j);
+        for t in graph.into(junction).filter(own) {
+            let (n, m) = (subscript(j.0 + 1), i.0 + 1);
+            let name = match junction == graph.translation(i) {
+                true => format!("∂r{}/∂q{n}", subscript(m)),
+                false => format!("ρ{n}{}", superscript(m)),
+            };
+            let all = (0..order.len()).filter(|&k| t.modulus.0.iter().any(|m| varies(m, k)));
+            let numbers: Vec<usize> = all.map(|k| k + 1).collect();
+            found.push(Transformer {
+                velocity: place,
+                name,
+                modulus: t.modulus.0.map(|m| component(m, order.len())),
+                varies: coordinates(&numbers),
+            });
+        }
+    }
+    found
+}
+
+fn varies(modulus: &Modulus, k: usize) -> bool {
+    matches!(modulus, Modulus::Varying(with) if with.contains(CoordinateId(k)))
+}
+
+fn component(modulus: Modulus, nv: usize) -> Component {
+    match modulus {
+        Modulus::Zero => Component::Zero,
+        Modulus::Constant(x) => Component::Constant(number(x.to_f64())),
+        Modulus::Varying(_) if (0..nv).any(|k| varies(&modulus, k)) => Component::Varying,
+        Modulus::Varying(_) => Component::Parameter,
+    }
+}
+
+/// The store and the source on a link's junction. A source without effort is left out.
+fn ports(graph: &BondGraph, i: LinkId, junction: JunctionId) -> Vec<Port> {
+    let stores = graph.stores.iter().filter(|s| s.junction == junction);
+    let sources = graph.sources.iter().filter(|s| s.junction == junction);
+    let acting = sources.filter(|s| !s.efforts.is_empty());
+    let stores = stores.map(|s| store(graph, i, s));
+    stores.chain(acting.map(|s| source(graph, i, s))).collect()
+}
+
+fn store(graph: &BondGraph, i: LinkId, store: &Store) -> Port {
+    let n = subscript(i.0 + 1);
+    let (text, more) = match store.inertia {
+        Inertia::Mass(mass) => (format!("m{n} = {} kg", value(graph, mass)), None),
+        Inertia::Tensor(entries) => tensor(graph, i, entries),
+    };
+    Port::dependent_store(text, more)
+}
+
+/// The diagonal, and behind it what else is not zero.
+fn tensor(graph: &BondGraph, i: LinkId, entries: [Value; 6]) -> (String, Option<String>) {
+    let n = subscript(i.0 + 1);
+    if entries == [Value::Fixed(Dd::ZERO); 6] {
+        return (format!("J{n} = 0"), None);
+    }
+    let named = ["xx", "yy", "zz", "xy", "xz", "yz"]
+        .into_iter()
+        .zip(entries);
+    let shown = named.map(|(axes, entry)| (entry, format!("{axes} {}", value(graph, entry))));
+    let (diagonal, others): (Vec<_>, Vec<_>) = shown.enumerate().partition(|(place, _)| *place < 3);
+    let diagonal: Vec<String> = diagonal.into_iter().map(|(_, (_, text))| text).collect();
+    let others = others.into_iter().map(|(_, entry)| entry);
+    let there = others.filter(|(entry, _)| *entry != Value::Fixed(Dd::ZERO));
+    let mut more: Vec<String> = there.map(|(_, text)| text).collect();
+    if graph.frames[i.0].tensor_axes != Pose::IDENTITY.rotation {
+        more.push("in axes of its own".into());
+    }
+    let diagonal = diagonal.join(", ");
+    let more = (!more.is_empty()).then(|| more.join(", "));
+    (format!("J{n} = {diagonal} kg·m²"), more)
+}
+
+fn source(graph: &BondGraph, i: LinkId, source: &Source) -> Port {
+    let efforts = source
+        .efforts
+        .iter()
+        .map(|Effort::Weight { mass, gravity }| match mass {
+            Value::Fixed(mass) => vector(gravity.scale(*mass)),
+            Value::Parameter(_) => format!("{}·{}", value(graph, *mass), vector(*gravity)),
+        });
+    let sum = efforts.collect::<Vec<_>>().join(" + ");
+    Port::source(format!("R{} = {sum} N", subscript(i.0 + 1)))
+}
+
+fn vector(v: Vec3<Dd>) -> String {
+    let [x, y, z] = v.0.map(|x| number(x.to_f64()));
+    format!("({x}, {y}, {z})")
+}
+
+/// A number, or the name of the run-time parameter.
+fn value(graph: &BondGraph, value: Value) -> String {
+    match value {
+        Value::Fixed(x) => number(x.to_f64()),
+        Value::Parameter(p) => graph.parameters[p.0].name.clone(),
+    }
+}

@@ -1,0 +1,299 @@
+//! The drawing as SVG.
+
+mod legend;
+mod symbols;
+
+use bgdyn_accuracy::svg::{ALARM, Anchor, Drawing, FAINT, INK};
+
+use super::chart::{Chart, Component, Flow, Link, Port, Transformer, lines};
+use super::place::{
+    BOND, Band, Column, DROP, MARGIN, PITCH, Places, SYMBOL, VECTOR, place, text_width,
+    vector_width, words_width,
+};
+use symbols::{Bond, Point, bar, bond, clearing, junction};
+
+/// Colour of the velocities' bars and names.
+const VELOCITY: &str = "#1d4f91";
+const VELOCITY_BAR: &str = "#b9cde8";
+/// Colour of the bars across.
+const SUM: &str = "#8a5a12";
+const SUM_BAR: &str = "#ead3a8";
+/// Colour behind a link.
+const BAND: &str = "#f5f6f7";
+/// Said of a link without flows.
+const NOTHING: &str = "moves, but has no store and no source";
+/// No drawing is narrower than this.
+const NARROWEST: f64 = 860.0;
+/// No lines of the legend are wider.
+const WIDEST: f64 = 1100.0;
+/// From one line of words to the next.
+const LINE: f64 = 17.0;
+
+impl Chart {
+    /// The drawing as the text of an SVG file.
+    pub(crate) fn svg(&self) -> String {
+        let top = header_height(self);
+        let places = place(self, top);
+        let width = places.right.max(NARROWEST);
+        let legend = legend::lines(self, width.min(WIDEST) - 2.0 * MARGIN);
+        let mut d = Drawing::new(
+            width.ceil(),
+            (places.bottom + legend::height(&legend)).ceil(),
+        );
+        header(&mut d, self);
+        self.draw(&mut d, &places);
+        legend::draw(&mut d, &legend, places.bottom);
+        d.finish()
+    }
+
+    /// Bars across first, so that the velocities' bars pass over them.
+    fn draw(&self, d: &mut Drawing, places: &Places) {
+        for (link, band) in self.links.iter().zip(&places.bands) {
+            let size = (band.right - band.left, band.bottom - band.top);
+            d.rectangle((band.left, band.top), size, BAND);
+            for (flow, &row) in link.flows.iter().zip(&band.rows) {
+                sum(d, flow, (places, band), row);
+            }
+        }
+        for (j, column) in places.columns.iter().enumerate() {
+            head(d, self, j, column);
+        }
+        for (link, band) in self.links.iter().zip(&places.bands) {
+            d.bold(
+                (band.zero, band.top + 16.0),
+                13,
+                INK,
+                Anchor::Start,
+                &link.name,
+            );
+            if link.flows.is_empty() {
+                let at = (
+                    band.zero + text_width(&link.name, 13) + 12.0,
+                    band.top + 16.0,
+                );
+                d.text(at, 11, FAINT, Anchor::Start, NOTHING);
+            }
+            for (flow, &row) in link.flows.iter().zip(&band.rows) {
+                for transformer in &flow.transformers {
+                    let column = &places.columns[transformer.velocity];
+                    let target = (flow.sums(), band.zero);
+                    self.transformer(d, link, transformer, (column, row), target);
+                }
+                stores(d, flow, (band.zero, row + DROP));
+            }
+        }
+    }
+
+    /// A transformer at the height of its row, with its bonds from the velocity's bar and to the
+    /// bar across, or, where there is no such bar, to the 1-junction.
+    fn transformer(
+        &self,
+        d: &mut Drawing,
+        link: &Link,
+        t: &Transformer,
+        (column, row): (&Column, f64),
+        (sums, zero): (bool, f64),
+    ) {
+        let velocity = &self.velocities[t.velocity];
+        let varies = match t.varies.is_empty() {
+            true => "constant".to_owned(),
+            false => format!("varies with {}", t.varies),
+        };
+        let what = format!("{} = {}, {varies}", t.name, t.vector());
+        d.group(&format!("{} → {}: {what}", velocity.name, link.name));
+        let (x, centre) = (column.x, column.x + SYMBOL);
+        d.text(
+            (x + 5.0, row - 9.0),
+            10,
+            VELOCITY,
+            Anchor::Start,
+            &velocity.symbol,
+        );
+        bond(
+            d,
+            &Bond::single(&[(x + 3.0, row), (centre - 17.0, row)]).stroke_at_start(),
+        );
+        d.bold((centre, row + 4.5), 12, INK, Anchor::Middle, t.symbol());
+        modulus(d, t, (x + VECTOR, row));
+        let (from, down) = ((centre, row + 9.0), row + DROP);
+        let path = match sums {
+            true => vec![from, (centre, down - 2.0)],
+            false => vec![from, (centre, down), (zero + BOND - 9.0, down)],
+        };
+        bond(d, &Bond::triple(&path).stroke_at_start());
+        d.end_group();
+    }
+}
+
+/// The bar across of a flow, up to its 0-junction.
+fn sum(d: &mut Drawing, flow: &Flow, (places, band): (&Places, &Band), row: f64) {
+    if !flow.sums() {
+        return;
+    }
+    let centres = flow
+        .transformers
+        .iter()
+        .map(|t| places.columns[t.velocity].x + SYMBOL);
+    let first = centres.fold(f64::MAX, f64::min);
+    bar(
+        d,
+        (first - 8.0, row + DROP),
+        (band.zero, row + DROP),
+        SUM_BAR,
+    );
+}
+
+/// The 1-junction of a velocity, its bar, and what stands on it.
+fn head(d: &mut Drawing, chart: &Chart, j: usize, column: &Column) {
+    let velocity = &chart.velocities[j];
+    let (x, y) = (column.x, column.head);
+    clearing(d, (x, y), (x, column.end + 4.0), BAND);
+    bar(d, (x, y), (x, column.end + 4.0), VELOCITY_BAR);
+    junction(d, (x, y), "1", VELOCITY);
+    let symbol = &velocity.symbol;
+    d.bold((x - 6.0, y - 16.0), 14, VELOCITY, Anchor::Start, symbol);
+    let beside = x + 2.0 + text_width(symbol, 14);
+    d.bold((beside, y - 16.0), 13, INK, Anchor::Start, &velocity.name);
+    let beside = beside + text_width(&velocity.name, 13) + 10.0;
+    d.text((beside, y - 16.0), 11, FAINT, Anchor::Start, velocity.unit);
+    ports(d, &velocity.ports, (x, y));
+}
+
+/// From the 0-junction of a flow to the stores and sources on its 1-junction.
+fn stores(d: &mut Drawing, flow: &Flow, (x, y): Point) {
+    let one = (x + BOND, y);
+    if flow.sums() {
+        junction(d, (x, y), "0", SUM);
+        bond(
+            d,
+            &Bond::triple(&[(x + 9.0, y), (one.0 - 9.0, y)]).stroke_at_start(),
+        );
+    }
+    if flow.ports.len() > 1 {
+        bar(
+            d,
+            one,
+            (one.0, y - 30.0 * (flow.ports.len() - 1) as f64),
+            VELOCITY_BAR,
+        );
+    }
+    for (k, port) in flow.ports.iter().enumerate() {
+        one_port(d, port, (one.0, y - 30.0 * k as f64), (k == 0, true));
+    }
+    junction(d, one, "1", VELOCITY);
+    d.bold(
+        (one.0, y + 21.0),
+        12,
+        VELOCITY,
+        Anchor::Middle,
+        &flow.symbol,
+    );
+}
+
+/// Colours of a junction and of its bar.
+fn colours(sign: &str) -> (&'static str, &'static str) {
+    match sign {
+        "0" => (SUM, SUM_BAR),
+        _ => (VELOCITY, VELOCITY_BAR),
+    }
+}
+
+/// What stands on a junction, right of it and one below the other, and what stands behind that.
+fn ports(d: &mut Drawing, all: &[Port], (x, mut y): Point) {
+    for (k, port) in all.iter().enumerate() {
+        one_port(d, port, (x, y), (k == 0, false));
+        let behind = (x + BOND + words_width(port), y);
+        if port.ports.len() > 1 {
+            let last = port.ports.len() - 1;
+            let down = PITCH * lines(&port.ports[..last]) as f64;
+            bar(d, behind, (behind.0, y + down), colours(port.symbol).1);
+        }
+        if port.is_junction() {
+            let (at, colour) = ((behind.0 + 10.0, y + 17.0), colours(port.symbol).0);
+            junction(d, behind, port.symbol, colour);
+            if !port.text.is_empty() {
+                d.text(at, 11, colour, Anchor::Start, &port.text);
+            }
+        }
+        ports(d, &port.ports, behind);
+        y += PITCH * port.lines() as f64;
+    }
+}
+
+/// What stands on a junction, right of it: at its sign, or at its bar.
+fn one_port(d: &mut Drawing, port: &Port, (x, y): Point, (at_sign, triple): (bool, bool)) {
+    let near = (x + if at_sign { 9.0 } else { 4.0 }, y);
+    let far = (x + BOND - if port.is_junction() { 8.0 } else { 5.0 }, y);
+    let path = if port.feeds { [far, near] } else { [near, far] };
+    let mut line = Bond::single(&path);
+    line.triple = triple;
+    line.stroke = port.on_junction.map(|on| if on { near } else { far });
+    bond(d, &line);
+    if port.is_junction() {
+        return;
+    }
+    let (x, symbol) = (x + BOND, port.symbol);
+    d.bold((x, y + 4.5), 13, INK, Anchor::Start, symbol);
+    let beside = x + text_width(symbol, 13) + 3.0;
+    d.text(
+        (beside, y + 4.5),
+        12,
+        INK,
+        Anchor::Start,
+        &format!(": {}", port.text),
+    );
+    if let Some(more) = &port.more {
+        d.text((beside + 8.0, y + 17.5), 11, INK, Anchor::Start, more);
+    }
+}
+
+/// The modulus as a column between brackets, and below what it varies with.
+fn modulus(d: &mut Drawing, transformer: &Transformer, (x, y): Point) {
+    let (width, half) = (vector_width(transformer), 18.0);
+    for (edge, inwards) in [(x, 3.0), (x + width, -3.0)] {
+        let (upper, lower) = (y - half, y + half);
+        let inner = edge + inwards;
+        d.stroke(
+            &[(inner, upper), (edge, upper), (edge, lower), (inner, lower)],
+            INK,
+            1.0,
+        );
+    }
+    for (entry, k) in transformer.modulus.iter().zip([-1.0, 0.0, 1.0]) {
+        let at = (x + 0.5 * width, y + 4.0 + 12.0 * k);
+        match entry {
+            Component::Zero => d.text(at, 11, FAINT, Anchor::Middle, "0"),
+            Component::Varying => d.bold(at, 13, INK, Anchor::Middle, "·"),
+            other => d.text(at, 11, INK, Anchor::Middle, &other.to_string()),
+        }
+    }
+    let below = (x - VECTOR + SYMBOL + 10.0, y + half + 11.0);
+    d.text(below, 10, FAINT, Anchor::Start, &transformer.varies);
+}
+
+/// Height of what stands above the drawing.
+fn header_height(chart: &Chart) -> f64 {
+    54.0 + LINE * words(chart).count() as f64
+}
+
+/// Description, how much of the graph is there, and what has to be said beside.
+fn words(chart: &Chart) -> impl Iterator<Item = (String, &'static str)> {
+    let plain = chart.description.iter().map(|text| (text.clone(), INK));
+    let census = std::iter::once((chart.census(), FAINT));
+    let notes = chart.notes.iter().map(|note| (note.clone(), ALARM));
+    let lines = |(text, colour): (String, &'static str)| {
+        let lines = legend::wrapped(&text, 12, NARROWEST - 2.0 * MARGIN);
+        lines.into_iter().map(move |line| (line, colour))
+    };
+    plain.chain(census).chain(notes).flat_map(lines)
+}
+
+/// The name, and words about it.
+fn header(d: &mut Drawing, chart: &Chart) {
+    let title = format!("{}: bond graph", chart.title);
+    d.bold((MARGIN, 34.0), 18, INK, Anchor::Start, &title);
+    for (k, (line, colour)) in words(chart).enumerate() {
+        let y = 54.0 + LINE * k as f64;
+        d.text((MARGIN, y), 12, colour, Anchor::Start, &line);
+    }
+}
