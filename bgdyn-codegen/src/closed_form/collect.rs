@@ -1,0 +1,214 @@
+//! From polynomials to equations as a book prints them.
+
+use std::collections::BTreeMap;
+
+use bgdyn_runtime::Dd;
+
+use super::definition::{Definition, Names, number};
+use super::form::{Atom, Factor, Sum, Term};
+use super::polynomial::{CANCELLED, Polynomial, Symbol};
+use super::tidy::{Entry, tidy};
+use crate::mechanism::Letter;
+
+/// q̈_k, q̇_k q̇_l or nothing: what a coefficient stands before.
+type Motion = Vec<(Atom, u32)>;
+
+/// The coefficient of a motion.
+struct Coefficient {
+    motion: Motion,
+    entries: Vec<Entry>,
+}
+
+/// An effort's coefficients.
+pub(super) struct Collected {
+    accelerations: Vec<Coefficient>,
+    velocities: Vec<Coefficient>,
+    rest: Vec<Coefficient>,
+}
+
+impl Collected {
+    /// The terms of an effort by what they stand before.
+    pub fn new(effort: &Polynomial, letters: &[Letter]) -> Self {
+        let mut motions: BTreeMap<Vec<(Symbol, u32)>, BTreeMap<_, Entry>> = BTreeMap::new();
+        let largest = effort.terms().map(|(_, value)| value.hi().abs());
+        let largest = largest.fold(0.0, f64::max);
+        for (monomial, value) in effort.terms() {
+            if value.hi().abs() <= CANCELLED * largest {
+                continue;
+            }
+            let (mut motion, mut powers, mut product) = (vec![], vec![], vec![]);
+            for &(symbol, n) in &monomial.powers {
+                match symbol {
+                    Symbol::Velocity(_) | Symbol::Acceleration(_) => motion.push((symbol, n)),
+                    Symbol::Letter(l) if !letters[l].run_time => product.push((l, n)),
+                    _ => powers.push((symbol, n)),
+                }
+            }
+            let shape = (powers.clone(), monomial.waves.clone());
+            let entries = motions.entry(motion).or_default();
+            let entry = entries.entry(shape);
+            let entry = entry.or_insert_with(|| Entry::new(powers, monomial));
+            entry.add(product, value);
+        }
+        let mut collected = Collected {
+            accelerations: vec![],
+            velocities: vec![],
+            rest: vec![],
+        };
+        for (motion, entries) in motions {
+            let list = match motion.last() {
+                None => &mut collected.rest,
+                Some((Symbol::Velocity(_), _)) => &mut collected.velocities,
+                Some(_) => &mut collected.accelerations,
+            };
+            list.push(Coefficient {
+                motion: motion.into_iter().map(atom).collect(),
+                entries: tidy(entries.into_values().collect()),
+            });
+        }
+        collected
+    }
+
+    /// Number of terms.
+    pub fn len(&self) -> usize {
+        let lists = [&self.accelerations, &self.velocities, &self.rest];
+        let all = lists.into_iter().flatten();
+        all.map(|coefficient| coefficient.entries.len()).sum()
+    }
+
+    /// The effort as it is printed.
+    pub fn print(&self, names: &mut Names<'_>) -> Sum {
+        let mut sum = Sum::new();
+        for coefficient in &self.accelerations {
+            sum.extend(inertial(coefficient, names));
+        }
+        for product in shared(&self.velocities) {
+            sum.push(product.print(names));
+        }
+        for entry in self.rest.iter().flat_map(|c| &c.entries) {
+            sum.push(printed(entry, names, vec![]));
+        }
+        sum
+    }
+}
+
+fn atom((symbol, n): (Symbol, u32)) -> (Atom, u32) {
+    let atom = match symbol {
+        Symbol::Letter(l) => Atom::Letter(l),
+        Symbol::Position(j) => Atom::Position(j),
+        Symbol::Velocity(j) => Atom::Velocity(j),
+        Symbol::Acceleration(j) => Atom::Acceleration(j),
+    };
+    (atom, n)
+}
+
+fn powers(of: &[(Atom, u32)]) -> Vec<Factor> {
+    let power = |(atom, n): &(Atom, u32)| Factor::Power(atom.clone(), *n);
+    of.iter().map(power).collect()
+}
+
+/// One product: number, letters, sines, motion.
+fn printed(entry: &Entry, names: &mut Names<'_>, motion: Vec<Factor>) -> Term {
+    let (scale, primitive) = entry.definition.primitive();
+    let mut factors = number(scale);
+    factors.extend(names.factors(&primitive));
+    factors.extend(powers(&entry.shape()));
+    factors.extend(motion);
+    Term {
+        negative: scale < Dd::ZERO,
+        factors,
+    }
+}
+
+/// M_jk q̈_k: the entry of the mass matrix in parentheses where it is a sum.
+fn inertial(coefficient: &Coefficient, names: &mut Names<'_>) -> Option<Term> {
+    let motion = powers(&coefficient.motion);
+    if let [one] = &coefficient.entries[..] {
+        return Some(printed(one, names, motion));
+    }
+    let mut sum = Sum::new();
+    for entry in &coefficient.entries {
+        match names.written_out(&entry.definition) {
+            Some(terms) if entry.shape().is_empty() => sum.extend(terms),
+            _ => sum.push(printed(entry, names, vec![])),
+        }
+    }
+    if sum.is_empty() {
+        return None;
+    }
+    // A sum that begins with a minus is a sum with a minus before it.
+    let negative = sum.iter().all(|term| term.negative);
+    if negative {
+        sum.iter_mut().for_each(|term| term.negative = false);
+    }
+    let mut factors = vec![Factor::Sum(sum)];
+    factors.extend(motion);
+    Some(Term { negative, factors })
+}
+
+/// Products of velocities that have the same letters and sines before them.
+struct Shared<'a> {
+    entry: &'a Entry,
+    primitive: Definition,
+    shape: Vec<(Atom, u32)>,
+    /// The number before each product.
+    products: Vec<(Dd, &'a Motion)>,
+}
+
+/// The velocity terms, those with common letters and sines together.
+fn shared(velocities: &[Coefficient]) -> Vec<Shared<'_>> {
+    let mut all: Vec<Shared<'_>> = Vec::new();
+    for coefficient in velocities {
+        for entry in &coefficient.entries {
+            let (scale, primitive) = entry.definition.primitive();
+            let shape = entry.shape();
+            let product = (scale, &coefficient.motion);
+            let same = |s: &&mut Shared<'_>| {
+                s.shape == shape && s.primitive.is(1.0, &primitive) && s.commensurable(scale)
+            };
+            match all.iter_mut().find(same) {
+                Some(found) => found.products.push(product),
+                None => all.push(Shared {
+                    entry,
+                    primitive,
+                    shape,
+                    products: vec![product],
+                }),
+            }
+        }
+    }
+    all
+}
+
+impl Shared<'_> {
+    /// Whether a number is a small whole multiple of those before the products, or they of it.
+    fn commensurable(&self, scale: Dd) -> bool {
+        let whole = |x: f64| (1..=4).any(|n| (x - f64::from(n)).abs() < 1e-12);
+        let ratio = |&(k, _): &(Dd, &Motion)| (scale / k).hi().abs();
+        let ratios: Vec<f64> = self.products.iter().map(ratio).collect();
+        ratios.iter().all(|&r| whole(r) || whole(1.0 / r))
+    }
+
+    fn print(&self, names: &mut Names<'_>) -> Term {
+        if let [(_, motion)] = &self.products[..] {
+            return printed(self.entry, names, powers(motion));
+        }
+        let sizes = self.products.iter().map(|(k, _)| k.abs());
+        let least = sizes.fold(Dd::INFINITY, Dd::min);
+        let negative = self.products[0].0 < Dd::ZERO;
+        let product = |(k, motion): &(Dd, &Motion)| {
+            let mut factors = number(*k / least);
+            factors.extend(powers(motion));
+            Term {
+                negative: (*k < Dd::ZERO) != negative,
+                factors,
+            }
+        };
+        let sum = self.products.iter().map(product).collect();
+        let mut factors = number(least);
+        factors.extend(names.factors(&self.primitive));
+        factors.extend(powers(&self.shape));
+        factors.push(Factor::Sum(sum));
+        Term { negative, factors }
+    }
+}
