@@ -76,7 +76,7 @@ impl Entry {
             return None;
         }
         let groups = self.waves.iter().chain(&other.waves).map(|(g, _)| *g);
-        let mut found = None;
+        let mut found: Option<(usize, &[(bool, Angle)], &[(bool, Angle)])> = None;
         for group in groups {
             let (a, b) = (self.of(group), other.of(group));
             if a != b && found.is_some_and(|(g, ..)| g != group) {
