@@ -178,17 +178,18 @@ fn balanced(latex: &str) {
         rest = &rest[step..];
     }
     assert_eq!(open, Vec::<&(&str, &str)>::new(), "{latex}");
-    assert_eq!(latex.matches("\\begin{align*}").count(), 2);
+    assert!(latex.contains("\\begin{align*}\nP_{1} &= "), "{latex}");
 }
 
 #[test]
 fn a_long_mechanism_is_refused() {
     let panda = spec("panda");
     let refused = closed_form(&panda.mechanism, LIMIT).expect_err("too long to be read");
-    assert!(
-        matches!(refused, Refused::TooLongOnTheWay { .. }),
-        "{refused}"
+    let soon = matches!(
+        refused,
+        Refused::LongSum { .. } | Refused::ManyProducts { .. }
     );
+    assert!(soon, "{refused}");
     let arm = spec("elastic_arm");
     let form = closed_form(&arm.mechanism, LIMIT).expect("a short one");
     let terms = match closed_form(&arm.mechanism, 5) {

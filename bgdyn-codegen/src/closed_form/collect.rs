@@ -76,6 +76,13 @@ impl Collected {
         all.map(|coefficient| coefficient.entries.len()).sum()
     }
 
+    /// Number of products of letters in all terms.
+    pub fn products(&self) -> usize {
+        let lists = [&self.accelerations, &self.velocities, &self.rest];
+        let entries = lists.into_iter().flatten().flat_map(|c| &c.entries);
+        entries.map(|entry| entry.definition.len()).sum()
+    }
+
     /// The effort as it is printed.
     pub fn print(&self, names: &mut Names<'_>) -> Sum {
         let mut sum = Sum::new();
@@ -137,10 +144,8 @@ fn inertial(coefficient: &Coefficient, names: &mut Names<'_>) -> Option<Term> {
         return None;
     }
     // A sum that begins with a minus is a sum with a minus before it.
-    let negative = sum.iter().all(|term| term.negative);
-    if negative {
-        sum.iter_mut().for_each(|term| term.negative = false);
-    }
+    let negative = sum[0].negative;
+    sum.iter_mut().for_each(|term| term.negative ^= negative);
     let mut factors = vec![Factor::Sum(sum)];
     factors.extend(motion);
     Some(Term { negative, factors })
@@ -195,7 +200,22 @@ impl Shared<'_> {
         }
         let sizes = self.products.iter().map(|(k, _)| k.abs());
         let least = sizes.fold(Dd::INFINITY, Dd::min);
-        let negative = self.products[0].0 < Dd::ZERO;
+        let (negative, last) = match self.square(least) {
+            Some((negative, sum)) => (negative, Factor::Square(sum)),
+            None => {
+                let negative = self.products[0].0 < Dd::ZERO;
+                (negative, Factor::Sum(self.sum(least, negative)))
+            }
+        };
+        let mut factors = number(least);
+        factors.extend(names.factors(&self.primitive));
+        factors.extend(powers(&self.shape));
+        factors.push(last);
+        Term { negative, factors }
+    }
+
+    /// The products over the least number before one of them.
+    fn sum(&self, least: Dd, negative: bool) -> Sum {
         let product = |(k, motion): &(Dd, &Motion)| {
             let mut factors = number(*k / least);
             factors.extend(powers(motion));
@@ -204,11 +224,38 @@ impl Shared<'_> {
                 factors,
             }
         };
-        let sum = self.products.iter().map(product).collect();
-        let mut factors = number(least);
-        factors.extend(names.factors(&self.primitive));
-        factors.extend(powers(&self.shape));
-        factors.push(Factor::Sum(sum));
-        Term { negative, factors }
+        self.products.iter().map(product).collect()
+    }
+
+    /// ±(q̇_i ± q̇_j …)², if that is what the products are: its sign and the sum.
+    fn square(&self, least: Dd) -> Option<(bool, Sum)> {
+        let whole = |k: Dd, n: f64| (k.abs() / least - Dd::from_f64(n)).hi().abs() < 1e-12;
+        let (mut squares, mut others) = (Vec::new(), Vec::new());
+        for &(k, motion) in &self.products {
+            match &motion[..] {
+                [(rate, 2)] if whole(k, 1.0) => squares.push((rate, k < Dd::ZERO)),
+                [(a, 1), (b, 1)] if whole(k, 2.0) => others.push((a, b, k < Dd::ZERO)),
+                _ => return None,
+            }
+        }
+        let &(first, sign) = squares.first()?;
+        let n = squares.len();
+        if squares.iter().any(|s| s.1 != sign) || others.len() != n * (n - 1) / 2 {
+            return None;
+        }
+        // The sign of each rate is that of its product with the first one.
+        let turned = |rate: &Atom| {
+            let with = others.iter().find(|(a, b, _)| *a == first && *b == rate);
+            with.is_some_and(|&(_, _, negative)| negative != sign)
+        };
+        let fits = |&(a, b, negative): &(&Atom, &Atom, bool)| {
+            (turned(a) != turned(b)) == (negative != sign)
+        };
+        let term = |&(rate, _): &(&Atom, bool)| Term {
+            negative: turned(rate),
+            factors: vec![Factor::Power(rate.clone(), 1)],
+        };
+        let sum = squares.iter().map(term).collect();
+        others.iter().all(fits).then_some((sign, sum))
     }
 }

@@ -11,6 +11,10 @@ use crate::mechanism::Letter;
 /// Longer sums get a name.
 const WRITTEN_OUT: usize = 5;
 
+/// The most products of letters of equations that are written out: in longer ones all sums and
+/// products of letters get names.
+const SHORT: usize = 40;
+
 /// Powers of letters, rising.
 pub(super) type Letters = Vec<(usize, u32)>;
 
@@ -83,14 +87,18 @@ impl Definition {
 
 /// The sums met so far, and the names of the long ones.
 pub(super) struct Names<'a> {
-    pub letters: &'a [Letter],
+    letters: &'a [Letter],
+    /// Whether the equations are short enough to be written in letters.
+    short: bool,
     named: Vec<Definition>,
 }
 
 impl<'a> Names<'a> {
-    pub fn new(letters: &'a [Letter]) -> Self {
+    /// For equations of so many products of letters.
+    pub fn new(letters: &'a [Letter], products: usize) -> Self {
         Names {
             letters,
+            short: products <= SHORT,
             named: Vec::new(),
         }
     }
@@ -100,8 +108,8 @@ impl<'a> Names<'a> {
         let named = |definition: &Definition| NamedSum {
             definition: match self.split(definition) {
                 (common, rest) if common.is_empty() => rest,
-                (mut factors, rest) => {
-                    factors.push(Factor::Sum(rest));
+                (factors, rest) => {
+                    let factors = joined(factors, rest);
                     let negative = false;
                     vec![Term { negative, factors }]
                 }
@@ -115,22 +123,48 @@ impl<'a> Names<'a> {
     /// A primitive sum as factors: its name, its letters, or the letters that all its products
     /// share and a sum in parentheses.
     pub fn factors(&mut self, primitive: &Definition) -> Vec<Factor> {
-        if primitive.len() > WRITTEN_OUT {
-            return vec![Factor::Power(Atom::Constant(self.name(primitive)), 1)];
+        if !self.is_short(primitive) {
+            let (mut factors, rest) = self.without_weight(primitive);
+            match self.is_short(&rest) {
+                true => factors.extend(self.factors(&rest)),
+                false => factors.push(Factor::Power(Atom::Constant(self.name(&rest)), 1)),
+            }
+            return factors;
         }
-        let (mut factors, rest) = self.split(primitive);
-        match &rest[..] {
-            // A product: the shared letters are all there is.
-            [one] if one.factors.is_empty() => {}
-            _ => factors.push(Factor::Sum(rest)),
-        }
-        factors
+        let (factors, rest) = self.split(primitive);
+        joined(factors, rest)
     }
 
     /// The sum written out, if it is short: its products, to stand in a larger sum.
     pub fn written_out(&self, definition: &Definition) -> Option<Sum> {
-        let short = definition.len() <= WRITTEN_OUT;
+        let short = self.is_short(definition);
         short.then(|| self.terms(definition, &[]))
+    }
+
+    /// Whether it is written in letters: a letter always is.
+    fn is_short(&self, definition: &Definition) -> bool {
+        let letters = |product: &Letters| product.iter().map(|(_, n)| n).sum::<u32>();
+        match self.short {
+            true => definition.len() <= WRITTEN_OUT,
+            false => definition.len() == 1 && definition.0.keys().map(letters).sum::<u32>() <= 1,
+        }
+    }
+
+    /// A sum of weights as g and a sum of masses, which may have a name already.
+    fn without_weight(&self, definition: &Definition) -> (Vec<Factor>, Definition) {
+        let g = self
+            .letters
+            .iter()
+            .rposition(|l| l.symbol == "g" && !l.run_time);
+        let Some(g) = g.filter(|&g| definition.0.keys().all(|p| power(p, g) == 1)) else {
+            return (vec![], definition.clone());
+        };
+        let rest = |(product, &value): (&Letters, &Dd)| {
+            let others = product.iter().filter(|(l, _)| *l != g);
+            (others.copied().collect(), value)
+        };
+        let rest = Definition(definition.0.iter().map(rest).collect());
+        (vec![Factor::Power(Atom::Letter(g), 1)], rest)
     }
 
     fn name(&mut self, primitive: &Definition) -> usize {
@@ -182,6 +216,14 @@ impl<'a> Names<'a> {
         let power = |(l, n)| Factor::Power(Atom::Letter(l), n);
         sorted.into_iter().map(power).collect()
     }
+}
+
+/// The letters that all products share, times the sum of what is left; of one product nothing is.
+fn joined(mut common: Vec<Factor>, rest: Sum) -> Vec<Factor> {
+    if !matches!(&rest[..], [one] if one.factors.is_empty()) {
+        common.push(Factor::Sum(rest));
+    }
+    common
 }
 
 fn power(letters: &[(usize, u32)], letter: usize) -> u32 {

@@ -31,6 +31,8 @@ pub(super) struct Budget {
     pub terms: usize,
     /// Products of two terms, all in all.
     pub products: usize,
+    /// Products made so far.
+    pub spent: usize,
 }
 
 /// The outputs as polynomials.
@@ -101,7 +103,7 @@ impl Expansion<'_> {
             _ => return Err(Refused::NotTrigonometric),
         };
         if made.len() > self.budget.terms {
-            return Err(Refused::too_long_on_the_way(made.len()));
+            return Err(Refused::LongSum { terms: made.len() });
         }
         Ok(made)
     }
@@ -130,11 +132,11 @@ impl Expansion<'_> {
 
     fn product(&mut self, a: NodeId, b: NodeId) -> Result<Polynomial, Refused> {
         let products = self.at(a)?.len() * self.at(b)?.len();
-        self.budget.products = self
-            .budget
-            .products
-            .checked_sub(products)
-            .ok_or_else(|| Refused::too_long_on_the_way(products))?;
+        self.budget.spent = self.budget.spent.saturating_add(products);
+        if self.budget.spent > self.budget.products {
+            let products = self.budget.spent;
+            return Err(Refused::ManyProducts { products });
+        }
         Ok(self.at(a)?.times(self.at(b)?))
     }
 

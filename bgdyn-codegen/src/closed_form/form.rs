@@ -54,6 +54,8 @@ pub enum Factor {
     Power(Atom, u32),
     /// A sum in parentheses.
     Sum(Sum),
+    /// The square of a sum.
+    Square(Sum),
 }
 
 /// What has a sign of its own in print.
@@ -76,6 +78,22 @@ pub enum Atom {
 }
 
 impl ClosedForm {
+    /// Leaves out which component a letter is where its vector has no other in the equations.
+    pub(super) fn name_alone(mut self) -> Self {
+        let met = self.letters_met();
+        for &l in &met {
+            let letter = &self.letters[l];
+            let beside = |&k: &usize| {
+                let other = &self.letters[k];
+                k != l && other.symbol == letter.symbol && other.of == letter.of
+            };
+            if matches!(letter.symbol.as_str(), "c" | "l") && !met.iter().any(beside) {
+                self.letters[l].component = "";
+            }
+        }
+        self
+    }
+
     /// The letters that are met in the efforts or in a named sum.
     pub fn letters_met(&self) -> Vec<usize> {
         let mut met = Vec::new();
@@ -93,7 +111,7 @@ fn gather(sum: &Sum, met: &mut Vec<usize>) {
     for factor in sum.iter().flat_map(|term| &term.factors) {
         match factor {
             Factor::Power(Atom::Letter(letter), _) => met.push(*letter),
-            Factor::Sum(sum) => gather(sum, met),
+            Factor::Sum(sum) | Factor::Square(sum) => gather(sum, met),
             _ => {}
         }
     }

@@ -105,8 +105,8 @@ impl Notation for Typeset<'_> {
         }
     }
 
-    fn parentheses(&self, inside: &str) -> String {
-        format!("\\left({inside}\\right)")
+    fn parentheses(&self, inside: &str, power: u32) -> String {
+        format!("\\left({inside}\\right){}", superscript(power))
     }
 }
 

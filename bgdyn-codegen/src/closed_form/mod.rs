@@ -36,9 +36,9 @@ pub use text::text;
 pub const LIMIT: usize = 300;
 
 /// Terms that a sum on the way may have, for each term allowed in the end.
-const ON_THE_WAY: usize = 20;
+const ON_THE_WAY: usize = 15;
 /// Products of terms on the way, for each term allowed in the end.
-const PRODUCTS: usize = 2000;
+const PRODUCTS: usize = 250;
 
 /// Why there is no closed form.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,31 +48,31 @@ pub enum Refused {
         /// Terms of all P_j.
         terms: usize,
     },
-    /// The way there is too long, so that the equations would be as well.
-    TooLongOnTheWay {
-        /// Terms of the sum or the product at which it was given up.
+    /// A sum on the way has too many terms for so much to cancel.
+    LongSum {
+        /// Its terms.
         terms: usize,
+    },
+    /// The way there takes too many products of two terms.
+    ManyProducts {
+        /// As many as were asked for when it was given up.
+        products: usize,
     },
     /// The equations hold more than sines, cosines, products and sums.
     NotTrigonometric,
-}
-
-impl Refused {
-    fn too_long_on_the_way(terms: usize) -> Self {
-        Refused::TooLongOnTheWay { terms }
-    }
 }
 
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Refused::TooLong { terms } => write!(f, "its equations have {terms} terms"),
-            Refused::TooLongOnTheWay { terms } => {
-                write!(
-                    f,
-                    "on the way to its equations a sum or product has {terms} terms"
-                )
+            Refused::LongSum { terms } => {
+                write!(f, "a sum on the way to its equations has {terms} terms")
             }
+            Refused::ManyProducts { products } => write!(
+                f,
+                "the way to its equations takes {products} products of two terms and more"
+            ),
             Refused::NotTrigonometric => {
                 write!(
                     f,
@@ -104,6 +104,7 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Re
     let budget = Budget {
         terms: limit.saturating_mul(ON_THE_WAY),
         products: limit.saturating_mul(PRODUCTS),
+        spent: 0,
     };
     let efforts = expand::expand(&function.graph, outputs, &leaves, budget)?;
     let efforts = efforts
@@ -114,17 +115,19 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Re
     if terms > limit {
         return Err(Refused::TooLong { terms });
     }
-    let mut names = Names::new(&letters);
+    let products = efforts.iter().map(Collected::products).sum();
+    let mut names = Names::new(&letters, products);
     let efforts = efforts.iter().map(|e| e.print(&mut names)).collect();
     let constants = names.into_constants();
-    Ok(ClosedForm {
+    let form = ClosedForm {
         name: mechanism.name().into(),
         joints: joints(mechanism),
         links: mechanism.links().iter().map(|l| l.name.clone()).collect(),
         letters,
         constants,
         efforts,
-    })
+    };
+    Ok(form.name_alone())
 }
 
 fn joints(mechanism: &Mechanism) -> Vec<(String, Motion)> {

@@ -21,8 +21,8 @@ pub(super) trait Notation {
     /// A sine or cosine to a power, of an angle as it is written by [`angle`].
     fn wave(&self, sine: bool, angle: &str, single: bool, power: u32) -> String;
 
-    /// In parentheses.
-    fn parentheses(&self, inside: &str) -> String;
+    /// In parentheses, to a power.
+    fn parentheses(&self, inside: &str, power: u32) -> String;
 }
 
 /// A sum, its terms one after the other: the first with its minus, the others as they are to follow.
@@ -51,7 +51,8 @@ pub(super) fn sum<N: Notation>(n: &N, sum: &Sum) -> String {
 fn product<N: Notation>(n: &N, term: &Term) -> String {
     let factor = |factor: &Factor| match factor {
         Factor::Number(x) => n.number(*x),
-        Factor::Sum(inside) => n.parentheses(&sum(n, inside)),
+        Factor::Sum(inside) => n.parentheses(&sum(n, inside), 1),
+        Factor::Square(inside) => n.parentheses(&sum(n, inside), 2),
         Factor::Power(Atom::Cosine(of), power) => wave(n, false, of, *power),
         Factor::Power(Atom::Sine(of), power) => wave(n, true, of, *power),
         Factor::Power(atom, power) => n.symbol(atom, *power),

@@ -40,9 +40,10 @@ pub fn text(form: &ClosedForm, digits: usize) -> String {
     for (i, constant) in form.constants.iter().enumerate() {
         text.push('\n');
         let name = format!("a{}", subscript(&[i + 1]));
-        text += &equation(&name, &n, &constant.definition);
+        let whole = format!("{name} = {}", sum(&n, &constant.definition));
         let value = n.value(constant.value, constant.dimension);
         let indent = " ".repeat(name.chars().count());
+        text += &broken(&whole, &indent);
         writeln!(text, "{indent} {value}").expect("a string");
     }
     let rows = form.letters_met().into_iter().map(|l| {
@@ -163,8 +164,8 @@ impl Notation for Plain<'_> {
         format!("{name}({angle}){}", superscript(power))
     }
 
-    fn parentheses(&self, inside: &str) -> String {
-        format!("({inside})")
+    fn parentheses(&self, inside: &str, power: u32) -> String {
+        format!("({inside}){}", superscript(power))
     }
 }
 
