@@ -201,24 +201,39 @@ impl Shared<'_> {
         let sizes = self.products.iter().map(|(k, _)| k.abs());
         let least = sizes.fold(Dd::INFINITY, Dd::min);
         let (negative, last) = match self.square(least) {
-            Some((negative, sum)) => (negative, Factor::Square(sum)),
+            Some((negative, sum)) => (negative, vec![Factor::Square(sum)]),
             None => {
                 let negative = self.products[0].0 < Dd::ZERO;
-                (negative, Factor::Sum(self.sum(least, negative)))
+                let common = self.common_rate();
+                let sum = Factor::Sum(self.sum(least, negative, common));
+                let rate = common.map(|rate| Factor::Power(rate.clone(), 1));
+                (negative, rate.into_iter().chain([sum]).collect())
             }
         };
         let mut factors = number(least);
         factors.extend(names.factors(&self.primitive));
         factors.extend(powers(&self.shape));
-        factors.push(last);
+        factors.extend(last);
         Term { negative, factors }
     }
 
-    /// The products over the least number before one of them.
-    fn sum(&self, least: Dd, negative: bool) -> Sum {
+    /// The rate that all products share, where none is a square.
+    fn common_rate(&self) -> Option<&Atom> {
+        let mixed = |(_, motion): &(Dd, &Motion)| motion.len() == 2;
+        let (_, first) = self.products.iter().all(mixed).then(|| &self.products[0])?;
+        let shared = |rate: &Atom| {
+            let has = |(_, motion): &(Dd, &Motion)| motion.iter().any(|(a, _)| a == rate);
+            self.products.iter().all(has)
+        };
+        first.iter().map(|(rate, _)| rate).find(|rate| shared(rate))
+    }
+
+    /// The products over the least number before one of them, without the rate that they share.
+    fn sum(&self, least: Dd, negative: bool, common: Option<&Atom>) -> Sum {
         let product = |(k, motion): &(Dd, &Motion)| {
             let mut factors = number(*k / least);
-            factors.extend(powers(motion));
+            let left = motion.iter().filter(|(rate, _)| Some(rate) != common);
+            factors.extend(powers(&left.cloned().collect::<Motion>()));
             Term {
                 negative: (*k < Dd::ZERO) != negative,
                 factors,

@@ -28,8 +28,8 @@ use definition::Names;
 use expand::{Budget, Coordinate, Leaves};
 pub use form::{Atom, ClosedForm, Factor, NamedSum, Sum, Term};
 pub use latex::latex;
-use polynomial::Polynomial;
-pub use polynomial::{Angle, Symbol};
+pub use polynomial::Angle;
+use polynomial::{Polynomial, Symbol};
 pub use text::text;
 
 /// The usual limit: what can still be read.

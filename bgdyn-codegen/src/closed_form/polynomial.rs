@@ -14,8 +14,8 @@ pub(super) const CANCELLED: f64 = 1.0 / (1u128 << 90) as f64;
 
 /// What a power is taken of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Symbol {
-    /// A letter, by its place in [`super::ClosedForm::letters`].
+pub(super) enum Symbol {
+    /// A letter, by its place in [`super::ClosedForm`]'s list.
     Letter(usize),
     /// q_j of a sliding joint.
     Position(usize),

@@ -98,11 +98,17 @@ fn equation(name: &str, n: &Plain<'_>, right: &Sum) -> String {
 /// A line broken before an addition or subtraction, where it is too long.
 fn broken(line: &str, indent: &str) -> String {
     let mut pieces = vec![String::new()];
+    let mut in_angle = false;
     for word in line.split_inclusive(' ') {
         match pieces.last_mut() {
-            Some(piece) if !matches!(word, "+ " | "− ") => *piece += word,
+            Some(piece) if in_angle || !matches!(word, "+ " | "− ") => *piece += word,
             _ => pieces.push(word.to_owned()),
         }
+        // The next parenthesis that closes is the one of the last sine or cosine.
+        in_angle = match word.rfind("sin(").max(word.rfind("cos(")) {
+            Some(at) => !word[at..].contains(')'),
+            None => in_angle && !word.contains(')'),
+        };
     }
     let width = |s: &str| s.trim_end().chars().count();
     let (mut text, mut open) = (String::new(), String::new());
