@@ -8,6 +8,9 @@ use super::polynomial::{Angle, Monomial, Symbol, combined, signed};
 /// Sines (`true`) and cosines of one group: none, one, or a product of two.
 type Waves = Vec<(bool, Angle)>;
 
+/// A group, and what two terms hold of it.
+type Difference<'a> = (usize, &'a [(bool, Angle)], &'a [(bool, Angle)]);
+
 /// A coefficient's term: a sum of letters times powers of positions and run-time parameters, sines
 /// and cosines.
 #[derive(Clone, Debug)]
@@ -68,15 +71,12 @@ impl Entry {
     }
 
     /// The group in which two entries differ, if it is one only, with the waves of each in it.
-    fn differs<'a>(
-        &'a self,
-        other: &'a Self,
-    ) -> Option<(usize, &'a [(bool, Angle)], &'a [(bool, Angle)])> {
+    fn differs<'a>(&'a self, other: &'a Self) -> Option<Difference<'a>> {
         if self.powers != other.powers {
             return None;
         }
         let groups = self.waves.iter().chain(&other.waves).map(|(g, _)| *g);
-        let mut found: Option<(usize, &[(bool, Angle)], &[(bool, Angle)])> = None;
+        let mut found: Option<Difference<'_>> = None;
         for group in groups {
             let (a, b) = (self.of(group), other.of(group));
             if a != b && found.is_some_and(|(g, ..)| g != group) {

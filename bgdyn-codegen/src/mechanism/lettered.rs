@@ -78,10 +78,7 @@ impl Mechanism {
         let mut places = Vec::new();
         for (i, link) in self.links.iter().enumerate() {
             let parent = link.parent.map(|p| (p, places[p.0]));
-            let carrier = match parent {
-                Some((p, place)) => Some(all.displace(self, i, p, place)),
-                None => None,
-            };
+            let carrier = parent.map(|(p, place)| all.displace(self, i, p, place));
             let mut copy = link.clone();
             copy.parent = carrier;
             if carrier.is_some() {
