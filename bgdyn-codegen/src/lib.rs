@@ -8,6 +8,7 @@
 pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
+pub mod closed_form;
 mod cut;
 pub mod effect;
 pub mod emit;

@@ -2,6 +2,7 @@
 
 pub(crate) mod accuracy;
 pub(crate) mod check;
+pub(crate) mod equations;
 pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod graph;

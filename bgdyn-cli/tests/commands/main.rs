@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod check;
+mod equations;
 mod eval;
 mod eval_scenes;
 mod generate;

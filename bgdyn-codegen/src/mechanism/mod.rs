@@ -5,6 +5,7 @@
 
 mod check;
 pub mod joint;
+mod lettered;
 pub mod name;
 
 use std::fmt;
@@ -16,6 +17,7 @@ use crate::math::{Mat3, Vec3};
 pub use check::check;
 pub(crate) use check::check_tensor;
 pub use joint::{JointType, Motion};
+pub use lettered::{Letter, Lettered};
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {

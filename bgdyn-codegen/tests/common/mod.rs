@@ -10,6 +10,7 @@ pub mod hard;
 pub mod kinematics;
 pub mod laws;
 pub mod parameters;
+pub mod printed;
 pub mod random;
 pub mod rng;
 pub mod values;

@@ -43,6 +43,11 @@ pub(crate) fn fixed() -> &'static JointType {
     &fixed::FIXED
 }
 
+/// The joint that lets slide along an axis.
+pub(crate) fn prismatic() -> &'static JointType {
+    &prismatic::PRISMATIC
+}
+
 /// Every joint type there is.
 pub static JOINT_TYPES: [&JointType; 4] = [
     &revolute::REVOLUTE,

@@ -1,0 +1,144 @@
+//! The equations in LaTeX, for the package amsmath.
+
+use std::fmt::Write as _;
+
+use bgdyn_runtime::Dd;
+
+use super::form::{Atom, ClosedForm, Sum};
+use super::notation::{Decimal, Notation, effort, terms, unit};
+use crate::mechanism::Letter;
+
+/// P_j and what they are written in as two environments `align*`, values to so many significant
+/// digits (1 to 17). Comments say which joint a coordinate belongs to.
+pub fn latex(form: &ClosedForm, digits: usize) -> String {
+    let n = Typeset { form, digits };
+    let mut text = format!("% {}: driving efforts in closed form\n", form.name);
+    for (j, (name, motion)) in form.joints.iter().enumerate() {
+        let (q, j_th) = (motion.unit(), j + 1);
+        let effort = written(&unit(effort(form, j)));
+        writeln!(text, "% q_{j_th}: {name}, {q}; P_{j_th} in ${effort}$").expect("a string");
+    }
+    let mut rows = Vec::new();
+    for (j, effort) in form.efforts.iter().enumerate() {
+        rows.push(format!("P_{{{}}}{}", j + 1, right(&n, effort)));
+    }
+    text += &align(&rows);
+    let mut rows = Vec::new();
+    for (i, constant) in form.constants.iter().enumerate() {
+        let definition = right(&n, &constant.definition);
+        let value = n.value(constant.value, constant.dimension);
+        rows.push(format!("a_{{{}}}{definition} \\\\\n  &{value}", i + 1));
+    }
+    for l in form.letters_met() {
+        let letter = &form.letters[l];
+        let value = n.value(letter.value, letter.dimension);
+        let meaning = escaped(&letter.meaning);
+        rows.push(format!(
+            "{} &{value} && \\text{{{meaning}}}",
+            symbol(letter)
+        ));
+    }
+    if !rows.is_empty() {
+        text += &align(&rows);
+    }
+    text
+}
+
+fn align(rows: &[String]) -> String {
+    let rows = rows.join(" \\\\\n");
+    format!("\\begin{{align*}}\n{rows}\n\\end{{align*}}\n")
+}
+
+/// The right side, a line for each term.
+fn right(n: &Typeset<'_>, sum: &Sum) -> String {
+    let lines: Vec<String> = terms(n, sum);
+    format!(" &= {}", lines.join(" \\\\\n  &\\quad "))
+}
+
+/// What is typeset.
+struct Typeset<'a> {
+    form: &'a ClosedForm,
+    digits: usize,
+}
+
+impl Typeset<'_> {
+    fn value(&self, value: Dd, dimension: [i32; 3]) -> String {
+        let sign = if value < Dd::ZERO { Self::MINUS } else { "" };
+        let exact = Decimal::new(value.abs(), self.digits).exact;
+        let equals = if exact { "=" } else { "\\approx" };
+        let number = self.number(value.abs());
+        let unit = written(&unit(dimension));
+        format!("{equals} {sign}{number}\\,{unit}")
+    }
+}
+
+impl Notation for Typeset<'_> {
+    const TIMES: &'static str = "\\, ";
+    const MINUS: &'static str = "-";
+
+    fn number(&self, x: Dd) -> String {
+        let decimal = Decimal::new(x, self.digits);
+        match decimal.exponent {
+            None => decimal.digits,
+            Some(n) => format!("{} \\cdot 10^{{{n}}}", decimal.digits),
+        }
+    }
+
+    fn symbol(&self, atom: &Atom, power: u32) -> String {
+        let base = match atom {
+            Atom::Letter(l) => symbol(&self.form.letters[*l]),
+            Atom::Constant(i) => format!("a_{{{}}}", i + 1),
+            Atom::Position(j) => format!("q_{{{}}}", j + 1),
+            Atom::Velocity(j) => format!("\\dot{{q}}_{{{}}}", j + 1),
+            Atom::Acceleration(j) => format!("\\ddot{{q}}_{{{}}}", j + 1),
+            Atom::Sine(_) | Atom::Cosine(_) => String::new(),
+        };
+        base + &superscript(power)
+    }
+
+    fn wave(&self, sine: bool, angle: &str, single: bool, power: u32) -> String {
+        let name = if sine { "\\sin" } else { "\\cos" };
+        let power = superscript(power);
+        match single {
+            true => format!("{name}{power} {angle}"),
+            false => format!("{name}{power}({angle})"),
+        }
+    }
+
+    fn parentheses(&self, inside: &str, power: u32) -> String {
+        format!("\\left({inside}\\right){}", superscript(power))
+    }
+}
+
+/// `m_{2}`, `J_{zz,1}`; a run-time parameter's own name, upright.
+fn symbol(letter: &Letter) -> String {
+    if letter.run_time {
+        return format!("\\mathrm{{{}}}", escaped(&letter.symbol));
+    }
+    let component = (!letter.component.is_empty()).then(|| letter.component.to_owned());
+    let of = letter.of.iter().map(usize::to_string);
+    let parts: Vec<String> = component.into_iter().chain(of).collect();
+    match parts.is_empty() {
+        true => letter.symbol.clone(),
+        false => format!("{}_{{{}}}", letter.symbol, parts.join(",")),
+    }
+}
+
+fn superscript(power: u32) -> String {
+    match power {
+        1 => String::new(),
+        n => format!("^{{{n}}}"),
+    }
+}
+
+fn escaped(name: &str) -> String {
+    name.replace('_', "\\_").replace('−', "$-$")
+}
+
+fn written(unit: &[(&str, i32)]) -> String {
+    let part = |(name, n): &(&str, i32)| match n {
+        1 => format!("\\mathrm{{{name}}}"),
+        n => format!("\\mathrm{{{name}}}^{{{n}}}"),
+    };
+    unit.iter().map(part).collect::<Vec<_>>().join("\\,")
+}

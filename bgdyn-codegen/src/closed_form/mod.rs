@@ -1,0 +1,209 @@
+//! P_j of small mechanisms in closed form, as a textbook prints them.
+//!
+//! One way: the expression graph of equation (6) as it stands, made for the mechanism with letters for
+//! its numbers ([`Mechanism::lettered`]) → polynomials in normal form (`polynomial.rs`, `expand.rs`)
+//! → coefficients of q̈_k, q̇_k q̇_l and the rest, factored ([`ClosedForm`]) → text or LaTeX
+//! ([`text`](text()), [`latex`](latex())). It refuses what is too long to be read.
+
+mod collect;
+mod definition;
+mod expand;
+mod form;
+mod latex;
+mod notation;
+mod polynomial;
+mod text;
+mod tidy;
+
+use std::fmt;
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::{self, BondGraph, Effort};
+use crate::formulation::{self, Search};
+use crate::mechanism::{Letter, Lettered, LinkId, Mechanism, Motion, ParameterId, Value};
+use crate::method::Method;
+use collect::Collected;
+use definition::Names;
+use expand::{Budget, Coordinate, Leaves};
+pub use form::{Atom, ClosedForm, Factor, NamedSum, Sum, Term};
+pub use latex::latex;
+pub use polynomial::Angle;
+use polynomial::{Polynomial, Symbol};
+pub use text::text;
+
+/// The usual limit: what can still be read.
+pub const LIMIT: usize = 300;
+
+/// Terms that a sum on the way may have, for each term allowed in the end.
+const ON_THE_WAY: usize = 15;
+/// Products of terms on the way, for each term allowed in the end.
+const PRODUCTS: usize = 250;
+
+/// Why there is no closed form.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// The equations have more terms than the limit.
+    TooLong {
+        /// Terms of all P_j.
+        terms: usize,
+    },
+    /// A sum on the way has too many terms for so much to cancel.
+    LongSum {
+        /// Its terms.
+        terms: usize,
+    },
+    /// The way there takes too many products of two terms.
+    ManyProducts {
+        /// As many as were asked for when it was given up.
+        products: usize,
+    },
+    /// The equations hold more than sines, cosines, products and sums.
+    NotTrigonometric,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refused::TooLong { terms } => write!(f, "its equations have {terms} terms"),
+            Refused::LongSum { terms } => {
+                write!(f, "a sum on the way to its equations has {terms} terms")
+            }
+            Refused::ManyProducts { products } => write!(
+                f,
+                "the way to its equations takes {products} products of two terms and more"
+            ),
+            Refused::NotTrigonometric => {
+                write!(
+                    f,
+                    "its equations hold more than sines, cosines, products and sums"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refused {}
+
+/// P_j(q, q̇, q̈) of a mechanism without effects, from equation (6): `limit` terms at most.
+///
+/// # Errors
+/// Where the equations, or the sums on the way to them, are longer.
+pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Refused> {
+    let lettered = mechanism.lettered();
+    let mut graph = bond_graph::build(&lettered.mechanism);
+    let mut letters = lettered.letters.clone();
+    let leaves = Leaves {
+        positions: coordinates(mechanism, &lettered),
+        parameters: weigh(&mut graph, &lettered, &mut letters),
+    };
+    let literal = formulation::by_name("literal").expect("the specification is always there");
+    let function = literal.function(&Search::new(&graph, None), Method::InverseDynamics);
+    let function = function.expect("it knows inverse dynamics");
+    let outputs = &function.blocks[0].outputs[..mechanism.nv()];
+    let budget = Budget {
+        terms: limit.saturating_mul(ON_THE_WAY),
+        products: limit.saturating_mul(PRODUCTS),
+        spent: 0,
+    };
+    let efforts = expand::expand(&function.graph, outputs, &leaves, budget)?;
+    let efforts = efforts
+        .iter()
+        .map(|effort| Collected::new(effort, &letters));
+    let efforts: Vec<Collected> = efforts.collect();
+    let terms = efforts.iter().map(Collected::len).sum();
+    if terms > limit {
+        return Err(Refused::TooLong { terms });
+    }
+    let products = efforts.iter().map(Collected::products).sum();
+    let mut names = Names::new(&letters, products);
+    let efforts = efforts.iter().map(|e| e.print(&mut names)).collect();
+    let constants = names.into_constants();
+    let form = ClosedForm {
+        name: mechanism.name().into(),
+        joints: joints(mechanism),
+        links: mechanism.links().iter().map(|l| l.name.clone()).collect(),
+        letters,
+        constants,
+        efforts,
+    };
+    Ok(form.name_alone())
+}
+
+fn joints(mechanism: &Mechanism) -> Vec<(String, Motion)> {
+    let joint = |l: &LinkId| &mechanism.links()[l.0].joint;
+    let joints = mechanism.coordinates().iter().map(joint);
+    joints.map(|j| (j.name.clone(), j.kind.motion)).collect()
+}
+
+/// What each coordinate of the lettered mechanism is.
+fn coordinates(mechanism: &Mechanism, lettered: &Lettered) -> Vec<Coordinate> {
+    let mut groups: Vec<usize> = Vec::new();
+    for (j, &link) in mechanism.coordinates().iter().enumerate() {
+        let before = parallel_before(mechanism, link);
+        groups.push(before.map_or(j, |k| groups.get(k).copied().unwrap_or(k)));
+    }
+    let own = joints(mechanism).into_iter().enumerate();
+    let own = own.map(|(j, (_, motion))| match motion {
+        Motion::Rotation => Coordinate::Angle(groups[j]),
+        _ => Coordinate::Displacement(j),
+    });
+    let lengths = lettered.lengths.iter().copied();
+    own.chain(lengths.map(Coordinate::Length)).collect()
+}
+
+/// The next coordinate on the way to the base that is an angle, if its axis is parallel to the link's.
+fn parallel_before(mechanism: &Mechanism, link: LinkId) -> Option<usize> {
+    let links = mechanism.links();
+    let joint = &links[link.0].joint;
+    let mut axis = joint.origin.rotation * joint.axis;
+    let mut carrier = links[link.0].parent;
+    while let Some(LinkId(i)) = carrier {
+        let joint = &links[i].joint;
+        if let (Motion::Rotation, Some(j)) = (joint.kind.motion, joint.coordinate) {
+            let across = axis.cross(joint.axis).0;
+            let parallel = across.iter().all(|x| x.hi().abs() < polynomial::CANCELLED);
+            return parallel.then_some(j.0);
+        }
+        axis = joint.origin.rotation * axis;
+        carrier = links[i].parent;
+    }
+    None
+}
+
+/// What the run-time parameters of the lettered mechanism stand for. Weights become products of a
+/// mass and of `g`, the last letter.
+fn weigh(graph: &mut BondGraph, lettered: &Lettered, letters: &mut Vec<Letter>) -> Vec<Polynomial> {
+    let letter = |&(letter, opposite): &(usize, bool)| {
+        let symbol = Polynomial::symbol(Symbol::Letter(letter));
+        Polynomial::default().plus(&symbol, opposite)
+    };
+    let mut parameters: Vec<Polynomial> = lettered.parameters.iter().map(letter).collect();
+    let components = graph.gravity.0;
+    let across = components.iter().filter(|&&x| x != Dd::ZERO).count();
+    let size = match across {
+        0 => return parameters,
+        1 => components.iter().fold(Dd::ZERO, |sum, x| sum + x.abs()),
+        _ => graph.gravity.dot(graph.gravity).sqrt(),
+    };
+    let taken = letters.iter().any(|l| l.symbol == "g");
+    letters.push(Letter {
+        symbol: "g".into(),
+        component: "",
+        of: if taken { vec![0] } else { vec![] },
+        meaning: "acceleration of free fall".into(),
+        value: size,
+        dimension: [0, 1, -2],
+        run_time: false,
+    });
+    let g = Polynomial::symbol(Symbol::Letter(letters.len() - 1));
+    for effort in graph.sources.iter_mut().flat_map(|s| &mut s.efforts) {
+        let Effort::Weight { mass, gravity } = effort;
+        *gravity = gravity.map(|x| x / size);
+        if let Value::Parameter(ParameterId(p)) = *mass {
+            parameters.push(g.times(&parameters[p]));
+            *mass = Value::Parameter(ParameterId(parameters.len() - 1));
+        }
+    }
+    parameters
+}

@@ -1,0 +1,141 @@
+//! What text and LaTeX have in common: how sums of products become strings.
+
+use bgdyn_runtime::Dd;
+
+use super::form::{Atom, ClosedForm, Factor, Sum, Term};
+use super::polynomial::Angle;
+
+/// How signs are written.
+pub(super) trait Notation {
+    /// Between factors.
+    const TIMES: &'static str;
+    /// Before what is subtracted, without spaces.
+    const MINUS: &'static str;
+
+    /// A positive number.
+    fn number(&self, x: Dd) -> String;
+
+    /// An atom that is no sine or cosine, to a power.
+    fn symbol(&self, atom: &Atom, power: u32) -> String;
+
+    /// A sine or cosine to a power, of an angle as it is written by [`angle`].
+    fn wave(&self, sine: bool, angle: &str, single: bool, power: u32) -> String;
+
+    /// In parentheses, to a power.
+    fn parentheses(&self, inside: &str, power: u32) -> String;
+}
+
+/// A sum, its terms one after the other: the first with its minus, the others as they are to follow.
+pub(super) fn terms<N: Notation>(n: &N, sum: &Sum) -> Vec<String> {
+    let mut written = Vec::new();
+    for (i, term) in sum.iter().enumerate() {
+        let product = product(n, term);
+        written.push(match (i, term.negative) {
+            (0, false) => product,
+            (0, true) => format!("{}{product}", N::MINUS),
+            (_, false) => format!("+ {product}"),
+            (_, true) => format!("{} {product}", N::MINUS),
+        });
+    }
+    if written.is_empty() {
+        written.push("0".into());
+    }
+    written
+}
+
+/// A sum in one line.
+pub(super) fn sum<N: Notation>(n: &N, sum: &Sum) -> String {
+    terms(n, sum).join(" ")
+}
+
+fn product<N: Notation>(n: &N, term: &Term) -> String {
+    let factor = |factor: &Factor| match factor {
+        Factor::Number(x) => n.number(*x),
+        Factor::Sum(inside) => n.parentheses(&sum(n, inside), 1),
+        Factor::Square(inside) => n.parentheses(&sum(n, inside), 2),
+        Factor::Power(Atom::Cosine(of), power) => wave(n, false, of, *power),
+        Factor::Power(Atom::Sine(of), power) => wave(n, true, of, *power),
+        Factor::Power(atom, power) => n.symbol(atom, *power),
+    };
+    let factors: Vec<String> = term.factors.iter().map(factor).collect();
+    if factors.is_empty() {
+        return "1".into();
+    }
+    factors.join(N::TIMES)
+}
+
+fn wave<N: Notation>(n: &N, sine: bool, of: &Angle, power: u32) -> String {
+    let single = matches!(of[..], [(_, 1)]);
+    n.wave(sine, &angle(n, of), single, power)
+}
+
+/// Σ n_j q_j
+fn angle<N: Notation>(n: &N, of: &Angle) -> String {
+    let term = |&(j, multiple): &(usize, i32)| {
+        let size = Dd::from_f64(f64::from(multiple.unsigned_abs()));
+        let mut factors = super::definition::number(size);
+        factors.push(Factor::Power(Atom::Position(j), 1));
+        Term {
+            negative: multiple < 0,
+            factors,
+        }
+    };
+    sum(n, &of.iter().map(term).collect())
+}
+
+/// A number in decimal, rounded to so many significant digits.
+pub(super) struct Decimal {
+    /// Digits with a point, without the zeros that end them.
+    pub digits: String,
+    /// The power of ten beside them, where there are many zeros else.
+    pub exponent: Option<i32>,
+    /// Whether nothing was lost.
+    pub exact: bool,
+}
+
+impl Decimal {
+    /// `digits`: 1 to 17.
+    pub fn new(x: Dd, digits: usize) -> Self {
+        let rounded = format!("{:.*e}", digits.clamp(1, 17) - 1, x.hi());
+        let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+        let exponent: i32 = exponent.parse().unwrap_or(0);
+        let back: Dd = rounded.parse().unwrap_or(Dd::NAN);
+        let exact = (back - x).hi().abs() <= 1e-29 * x.hi().abs();
+        let plain = (-4..6).contains(&exponent);
+        let shown = if plain {
+            let places = (digits.clamp(1, 17) as i32 - 1 - exponent).max(0) as usize;
+            format!("{:.*}", places, x.hi())
+        } else {
+            mantissa.to_owned()
+        };
+        let shown = match shown.contains('.') {
+            true => shown.trim_end_matches('0').trim_end_matches('.'),
+            false => &shown,
+        };
+        Decimal {
+            digits: shown.to_owned(),
+            exponent: (!plain).then_some(exponent),
+            exact,
+        }
+    }
+}
+
+/// The unit of a product with these powers of kilogram, metre and second: its parts with their
+/// powers.
+pub(super) fn unit(dimension: [i32; 3]) -> Vec<(&'static str, i32)> {
+    let [kg, m, s] = dimension;
+    let force = kg == 1 && s == -2;
+    let parts = match force {
+        true => [("N", 1), ("m", m - 1), ("s", 0)],
+        false => [("kg", kg), ("m", m), ("s", s)],
+    };
+    parts.into_iter().filter(|&(_, n)| n != 0).collect()
+}
+
+/// The dimension of P_j.
+pub(super) fn effort(form: &ClosedForm, j: usize) -> [i32; 3] {
+    match form.joints[j].1 {
+        crate::mechanism::Motion::Rotation => [1, 2, -2],
+        _ => [1, 1, -2],
+    }
+}
