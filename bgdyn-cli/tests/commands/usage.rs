@@ -7,7 +7,15 @@ use crate::{bgdyn, root};
 
 const SCARA: &str = "tests/golden/specs/scara4.yaml";
 const VALUES: &str = "tests/golden/values/scara4.json";
-const COMMANDS: [&str; 7] = ["check", "ops", "eval", "equations", "generate", "graph", "import"];
+const COMMANDS: [&str; 7] = [
+    "check",
+    "ops",
+    "eval",
+    "equations",
+    "generate",
+    "graph",
+    "import",
+];
 
 #[test]
 fn bad_usage_exits_with_two() {
