@@ -293,10 +293,9 @@ fn sums_are_arranged_by_arrival() {
     assert_eq!(after.operations, before.operations);
     // √(x/y), one addition, one multiplication.
     assert_eq!((before.depth, after.depth), (14, 11));
-    let inputs = || {
-        let mut inputs = Inputs::<Dd>::default();
-        inputs.q = [0.3, 0.7, -1.9].map(Dd::from_f64).to_vec();
-        inputs
+    let inputs = || Inputs::<Dd> {
+        q: [0.3, 0.7, -1.9].map(Dd::from_f64).to_vec(),
+        ..Inputs::default()
     };
     let at = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs(), &mut None)[0];
     let off = at(&h, &outputs) - at(&g, &[total]);
