@@ -6,12 +6,9 @@
 //! make the last block, whose code is loops.
 
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
-use crate::function::{Block, Function, Products, in_triangle};
+use crate::function::{BLOCK, Block, Function, Products, in_triangle};
 use crate::method::Shape;
 use crate::products::products;
-
-/// Operations in a block at the most. Arms of seven axes stay in one piece.
-const BLOCK: usize = 2500;
 
 /// The same function in blocks of bounded length.
 pub fn cut(function: Function) -> Function {

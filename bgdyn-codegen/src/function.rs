@@ -11,6 +11,9 @@ use crate::expr::{
 };
 use crate::method::{Method, Shape};
 
+/// Operations in a block at the most. Arms of seven axes stay in one piece.
+pub(crate) const BLOCK: usize = 2500;
+
 /// A straight line of code: what it computes. Later blocks read its results as
 /// [`crate::expr::Leaf::Passed`].
 #[derive(Clone, Debug)]
@@ -125,11 +128,21 @@ impl Function {
         self
     }
 
+    /// The same function with the terms of its sums in the order in which they are there, unless it is
+    /// going to be cut, or the order of its operations is what it is made for.
+    pub(crate) fn arranged(mut self) -> Self {
+        let short = self.operations().total() <= BLOCK;
+        if let ([Block { outputs, .. }], false, true) = (&mut self.blocks[..], self.ordered, short)
+        {
+            (self.graph, *outputs) = arranged(&self.graph, outputs);
+        }
+        self
+    }
+
     /// The same function with its products joined to the sums that read them, unless the order of its
     /// operations is what it is made for.
     pub(crate) fn fused(mut self) -> Self {
         if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
-            (self.graph, *outputs) = arranged(&self.graph, outputs);
             (self.graph, *outputs) = fused(&self.graph, outputs);
         }
         self

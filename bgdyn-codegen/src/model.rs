@@ -45,7 +45,7 @@ impl Model {
             .filter_map(|m| chosen(&search, m, options));
         let found: Vec<Function> = found.collect();
         drop(search);
-        let functions = found.into_iter().map(Function::fused).map(cut).collect();
+        let functions = found.into_iter().map(|f| finished(f, options)).collect();
         Ok(Model {
             mechanism,
             bond_graph,
@@ -62,9 +62,18 @@ impl Model {
 /// One function of a mechanism, without the others.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
     let graph = bond_graph::build(mechanism);
-    chosen(&Search::new(&graph, options.formulation), method, options)
-        .map(Function::fused)
-        .map(cut)
+    let chosen = chosen(&Search::new(&graph, options.formulation), method, options);
+    chosen.map(|f| finished(f, options))
+}
+
+/// The last passes. What was chosen for its digits keeps the order of its sums: among more orders the
+/// choice would go by chance.
+fn finished(function: Function, options: &Options) -> Function {
+    let function = match options.prefer {
+        Preference::Operations => function.arranged(),
+        Preference::Accuracy => function,
+    };
+    cut(function.fused())
 }
 
 /// The function of a method that these options mean.

@@ -168,7 +168,7 @@ impl System {
 
     /// The function of a role.
     pub fn function(&self, role: Role) -> Function {
-        crate::cut::cut(self.chosen(role).fused())
+        crate::cut::cut(self.chosen(role).arranged().fused())
     }
 
     /// The same in one block.
@@ -209,7 +209,7 @@ impl System {
     /// formulation does not know what the derivative rests on.
     pub fn derivative_by(&self, formulation: &'static dyn Formulation) -> Option<Function> {
         let way = dynamics::derivative_by(self, formulation)?;
-        Some(crate::cut::cut(way.factored().fused()))
+        Some(crate::cut::cut(way.factored().arranged().fused()))
     }
 
     /// The derivative with one effort of its own at every coordinate, in place of the accelerations
