@@ -1,6 +1,7 @@
 //! The command `bgdyn` as scripts see it: what it prints, where, and how it exits.
 
 mod accuracy;
+mod book;
 mod check;
 mod equations;
 mod eval;
@@ -32,9 +33,14 @@ struct Run {
 }
 
 fn bgdyn(arguments: &[&str]) -> Run {
+    bgdyn_in(root(), arguments)
+}
+
+/// A run from another folder.
+fn bgdyn_in(folder: &Path, arguments: &[&str]) -> Run {
     let output: Output = Command::new(env!("CARGO_BIN_EXE_bgdyn"))
         .args(arguments)
-        .current_dir(root())
+        .current_dir(folder)
         .output()
         .expect("the command starts");
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
