@@ -1,17 +1,19 @@
 //! The book's pages show what the command prints: every `$ bgdyn …` of a `console` block is run.
 //!
 //! Output may be elided by a line `…`. `<!-- change: A => B -->` before a block changes the page's
-//! spec for that block.
+//! spec for that block. A block of Rust behind `<!-- generated: SPEC -->` is part of what is generated
+//! for that spec.
 
 use std::fs;
 use std::path::Path;
 
-use super::{bgdyn_in, root, scratch};
+use super::{bgdyn, bgdyn_in, root, scratch};
 
 /// Pages, and the folder in which a reader stands.
-const PAGES: [(&str, &str); 2] = [
+const PAGES: [(&str, &str); 3] = [
     ("docs/first_model.md", "examples/first_model"),
     ("docs/tests_to_copy.md", "examples/first_model"),
+    ("docs/generated_code.md", "."),
 ];
 
 /// A command with what the page says that it prints.
@@ -50,19 +52,18 @@ fn shown(page: &str) -> Vec<Shown> {
 
 /// Whether `text` is `pattern` with something in place of its lines `…`.
 fn matches(pattern: &str, text: &str) -> bool {
-    let Some((head, tail)) = pattern.split_once("…\n") else {
-        return pattern == text;
+    let mut pieces = pattern.split("…\n");
+    let Some(mut rest) = pieces.next().and_then(|first| text.strip_prefix(first)) else {
+        return false;
     };
-    let rest = text.strip_prefix(head);
-    let starts = |rest: &str| {
-        let ends = std::iter::once(0).chain(rest.match_indices('\n').map(|(i, _)| i + 1));
-        ends.collect::<Vec<_>>()
-    };
-    rest.is_some_and(|rest| {
-        starts(rest)
-            .into_iter()
-            .any(|at| matches(tail, &rest[at..]))
-    })
+    let mut last = None;
+    for piece in pieces {
+        let Some(at) = rest.find(piece) else {
+            return false;
+        };
+        (rest, last) = (&rest[at + piece.len()..], Some(piece));
+    }
+    rest.is_empty() || last.is_some_and(|last| text.ends_with(last))
 }
 
 /// The folder of a command: the reader's, or one with the changed spec.
@@ -100,7 +101,39 @@ fn pages_show_what_the_command_prints() {
             commands += 1;
         }
     }
-    assert!(commands >= 4, "{commands} commands found");
+    assert!(commands >= 7, "{commands} commands found");
+}
+
+/// The excerpts of generated code on a page: the spec, and the text.
+fn excerpts(page: &str) -> Vec<(&str, &str)> {
+    let marked = page.split("<!-- generated: ").skip(1);
+    marked
+        .map(|rest| {
+            let (spec, rest) = rest.split_once(" -->\n```rust,ignore\n").expect("a block");
+            (spec, rest.split_once("```").expect("its end").0)
+        })
+        .collect()
+}
+
+#[test]
+fn excerpts_are_what_is_generated() {
+    let unindented = |text: &str| -> String {
+        let lines = text.lines().map(|line| format!("{}\n", line.trim_start()));
+        lines.collect()
+    };
+    for (page, least) in [("README.md", 1), ("docs/generated_code.md", 9)] {
+        let text = fs::read_to_string(root().join(page)).expect("the page");
+        let excerpts = excerpts(&text);
+        assert!(excerpts.len() >= least, "{page}: {}", excerpts.len());
+        for (spec, excerpt) in excerpts {
+            let generated = bgdyn(&["generate", spec]).good();
+            let found = unindented(&generated).contains(&unindented(excerpt));
+            assert!(
+                found,
+                "{page}: not in what is generated for {spec}:\n{excerpt}"
+            );
+        }
+    }
 }
 
 #[test]
