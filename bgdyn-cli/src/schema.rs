@@ -4,6 +4,7 @@
 //! that no body has, a circle of parents) is for `bgdyn check`. Effects come from the generator's own table.
 
 use bgdyn_codegen::effect::{EFFECTS, Effect};
+use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
 use bgdyn_codegen::spec::{Dimension, LENGTHS, Reads};
 use serde_json::{Map, Value, json};
 
@@ -117,7 +118,7 @@ fn link() -> Value {
 }
 
 fn joint() -> Value {
-    let kinds = ["revolute", "continuous", "prismatic", "fixed"];
+    let kinds = JOINT_TYPES.map(|kind| kind.keyword);
     object(
         &[
             (

@@ -32,3 +32,10 @@ pub mod system;
 #[cfg(feature = "source")]
 pub use build_script::{Build, build};
 pub use read::read;
+
+/// The examples of `docs/extending.md`, compiled by `cargo test --doc -p bgdyn-codegen`.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../docs/extending.md")]
+    struct Extending;
+}

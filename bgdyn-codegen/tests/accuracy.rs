@@ -147,20 +147,22 @@ fn accuracy_is_the_best_of_all() {
     for name in ["scara4", "puma560", "dpend2"] {
         let robot = common::golden::robot(name);
         let measured = |f: &Function| loss(f, &robot.graph).expect("regular states");
+        let s = State::random(&mut Rng::new(3), &robot.motions());
         for method in Method::OF_TRAIT {
+            let literal: Vec<Dd> = s.value(&robot.function("literal", method));
             let fine = accurate(&robot, method);
             let Loss { refused, roundings } = measured(&fine);
             assert_eq!(refused, 0);
             for way in FORMULATIONS.iter().filter(|way| way.knows(method)) {
-                let other = measured(&robot.function(way.name(), method));
+                let function = robot.function(way.name(), method);
+                let other = measured(&function);
                 let place = format!("{name}, {method:?}, {}", way.name());
+                common::assert_close::<Dd>(&s.value(&function), &literal, 1e-24, || place.clone());
                 // The others' sums are arranged for speed, which at these states may by chance gain a
                 // part of a rounding (0.55 seen), and at others lose it.
                 let most = other.roundings + 1.0;
                 assert!(roundings <= most, "{place}: {roundings}, {most}");
             }
-            let s = State::random(&mut Rng::new(3), &robot.motions());
-            let literal: Vec<Dd> = s.value(&robot.function("literal", method));
             let x: Vec<Dd> = s.value(&fine);
             common::assert_close(&x, &literal, 1e-24, || format!("{name}, {method:?}"));
         }
