@@ -3,6 +3,10 @@
 //! One path, one direction: [`spec`] (the file as written) → [`mechanism`] (checked) →
 //! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) →
 //! [`emit`] (Rust tokens). Data types import no steps; [`model`] runs the steps in order.
+//!
+//! Units, frames, the order of spatial vectors and the sign of gravity are said once, in
+//! [`bgdyn_runtime`]; how to add a joint, an effect, a formulation or a backend in
+//! `docs/extending.md`.
 #![forbid(unsafe_code)]
 
 pub mod bond_graph;

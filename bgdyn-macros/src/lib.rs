@@ -1,4 +1,7 @@
 //! The procedural macro [`bgdyn!`]: finds the spec, asks bgdyn-codegen for the code, reports.
+//!
+//! Units, frames, the order of spatial vectors and the sign of gravity of what it generates are said
+//! in the documentation of the crate `bgdyn-runtime`, which is `bgdyn::runtime`.
 #![forbid(unsafe_code)]
 
 mod find;

@@ -5,7 +5,12 @@
 //! - x forward, y left, z up; gravity is the acceleration of free fall in world axes,
 //!   `[0, 0, -9.81]` unless the spec says otherwise.
 //! - Fixed-axis roll-pitch-yaw: R = Rz(yaw)·Ry(pitch)·Rx(roll).
-//! - Spatial vectors list the angular part first.
+//! - A coordinate grows about or along its joint's axis, by the right hand; an effort is positive
+//!   where it drives its coordinate up. What `gravity` returns are efforts: those that hold the
+//!   mechanism at rest.
+//! - A pose's columns are the frame's axes in world axes, its translation the frame's origin.
+//! - Spatial vectors list the angular part first. Velocities, Jacobians and J̇ v of a frame are in
+//!   world axes, their linear part that of the frame's origin.
 //! - An inertia tensor's off-diagonal entries are *minus* the products of inertia
 //!   (Kuzmin 2007, eq. 1); `ixy` always means the tensor's entry, as in URDF.
 //! - `q` positions, `v` velocities, `a` accelerations, `tau` joint efforts.

@@ -45,6 +45,9 @@
 //! assert!(state.q[0] > 0.0);
 //! ```
 //!
+//! SI units and radians, s of time, J of energy; frames, signs and the order of spatial vectors are
+//! those of the models: [`bgdyn_runtime`] says them once.
+//!
 //! # Features, off by default
 //! - `std`: states of a size known at run time only, nalgebra's `DVector`. Without it there is neither
 //!   std nor a heap. Also `batch`: many runs over all cores.

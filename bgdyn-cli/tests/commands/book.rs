@@ -10,10 +10,11 @@ use std::path::Path;
 use super::{bgdyn, bgdyn_in, root, scratch};
 
 /// Pages, and the folder in which a reader stands.
-const PAGES: [(&str, &str); 3] = [
+const PAGES: [(&str, &str); 4] = [
     ("docs/first_model.md", "examples/first_model"),
     ("docs/tests_to_copy.md", "examples/first_model"),
     ("docs/generated_code.md", "."),
+    ("docs/paper_to_code.md", "."),
 ];
 
 /// A command with what the page says that it prints.
@@ -101,7 +102,7 @@ fn pages_show_what_the_command_prints() {
             commands += 1;
         }
     }
-    assert!(commands >= 7, "{commands} commands found");
+    assert!(commands >= 10, "{commands} commands found");
 }
 
 /// The excerpts of generated code on a page: the spec, and the text.
@@ -134,6 +135,50 @@ fn excerpts_are_what_is_generated() {
             );
         }
     }
+}
+
+/// How a code host names a heading.
+fn anchor(heading: &str) -> String {
+    let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
+    let kept: String = heading.to_lowercase().chars().filter(kept).collect();
+    kept.replace(' ', "-")
+}
+
+/// The targets of a page's links, but for those of the web.
+fn links(page: &str) -> Vec<&str> {
+    let ends = page.split("](").skip(1);
+    let targets = ends.filter_map(|rest| Some(rest.split_once(')')?.0));
+    let local = targets.filter(|target| !target.contains("://") && !target.contains(' '));
+    local.collect()
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let folder = fs::read_dir(root().join("docs")).expect("the book");
+    let pages = folder.map(|entry| entry.expect("an entry").path());
+    let pages = pages.filter(|path| path.extension().is_some_and(|e| e == "md"));
+    let front = ["README.md", "ARCHITECTURE.md"].map(|name| root().join(name));
+    let mut lost = Vec::new();
+    for path in pages.chain(front) {
+        let text = fs::read_to_string(&path).expect("a page");
+        for link in links(&text) {
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let target = match file {
+                "" => path.clone(),
+                file => path.with_file_name("").join(file),
+            };
+            let found = target.exists() && {
+                let there = fs::read_to_string(&target).unwrap_or_default();
+                let mut headings = there.lines().filter(|line| line.starts_with('#'));
+                heading.is_empty()
+                    || headings.any(|line| anchor(line.trim_start_matches('#').trim()) == heading)
+            };
+            if !found {
+                lost.push(format!("{}: {link}", path.display()));
+            }
+        }
+    }
+    assert!(lost.is_empty(), "{}", lost.join("\n"));
 }
 
 #[test]

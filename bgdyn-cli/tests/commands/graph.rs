@@ -281,7 +281,7 @@ links:
 /// `docs/graph.md` says which commands made them.
 #[test]
 fn the_pictures_of_the_page_are_up_to_date() {
-    for name in ["scara", "torso"] {
+    for name in ["cart_pole", "scara", "torso"] {
         let kept = root().join(format!("docs/images/graph_{name}.svg"));
         let kept = fs::read_to_string(kept).expect("the picture");
         let drawn = svg(&format!("specs/{name}.yaml"));

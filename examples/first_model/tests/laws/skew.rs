@@ -10,7 +10,7 @@ fn mass_rate_less_twice_coriolis_is_skew() {
     for k in 0..100 {
         let q = Vector2::new(0.1 * f64::from(k), -1.0 + 0.02 * f64::from(k));
         let v = Vector2::new(2.0 - 0.1 * f64::from(k), 0.03 * f64::from(k));
-        let moving = q.zip_map(&v, |q, v| Dual64::new(q, v));
+        let moving = q.zip_map(&v, Dual64::new);
         let m_rate = dual.mass_matrix(&moving).map(|x| x.eps);
         let c = head.coriolis_matrix(&q, &v);
 
