@@ -139,7 +139,7 @@ fn encodings_and_doctypes() {
         "\u{feff}<?xml version='1.0' encoding='ISO-8859-1'?>\n{}",
         hinge("").replace("\"j\"", "\"é\"")
     );
-    assert_eq!(import(&urdf).unwrap().notes, ["joint `é` → `joint`"]);
+    assert_eq!(import(&urdf).unwrap().notes, ["joints `é` → `joint`"]);
     import(&urdf.replace("ISO-8859-1", "klingon")).unwrap();
     let bomb = "<!DOCTYPE r [<!ENTITY a 'aaaaaaaaaaaaaaaa'>".to_string()
         + &(0..12)

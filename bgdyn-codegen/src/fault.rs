@@ -107,6 +107,14 @@ impl Faults {
             .count()
     }
 
+    /// How many findings refuse the spec, in words: `1 fault`, `3 faults`.
+    pub fn tally(&self) -> String {
+        match self.count() {
+            1 => "1 fault".into(),
+            n => format!("{n} faults"),
+        }
+    }
+
     /// Sorts by position; findings at one place keep their order.
     pub fn sort(&mut self) {
         self.0.sort_by_key(|f| f.position);

@@ -41,7 +41,7 @@ impl Check {
             tell(&spec.render(&faults));
         }
         let Some(m) = mechanism else {
-            tell(&format!("{} faults\n", faults.count()));
+            tell(&format!("{}\n", faults.tally()));
             return Err(anyhow!(""));
         };
         if !self.json {

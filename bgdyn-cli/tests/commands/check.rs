@@ -39,7 +39,7 @@ fn every_fault_starts_with_its_place() {
 fn the_path_is_printed_as_given() {
     let stderr = bgdyn(&["check", "specs/../specs/invalid/negative_mass.yaml"]).bad_input();
     assert!(stderr.starts_with("specs/../specs/invalid/negative_mass.yaml:16:11: "));
-    assert_eq!(stderr.lines().last(), Some("1 faults"));
+    assert_eq!(stderr.lines().last(), Some("1 fault"));
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn every_invalid_spec_is_refused() {
         assert_eq!(run.stdout, "", "{name}");
         let stderr = run.bad_input();
         assert!(stderr.starts_with(&format!("{name}:")), "{stderr}");
-        assert_eq!(stderr.lines().last(), Some("1 faults"), "{name}");
+        assert_eq!(stderr.lines().last(), Some("1 fault"), "{name}");
         count += 1;
     }
     assert!(count > 40);
