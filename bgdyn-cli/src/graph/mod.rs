@@ -12,6 +12,7 @@
 
 mod chart;
 mod dot;
+mod fluid;
 mod notation;
 mod order;
 mod place;

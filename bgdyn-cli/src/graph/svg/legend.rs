@@ -2,7 +2,7 @@
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
 
-use super::super::chart::{Chart, Component};
+use super::super::chart::{Chart, Component, Port};
 use super::super::place::{MARGIN, text_width};
 use super::symbols::{Bond, Point, bar, bond, junction};
 use super::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
@@ -39,12 +39,15 @@ const TF: &str = "transformer whose modulus is the same at all times";
 const PARAMETER: &str = "the same at all times, but a run-time parameter";
 const STORE: &str = "inertial store: mass m, kg; inertia J, kg·m², about the centre of mass in the link's axes. Derivative causality: every link's flow follows from the q̇, so the stores meet in the mass matrix";
 const INTEGRAL: &str = ". Where its stroke is at the store, its own state gives the flow.";
-const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N";
+const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N; u a voltage, p a pressure";
 
 const FLOW: &str = "source of flow: a reference that moves by itself";
 const GEAR: &str = "on a joint's drive: a gear, at the joint's scale, with its efficiency η";
-const RESISTOR: &str = "resistor: friction, a damper, a winding; takes power and stores none";
-const COMPLIANCE: &str = "compliance: a spring, a stop, a soft drive; stores by displacement";
+const CYLINDER: &str = "on a joint: a side of a cylinder, of area A: effort = A · pressure, flow of fluid = A · velocity";
+const RESISTOR: &str =
+    "resistor: friction, a damper, a winding, an orifice; takes power and stores none";
+const COMPLIANCE: &str =
+    "compliance: a spring, a stop, a soft drive, fluid under pressure; stores by displacement";
 const GYRATOR: &str = "gyrator, a DC motor: effort on the joint = k N · current, induced voltage = k N · velocity; u is the voltage fed to it, V";
 
 /// The entries for a drawing, in lines of this width.
@@ -85,6 +88,7 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
     let own = if integral { INTEGRAL } else { "." };
     let store = [STORE, own].concat();
     let stands = |symbol| chart.has(|port| port.symbol == symbol);
+    let filled = |port: &Port| port.ports.iter().any(|behind| behind.symbol == "0");
     let entries = [
         ("MTF", MTF, of_symbol("MTF")),
         ("TF", TF, of_symbol("TF")),
@@ -96,7 +100,8 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
         ("I", store.as_str(), stands("I")),
         ("Se", SOURCE, stands("Se")),
         ("Sf", FLOW, stands("Sf")),
-        ("TF", GEAR, stands("TF")),
+        ("TF", GEAR, chart.has(|p| p.symbol == "TF" && !filled(p))),
+        ("TF", CYLINDER, chart.has(|p| p.symbol == "TF" && filled(p))),
         ("R", RESISTOR, stands("R")),
         ("C", COMPLIANCE, stands("C")),
         ("GY", GYRATOR, stands("GY")),
