@@ -53,7 +53,7 @@ impl<'a> Fluid<'a> {
     }
 
     /// f = p_a A_a − p_b A_b
-    fn sides(&mut self, cylinder: &Element) -> Vec<Port> {
+    pub(super) fn sides(&mut self, cylinder: &Element) -> Vec<Port> {
         let areas = [("", "area_a"), ("−", "area_b")];
         let sides = cylinder.nodes().into_iter().zip(areas);
         sides

@@ -10,6 +10,7 @@
 //! no transformer that the structure makes zero, no flow that no transformer feeds, no source
 //! without effort.
 
+mod between;
 mod chart;
 mod dot;
 mod fluid;

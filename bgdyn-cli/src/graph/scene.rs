@@ -1,12 +1,12 @@
 //! What a scene's effects add to the drawing: friction, springs, stops, rotors, gears, motors,
 //! elastic drives and hydraulics on the joints.
 //!
-//! What acts elsewhere than on one joint (wrenches, springs and cylinders between places) is not
-//! drawn but named.
+//! What acts neither on one joint nor along one line (wrenches, drag) is not drawn but named.
 
 use bgdyn_codegen::effect::{Checked, Element};
 use bgdyn_codegen::system::System;
 
+use super::between;
 use super::chart::{Chart, Port};
 use super::fluid::Fluid;
 use super::notation::subscript;
@@ -24,12 +24,13 @@ impl Chart {
             let drive = Port::drive(format!("P{}, {}", subscript(number), velocity.effort));
             velocity.ports = ports(system, &velocity.name, drive, &mut fluid);
         }
+        chart.lines = between::lines(&chart, system, &mut fluid);
         if !graph.velocity_products && chart.varies() {
             let note = "The rates of the transformers are left out: no velocity products.";
             chart.notes.push(note.into());
         }
         let payload = |e: &Element| graph.frames.iter().any(|frame| frame.name == e.name);
-        let is_drawn = |e: &Element| is_drawn(e) || fluid.has_drawn(e);
+        let is_drawn = |e: &Element| is_drawn(e) || between::is_drawn(e) || fluid.has_drawn(e);
         let elements = scene.elements.iter();
         let beside = elements.filter(|e| !e.effect.built_in() && !payload(e) && !is_drawn(e));
         let beside: Vec<&str> = beside.map(|e| e.name.as_str()).collect();
