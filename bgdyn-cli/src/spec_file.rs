@@ -65,12 +65,12 @@ impl SpecFile {
         match refusal {
             Refusal::Spec(faults) => {
                 tell(&self.render(&faults));
-                anyhow!("{shown} has {} faults", faults.count())
+                anyhow!("{shown} has {}", faults.tally())
             }
             Refusal::Mechanism { path, text, faults } => {
                 let file = beside(&self.path, &path);
                 tell(&faults.render(&file.display().to_string(), &text));
-                anyhow!("{} has {} faults", file.display(), faults.count())
+                anyhow!("{} has {}", file.display(), faults.tally())
             }
             Refusal::Options(names) => unknown(names).into(),
         }
@@ -85,7 +85,7 @@ impl SpecFile {
     pub(crate) fn mechanism(&self) -> Result<Mechanism> {
         let (mechanism, faults) = self.read();
         tell(&self.render(&faults));
-        mechanism.ok_or_else(|| anyhow!("{} has {} faults", self.path.display(), faults.count()))
+        mechanism.ok_or_else(|| anyhow!("{} has {}", self.path.display(), faults.tally()))
     }
 }
 

@@ -226,15 +226,11 @@ impl Build {
         let shown = self.spec.display().to_string();
         Error(match refusal {
             Refusal::Spec(faults) => {
-                format!("{}\n{} faults", faults.render(&shown, text), faults.count())
+                format!("{}\n{}", faults.render(&shown, text), faults.tally())
             }
             Refusal::Mechanism { path, text, faults } => {
                 let shown = beside(&self.spec, &path).display().to_string();
-                format!(
-                    "{}\n{} faults",
-                    faults.render(&shown, &text),
-                    faults.count()
-                )
+                format!("{}\n{}", faults.render(&shown, &text), faults.tally())
             }
             Refusal::Options(unknown) => {
                 let lines = unknown.iter().map(|u| format!("{shown}: {u}"));

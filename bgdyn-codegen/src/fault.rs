@@ -9,6 +9,7 @@ pub(crate) mod wording;
 use std::fmt;
 
 pub(crate) use suggest::unknown_name;
+use wording::one_line;
 
 /// A place in the spec's text; lines and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,7 +63,7 @@ impl Fault {
             position: place.position,
             path: place.path.clone(),
             rule,
-            message: message.into(),
+            message: one_line(message.into()),
             help: None,
         }
     }
@@ -70,7 +71,7 @@ impl Fault {
     /// The same finding with a way out.
     pub fn with_help(self, help: impl Into<String>) -> Self {
         Fault {
-            help: Some(help.into()),
+            help: Some(one_line(help.into())),
             ..self
         }
     }
@@ -105,6 +106,14 @@ impl Faults {
             .iter()
             .filter(|f| f.severity == Severity::Fault)
             .count()
+    }
+
+    /// How many findings refuse the spec, in words: `1 fault`, `3 faults`.
+    pub fn tally(&self) -> String {
+        match self.count() {
+            1 => "1 fault".into(),
+            n => format!("{n} faults"),
+        }
     }
 
     /// Sorts by position; findings at one place keep their order.

@@ -104,7 +104,7 @@ fn module(
         Err(Refusal::Spec(faults)) => {
             let mut message = faults.render(&written, &text).trim_end().to_string();
             if faults.count() > 1 {
-                message += &format!("\n\n{} faults", faults.count());
+                message += &format!("\n\n{}", faults.tally());
             }
             Err(refused(message, &text, &place))
         }

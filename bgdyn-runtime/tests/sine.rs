@@ -140,6 +140,40 @@ fn errors_of_every_f32() {
     assert!(found.0 < 1.0, "{} units at {:e}", found.0, found.1);
 }
 
+/// Sums of two, which take a shorter way, and of three: of all sizes, and such that all but cancel.
+fn sums<T: Float>(seed: u64) {
+    let mut random = Random(seed);
+    let mut found = (0.0, [0.0; 3]);
+    for round in 0..60_000 {
+        let size = libm::exp2(random.unit() * 12.0);
+        let [a, b] = [0, 1].map(|_| T::of(random.unit() * size));
+        // In every other round the angle undoes the offset to within a few units in its last place.
+        let hi = random.unit() * 3.0;
+        let near = T::of(-hi).beside((round % 7) - 3);
+        let a = if round % 2 == 0 { near } else { a };
+        let lo = hi * random.unit() * 2_f64.powi(-54);
+        let cases: [(&[T], (f64, f64)); 3] =
+            [(&[a], (hi, lo)), (&[a, b], (0.0, 0.0)), (&[a, b], (hi, lo))];
+        for (angles, offset) in cases {
+            let wide: Vec<Dd> = angles.iter().map(|x| Dd::from(x.wide())).collect();
+            let (sin, cos) = Dd::sin_cos_sum(&wide, offset);
+            let (s, c) = T::sin_cos_sum(angles, offset);
+            let e = units(s, sin).max(units(c, cos));
+            if e.is_nan() || e > found.0 {
+                found = (e, [a.wide(), b.wide(), hi]);
+            }
+        }
+    }
+    println!("sums: {:.4} units at {:?}", found.0, found.1);
+    assert!(found.0 < 1.0, "{} units at {:?}", found.0, found.1);
+}
+
+#[test]
+fn errors_of_sums() {
+    sums::<f64>(8);
+    sums::<f32>(9);
+}
+
 /// What is no angle has no sine, small ones are their own.
 #[test]
 fn ends_of_the_range() {

@@ -20,6 +20,8 @@ pub(super) struct Bars {
     pub left: String,
     pub right: String,
     pub bars: Vec<Bar>,
+    /// Left bars shorter than this say nothing, and are drawn so.
+    pub noise: f64,
 }
 
 const WIDTH: f64 = 1000.0;
@@ -59,7 +61,11 @@ impl Bars {
             return;
         };
         let (from, length) = (zero + x.min(0.0) * scale, x.abs() * scale);
-        let colour = if x < 0.0 { "#9ccbe6" } else { "#0072b2" };
+        let colour = match x {
+            x if x.abs() < self.noise => FAINT,
+            x if x < 0.0 => "#9ccbe6",
+            _ => "#0072b2",
+        };
         d.rectangle((from, y), (length.max(1.0), THICK), colour);
         match x < 0.0 {
             true => d.text((from - 6.0, y + 13.0), 13, INK, Anchor::End, &short(x)),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Severity};
-use bgdyn_codegen::mechanism::{Mechanism, Parameter};
+use bgdyn_codegen::mechanism::{LinkId, Mechanism, Parameter};
 use bgdyn_codegen::model::Refusal;
 use bgdyn_codegen::scene::{Part, Solved};
 use bgdyn_codegen::system::System;
@@ -41,11 +41,13 @@ impl Check {
             tell(&spec.render(&faults));
         }
         let Some(m) = mechanism else {
-            tell(&format!("{} faults\n", faults.count()));
+            tell(&format!("{}\n", faults.tally()));
             return Err(anyhow!(""));
         };
         if !self.json {
-            print(&format!("ok: {}, NQ {}, NV {}\n", m.name(), m.nq(), m.nv()))?;
+            let names = coordinates(&m).join(", ");
+            let sizes = format!("NQ {}, NV {}", m.nq(), m.nv());
+            print(&format!("ok: {}, {sizes}: {names}\n", m.name()))?;
         }
         Ok(())
     }
@@ -126,6 +128,12 @@ fn scene_model(system: &System) -> Value {
     })
 }
 
+/// The coordinates' joints, in the order of q.
+fn coordinates(mechanism: &Mechanism) -> Vec<&str> {
+    let joint = |link: &LinkId| mechanism.links()[link.0].joint.name.as_str();
+    mechanism.coordinates().iter().map(joint).collect()
+}
+
 fn model(mechanism: &Mechanism) -> Value {
     let parameter = |p: &Parameter| {
         json!({
@@ -140,6 +148,7 @@ fn model(mechanism: &Mechanism) -> Value {
         "name": mechanism.name(),
         "nq": mechanism.nq(),
         "nv": mechanism.nv(),
+        "coordinates": coordinates(mechanism),
         "parameters": parameters,
     })
 }

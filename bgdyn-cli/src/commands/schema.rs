@@ -6,15 +6,23 @@ use clap::Args;
 use crate::output::print;
 use crate::schema;
 
-/// The JSON Schema of a mechanism's file, for editors
+/// The JSON Schema of a mechanism's file, or of a scene's, for editors
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn schema > mechanism.schema.json\nand in the first line of a spec:\n  # yaml-language-server: $schema=mechanism.schema.json"
+    after_help = "Example:\n  bgdyn schema > mechanism.schema.json\n  bgdyn schema --scene > scene.schema.json\nand in the first line of a spec:\n  # yaml-language-server: $schema=mechanism.schema.json"
 )]
-pub(crate) struct Schema {}
+pub(crate) struct Schema {
+    /// Of a scene's file
+    #[arg(long)]
+    scene: bool,
+}
 
 impl Schema {
     pub(crate) fn run(self) -> Result<()> {
-        print(&format!("{:#}\n", schema::mechanism()))
+        let schema = match self.scene {
+            true => schema::scene(),
+            false => schema::mechanism(),
+        };
+        print(&format!("{schema:#}\n"))
     }
 }

@@ -13,6 +13,8 @@ pub(crate) struct Chart {
     pub velocities: Vec<Velocity>,
     /// The links that move, parents first, each before the next of its carrier's other links.
     pub links: Vec<Link>,
+    /// Lines between two places, along which something acts: as links without a joint.
+    pub lines: Vec<Link>,
     /// Names of links that no coordinate moves: none of their junctions is there.
     pub still: Vec<String>,
     /// What has to be said of it beside.
@@ -20,10 +22,19 @@ pub(crate) struct Chart {
 }
 
 impl Chart {
+    /// Links, then lines.
+    pub fn bands(&self) -> impl Iterator<Item = &Link> {
+        self.links.iter().chain(&self.lines)
+    }
+
+    /// Every flow, link by link.
+    pub fn flows(&self) -> impl Iterator<Item = &Flow> {
+        self.bands().flat_map(|link| &link.flows)
+    }
+
     /// Every transformer, link by link.
     pub fn transformers(&self) -> impl Iterator<Item = &Transformer> {
-        let flows = self.links.iter().flat_map(|link| &link.flows);
-        flows.flat_map(|flow| &flow.transformers)
+        self.flows().flat_map(|flow| &flow.transformers)
     }
 
     /// Whether a modulus varies with the coordinates.
@@ -33,8 +44,7 @@ impl Chart {
 
     /// Whether something with this property stands on a junction.
     pub fn has(&self, property: impl Fn(&Port) -> bool) -> bool {
-        let flows = self.links.iter().flat_map(|link| &link.flows);
-        let on_links = flows.flat_map(|flow| &flow.ports);
+        let on_links = self.flows().flat_map(|flow| &flow.ports);
         let on_velocities = self.velocities.iter().flat_map(|v| &v.ports);
         let mut waiting: Vec<&Port> = on_velocities.chain(on_links).collect();
         while let Some(port) = waiting.pop() {
@@ -49,9 +59,10 @@ impl Chart {
     /// How much of the graph is there.
     pub fn census(&self) -> String {
         let (nv, links) = (self.velocities.len(), self.links.len() + self.still.len());
-        let there = self.transformers().count();
+        let of_links = || self.transformers().filter(|t| t.is_vector());
+        let there = of_links().count();
         let count = |of: fn(&Component) -> bool| {
-            let components = self.transformers().flat_map(|t| &t.modulus);
+            let components = of_links().flat_map(|t| &t.modulus);
             components.filter(|c| of(c)).count()
         };
         let zero = count(|c| *c == Component::Zero);
@@ -118,6 +129,11 @@ impl Flow {
     pub fn sums(&self) -> bool {
         self.transformers.len() > 1
     }
+
+    /// Whether it is a vector.
+    pub fn is_vector(&self) -> bool {
+        self.transformers.iter().any(Transformer::is_vector)
+    }
 }
 
 /// A transformer from a generalized velocity to a link's flow.
@@ -127,8 +143,8 @@ pub(crate) struct Transformer {
     pub velocity: usize,
     /// `∂r₂/∂q₁` or `ρ₁²`
     pub name: String,
-    /// Its components x, y, z.
-    pub modulus: [Component; 3],
+    /// Its components x, y, z; a single one on the way to the rate of a length.
+    pub modulus: Vec<Component>,
     /// What it varies with: `q₁…q₃`; empty for a constant one.
     pub varies: String,
 }
@@ -142,10 +158,15 @@ impl Transformer {
         }
     }
 
+    /// Whether it is a vector's.
+    pub fn is_vector(&self) -> bool {
+        self.modulus.len() > 1
+    }
+
     /// `(0, 0.17, ·)`
     pub fn vector(&self) -> String {
-        let [x, y, z] = &self.modulus;
-        format!("({x}, {y}, {z})")
+        let entries: Vec<String> = self.modulus.iter().map(Component::to_string).collect();
+        format!("({})", entries.join(", "))
     }
 }
 

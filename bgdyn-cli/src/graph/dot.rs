@@ -30,7 +30,7 @@ impl Chart {
                 );
             }
         }
-        for (i, link) in self.links.iter().enumerate() {
+        for (i, link) in self.bands().enumerate() {
             cluster(&mut text, i, link);
         }
         text + "}\n"
@@ -45,7 +45,7 @@ fn cluster(text: &mut String, i: usize, link: &Link) {
         let one = format!("l{i}_{k}");
         node(text, 2, &one, &format!("1\n{}", flow.symbol));
         for (p, port) in flow.ports.iter().enumerate() {
-            one_port(text, port, &one, &format!("{one}_{p}"), true);
+            one_port(text, port, &one, &format!("{one}_{p}"), flow.is_vector());
         }
         for t in &flow.transformers {
             node(text, 2, &format!("{one}_t{}", t.velocity), &words(t));
@@ -74,10 +74,10 @@ fn transformers(text: &mut String, flow: &Flow, one: &str) {
             false,
         );
         let target = if flow.sums() { &sum } else { one };
-        bond(text, 1, &own, target, Some(End::Tail), true);
+        bond(text, 1, &own, target, Some(End::Tail), flow.is_vector());
     }
     if flow.sums() {
-        bond(text, 1, &sum, one, Some(End::Tail), true);
+        bond(text, 1, &sum, one, Some(End::Tail), flow.is_vector());
     }
 }
 

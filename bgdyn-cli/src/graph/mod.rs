@@ -10,8 +10,10 @@
 //! no transformer that the structure makes zero, no flow that no transformer feeds, no source
 //! without effort.
 
+mod between;
 mod chart;
 mod dot;
+mod fluid;
 mod notation;
 mod order;
 mod place;

@@ -37,6 +37,7 @@ impl Chart {
             description: description.map(str::to_owned),
             velocities: order.iter().map(|&j| velocity(graph, j)).collect(),
             links: moving.into_iter().map(|i| link(graph, &order, i)).collect(),
+            lines: Vec::new(),
             still: still.into_iter().map(name).collect(),
             notes: Vec::new(),
         }
@@ -115,7 +116,7 @@ fn transformers(
             found.push(Transformer {
                 velocity: place,
                 name,
-                modulus: t.modulus.0.map(|m| component(m, order.len())),
+                modulus: t.modulus.0.map(|m| component(m, order.len())).to_vec(),
                 varies: coordinates(&numbers),
             });
         }

@@ -89,7 +89,7 @@ pub(super) fn place(chart: &Chart, top: f64) -> Places {
     let mut columns = columns(chart);
     let mut y = top;
     let mut bands = Vec::new();
-    for link in &chart.links {
+    for link in chart.bands() {
         if let Some(j) = link.velocity {
             columns[j].head = y + ABOVE_HEAD;
             columns[j].end = columns[j].head;
@@ -124,10 +124,7 @@ fn columns(chart: &Chart) -> Vec<Column> {
     let mut x = MARGIN + INDENT;
     let mut columns = Vec::new();
     for j in 0..chart.velocities.len() {
-        let flows = chart.links.iter().flat_map(|link| &link.flows);
-        let own = flows
-            .flat_map(|flow| &flow.transformers)
-            .filter(|t| t.velocity == j);
+        let own = chart.transformers().filter(|t| t.velocity == j);
         let width = own.map(cell_width).fold(0.0, f64::max);
         columns.push(Column {
             x,
@@ -142,7 +139,11 @@ fn columns(chart: &Chart) -> Vec<Column> {
 
 fn cell_width(transformer: &Transformer) -> f64 {
     let below = SYMBOL + 8.0 + text_width(&transformer.varies, 10);
-    (VECTOR + vector_width(transformer)).max(below) + 14.0
+    let modulus = match transformer.is_vector() {
+        true => VECTOR + vector_width(transformer),
+        false => VECTOR,
+    };
+    modulus.max(below) + 14.0
 }
 
 /// Width of a modulus with its brackets.
@@ -158,11 +159,22 @@ fn band(link: &Link, columns: &[Column], top: f64) -> Band {
     let used: Vec<&Column> = used.map(|j| &columns[j]).collect();
     let left = used.iter().map(|c| c.x).reduce(f64::min);
     let left = left.unwrap_or(MARGIN + INDENT);
-    let zero = used.iter().map(|c| c.x + c.width).fold(left, f64::max) + BEFORE_ZERO;
+    // Right of a line's junctions no bar runs down, either: lines stand below the whole tree.
+    let is_line = link.flows.iter().any(|flow| !flow.is_vector());
+    let cleared: Vec<&Column> = match is_line {
+        true => columns.iter().collect(),
+        false => used,
+    };
+    let zero = cleared.iter().map(|c| c.x + c.width).fold(left, f64::max) + BEFORE_ZERO;
     let rows: Vec<f64> = (0..link.flows.len())
         .map(|row| top + FIRST + ROW * row as f64)
         .collect();
+    let behind = link.flows.last().map_or(0, |flow| match flow.is_vector() {
+        true => 0,
+        false => lines(&flow.ports) - 1,
+    });
     let bottom = rows.last().map_or(top + FIRST, |row| row + DROP + LAST);
+    let bottom = bottom + PITCH * behind as f64;
     let widths = link.flows.iter().map(flow_width);
     let right = zero + widths.fold(text_width(&link.name, 13) + 24.0, f64::max);
     Band {

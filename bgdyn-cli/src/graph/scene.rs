@@ -1,13 +1,14 @@
-//! What a scene's effects add to the drawing: friction, springs, stops, rotors, gears, motors and
-//! elastic drives on the joints.
+//! What a scene's effects add to the drawing: friction, springs, stops, rotors, gears, motors,
+//! elastic drives and hydraulics on the joints.
 //!
-//! What acts elsewhere than on one joint (hydraulics, wrenches, springs between places) is not drawn
-//! but named.
+//! What acts neither on one joint nor along one line (wrenches, drag) is not drawn but named.
 
 use bgdyn_codegen::effect::{Checked, Element};
 use bgdyn_codegen::system::System;
 
+use super::between;
 use super::chart::{Chart, Port};
+use super::fluid::Fluid;
 use super::notation::subscript;
 
 impl Chart {
@@ -15,18 +16,21 @@ impl Chart {
     pub(crate) fn of_scene(system: &System) -> Self {
         let (scene, graph) = (&system.scene, &system.graph);
         let mut chart = Chart::of_graph(graph, &scene.name, scene.description.as_deref());
+        let mut fluid = Fluid::new(&scene.elements);
         for velocity in &mut chart.velocities {
             let number = graph
                 .coordinate_named(&velocity.name)
                 .map_or(0, |j| j.0 + 1);
             let drive = Port::drive(format!("P{}, {}", subscript(number), velocity.effort));
-            velocity.ports = ports(system, &velocity.name, drive);
+            velocity.ports = ports(system, &velocity.name, drive, &mut fluid);
         }
+        chart.lines = between::lines(&chart, system, &mut fluid);
         if !graph.velocity_products && chart.varies() {
             let note = "The rates of the transformers are left out: no velocity products.";
             chart.notes.push(note.into());
         }
         let payload = |e: &Element| graph.frames.iter().any(|frame| frame.name == e.name);
+        let is_drawn = |e: &Element| is_drawn(e) || between::is_drawn(e) || fluid.has_drawn(e);
         let elements = scene.elements.iter();
         let beside = elements.filter(|e| !e.effect.built_in() && !payload(e) && !is_drawn(e));
         let beside: Vec<&str> = beside.map(|e| e.name.as_str()).collect();
@@ -38,21 +42,22 @@ impl Chart {
     }
 }
 
-/// Whether an element acts on one coordinate, and on nothing else.
+/// Whether an element acts on one coordinate, and on nothing else: no fluid either.
 fn is_drawn(element: &Element) -> bool {
     let known = ["R", "C", "I", "GY", "TF"].contains(&element.effect.symbol());
-    known && element.name("joint").is_some()
+    known && element.name("joint").is_some() && element.nodes().is_empty()
 }
 
 /// What stands on the junction of a coordinate, its drive first where an effort from outside acts.
-fn ports(system: &System, coordinate: &str, drive: Port) -> Vec<Port> {
+fn ports(system: &System, coordinate: &str, drive: Port, fluid: &mut Fluid<'_>) -> Vec<Port> {
     let elements = system.scene.elements.iter();
     let own = elements.filter(|e| e.name("joint") == Some(coordinate) && is_drawn(e));
     let (gears, others): (Vec<_>, Vec<_>) = own.partition(|e| e.effect.symbol() == "TF");
     let drive = driven(system, coordinate).then_some(drive);
     let drive = drive.map(|drive| gears.into_iter().fold(drive, geared));
     let mut all: Vec<Port> = drive.into_iter().collect();
-    all.extend(others.into_iter().filter_map(|e| port(e, system)));
+    all.extend(others.into_iter().filter_map(|e| port(e, system, fluid)));
+    all.extend(fluid.at(coordinate));
     settle(&mut all);
     all
 }
@@ -89,10 +94,10 @@ fn give(port: &mut Port) {
 }
 
 /// What an effect is on the junction of its joint.
-fn port(element: &Element, system: &System) -> Option<Port> {
+fn port(element: &Element, system: &System, fluid: &mut Fluid<'_>) -> Option<Port> {
     let named = format!("{} ({})", element.name, element.effect.keyword());
     match element.effect.symbol() {
-        "C" if element.effect.adds_coordinate() => Some(elastic(element, system)),
+        "C" if element.effect.adds_coordinate() => Some(elastic(element, system, fluid)),
         symbol @ ("R" | "C") => {
             let port = Port::taking(symbol, named);
             Some(match element.name("reference") {
@@ -168,7 +173,7 @@ fn motor(element: &Element) -> Port {
 }
 
 /// τ = K (θ − q) + D (θ̇ − q̇) between the joint and its drive, which has the rotor's store.
-fn elastic(element: &Element, system: &System) -> Port {
+fn elastic(element: &Element, system: &System, fluid: &mut Fluid<'_>) -> Port {
     let mut stretch = vec![Port::taking("C", number(element, "K", "stiffness"))];
     if value(element, "damping").is_some() {
         stretch.push(Port::taking("R", number(element, "D", "damping")));
@@ -178,7 +183,7 @@ fn elastic(element: &Element, system: &System) -> Port {
         ..Port::junction("1", "θ̇ − q̇".into(), false)
     };
     let outside = Port::drive(format!("P of {}", element.name));
-    let mut behind = ports(system, &element.name, outside);
+    let mut behind = ports(system, &element.name, outside, fluid);
     behind.push(rotor(element));
     settle(&mut behind);
     let drive = Port {
@@ -198,7 +203,7 @@ fn number(element: &Element, symbol: &str, key: &str) -> String {
 }
 
 /// A number as it stands in the file, or its run-time parameter.
-fn value(element: &Element, key: &str) -> Option<String> {
+pub(super) fn value(element: &Element, key: &str) -> Option<String> {
     let Some(Checked::Number(quantity)) = element.get(key) else {
         return None;
     };

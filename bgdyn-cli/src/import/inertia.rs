@@ -3,6 +3,10 @@
 /// Relative to the largest principal moment.
 const TOLERANCE: f64 = 1e-9;
 
+/// In kg·m²: a milligram 30 µm from the centre of mass. A tensor below it that no body has is what an
+/// exporter's rounding left of zero.
+pub(super) const DUST: f64 = 1e-15;
+
 /// What the principal moments say of a tensor.
 #[derive(Debug, PartialEq)]
 pub(super) enum Verdict {
@@ -25,6 +29,12 @@ pub(super) fn judge(entries: [f64; 6]) -> Verdict {
     } else {
         Verdict::Physical
     }
+}
+
+/// Whether the tensor is impossible, and so small that it was zero before it was rounded.
+pub(super) fn is_dust(entries: [f64; 6]) -> bool {
+    entries.iter().all(|entry| entry.abs() < DUST)
+        && matches!(judge(entries), Verdict::Indefinite(_))
 }
 
 /// The eigenvalues in ascending order, by Jacobi's rotations.
@@ -72,7 +82,7 @@ fn rotate(m: &mut [[f64; 3]; 3], p: usize, q: usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Verdict, judge, principal_moments};
+    use super::{Verdict, is_dust, judge, principal_moments};
 
     #[test]
     fn moments_of_known_tensors() {
@@ -99,6 +109,13 @@ mod tests {
                 .iter()
                 .all(|moment| !moment.is_nan())
         );
+    }
+
+    #[test]
+    fn dust_is_impossible_and_small() {
+        assert!(is_dust([0.0, 0.0, 0.0, 0.0, 2.4e-35, 0.0]));
+        assert!(!is_dust([1e-16, 1e-16, 1e-16, 0.0, 0.0, 0.0]));
+        assert!(!is_dust([0.0, 0.0, 0.0, 0.0, 2.4e-14, 0.0]));
     }
 
     #[test]

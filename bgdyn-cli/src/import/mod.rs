@@ -18,7 +18,7 @@ mod xml;
 use crate::output::{print, tell};
 use crate::spec_file::read_text;
 use anyhow::{Context, Result, anyhow};
-use inertia::{Verdict, judge};
+use inertia::{DUST, Verdict, is_dust, judge};
 use naming::{identifiers, shown};
 use number::Num;
 use reading::{Inertial, Model};
@@ -32,7 +32,8 @@ pub struct Import {
     pub yaml: String,
     /// The robot's name as an identifier: the stem of a file that fits.
     pub name: String,
-    /// The names that were changed, one per line: ``link `Upper-Arm` → `upper_arm` ``.
+    /// The names that were changed, a line each for robot, links and joints:
+    /// ``links `Upper-Arm` → `upper_arm`, `Hand 1` → `hand_1` ``.
     pub notes: Vec<String>,
     /// What was not taken over, and what looks wrong, one line each.
     pub warnings: Vec<String>,
@@ -42,7 +43,8 @@ pub struct Import {
 ///
 /// Links keep the order of their joints, numbers their decimal text. An error starts with `LINE:COLUMN: `.
 pub fn import(urdf_text: &str) -> Result<Import> {
-    let model = reading::read(urdf_text)?;
+    let mut model = reading::read(urdf_text)?;
+    let dusty = without_dust(&mut model);
     let tree = tree::order(&model)?;
 
     let original: Vec<&str> = model.links.iter().map(|link| link.name.as_str()).collect();
@@ -56,6 +58,7 @@ pub fn import(urdf_text: &str) -> Result<Import> {
     let name = naming::identifier(&model.name, "robot");
 
     let mut warnings = doubtful(&model, &tree);
+    warnings.extend(dusty);
     let mut allowed = vec![false; model.links.len()];
     for (link, allowed) in model.links.iter().zip(&mut allowed) {
         if let Some(inertial) = &link.inertial {
@@ -95,26 +98,13 @@ pub fn import(urdf_text: &str) -> Result<Import> {
         }));
     }
 
-    let robot = [(&model.name, &name)]
-        .into_iter()
-        .map(|(old, new)| ("robot", old, new));
-    let links = model
-        .links
-        .iter()
-        .zip(&links)
-        .map(|(old, new)| ("link", &old.name, new));
-    let joints = model
-        .joints
-        .iter()
-        .zip(&joints)
-        .map(|(old, new)| ("joint", &old.name, new));
-    let changed = robot
-        .chain(links)
-        .chain(joints)
-        .filter(|(_, old, new)| old != new);
-    let notes = changed
-        .map(|(what, old, new)| format!("{what} `{}` → `{new}`", shown(old)))
-        .collect();
+    let old = model.links.iter().map(|link| &link.name);
+    let of_links = renamed("links", old.zip(&links));
+    let old = model.joints.iter().map(|joint| &joint.name);
+    let of_joints = renamed("joints", old.zip(&joints));
+    let of_robot = renamed("robot", [(&model.name, &name)].into_iter());
+    let notes = [of_robot, of_links, of_joints].into_iter().flatten();
+    let notes = notes.collect();
     let yaml = writing::head(&model.name) + &entries.join("\n");
     warnings.extend(model.warnings);
     Ok(Import {
@@ -123,6 +113,17 @@ pub fn import(urdf_text: &str) -> Result<Import> {
         notes,
         warnings,
     })
+}
+
+/// The names that changed, on one line.
+fn renamed<'a>(
+    what: &str,
+    names: impl Iterator<Item = (&'a String, &'a String)>,
+) -> Option<String> {
+    let changed = names.filter(|(old, new)| old != new);
+    let shown = changed.map(|(old, new)| format!("`{}` → `{new}`", shown(old)));
+    let shown: Vec<String> = shown.collect();
+    (!shown.is_empty()).then(|| format!("{what} {}", shown.join(", ")))
 }
 
 /// Warnings about the robot as a whole.
@@ -154,6 +155,24 @@ fn doubtful(model: &Model, tree: &tree::Tree) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// Sets tensors to zero that are what rounding left of one, and says of which links.
+fn without_dust(model: &mut Model) -> Option<String> {
+    let mut names = Vec::new();
+    for link in &mut model.links {
+        let Some(inertial) = &mut link.inertial else {
+            continue;
+        };
+        if is_dust(inertial.tensor.each_ref().map(|entry| entry.value)) {
+            inertial.tensor = std::array::from_fn(|_| Num::zero());
+            names.push(format!("`{}`", shown(&link.name)));
+        }
+    }
+    let names = (!names.is_empty()).then(|| names.join("; "));
+    names.map(|names| {
+        format!("tensors that no body has, all entries below {DUST:e} kg·m², taken as 0: {names}")
+    })
 }
 
 /// Warns of an inertial that no body has; true where the mechanism must allow it.

@@ -2,14 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-/// Rust's keywords, also the reserved ones, and the name of the fixed base.
-const RESERVED: &[&str] = &[
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
-    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
-    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while", "world", "yield",
-];
+use bgdyn_codegen::mechanism::name::{WORLD, is_keyword, snake_case};
 
 /// Whether the name can stay: words of lower-case letters and digits joined by single `_`, no reserved word.
 pub(super) fn is_identifier(name: &str) -> bool {
@@ -18,26 +11,11 @@ pub(super) fn is_identifier(name: &str) -> bool {
 
 /// One name as an identifier; a reserved word gets `_kind` appended, a name without letters and digits is `kind`.
 pub(super) fn identifier(name: &str, kind: &str) -> String {
-    let mut out = String::with_capacity(name.len());
-    for c in name.chars() {
-        if c.is_ascii_alphanumeric() {
-            out.push(c.to_ascii_lowercase());
-        } else if !out.ends_with('_') && !out.is_empty() {
-            out.push('_');
-        }
+    match snake_case(name) {
+        name if name.is_empty() => kind.into(),
+        name if is_keyword(&name) || name == WORLD => format!("{name}_{kind}"),
+        name => name,
     }
-    let mut out = out.trim_end_matches('_').to_string();
-    if out.is_empty() {
-        return kind.to_string();
-    }
-    if out.starts_with(|c: char| c.is_ascii_digit()) {
-        out.insert(0, 'n');
-    }
-    if RESERVED.contains(&out.as_str()) {
-        out.push('_');
-        out.push_str(kind);
-    }
-    out
 }
 
 /// Identifiers for all names, no two alike. Names that are identifiers already keep theirs; of the others, the first
@@ -93,6 +71,8 @@ mod tests {
             ("Upper-Arm", "upper_arm"),
             ("arm (left)", "arm_left"),
             ("_base__link_", "base_link"),
+            ("LHipYawLink", "l_hip_yaw_link"),
+            ("FR_hip", "fr_hip"),
             ("6axis", "n6axis"),
             ("type", "type_link"),
             ("Self", "self_link"),

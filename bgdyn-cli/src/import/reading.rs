@@ -284,7 +284,7 @@ fn report(element: &Element, label: &str, groups: &mut Groups) {
         given.retain(|(_, value)| Num::parse(value).is_none_or(|number| !number.is_zero()));
         if !given.is_empty() {
             groups.add(
-                "joint dynamics are not taken over yet",
+                "damping and friction of joints, not taken over, may be written as effects of a scene (docs/effects.md)",
                 format!("{label} ({})", values(&given)),
             );
         }

@@ -18,7 +18,7 @@ links:
 fn a_good_spec_is_one_line() {
     let run = bgdyn(&["check", "tests/golden/specs/scara4.yaml"]);
     assert_eq!(run.stderr, "");
-    assert_eq!(run.good(), "ok: scara4, NQ 4, NV 4\n");
+    assert_eq!(run.good(), "ok: scara4, NQ 4, NV 4: j1, j2, j3, j4\n");
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn every_fault_starts_with_its_place() {
 fn the_path_is_printed_as_given() {
     let stderr = bgdyn(&["check", "specs/../specs/invalid/negative_mass.yaml"]).bad_input();
     assert!(stderr.starts_with("specs/../specs/invalid/negative_mass.yaml:16:11: "));
-    assert_eq!(stderr.lines().last(), Some("1 faults"));
+    assert_eq!(stderr.lines().last(), Some("1 fault"));
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn every_invalid_spec_is_refused() {
         assert_eq!(run.stdout, "", "{name}");
         let stderr = run.bad_input();
         assert!(stderr.starts_with(&format!("{name}:")), "{stderr}");
-        assert_eq!(stderr.lines().last(), Some("1 faults"), "{name}");
+        assert_eq!(stderr.lines().last(), Some("1 fault"), "{name}");
         count += 1;
     }
     assert!(count > 40);
@@ -75,7 +75,7 @@ links:
         "{}",
         run.stderr
     );
-    assert_eq!(run.good(), "ok: arm, NQ 1, NV 1\n");
+    assert_eq!(run.good(), "ok: arm, NQ 1, NV 1: shoulder\n");
     let report = bgdyn(&["check", &file, "--json"]).good();
     let report: Value = serde_json::from_str(&report).expect("JSON");
     assert_eq!(report["ok"], true);
@@ -99,7 +99,7 @@ fn findings_as_json() {
 
     let good = bgdyn(&["check", "tests/golden/specs/dpend2.yaml", "--json"]).good();
     let good: Value = serde_json::from_str(&good).expect("JSON");
-    let model = serde_json::json!({ "name": "dpend2", "nq": 2, "nv": 2, "parameters": [] });
+    let model = serde_json::json!({ "name": "dpend2", "nq": 2, "nv": 2, "coordinates": ["j1", "j2"], "parameters": [] });
     assert_eq!(good["model"], model);
     assert_eq!(good["ok"], true);
     assert_eq!(good["findings"], Value::Array(vec![]));
@@ -130,7 +130,10 @@ links:
     mass: { parameter: payload, value: 1500 g }
 ";
     let file = scratch("check_parameters", "arm.yaml", text);
-    assert_eq!(bgdyn(&["check", &file]).good(), "ok: arm, NQ 1, NV 1\n");
+    assert_eq!(
+        bgdyn(&["check", &file]).good(),
+        "ok: arm, NQ 1, NV 1: shoulder\n"
+    );
     let report = bgdyn(&["check", &file, "--json"]).good();
     let report: Value = serde_json::from_str(&report).expect("JSON");
     let payload = serde_json::json!([{

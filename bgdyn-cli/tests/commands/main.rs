@@ -11,6 +11,7 @@ mod golden_specs;
 mod graph;
 mod ops;
 mod schema;
+mod schema_scene;
 mod simulate;
 mod simulate_many;
 mod simulate_page;

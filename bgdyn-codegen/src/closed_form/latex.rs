@@ -61,20 +61,19 @@ struct Typeset<'a> {
     digits: usize,
 }
 
-impl Typeset<'_> {
-    fn value(&self, value: Dd, dimension: [i32; 3]) -> String {
-        let sign = if value < Dd::ZERO { Self::MINUS } else { "" };
-        let exact = Decimal::new(value.abs(), self.digits).exact;
-        let equals = if exact { "=" } else { "\\approx" };
-        let number = self.number(value.abs());
-        let unit = written(&unit(dimension));
-        format!("{equals} {sign}{number}\\,{unit}")
-    }
-}
-
 impl Notation for Typeset<'_> {
     const TIMES: &'static str = "\\, ";
     const MINUS: &'static str = "-";
+    const ABOUT: &'static str = "\\approx";
+    const GAP: &'static str = "\\,";
+
+    fn digits(&self) -> usize {
+        self.digits
+    }
+
+    fn unit(&self, parts: &[(&str, i32)]) -> String {
+        written(parts)
+    }
 
     fn number(&self, x: Dd) -> String {
         let decimal = Decimal::new(x, self.digits);

@@ -11,6 +11,16 @@ pub(super) trait Notation {
     const TIMES: &'static str;
     /// Before what is subtracted, without spaces.
     const MINUS: &'static str;
+    /// Before a value that lost digits.
+    const ABOUT: &'static str;
+    /// Between a value and its unit.
+    const GAP: &'static str;
+
+    /// Significant digits of values.
+    fn digits(&self) -> usize;
+
+    /// A unit, from its parts with their powers.
+    fn unit(&self, parts: &[(&str, i32)]) -> String;
 
     /// A positive number.
     fn number(&self, x: Dd) -> String;
@@ -23,6 +33,17 @@ pub(super) trait Notation {
 
     /// In parentheses, to a power.
     fn parentheses(&self, inside: &str, power: u32) -> String;
+
+    /// `= 1.5 kg`
+    fn value(&self, value: Dd, dimension: [i32; 3]) -> String {
+        let sign = if value < Dd::ZERO { Self::MINUS } else { "" };
+        let exact = Decimal::new(value.abs(), self.digits()).exact;
+        let equals = if exact { "=" } else { Self::ABOUT };
+        let number = self.number(value.abs());
+        let unit = self.unit(&unit(dimension));
+        let gap = if unit.is_empty() { "" } else { Self::GAP };
+        format!("{equals} {sign}{number}{gap}{unit}")
+    }
 }
 
 /// A sum, its terms one after the other: the first with its minus, the others as they are to follow.

@@ -129,21 +129,19 @@ struct Plain<'a> {
     digits: usize,
 }
 
-impl Plain<'_> {
-    /// `= 1.5 kg`
-    fn value(&self, value: Dd, dimension: [i32; 3]) -> String {
-        let sign = if value < Dd::ZERO { Self::MINUS } else { "" };
-        let exact = Decimal::new(value.abs(), self.digits).exact;
-        let equals = if exact { "=" } else { "≈" };
-        let number = self.number(value.abs());
-        let unit = written(&unit(dimension));
-        format!("{equals} {sign}{number} {unit}").trim_end().into()
-    }
-}
-
 impl Notation for Plain<'_> {
     const TIMES: &'static str = "·";
     const MINUS: &'static str = "−";
+    const ABOUT: &'static str = "≈";
+    const GAP: &'static str = " ";
+
+    fn digits(&self) -> usize {
+        self.digits
+    }
+
+    fn unit(&self, parts: &[(&str, i32)]) -> String {
+        written(parts)
+    }
 
     fn number(&self, x: Dd) -> String {
         let decimal = Decimal::new(x, self.digits);

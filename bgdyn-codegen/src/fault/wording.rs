@@ -21,6 +21,14 @@ pub(crate) fn quote(text: &str) -> String {
     format!("`{shown}`")
 }
 
+/// A message that may hold a user's text: what would break its line is escaped.
+pub(super) fn one_line(message: String) -> String {
+    match message.contains(char::is_control) {
+        true => message.chars().flat_map(escape).collect(),
+        false => message,
+    }
+}
+
 fn escape(c: char) -> Vec<char> {
     if c.is_control() {
         c.escape_default().collect()

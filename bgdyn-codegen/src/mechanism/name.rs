@@ -1,5 +1,7 @@
 //! Names: snake_case identifiers of Rust.
 
+use heck::ToSnakeCase;
+
 /// The name of the fixed base; no link or frame can have it.
 pub const WORLD: &str = "world";
 
@@ -31,22 +33,22 @@ pub fn is_identifier(text: &str) -> bool {
         && !is_keyword(text)
 }
 
-/// The identifier nearest to `text`: lower case, `_` for what is no letter or digit, `n` before a
-/// leading digit, `_n` after a keyword. Nothing where no letter or digit is left.
-pub fn to_identifier(text: &str) -> Option<String> {
-    let plain = |c: char| {
-        if c.is_ascii_alphanumeric() {
-            c.to_ascii_lowercase()
-        } else {
-            '_'
-        }
-    };
+/// `text` in snake_case: lower case, `_` between words and for what is no letter or digit of ASCII,
+/// `n` before a leading digit. May be empty, or a keyword.
+pub fn snake_case(text: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let spaced: String = text.chars().map(plain).collect();
-    let words: Vec<&str> = spaced.split('_').filter(|w| !w.is_empty()).collect();
-    let mut name = words.join("_");
+    let mut name = spaced.to_snake_case();
     if name.starts_with(|c: char| c.is_ascii_digit()) {
         name.insert(0, 'n');
     }
+    name
+}
+
+/// The identifier nearest to `text`: in snake_case, `_n` after a keyword. Nothing where no letter or
+/// digit is left.
+pub fn to_identifier(text: &str) -> Option<String> {
+    let mut name = snake_case(text);
     if is_keyword(&name) {
         name += "_n";
     }
@@ -72,6 +74,11 @@ mod tests {
     #[test]
     fn anything_with_a_letter_becomes_an_identifier() {
         assert_eq!(to_identifier("Upper Arm").as_deref(), Some("upper_arm"));
+        assert_eq!(
+            to_identifier("LHipYawLink").as_deref(),
+            Some("l_hip_yaw_link")
+        );
+        assert_eq!(to_identifier("FR_hip").as_deref(), Some("fr_hip"));
         assert_eq!(to_identifier("1-dof").as_deref(), Some("n1_dof"));
         assert_eq!(to_identifier("fn").as_deref(), Some("fn_n"));
         assert_eq!(to_identifier("__x__y").as_deref(), Some("x_y"));

@@ -2,7 +2,7 @@
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
 
-use super::super::chart::{Chart, Component};
+use super::super::chart::{Chart, Component, Port};
 use super::super::place::{MARGIN, text_width};
 use super::symbols::{Bond, Point, bar, bond, junction};
 use super::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
@@ -35,16 +35,20 @@ const BOND: &str = "bond: positive power flows to the half arrow, the effort act
 const DRIVES: &str = ". On a drive's bond there is none: inverse dynamics takes q̇ and gives P, forward dynamics takes P.";
 const TRIPLE: &str = "bond of three components x, y, z";
 const MTF: &str = "transformer modulated by the coordinates below its modulus, which is ∂rᵢ/∂qⱼ on the way to ṙ (m/rad; 1 for a slide) and ρⱼⁱ on the way to ω (1). In brackets x, y, z: 0 at all times, a constant (three digits), or · varying.";
+const LINE_RATE: &str = "rate of the length between two places, m/s; the transformers on the way there are ∂s/∂qⱼ, one number each";
 const TF: &str = "transformer whose modulus is the same at all times";
 const PARAMETER: &str = "the same at all times, but a run-time parameter";
 const STORE: &str = "inertial store: mass m, kg; inertia J, kg·m², about the centre of mass in the link's axes. Derivative causality: every link's flow follows from the q̇, so the stores meet in the mass matrix";
 const INTEGRAL: &str = ". Where its stroke is at the store, its own state gives the flow.";
-const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N";
+const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N; u a voltage, p a pressure";
 
 const FLOW: &str = "source of flow: a reference that moves by itself";
 const GEAR: &str = "on a joint's drive: a gear, at the joint's scale, with its efficiency η";
-const RESISTOR: &str = "resistor: friction, a damper, a winding; takes power and stores none";
-const COMPLIANCE: &str = "compliance: a spring, a stop, a soft drive; stores by displacement";
+const CYLINDER: &str = "on a joint or a line: a side of a cylinder, of area A: effort = A · pressure, flow of fluid = A · velocity";
+const RESISTOR: &str =
+    "resistor: friction, a damper, a winding, an orifice; takes power and stores none";
+const COMPLIANCE: &str =
+    "compliance: a spring, a stop, a soft drive, fluid under pressure; stores by displacement";
 const GYRATOR: &str = "gyrator, a DC motor: effort on the joint = k N · current, induced voltage = k N · velocity; u is the voltage fed to it, V";
 
 /// The entries for a drawing, in lines of this width.
@@ -66,8 +70,7 @@ pub(super) fn lines(chart: &Chart, width: f64) -> Vec<Entry> {
 /// What the drawing has of junctions and bonds.
 fn junctions_and_bonds(chart: &Chart) -> Vec<(Sign, String)> {
     let mut entries = vec![(Sign::None, EQUATION.into()), (Sign::One, ONE.into())];
-    let mut flows = chart.links.iter().flat_map(|link| &link.flows);
-    if flows.any(|flow| flow.sums()) || chart.has(|port| port.symbol == "0") {
+    if chart.flows().any(|flow| flow.sums()) || chart.has(|port| port.symbol == "0") {
         entries.push((Sign::Zero, ZERO.into()));
     }
     let asked = chart.has(|port| port.on_junction.is_none());
@@ -85,8 +88,10 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
     let own = if integral { INTEGRAL } else { "." };
     let store = [STORE, own].concat();
     let stands = |symbol| chart.has(|port| port.symbol == symbol);
+    let filled = |port: &Port| port.ports.iter().any(|behind| behind.symbol == "0");
     let entries = [
         ("MTF", MTF, of_symbol("MTF")),
+        ("ṡ", LINE_RATE, !chart.lines.is_empty()),
         ("TF", TF, of_symbol("TF")),
         (
             "p",
@@ -96,7 +101,8 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
         ("I", store.as_str(), stands("I")),
         ("Se", SOURCE, stands("Se")),
         ("Sf", FLOW, stands("Sf")),
-        ("TF", GEAR, stands("TF")),
+        ("TF", GEAR, chart.has(|p| p.symbol == "TF" && !filled(p))),
+        ("TF", CYLINDER, chart.has(|p| p.symbol == "TF" && filled(p))),
         ("R", RESISTOR, stands("R")),
         ("C", COMPLIANCE, stands("C")),
         ("GY", GYRATOR, stands("GY")),

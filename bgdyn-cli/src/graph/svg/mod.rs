@@ -48,7 +48,7 @@ impl Chart {
 
     /// Bars across first, so that the velocities' bars pass over them.
     fn draw(&self, d: &mut Drawing, places: &Places) {
-        for (link, band) in self.links.iter().zip(&places.bands) {
+        for (link, band) in self.bands().zip(&places.bands) {
             let size = (band.right - band.left, band.bottom - band.top);
             d.rectangle((band.left, band.top), size, BAND);
             for (flow, &row) in link.flows.iter().zip(&band.rows) {
@@ -58,7 +58,7 @@ impl Chart {
         for (j, column) in places.columns.iter().enumerate() {
             head(d, self, j, column);
         }
-        for (link, band) in self.links.iter().zip(&places.bands) {
+        for (link, band) in self.bands().zip(&places.bands) {
             d.bold(
                 (band.zero, band.top + 16.0),
                 13,
@@ -114,13 +114,16 @@ impl Chart {
             &Bond::single(&[(x + 3.0, row), (centre - 17.0, row)]).stroke_at_start(),
         );
         d.bold((centre, row + 4.5), 12, INK, Anchor::Middle, t.symbol());
-        modulus(d, t, (x + VECTOR, row));
+        match t.is_vector() {
+            true => modulus(d, t, (x + VECTOR, row)),
+            false => below(d, t, (x + VECTOR, row)),
+        }
         let (from, down) = ((centre, row + 9.0), row + DROP);
         let path = match sums {
             true => vec![from, (centre, down - 2.0)],
             false => vec![from, (centre, down), (zero + BOND - 9.0, down)],
         };
-        bond(d, &Bond::triple(&path).stroke_at_start());
+        bond(d, &Bond::of(&path, t.is_vector()).stroke_at_start());
         d.end_group();
     }
 }
@@ -166,28 +169,45 @@ fn stores(d: &mut Drawing, flow: &Flow, (x, y): Point) {
         junction(d, (x, y), "0", SUM);
         bond(
             d,
-            &Bond::triple(&[(x + 9.0, y), (one.0 - 9.0, y)]).stroke_at_start(),
+            &Bond::of(&[(x + 9.0, y), (one.0 - 9.0, y)], flow.is_vector()).stroke_at_start(),
         );
     }
-    if flow.ports.len() > 1 {
-        bar(
-            d,
-            one,
-            (one.0, y - 30.0 * (flow.ports.len() - 1) as f64),
-            VELOCITY_BAR,
-        );
-    }
-    for (k, port) in flow.ports.iter().enumerate() {
-        one_port(d, port, (one.0, y - 30.0 * k as f64), (k == 0, true));
+    match flow.is_vector() {
+        true => upwards(d, &flow.ports, one),
+        false => {
+            ports_bar(d, &flow.ports, one, VELOCITY_BAR);
+            ports(d, &flow.ports, one);
+        }
     }
     junction(d, one, "1", VELOCITY);
-    d.bold(
-        (one.0, y + 21.0),
-        12,
-        VELOCITY,
-        Anchor::Middle,
-        &flow.symbol,
-    );
+    let (dx, dy) = if flow.is_vector() {
+        (0.0, 21.0)
+    } else {
+        (-12.0, 21.0)
+    };
+    let at = (one.0 + dx, y + dy);
+    d.bold(at, 12, VELOCITY, Anchor::Middle, &flow.symbol);
+}
+
+/// A link's store and sources, one above the other: what is below belongs to the next flow.
+fn upwards(d: &mut Drawing, all: &[Port], (x, y): Point) {
+    if all.len() > 1 {
+        let up = y - 30.0 * (all.len() - 1) as f64;
+        bar(d, (x, y), (x, up), VELOCITY_BAR);
+    }
+    for (k, port) in all.iter().enumerate() {
+        one_port(d, port, (x, y - 30.0 * k as f64), (k == 0, true));
+    }
+}
+
+/// The bar of a junction, down to the last that stands on it.
+fn ports_bar(d: &mut Drawing, all: &[Port], (x, y): Point, colour: &str) {
+    if let [before @ .., _] = all
+        && !before.is_empty()
+    {
+        let down = PITCH * lines(before) as f64;
+        bar(d, (x, y), (x, y + down), colour);
+    }
 }
 
 /// Colours of a junction and of its bar.
@@ -203,11 +223,7 @@ fn ports(d: &mut Drawing, all: &[Port], (x, mut y): Point) {
     for (k, port) in all.iter().enumerate() {
         one_port(d, port, (x, y), (k == 0, false));
         let behind = (x + BOND + words_width(port), y);
-        if port.ports.len() > 1 {
-            let last = port.ports.len() - 1;
-            let down = PITCH * lines(&port.ports[..last]) as f64;
-            bar(d, behind, (behind.0, y + down), colours(port.symbol).1);
-        }
+        ports_bar(d, &port.ports, behind, colours(port.symbol).1);
         if port.is_junction() {
             let (at, colour) = ((behind.0 + 10.0, y + 17.0), colours(port.symbol).0);
             junction(d, behind, port.symbol, colour);
@@ -267,8 +283,13 @@ fn modulus(d: &mut Drawing, transformer: &Transformer, (x, y): Point) {
             other => d.text(at, 11, INK, Anchor::Middle, &other.to_string()),
         }
     }
-    let below = (x - VECTOR + SYMBOL + 10.0, y + half + 11.0);
-    d.text(below, 10, FAINT, Anchor::Start, &transformer.varies);
+    below(d, transformer, (x, y));
+}
+
+/// What a modulus varies with, below it.
+fn below(d: &mut Drawing, transformer: &Transformer, (x, y): Point) {
+    let at = (x - VECTOR + SYMBOL + 10.0, y + 29.0);
+    d.text(at, 10, FAINT, Anchor::Start, &transformer.varies);
 }
 
 /// Height of what stands above the drawing.

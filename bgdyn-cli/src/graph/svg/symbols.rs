@@ -32,6 +32,14 @@ impl Bond {
         }
     }
 
+    /// A bond of three components, or of one.
+    pub fn of(path: &[Point], triple: bool) -> Self {
+        Bond {
+            triple,
+            ..Bond::single(path)
+        }
+    }
+
     /// The same with the causal stroke where it starts.
     pub fn stroke_at_start(mut self) -> Self {
         self.stroke = self.path.first().copied();

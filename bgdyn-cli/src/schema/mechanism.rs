@@ -1,12 +1,11 @@
-//! The JSON Schema of a mechanism's file, for editors: completion, hints and red lines while typing.
-//!
-//! It says what the reader says about keys, words, types and units; what a check finds by computing (a tensor
-//! that no body has, a circle of parents) is for `bgdyn check`. Effects come from the generator's own table.
+//! A mechanism's file.
 
-use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
-use bgdyn_codegen::spec::{Dimension, LENGTHS, Reads};
-use serde_json::{Map, Value, json};
+use bgdyn_codegen::spec::{Dimension, LENGTHS};
+use serde_json::{Value, json};
+
+use super::effects::effects;
+use super::parts::{axis, described, identifier, object, quantity, text, triple, value};
 
 /// The schema of a mechanism's file.
 pub fn mechanism() -> Value {
@@ -242,145 +241,4 @@ fn frame() -> Value {
         ],
         &["name", "link"],
     )
-}
-
-/// Keys by the word after `type`.
-fn effects() -> Value {
-    let written = EFFECTS.iter().filter(|effect| !effect.built_in());
-    let (mut words, mut branches) = (Vec::new(), Vec::new());
-    for effect in written {
-        words.push(json!({ "const": effect.keyword(), "description": effect.summary() }));
-        branches.push(json!({
-            "if": { "properties": { "type": { "const": effect.keyword() } } },
-            "then": keys(*effect),
-        }));
-    }
-    json!({
-        "type": "object",
-        "properties": { "type": { "oneOf": words } },
-        "required": ["type"],
-        "allOf": branches,
-    })
-}
-
-fn keys(effect: &dyn Effect) -> Value {
-    let word = ("type", json!({ "const": effect.keyword() }));
-    let keys = effect.keys().iter();
-    let keys = keys.map(|key| (key.name, described(key.about, reads(key.reads))));
-    let needed = effect.keys().iter().filter(|key| key.needed);
-    let needed: Vec<&str> = needed.map(|key| key.name).collect();
-    object(&keys.chain([word]).collect::<Vec<_>>(), &needed)
-}
-
-fn reads(reads: Reads) -> Value {
-    match reads {
-        Reads::Number(fit) => value(fit),
-        Reads::Word(words) => json!({ "enum": words }),
-        Reads::Coordinate | Reads::Joint | Reads::Place | Reads::Node | Reads::Input => {
-            identifier()
-        }
-        Reads::Places => {
-            json!({ "type": "array", "items": identifier(), "minItems": 2, "maxItems": 2 })
-        }
-        Reads::Vector(fit) => triple(value(fit)),
-        Reads::Words(words) => json!({ "type": "array", "items": { "enum": words } }),
-        Reads::Group(names, fit) => group(names, fit),
-    }
-}
-
-/// Numbers under the last words of `names`; three may be a list.
-fn group(names: &[&'static str], fit: &[Dimension]) -> Value {
-    let short = names
-        .iter()
-        .map(|name| name.split_once('.').map_or(*name, |(_, own)| own));
-    let keys: Vec<_> = short.map(|name| (name, value(fit))).collect();
-    let mapping = object(&keys, &[]);
-    match names.len() {
-        3 => json!({ "anyOf": [triple(value(fit)), mapping] }),
-        _ => mapping,
-    }
-}
-
-/// A mapping with these keys and no others.
-fn object(keys: &[(&str, Value)], needed: &[&str]) -> Value {
-    let properties: Map<String, Value> = keys
-        .iter()
-        .map(|(key, v)| (key.to_string(), v.clone()))
-        .collect();
-    let mut schema = json!({
-        "type": "object",
-        "properties": properties,
-        "additionalProperties": false,
-    });
-    if !needed.is_empty() {
-        schema["required"] = json!(needed);
-    }
-    schema
-}
-
-fn described(about: &str, mut schema: Value) -> Value {
-    schema["description"] = json!(about);
-    schema
-}
-
-fn text() -> Value {
-    json!({ "type": "string" })
-}
-
-fn identifier() -> Value {
-    json!({ "type": "string", "pattern": "^[a-z][a-z0-9]*(_[a-z0-9]+)*$" })
-}
-
-fn triple(item: Value) -> Value {
-    json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 })
-}
-
-fn axis() -> Value {
-    let letters = ["x", "y", "z", "-x", "-y", "-z"];
-    json!({ "anyOf": [{ "enum": letters }, triple(json!({ "type": "number" }))] })
-}
-
-/// A number, or text with one of the units of these dimensions.
-fn quantity(fit: &[Dimension]) -> Value {
-    let units = fit.iter().flat_map(|dimension| dimension.units());
-    let units: Vec<String> = units.map(escaped).collect();
-    if units.is_empty() {
-        return json!({ "type": "number" });
-    }
-    let number = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
-    let pattern = format!("^{number} *({})$", units.join("|"));
-    json!({ "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern }] })
-}
-
-/// A unit in a pattern, with the signs that may stand for its letters.
-fn escaped(unit: &str) -> String {
-    let spellings = [
-        ("^2", r"(\^2|²)"),
-        ("^3", r"(\^3|³)"),
-        ("deg", "(deg|°)"),
-        ("ohm", "(ohm|Ω)"),
-        ("u", "[uµ]"),
-        ("*", "[*·]"),
-    ];
-    let (mut pattern, mut rest) = (String::new(), unit);
-    while let Some(c) = rest.chars().next() {
-        if let Some((word, spelling)) = spellings.iter().find(|(word, _)| rest.starts_with(word)) {
-            pattern += spelling;
-            rest = &rest[word.len()..];
-            continue;
-        }
-        if "^().".contains(c) {
-            pattern.push('\\');
-        }
-        pattern.push(c);
-        rest = &rest[c.len_utf8()..];
-    }
-    pattern
-}
-
-/// A quantity, or a run-time parameter.
-fn value(fit: &[Dimension]) -> Value {
-    let number = quantity(fit);
-    let keys = [("parameter", identifier()), ("value", number.clone())];
-    json!({ "anyOf": [number, object(&keys, &["parameter", "value"])] })
 }

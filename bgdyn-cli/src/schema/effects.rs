@@ -1,0 +1,64 @@
+//! Effects, from the generator's own table.
+
+use bgdyn_codegen::effect::{EFFECTS, Effect};
+use bgdyn_codegen::spec::{Dimension, Reads};
+use serde_json::{Value, json};
+
+use super::parts::{described, identifier, object, triple, value};
+
+/// Keys by the word after `type`.
+pub(super) fn effects() -> Value {
+    let written = EFFECTS.iter().filter(|effect| !effect.built_in());
+    let (mut words, mut branches) = (Vec::new(), Vec::new());
+    for effect in written {
+        words.push(json!({ "const": effect.keyword(), "description": effect.summary() }));
+        branches.push(json!({
+            "if": { "properties": { "type": { "const": effect.keyword() } } },
+            "then": keys(*effect),
+        }));
+    }
+    json!({
+        "type": "object",
+        "properties": { "type": { "oneOf": words } },
+        "required": ["type"],
+        "allOf": branches,
+    })
+}
+
+fn keys(effect: &dyn Effect) -> Value {
+    let word = ("type", json!({ "const": effect.keyword() }));
+    let keys = effect.keys().iter();
+    let keys = keys.map(|key| (key.name, described(key.about, reads(key.reads))));
+    let needed = effect.keys().iter().filter(|key| key.needed);
+    let needed: Vec<&str> = needed.map(|key| key.name).collect();
+    object(&keys.chain([word]).collect::<Vec<_>>(), &needed)
+}
+
+pub(super) fn reads(reads: Reads) -> Value {
+    match reads {
+        Reads::Number(fit) => value(fit),
+        Reads::Word(words) => json!({ "enum": words }),
+        Reads::Coordinate | Reads::Joint | Reads::Place | Reads::Node | Reads::Input => {
+            identifier()
+        }
+        Reads::Places => {
+            json!({ "type": "array", "items": identifier(), "minItems": 2, "maxItems": 2 })
+        }
+        Reads::Vector(fit) => triple(value(fit)),
+        Reads::Words(words) => json!({ "type": "array", "items": { "enum": words } }),
+        Reads::Group(names, fit) => group(names, fit),
+    }
+}
+
+/// Numbers under the last words of `names`; three may be a list.
+fn group(names: &[&'static str], fit: &[Dimension]) -> Value {
+    let short = names
+        .iter()
+        .map(|name| name.split_once('.').map_or(*name, |(_, own)| own));
+    let keys: Vec<_> = short.map(|name| (name, value(fit))).collect();
+    let mapping = object(&keys, &[]);
+    match names.len() {
+        3 => json!({ "anyOf": [triple(value(fit)), mapping] }),
+        _ => mapping,
+    }
+}

@@ -1,0 +1,88 @@
+//! What schemas are made of.
+
+use bgdyn_codegen::spec::Dimension;
+use serde_json::{Map, Value, json};
+
+/// A mapping with these keys and no others.
+pub(super) fn object(keys: &[(&str, Value)], needed: &[&str]) -> Value {
+    let properties: Map<String, Value> = keys
+        .iter()
+        .map(|(key, v)| (key.to_string(), v.clone()))
+        .collect();
+    let mut schema = json!({
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": false,
+    });
+    if !needed.is_empty() {
+        schema["required"] = json!(needed);
+    }
+    schema
+}
+
+pub(super) fn described(about: &str, mut schema: Value) -> Value {
+    schema["description"] = json!(about);
+    schema
+}
+
+pub(super) fn text() -> Value {
+    json!({ "type": "string" })
+}
+
+pub(super) fn identifier() -> Value {
+    json!({ "type": "string", "pattern": "^[a-z][a-z0-9]*(_[a-z0-9]+)*$" })
+}
+
+pub(super) fn triple(item: Value) -> Value {
+    json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 })
+}
+
+pub(super) fn axis() -> Value {
+    let letters = ["x", "y", "z", "-x", "-y", "-z"];
+    json!({ "anyOf": [{ "enum": letters }, triple(json!({ "type": "number" }))] })
+}
+
+/// A number, or text with one of the units of these dimensions.
+pub(super) fn quantity(fit: &[Dimension]) -> Value {
+    let units = fit.iter().flat_map(|dimension| dimension.units());
+    let units: Vec<String> = units.map(escaped).collect();
+    if units.is_empty() {
+        return json!({ "type": "number" });
+    }
+    let number = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
+    let pattern = format!("^{number} *({})$", units.join("|"));
+    json!({ "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern }] })
+}
+
+/// A unit in a pattern, with the signs that may stand for its letters.
+fn escaped(unit: &str) -> String {
+    let spellings = [
+        ("^2", r"(\^2|²)"),
+        ("^3", r"(\^3|³)"),
+        ("deg", "(deg|°)"),
+        ("ohm", "(ohm|Ω)"),
+        ("u", "[uµ]"),
+        ("*", "[*·]"),
+    ];
+    let (mut pattern, mut rest) = (String::new(), unit);
+    while let Some(c) = rest.chars().next() {
+        if let Some((word, spelling)) = spellings.iter().find(|(word, _)| rest.starts_with(word)) {
+            pattern += spelling;
+            rest = &rest[word.len()..];
+            continue;
+        }
+        if "^().".contains(c) {
+            pattern.push('\\');
+        }
+        pattern.push(c);
+        rest = &rest[c.len_utf8()..];
+    }
+    pattern
+}
+
+/// A quantity, or a run-time parameter.
+pub(super) fn value(fit: &[Dimension]) -> Value {
+    let number = quantity(fit);
+    let keys = [("parameter", identifier()), ("value", number.clone())];
+    json!({ "anyOf": [number, object(&keys, &["parameter", "value"])] })
+}

@@ -1,0 +1,209 @@
+//! A scene's file. What an input, a coordinate or a part of the state measures is the mechanism's to say, so their
+//! numbers may have any unit here.
+
+use bgdyn_codegen::effect::{EFFECTS, Effect};
+use bgdyn_codegen::scene::Integrator;
+use bgdyn_codegen::spec::Dimension;
+use serde_json::{Map, Value, json};
+
+use super::effects::{effects, reads};
+use super::parts::{described, identifier, object, quantity, text};
+
+/// The schema of a scene's file.
+pub fn scene() -> Value {
+    let named = |about: &str, item: Value| {
+        described(
+            about,
+            json!({ "type": "object", "propertyNames": identifier(), "additionalProperties": item }),
+        )
+    };
+    let list =
+        |about: &str, item: Value| described(about, json!({ "type": "array", "items": item }));
+    let mut keys = object(
+        &[
+            (
+                "scene",
+                json!({ "const": 1, "description": "version of the format" }),
+            ),
+            (
+                "name",
+                described(
+                    "snake_case identifier, equal to the file's stem",
+                    identifier(),
+                ),
+            ),
+            (
+                "description",
+                described("text for the docs of the generated module", text()),
+            ),
+            (
+                "mechanism",
+                described("path of the mechanism's file, from this one", text()),
+            ),
+            (
+                "lock",
+                named("joints that are held, with their coordinates", number()),
+            ),
+            (
+                "effects",
+                list("what acts; what is not called for does not", called()),
+            ),
+            (
+                "inputs",
+                named("what drives each input", json!({ "$ref": "#/$defs/drive" })),
+            ),
+            (
+                "initial",
+                named("parts of the state at the start; 0 without", number()),
+            ),
+            ("outputs", list("what the run is to tell", identifier())),
+            ("integration", json!({ "$ref": "#/$defs/integration" })),
+        ],
+        &["scene", "mechanism"],
+    );
+    keys["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    keys["title"] = json!("A scene of bgdyn, format 1");
+    keys["$defs"] = json!({
+        "course": course(),
+        "drive": drive(),
+        "effect": effects(),
+        "changed": changed(),
+        "integration": integration(),
+    });
+    keys
+}
+
+/// An effect called for: a word, or a name with a value.
+fn called() -> Value {
+    let built_in = EFFECTS.iter().filter(|effect| effect.built_in());
+    let known: Map<String, Value> = built_in
+        .map(|effect| (effect.keyword().into(), setting(*effect)))
+        .collect();
+    let own = json!({ "if": { "required": ["type"] }, "then": { "$ref": "#/$defs/effect" }, "else": { "$ref": "#/$defs/changed" } });
+    json!({ "anyOf": [
+        described("a built-in effect, an effect of the mechanism, a family or a type of its effects", identifier()),
+        {
+            "type": "object",
+            "minProperties": 1,
+            "maxProperties": 1,
+            "properties": known,
+            "propertyNames": identifier(),
+            "additionalProperties": own,
+        },
+    ] })
+}
+
+/// The value of a built-in effect: that of its only key, or a mapping.
+fn setting(effect: &dyn Effect) -> Value {
+    let keys = effect.keys().iter();
+    let keys: Vec<_> = keys
+        .map(|key| (key.name, described(key.about, reads(key.reads))))
+        .collect();
+    let mut ways: Vec<Value> = keys.iter().map(|(_, value)| value.clone()).collect();
+    ways.push(object(&keys, &[]));
+    described(effect.summary(), json!({ "anyOf": ways }))
+}
+
+/// An effect of the mechanism with other values: keys of any effect.
+fn changed() -> Value {
+    let all = EFFECTS.iter().filter(|effect| !effect.built_in());
+    let mut names: Vec<&str> = all
+        .flat_map(|effect| effect.keys())
+        .map(|key| {
+            key.name
+                .split_once('.')
+                .map_or(key.name, |(group, _)| group)
+        })
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    json!({ "type": "object", "propertyNames": { "enum": names } })
+}
+
+/// A number, alone or with a unit.
+fn number() -> Value {
+    json!({ "type": ["number", "string"] })
+}
+
+/// The courses in time, by their words.
+fn courses() -> Vec<(&'static str, Value)> {
+    let time = quantity(&[Dimension::Time]);
+    let point =
+        json!({ "type": "array", "prefixItems": [time, number()], "minItems": 2, "maxItems": 2 });
+    let harmonic = object(
+        &[
+            ("amplitude", number()),
+            ("frequency", quantity(&[Dimension::Frequency])),
+            ("phase", quantity(&[Dimension::Angle])),
+            ("offset", number()),
+        ],
+        &[],
+    );
+    vec![
+        ("constant", number()),
+        (
+            "ramp",
+            object(&[("from", number()), ("rate", number())], &[]),
+        ),
+        ("harmonic", harmonic),
+        (
+            "table",
+            described(
+                "points [time, value], straight lines between them",
+                json!({ "type": "array", "items": point, "minItems": 1 }),
+            ),
+        ),
+    ]
+}
+
+fn course() -> Value {
+    json!({ "anyOf": [number(), one_of(&courses())] })
+}
+
+fn drive() -> Value {
+    let gain = quantity(&[Dimension::One]);
+    let controller = |about: &str| {
+        let keys = [
+            ("target", json!({ "$ref": "#/$defs/course" })),
+            ("stiffness", gain.clone()),
+            ("damping", gain.clone()),
+        ];
+        described(about, object(&keys, &["target"]))
+    };
+    let mut words = courses();
+    words.extend([
+        ("pd", controller("k (r − q) + d (ṙ − q̇)")),
+        (
+            "computed_torque",
+            controller("the scene's inverse dynamics at r̈ + d (ṙ − q̇) + k (r − q)"),
+        ),
+    ]);
+    let given = json!({ "const": "given", "description": "what the caller puts into `Input`" });
+    json!({ "anyOf": [given, number(), one_of(&words)] })
+}
+
+/// A mapping with exactly one of these keys.
+fn one_of(keys: &[(&str, Value)]) -> Value {
+    let mut mapping = object(keys, &[]);
+    mapping["minProperties"] = json!(1);
+    mapping["maxProperties"] = json!(1);
+    mapping
+}
+
+fn integration() -> Value {
+    let methods = Integrator::ALL.map(Integrator::name);
+    let time = || quantity(&[Dimension::Time]);
+    let keys = [
+        ("method", json!({ "enum": methods })),
+        ("step", described("length of a step, s", time())),
+        (
+            "tolerance",
+            described(
+                "error of a step, in place of its length",
+                quantity(&[Dimension::One]),
+            ),
+        ),
+        ("end", described("when the run ends, s", time())),
+    ];
+    described("how the scene is run", object(&keys, &[]))
+}

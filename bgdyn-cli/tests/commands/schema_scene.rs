@@ -1,0 +1,151 @@
+//! `bgdyn schema --scene` says what the reader of scenes says.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use bgdyn_codegen::fault::Faults;
+use bgdyn_codegen::model::{Refusal, read_scene};
+use jsonschema::Validator;
+use serde_json::Value;
+
+use crate::{bgdyn, root};
+
+fn schema() -> Value {
+    let printed = bgdyn(&["schema", "--scene"]).good();
+    serde_json::from_str(&printed).expect("JSON")
+}
+
+fn validator() -> Validator {
+    jsonschema::validator_for(&schema()).expect("a schema")
+}
+
+const MECHANISM: &str = "\
+format: 1
+links:
+  - { name: arm, joint: { name: shoulder, type: revolute, axis: y }, mass: 1, com: [1, 0, 0] }
+  - { name: hand, parent: arm, joint: { name: wrist, type: revolute, axis: y }, mass: 1, com: [1, 0, 0] }
+effects:
+  grease: { type: viscous, joint: shoulder, damping: 0.1 }
+";
+
+/// What the reader and the check find in a scene over the mechanism above.
+fn faults(scene: &str) -> Faults {
+    let text = format!("scene: 1\nmechanism: arm.yaml\n{scene}");
+    match read_scene(&text, "run", |_| Ok(MECHANISM.to_owned())) {
+        Ok((_, faults)) => faults,
+        Err(Refusal::Spec(faults)) => faults,
+        Err(other) => panic!("{text}: {other:?}"),
+    }
+}
+
+fn fits(validator: &Validator, scene: &str) -> bool {
+    let text = format!("scene: 1\nmechanism: arm.yaml\n{scene}");
+    validator.is_valid(&serde_yaml::from_str(&text).expect("YAML"))
+}
+
+#[test]
+fn every_scene_fits() {
+    let validator = validator();
+    let mut seen = 0;
+    let folders = ["specs/scenes", "tests/hard_cases/scenes"].map(|folder| root().join(folder));
+    let entries = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).expect("a folder"));
+    for path in entries.map(|entry| entry.expect("an entry").path()) {
+        let text = fs::read_to_string(&path).expect("a text");
+        let instance: Value = serde_yaml::from_str(&text).expect("YAML");
+        let faults: Vec<String> = validator
+            .iter_errors(&instance)
+            .map(|e| format!("{}: {e}", e.instance_path()))
+            .collect();
+        assert!(faults.is_empty(), "{}: {faults:#?}", path.display());
+        seen += 1;
+    }
+    assert!(seen > 25);
+}
+
+#[test]
+fn both_take_the_same() {
+    let validator = validator();
+    for scene in [
+        "effects: [gravity, grease]",
+        "effects: [friction]",
+        "effects: [viscous]",
+        "effects: [gravity: [0, 0, -1.62], inertia: lumped]",
+        "effects: [inertia: { stage: lumped }]",
+        "effects: [grease: { damping: 2 }]",
+        "effects: [lock_wire: { type: spring, joint: wrist, stiffness: 40 }]",
+        "lock: { wrist: 30 deg }",
+        "inputs: { shoulder: 2 N*m, wrist: given }",
+        "inputs: { shoulder: { ramp: { from: 0, rate: 1 } } }",
+        "inputs: { shoulder: { harmonic: { amplitude: 1, frequency: 2 Hz, phase: 90 deg, offset: 1 } } }",
+        "inputs: { shoulder: { table: [[0 s, 0], [1 s, 2 N*m]] } }",
+        "inputs: { shoulder: { pd: { target: 45 deg, stiffness: 8, damping: 1 } } }",
+        "inputs: { shoulder: { computed_torque: { target: { constant: 1 }, stiffness: 8 } } }",
+        "initial: { shoulder: 10 deg, wrist_rate: 1 }",
+        "outputs: [shoulder, hand]",
+        "integration: { method: dopri5, tolerance: 1e-9, end: 500 ms }",
+    ] {
+        let found = faults(scene);
+        assert!(!found.any_fault(), "{scene}: {:?}", found.0);
+        assert!(fits(&validator, scene), "{scene}");
+    }
+}
+
+#[test]
+fn both_refuse_the_same() {
+    let validator = validator();
+    for scene in [
+        "effect: [gravity]",
+        "effects: gravity",
+        "effects: [inertia: heavy]",
+        "effects: [gravity: [0, 0]]",
+        "effects: [grease: { dampin: 2 }]",
+        "effects: [wire: { type: sprung, joint: wrist }]",
+        "effects: [wire: { type: spring, joint: wrist, stiffness: 40 m }]",
+        "effects: [wire: { type: spring, joint: wrist }]",
+        "inputs: { shoulder: { ramps: 1 } }",
+        "inputs: { shoulder: { ramp: { to: 0 } } }",
+        "inputs: { shoulder: { constant: 1, ramp: { from: 0 } } }",
+        "inputs: { shoulder: { harmonic: { amplitude: 1, frequency: 2 m } } }",
+        "inputs: { shoulder: { pd: { stiffness: 8 } } }",
+        "inputs: { shoulder: { pd: { target: 1, stiff: 8 } } }",
+        "integration: { method: euler }",
+        "integration: { step: 1 m }",
+        "integration: { steps: 1 }",
+    ] {
+        assert!(faults(scene).any_fault(), "{scene}");
+        assert!(!fits(&validator, scene), "{scene}");
+    }
+}
+
+#[test]
+fn keys_are_those_of_the_reader_and_of_the_page() {
+    let schema = schema();
+    let page = fs::read_to_string(root().join("docs/scenes.md")).expect("docs/scenes.md");
+    let told = |scene: &str| -> BTreeSet<String> {
+        let all = faults(scene).0;
+        let unknown = all.iter().find(|fault| fault.rule == "unknown-key");
+        let help = unknown.and_then(|fault| fault.help.as_deref());
+        let words = help.expect("the keys that it knows").split('`');
+        words.skip(1).step_by(2).map(String::from).collect()
+    };
+    for (scene, pointer) in [
+        ("zzzzzzzzzz: 1", "/properties"),
+        (
+            "integration: { zzzzzzzzzz: 1 }",
+            "/$defs/integration/properties",
+        ),
+    ] {
+        let known = told(scene);
+        let keys = schema.pointer(pointer).and_then(Value::as_object);
+        let keys: BTreeSet<String> = keys.expect("properties").keys().cloned().collect();
+        assert_eq!(keys, known);
+        for key in known {
+            assert!(
+                page.contains(&format!("`{key}`")) || page.contains(&format!("{key}:")),
+                "{key}"
+            );
+        }
+    }
+}
