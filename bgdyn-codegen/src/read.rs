@@ -1,8 +1,10 @@
 //! YAML text → checked mechanism: reading, then checking, all findings together.
 
-use crate::fault::Faults;
+use crate::bond_graph;
+use crate::fault::wording::no_inertia;
+use crate::fault::{Fault, Faults};
 use crate::mechanism::{Mechanism, check};
-use crate::spec::parse;
+use crate::spec::{Joint, Spec, parse};
 
 /// Reads and checks a spec. `stem` is the file's name without its ending, if there is a file; only
 /// what stands before its first dot counts.
@@ -16,6 +18,24 @@ pub fn read(text: &str, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
     };
     let (mechanism, more) = check(&spec, stem);
     faults.0.extend(more.0);
+    if let Some(mechanism) = &mechanism {
+        faults.0.extend(without_inertia(mechanism, &spec));
+    }
     faults.sort();
     (mechanism, faults)
+}
+
+/// Warns of joints that carry no inertia, which forward dynamics could only refuse.
+fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
+    let graph = bond_graph::build(mechanism);
+    let links = spec.links.value().into_iter().flatten();
+    let joints: Vec<&Joint> = links.filter_map(|link| link.joint.value()).collect();
+    let found = graph.without_inertia().into_iter().filter_map(|j| {
+        let name = &graph.coordinates[j.0].name;
+        let joint = joints
+            .iter()
+            .find(|joint| joint.name.value() == Some(name))?;
+        Some(no_inertia(&joint.place, name))
+    });
+    found.collect()
 }

@@ -7,6 +7,7 @@
 //! of the placement of the link frames, which stand beside the graph.
 
 mod build;
+mod inert;
 mod pattern;
 
 use bgdyn_runtime::Dd;

@@ -2,13 +2,12 @@
 
 use bgdyn_codegen::fault::{Fault, Severity};
 use bgdyn_codegen::math::{Mat3, Vec3};
-use bgdyn_codegen::read;
 use bgdyn_runtime::Dd;
 
-use super::{dd, joint, rules, sound, whole};
+use super::{checked, dd, joint, rules, sound, whole};
 
 fn warning(text: &str) -> Fault {
-    let (mechanism, faults) = read(text, Some("arm"));
+    let (mechanism, faults) = checked(text);
     assert!(mechanism.is_some(), "a warning refuses nothing: {faults:?}");
     assert_eq!(faults.0.len(), 1, "{faults:?}");
     assert_eq!(faults.0[0].severity, Severity::Warning);

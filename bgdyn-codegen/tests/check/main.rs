@@ -10,15 +10,22 @@ use bgdyn_codegen::mechanism::{CoordinateId, Link, LinkId, Mechanism, Motion, Va
 use bgdyn_codegen::read;
 use bgdyn_runtime::Dd;
 
+/// What is found, but for joints without inertia: these specs are of no use but for what they test.
+fn checked(text: &str) -> (Option<Mechanism>, Faults) {
+    let (mechanism, mut faults) = read(text, Some("arm"));
+    faults.0.retain(|fault| fault.rule != "no-inertia");
+    (mechanism, faults)
+}
+
 fn sound(text: &str) -> Mechanism {
-    let (mechanism, faults) = read(text, Some("arm"));
+    let (mechanism, faults) = checked(text);
     assert_eq!(faults, Faults::default());
     mechanism.expect("a mechanism without faults")
 }
 
 /// The rules broken by a spec.
 fn rules(text: &str) -> Vec<&'static str> {
-    let (mechanism, faults) = read(text, Some("arm"));
+    let (mechanism, faults) = checked(text);
     assert_eq!(mechanism.is_none(), faults.any_fault());
     faults.0.iter().map(|fault| fault.rule).collect()
 }
@@ -334,4 +341,52 @@ frames: [{ name: world, link: fn }, { name: a, link: world }, { name: ok, link: 
 fn a_merge_key_is_the_only_fault_of_its_mapping() {
     let text = "format: 1\nlinks:\n  - &a { name: a, mass: 1 }\n  - { <<: *a }\n";
     assert_eq!(rules(text), ["merge-key"]);
+}
+
+/// A joint that moves nothing with inertia is named, whatever kind of nothing it is.
+#[test]
+fn joints_without_inertia_are_named() {
+    let tip = |tip: &str| {
+        format!(
+            "format: 1\nlinks:\n  - {{ name: a, joint: {{ name: one, type: revolute, axis: z }}, mass: 1, com: [1, 0, 0] }}\n  - {{ name: b, parent: a, {tip} }}\n"
+        )
+    };
+    for (text, named) in [
+        ("joint: { name: two, type: revolute, axis: x }", true),
+        (
+            "joint: { name: two, type: revolute, axis: x }, mass: 1",
+            true,
+        ),
+        (
+            "joint: { name: two, type: revolute, axis: x }, mass: 1, com: [1, 0, 0]",
+            true,
+        ),
+        (
+            "joint: { name: two, type: revolute, axis: x }, inertia: { yy: 1, zz: 1 }",
+            true,
+        ),
+        (
+            "joint: { name: two, type: prismatic, axis: x }, inertia: { xx: 1, yy: 1, zz: 1 }",
+            true,
+        ),
+        (
+            "joint: { name: two, type: revolute, axis: y }, inertia: { yy: 1, zz: 1 }",
+            false,
+        ),
+        (
+            "joint: { name: two, type: revolute, axis: x }, mass: 1, com: [0, 1, 0]",
+            false,
+        ),
+        (
+            "joint: { name: two, type: prismatic, axis: x }, mass: { parameter: load, value: 0 }",
+            false,
+        ),
+    ] {
+        let (mechanism, faults) = read(&tip(text), Some("arm"));
+        assert!(mechanism.is_some(), "{text}: {faults:?}");
+        let found = faults.0.iter().filter(|fault| fault.rule == "no-inertia");
+        let found: Vec<&str> = found.map(|fault| fault.message.as_str()).collect();
+        let wanted = "nothing that the joint `two` moves has inertia";
+        assert_eq!(found, if named { vec![wanted] } else { vec![] }, "{text}");
+    }
 }
