@@ -3,6 +3,8 @@
 
 pub mod board;
 pub mod check;
+pub mod measure;
+pub mod subject;
 
 use control::Record;
 

@@ -40,13 +40,23 @@ impl<T: Scalar, const N: usize> ComputedTorque<T, N> {
     /// One step of control: joint efforts, N·m and N.
     #[inline(always)]
     pub fn effort<M: Dynamics<T, N, N>>(&self, model: &M, record: &Record<T, N>) -> SVector<T, N> {
+        self.effort_by(record, |q, v, a| model.inverse_dynamics(q, v, a))
+    }
+
+    /// The same by any inverse dynamics (q, v, a).
+    #[inline(always)]
+    pub fn effort_by(
+        &self,
+        record: &Record<T, N>,
+        inverse_dynamics: impl FnOnce(&SVector<T, N>, &SVector<T, N>, &SVector<T, N>) -> SVector<T, N>,
+    ) -> SVector<T, N> {
         let a = SVector::from_fn(|i, _| {
             let lag = record.wanted_q[i] + -record.q[i];
             let lag_rate = record.wanted_v[i] + -record.v[i];
             record.wanted_a[i] + self.stiffness * lag + self.damping * lag_rate
         });
         let (q, v) = (SVector::from(record.q), SVector::from(record.v));
-        let tau = model.inverse_dynamics(&q, &v, &a);
+        let tau = inverse_dynamics(&q, &v, &a);
         tau.zip_map(&self.limits, |effort, limit| effort.max(-limit).min(limit))
     }
 }
