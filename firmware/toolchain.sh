@@ -3,10 +3,10 @@ target=thumbv7em-none-eabihf
 variable=CARGO_TARGET_THUMBV7EM_NONE_EABIHF
 
 if [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; then
-  cargo=cargo
+  cargo=cargo rustc=rustc
 elif [ -x /usr/bin/rustc ] && [ -d "$(/usr/bin/rustc --print sysroot)/lib/rustlib/src/rust/library/core" ]; then
   # Debian's compiler comes without the target's library, and with Rust's source: build it.
-  cargo=/usr/bin/cargo
+  cargo=/usr/bin/cargo rustc=/usr/bin/rustc
   export RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_UNSTABLE_BUILD_STD=core,panic_abort
   linker=$(compgen -c lld- | grep -E '^lld-[0-9]+$' | sort -V | tail -1)
   export "${variable}_LINKER=${linker:?no lld: apt-get install lld-19, or a newer one}"
