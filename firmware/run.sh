@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 . ./toolchain.sh
 programs=(scara puma560 payload)
 
-# programs CPU FLAGS…: runs the controllers.
+# run CPU FLAGS…: runs the controllers.
 run() {
   local cpu=$1 program
   shift
@@ -17,10 +17,14 @@ run() {
 
 # What the compiler calls for f64 in software, by the ABI of Arm and by its own names.
 soft_double='__aeabi_(c?d[a-z]|f2d|u?i2d|u?l2d)|__[a-z]*(df[2-3]|[dsx]fdf2|dfsf2|dfsi|dfdi|sidf|didf)$'
+# no_double FOLDER PROGRAM…
 no_double() {
-  local program found
-  for program in "${programs[@]}"; do
-    found=$(readelf -sW "target/$target/release/$program" | awk '{ print $8 }' | grep -E "$soft_double" || true)
+  local folder=$1 program symbols found
+  shift
+  for program in "$@"; do
+    symbols=$(readelf -sW "target/$folder/release/$program" | awk '{ print $8 }')
+    grep -qE 'main|_start' <<<"$symbols" || { echo "MISSED: $program has no symbols to search"; exit 1; }
+    found=$(grep -E "$soft_double" <<<"$symbols" || true)
     if [ -n "$found" ]; then
       echo "MISSED: f64 in $program:" $found
       exit 1
@@ -31,15 +35,28 @@ no_double() {
 
 echo "== Cortex-M4F, f32"
 run m4f
-no_double
+no_double "$target" "${programs[@]}"
 
 echo "== Cortex-M4F, f32, opt-level \"s\""
 CARGO_PROFILE_RELEASE_OPT_LEVEL=s run m4f
-no_double
+no_double "$target" "${programs[@]}"
 
 echo "== Cortex-M7, f32 and f64"
 run m7
 run m7 --features double
+
+riscv=riscv32imafc-unknown-none-elf
+if ! command -v qemu-riscv32 >/dev/null; then
+  echo "== RISC-V: skipped, no qemu-riscv32 (Debian: qemu-user)"
+elif [ -z "${CARGO_UNSTABLE_BUILD_STD:-}" ] && [ ! -d "$("$rustc" --print sysroot)/lib/rustlib/$riscv" ]; then
+  echo "== RISC-V: skipped, \`rustup target add $riscv\` first"
+else
+  for level in 3 s; do
+    echo "== RISC-V (RV32IMAFC), f32, opt-level $level"
+    CARGO_PROFILE_RELEASE_OPT_LEVEL=$level "$cargo" run -q --release -p riscv --target "$riscv"
+    no_double "$riscv" riscv
+  done
+fi
 
 echo "== instructions, stack"
 for cpu in m4f m7; do

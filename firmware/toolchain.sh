@@ -10,6 +10,7 @@ elif [ -x /usr/bin/rustc ] && [ -d "$(/usr/bin/rustc --print sysroot)/lib/rustli
   export RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_UNSTABLE_BUILD_STD=core,panic_abort
   linker=$(compgen -c lld- | grep -E '^lld-[0-9]+$' | sort -V | tail -1)
   export "${variable}_LINKER=${linker:?no lld: apt-get install lld-19, or a newer one}"
+  export "CARGO_TARGET_RISCV32IMAFC_UNKNOWN_NONE_ELF_LINKER=$linker"
 else
   echo "no toolchain for $target: \`rustup target add $target\`, or on Debian" \
     "\`apt-get install rustc-web cargo-web rust-web-src lld-22\`" >&2

@@ -1,6 +1,8 @@
-//! Computed torque: the same source runs on the microcontroller in `f32` and on the host in `f64`.
+//! Computed torque, and its efforts beside the host's: the same source runs on the microcontroller in `f32` and on the host in `f64`.
 #![no_std]
 #![forbid(unsafe_code)]
+
+pub mod check;
 
 use bgdyn::nalgebra::SVector;
 use bgdyn::{Dynamics, Scalar};

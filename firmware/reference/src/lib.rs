@@ -6,6 +6,8 @@
 //! on the microcontroller is arithmetic alone.
 #![forbid(unsafe_code)]
 
+use std::fmt::Write;
+
 use bgdyn::Dynamics;
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::Limits;
@@ -28,6 +30,42 @@ pub const PAYLOAD: f64 = 2.25;
 
 /// How much of its effort a joint's drive delivers.
 const DELIVERED: f64 = 0.97;
+
+/// Rust source, for programs in which `Real` is a scalar: the motions as `SCARA`, `PUMA560` and
+/// `SCARA_PAYLOAD`, each with its arm's largest efforts, `SCARA_EFFORTS`, and the constants above.
+pub fn motions() -> String {
+    let mut text = String::new();
+    write_motion(&mut text, "SCARA", &scara_motion(), &scara::JOINT_LIMITS);
+    let limits = &puma560::JOINT_LIMITS;
+    write_motion(&mut text, "PUMA560", &puma560_motion(), limits);
+    let limits = &scara_payload::JOINT_LIMITS;
+    write_motion(&mut text, "SCARA_PAYLOAD", &scara_payload_motion(), limits);
+    for (name, what, x) in [
+        ("STIFFNESS", "Kp, 1/s².", STIFFNESS),
+        ("DAMPING", "Kd, 1/s.", DAMPING),
+        ("PAYLOAD", "Mass of the part, kg.", PAYLOAD),
+    ] {
+        writeln!(text, "/// {what}\npub const {name}: Real = {x:?};").expect("memory");
+    }
+    text
+}
+
+fn write_motion<const N: usize>(
+    text: &mut String,
+    name: &str,
+    records: &[Record<f64, N>],
+    limits: &[Limits; N],
+) {
+    let (count, efforts) = (records.len(), limits.map(|l| l.effort));
+    writeln!(
+        text,
+        "/// What the host found.\n\
+         pub static {name}: [Record<Real, {N}>; {count}] = {records:?};\n\
+         /// Largest efforts: N·m, N.\n\
+         pub const {name}_EFFORTS: [Real; {N}] = {efforts:?};"
+    )
+    .expect("memory");
+}
 
 /// The SCARA's motion.
 pub fn scara_motion() -> Vec<Record<f64, 4>> {

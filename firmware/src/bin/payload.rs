@@ -3,9 +3,10 @@
 #![no_main]
 
 use bgdyn::nalgebra::SVector;
-use control::ComputedTorque;
+use control::{ComputedTorque, check};
 use cortex_m_rt::entry;
-use firmware::{DAMPING, PAYLOAD, Real, SCARA_PAYLOAD, STIFFNESS, board, check, efforts};
+use cortex_m_semihosting::hprintln;
+use firmware::{DAMPING, PAYLOAD, Real, SCARA_PAYLOAD, SCARA_PAYLOAD_EFFORTS, STIFFNESS, board};
 
 bgdyn::bgdyn!("specs/scara_payload.yaml", methods = [dynamics]);
 
@@ -15,12 +16,16 @@ fn main() -> ! {
     let law = ComputedTorque {
         stiffness: STIFFNESS,
         damping: DAMPING,
-        limits: SVector::from(const { efforts(&scara_payload::JOINT_LIMITS) }),
+        limits: SVector::from(SCARA_PAYLOAD_EFFORTS),
     };
     // The part has been weighed.
     arm.payload = PAYLOAD;
     let names = &scara_payload::JOINT_NAMES;
-    board::exit(check::motion("payload", names, &SCARA_PAYLOAD, |r| {
-        law.effort(&arm, r)
-    }))
+    board::exit(check::motion(
+        "payload",
+        names,
+        &SCARA_PAYLOAD,
+        |line| hprintln!("{}", line),
+        |r| law.effort(&arm, r),
+    ))
 }

@@ -3,9 +3,10 @@
 #![no_main]
 
 use bgdyn::nalgebra::SVector;
-use control::ComputedTorque;
+use control::{ComputedTorque, check};
 use cortex_m_rt::entry;
-use firmware::{DAMPING, PUMA560, Real, STIFFNESS, board, check, efforts};
+use cortex_m_semihosting::hprintln;
+use firmware::{DAMPING, PUMA560, PUMA560_EFFORTS, Real, STIFFNESS, board};
 
 include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
 
@@ -15,10 +16,14 @@ fn main() -> ! {
     let law = ComputedTorque {
         stiffness: STIFFNESS,
         damping: DAMPING,
-        limits: SVector::from(const { efforts(&puma560::JOINT_LIMITS) }),
+        limits: SVector::from(PUMA560_EFFORTS),
     };
     let names = &puma560::JOINT_NAMES;
-    board::exit(check::motion("puma560", names, &PUMA560, |r| {
-        law.effort(&arm, r)
-    }))
+    board::exit(check::motion(
+        "puma560",
+        names,
+        &PUMA560,
+        |line| hprintln!("{}", line),
+        |r| law.effort(&arm, r),
+    ))
 }

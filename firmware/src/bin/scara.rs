@@ -3,9 +3,10 @@
 #![no_main]
 
 use bgdyn::nalgebra::SVector;
-use control::ComputedTorque;
+use control::{ComputedTorque, check};
 use cortex_m_rt::entry;
-use firmware::{DAMPING, Real, SCARA, STIFFNESS, board, check, efforts};
+use cortex_m_semihosting::hprintln;
+use firmware::{DAMPING, Real, SCARA, SCARA_EFFORTS, STIFFNESS, board};
 
 include!(concat!(env!("OUT_DIR"), "/scara.rs"));
 
@@ -15,10 +16,14 @@ fn main() -> ! {
     let law = ComputedTorque {
         stiffness: STIFFNESS,
         damping: DAMPING,
-        limits: SVector::from(const { efforts(&scara::JOINT_LIMITS) }),
+        limits: SVector::from(SCARA_EFFORTS),
     };
     let names = &scara::JOINT_NAMES;
-    board::exit(check::motion("scara", names, &SCARA, |r| {
-        law.effort(&arm, r)
-    }))
+    board::exit(check::motion(
+        "scara",
+        names,
+        &SCARA,
+        |line| hprintln!("{}", line),
+        |r| law.effort(&arm, r),
+    ))
 }
