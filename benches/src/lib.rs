@@ -2,13 +2,13 @@
 //! recursions of a textbook to compare with.
 #![forbid(unsafe_code)]
 
-pub mod body;
 pub mod clock;
 pub mod counts;
 pub mod inputs;
 pub mod plain;
 pub mod states;
-pub mod textbook;
+
+pub use textbook::mechanism as body;
 
 use std::path::Path;
 

@@ -5,12 +5,15 @@ use nalgebra::{DMatrix, Matrix6xX, RealField, Vector3, convert};
 
 use crate::body::{bodies, place, vector};
 use crate::inputs::{Input, Lanes};
-use crate::textbook::Textbook;
+use textbook::Textbook;
+
+/// More bodies than any mechanism of `specs/` has.
+const CAPACITY: usize = 16;
 
 /// The recursions of [`Textbook`] for one robot.
 #[derive(Clone, Debug)]
 pub struct Plain<T: RealField + Copy> {
-    tree: Textbook<T>,
+    tree: Textbook<T, CAPACITY>,
     tip: (Option<usize>, Vector3<T>),
     /// What the last call gave: efforts or accelerations.
     pub vector: Vec<T>,
@@ -24,7 +27,7 @@ impl<T: Lanes + RealField> Plain<T> {
     /// For the mechanism, and the link or frame whose Jacobian is wanted.
     ///
     /// # Panics
-    /// Where there is no such link or frame.
+    /// Where there is no such link or frame, or more than 16 bodies.
     pub fn new(mechanism: &Mechanism, tip: &str) -> Self {
         let bodies = bodies(mechanism);
         let site = place(mechanism, tip).expect("a link or a frame of the mechanism");

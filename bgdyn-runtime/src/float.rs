@@ -68,7 +68,9 @@ macro_rules! float_scalar {
             type Refused = Option<usize>;
             type Singular<const N: usize> = Singular;
 
-            #[inline]
+            // Always: of constants, nothing is left of it but a constant, also where a compiler saves
+            // space and `f64` would be computed in software.
+            #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 x as $float
             }
@@ -175,7 +177,8 @@ macro_rules! float_scalar {
         }
 
         impl Split for $float {
-            #[inline]
+            // As `from_f64`.
+            #[inline(always)]
             fn split(hi: f64, lo: f64) -> (Self, Self) {
                 let sum = hi as $float;
                 (sum, (hi - f64::from(sum) + lo) as $float)

@@ -58,9 +58,9 @@ impl Turn {
     fn plus(self, other: Self) -> Self {
         let mut sum = self;
         let mut carry = 0_u128;
-        for (word, add) in sum.0.iter_mut().zip(other.0).rev() {
-            let total = u128::from(*word) + u128::from(add) + carry;
-            *word = total as u64;
+        for i in (0..WORDS).rev() {
+            let total = u128::from(sum.0[i]) + u128::from(other.0[i]) + carry;
+            sum.0[i] = total as u64;
             carry = total >> 64;
         }
         sum

@@ -1,6 +1,6 @@
 //! The branch-free path: reduction by π/2 in parts, then two polynomials.
 
-use super::pack::{Coefficients, Pack};
+use super::pack::{Coefficients, Pack, Polynomial};
 
 /// Sine and cosine of `angle` + `tail`, for an angle within [`Pack::LIMIT`] and a tail of half a
 /// unit in its last place at most. Without a tail the polynomials begin 8 cycles earlier.
@@ -26,8 +26,8 @@ fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
     let n = quarters - magic;
     // n times these parts is exact, and so are the differences: at most as many digits are left as
     // a number has.
-    let mut rest = angle;
-    for &part in exact {
+    let mut rest = n.minus_product(P::splat(exact.0), angle);
+    if let Some(part) = exact.1 {
         rest = n.minus_product(P::splat(part), rest);
     }
     // n times the middle part is exact. Its difference is, where the rest is smaller; where it is
@@ -63,16 +63,16 @@ pub(super) fn of_rest<P: Pack>(r: P, low: P) -> (P, P) {
     (r + small, rounded + tiny)
 }
 
-/// k₀ + k₁x + k₂x² + …, by pairs, so that half of the steps wait for each other.
+/// By pairs, so that half of the steps wait for each other.
 #[inline(always)]
-fn polynomial<P: Pack>(x: P, coefficients: &[f64]) -> P {
+fn polynomial<P: Pack>(x: P, coefficients: Polynomial) -> P {
     let square = x * x;
-    let pair = |pair: &[f64]| match *pair {
-        [constant, linear] => x.fused(P::splat(linear), P::splat(constant)),
-        [constant, ..] => P::splat(constant),
-        [] => P::splat(0.0),
-    };
-    let mut pairs = coefficients.chunks(2).rev();
-    let highest = pair(pairs.next().unwrap_or(&[]));
-    pairs.fold(highest, |sum, next| sum.fused(square, pair(next)))
+    let pair = |constant, linear| x.fused(P::splat(linear), P::splat(constant));
+    match coefficients {
+        Polynomial::Three([a, b, c]) => P::splat(c).fused(square, pair(a, b)),
+        Polynomial::Six([a, b, c, d, e, f]) => {
+            let high = pair(e, f).fused(square, pair(c, d));
+            high.fused(square, pair(a, b))
+        }
+    }
 }

@@ -5,19 +5,29 @@ use core::ops::{Add, Mul, Neg, Sub};
 use super::large;
 use crate::float::Float;
 
+/// k₀ + k₁x + k₂x² + …, of either length that there is: read in a loop, the numbers are no constants
+/// to a compiler that saves space, and `f32` would be converted from `f64` when running.
+#[derive(Clone, Copy)]
+pub(crate) enum Polynomial {
+    /// Up to x².
+    Three([f64; 3]),
+    /// Up to x⁵.
+    Six([f64; 6]),
+}
+
 /// The numbers that the kernel of a scalar type works with.
 #[derive(Clone, Copy)]
 pub(crate) struct Coefficients {
-    /// The first parts of π/2.
-    pub exact: &'static [f64],
+    /// The first part of π/2, and the second where four are taken.
+    pub exact: (f64, Option<f64>),
     /// The next one.
     pub middle: f64,
     /// The rest of π/2, rounded.
     pub last: f64,
     /// S of sin r = r + r³ S(r²).
-    pub sine: &'static [f64],
+    pub sine: Polynomial,
     /// C of cos r = 1 − r²/2 + r⁴ C(r²).
-    pub cosine: &'static [f64],
+    pub cosine: Polynomial,
 }
 
 /// `f64`: parts of 37, 36 and 53 digits, for n up to 2¹⁶. π/2 is met to 2⁻¹³⁰; no angle but 0 comes
@@ -26,25 +36,25 @@ pub(crate) struct Coefficients {
 /// The polynomials leave the least relative error that any of their degree does in |r| ≤ π/4 + 2⁻²⁰
 /// (found by Remez's exchange in 200 digits): 2⁻⁵⁷·⁹ of the sine, 2⁻⁶³·⁹ of the cosine.
 const DOUBLE: Coefficients = Coefficients {
-    exact: &[1.570_796_326_792_333_3],
+    exact: (1.570_796_326_792_333_3, None),
     middle: 2.563_344_151_583_955_8e-12,
     last: 1.056_299_906_698_742_8e-23,
-    sine: &[
+    sine: Polynomial::Six([
         -0.166_666_666_666_666_3,
         0.008_333_333_333_322_118,
         -0.000_198_412_698_295_894_28,
         2.755_731_362_134_611_5e-6,
         -2.505_074_775_645_978_3e-8,
         1.589_622_977_567_075e-10,
-    ],
-    cosine: &[
+    ]),
+    cosine: Polynomial::Six([
         0.041_666_666_666_666_595,
         -0.001_388_888_888_887_305_6,
         2.480_158_728_885_159e-5,
         -2.755_731_417_926_196e-7,
         2.087_570_083_709_376_5e-9,
         -1.135_853_626_122_895_9e-11,
-    ],
+    ]),
 };
 
 /// `f32`: parts of 11, 11, 11 and 24 digits, for n up to 2¹³. π/2 is met to 2⁻⁶³; no angle but 0
@@ -52,19 +62,19 @@ const DOUBLE: Coefficients = Coefficients {
 ///
 /// The polynomials as for `f64`, in |r| ≤ π/4 + 2⁻¹⁰: 2⁻²⁸·⁰ of the sine, 2⁻³³·⁰ of the cosine.
 const SINGLE: Coefficients = Coefficients {
-    exact: &[1.570_312_5, 0.000_483_751_296_997_070_3],
+    exact: (1.570_312_5, Some(0.000_483_751_296_997_070_3)),
     middle: 7.549_533_620_476_723e-8,
     last: 2.563_344_068_257_089_6e-12,
-    sine: &[
+    sine: Polynomial::Three([
         -0.166_666_545_188,
         0.008_332_154_905_89,
         -0.000_195_144_732_882,
-    ],
-    cosine: &[
+    ]),
+    cosine: Polynomial::Three([
         0.041_666_645_523_1,
         -0.001_388_730_830_93,
         2.443_223_180_44e-5,
-    ],
+    ]),
 };
 
 /// A number, or several of them.
@@ -160,7 +170,7 @@ macro_rules! scalar_pack {
             }
             #[inline(always)]
             fn within(self) -> bool {
-                self.abs() <= $limit
+                self.abs() <= <Self as Pack>::LIMIT as $float
             }
             #[cold]
             fn beyond(self, tail: Self) -> (Self, Self) {

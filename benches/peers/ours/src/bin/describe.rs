@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use benches::body::{Body, bodies, vector};
+use benches::body::{Body, bodies, joint_names, vector};
 use bgdyn_codegen::mechanism::Mechanism;
 
 fn main() -> ExitCode {
@@ -29,7 +29,7 @@ fn describe(spec: &Path, folder: &Path) -> Result<(), String> {
     let bodies = bodies(&mechanism);
     let texts = [
         ("flat", flat(&mechanism, &bodies)),
-        ("urdf", urdf(mechanism.name(), &bodies)),
+        ("urdf", urdf(&mechanism, &bodies)),
     ];
     for (ending, text) in texts {
         let path = folder.join(format!("{}.{ending}", mechanism.name()));
@@ -59,13 +59,13 @@ fn flat(mechanism: &Mechanism, bodies: &[Body]) -> Result<String, fmt::Error> {
     writeln!(text, "mechanism {}", mechanism.name())?;
     writeln!(text, "gravity {}", Row(vector(mechanism.gravity()).iter()))?;
     writeln!(text, "bodies {}", bodies.len())?;
-    for body in bodies {
+    for (body, name) in bodies.iter().zip(joint_names(mechanism)) {
         let parent = body.parent.map_or(-1, |p| p as i64);
         let joint = if body.slides { "prismatic" } else { "revolute" };
         writeln!(
             text,
             "{} {parent} {joint} {} {} {} {:e} {} {}",
-            body.name,
+            name,
             Row(body.placement.rotation.transpose().iter()),
             Row(body.placement.translation.iter()),
             Row(body.axis.iter()),
@@ -77,11 +77,12 @@ fn flat(mechanism: &Mechanism, bodies: &[Body]) -> Result<String, fmt::Error> {
     Ok(text)
 }
 
-fn urdf(name: &str, bodies: &[Body]) -> Result<String, fmt::Error> {
-    let mut text = String::new();
+fn urdf(mechanism: &Mechanism, bodies: &[Body]) -> Result<String, fmt::Error> {
+    let (mut text, name) = (String::new(), mechanism.name());
     writeln!(text, "<robot name=\"{name}\">\n  <link name=\"world\"/>")?;
     let link = |i: Option<usize>| i.map_or("world".to_owned(), |i| format!("body{i}"));
-    for (i, body) in bodies.iter().enumerate() {
+    let joints = bodies.iter().zip(joint_names(mechanism));
+    for (i, (body, joint)) in joints.enumerate() {
         let [xx, xy, xz, yy, yz, zz] = tensor(body);
         let kind = if body.slides {
             "prismatic"
@@ -99,7 +100,6 @@ fn urdf(name: &str, bodies: &[Body]) -> Result<String, fmt::Error> {
             name = link(Some(i)),
             com = Row(body.com.iter()),
             mass = body.mass,
-            joint = body.name,
             parent = link(body.parent),
             xyz = Row(body.placement.translation.iter()),
             rpy = Row(roll_pitch_yaw(body).iter()),

@@ -1,6 +1,6 @@
 //! Spatial vectors and inertias, in pairs of 3-vectors: angular part first.
 
-use nalgebra::{Matrix3, RealField, Rotation3, Unit, Vector3, convert};
+use nalgebra::{Matrix3, RealField, Unit, Vector3, convert};
 
 use crate::body::{Body, steiner};
 
@@ -188,16 +188,29 @@ impl<T: RealField + Copy> Joint<T> {
         }
     }
 
+    /// No joint yet.
+    pub fn none() -> Self {
+        Joint {
+            slides: true,
+            axis: Unit::new_unchecked(Vector3::zeros()),
+            zero: Transform::identity(),
+        }
+    }
+
     /// Where it puts the body at this coordinate.
-    pub fn place(&self, q: T) -> Transform<T> {
+    pub fn place(&self, q: T, sine: fn(T) -> (T, T)) -> Transform<T> {
         let Transform { rotation, origin } = self.zero;
         if self.slides {
             let origin = origin + rotation * (self.axis.as_ref() * q);
             return Transform { rotation, origin };
         }
-        let turn = Rotation3::from_axis_angle(&self.axis, q);
+        // Rodrigues: cos 1 + (1 − cos) u uᵀ + sin [u]×.
+        let (sin, cos) = sine(q);
+        let (u, v) = (self.axis.as_ref(), self.axis.as_ref() * (T::one() - cos));
+        let turn = v * u.transpose() + (u * sin).cross_matrix();
+        let turn = turn + Matrix3::from_diagonal_element(cos);
         Transform {
-            rotation: rotation * turn.matrix(),
+            rotation: rotation * turn,
             origin,
         }
     }

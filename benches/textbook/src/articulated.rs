@@ -75,7 +75,7 @@ impl<T: RealField + Copy> ArticulatedInertia<T> {
     }
 }
 
-impl<T: RealField + Copy> Textbook<T> {
+impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
     /// Joint accelerations under efforts, into `a`: rad/s², m/s². A singular mass matrix gives numbers
     /// that are not finite.
     pub fn forward_dynamics(&mut self, q: &[T], v: &[T], tau: &[T], a: &mut [T]) {
@@ -95,7 +95,7 @@ impl<T: RealField + Copy> Textbook<T> {
     /// Outwards: velocities, velocity products c = v × S q̇ and forces p = v ×* I v.
     fn velocities(&mut self, q: &[T], v: &[T]) {
         for i in 0..self.joints() {
-            let x = self.joint[i].place(q[i]);
+            let x = self.placed(i, q[i]);
             let rate = self.joint[i].motion(v[i]);
             let velocity = match self.parent[i] {
                 Some(p) => x.in_body(&self.velocity[p]).plus(&rate),

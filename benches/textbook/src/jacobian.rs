@@ -1,21 +1,25 @@
 //! How a place on a body moves per unit of each joint.
 
-use nalgebra::{Matrix6xX, RealField, Vector3};
+use nalgebra::storage::StorageMut;
+use nalgebra::{Dim, Matrix, RealField, U6, Vector3};
 
 use super::Textbook;
 
-impl<T: RealField + Copy> Textbook<T> {
+impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
     /// The Jacobian in world axes, angular part first, of a point of a body (in its axes, m), into
     /// `jacobian`.
-    pub fn jacobian_world(
+    pub fn jacobian_world<D, S>(
         &mut self,
         q: &[T],
         body: Option<usize>,
         point: &Vector3<T>,
-        jacobian: &mut Matrix6xX<T>,
-    ) {
+        jacobian: &mut Matrix<T, U6, D, S>,
+    ) where
+        D: Dim,
+        S: StorageMut<T, U6, D>,
+    {
         for i in 0..self.joints() {
-            let x = self.joint[i].place(q[i]);
+            let x = self.placed(i, q[i]);
             self.world[i] = self.parent[i].map_or(x, |p| self.world[p].of(&x));
         }
         jacobian.fill(T::zero());

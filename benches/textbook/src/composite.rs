@@ -1,15 +1,20 @@
 //! The mass matrix from composite bodies: everything beyond a joint as one rigid body.
 
-use nalgebra::{DMatrix, RealField};
+use nalgebra::storage::StorageMut;
+use nalgebra::{Dim, Matrix, RealField};
 
 use super::Textbook;
 
-impl<T: RealField + Copy> Textbook<T> {
+impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
     /// The mass matrix, into `m`.
-    pub fn mass_matrix(&mut self, q: &[T], m: &mut DMatrix<T>) {
-        self.composite.copy_from_slice(&self.inertia);
+    pub fn mass_matrix<D, S>(&mut self, q: &[T], m: &mut Matrix<T, D, D, S>)
+    where
+        D: Dim,
+        S: StorageMut<T, D, D>,
+    {
+        self.composite = self.inertia;
         for i in 0..self.joints() {
-            self.transform[i] = self.joint[i].place(q[i]);
+            self.transform[i] = self.placed(i, q[i]);
         }
         m.fill(T::zero());
         for i in (0..self.joints()).rev() {

@@ -1,57 +1,16 @@
-//! A mechanism as programs for any tree take it: moving bodies only, numbers in `f64`.
+//! The bodies of a mechanism of bgdyn.
+
+extern crate std;
+
+use std::vec::Vec;
 
 use bgdyn_codegen::math::{Mat3, Vec3};
 use bgdyn_codegen::mechanism::{Inertial, LinkId, Mechanism, Motion, Pose, Value};
 use bgdyn_runtime::Dd;
 use nalgebra::{Matrix3, Vector3};
 
-/// A moving body and the joint that carries it. Links fixed to it are part of it.
-#[derive(Clone, Debug)]
-pub struct Body {
-    /// The joint's name.
-    pub name: String,
-    /// Number of the body that carries it; `None` for the world.
-    pub parent: Option<usize>,
-    /// Whether the joint is prismatic; else it is revolute.
-    pub slides: bool,
-    /// Body axes in the carrier's at coordinate zero.
-    pub placement: Placement,
-    /// Unit vector of the joint's axis, in body axes.
-    pub axis: Vector3<f64>,
-    /// Mass, kg.
-    pub mass: f64,
-    /// Centre of mass in body axes, m.
-    pub com: Vector3<f64>,
-    /// Inertia about the centre of mass in body axes, kg·m².
-    pub inertia: Matrix3<f64>,
-}
-
-/// Axes and origin of one frame in another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placement {
-    /// Columns are the placed frame's axes.
-    pub rotation: Matrix3<f64>,
-    /// The placed frame's origin, m.
-    pub translation: Vector3<f64>,
-}
-
-impl Placement {
-    /// No rotation, no displacement.
-    pub fn identity() -> Self {
-        Placement {
-            rotation: Matrix3::identity(),
-            translation: Vector3::zeros(),
-        }
-    }
-
-    /// What `inner` is seen from where `self` is placed.
-    pub fn of(&self, inner: &Placement) -> Self {
-        Placement {
-            rotation: self.rotation * inner.rotation,
-            translation: self.rotation * inner.translation + self.translation,
-        }
-    }
-}
+use crate::body::steiner;
+pub use crate::body::{Body, Placement};
 
 /// A place on a moving body, or in the world (`body: None`).
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +41,13 @@ pub fn bodies(mechanism: &Mechanism) -> Vec<Body> {
         }
     }
     bodies
+}
+
+/// Names of the joints, in the order of the coordinates.
+pub fn joint_names(mechanism: &Mechanism) -> impl Iterator<Item = &str> {
+    let links = mechanism.links();
+    let coordinates = mechanism.coordinates().iter();
+    coordinates.map(|&link| links[link.0].joint.name.as_str())
 }
 
 /// Which joints are prismatic.
@@ -132,7 +98,6 @@ fn empty(mechanism: &Mechanism, link: LinkId) -> Body {
     let link = &mechanism.links()[link.0];
     let carrier = carrier(mechanism, link.parent);
     Body {
-        name: link.joint.name.clone(),
         parent: carrier.body,
         slides: link.joint.kind.motion == Motion::Translation,
         placement: carrier.placement.of(&placement(&link.joint.origin)),
@@ -165,11 +130,6 @@ fn add(body: &mut Body, mechanism: &Mechanism, part: &Inertial, at: &Placement) 
     }
     body.mass = sum;
     body.inertia += tensor;
-}
-
-/// What a point mass adds to the inertia about a point at the distance `r`: m (r·r 1 − r rᵀ).
-pub(crate) fn steiner(mass: f64, r: &Vector3<f64>) -> Matrix3<f64> {
-    (Matrix3::identity() * r.dot(r) - r * r.transpose()) * mass
 }
 
 fn placement(pose: &Pose) -> Placement {

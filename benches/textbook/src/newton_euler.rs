@@ -4,11 +4,11 @@ use nalgebra::RealField;
 
 use super::Textbook;
 
-impl<T: RealField + Copy> Textbook<T> {
+impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
     /// Joint efforts of a motion, into `tau`: N·m, N.
     pub fn inverse_dynamics(&mut self, q: &[T], v: &[T], a: &[T], tau: &mut [T]) {
         for i in 0..self.joints() {
-            let x = self.joint[i].place(q[i]);
+            let x = self.placed(i, q[i]);
             let (rate, push) = (self.joint[i].motion(v[i]), self.joint[i].motion(a[i]));
             // v = X v_parent + S q̇, a = X a_parent + S q̈ + v × S q̇
             let (velocity, carried) = match self.parent[i] {
@@ -37,15 +37,12 @@ impl<T: RealField + Copy> Textbook<T> {
 
     /// Bias force, into `tau`: everything but M a.
     pub fn bias(&mut self, q: &[T], v: &[T], tau: &mut [T]) {
-        let zeros = std::mem::take(&mut self.zeros);
-        self.inverse_dynamics(q, v, &zeros, tau);
-        self.zeros = zeros;
+        self.inverse_dynamics(q, v, &[T::zero(); N], tau);
     }
 
     /// Efforts at rest, into `tau`.
     pub fn gravity(&mut self, q: &[T], tau: &mut [T]) {
-        let zeros = std::mem::take(&mut self.zeros);
+        let zeros = [T::zero(); N];
         self.inverse_dynamics(q, &zeros, &zeros, tau);
-        self.zeros = zeros;
     }
 }

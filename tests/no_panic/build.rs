@@ -1,0 +1,113 @@
+//! Generates the mechanisms with all methods that there are, and beside each of them, in `f64` and in
+//! `f32`, a function that does not link where the method can panic.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+use bgdyn_codegen::build_script::Build;
+use quote::{format_ident, quote};
+use syn::{File, FnArg, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type, parse_quote};
+
+const SPECS: [&str; 4] = [
+    "specs/scara.yaml",
+    "specs/puma560.yaml",
+    "specs/panda.yaml",
+    "firmware/specs/scara_payload.yaml",
+];
+
+fn main() {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("a build script"));
+    let (mut models, mut names) = (String::new(), Vec::new());
+    for spec in SPECS {
+        let spec = format!("../../{spec}");
+        println!("cargo::rerun-if-changed={spec}");
+        let source = Build::new(spec).derivatives(true).source();
+        let source = source.unwrap_or_else(|error| panic!("{error}"));
+        let mut file: File = syn::parse_str(&source.text).expect("Rust");
+        let module = file.items.iter_mut().find_map(|item| match item {
+            Item::Mod(module) => Some(module),
+            _ => None,
+        });
+        prove(module.expect("a module"));
+        models += &quote!(#file).to_string();
+        names.push(format_ident!("{}", source.module));
+    }
+    let all = quote! {
+        /// Keeps every function in the program; gives their number.
+        pub fn all() -> usize { 0 #(+ #names::proved_f32::all() + #names::proved_f64::all())* }
+    };
+    fs::write(out.join("models.rs"), models + &all.to_string()).expect("OUT_DIR can be written");
+}
+
+/// Adds the modules `proved_f32` and `proved_f64`.
+fn prove(module: &mut ItemMod) {
+    let (_, items) = module.content.as_mut().expect("a body");
+    let methods: Vec<(Type, Signature)> = items.iter().flat_map(methods).collect();
+    assert!(methods.len() >= 9, "a model has more methods");
+    for scalar in ["f32", "f64"] {
+        let name = format_ident!("proved_{scalar}");
+        let scalar = format_ident!("{scalar}");
+        let wrappers = methods.iter().map(|(model, method)| wrapper(model, method));
+        let names = methods.iter().map(|(_, method)| &method.ident);
+        let text = quote! {
+            pub mod #name {
+                use super::*;
+                type T = #scalar;
+                #(#wrappers)*
+                pub fn all() -> usize {
+                    let all = [#(#names as *const ()),*];
+                    core::hint::black_box(all).len()
+                }
+            }
+        };
+        // The alias is no parameter: what belongs to its trait has to say so.
+        let text = text.to_string();
+        let text = text.replace("T :: Singular", "< T as __Scalar > :: Singular");
+        let text = text.replace("T :: Refused", "< T as __Scalar > :: Refused");
+        items.push(syn::parse_str(&text).expect("Rust"));
+    }
+}
+
+/// The public methods of a model's own.
+fn methods(item: &Item) -> Vec<(Type, Signature)> {
+    let Item::Impl(ItemImpl {
+        trait_: None,
+        self_ty,
+        items,
+        ..
+    }) = item
+    else {
+        return Vec::new();
+    };
+    let method = |item: &ImplItem| match item {
+        ImplItem::Fn(method) => Some(((**self_ty).clone(), method.sig.clone())),
+        _ => None,
+    };
+    items.iter().filter_map(method).collect()
+}
+
+/// The method as a function that must not panic.
+fn wrapper(model: &Type, method: &Signature) -> syn::ItemFn {
+    let name = &method.ident;
+    let given: Vec<&syn::PatType> = method
+        .inputs
+        .iter()
+        .filter_map(|argument| match argument {
+            FnArg::Typed(argument) => Some(argument),
+            FnArg::Receiver(_) => None,
+        })
+        .collect();
+    // An unread argument is a pattern without a name.
+    let names: Vec<_> = (0..given.len()).map(|k| format_ident!("x{k}")).collect();
+    let types = given.iter().map(|argument| {
+        let is_name = matches!(*argument.pat, Pat::Ident(_) | Pat::Wild(_));
+        assert!(is_name, "an argument of {name} is no name");
+        &argument.ty
+    });
+    let output = &method.output;
+    parse_quote! {
+        #[no_panic::no_panic]
+        #[inline(never)]
+        pub fn #name(model: &#model, #(#names: #types),*) #output { model.#name(#(#names),*) }
+    }
+}
