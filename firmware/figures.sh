@@ -18,5 +18,5 @@ for cpu in m4f m7; do
   done
 done
 "$rustc" --version >"$out/versions.txt"
-qemu-system-arm --version | head -1 >>"$out/versions.txt"
+qemu-system-arm --version | sed -n 1p >>"$out/versions.txt"
 python3 figures.py "$out" ../docs/embedded.md
