@@ -68,7 +68,6 @@ fn fixed<const N: usize>(values: &[Value; N]) -> Option<[Dd; N]> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::mechanism::LinkId;
 
     #[test]
