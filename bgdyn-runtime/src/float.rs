@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::root;
 use crate::sine::{self, Pack};
 use crate::singular::{finish, note_refused};
 use crate::{Scalar, Singular};
@@ -213,7 +214,7 @@ float_scalar!(f64, 3.8e-6, libm::sqrt, libm::exp, libm::log, libm::tanh);
 float_scalar!(
     f32,
     3.9e-3,
-    libm::sqrtf,
+    root::single,
     libm::expf,
     libm::logf,
     libm::tanhf

@@ -1,4 +1,4 @@
-//! What generated code calls, and nothing else: `no_std`, no heap, no panic, no `unsafe`.
+//! What generated code calls, and nothing else: `no_std`, no heap, no panic, no `unsafe` (on some Arm processors one instruction).
 //!
 //! # Conventions, said once
 //! - SI units and radians; torques and rates are those of the joint.
@@ -20,7 +20,11 @@
 //! - `num-dual`: [`Scalar`] for the dual numbers of the crate `num-dual`, re-exported as
 //!   `num_dual`. That crate needs `std`; this one still does not use it.
 #![no_std]
-#![forbid(unsafe_code)]
+// But for one instruction on some Arm processors: see `root.rs`.
+#![cfg_attr(
+    not(all(target_arch = "arm", target_abi = "eabihf")),
+    forbid(unsafe_code)
+)]
 
 mod dd;
 #[cfg(feature = "num-dual")]
@@ -33,6 +37,7 @@ mod joint;
 mod lanes;
 mod operations;
 mod pose;
+mod root;
 pub mod rotation;
 mod scalar;
 mod settle;

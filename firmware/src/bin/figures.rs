@@ -31,6 +31,8 @@ const BARS: [(&str, &str, u32); 2] = [
     ("scara", "inverse dynamics", 350),
     ("panda", "inverse dynamics", 1600),
 ];
+/// Most instructions of a square root in `f32`: one of the FPU's, and the call.
+const ROOT: u32 = 16;
 /// Most bytes of stack of any generated function.
 const STACK: usize = 2048;
 
@@ -55,6 +57,13 @@ fn main() -> ! {
             well &= arm.measure::<_, f32>("f32", $module::$model::default(), true);
             well &= arm.measure::<_, f64>("f64", $module::$model::default(), double);
         };
+    }
+    let (square_root, mut root) = (black_box(<f32 as Scalar>::sqrt as fn(f32) -> f32), 0.0);
+    let count = counter.of(|| root = square_root(2.0));
+    hprintln!("root;f32;{}", count);
+    if count > ROOT || black_box(root) != core::f32::consts::SQRT_2 {
+        hprintln!("MISSED: the square root takes {} instructions", count);
+        well = false;
     }
     arm!(scara, Scara, SCARA, SCARA_GRAVITY);
     arm!(puma560, Puma560, PUMA560, PUMA560_GRAVITY);
