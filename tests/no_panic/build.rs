@@ -1,12 +1,12 @@
-//! Generates the mechanisms with all methods that there are, and beside each of them, in `f64` and in
-//! `f32`, a function that does not link where the method can panic.
+//! Generates mechanisms and scenes with all methods that there are, and beside each of them, in `f64`
+//! and in `f32`, a function that does not link where the method can panic.
 
 use std::path::PathBuf;
 use std::{env, fs};
 
 use bgdyn_codegen::build_script::Build;
 use quote::{format_ident, quote};
-use syn::{File, FnArg, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type, parse_quote};
+use syn::{File, FnArg, Ident, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type};
 
 const SPECS: [&str; 4] = [
     "specs/scara.yaml",
@@ -15,13 +15,31 @@ const SPECS: [&str; 4] = [
     "firmware/specs/scara_payload.yaml",
 ];
 
+/// Effects of every kind.
+const SCENES: [&str; 7] = [
+    "scara_everything",
+    "puma_drives",
+    "series_elastic_arm",
+    "stick_slip",
+    "ur5_contact",
+    "crane",
+    "hydraulic_cylinder",
+];
+
 fn main() {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("a build script"));
     let (mut models, mut names) = (String::new(), Vec::new());
-    for spec in SPECS {
-        let spec = format!("../../{spec}");
-        println!("cargo::rerun-if-changed={spec}");
-        let source = Build::new(spec).derivatives(true).source();
+    let mechanisms = SPECS
+        .iter()
+        .map(|spec| Build::new(format!("../../{spec}")).derivatives(true));
+    let scenes = SCENES.iter().map(|name| {
+        let scene = format!("../../specs/scenes/{name}.scene.yaml");
+        Build::new(scene).jacobian(true).canonical(true)
+    });
+    println!("cargo::rerun-if-changed=../../specs");
+    println!("cargo::rerun-if-changed=../../firmware/specs");
+    for build in mechanisms.chain(scenes) {
+        let source = build.source();
         let source = source.unwrap_or_else(|error| panic!("{error}"));
         let mut file: File = syn::parse_str(&source.text).expect("Rust");
         let module = file.items.iter_mut().find_map(|item| match item {
@@ -48,7 +66,7 @@ fn prove(module: &mut ItemMod) {
         let name = format_ident!("proved_{scalar}");
         let scalar = format_ident!("{scalar}");
         let wrappers = methods.iter().map(|(model, method)| wrapper(model, method));
-        let names = methods.iter().map(|(_, method)| &method.ident);
+        let names = methods.iter().map(|(model, method)| name_of(model, method));
         let text = quote! {
             pub mod #name {
                 use super::*;
@@ -68,7 +86,7 @@ fn prove(module: &mut ItemMod) {
     }
 }
 
-/// The public methods of a model's own.
+/// The public methods of a type's own.
 fn methods(item: &Item) -> Vec<(Type, Signature)> {
     let Item::Impl(ItemImpl {
         trait_: None,
@@ -86,9 +104,22 @@ fn methods(item: &Item) -> Vec<(Type, Signature)> {
     items.iter().filter_map(method).collect()
 }
 
+/// What the function is called that must not panic: methods of several types share a name.
+fn name_of(of: &Type, method: &Signature) -> Ident {
+    let Type::Path(path) = of else {
+        panic!("a method of no named type")
+    };
+    let of = path
+        .path
+        .segments
+        .last()
+        .map(|segment| segment.ident.to_string());
+    format_ident!("{}_{}", of.unwrap_or_default().to_lowercase(), method.ident)
+}
+
 /// The method as a function that must not panic.
-fn wrapper(model: &Type, method: &Signature) -> syn::ItemFn {
-    let name = &method.ident;
+fn wrapper(of: &Type, method: &Signature) -> syn::ItemFn {
+    let (name, own) = (name_of(of, method), &method.ident);
     let given: Vec<&syn::PatType> = method
         .inputs
         .iter()
@@ -104,10 +135,16 @@ fn wrapper(model: &Type, method: &Signature) -> syn::ItemFn {
         assert!(is_name, "an argument of {name} is no name");
         &argument.ty
     });
+    let (receiver, passed) = match method.receiver() {
+        Some(_) => (quote!(model: &#of,), quote!(model,)),
+        None => (quote!(), quote!()),
+    };
     let output = &method.output;
-    parse_quote! {
+    let text = quote! {
         #[no_panic::no_panic]
         #[inline(never)]
-        pub fn #name(model: &#model, #(#names: #types),*) #output { model.#name(#(#names),*) }
-    }
+        pub fn #name(#receiver #(#names: #types),*) #output { <#of>::#own(#passed #(#names),*) }
+    };
+    let named = quote!(#of).to_string();
+    syn::parse_str(&text.to_string().replace("Self", &named)).expect("a function")
 }
