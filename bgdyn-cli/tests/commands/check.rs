@@ -67,6 +67,7 @@ links:
   - name: arm
     joint: { name: shoulder, type: revolute, origin: { rpy: [1.5708, 0, 0] } }
     mass: 1
+    com: [1, 0, 0]
 ";
     let file = scratch("check_warning", "arm.yaml", text);
     let run = bgdyn(&["check", &file]);
