@@ -16,7 +16,7 @@ def read(path):
     found = {}
     for line in path.read_text().splitlines():
         kind, *rest = line.split(";")
-        numbers = {"figure": 3, "flash": 1, "beyond": 2, "root": 1}[kind]
+        numbers = {"figure": 3, "flash": 1, "beyond": 2}[kind]
         found[(kind, *rest[:-numbers])] = [int(x) for x in rest[-numbers:]]
     return found
 

@@ -63,6 +63,7 @@ for cpu in m4f m7; do
   figures=$(on "$cpu" "$cargo" run -q --release --bin figures) || { echo "$figures" | grep -v '^figure;'; exit 1; }
   # The generated functions in f32.
   echo "$figures" | sed -n "s/^figure;\(.*\);f32;generated;/$cpu \1: /p" | tr ';' ' '
+  echo "$figures" | sed -n "s/^root;f32;\(.*\)/$cpu square root: \1/p"
 done
 
 echo "== flash of the SCARA's inverse dynamics, mass matrix and forward dynamics in f32"

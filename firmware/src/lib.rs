@@ -1,11 +1,17 @@
 //! Computed-torque controllers on a Cortex-M, checked against the host.
 #![no_std]
 
+pub mod arms;
 pub mod board;
 pub mod measure;
 pub mod subject;
 
-use control::Record;
+use core::fmt::Arguments;
+
+use bgdyn::Dynamics;
+use bgdyn::nalgebra::SVector;
+use control::{ComputedTorque, Record, check};
+use cortex_m_semihosting::hprintln;
 
 /// What the controllers compute with.
 #[cfg(not(feature = "double"))]
@@ -15,3 +21,19 @@ pub type Real = f32;
 pub type Real = f64;
 
 include!(concat!(env!("OUT_DIR"), "/motions.rs"));
+
+/// Runs a motion on this board, with the gains that the host had, and ends the program by how it went.
+pub fn run<M: Dynamics<Real, N, N>, const N: usize>(
+    name: &str,
+    arm: &M,
+    motion: &[Record<Real, N>],
+    efforts: [Real; N],
+) -> ! {
+    let law = ComputedTorque {
+        stiffness: STIFFNESS,
+        damping: DAMPING,
+        limits: SVector::from(efforts),
+    };
+    let print = |line: Arguments<'_>| hprintln!("{}", line);
+    board::exit(check::motion(name, arm, &law, motion, print))
+}

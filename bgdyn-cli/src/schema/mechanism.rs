@@ -5,30 +5,17 @@ use bgdyn_codegen::spec::{Dimension, LENGTHS};
 use serde_json::{Value, json};
 
 use super::effects::effects;
-use super::parts::{axis, described, identifier, object, quantity, text, triple, value};
+use super::parts::{axis, described, file, identifier, object, quantity, text, triple, value};
 
 /// The schema of a mechanism's file.
 pub fn mechanism() -> Value {
-    let mut keys = object(
+    file(
+        "A mechanism of bgdyn, format 1",
+        "format",
         &[
-            (
-                "format",
-                json!({ "const": 1, "description": "version of the format" }),
-            ),
-            (
-                "name",
-                described(
-                    "snake_case identifier, equal to the file's stem",
-                    identifier(),
-                ),
-            ),
             (
                 "label",
                 described("the name elsewhere (a URDF's, a drawing's)", text()),
-            ),
-            (
-                "description",
-                described("text for the docs of the generated module", text()),
             ),
             (
                 "gravity",
@@ -62,20 +49,17 @@ pub fn mechanism() -> Value {
                 }),
             ),
         ],
-        &["format", "links"],
-    );
-    keys["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
-    keys["title"] = json!("A mechanism of bgdyn, format 1");
-    keys["$defs"] = json!({
-        "link": link(),
-        "joint": joint(),
-        "origin": origin(),
-        "limits": limits(),
-        "inertia": inertia(),
-        "frame": frame(),
-        "effect": effects(),
-    });
-    keys
+        "links",
+        json!({
+            "link": link(),
+            "joint": joint(),
+            "origin": origin(),
+            "limits": limits(),
+            "inertia": inertia(),
+            "frame": frame(),
+            "effect": effects(),
+        }),
+    )
 }
 
 fn link() -> Value {

@@ -3,6 +3,38 @@
 use bgdyn_codegen::spec::Dimension;
 use serde_json::{Map, Value, json};
 
+/// A whole file: its version under `version`, its name, what it is about, and these keys.
+pub(super) fn file(
+    title: &str,
+    version: &str,
+    keys: &[(&str, Value)],
+    needed: &str,
+    definitions: Value,
+) -> Value {
+    let heading = [
+        (
+            version,
+            json!({ "const": 1, "description": "version of the format" }),
+        ),
+        (
+            "name",
+            described(
+                "snake_case identifier, equal to the file's stem",
+                identifier(),
+            ),
+        ),
+        (
+            "description",
+            described("text for the docs of the generated module", text()),
+        ),
+    ];
+    let mut schema = object(&[&heading[..], keys].concat(), &[version, needed]);
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!(title);
+    schema["$defs"] = definitions;
+    schema
+}
+
 /// A mapping with these keys and no others.
 pub(super) fn object(keys: &[(&str, Value)], needed: &[&str]) -> Value {
     let properties: Map<String, Value> = keys

@@ -7,7 +7,7 @@ use bgdyn_codegen::spec::Dimension;
 use serde_json::{Map, Value, json};
 
 use super::effects::{effects, reads};
-use super::parts::{described, identifier, object, quantity, text};
+use super::parts::{described, file, identifier, object, quantity, text};
 
 /// The schema of a scene's file.
 pub fn scene() -> Value {
@@ -19,23 +19,10 @@ pub fn scene() -> Value {
     };
     let list =
         |about: &str, item: Value| described(about, json!({ "type": "array", "items": item }));
-    let mut keys = object(
+    file(
+        "A scene of bgdyn, format 1",
+        "scene",
         &[
-            (
-                "scene",
-                json!({ "const": 1, "description": "version of the format" }),
-            ),
-            (
-                "name",
-                described(
-                    "snake_case identifier, equal to the file's stem",
-                    identifier(),
-                ),
-            ),
-            (
-                "description",
-                described("text for the docs of the generated module", text()),
-            ),
             (
                 "mechanism",
                 described("path of the mechanism's file, from this one", text()),
@@ -59,18 +46,15 @@ pub fn scene() -> Value {
             ("outputs", list("what the run is to tell", identifier())),
             ("integration", json!({ "$ref": "#/$defs/integration" })),
         ],
-        &["scene", "mechanism"],
-    );
-    keys["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
-    keys["title"] = json!("A scene of bgdyn, format 1");
-    keys["$defs"] = json!({
-        "course": course(),
-        "drive": drive(),
-        "effect": effects(),
-        "changed": changed(),
-        "integration": integration(),
-    });
-    keys
+        "mechanism",
+        json!({
+            "course": course(),
+            "drive": drive(),
+            "effect": effects(),
+            "changed": changed(),
+            "integration": integration(),
+        }),
+    )
 }
 
 /// An effect called for: a word, or a name with a value.

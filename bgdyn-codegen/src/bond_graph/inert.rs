@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{BondGraph, Inertia, LinkFrame, Store};
+use super::{BondGraph, Inertia, JunctionId, LinkFrame};
 use crate::math::Vec3;
 use crate::mechanism::{CoordinateId, Motion, Value};
 
@@ -12,24 +12,34 @@ impl BondGraph {
     /// Coordinates that no link gives inertia, in any position and whatever the run-time parameters
     /// are: M has a row of zeros there.
     pub fn without_inertia(&self) -> Vec<CoordinateId> {
-        let all = (0..self.coordinates.len()).map(CoordinateId);
-        let moves_none = |j: &CoordinateId| !self.stores.iter().any(|s| self.moves(*j, s));
-        all.filter(moves_none).collect()
+        let mut stores = vec![None; self.junctions.len()];
+        for store in &self.stores {
+            stores[store.junction.0] = Some(&store.inertia);
+        }
+        let mut moved = vec![false; self.coordinates.len()];
+        for transformer in &self.transformers {
+            // Velocities are the first junctions.
+            let (from, to) = (transformer.from.0, transformer.to);
+            if !moved[from] {
+                moved[from] =
+                    stores[to.0].is_some_and(|inertia| self.moves(CoordinateId(from), to, inertia));
+            }
+        }
+        let all = (0..moved.len()).filter(|&j| !moved[j]);
+        all.map(CoordinateId).collect()
     }
 
-    /// Whether a velocity changes what a store holds.
-    fn moves(&self, j: CoordinateId, store: &Store) -> bool {
-        let from = self.velocity(j);
-        let fed = self.into(store.junction).any(|t| t.from == from);
-        let there = match &store.inertia {
+    /// Whether a velocity that feeds a store's junction changes what the store holds.
+    fn moves(&self, j: CoordinateId, junction: JunctionId, inertia: &Inertia) -> bool {
+        let there = match inertia {
             Inertia::Mass(mass) => *mass != ZERO,
             Inertia::Tensor(entries) => *entries != [ZERO; 6],
         };
         // What the joint's own link holds lies still in the joint's axes: there zeros are seen that
         // the transformers, in fixed axes, do not tell.
         let link = self.coordinates[j.0].link;
-        let own = [self.translation(link), self.rotation(link)].contains(&store.junction);
-        fed && there && (!own || moved_by_own_joint(&self.frames[link.0], &store.inertia))
+        let own = [self.translation(link), self.rotation(link)].contains(&junction);
+        there && (!own || moved_by_own_joint(&self.frames[link.0], inertia))
     }
 }
 

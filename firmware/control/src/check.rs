@@ -2,10 +2,9 @@
 
 use core::fmt::{Arguments, Display, LowerExp};
 
-use bgdyn::Scalar;
-use bgdyn::nalgebra::SVector;
+use bgdyn::{Dynamics, Scalar};
 
-use crate::Record;
+use crate::{ComputedTorque, Record};
 
 /// The numbers of a controller: `f32` or `f64`.
 pub trait Real: Scalar + Display + LowerExp + PartialOrd {
@@ -29,18 +28,18 @@ impl Real for f64 {
     const ALLOWED: f64 = 8.0;
 }
 
-/// Runs the motion and prints some of its efforts and each joint's largest difference from the host's.
-/// Says whether all are within [`Real::ALLOWED`].
-pub fn motion<T: Real, const N: usize>(
+/// Runs the motion under computed torque and prints some of its efforts and each joint's largest
+/// difference from the host's. Says whether all are within [`Real::ALLOWED`].
+pub fn motion<T: Real, M: Dynamics<T, N, N>, const N: usize>(
     name: &str,
-    joints: &[&str; N],
+    arm: &M,
+    law: &ComputedTorque<T, N>,
     records: &[Record<T, N>],
     mut print: impl FnMut(Arguments<'_>),
-    mut controller: impl FnMut(&Record<T, N>) -> SVector<T, N>,
 ) -> bool {
     let (mut largest, mut off) = ([T::ZERO; N], [T::ZERO; N]);
     for (k, record) in records.iter().enumerate() {
-        let tau = controller(record);
+        let tau = law.effort(arm, record);
         if k % 100 == 0 {
             print(format_args!("{name} {k} ms: {:.3?}", tau.as_slice()));
         }
@@ -55,7 +54,7 @@ pub fn motion<T: Real, const N: usize>(
     for i in 0..N {
         let units = off[i] / (largest[i] * T::EPSILON);
         let within = units <= T::ALLOWED;
-        let (joint, most, off) = (joints[i], largest[i], off[i]);
+        let (joint, most, off) = (arm.joint_names()[i], largest[i], off[i]);
         let what = if within { "" } else { "  MISSED" };
         print(format_args!(
             "{name} {joint}: up to {most:.3}, off by {off:.1e} = {units:.2} ε ({} allowed){what}",

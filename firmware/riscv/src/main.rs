@@ -26,10 +26,8 @@ fn run() -> bool {
                 damping: DAMPING,
                 limits: SVector::from($efforts),
             };
-            let (name, joints) = (stringify!($module), &$module::JOINT_NAMES);
-            well &= check::motion(name, joints, &$motion, linux::print, |r| {
-                law.effort(&arm, r)
-            });
+            let name = stringify!($module);
+            well &= check::motion(name, &arm, &law, &$motion, linux::print);
         };
     }
     arm!(scara, scara::Scara::<Real>::default(), SCARA, SCARA_EFFORTS);

@@ -6,25 +6,16 @@
 
 use core::hint::black_box;
 
-use bgdyn::nalgebra::{Matrix3, RealField, SVector, Vector3, convert};
+use bgdyn::nalgebra::{RealField, SVector, Vector3, convert};
 use bgdyn::{Dynamics, Scalar};
 use control::{ComputedTorque, Record};
 use cortex_m_rt::entry;
 use cortex_m_semihosting::hprintln;
+use firmware::arms::{bodies, panda, puma560, scara};
 use firmware::board;
 use firmware::measure::{Counter, double_precision, stack};
 use firmware::subject::{Function, Generated, Out, Plain, Subject, functions};
-use textbook::{Body, Placement, Textbook};
-
-include!(concat!(env!("OUT_DIR"), "/scara.rs"));
-include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
-include!(concat!(env!("OUT_DIR"), "/panda.rs"));
-
-/// The arms as lists of bodies.
-mod bodies {
-    use super::{Body, Matrix3, Placement, Vector3};
-    include!(concat!(env!("OUT_DIR"), "/bodies.rs"));
-}
+use textbook::{Body, Textbook};
 
 /// Most instructions of generated functions in `f32`.
 const BARS: [(&str, &str, u32); 2] = [

@@ -7,21 +7,12 @@
 use core::hint::black_box;
 
 use bgdyn::Scalar;
-use bgdyn::nalgebra::{Matrix3, SVector, Vector3};
+use bgdyn::nalgebra::SVector;
 use control::{ComputedTorque, Record};
 use cortex_m_rt::entry;
+use firmware::arms::{bodies, panda, puma560, scara};
 use firmware::subject::{Generated, Out, Plain, Subject};
-use textbook::{Body, Placement, Textbook};
-
-include!(concat!(env!("OUT_DIR"), "/scara.rs"));
-include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
-include!(concat!(env!("OUT_DIR"), "/panda.rs"));
-
-/// The arms as lists of bodies.
-mod bodies {
-    use super::{Body, Matrix3, Placement, Vector3};
-    include!(concat!(env!("OUT_DIR"), "/bodies.rs"));
-}
+use textbook::Textbook;
 
 const PROBE: [&str; 4] = parts(match option_env!("PROBE") {
     Some(probe) => probe,

@@ -2,30 +2,15 @@
 #![no_std]
 #![no_main]
 
-use bgdyn::nalgebra::SVector;
-use control::{ComputedTorque, check};
 use cortex_m_rt::entry;
-use cortex_m_semihosting::hprintln;
-use firmware::{DAMPING, PAYLOAD, Real, SCARA_PAYLOAD, SCARA_PAYLOAD_EFFORTS, STIFFNESS, board};
+use firmware::{PAYLOAD, Real, SCARA_PAYLOAD, SCARA_PAYLOAD_EFFORTS};
 
 bgdyn::bgdyn!("specs/scara_payload.yaml", methods = [dynamics]);
 
 #[entry]
 fn main() -> ! {
     let mut arm = scara_payload::ScaraPayload::<Real>::default();
-    let law = ComputedTorque {
-        stiffness: STIFFNESS,
-        damping: DAMPING,
-        limits: SVector::from(SCARA_PAYLOAD_EFFORTS),
-    };
     // The part has been weighed.
     arm.payload = PAYLOAD;
-    let names = &scara_payload::JOINT_NAMES;
-    board::exit(check::motion(
-        "payload",
-        names,
-        &SCARA_PAYLOAD,
-        |line| hprintln!("{}", line),
-        |r| law.effort(&arm, r),
-    ))
+    firmware::run("payload", &arm, &SCARA_PAYLOAD, SCARA_PAYLOAD_EFFORTS)
 }

@@ -134,7 +134,7 @@ pub(crate) fn no_inertia(place: &Place, joint: &str) -> Fault {
     let message = format!("nothing that the joint {} moves has inertia", quote(joint));
     Fault::new(place, "no-inertia", message)
         .with_help(
-            "give a link beyond it `mass` or `inertia`; as it is, forward dynamics refuses every state of it, and only a scene with a rotor there can be simulated",
+            "give a link beyond it `mass` or `inertia`; as it is, forward dynamics refuses every state of it, and only a scene with a rotor or a payload there can be simulated",
         )
         .into_warning()
 }

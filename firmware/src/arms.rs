@@ -1,0 +1,13 @@
+//! What is measured: three arms, generated, and as lists of bodies for the textbook.
+
+include!(concat!(env!("OUT_DIR"), "/scara.rs"));
+include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
+include!(concat!(env!("OUT_DIR"), "/panda.rs"));
+
+/// The arms as lists of bodies.
+pub mod bodies {
+    use bgdyn::nalgebra::{Matrix3, Vector3};
+    use textbook::{Body, Placement};
+
+    include!(concat!(env!("OUT_DIR"), "/bodies.rs"));
+}
