@@ -12,7 +12,7 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 use crate::float::{Float, Split};
 use crate::sine;
-use crate::singular::zero_if_finite;
+use crate::singular::{sum, zero_if_finite};
 use crate::{Scalar, Singular};
 
 /// The mass matrix is singular in at least one lane; the other lanes have their accelerations.
@@ -157,13 +157,17 @@ macro_rules! lane_scalar {
                 refused: Self,
                 names: &'static [&'static str; N],
             ) -> Result<SVector<Self, N>, LaneSingular<Self, $n, N>> {
-                // One comparison for all of them.
                 let zero = Self::splat(0.0);
-                let wild = accelerations.iter().fold(zero, |sum, &x| sum + zero_if_finite(x));
-                if (refused.simd_lt(zero) & wild.simd_eq(zero)).all() {
+                let finite = zero_if_finite(sum(&accelerations)).simd_eq(zero);
+                if (refused.simd_lt(zero) & finite).all() {
                     return Ok(accelerations);
                 }
-                Err(LaneSingular::<Self, $n, N>::of(accelerations, refused, names))
+                let found = LaneSingular::<Self, $n, N>::of(accelerations, refused, names);
+                match found.joint {
+                    // Only a sum was too large.
+                    joint if joint == [None; $n] => Ok(accelerations),
+                    _ => Err(found),
+                }
             }
         }
 

@@ -50,26 +50,32 @@ pub(crate) fn finish<T: Scalar, const N: usize>(
     refused: Option<usize>,
     names: &'static [&'static str; N],
 ) -> Result<SVector<T, N>, Singular> {
-    // One comparison for all of them.
     let zero = T::from_f64(0.0);
-    let wild = accelerations
-        .iter()
-        .fold(zero, |sum, &x| sum + zero_if_finite(x));
-    if refused.is_none() && wild == zero {
+    if refused.is_none() && zero_if_finite(sum(&accelerations)) == zero {
         return Ok(accelerations);
     }
-    let joint = refused.unwrap_or_else(|| first_wild(&accelerations));
-    Err(Singular {
-        joint,
-        name: names.get(joint).copied().unwrap_or(""),
-    })
+    match refused.or_else(|| first_wild(&accelerations)) {
+        Some(joint) => Err(Singular {
+            joint,
+            name: names.get(joint).copied().unwrap_or(""),
+        }),
+        // Only their sum was too large.
+        None => Ok(accelerations),
+    }
+}
+
+/// Sum of the accelerations. Where it is finite, so are they all: one comparison for all of them.
+#[inline]
+pub(crate) fn sum<T: Scalar, const N: usize>(accelerations: &SVector<T, N>) -> T {
+    let all = accelerations.iter().copied();
+    all.reduce(|sum, x| sum + x).unwrap_or(T::from_f64(0.0))
 }
 
 /// The first joint whose acceleration is not finite.
 #[cold]
-fn first_wild<T: Scalar, const N: usize>(accelerations: &SVector<T, N>) -> usize {
+fn first_wild<T: Scalar, const N: usize>(accelerations: &SVector<T, N>) -> Option<usize> {
     let wild = |&x: &T| zero_if_finite(x) != T::from_f64(0.0);
-    accelerations.iter().position(wild).unwrap_or(0)
+    accelerations.iter().position(wild)
 }
 
 /// 0 for finite numbers, NaN for others.

@@ -81,13 +81,11 @@ pub(crate) fn all<T: AtOnce, const K: usize>(
     offsets: [(f64, f64); K],
 ) -> [(T, T); K] {
     let mut sums = [(T::from_f64(0.0), None); K];
-    let mut within = true;
     unrolled!(K, |k| {
         sums[k] = exact_sum(angles[k].iter().copied(), offsets[k]);
-        within &= sums[k].0.within();
     });
-    if within {
-        return T::at_once(sums);
+    if let Some(found) = T::at_once(sums) {
+        return found;
     }
     let mut found = [(T::from_f64(0.0), T::from_f64(0.0)); K];
     unrolled!(K, |k| {
@@ -107,8 +105,9 @@ fn apart<T: Pack>(angle: T, tail: T) -> (T, T) {
 
 /// Numbers whose sines can be taken several at once.
 pub(crate) trait AtOnce: Pack + Split {
-    /// Sines and cosines of the sums `(angle, tail)`, all of them within the limit.
-    fn at_once<const K: usize>(sums: [(Self, Option<Self>); K]) -> [(Self, Self); K];
+    /// Sines and cosines of the sums `(angle, tail)`; nothing where not all of them are within the
+    /// limit.
+    fn at_once<const K: usize>(sums: [(Self, Option<Self>); K]) -> Option<[(Self, Self); K]>;
 }
 
 /// Fills lanes with one angle after the other, several at a time; what is left over goes in fewer.
@@ -119,7 +118,7 @@ macro_rules! at_once {
             #[inline(always)]
             fn at_once<const K: usize>(
                 sums: [($float, Option<$float>); K],
-            ) -> [($float, $float); K] {
+            ) -> Option<[($float, $float); K]> {
                 let mut found = [(0.0, 0.0); K];
                 let mut done = 0;
                 $(if K - done >= $least {
@@ -130,8 +129,12 @@ macro_rules! at_once {
                         any |= tail.is_some();
                         (angles[k], tails[k]) = (angle, tail.unwrap_or(0.0));
                     });
+                    let angles = wide::$lanes::new(angles);
+                    if !angles.within() {
+                        return None;
+                    }
                     let tails = any.then(|| wide::$lanes::new(tails));
-                    let (s, c) = sin_cos(wide::$lanes::new(angles), tails);
+                    let (s, c) = sin_cos(angles, tails);
                     let (s, c) = (s.to_array(), c.to_array());
                     unrolled!($n, |k| if done + k < K {
                         found[done + k] = (s[k], c[k]);
@@ -139,9 +142,13 @@ macro_rules! at_once {
                     done = K.min(done + $n);
                 })+
                 for k in done..K {
-                    found[k] = sin_cos(sums[k].0, sums[k].1);
+                    let (angle, tail) = sums[k];
+                    if !angle.within() {
+                        return None;
+                    }
+                    found[k] = sin_cos(angle, tail);
                 }
-                found
+                Some(found)
             }
         }
     };
@@ -156,10 +163,16 @@ macro_rules! one_by_one {
     ($($lanes:ty),+) => {$(
         impl AtOnce for $lanes {
             #[inline(always)]
-            fn at_once<const K: usize>(sums: [(Self, Option<Self>); K]) -> [(Self, Self); K] {
+            fn at_once<const K: usize>(
+                sums: [(Self, Option<Self>); K],
+            ) -> Option<[(Self, Self); K]> {
+                let mut within = true;
+                unrolled!(K, |k| within &= sums[k].0.within());
                 let mut found = [(Self::splat(0.0), Self::splat(0.0)); K];
-                unrolled!(K, |k| found[k] = sin_cos(sums[k].0, sums[k].1));
-                found
+                if within {
+                    unrolled!(K, |k| found[k] = sin_cos(sums[k].0, sums[k].1));
+                }
+                within.then_some(found)
             }
         }
     )+};

@@ -228,9 +228,12 @@ macro_rules! lane_pack {
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {
-                let [n, s, c] = [quarters, s, c].map(bytemuck::cast::<_, wide::$bits>);
+                let n = bytemuck::cast::<_, wide::$bits>(quarters);
                 let [zero, one, two] = [0, 1, 2].map(wide::$bits::splat);
-                let (s, c) = quarter_turns!(n, s, c, zero, one, two, $to_sign);
+                let odd: Self = bytemuck::cast(zero - (n & one));
+                let (s, c) = (odd.select(c, s), odd.select(s, c));
+                let [s, c] = [s, c].map(bytemuck::cast::<_, wide::$bits>);
+                let (s, c) = (s ^ ((n & two) << $to_sign), c ^ (((n + one) & two) << $to_sign));
                 (bytemuck::cast(s), bytemuck::cast(c))
             }
         }
