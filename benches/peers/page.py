@@ -101,6 +101,14 @@ def origin(results):
     return f"Robots: {'; '.join(places)}. Chains have revolute joints about skew axes, as many as their names say.\n"
 
 
+def left_out(results):
+    """Programs that computed something else; another compiler's of the same C agrees."""
+    found = [f"{r['robot']}'s {function(r)} by {compiler}" for r in results for compiler in r["wrong"]]
+    if not found:
+        return ""
+    return f"- Left out, because the sums disagree (the other compiler's program of the same C agrees): {'; '.join(found)}.\n"
+
+
 def output(*command):
     return subprocess.run(command, capture_output=True, text=True).stdout
 
@@ -137,7 +145,7 @@ Every program runs over the same 1024 random states (any angle, ±0.3 m, velocit
 - Generated C is Pinocchio's algorithms over CasADi's expressions (common subexpressions shared) or over CppADCodeGen's tape, compiled by clang and by gcc with `-O3 -march=native`: of the four, the fastest for each function. Beyond 12 joints clang alone, in a minute at most for each.
 - Pinocchio is compiled from its headers, `-O3 -march=native`. MuJoCo and KDL are their packages' libraries, MuJoCo with only the parts that the function needs. dynibo is compiled like bgdyn, for this machine.
 - A dash: the peer has no such function, or cannot take the mechanism, or its C was not compiled in the time given to it.
-
+{left_out(results)}
 {origin(results)}
 ## One state a call, f64
 

@@ -12,8 +12,7 @@ use crate::products::products;
 
 /// The same function in blocks of bounded length.
 pub fn cut(function: Function) -> Function {
-    let operations = function.operations();
-    if operations.total() <= BLOCK || function.blocks.len() != 1 {
+    if function.straight().total() <= BLOCK || function.blocks.len() != 1 {
         return function;
     }
     let outputs = &function.blocks[0].outputs;

@@ -6,13 +6,14 @@ use std::ops::Range;
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::BondGraph;
+use crate::columns::{Columns, Loops};
 use crate::expr::{
     Cost, Expr, Graph, Inputs, Operations, arranged, cost, count, evaluate, factored, fused,
 };
 use crate::method::{Method, Shape};
 
 /// Operations in a block at the most. Arms of seven axes stay in one piece.
-pub(crate) const BLOCK: usize = 2500;
+pub(crate) const BLOCK: usize = 3200;
 
 /// A straight line of code: what it computes. Later blocks read its results as
 /// [`crate::expr::Leaf::Passed`].
@@ -58,7 +59,8 @@ pub struct Considered {
     pub cost: Cost,
 }
 
-/// A generated method: an expression graph, cut into blocks; the last block gives the result.
+/// A generated method: an expression graph, cut into blocks. The last block gives the result, or what
+/// loops over columns make it of.
 #[derive(Clone, Debug)]
 pub struct Function {
     /// Which method.
@@ -78,6 +80,8 @@ pub struct Function {
     pub graph: Graph,
     /// In the order of execution; at least one.
     pub blocks: Vec<Block>,
+    /// What follows them: parts of the result that are alike.
+    pub loops: Option<Loops>,
 }
 
 impl Function {
@@ -107,6 +111,7 @@ impl Function {
                 outputs,
                 products: Vec::new(),
             }],
+            loops: None,
         }
     }
 
@@ -131,7 +136,7 @@ impl Function {
     /// The same function with the terms of its sums in the order in which they are there, unless it is
     /// going to be cut, or the order of its operations is what it is made for.
     pub(crate) fn arranged(mut self) -> Self {
-        let short = self.operations().total() <= BLOCK;
+        let short = self.straight().total() <= BLOCK;
         if let ([Block { outputs, .. }], false, true) = (&mut self.blocks[..], self.ordered, short)
         {
             (self.graph, *outputs) = arranged(&self.graph, outputs);
@@ -144,8 +149,20 @@ impl Function {
     pub(crate) fn fused(mut self) -> Self {
         if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
             (self.graph, *outputs) = fused(&self.graph, outputs);
+            for one in self.columns_mut() {
+                (one.graph, one.outputs) = fused(&one.graph, &one.outputs);
+            }
         }
         self
+    }
+
+    /// The loops over columns.
+    pub(crate) fn columns(&self) -> &[Columns] {
+        self.loops.as_ref().map_or(&[], |loops| &loops.groups)
+    }
+
+    fn columns_mut(&mut self) -> &mut [Columns] {
+        self.loops.as_mut().map_or(&mut [], |loops| &mut loops.groups)
     }
 
     /// The cheapest of several ways, with the others noted in it; the first one of equals.
@@ -173,6 +190,16 @@ impl Function {
 
     /// Operations of one call.
     pub fn operations(&self) -> Operations {
+        let mut all = self.straight();
+        for one in self.columns() {
+            let column = count(&one.graph, &one.outputs);
+            one.own.iter().for_each(|_| all += column);
+        }
+        all
+    }
+
+    /// Operations of the blocks, without the loops that follow them.
+    pub(crate) fn straight(&self) -> Operations {
         let mut all = Operations::default();
         for block in &self.blocks {
             all += count(&self.graph, &block.outputs);
@@ -190,10 +217,18 @@ impl Function {
             all.fusable += c.fusable;
             all.depth += c.depth;
         }
+        for one in self.columns() {
+            let c = cost(&one.graph, &one.outputs);
+            for _ in &one.own {
+                all.operations += c.operations;
+                all.fusable += c.fusable;
+            }
+            all.depth += c.depth;
+        }
         all
     }
 
-    /// Its value, without a compiler: the expressions of the last block.
+    /// Its value, without a compiler.
     ///
     /// # Panics
     /// If `inputs` lacks a component.
@@ -203,6 +238,9 @@ impl Function {
         for block in &self.blocks {
             result = evaluate(&self.graph, &block.outputs, &inputs, &mut refused);
             inputs.passed.push(result.clone());
+        }
+        if let Some(loops) = &self.loops {
+            result = loops.evaluate(&result, &mut refused);
         }
         (result, refused)
     }

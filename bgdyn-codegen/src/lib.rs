@@ -13,6 +13,7 @@ pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
 pub mod closed_form;
+pub mod columns;
 mod cut;
 pub mod effect;
 pub mod emit;

@@ -26,7 +26,7 @@ const TREES: [usize; 22] = [
 ];
 
 /// Compiled with first derivatives.
-const WITH_DERIVATIVES: [&str; 4] = ["double_pendulum", "scara", "gimbal", "tree_04"];
+const WITH_DERIVATIVES: [&str; 5] = ["double_pendulum", "scara", "gimbal", "panda", "tree_04"];
 
 fn main() {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap());

@@ -6,6 +6,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::code::{Naming, is_part, leaves};
+use super::columns::columns;
 use super::ident;
 use super::loops;
 use super::writer::Writer;
@@ -35,10 +36,10 @@ pub(super) fn body(
             let mutable = writer.pivots.then(|| quote! { mut });
             quote! { let #mutable refused = T::none_refused(); }
         });
-        let results = writer.results(&block.outputs);
+        let (loops, results) = with_loops(function, naming, writer.results(&block.outputs));
         let result = finish(&results);
         return Body {
-            body: quote! { #refused #statements #result },
+            body: quote! { #refused #statements #loops #result },
             blocks: vec![],
         };
     }
@@ -66,11 +67,24 @@ pub(super) fn body(
         quote! { #last[#i] }
     };
     let last_block = &function.blocks[function.blocks.len() - 1];
-    let results: Vec<_> = (0..last_block.outputs.len()).map(element).collect();
+    let results = (0..last_block.outputs.len()).map(element).collect();
+    let (loops, results) = with_loops(function, naming, results);
     let result = finish(&results);
     Body {
-        body: quote! { #refused #calls #result },
+        body: quote! { #refused #calls #loops #result },
         blocks,
+    }
+}
+
+/// The loops that follow the blocks, and the function's results, from those of the blocks.
+fn with_loops(
+    function: &Function,
+    naming: &Naming<'_>,
+    results: Vec<TokenStream>,
+) -> (TokenStream, Vec<TokenStream>) {
+    match &function.loops {
+        Some(loops) => columns(function, loops, naming, &results),
+        None => (TokenStream::new(), results),
     }
 }
 

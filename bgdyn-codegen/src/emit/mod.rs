@@ -2,6 +2,7 @@
 
 mod body;
 mod code;
+mod columns;
 mod constants;
 mod fallback;
 mod loops;

@@ -7,6 +7,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::code::{Binding, Code, Naming, atom, leaves};
+use super::columns;
 use super::names::Names;
 use super::sines::Pair;
 use super::{ident, number};
@@ -53,6 +54,8 @@ impl<'a> Writer<'a> {
             names.reserve(reserved);
         }
         (0..function.blocks.len()).for_each(|b| drop(names.named(&format!("p{b}"))));
+        let of_loops = columns::names(function);
+        of_loops.iter().for_each(|name| names.reserve(name));
         let mut writer = Writer {
             graph,
             naming,

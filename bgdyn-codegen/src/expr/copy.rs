@@ -36,7 +36,7 @@ pub fn copy_into(
 
 impl Graph {
     /// The node's operation on other operands, folded.
-    pub(super) fn rebuilt(&mut self, node: &Node, at: impl Fn(Expr) -> Expr) -> Expr {
+    pub(crate) fn rebuilt(&mut self, node: &Node, at: impl Fn(Expr) -> Expr) -> Expr {
         let plus = |id: &NodeId| at(Expr::plus(*id));
         match node {
             Node::Constant(c) => self.constant(c.value()),

@@ -27,6 +27,23 @@ pub struct Inputs<T> {
     pub passed: Vec<Vec<T>>,
 }
 
+impl<T> Inputs<T> {
+    /// Results of blocks, and nothing else.
+    pub(crate) fn of_blocks(passed: Vec<Vec<T>>) -> Self {
+        Inputs {
+            q: Vec::new(),
+            v: Vec::new(),
+            a: Vec::new(),
+            x: Vec::new(),
+            u: Vec::new(),
+            modes: Vec::new(),
+            parameters: Vec::new(),
+            t: None,
+            passed,
+        }
+    }
+}
+
 impl<T: Scalar> Inputs<T> {
     fn leaf(&self, leaf: Leaf) -> T {
         match leaf {

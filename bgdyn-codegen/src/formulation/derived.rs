@@ -2,11 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
+use super::drives::Drives;
 use super::{Formulation, Search, literal, recursion};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
+use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent};
 use crate::function::Function;
-use crate::method::{Method, Shape};
+use crate::method::Method;
 
 /// Velocities up to which expressions are differentiated to see whether that costs less than
 /// composite bodies.
@@ -65,52 +66,29 @@ fn differentiated(search: &Search<'_>, method: Method) -> Option<Function> {
 /// ∂q̈/∂x = −M⁻¹ ∂τ/∂x at τ = inverse dynamics(q, v, q̈), and ∂q̈/∂τ = M⁻¹.
 ///
 /// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by whatever way it was
-/// found to be stable and cheap.
+/// found to be stable and cheap. Columns that are alike run in a loop, where that takes no operation
+/// more.
 fn forward_derivatives(
     graph: &BondGraph,
     method: Method,
     slopes: &Function,
     forward: &Function,
 ) -> Function {
-    let n = graph.coordinates.len();
-    // The copy takes over the accelerations in place of their leaves.
-    let (b, accelerations) = reopened(forward);
-    let placed = |_: &mut Graph, leaf: Leaf| match leaf {
-        Leaf::Acceleration(j) => Some(accelerations[j]),
-        _ => None,
+    let made = |alike: &dyn Fn(&Drives) -> Vec<Vec<usize>>| {
+        let drives = Drives::new(graph, slopes, forward);
+        let groups = alike(&drives);
+        drives.function(graph, method, forward, &groups)
     };
-    let slopes = {
-        let results = &slopes.blocks[0].outputs;
-        b.with_graph(|g| copy_into(g, &slopes.graph, results, placed))
-    };
-    let along = |drive: &[Expr]| -> Vec<Expr> {
-        let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
-            Leaf::Input(j) => Some(drive[j]),
-            _ => None,
-        });
-        b.with_graph(|g| accelerations.iter().map(|&e| tangent.of(g, e)).collect())
-    };
-    let mut outputs = accelerations.clone();
-    for square in slopes.chunks((n * n).max(1)) {
-        let minus = |row: &[Expr], j: usize| (-b.ex(row[j])).expr();
-        let drive = |j: usize| -> Vec<Expr> { square.chunks(n).map(|r| minus(r, j)).collect() };
-        let columns: Vec<Vec<Expr>> = (0..n).map(|j| along(&drive(j))).collect();
-        outputs.extend(rows(&columns));
+    let written_out = made(&|_| Vec::new());
+    let looped = made(&Drives::alike);
+    match looped.operations().total() <= written_out.operations().total() {
+        true => looped,
+        false => written_out,
     }
-    // Of two equal entries of M⁻¹ the one nearer to the base takes less.
-    let inverse = derivatives(&b, &accelerations, n, Leaf::Input);
-    let nearer = |i: usize, j: usize| inverse[i.max(j)][i.min(j)];
-    outputs.extend(
-        (0..n)
-            .flat_map(|i| (0..n).map(move |j| (i, j)))
-            .map(|(i, j)| nearer(i, j)),
-    );
-    debug_assert_eq!(outputs.len(), Shape::CheckedSquares.len(n));
-    finish(graph, method, forward, b, outputs)
 }
 
 /// A function's graph, open for more, and its results.
-fn reopened(function: &Function) -> (Builder, Vec<Expr>) {
+pub(super) fn reopened(function: &Function) -> (Builder, Vec<Expr>) {
     (
         Builder::from(function.graph.clone()),
         function.blocks[0].outputs.clone(),
@@ -118,7 +96,7 @@ fn reopened(function: &Function) -> (Builder, Vec<Expr>) {
 }
 
 /// ∂x/∂leaf_j: a column per coordinate j.
-fn derivatives(b: &Builder, x: &[Expr], n: usize, leaf: fn(usize) -> Leaf) -> Vec<Vec<Expr>> {
+pub(super) fn derivatives(b: &Builder, x: &[Expr], n: usize, leaf: fn(usize) -> Leaf) -> Vec<Vec<Expr>> {
     let column = |j: usize| {
         let mut tangent =
             Tangent::new(|g: &mut Graph, l| (l == leaf(j)).then(|| g.constant(Dd::ONE)));
@@ -136,7 +114,7 @@ fn rows(columns: &[Vec<Expr>]) -> Vec<Expr> {
         .collect()
 }
 
-fn finish(
+pub(super) fn finish(
     graph: &BondGraph,
     method: Method,
     from: &Function,

@@ -6,6 +6,7 @@
 
 mod accurate;
 mod derived;
+mod drives;
 mod literal;
 mod placement;
 mod recursion;

@@ -1,0 +1,131 @@
+//! Results that are the same expressions of other values, column by column.
+//!
+//! Forward dynamics is linear in the efforts: each column of its derivatives is the same chain of
+//! operations on other numbers. Written out, an arm's columns are the longest part of its code and
+//! outgrow the instruction cache; as a loop they are a few dozen lines, whose columns run in the lanes
+//! of a register. What all columns read, and what each reads of its own, are results of the straight
+//! line before, the stage.
+
+use bgdyn_runtime::Scalar;
+
+use crate::expr::{Expr, Graph, Inputs, Leaf, Node, NodeId, QuickMap, evaluate, reachable};
+
+/// The block of [`Leaf::Passed`] that stands for values that all columns share.
+pub(crate) const SHARED: usize = 0;
+/// The block of [`Leaf::Passed`] that stands for values of a column.
+pub(crate) const OWN: usize = 1;
+
+/// Columns that one loop computes.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    /// The expressions of one column, over [`Leaf::Passed`]: of block 0 what all columns read, of
+    /// block 1 what a column has of its own.
+    pub graph: Graph,
+    /// The results of a column.
+    pub outputs: Vec<Expr>,
+    /// Where in the stage's results stands what all columns read.
+    pub shared: Vec<usize>,
+    /// Where stands what each column has of its own: a list for each column.
+    pub own: Vec<Vec<usize>>,
+}
+
+impl Columns {
+    /// The results of every column from the stage's.
+    fn evaluate<T: Scalar>(&self, stage: &[T], refused: &mut T::Refused) -> Vec<Vec<T>> {
+        let at = |places: &[usize]| places.iter().map(|&k| stage[k]).collect::<Vec<T>>();
+        let column = |own: &Vec<usize>| {
+            let inputs = Inputs::of_blocks(vec![at(&self.shared), at(own)]);
+            evaluate(&self.graph, &self.outputs, &inputs, refused)
+        };
+        self.own.iter().map(column).collect()
+    }
+}
+
+/// Where a result of a function with loops comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A result of the stage.
+    Stage(usize),
+    /// A result of a loop.
+    Column {
+        /// Which loop.
+        group: usize,
+        /// Which of its columns.
+        column: usize,
+        /// Which result of the column.
+        row: usize,
+    },
+}
+
+/// The loops of a function, and how its result is put together.
+#[derive(Clone, Debug)]
+pub struct Loops {
+    /// The loops.
+    pub groups: Vec<Columns>,
+    /// The function's results in the order of its shape.
+    pub parts: Vec<Part>,
+}
+
+impl Loops {
+    /// The function's results from those of the stage.
+    pub(crate) fn evaluate<T: Scalar>(&self, stage: &[T], refused: &mut T::Refused) -> Vec<T> {
+        let groups = self.groups.iter();
+        let found: Vec<Vec<Vec<T>>> = groups.map(|g| g.evaluate(stage, refused)).collect();
+        let value = |part: &Part| match *part {
+            Part::Stage(k) => stage[k],
+            Part::Column { group, column, row } => found[group][column][row],
+        };
+        self.parts.iter().map(value).collect()
+    }
+}
+
+/// One column's expressions in a graph of their own, and what it reads of the graph that it was made
+/// in, as [`SHARED`] values in this order. Its own values are [`OWN`] leaves there already.
+pub(crate) fn column(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>, Vec<Expr>) {
+    let own = of_column(from, outputs);
+    let mut to = Graph::default();
+    let mut shared: Vec<Expr> = Vec::new();
+    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
+    let mut at = |to: &mut Graph, copies: &mut QuickMap<NodeId, Expr>, id: NodeId| -> Expr {
+        if let Some(&copy) = copies.get(&id) {
+            return copy;
+        }
+        let copy = match from.node(id) {
+            Node::Constant(c) => to.constant(c.value()),
+            _ => {
+                let index = shared.len();
+                shared.push(Expr::plus(id));
+                let block = SHARED;
+                to.leaf(Leaf::Passed { block, index })
+            }
+        };
+        copies.insert(id, copy);
+        copy
+    };
+    for i in (0..from.len()).filter(|&i| own[i]) {
+        let id = NodeId(i as u32);
+        let node = from.node(id);
+        node.for_each_operand(|operand| {
+            at(&mut to, &mut copies, operand);
+        });
+        let copy = to.rebuilt(node, |e: Expr| copies[&e.node].flipped(e.negative));
+        copies.insert(id, copy);
+    }
+    let outputs = outputs.iter();
+    let outputs = outputs.map(|e| at(&mut to, &mut copies, e.node).flipped(e.negative));
+    let outputs = outputs.collect();
+    (to, outputs, shared)
+}
+
+/// The nodes that depend on what a column has of its own.
+fn of_column(graph: &Graph, outputs: &[Expr]) -> Vec<bool> {
+    let needed = reachable(graph, outputs);
+    let mut own = vec![false; graph.len()];
+    for i in (0..graph.len()).filter(|&i| needed[i]) {
+        let node = graph.node(NodeId(i as u32));
+        let mut found = matches!(node, Node::Leaf(Leaf::Passed { block: OWN, .. }));
+        node.for_each_operand(|operand| found |= own[operand.place()]);
+        own[i] = found;
+    }
+    own
+}

@@ -1,0 +1,116 @@
+//! Columns that are alike: a loop over them, with what each reads of its own in arrays, row by row.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::code::{Naming, atom};
+use super::writer::{COMMENT, Writer};
+use crate::columns::{Columns, Loops, OWN, Part, SHARED};
+use crate::expr::{Leaf, Node, NodeId};
+use crate::function::{Block, Function};
+
+/// The arrays of a loop.
+struct Arrays {
+    shared: Ident,
+    own: Ident,
+    found: Ident,
+}
+
+impl Arrays {
+    fn of(group: usize) -> Self {
+        Arrays {
+            shared: format_ident!("shared{group}"),
+            own: format_ident!("own{group}"),
+            found: format_ident!("found{group}"),
+        }
+    }
+}
+
+/// Names that loops take in the code around them.
+pub(super) fn names(function: &Function) -> Vec<String> {
+    let groups = 0..function.columns().len();
+    let of = |group| {
+        let Arrays { shared, own, found } = Arrays::of(group);
+        [shared, own, found].map(|name| name.to_string())
+    };
+    groups.flat_map(of).collect()
+}
+
+/// The loops, and the function's results with theirs among them; `stage` is the code of the results
+/// that the blocks give.
+pub(super) fn columns(
+    function: &Function,
+    loops: &Loops,
+    naming: &Naming<'_>,
+    stage: &[TokenStream],
+) -> (TokenStream, Vec<TokenStream>) {
+    let groups = loops.groups.iter().enumerate();
+    let code = groups.map(|(k, group)| one(function, group, &Arrays::of(k), naming, stage));
+    let code = code.collect();
+    let value = |part: &Part| match *part {
+        Part::Stage(k) => stage[k].clone(),
+        Part::Column { group, column, row } => {
+            let Arrays { found, .. } = Arrays::of(group);
+            let (row, column) = (place(row), place(column));
+            quote! { #found[#row][#column] }
+        }
+    };
+    (code, loops.parts.iter().map(value).collect())
+}
+
+fn one(
+    function: &Function,
+    group: &Columns,
+    arrays: &Arrays,
+    naming: &Naming<'_>,
+    stage: &[TokenStream],
+) -> TokenStream {
+    let Arrays { shared, own, found } = arrays;
+    let column = Function {
+        graph: group.graph.clone(),
+        blocks: vec![Block {
+            outputs: group.outputs.clone(),
+            products: Vec::new(),
+        }],
+        loops: None,
+        ..function.clone()
+    };
+    let mut writer = Writer::new(&column, naming, &group.outputs);
+    for i in 0..group.graph.len() {
+        writer.code[i] = match *group.graph.node(NodeId::at(i)) {
+            Node::Leaf(Leaf::Passed { block, index }) => {
+                let index = place(index);
+                Some(atom(match block {
+                    SHARED => quote! { #shared[#index] },
+                    OWN => quote! { #own[#index][c] },
+                    _ => unreachable!("a column reads two kinds of values"),
+                }))
+            }
+            _ => None,
+        };
+    }
+    let statements = writer.block(&group.outputs, &column);
+    let results = writer.results(&group.outputs);
+    let rows = (0..results.len()).map(place);
+    let values = group.shared.iter().map(|&k| &stage[k]);
+    let own_rows = (0..group.own.first().map_or(0, Vec::len)).map(|row| {
+        let values = group.own.iter().map(|places| &stage[places[row]]);
+        quote! { [#(#values),*] }
+    });
+    let (count, height) = (place(group.own.len()), place(results.len()));
+    let title = format!("{COMMENT} the same for each column: row by row what it reads, and its results");
+    quote! {
+        #[doc = #title]
+        let #shared = [#(#values),*];
+        let #own = [#(#own_rows),*];
+        let mut #found = [[T::from_f64(0.0); #count]; #height];
+        for c in 0..#count {
+            #statements
+            #(#found[#rows][c] = #results;)*
+        }
+    }
+}
+
+fn place(index: usize) -> Literal {
+    Literal::usize_unsuffixed(index)
+}

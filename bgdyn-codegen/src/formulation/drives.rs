@@ -1,0 +1,192 @@
+//! The derivatives of forward dynamics: accelerations that efforts dτ drive, column by column.
+
+use std::collections::BTreeMap;
+
+use bgdyn_runtime::Dd;
+
+use super::derived::{derivatives, finish, reopened};
+use crate::bond_graph::BondGraph;
+use crate::columns::{self, Columns, Loops, Part};
+use crate::expr::{Builder, Expr, Graph, Leaf, Tangent, copy_into};
+use crate::function::Function;
+use crate::method::{Method, Shape};
+
+/// Columns from which on a loop is worth its arrays.
+const COLUMNS: usize = 4;
+
+/// Operations from which on it is: shorter ones stay in registers and in the instruction cache.
+const OPERATIONS: usize = 800;
+
+/// Forward dynamics, and the efforts −∂τ/∂x that drive the columns of its derivatives.
+pub(super) struct Drives {
+    builder: Builder,
+    accelerations: Vec<Expr>,
+    /// By position, then by velocity; an effort for each coordinate.
+    columns: Vec<Vec<Expr>>,
+}
+
+impl Drives {
+    pub(super) fn new(graph: &BondGraph, slopes: &Function, forward: &Function) -> Self {
+        let n = graph.coordinates.len();
+        // The copy takes over the accelerations in place of their leaves.
+        let (builder, accelerations) = reopened(forward);
+        let placed = |_: &mut Graph, leaf: Leaf| match leaf {
+            Leaf::Acceleration(j) => Some(accelerations[j]),
+            _ => None,
+        };
+        let results = &slopes.blocks[0].outputs;
+        let slopes = builder.with_graph(|g| copy_into(g, &slopes.graph, results, placed));
+        let minus = |e: Expr| (-builder.ex(e)).expr();
+        let column = |square: &[Expr], j: usize| square.chunks(n).map(|r| minus(r[j])).collect();
+        let columns = slopes.chunks((n * n).max(1));
+        let columns = columns.flat_map(|square| (0..n).map(move |j| column(square, j)));
+        let columns = columns.collect();
+        Drives {
+            builder,
+            accelerations,
+            columns,
+        }
+    }
+
+    /// Columns with zeros in the same rows, as many as are worth a loop.
+    pub(super) fn alike(&self) -> Vec<Vec<usize>> {
+        let mut groups: BTreeMap<Vec<bool>, Vec<usize>> = BTreeMap::new();
+        for (c, column) in self.columns.iter().enumerate() {
+            let zeros = column.iter().map(|&e| self.is_zero(e)).collect();
+            groups.entry(zeros).or_default().push(c);
+        }
+        let driven = |zeros: &[bool]| zeros.iter().any(|zero| !zero);
+        let groups = groups.into_iter();
+        let groups = groups.filter(|(zeros, all)| driven(zeros) && all.len() >= COLUMNS);
+        groups.map(|(_, all)| all).collect()
+    }
+
+    /// The function, with a loop for each of these groups of columns.
+    pub(super) fn function(
+        self,
+        graph: &BondGraph,
+        method: Method,
+        forward: &Function,
+        groups: &[Vec<usize>],
+    ) -> Function {
+        let n = self.accelerations.len();
+        let mut stage = Stage::default();
+        let mut parts = vec![Part::Stage(0); Shape::CheckedSquares.len(n)];
+        // Row i of a column; the columns of both squares are counted through.
+        let place = |c: usize, i: usize| n + (c / n) * n * n + i * n + c % n;
+        let mut loops = Vec::new();
+        let mut looped = vec![false; self.columns.len()];
+        for all in groups {
+            let Some(found) = self.group(&mut stage, all) else {
+                continue;
+            };
+            for (column, &c) in all.iter().enumerate() {
+                looped[c] = true;
+                for row in 0..n {
+                    let group = loops.len();
+                    parts[place(c, row)] = Part::Column { group, column, row };
+                }
+            }
+            loops.push(found);
+        }
+        for (i, &e) in self.accelerations.iter().enumerate() {
+            parts[i] = Part::Stage(stage.add(e));
+        }
+        for c in (0..self.columns.len()).filter(|&c| !looped[c]) {
+            for (i, e) in self.along(&self.columns[c]).into_iter().enumerate() {
+                parts[place(c, i)] = Part::Stage(stage.add(e));
+            }
+        }
+        // Of two equal entries of M⁻¹ the one nearer to the base takes less.
+        let inverse = derivatives(&self.builder, &self.accelerations, n, Leaf::Input);
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let entry = stage.add(inverse[i.max(j)][i.min(j)]);
+            parts[n + 2 * n * n + i * n + j] = Part::Stage(entry);
+        }
+        let made = |results| finish(graph, method, forward, self.builder, results);
+        if loops.is_empty() {
+            let in_order = |part: &Part| match *part {
+                Part::Stage(k) => stage.results[k],
+                Part::Column { .. } => unreachable!("there is no loop"),
+            };
+            return made(parts.iter().map(in_order).collect());
+        }
+        let groups = loops;
+        Function {
+            loops: Some(Loops { groups, parts }),
+            ..made(stage.results)
+        }
+    }
+
+    /// The loop over some columns, what it reads in `stage`; nothing where it is too short.
+    fn group(&self, stage: &mut Stage, all: &[usize]) -> Option<Columns> {
+        let first = &self.columns[all[0]];
+        let rows: Vec<usize> = (0..first.len())
+            .filter(|&i| !self.is_zero(first[i]))
+            .collect();
+        let block = columns::OWN;
+        let mut drive = first.clone();
+        for (index, &row) in rows.iter().enumerate() {
+            let leaf = Leaf::Passed { block, index };
+            drive[row] = self.builder.leaf(leaf).expr();
+        }
+        let outputs = self.along(&drive);
+        let column = |g: &mut Graph| columns::column(g, &outputs);
+        let (graph, outputs, shared) = self.builder.with_graph(column);
+        let operations = crate::expr::count(&graph, &outputs).total();
+        (all.len() * operations >= OPERATIONS).then_some(())?;
+        // Row by row, so that the loop finds its columns side by side.
+        let mut own = vec![Vec::new(); all.len()];
+        for &row in &rows {
+            for (own, &c) in own.iter_mut().zip(all) {
+                own.push(stage.add_anew(self.columns[c][row]));
+            }
+        }
+        Some(Columns {
+            graph,
+            outputs,
+            shared: shared.into_iter().map(|e| stage.add(e)).collect(),
+            own,
+        })
+    }
+
+    /// The accelerations that efforts drive.
+    fn along(&self, drive: &[Expr]) -> Vec<Expr> {
+        let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
+            Leaf::Input(j) => Some(drive[j]),
+            _ => None,
+        });
+        let all = self.accelerations.iter();
+        self.builder
+            .with_graph(|g| all.map(|&e| tangent.of(g, e)).collect())
+    }
+
+    fn is_zero(&self, e: Expr) -> bool {
+        self.builder.ex(e).as_constant() == Some(Dd::ZERO)
+    }
+}
+
+/// The results of the straight line.
+#[derive(Default)]
+struct Stage {
+    results: Vec<Expr>,
+    known: BTreeMap<Expr, usize>,
+}
+
+impl Stage {
+    /// Where the expression stands among the results.
+    fn add(&mut self, e: Expr) -> usize {
+        match self.known.get(&e) {
+            Some(&place) => place,
+            None => self.add_anew(e),
+        }
+    }
+
+    /// The same, in a place of its own.
+    fn add_anew(&mut self, e: Expr) -> usize {
+        let place = self.results.len();
+        self.results.push(e);
+        self.known.entry(e).or_insert(place);
+        place
+    }
+}
