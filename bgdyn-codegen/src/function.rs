@@ -8,7 +8,7 @@ use bgdyn_runtime::{Dd, Scalar};
 use crate::bond_graph::BondGraph;
 use crate::columns::{Columns, Loops};
 use crate::expr::{
-    Cost, Expr, Graph, Inputs, Operations, arranged, cost, count, evaluate, factored, fused,
+    Cost, Expr, Graph, Inputs, Operations, arranged, cost, count, evaluate, factored, fused, signed,
 };
 use crate::method::{Method, Shape};
 
@@ -144,13 +144,17 @@ impl Function {
         self
     }
 
-    /// The same function with its products joined to the sums that read them, unless the order of its
-    /// operations is what it is made for.
+    /// The same function with its products joined to the sums that read them, and with signs moved into
+    /// these, unless the order of its operations is what it is made for.
     pub(crate) fn fused(mut self) -> Self {
+        let joined = |graph: &Graph, outputs: &[Expr]| {
+            let (graph, outputs) = fused(graph, outputs);
+            signed(&graph, &outputs)
+        };
         if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
-            (self.graph, *outputs) = fused(&self.graph, outputs);
+            (self.graph, *outputs) = joined(&self.graph, outputs);
             for one in self.columns_mut() {
-                (one.graph, one.outputs) = fused(&one.graph, &one.outputs);
+                (one.graph, one.outputs) = joined(&one.graph, &one.outputs);
             }
         }
         self
@@ -162,7 +166,9 @@ impl Function {
     }
 
     fn columns_mut(&mut self) -> &mut [Columns] {
-        self.loops.as_mut().map_or(&mut [], |loops| &mut loops.groups)
+        self.loops
+            .as_mut()
+            .map_or(&mut [], |loops| &mut loops.groups)
     }
 
     /// The cheapest of several ways, with the others noted in it; the first one of equals.

@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::expr::{
     Builder, Ex, Expr, Graph, Inputs, Leaf, Node, Operations, arranged, cost, count, evaluate,
-    reachable,
+    reachable, signed,
 };
 use bgdyn_runtime::Dd;
 
@@ -300,4 +300,29 @@ fn sums_are_arranged_by_arrival() {
     let at = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs(), &mut None)[0];
     let off = at(&h, &outputs) - at(&g, &[total]);
     assert!(off.abs() < Dd::from_f64(1e-30), "{off}");
+}
+
+/// A sum that is read with the opposite sign is computed with it, where nothing else but fused sums
+/// read it.
+#[test]
+fn signs_move_into_sums() {
+    let mut g = Graph::default();
+    let [x, y, z] = xyz(&mut g);
+    // −(xy + z), also in a fused sum; −(y − z); −(xy + y), of which a root is taken.
+    let free = g.mul_add(x, y, z);
+    let reads = g.mul_add(free, x, y);
+    let difference = g.add(y, minus(z));
+    let bound = g.mul_add(x, y, y);
+    let root = g.sqrt(bound);
+    let outputs = [minus(free), reads, minus(difference), minus(bound), root];
+    let (moved, found) = signed(&g, &outputs);
+    let negative: Vec<bool> = found.iter().map(|e| e.negative).collect();
+    assert_eq!(negative, [false, false, false, true, false]);
+    assert_eq!(count(&moved, &found), count(&g, &outputs));
+    let inputs = Inputs {
+        q: vec![3.0, 5.0, -2.5],
+        ..Inputs::default()
+    };
+    let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
+    assert_eq!(value(&moved, &found), value(&g, &outputs));
 }

@@ -98,7 +98,8 @@ fn one(
         quote! { [#(#values),*] }
     });
     let (count, height) = (place(group.own.len()), place(results.len()));
-    let title = format!("{COMMENT} the same for each column: row by row what it reads, and its results");
+    let title =
+        format!("{COMMENT} the same for each column: row by row what it reads, and its results");
     quote! {
         #[doc = #title]
         let #shared = [#(#values),*];

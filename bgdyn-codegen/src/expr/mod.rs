@@ -17,6 +17,7 @@ mod factor;
 mod fold;
 mod fuse;
 mod index;
+mod signs;
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
@@ -36,6 +37,7 @@ pub use eval::{Inputs, evaluate};
 pub use factor::{factored, factored_cost};
 pub use fuse::fused;
 use index::{Index, mix};
+pub use signs::signed;
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -96,7 +96,12 @@ pub(super) fn reopened(function: &Function) -> (Builder, Vec<Expr>) {
 }
 
 /// ∂x/∂leaf_j: a column per coordinate j.
-pub(super) fn derivatives(b: &Builder, x: &[Expr], n: usize, leaf: fn(usize) -> Leaf) -> Vec<Vec<Expr>> {
+pub(super) fn derivatives(
+    b: &Builder,
+    x: &[Expr],
+    n: usize,
+    leaf: fn(usize) -> Leaf,
+) -> Vec<Vec<Expr>> {
     let column = |j: usize| {
         let mut tangent =
             Tangent::new(|g: &mut Graph, l| (l == leaf(j)).then(|| g.constant(Dd::ONE)));

@@ -1,0 +1,67 @@
+//! Moves signs to where they cost nothing.
+//!
+//! The graph keeps a sum in one of its two signs: −a·b − c is written −(a·b + c), so that equal sums
+//! meet. A machine takes an instruction for the sign in front, but none inside a fused multiply-add,
+//! whose product and summand may have either. So a sum that is read with the opposite sign is computed
+//! with it. Results are the same but for the sign of zero.
+
+use super::{Expr, Graph, Node, NodeId, QuickMap, reachable};
+
+/// Copies of `outputs` in a graph of their own, without the signs that can be had for nothing.
+pub fn signed(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+    let needed = reachable(from, outputs);
+    let flips = flips(from, outputs, &needed);
+    let mut to = Graph::default();
+    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
+    let titles = to.adopt_sections(from);
+    for i in (0..from.len()).filter(|&i| needed[i]) {
+        let id = NodeId(i as u32);
+        to.reopen_section(from, id, titles);
+        let at = |e: Expr| copies[&e.node].flipped(e.negative);
+        let node = match *from.node(id) {
+            Node::MulAdd(a, b, negative, c) => {
+                let [a, b] = [a, b].map(|x| at(Expr::plus(x)));
+                let product = negative ^ a.negative ^ b.negative;
+                let c = at(c).flipped(flips[i]);
+                Node::MulAdd(a.node, b.node, product ^ flips[i], c)
+            }
+            Node::Add(a, b) if flips[i] => {
+                let minus = at(Expr::plus(a)).flipped(true);
+                Node::Add(at(b).node, minus)
+            }
+            ref node => node.clone().map_operands(at),
+        };
+        let copy = Expr::plus(to.intern(node)).flipped(flips[i]);
+        if let Some(name) = from.name(id) {
+            to.set_name(copy.node, || name.to_string());
+        }
+        copies.insert(id, copy);
+    }
+    let outputs = outputs.iter();
+    let outputs = outputs.map(|e| copies[&e.node].flipped(e.negative));
+    (to, outputs.collect())
+}
+
+/// The sums that are to be computed with the opposite sign: those that are read so where a sign costs
+/// an instruction, oftener than otherwise, and elsewhere only where it costs none.
+fn flips(graph: &Graph, outputs: &[Expr], needed: &[bool]) -> Vec<bool> {
+    let mut gain = vec![0_i32; graph.len()];
+    let mut bound = vec![false; graph.len()];
+    let mut tally = |e: Expr| gain[e.node.place()] += if e.negative { 1 } else { -1 };
+    outputs.iter().copied().for_each(&mut tally);
+    for i in (0..graph.len()).filter(|&i| needed[i]) {
+        match *graph.node(NodeId(i as u32)) {
+            Node::MulAdd(..) => {}
+            Node::Pivot(value, magnitude, _) => [value, magnitude].into_iter().for_each(&mut tally),
+            ref node => node.for_each_operand(|operand| bound[operand.place()] = true),
+        }
+    }
+    let flippable = |i: usize| match graph.node(NodeId(i as u32)) {
+        Node::MulAdd(..) => true,
+        Node::Add(_, b) => b.negative,
+        _ => false,
+    };
+    (0..graph.len())
+        .map(|i| needed[i] && !bound[i] && gain[i] > 0 && flippable(i))
+        .collect()
+}
