@@ -11,25 +11,36 @@ pub fn copy_into(
     mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Expr>,
 ) -> Vec<Expr> {
     let needed = reachable(from, outputs);
+    let wanted = (0..from.len()).filter(|&i| needed[i]);
+    remade(to, from, outputs, wanted, |to, id, at| {
+        match from.node(id) {
+            Node::Leaf(l) => leaf(to, *l).unwrap_or_else(|| to.leaf(*l)),
+            node => to.rebuilt(node, at),
+        }
+    })
+}
+
+/// `outputs` in `to`, with what `make` makes of each of these nodes in place of it; it is given the
+/// copies of the operands. Names and sections go along.
+pub(super) fn remade(
+    to: &mut Graph,
+    from: &Graph,
+    outputs: &[Expr],
+    nodes: impl Iterator<Item = usize>,
+    mut make: impl FnMut(&mut Graph, NodeId, &dyn Fn(Expr) -> Expr) -> Expr,
+) -> Vec<Expr> {
     let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
     let titles = to.adopt_sections(from);
-    for i in (0..from.len()).filter(|&i| needed[i]) {
-        let id = NodeId(i as u32);
+    for id in nodes.map(NodeId::at) {
         to.reopen_section(from, id, titles);
-        let copy = match from.node(id) {
-            Node::Leaf(l) => match leaf(to, *l) {
-                Some(e) => e,
-                None => to.leaf(*l),
-            },
-            node => to.rebuilt(node, |e: Expr| copies[&e.node].flipped(e.negative)),
-        };
+        let copy = make(to, id, &|e| copies[&e.node].flipped(e.negative));
         if let Some(name) = from.name(id) {
             to.set_name(copy.node, || name.to_string());
         }
         copies.insert(id, copy);
     }
+    let outputs = outputs.iter();
     outputs
-        .iter()
         .map(|e| copies[&e.node].flipped(e.negative))
         .collect()
 }

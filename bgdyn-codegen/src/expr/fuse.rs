@@ -1,7 +1,8 @@
 //! Joins a product and the addition that alone reads it in one node, which a machine with fused
 //! multiply-adds executes as one instruction and rounds once.
 
-use super::{Expr, Graph, Node, NodeId, QuickMap, cost};
+use super::copy::remade;
+use super::{Expr, Graph, Node, NodeId, cost};
 
 /// Copies of `outputs` in a graph of their own, with every addition of a product that nothing else
 /// reads as a [`Node::MulAdd`]. The count of operations stays. Of two such products the one that is
@@ -28,32 +29,19 @@ pub fn fused(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
         }
     }
     let mut to = Graph::default();
-    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
-    let titles = to.adopt_sections(from);
-    for i in (0..from.len()).filter(|&i| reads[i] > 0 && !inside[i]) {
-        let id = NodeId(i as u32);
-        to.reopen_section(from, id, titles);
-        let at = |e: Expr| copies[&e.node].flipped(e.negative);
+    let nodes = (0..from.len()).filter(|&i| reads[i] > 0 && !inside[i]);
+    let outputs = remade(&mut to, from, outputs, nodes, |to, id, at| {
         let node = from.node(id);
-        let copy = match (joined(node), node) {
-            (Some(second), Node::Add(a, b)) => {
-                let a = Expr::plus(*a);
-                let (product, rest) = if second { (*b, a) } else { (a, *b) };
-                let Node::Mul(x, y) = from.node(product.node) else {
-                    unreachable!("only products are joined")
-                };
-                let x = at(Expr::plus(*x)).flipped(product.negative);
-                let (y, rest) = (at(Expr::plus(*y)), at(rest));
-                to.mul_add(x, y, rest)
-            }
-            _ => to.rebuilt(node, at),
+        let (Some(second), Node::Add(a, b)) = (joined(node), node) else {
+            return to.rebuilt(node, at);
         };
-        if let Some(name) = from.name(id) {
-            to.set_name(copy.node, || name.to_string());
-        }
-        copies.insert(id, copy);
-    }
-    let outputs = outputs.iter();
-    let outputs = outputs.map(|e| copies[&e.node].flipped(e.negative));
-    (to, outputs.collect())
+        let a = Expr::plus(*a);
+        let (product, rest) = if second { (*b, a) } else { (a, *b) };
+        let Node::Mul(x, y) = from.node(product.node) else {
+            unreachable!("only products are joined")
+        };
+        let x = at(Expr::plus(*x)).flipped(product.negative);
+        to.mul_add(x, at(Expr::plus(*y)), at(rest))
+    });
+    (to, outputs)
 }

@@ -5,41 +5,29 @@
 //! whose product and summand may have either. So a sum that is read with the opposite sign is computed
 //! with it. Results are the same but for the sign of zero.
 
-use super::{Expr, Graph, Node, NodeId, QuickMap, reachable};
+use super::copy::remade;
+use super::{Expr, Graph, Node, NodeId, reachable};
 
 /// Copies of `outputs` in a graph of their own, without the signs that can be had for nothing.
 pub fn signed(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let needed = reachable(from, outputs);
     let flips = flips(from, outputs, &needed);
     let mut to = Graph::default();
-    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
-    let titles = to.adopt_sections(from);
-    for i in (0..from.len()).filter(|&i| needed[i]) {
-        let id = NodeId(i as u32);
-        to.reopen_section(from, id, titles);
-        let at = |e: Expr| copies[&e.node].flipped(e.negative);
+    let nodes = (0..from.len()).filter(|&i| needed[i]);
+    let outputs = remade(&mut to, from, outputs, nodes, |to, id, at| {
+        let flip = flips[id.place()];
         let node = match *from.node(id) {
             Node::MulAdd(a, b, negative, c) => {
                 let [a, b] = [a, b].map(|x| at(Expr::plus(x)));
-                let product = negative ^ a.negative ^ b.negative;
-                let c = at(c).flipped(flips[i]);
-                Node::MulAdd(a.node, b.node, product ^ flips[i], c)
+                let product = negative ^ a.negative ^ b.negative ^ flip;
+                Node::MulAdd(a.node, b.node, product, at(c).flipped(flip))
             }
-            Node::Add(a, b) if flips[i] => {
-                let minus = at(Expr::plus(a)).flipped(true);
-                Node::Add(at(b).node, minus)
-            }
+            Node::Add(a, b) if flip => Node::Add(at(b).node, at(Expr::plus(a)).flipped(true)),
             ref node => node.clone().map_operands(at),
         };
-        let copy = Expr::plus(to.intern(node)).flipped(flips[i]);
-        if let Some(name) = from.name(id) {
-            to.set_name(copy.node, || name.to_string());
-        }
-        copies.insert(id, copy);
-    }
-    let outputs = outputs.iter();
-    let outputs = outputs.map(|e| copies[&e.node].flipped(e.negative));
-    (to, outputs.collect())
+        Expr::plus(to.intern(node)).flipped(flip)
+    });
+    (to, outputs)
 }
 
 /// The sums that are to be computed with the opposite sign: those that are read so where a sign costs
