@@ -97,8 +97,7 @@ fn derivatives_of_two_thousand_mechanisms() {
 
 /// M ∂q̈/∂x = −∂τ/∂x, M ∂q̈/∂τ = 1, at the accelerations that the method returns itself; whether
 /// M is regular.
-fn forward_derivatives_undo_the_inverse_of(robot: &Robot, forward: &Function, what: &str) -> bool {
-    let mut state = State::random(&mut Rng::new(88_000), &robot.motions());
+fn undoes_the_inverse(robot: &Robot, forward: &Function, mut state: State, what: &str) -> bool {
     let n = state.q.len();
     let (found, refused) = forward.evaluate(state.inputs::<Dd>());
     let mass = common::full(&structured(robot, Method::MassMatrix, &state), n);
@@ -140,10 +139,11 @@ fn forward_derivatives_undo_the_inverse() {
         let text = Draft::random(&mut rng, 5).yaml();
         let robot = Robot::read(&text, None);
         let forward = robot.chosen(Method::ForwardDynamicsDerivatives);
-        let what = format!("seed {seed}\n{text}");
-        regular += usize::from(forward_derivatives_undo_the_inverse_of(
-            &robot, &forward, &what,
-        ));
+        let (state, what) = (
+            State::random(&mut rng, &robot.motions()),
+            format!("seed {seed}\n{text}"),
+        );
+        regular += usize::from(undoes_the_inverse(&robot, &forward, state, &what));
     }
     assert!(regular > 30, "{regular}");
 }
@@ -160,9 +160,8 @@ fn columns_in_loops_undo_the_inverse() {
             let groups = forward.loops.iter().flat_map(|loops| &loops.groups);
             let looped: usize = groups.map(|group| group.own.len()).sum();
             assert_eq!(looped, columns, "{name}");
-            assert!(forward_derivatives_undo_the_inverse_of(
-                &robot, forward, name
-            ));
+            let state = State::random(&mut Rng::new(88_000), &robot.motions());
+            assert!(undoes_the_inverse(&robot, forward, state, name));
         }
     }
 }

@@ -205,3 +205,24 @@ fn an_error_says_which_lanes_failed_and_where() {
         "{text}"
     );
 }
+
+/// As of one number: a sum that overflows is no verdict on accelerations, and a lane that failed takes
+/// none with it.
+#[test]
+fn accelerations_are_refused_one_by_one() {
+    let names = &["shoulder", "elbow"];
+    let refused = f64x4::none_refused();
+    let large = f64x4::splat(f64::MAX);
+    let fine = Vector2::new(large, f64x4::new([f64::MAX, 1.0, -1.0, 0.0]));
+    assert_eq!(f64x4::finish(fine, refused, names), Ok(fine));
+    let wild = Vector2::new(
+        large,
+        f64x4::new([f64::MAX, f64::NAN, f64::NEG_INFINITY, 0.0]),
+    );
+    let error = f64x4::finish(wild, refused, names).unwrap_err();
+    assert_eq!(error.joint, [None, Some(1), Some(1), None]);
+    assert_eq!(
+        error.accelerations[0].to_array(),
+        [f64::MAX, 0.0, 0.0, f64::MAX]
+    );
+}

@@ -205,3 +205,18 @@ fn nothing_but_finite_accelerations() {
     }
     assert!(f64::finish(Vector2::new(1.0, -2e300), None, &NAMES).is_ok());
 }
+
+/// Accelerations are checked by their sum: one that overflows, or is lost, is no verdict on them.
+#[test]
+fn accelerations_are_refused_one_by_one() {
+    static NAMES: [&str; 2] = ["hip", "knee"];
+    let found = |x: f64, y: f64| {
+        let refused = f64::finish(SVector::<f64, 2>::new(x, y), None, &NAMES);
+        refused.map_err(|singular| singular.joint)
+    };
+    assert_eq!(found(f64::MAX, f64::MAX), Ok(SVector::from([f64::MAX; 2])));
+    assert_eq!(found(f64::INFINITY, f64::NEG_INFINITY), Err(0));
+    assert_eq!(found(1.0, f64::NAN), Err(1));
+    let none = SVector::<f64, 0>::zeros();
+    assert_eq!(f64::finish(none, None, &[]), Ok(none));
+}
