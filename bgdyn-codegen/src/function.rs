@@ -165,6 +165,24 @@ impl Function {
         self.loops.as_ref().map_or(&[], |loops| &loops.groups)
     }
 
+    /// One column of a loop as a function.
+    pub(crate) fn of_column(&self, columns: &Columns) -> Function {
+        Function {
+            method: self.method,
+            name: self.name.clone(),
+            formulation: self.formulation.clone(),
+            plans: Vec::new(),
+            passed_over: Vec::new(),
+            ordered: self.ordered,
+            graph: columns.graph.clone(),
+            blocks: vec![Block {
+                outputs: columns.outputs.clone(),
+                products: Vec::new(),
+            }],
+            loops: None,
+        }
+    }
+
     fn columns_mut(&mut self) -> &mut [Columns] {
         self.loops
             .as_mut()

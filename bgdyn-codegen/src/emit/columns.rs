@@ -7,7 +7,7 @@ use super::code::{Naming, atom};
 use super::writer::{COMMENT, Writer};
 use crate::columns::{Columns, Loops, OWN, Part, SHARED};
 use crate::expr::{Leaf, Node, NodeId};
-use crate::function::{Block, Function};
+use crate::function::Function;
 
 /// The arrays of a loop.
 struct Arrays {
@@ -66,15 +66,7 @@ fn one(
     stage: &[TokenStream],
 ) -> TokenStream {
     let Arrays { shared, own, found } = arrays;
-    let column = Function {
-        graph: group.graph.clone(),
-        blocks: vec![Block {
-            outputs: group.outputs.clone(),
-            products: Vec::new(),
-        }],
-        loops: None,
-        ..function.clone()
-    };
+    let column = function.of_column(group);
     let mut writer = Writer::new(&column, naming, &group.outputs);
     for i in 0..group.graph.len() {
         writer.code[i] = match *group.graph.node(NodeId::at(i)) {

@@ -13,7 +13,7 @@ use super::{Expr, Graph, Leaf};
 use crate::math::Vec3;
 
 /// A graph under construction.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Builder {
     graph: RefCell<Graph>,
     /// Whether nobody will read it: no names, no titles.

@@ -74,13 +74,13 @@ fn forward_derivatives(
     slopes: &Function,
     forward: &Function,
 ) -> Function {
-    let made = |alike: &dyn Fn(&Drives) -> Vec<Vec<usize>>| {
-        let drives = Drives::new(graph, slopes, forward);
-        let groups = alike(&drives);
-        drives.function(graph, method, forward, &groups)
-    };
-    let written_out = made(&|_| Vec::new());
-    let looped = made(&Drives::alike);
+    let drives = Drives::new(graph, slopes, forward);
+    let groups = drives.alike();
+    let written_out = drives.clone().function(graph, method, forward, &[]);
+    if groups.is_empty() {
+        return written_out;
+    }
+    let looped = drives.function(graph, method, forward, &groups);
     match looped.operations().total() <= written_out.operations().total() {
         true => looped,
         false => written_out,

@@ -18,6 +18,7 @@ const COLUMNS: usize = 4;
 const OPERATIONS: usize = 800;
 
 /// Forward dynamics, and the efforts −∂τ/∂x that drive the columns of its derivatives.
+#[derive(Clone)]
 pub(super) struct Drives {
     builder: Builder,
     accelerations: Vec<Expr>,
