@@ -23,7 +23,11 @@ fn bit(leaf: Leaf) -> u128 {
 
 /// For each result of a function without loops over columns the mask of its inputs.
 pub(crate) fn masks(function: &Function) -> Vec<u128> {
-    assert!(function.loops.is_none(), "{}: its blocks are not all of it", function.name());
+    assert!(
+        function.loops.is_none(),
+        "{}: its blocks are not all of it",
+        function.name()
+    );
     let mut passed: Vec<Vec<u128>> = vec![];
     for block in &function.blocks {
         // Operands stand before their users.
