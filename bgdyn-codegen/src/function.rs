@@ -8,7 +8,8 @@ use bgdyn_runtime::{Dd, Scalar};
 use crate::bond_graph::BondGraph;
 use crate::columns::{Columns, Loops};
 use crate::expr::{
-    Cost, Expr, Graph, Inputs, Operations, arranged, cost, count, evaluate, factored, fused, signed,
+    Cost, Expr, Graph, Inputs, Operations, arranged, cost, count, divided, evaluate, factored,
+    fused, signed,
 };
 use crate::method::{Method, Shape};
 
@@ -128,7 +129,8 @@ impl Function {
     pub fn factored(mut self) -> Self {
         if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
             let graph = std::mem::take(&mut self.graph);
-            (self.graph, *outputs) = factored(graph, std::mem::take(outputs));
+            let (graph, found) = factored(graph, std::mem::take(outputs));
+            (self.graph, *outputs) = divided(&graph, &found);
         }
         self
     }

@@ -1,8 +1,8 @@
 //! The expression graph: what folds, what is one node, what counts.
 
 use bgdyn_codegen::expr::{
-    Builder, Ex, Expr, Graph, Inputs, Leaf, Node, Operations, arranged, cost, count, evaluate,
-    reachable, signed,
+    Builder, Ex, Expr, Graph, Inputs, Leaf, Node, Operations, arranged, cost, count, divided,
+    evaluate, reachable, signed,
 };
 use bgdyn_runtime::Dd;
 
@@ -325,4 +325,32 @@ fn signs_move_into_sums() {
     };
     let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
     assert_eq!(value(&moved, &found), value(&g, &outputs));
+}
+
+/// A reciprocal that one product alone reads goes into a division; one that is read twice stays.
+#[test]
+fn a_reciprocal_of_one_product_is_divided_by() {
+    let mut g = Graph::default();
+    let [x, y, z] = xyz(&mut g);
+    let one = number(&mut g, 1.0);
+    let once = g.div(one, x);
+    let twice = g.div(one, y);
+    let outputs = [
+        g.mul(minus(once), z),
+        g.mul(twice, z),
+        g.mul(twice, x),
+        g.div(z, x),
+    ];
+    let (divided, found) = divided(&g, &outputs[..3]);
+    let [before, after] = [count(&g, &outputs[..3]), count(&divided, &found)];
+    assert_eq!((before.mul, before.div), (3, 2));
+    assert_eq!((after.mul, after.div), (2, 2));
+    let inputs = Inputs {
+        q: vec![3.0, 5.0, -2.5],
+        ..Inputs::default()
+    };
+    let values = evaluate(&divided, &found, &inputs, &mut None);
+    let expected = evaluate(&g, &outputs, &inputs, &mut None);
+    assert_eq!(values[0], -expected[3]);
+    assert_eq!(values[1..], expected[1..3]);
 }

@@ -34,32 +34,37 @@ pub(crate) fn exact_sum<T: Split>(
     mut angles: impl Iterator<Item = T>,
     offset: (f64, f64),
 ) -> (T, Option<T>) {
-    let zero = T::from_f64(0.0);
     let (mut sum, mut tail) = match offset {
-        (0.0, 0.0) => (angles.next().unwrap_or(zero), zero),
-        (hi, lo) => T::split(hi, lo),
+        (0.0, 0.0) => (angles.next().unwrap_or(T::from_f64(0.0)), None),
+        (hi, lo) => {
+            let (hi, lo) = T::split(hi, lo);
+            (hi, Some(lo))
+        }
     };
     let mut sums = 0;
     for angle in angles {
         sums += 1;
-        // Knuth's two-sum: the rounding error of the addition, exactly.
+        // Knuth's two-sum: the rounding error of the addition, exactly. Of the longest chain of
+        // subtractions nothing but the last addition waits.
         let next = sum + angle;
         let back = next - sum;
-        tail = tail + ((sum - (next - back)) + (angle - back));
+        let left = angle - back;
+        let left = tail.map_or(left, |tail| left + tail);
+        tail = Some((sum - (next - back)) + left);
         sum = next;
     }
-    match sums {
-        0 => (sum, None),
+    let (1.., Some(tail)) = (sums, tail) else {
+        return (sum, None);
+    };
+    if sums == 1 {
         // The tail is half a unit in the last place: where more than that is left of the offset, the
         // angle has cancelled it, and has no digits that the offset's first word has not.
-        1 => (sum, Some(tail)),
-        // And once more, so that it is.
-        _ => {
-            let angle = sum + tail;
-            let back = angle - sum;
-            (angle, Some((sum - (angle - back)) + (tail - back)))
-        }
+        return (sum, Some(tail));
     }
+    // And once more, so that it is.
+    let angle = sum + tail;
+    let back = angle - sum;
+    (angle, Some((sum - (angle - back)) + (tail - back)))
 }
 
 macro_rules! float_scalar {

@@ -17,6 +17,7 @@ mod factor;
 mod fold;
 mod fuse;
 mod index;
+mod quotient;
 mod signs;
 
 use std::collections::HashMap;
@@ -37,6 +38,7 @@ pub use eval::{Inputs, evaluate};
 pub use factor::{factored, factored_cost};
 pub use fuse::fused;
 use index::{Index, mix};
+pub use quotient::divided;
 pub use signs::signed;
 
 /// A node of a [`Graph`].

@@ -3,7 +3,7 @@
 use super::pack::{Coefficients, Pack, Polynomial};
 
 /// Sine and cosine of `angle` + `tail`, for an angle within [`Pack::LIMIT`] and a tail of half a
-/// unit in its last place at most. Without a tail the polynomials begin 8 cycles earlier.
+/// unit in its last place at most.
 #[inline(always)]
 pub(crate) fn sin_cos<P: Pack>(angle: P, tail: Option<P>) -> (P, P) {
     let (quarters, r, low) = reduced(angle, tail);
@@ -30,19 +30,23 @@ fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
     if let Some(part) = exact.1 {
         rest = n.minus_product(P::splat(part), rest);
     }
-    // n times the middle part is exact. Its difference is, where the rest is smaller; where it is
-    // not, this is Dekker's sum, and `error` is what was rounded off.
     let part = P::splat(middle);
-    let difference = n.minus_product(part, rest);
-    let error = n.minus_product(part, rest - difference);
-    let low = n.minus_product(P::splat(last), error);
     let Some(tail) = tail else {
+        // n times the middle part is exact. Its difference is, where the rest is smaller; where it is
+        // not, this is Dekker's sum, and `error` is what was rounded off.
+        let difference = n.minus_product(part, rest);
+        let error = n.minus_product(part, rest - difference);
+        let low = n.minus_product(P::splat(last), error);
         return (quarters, difference, low);
     };
-    // A tail may be far larger than half a unit in the last place of the rest: a sum once more. The
-    // low part is not waited for.
-    let r = difference + tail;
-    (quarters, r, (tail - (r - difference)) + low)
+    // The tail goes off the middle part: at that place it is waited for by nothing that is there later.
+    // It may be far larger than the rest, so what rounding leaves of the two is kept as well.
+    let taken = n.fused(part, -tail);
+    let difference = rest - taken;
+    let left = n.fused(part, -taken) - tail;
+    let error = ((rest - difference) - taken) - left;
+    let low = n.minus_product(P::splat(last), error);
+    (quarters, difference, low)
 }
 
 /// Sine and cosine of r + low, |r| ≤ π/4.
