@@ -9,14 +9,14 @@
 //!
 //! Errors stay below one unit in the last place for angles of any size; `tests/sine.rs` measures it.
 
-/// The step with k = 0, 1, … below `count`, each a constant to the compiler: so arrays of numbers stay
-/// in registers.
+/// Angles of a call that are taken at once: the lanes of the widest register.
+const AT_ONCE: usize = 8;
+
+/// The step with k = 0, 1, … below `count`, which is [`AT_ONCE`] at most, each a constant to the
+/// compiler: so arrays of numbers stay in registers.
 macro_rules! unrolled {
     ($count:expr, |$k:ident| $step:expr) => {
         unrolled!($count, $k, $step; 0 1 2 3 4 5 6 7);
-        for $k in (0..$count).skip(8) {
-            $step;
-        }
     };
     ($count:expr, $k:ident, $step:expr; $($n:literal)*) => {$(
         if $n < $count {
@@ -80,19 +80,41 @@ pub(crate) fn all<T: AtOnce, const K: usize>(
     angles: [&[T]; K],
     offsets: [(f64, f64); K],
 ) -> [(T, T); K] {
-    let mut sums = [(T::from_f64(0.0), None); K];
+    let zero = T::from_f64(0.0);
+    if K > AT_ONCE {
+        return core::array::from_fn(|k| {
+            let (angle, tail) = exact_sum(angles[k].iter().copied(), offsets[k]);
+            one(angle, tail)
+        });
+    }
+    let mut sums = Sums {
+        angles: [zero; K],
+        tails: [zero; K],
+        are_sums: [false; K],
+    };
     unrolled!(K, |k| {
-        sums[k] = exact_sum(angles[k].iter().copied(), offsets[k]);
+        let (angle, tail) = exact_sum(angles[k].iter().copied(), offsets[k]);
+        sums.angles[k] = angle;
+        sums.tails[k] = tail.unwrap_or(zero);
+        sums.are_sums[k] = tail.is_some();
     });
-    if let Some(found) = T::at_once(sums) {
+    if let Some(found) = T::at_once(&sums) {
         return found;
     }
-    let mut found = [(T::from_f64(0.0), T::from_f64(0.0)); K];
-    unrolled!(K, |k| {
-        let (angle, tail) = sums[k];
-        found[k] = apart(angle, tail.unwrap_or(T::from_f64(0.0)));
-    });
+    let mut found = [(zero, zero); K];
+    unrolled!(K, |k| found[k] = apart(sums.angles[k], sums.tails[k]));
     found
+}
+
+/// Angles of a call. Arrays of numbers, one for each part: of an array of pairs compilers load wide
+/// registers from what was just stored in halves, and wait for it.
+pub(crate) struct Sums<T, const K: usize> {
+    /// The sums, rounded.
+    angles: [T; K],
+    /// What rounding has left.
+    tails: [T; K],
+    /// Which ones are sums at all.
+    are_sums: [bool; K],
 }
 
 /// [`one`], out of the way of calls whose angles are all within the limit: handed over as an array,
@@ -105,9 +127,8 @@ fn apart<T: Pack>(angle: T, tail: T) -> (T, T) {
 
 /// Numbers whose sines can be taken several at once.
 pub(crate) trait AtOnce: Pack + Split {
-    /// Sines and cosines of the sums `(angle, tail)`; nothing where not all of them are within the
-    /// limit.
-    fn at_once<const K: usize>(sums: [(Self, Option<Self>); K]) -> Option<[(Self, Self); K]>;
+    /// Sines and cosines of the sums; nothing where not all of them are within the limit.
+    fn at_once<const K: usize>(sums: &Sums<Self, K>) -> Option<[(Self, Self); K]>;
 }
 
 /// Fills lanes with one angle after the other, several at a time; what is left over goes in fewer.
@@ -116,18 +137,16 @@ macro_rules! at_once {
     ($float:ident: $($lanes:ident $n:literal from $least:literal),+) => {
         impl AtOnce for $float {
             #[inline(always)]
-            fn at_once<const K: usize>(
-                sums: [($float, Option<$float>); K],
-            ) -> Option<[($float, $float); K]> {
+            fn at_once<const K: usize>(sums: &Sums<$float, K>) -> Option<[($float, $float); K]> {
                 let mut found = [(0.0, 0.0); K];
                 let mut done = 0;
                 $(if K - done >= $least {
                     let (mut angles, mut tails, mut any) = ([0.0; $n], [0.0; $n], false);
                     // Lanes beyond the last angle repeat it.
                     unrolled!($n, |k| {
-                        let (angle, tail) = sums[(done + k).min(K - 1)];
-                        any |= tail.is_some();
-                        (angles[k], tails[k]) = (angle, tail.unwrap_or(0.0));
+                        let from = (done + k).min(K - 1);
+                        (angles[k], tails[k]) = (sums.angles[from], sums.tails[from]);
+                        any |= sums.are_sums[from];
                     });
                     let angles = wide::$lanes::new(angles);
                     if !angles.within() {
@@ -141,12 +160,13 @@ macro_rules! at_once {
                     });
                     done = K.min(done + $n);
                 })+
-                for k in done..K {
-                    let (angle, tail) = sums[k];
+                // One at the most is left.
+                if done < K {
+                    let (angle, tail) = (sums.angles[K - 1], sums.tails[K - 1]);
                     if !angle.within() {
                         return None;
                     }
-                    found[k] = sin_cos(angle, tail);
+                    found[K - 1] = sin_cos(angle, sums.are_sums[K - 1].then_some(tail));
                 }
                 Some(found)
             }
@@ -163,14 +183,15 @@ macro_rules! one_by_one {
     ($($lanes:ty),+) => {$(
         impl AtOnce for $lanes {
             #[inline(always)]
-            fn at_once<const K: usize>(
-                sums: [(Self, Option<Self>); K],
-            ) -> Option<[(Self, Self); K]> {
+            fn at_once<const K: usize>(sums: &Sums<Self, K>) -> Option<[(Self, Self); K]> {
                 let mut within = true;
-                unrolled!(K, |k| within &= sums[k].0.within());
+                unrolled!(K, |k| within &= sums.angles[k].within());
                 let mut found = [(Self::splat(0.0), Self::splat(0.0)); K];
                 if within {
-                    unrolled!(K, |k| found[k] = sin_cos(sums[k].0, sums[k].1));
+                    unrolled!(K, |k| {
+                        let tail = sums.are_sums[k].then_some(sums.tails[k]);
+                        found[k] = sin_cos(sums.angles[k], tail);
+                    });
                 }
                 within.then_some(found)
             }
