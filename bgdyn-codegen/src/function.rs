@@ -130,7 +130,7 @@ impl Function {
         if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
             let graph = std::mem::take(&mut self.graph);
             let (graph, found) = factored(graph, std::mem::take(outputs));
-            (self.graph, *outputs) = divided(&graph, &found);
+            (self.graph, *outputs) = divided(graph, found);
         }
         self
     }

@@ -341,16 +341,18 @@ fn a_reciprocal_of_one_product_is_divided_by() {
         g.mul(twice, x),
         g.div(z, x),
     ];
-    let (divided, found) = divided(&g, &outputs[..3]);
-    let [before, after] = [count(&g, &outputs[..3]), count(&divided, &found)];
+    let (quotients, found) = divided(g.clone(), outputs[..3].to_vec());
+    let [before, after] = [count(&g, &outputs[..3]), count(&quotients, &found)];
     assert_eq!((before.mul, before.div), (3, 2));
     assert_eq!((after.mul, after.div), (2, 2));
     let inputs = Inputs {
         q: vec![3.0, 5.0, -2.5],
         ..Inputs::default()
     };
-    let values = evaluate(&divided, &found, &inputs, &mut None);
+    let values = evaluate(&quotients, &found, &inputs, &mut None);
     let expected = evaluate(&g, &outputs, &inputs, &mut None);
     assert_eq!(values[0], -expected[3]);
     assert_eq!(values[1..], expected[1..3]);
+    // Nothing is left to do.
+    assert_eq!(divided(quotients, found.clone()).1, found);
 }

@@ -44,8 +44,8 @@ pub(crate) fn exact_sum<T: Split>(
     let mut sums = 0;
     for angle in angles {
         sums += 1;
-        // Knuth's two-sum: the rounding error of the addition, exactly. Of the longest chain of
-        // subtractions nothing but the last addition waits.
+        // Knuth's two-sum: the rounding error of the addition, exactly. What is left of earlier ones
+        // joins the shorter of its two ways, so that nothing waits for it.
         let next = sum + angle;
         let back = next - sum;
         let left = angle - back;

@@ -6,16 +6,17 @@ use bgdyn_runtime::Dd;
 use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, reads};
 
-/// Copies of `outputs` in a graph of their own, without reciprocals that one product alone reads.
-pub fn divided(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
-    let reads = reads(from, outputs);
+/// The same values without reciprocals that one product alone reads.
+pub fn divided(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+    let reads = reads(&from, &outputs);
     let is_one = |id: NodeId| matches!(from.node(id), Node::Constant(c) if c.value() == Dd::ONE);
     // y of a node 1/y that nothing else reads.
     let divisor = |id: NodeId| match from.node(id) {
         Node::Div(one, y) if reads[id.place()] == 1 && is_one(*one) => Some(*y),
         _ => None,
     };
-    let quotient = |node: &Node| match node {
+    // x, y and 1/y of a product x · (1/y).
+    let quotient = |id: NodeId| match from.node(id) {
         Node::Mul(a, b) => match (divisor(*a), divisor(*b)) {
             (Some(y), _) => Some((*b, y, *a)),
             (None, Some(y)) => Some((*a, y, *b)),
@@ -24,18 +25,28 @@ pub fn divided(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
         _ => None,
     };
     let mut wanted: Vec<bool> = reads.iter().map(|&n| n > 0).collect();
-    for i in (0..from.len()).filter(|&i| reads[i] > 0) {
-        if let Some((_, _, reciprocal)) = quotient(from.node(NodeId::at(i))) {
+    let mut found = false;
+    for id in (0..from.len()).map(NodeId::at) {
+        if let (true, Some((_, _, reciprocal))) = (reads[id.place()] > 0, quotient(id)) {
             wanted[reciprocal.place()] = false;
+            found = true;
         }
+    }
+    // Most functions divide by nothing, and candidates are many: no copy of those.
+    if !found {
+        return (from, outputs);
     }
     let mut to = Graph::default();
     let nodes = (0..from.len()).filter(|&i| wanted[i]);
-    let outputs = remade(&mut to, from, outputs, nodes, |to, id, at| {
-        match quotient(from.node(id)) {
+    let outputs = remade(
+        &mut to,
+        &from,
+        &outputs,
+        nodes,
+        |to, id, at| match quotient(id) {
             Some((x, y, _)) => to.div(at(Expr::plus(x)), at(Expr::plus(y))),
             None => to.rebuilt(from.node(id), at),
-        }
-    });
+        },
+    );
     (to, outputs)
 }

@@ -39,8 +39,9 @@ fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
         let low = n.minus_product(P::splat(last), error);
         return (quarters, difference, low);
     };
-    // The tail goes off the middle part: at that place it is waited for by nothing that is there later.
-    // It may be far larger than the rest, so what rounding leaves of the two is kept as well.
+    // What is taken off is n times the middle part less the tail: the tail is there by the time n is, and
+    // the rest does not wait for it. It may be far larger than the rest, so `left` keeps what is rounded
+    // off `taken`, and `error` what is rounded off the difference.
     let taken = n.fused(part, -tail);
     let difference = rest - taken;
     let left = n.fused(part, -taken) - tail;
