@@ -34,8 +34,9 @@ fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
     let Some(tail) = tail else {
         // n times the middle part is exact. Its difference is, where the rest is smaller; where it is
         // not, this is Dekker's sum, and `error` is what was rounded off.
-        let difference = n.minus_product(part, rest);
-        let error = n.minus_product(part, rest - difference);
+        let taken = n * part;
+        let difference = rest - taken;
+        let error = (rest - difference) - taken;
         let low = n.minus_product(P::splat(last), error);
         return (quarters, difference, low);
     };
@@ -64,7 +65,7 @@ pub(super) fn of_rest<P: Pack>(r: P, low: P) -> (P, P) {
     let small = (r * square).fused(s, halved.minus_product(low, low));
     let rounded = one - halved;
     let rest = (one - rounded) - halved;
-    let tiny = (square * square).fused(c, r.minus_product(low, rest));
+    let tiny = (square * square).fused(c, rest - r * low);
     (r + small, rounded + tiny)
 }
 
