@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::code::{Naming, is_part, leaves};
 use super::columns::columns;
+use super::entries::{self, Entries, Places};
 use super::ident;
 use super::loops;
 use super::writer::Writer;
@@ -22,16 +23,28 @@ pub(super) struct Body {
     pub(super) blocks: Vec<TokenStream>,
 }
 
-/// The body of a method, and its blocks; `finish` makes the result of its components.
+/// The body of a method, and its blocks; `finish` makes the result of its components,
+/// which stand in these places if it is a matrix.
 pub(super) fn body(
     function: &Function,
     naming: &Naming<'_>,
+    places: Option<Places>,
     finish: impl Fn(&[TokenStream]) -> TokenStream,
 ) -> Body {
     let shape = function.shape();
     if let [block] = function.blocks.as_slice() {
         let mut writer = Writer::new(function, naming, &block.outputs);
+        if let Some(places) = places.filter(|_| function.loops.is_none()) {
+            writer.entries = Entries::new(&block.outputs, places, &finish);
+        }
         let statements = writer.block(&block.outputs, function);
+        if writer.entries.as_ref().is_some_and(Entries::begun) {
+            let name = ident(entries::NAME);
+            return Body {
+                body: quote! { #statements #name },
+                blocks: vec![],
+            };
+        }
         let refused = shape.checked().then(|| {
             let mutable = writer.pivots.then(|| quote! { mut });
             quote! { let #mutable refused = T::none_refused(); }
@@ -96,8 +109,13 @@ fn separate_block(
 ) -> (TokenStream, TokenStream) {
     let outputs = &function.blocks[b].outputs;
     let mut writer = Writer::new(function, naming, outputs);
+    let array = |values: &[TokenStream]| quote! { [#(#values),*] };
+    writer.entries = Entries::of_array(outputs, &array);
     let statements = writer.block(outputs, function);
-    let results = writer.results(outputs);
+    let result = match writer.entries.as_ref().is_some_and(Entries::begun) {
+        true => ident(entries::NAME).into_token_stream(),
+        false => array(&writer.results(outputs)),
+    };
     let read = leaves(&function.graph, outputs);
     let mut parameters = Vec::new();
     let mut arguments = Vec::new();
@@ -131,7 +149,7 @@ fn separate_block(
         #[inline(never)]
         fn #name(&self, #(#parameters),*) -> [T; #n] {
             #statements
-            [#(#results),*]
+            #result
         }
     };
     (block, quote! { self.#name(#(#arguments),*) })

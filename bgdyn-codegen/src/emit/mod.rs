@@ -4,6 +4,7 @@ mod body;
 mod code;
 mod columns;
 mod constants;
+mod entries;
 mod fallback;
 mod loops;
 mod names;
@@ -292,7 +293,8 @@ fn method(function: &Function, model: &Model) -> TokenStream {
     let finish =
         |values: &[TokenStream]| body::result(function.shape(), model.mechanism.nv(), values);
     let naming = code::Naming::of_model(model);
-    let body::Body { body, blocks } = body::body(function, &naming, finish);
+    let places = entries::places(function.shape(), model.mechanism.nv());
+    let body::Body { body, blocks } = body::body(function, &naming, places, finish);
     quote! {
         #(#[doc = #docs])*
         pub fn #name(&self, #(#names: #types),*) -> #result {

@@ -8,6 +8,7 @@ use quote::{format_ident, quote};
 
 use super::code::{Binding, Code, Naming, atom, leaves};
 use super::columns;
+use super::entries::{self, Entries};
 use super::names::Names;
 use super::sines::Pair;
 use super::{ident, number};
@@ -40,13 +41,15 @@ pub(super) struct Writer<'a> {
     separate: bool,
     constants: bool,
     pub(super) pivots: bool,
+    /// The result, where it is written entry by entry.
+    pub(super) entries: Option<Entries<'a>>,
 }
 
 impl<'a> Writer<'a> {
     pub(super) fn new(function: &'a Function, naming: &'a Naming<'a>, outputs: &[Expr]) -> Self {
         let graph = &function.graph;
         let mut names = Names::default();
-        let reserved = ["q", "v", "a", "tau", "k", "refused"];
+        let reserved = ["q", "v", "a", "tau", "k", "refused", entries::NAME];
         let of_scenes = ["state", "input", "acceleration", "t"];
         let of_scenes = of_scenes.iter().filter(|_| naming.layout.is_some());
         let arguments = function.method.arguments().iter().map(|a| a.name());
@@ -69,6 +72,7 @@ impl<'a> Writer<'a> {
             section: None,
             constants: false,
             pivots: false,
+            entries: None,
         };
         writer.count_uses(outputs, function.shape());
         writer
@@ -91,9 +95,14 @@ impl<'a> Writer<'a> {
     pub(super) fn block(&mut self, outputs: &[Expr], function: &Function) -> TokenStream {
         let arguments = self.arguments(function, &leaves(self.graph, outputs));
         for i in 0..self.needed.len() {
-            if self.needed[i] && self.code[i].is_none() {
-                self.node(NodeId(i as u32));
+            if !self.needed[i] {
+                continue;
             }
+            let id = NodeId(i as u32);
+            if self.code[i].is_none() {
+                self.node(id);
+            }
+            self.store(id);
         }
         let constants = self
             .constants
@@ -144,7 +153,7 @@ impl<'a> Writer<'a> {
                 None => return,
             },
             Node::Constant(c) => {
-                self.constants = true;
+                self.use_constants();
                 let value = number(c.value().to_f64());
                 atom(quote! { k(#value) })
             }
@@ -206,6 +215,16 @@ impl<'a> Writer<'a> {
         });
         self.section = section.or(self.section);
         self.statements.push(quote! { #title #statement });
+    }
+
+    /// Adds a statement that computes nothing, so that no section begins with it.
+    pub(super) fn push_untitled(&mut self, statement: TokenStream) {
+        self.statements.push(statement);
+    }
+
+    /// Has the function that makes constants bound.
+    pub(super) fn use_constants(&mut self) {
+        self.constants = true;
     }
 
     fn leaf(&self, leaf: Leaf) -> Option<Code> {

@@ -42,7 +42,7 @@ pub(super) fn method(function: &Function, scene: &SceneInterface) -> TokenStream
     let (layout, checked) = (&scene.layout, function.shape().checked());
     let finish = |values: &[TokenStream]| finish(role, layout, &parts, values, checked);
     let naming = Naming::of_scene(scene);
-    let body::Body { body, blocks } = body::body(function, &naming, finish);
+    let body::Body { body, blocks } = body::body(function, &naming, None, finish);
     let mut docs = vec![
         format!(" {}", role.summary()),
         String::new(),
