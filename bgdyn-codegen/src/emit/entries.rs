@@ -1,7 +1,7 @@
 //! Results of many entries, each written as soon as it is known.
 //!
 //! A result that is put together at the end is stored there as well, one entry after the other with
-//! nothing left to compute meanwhile: the mass matrix of a six-joint arm takes 6 to 8 % longer. So the
+//! nothing left to compute meanwhile: the mass matrix of a PUMA takes 5 % longer, in lanes 9 % (Zen 5). So the
 //! code begins with a whole result and writes over its entries as it gets to know them. What stands in
 //! them until then is the first entry: a value that is there, for compilers to drop as never read. (Of
 //! zeros they make a call that fills memory, and do not drop that.)
