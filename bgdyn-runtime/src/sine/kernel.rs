@@ -32,8 +32,9 @@ fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
     }
     let part = P::splat(middle);
     let Some(tail) = tail else {
-        // n times the middle part is exact. Its difference is, where the rest is smaller; where it is
-        // not, this is Dekker's sum, and `error` is what was rounded off.
+        // n times the middle part is exact, and there by the time the rest is: nothing is won by fusing.
+        // The difference is exact where the rest is smaller; where it is not, this is Dekker's sum, and
+        // `error` is what was rounded off.
         let taken = n * part;
         let difference = rest - taken;
         let error = (rest - difference) - taken;
@@ -65,6 +66,7 @@ pub(super) fn of_rest<P: Pack>(r: P, low: P) -> (P, P) {
     let small = (r * square).fused(s, halved.minus_product(low, low));
     let rounded = one - halved;
     let rest = (one - rounded) - halved;
+    // Not fused: `low` is late, and a difference is there sooner.
     let tiny = (square * square).fused(c, rest - r * low);
     (r + small, rounded + tiny)
 }
