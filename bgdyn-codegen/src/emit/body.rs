@@ -7,7 +7,7 @@ use quote::{ToTokens, format_ident, quote};
 
 use super::code::{Naming, is_part, leaves};
 use super::columns::columns;
-use super::entries::{self, Entries, Places};
+use super::entries::{Entries, Places};
 use super::ident;
 use super::loops;
 use super::writer::Writer;
@@ -38,10 +38,10 @@ pub(super) fn body(
             writer.entries = Entries::new(&block.outputs, places, &finish);
         }
         let statements = writer.block(&block.outputs, function);
-        if writer.entries.as_ref().is_some_and(Entries::begun) {
-            let name = ident(entries::NAME);
+        // Only of shapes that are returned unchecked.
+        if let Some(result) = writer.written() {
             return Body {
-                body: quote! { #statements #name },
+                body: quote! { #statements #result },
                 blocks: vec![],
             };
         }
@@ -112,9 +112,9 @@ fn separate_block(
     let array = |values: &[TokenStream]| quote! { [#(#values),*] };
     writer.entries = Entries::of_array(outputs, &array);
     let statements = writer.block(outputs, function);
-    let result = match writer.entries.as_ref().is_some_and(Entries::begun) {
-        true => ident(entries::NAME).into_token_stream(),
-        false => array(&writer.results(outputs)),
+    let result = match writer.written() {
+        Some(result) => result.into_token_stream(),
+        None => array(&writer.results(outputs)),
     };
     let read = leaves(&function.graph, outputs);
     let mut parameters = Vec::new();

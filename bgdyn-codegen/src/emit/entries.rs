@@ -1,12 +1,12 @@
 //! Results of many entries, each written as soon as it is known.
 //!
 //! A result that is put together at the end is stored there as well, one entry after the other with
-//! nothing left to compute meanwhile: the mass matrix of a PUMA takes 5 % longer, in lanes 9 % (Zen 5). So the
-//! code begins with a whole result and writes over its entries as it gets to know them. What stands in
+//! nothing left to compute meanwhile: so the mass matrix of a PUMA takes 5 % longer, in lanes 9 %
+//! (`docs/order.md`). The code begins with a whole result and writes over its entries as it gets to know them. What stands in
 //! them until then is the first entry: a value that is there, for compilers to drop as never read. (Of
 //! zeros they make a call that fills memory, and do not drop that.)
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::code::{Binding, atom};
@@ -33,6 +33,7 @@ pub(super) struct Entries<'a> {
     places: Places,
     /// The whole result from its outputs.
     whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
+    /// Whether any entry has been written.
     begun: bool,
 }
 
@@ -72,11 +73,6 @@ impl<'a> Entries<'a> {
             begun: false,
         })
     }
-
-    /// Whether any entry was written; if none was, all are constants.
-    pub(super) fn begun(&self) -> bool {
-        self.begun
-    }
 }
 
 /// Where the outputs of a function stand in its matrices; nothing for other results.
@@ -112,6 +108,12 @@ fn index(k: usize) -> Literal {
 }
 
 impl Writer<'_> {
+    /// The result, if it was written entry by entry; if not although it was to be, all are constants.
+    pub(super) fn written(&self) -> Option<Ident> {
+        let begun = self.entries.as_ref().is_some_and(|entries| entries.begun);
+        begun.then(|| format_ident!("{NAME}"))
+    }
+
     /// Writes a node that is known into the entries that it is.
     pub(super) fn store(&mut self, id: NodeId) {
         let Some(mut entries) = self.entries.take() else {
