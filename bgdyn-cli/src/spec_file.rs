@@ -9,6 +9,7 @@ use bgdyn_codegen::model::{
     Options, Refusal, Unknown, beside, formulation_named, preference_named, read_scene, stem,
 };
 use bgdyn_codegen::system::System;
+use bgdyn_codegen::verify::explain;
 use clap::Args;
 
 use crate::output::tell;
@@ -72,6 +73,7 @@ impl SpecFile {
                 tell(&faults.render(&file.display().to_string(), &text));
                 anyhow!("{} has {}", file.display(), faults.tally())
             }
+            Refusal::Unequal(differences) => anyhow!("{shown}: {}", explain(&differences)),
             Refusal::Options(names) => unknown(names).into(),
         }
     }

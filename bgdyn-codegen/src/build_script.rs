@@ -27,6 +27,7 @@ use crate::emit::{Place, source_text};
 use crate::fault::{Faults, Severity};
 use crate::model::{Options, Refusal, beside, generate_file, stem};
 use crate::options::{formulation_named, preference_named};
+use crate::verify::explain;
 
 /// Writes the module of a spec to `OUT_DIR`: [`Build`] with nothing asked for in particular.
 ///
@@ -135,6 +136,13 @@ impl Build {
         self
     }
 
+    /// Whether the generated functions are compared with equation (6) before they are written, which
+    /// they are by default: [`Options::verify`].
+    pub fn verify(mut self, wanted: bool) -> Self {
+        self.options.verify = wanted;
+        self
+    }
+
     /// Another name for the module than the file's stem. The struct keeps the stem's.
     pub fn module(mut self, name: &str) -> Self {
         self.module = Some(name.into());
@@ -232,6 +240,7 @@ impl Build {
                 let shown = beside(&self.spec, &path).display().to_string();
                 format!("{}\n{}", faults.render(&shown, &text), faults.tally())
             }
+            Refusal::Unequal(differences) => format!("{shown}: {}", explain(&differences)),
             Refusal::Options(unknown) => {
                 let lines = unknown.iter().map(|u| format!("{shown}: {u}"));
                 lines.collect::<Vec<_>>().join("\n")

@@ -33,6 +33,7 @@ mod read;
 pub mod scene;
 pub mod spec;
 pub mod system;
+pub mod verify;
 
 #[cfg(feature = "source")]
 pub use build_script::{Build, build};

@@ -20,6 +20,7 @@ pub use crate::options::{
 use crate::scene;
 use crate::spec::{is_scene, parse_scene};
 use crate::system::System;
+use crate::verify::{Difference, check_functions, check_scene};
 
 /// A mechanism with the functions generated for it.
 pub struct Model {
@@ -163,6 +164,8 @@ pub enum Refusal {
     },
     /// Names asked for that the mechanism does not have, options that have no place here.
     Options(Vec<Unknown>),
+    /// Functions that do not equal equation (6): a fault of the generator.
+    Unequal(Vec<Difference>),
 }
 
 /// From a spec's text to the tokens of its module, with warnings if there are any. `stem` is the
@@ -181,6 +184,10 @@ pub fn generate(
         return Err(Refusal::Spec(findings));
     };
     let model = Model::new(mechanism, options).map_err(Refusal::Options)?;
+    if options.verify {
+        let name = model.mechanism.name();
+        equal(check_functions(name, &model.bond_graph, &model.functions))?;
+    }
     Ok((emit::module(&model, place), findings))
 }
 
@@ -205,7 +212,17 @@ pub fn generate_file(
         return Err(Refusal::Options(misplaced));
     }
     let functions = scene_functions(&system, options);
+    if options.verify {
+        equal(check_scene(&system, &functions))?;
+    }
     Ok((emit::scene_module(&system, &functions, place), findings))
+}
+
+fn equal(differences: Vec<Difference>) -> Result<(), Refusal> {
+    match differences.is_empty() {
+        true => Ok(()),
+        false => Err(Refusal::Unequal(differences)),
+    }
 }
 
 /// The module of a refused spec, or of one that could not be read (`text` is empty then): all a

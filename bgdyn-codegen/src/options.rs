@@ -18,7 +18,7 @@ pub const DYNAMICS: &str = "dynamics";
 /// What the caller asks for. Where nothing is asked for: every method of the trait `Dynamics`, the
 /// Coriolis matrix of mechanisms with up to 16 velocities, and the four methods of each named frame
 /// and tip.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Options {
     /// The formulation to use for every method; the cheapest of each where `None`.
     pub formulation: Option<&'static dyn Formulation>,
@@ -37,6 +37,24 @@ pub struct Options {
     /// The links and frames whose pose, velocity, Jacobian and J̇ v are wanted. Where `None`, none
     /// if methods are asked for by name, else the named frames and the tips.
     pub frames: Option<Vec<String>>,
+    /// Whether the generated functions are compared with equation (6) before they are written out:
+    /// [`crate::verify`].
+    pub verify: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            formulation: None,
+            prefer: Preference::default(),
+            derivatives: false,
+            jacobian: false,
+            canonical: false,
+            methods: None,
+            frames: None,
+            verify: true,
+        }
+    }
 }
 
 /// What the choice among several ways to a method goes by.

@@ -9,8 +9,7 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
 /// The options there are.
-const KNOWN: &str =
-    "canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, visibility";
+const KNOWN: &str = "canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, verify, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
@@ -126,6 +125,7 @@ impl Input {
                     Err(message) => self.refuse(value.span(), message),
                 }
             }
+            "verify" => self.options.verify = input.parse::<LitBool>()?.value,
             "visibility" => self.visibility = visibility(input)?,
             _ => {
                 let message = format!("unknown option `{option}`; known: {KNOWN}");

@@ -11,6 +11,7 @@ use std::path::Path;
 
 use bgdyn_codegen::emit::Place;
 use bgdyn_codegen::model::{self, Refusal};
+use bgdyn_codegen::verify::explain;
 use proc_macro::TokenStream;
 use quote::quote;
 
@@ -38,6 +39,7 @@ use input::Input;
 /// | `canonical = true` | of a scene: momenta in place of velocities, and the trait `Canonical`, likewise |
 /// | `formulation = "literal"` | one formulation for every method instead of the cheapest of each |
 /// | `prefer = "accuracy"` | for each method the formulation that loses the fewest digits in `f64`, instead of the cheapest; `"operations"` is the default |
+/// | `verify = false` | leaves out the comparison of the generated functions with equation (6) |
 /// | `module = left_arm` | another name for the module; the struct keeps the file's |
 /// | `visibility = pub(crate)` | of the module, instead of `pub` |
 ///
@@ -115,6 +117,10 @@ fn module(
         }) => {
             let message = faults.render(&mechanism, &its_text);
             Err(refused(message.trim_end().to_string(), &text, &place))
+        }
+        Err(Refusal::Unequal(differences)) => {
+            let message = format!("bgdyn: {written}: {}", explain(&differences));
+            Err(refused(message, &text, &place))
         }
         Err(Refusal::Options(unknown)) => Err(Refused {
             errors: unknown.iter().map(|u| input.error(u)).collect(),

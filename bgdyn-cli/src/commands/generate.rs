@@ -34,13 +34,17 @@ pub(crate) struct Generate {
     /// The path by which the including crate reaches bgdyn
     #[arg(long = "crate", value_name = "PATH", default_value = "::bgdyn")]
     bgdyn: String,
+    /// Do not compare the functions with equation (6)
+    #[arg(long)]
+    no_verify: bool,
     #[command(flatten)]
     asked: Asked,
 }
 
 impl Generate {
     pub(crate) fn run(self) -> Result<()> {
-        let (options, place) = (self.asked.options()?, self.place().map_err(Usage)?);
+        let (mut options, place) = (self.asked.options()?, self.place().map_err(Usage)?);
+        options.verify = !self.no_verify;
         let spec = SpecFile::open(&self.file)?;
         let load = |path: &str| spec.load(path);
         let (tokens, warnings) = generate_file(&spec.text, &spec.stem, &place, &options, load)

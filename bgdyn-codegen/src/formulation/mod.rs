@@ -58,6 +58,11 @@ pub static FORMULATIONS: [&dyn Formulation; 6] = [
     &recursion::Articulated::Base,
 ];
 
+/// The literal sum of equation (6), which every other formulation must equal.
+pub fn specification() -> &'static dyn Formulation {
+    &literal::Literal
+}
+
 /// The formulation with this name.
 pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
     FORMULATIONS.into_iter().find(|f| f.name() == name)

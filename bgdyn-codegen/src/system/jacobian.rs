@@ -196,6 +196,6 @@ impl System {
     /// The laws under those inputs.
     pub(super) fn laws_under_driven_inputs<'g, 'a>(&'a self, b: &'g Builder) -> Laws<'g, 'a> {
         let inputs = || self.driven_inputs(b);
-        Laws::under(b, &self.scene, &self.graph, Own::Inputs, inputs)
+        Laws::under(b, &self.scene, (&self.graph, None), Own::Inputs, inputs)
     }
 }

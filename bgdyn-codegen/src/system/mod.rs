@@ -10,6 +10,7 @@ mod dynamics;
 mod jacobian;
 mod laws;
 mod range;
+mod reference;
 mod signals;
 mod slope;
 

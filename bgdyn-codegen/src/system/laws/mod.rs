@@ -130,19 +130,30 @@ pub struct Laws<'g, 'a> {
 impl<'g, 'a> Laws<'g, 'a> {
     /// Every law of the scene, summed.
     pub(super) fn new(b: &'g Builder, scene: &'a Scene, graph: &'a BondGraph, own: Own) -> Self {
+        Laws::by(b, scene, graph, own, None)
+    }
+
+    /// The same, with the mechanism's own methods by this formulation.
+    pub(super) fn by(
+        b: &'g Builder,
+        scene: &'a Scene,
+        graph: &'a BondGraph,
+        own: Own,
+        asked: Option<&'static dyn Formulation>,
+    ) -> Self {
         let input = |(i, part): (usize, &crate::scene::Part)| match part.drives {
             Some(_) if own != Own::Inputs => b.zero(),
             _ => b.leaf(Leaf::Input(i)),
         };
         let inputs = || scene.layout.inputs.iter().enumerate().map(input).collect();
-        Laws::under(b, scene, graph, own, inputs)
+        Laws::under(b, scene, (graph, asked), own, inputs)
     }
 
     /// The same under these inputs.
     pub(super) fn under(
         b: &'g Builder,
         scene: &'a Scene,
-        graph: &'a BondGraph,
+        (graph, asked): (&'a BondGraph, Option<&'static dyn Formulation>),
         own: Own,
         inputs: impl FnOnce() -> Vec<Ex<'g>>,
     ) -> Self {
@@ -162,7 +173,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             v: leaves(layout.nv(), Leaf::Velocity),
             t: b.leaf(Leaf::Time),
             own,
-            asked: None,
+            asked,
             scene,
             graph,
             x: leaves(layout.nx(), Leaf::State),

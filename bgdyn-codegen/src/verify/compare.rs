@@ -1,0 +1,143 @@
+//! Comparing results, and writing down where they differ.
+
+use bgdyn_runtime::Dd;
+
+use super::Difference;
+use crate::expr::Inputs;
+use crate::function::Function;
+
+/// Half a step of a central difference: its error is h² ≈ 1e-18 of the function's third
+/// derivative, its rounding 1e-32 / h.
+const HALF_STEP: f64 = 1e-9;
+
+/// Allowed for values that both sides compute in double-double.
+pub(super) const EXACT: f64 = 1e-18;
+
+/// Allowed for what a central difference gives.
+pub(super) const DIFFERENCED: f64 = 1e-11;
+
+/// Allowed for accelerations put back into the equations of motion: the solution loses digits
+/// with the condition number of the mass matrix.
+pub(super) const SOLVED: f64 = 1e-12;
+
+/// What a result must obey, and how closely.
+pub(super) struct Law {
+    /// In words or as a formula.
+    pub text: &'static str,
+    /// Error allowed, relative to the largest number on either side.
+    pub allowed: f64,
+}
+
+/// Compares what a function gives with what it must give. `size` is the size of the terms that may
+/// cancel in them.
+pub(super) fn differs(
+    (subject, function): (&str, &Function),
+    law: &Law,
+    (found, expected): (&[Dd], &[Dd]),
+    size: f64,
+    at: &Inputs<Dd>,
+) -> Option<Difference> {
+    debug_assert_eq!(
+        found.len(),
+        expected.len(),
+        "{}: {}",
+        function.name,
+        law.text
+    );
+    let size = largest(found).max(largest(expected)).max(size);
+    let off = |i: usize| (found[i] - expected[i]).to_f64().abs();
+    // A NaN is the worst of all.
+    let key = |i: &usize| {
+        if off(*i).is_nan() {
+            f64::INFINITY
+        } else {
+            off(*i)
+        }
+    };
+    let worst = (0..found.len()).max_by(|i, k| key(i).total_cmp(&key(k)))?;
+    if off(worst) <= law.allowed * size {
+        return None;
+    }
+    Some(Difference {
+        subject: subject.to_owned(),
+        function: function.name.clone(),
+        formulation: function.formulation.clone(),
+        law: law.text,
+        component: worst,
+        found: found[worst].to_f64(),
+        expected: expected[worst].to_f64(),
+        state: state(at),
+    })
+}
+
+/// The largest magnitude; infinity where there is a NaN.
+pub(super) fn largest(x: &[Dd]) -> f64 {
+    x.iter().fold(0.0, |most: f64, x| {
+        let size = x.to_f64().abs();
+        if size.is_nan() {
+            f64::INFINITY
+        } else {
+            most.max(size)
+        }
+    })
+}
+
+/// x + h d and x − h d for the step of central differences.
+pub(super) fn beside(x: &[Dd], direction: &[Dd], side: f64) -> Vec<Dd> {
+    let h = Dd::from_f64(side * HALF_STEP);
+    let moved = x.iter().zip(direction);
+    moved.map(|(&x, &d)| x + h * d).collect()
+}
+
+/// The central difference of two results.
+pub(super) fn slope(above: &[Dd], below: &[Dd]) -> Vec<Dd> {
+    let step = Dd::from_f64(2.0 * HALF_STEP);
+    let pairs = above.iter().zip(below);
+    pairs.map(|(&a, &b)| (a - b) / step).collect()
+}
+
+/// x − y
+pub(super) fn minus(x: &[Dd], y: &[Dd]) -> Vec<Dd> {
+    x.iter().zip(y).map(|(&x, &y)| x - y).collect()
+}
+
+/// x + y
+pub(super) fn plus(x: &[Dd], y: &[Dd]) -> Vec<Dd> {
+    x.iter().zip(y).map(|(&x, &y)| x + y).collect()
+}
+
+/// Σ x_i y_i
+pub(super) fn dot(x: &[Dd], y: &[Dd]) -> Dd {
+    let products = x.iter().zip(y).map(|(&x, &y)| x * y);
+    products.fold(Dd::ZERO, |sum, p| sum + p)
+}
+
+/// A matrix, given row by row, times a vector of `columns` numbers.
+pub(super) fn times(matrix: &[Dd], x: &[Dd]) -> Vec<Dd> {
+    matrix
+        .chunks(x.len().max(1))
+        .map(|row| dot(row, x))
+        .collect()
+}
+
+/// A state as a reader can type it again.
+fn state(at: &Inputs<Dd>) -> String {
+    let parts = [
+        ("q", &at.q),
+        ("v", &at.v),
+        ("a", &at.a),
+        ("x", &at.x),
+        ("u", &at.u),
+        ("modes", &at.modes),
+        ("parameters", &at.parameters),
+    ];
+    let mut text: Vec<String> = Vec::new();
+    for (name, values) in parts.into_iter().filter(|(_, values)| !values.is_empty()) {
+        let values: Vec<f64> = values.iter().map(|x| x.to_f64()).collect();
+        text.push(format!("{name} = {values:?}"));
+    }
+    if let Some(t) = at.t {
+        text.push(format!("t = {}", t.to_f64()));
+    }
+    text.join(", ")
+}

@@ -1,0 +1,69 @@
+//! The generator checks its own work: each function is evaluated in double-double at a few states
+//! and compared with the literal sum of equation (6).
+//!
+//! The literal inverse dynamics P(q, v, a) is enough for almost every method, since the others
+//! follow from it: M x = P(q, 0, x) − P(q, 0, 0), P(q, v, q̈) = τ for the accelerations of forward
+//! dynamics, derivatives by central differences. States are the same in every run.
+
+mod compare;
+mod mechanism;
+mod scene;
+mod states;
+
+use std::fmt;
+
+pub use mechanism::check_functions;
+pub use scene::check_scene;
+
+/// A function that does not give what the literal sum gives: a fault of the generator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Name of the mechanism or the scene.
+    pub subject: String,
+    /// Name of the function.
+    pub function: String,
+    /// The formulation it is made by.
+    pub formulation: String,
+    /// What it must obey.
+    pub law: &'static str,
+    /// The component of the law that is worst.
+    pub component: usize,
+    /// Its value, SI units.
+    pub found: f64,
+    /// What it must be, SI units.
+    pub expected: f64,
+    /// The state in which it was found, SI units.
+    pub state: String,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Difference {
+            subject,
+            function,
+            formulation,
+            law,
+            component,
+            found,
+            expected,
+            state,
+        } = self;
+        write!(
+            f,
+            "`{function}` of `{subject}`, made by the formulation `{formulation}`, does not obey \
+             {law}: component {component} is {found:e}, not {expected:e}, at {state}"
+        )
+    }
+}
+
+/// What a user reads where functions differ: every difference, and the way out.
+pub fn explain(differences: &[Difference]) -> String {
+    let mut text = String::from("error[verify]: the generated code does not equal equation (6)\n");
+    for difference in differences {
+        text += &format!("  {difference}\n");
+    }
+    text += "  = help: this is a mistake in the generator, not in the file. Please report the file. \
+             The option `formulation = \"literal\"` generates a mechanism by equation (6) as it is \
+             written; `verify = false` skips this check";
+    text
+}

@@ -1,0 +1,247 @@
+//! The functions of a scene against its equations of motion, its balance of power, and each other.
+
+use bgdyn_runtime::Dd;
+
+use super::Difference;
+use super::compare::{
+    DIFFERENCED, EXACT, Law, SOLVED, beside, differs, largest, minus, plus, slope,
+};
+use super::states::{Random, of_scene};
+use crate::expr::Inputs;
+use crate::function::Function;
+use crate::method::{Method, Role};
+use crate::system::System;
+
+/// Compares functions of a scene at two or three states, or at one beyond ten coordinates: the
+/// derivative and the inverse with the literal sum under the scene's laws, the power with zero, the
+/// Jacobian and the canonical form with central differences. At most one difference for each
+/// function. Energies, events, inputs and outputs are read by the others or stand for themselves.
+pub fn check_scene(system: &System, functions: &[Function]) -> Vec<Difference> {
+    let held = system.mode_coordinates();
+    let scene = Checked {
+        system,
+        functions,
+        sides: system.both_sides(),
+        inverse: system.literal_inverse(),
+        held,
+    };
+    let states = of_scene(system);
+    let found = functions.iter().filter_map(|function| {
+        let Method::Scene(role) = function.method else {
+            return None;
+        };
+        states.iter().find_map(|at| scene.check(role, function, at))
+    });
+    found.collect()
+}
+
+struct Checked<'a> {
+    system: &'a System,
+    functions: &'a [Function],
+    /// P, E and ẋ at given accelerations.
+    sides: Function,
+    /// The own efforts behind given accelerations.
+    inverse: Function,
+    /// The coordinate that each mode may hold.
+    held: Vec<usize>,
+}
+
+/// Time by itself counts as one more part of the state.
+struct Motion {
+    q: Vec<Dd>,
+    v: Vec<Dd>,
+    x: Vec<Dd>,
+    t: Dd,
+}
+
+impl Checked<'_> {
+    fn check(&self, role: Role, function: &Function, at: &Inputs<Dd>) -> Option<Difference> {
+        let (found, refused) = function.evaluate(at.clone());
+        if refused.is_some() {
+            return None;
+        }
+        match role {
+            Role::Derivative => self.derivative(function, at, &found),
+            Role::Inverse => {
+                let expected = self.inverse.evaluate(at.clone()).0;
+                let text = "own efforts = P(q, v, a) − E";
+                self.compare(function, (text, EXACT), (&found, &expected), 0.0, at)
+            }
+            Role::Power => self.power(function, at, &found),
+            Role::Jacobian => self.jacobian(function, at, &found),
+            Role::ToCanonical => self.momenta(function, at, &found),
+            Role::FromCanonical => {
+                let (found, _) = function.evaluate(self.canonical(at)?);
+                let text = "velocities of the momenta of v = v";
+                self.compare(function, (text, SOLVED), (&found, &at.v), 0.0, at)
+            }
+            Role::CanonicalRates => self.canonical_rates(function, at),
+            Role::Inputs | Role::Events | Role::Contacts | Role::Energy | Role::Outputs => None,
+        }
+    }
+
+    fn compare(
+        &self,
+        function: &Function,
+        (text, allowed): (&'static str, f64),
+        sides: (&[Dd], &[Dd]),
+        size: f64,
+        at: &Inputs<Dd>,
+    ) -> Option<Difference> {
+        let law = Law { text, allowed };
+        differs((&self.system.scene.name, function), &law, sides, size, at)
+    }
+
+    fn function(&self, role: Role) -> Option<&Function> {
+        let wanted = Method::Scene(role);
+        self.functions.iter().find(|f| f.method == wanted)
+    }
+
+    /// P = E on every coordinate that is free, and the rates ẋ.
+    fn derivative(&self, function: &Function, at: &Inputs<Dd>, rates: &[Dd]) -> Option<Difference> {
+        let nv = self.system.scene.layout.nv();
+        let (accelerations, first_order) = rates.split_at(nv);
+        let sides = self.sides_at(accelerations, at);
+        // What the accelerations cancel counts as well.
+        let still = self.sides_at(&vec![Dd::ZERO; nv], at);
+        let (inertial, rest) = sides.split_at(nv);
+        let (efforts, expected) = rest.split_at(nv);
+        let free: Vec<usize> = (0..nv).filter(|j| !self.holds(*j, at)).collect();
+        let pick = |all: &[Dd]| -> Vec<Dd> { free.iter().map(|&j| all[j]).collect() };
+        let text = "P(q, v, v̇) = E on free coordinates";
+        let size = largest(&still[..2 * nv]).max(largest(inertial));
+        let pair = (&pick(inertial)[..], &pick(efforts)[..]);
+        self.compare(function, (text, SOLVED), pair, size, at)
+            .or_else(|| {
+                let law = ("the rates of its effects' laws", EXACT);
+                self.compare(function, law, (first_order, expected), 0.0, at)
+            })
+    }
+
+    /// P, E and ẋ at these accelerations.
+    fn sides_at(&self, accelerations: &[Dd], at: &Inputs<Dd>) -> Vec<Dd> {
+        let a = accelerations.to_vec();
+        self.sides.evaluate(Inputs { a, ..at.clone() }).0
+    }
+
+    /// Whether a mode holds the coordinate in this state.
+    fn holds(&self, coordinate: usize, at: &Inputs<Dd>) -> bool {
+        let modes = self.held.iter().zip(&at.modes);
+        modes
+            .filter(|(j, _)| **j == coordinate)
+            .any(|(_, mode)| mode.to_f64().abs() < 0.5)
+    }
+
+    /// Σ supplied = Σ d(stored)/dt + Σ dissipated. Only where no joint is held: a held joint's rate
+    /// is its counterpart's, which a state at random does not know.
+    fn power(&self, function: &Function, at: &Inputs<Dd>, entries: &[Dd]) -> Option<Difference> {
+        if at.modes.iter().any(|mode| *mode == Dd::ZERO) {
+            return None;
+        }
+        let sum = |k: usize| {
+            let column = entries.iter().skip(k).step_by(3);
+            column.fold(Dd::ZERO, |sum, &x| sum + x)
+        };
+        let (supplied, used) = ([sum(0)], [sum(1) + sum(2)]);
+        let text = "Σ supplied = Σ d(stored)/dt + Σ dissipated";
+        let size = largest(entries);
+        self.compare(function, (text, SOLVED), (&supplied, &used), size, at)
+    }
+
+    /// The Jacobian along a random direction of (q, v, x, t), by a central difference of the
+    /// derivative under the inputs that the scene drives.
+    fn jacobian(&self, function: &Function, at: &Inputs<Dd>, columns: &[Dd]) -> Option<Difference> {
+        let mut random = Random(13);
+        let (nq, nv, nx) = (at.q.len(), at.v.len(), at.x.len());
+        let along = Motion {
+            q: random.direction(nq),
+            v: random.direction(nv),
+            // Volumes of fluid and deflections of bristles are small: steps as large as they are.
+            x: at.x.iter().map(|&x| x * random.unit()).collect(),
+            t: random.unit(),
+        };
+        let above = self.rates(&moved(at, &along, 1.0))?;
+        let below = self.rates(&moved(at, &along, -1.0))?;
+        let expected = slope(&above, &below);
+        let direction = along.q.iter().chain(&along.v).chain(&along.x);
+        let direction = direction.chain(std::iter::once(&along.t));
+        let columns = columns.chunks((nv + nx).max(1)).zip(direction);
+        let mut found = vec![Dd::ZERO; nv + nx];
+        for (column, &d) in columns {
+            found = plus(&found, &column.iter().map(|&x| x * d).collect::<Vec<_>>());
+        }
+        let text = "dẏ = ∂ẏ/∂y dy + ∂ẏ/∂t dt";
+        let pair = (&found[..], &expected[..]);
+        self.compare(function, (text, DIFFERENCED), pair, largest(&above), at)
+    }
+
+    /// v̇ and ẋ under the inputs that the scene drives.
+    fn rates(&self, at: &Inputs<Dd>) -> Option<Vec<Dd>> {
+        let derivative = self.function(Role::Derivative)?;
+        let (rates, refused) = derivative.evaluate(self.driven(at));
+        refused.is_none().then_some(rates)
+    }
+
+    /// The same state under the inputs that the scene drives.
+    fn driven(&self, at: &Inputs<Dd>) -> Inputs<Dd> {
+        let mut at = at.clone();
+        if let Some(inputs) = self.function(Role::Inputs) {
+            at.u = inputs.evaluate(at.clone()).0;
+        }
+        at
+    }
+
+    /// p = M v
+    fn momenta(&self, function: &Function, at: &Inputs<Dd>, found: &[Dd]) -> Option<Difference> {
+        let nv = at.v.len();
+        let moved = self.sides_at(&at.v, at);
+        let still = self.sides_at(&vec![Dd::ZERO; nv], at);
+        let expected = minus(&moved[..nv], &still[..nv]);
+        let text = "p = P(q, v, v) − P(q, v, 0)";
+        let size = largest(&still[..nv]);
+        self.compare(function, (text, EXACT), (found, &expected), size, at)
+    }
+
+    /// The same state with momenta in place of velocities.
+    fn canonical(&self, at: &Inputs<Dd>) -> Option<Inputs<Dd>> {
+        let momenta = self.function(Role::ToCanonical)?.evaluate(at.clone()).0;
+        Some(Inputs {
+            v: momenta,
+            ..at.clone()
+        })
+    }
+
+    /// q̇, ṗ and ẋ: ṗ by a central difference of the momenta along the motion.
+    fn canonical_rates(&self, function: &Function, at: &Inputs<Dd>) -> Option<Difference> {
+        let (found, refused) = function.evaluate(self.canonical(at)?);
+        let rates = self.rates(at)?;
+        if refused.is_some() {
+            return None;
+        }
+        let (nq, nv) = (at.q.len(), at.v.len());
+        let along = Motion {
+            q: at.v[..nq].to_vec(),
+            v: rates[..nv].to_vec(),
+            x: rates[nv..].to_vec(),
+            t: Dd::ONE,
+        };
+        let side = |s: f64| Some(self.canonical(&moved(at, &along, s))?.v);
+        let momentum_rates = slope(&side(1.0)?, &side(-1.0)?);
+        let expected = [&along.q[..], &momentum_rates, &along.x].concat();
+        let text = "rates of q, p and x along the motion";
+        let pair = (&found[..], &expected[..]);
+        self.compare(function, (text, DIFFERENCED), pair, 0.0, at)
+    }
+}
+
+/// The state beside this one.
+fn moved(at: &Inputs<Dd>, along: &Motion, side: f64) -> Inputs<Dd> {
+    let t = at.t.unwrap_or(Dd::ZERO);
+    Inputs {
+        q: beside(&at.q, &along.q, side),
+        v: beside(&at.v, &along.v, side),
+        x: beside(&at.x, &along.x, side),
+        t: beside(&[t], &[along.t], side).first().copied(),
+        ..at.clone()
+    }
+}

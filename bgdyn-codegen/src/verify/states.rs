@@ -1,0 +1,105 @@
+//! The states in which functions are compared.
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::BondGraph;
+use crate::expr::Inputs;
+use crate::formulation::generic_states;
+use crate::loss::in_double_double;
+use crate::system::System;
+
+/// Coordinates up to which every state is tried.
+const SMALL: usize = 10;
+
+/// Which of the generic states are tried: slow, fast, under large efforts.
+const GENERIC: [usize; 3] = [0, 2, 3];
+
+/// SplitMix64: the same numbers on every machine.
+pub(super) struct Random(pub u64);
+
+impl Random {
+    /// In −1 … 1.
+    pub fn unit(&mut self) -> Dd {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let z = z ^ (z >> 31);
+        Dd::from_f64((z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+    }
+
+    /// A direction: numbers in −1 … 1.
+    pub fn direction(&mut self, n: usize) -> Vec<Dd> {
+        (0..n).map(|_| self.unit()).collect()
+    }
+
+    fn around(&mut self, start: &[Dd], size: f64) -> Vec<Dd> {
+        let size = Dd::from_f64(size);
+        start.iter().map(|&x| x + size * self.unit()).collect()
+    }
+}
+
+/// States of a mechanism: three, or one beyond ten coordinates. The first one has run-time
+/// parameters as the spec has them, the others have positive ones beside them.
+pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
+    let count = match graph.coordinates.len() {
+        0..=SMALL => GENERIC.len(),
+        _ => 1,
+    };
+    let generic = generic_states(graph);
+    let mut random = Random(7);
+    let chosen = GENERIC[..count].iter().enumerate().map(|(k, &i)| {
+        let mut state = in_double_double(&generic[i]);
+        if k > 0 || count == 1 {
+            vary(&mut state.parameters, &mut random);
+        }
+        state
+    });
+    chosen.collect()
+}
+
+/// Run-time parameters beside those given: larger by up to a half, and by up to a tenth of a unit,
+/// so that one that is zero in the file is tried as well.
+fn vary(parameters: &mut [Dd], random: &mut Random) {
+    for p in parameters {
+        let (part, more) = (random.unit(), random.unit());
+        *p = *p * (Dd::ONE + Dd::from_f64(0.5) * part * part) + Dd::from_f64(0.1) * more * more;
+    }
+}
+
+/// States of a scene near its start: all modes slipping, or some of them held.
+pub(super) fn of_scene(system: &System) -> Vec<Inputs<Dd>> {
+    let layout = &system.scene.layout;
+    let initial = &system.initial;
+    let count = match (layout.nv() <= SMALL, layout.modes.is_empty()) {
+        (false, _) => 1,
+        (true, true) => 2,
+        (true, false) => 3,
+    };
+    let state = |k: u64| {
+        let mut random = Random(100 + k);
+        let v = random.around(&initial.v, 1.0);
+        // First-order states differ in size: bristles, volumes of fluid, currents.
+        let x = initial.x.iter().map(|&x| {
+            let size = if x == Dd::ZERO { Dd::ONE } else { x };
+            x + Dd::from_f64(1e-3) * size * random.unit()
+        });
+        let x = x.collect();
+        let modes = layout.modes.iter().map(|_| {
+            let value = 1.5 * random.unit().to_f64();
+            let slips = if value < 0.0 { -1.0 } else { 1.0 };
+            Dd::from_f64(if k == 0 { slips } else { value.round() })
+        });
+        Inputs {
+            modes: modes.collect(),
+            q: random.around(&initial.q, 0.3),
+            v,
+            a: random.around(&vec![Dd::ZERO; layout.nv()], 3.0),
+            x,
+            u: random.around(&vec![Dd::ZERO; layout.inputs.len()], 2.0),
+            parameters: system.scene.parameters.iter().map(|p| p.default).collect(),
+            t: Some(random.unit() * random.unit()),
+            passed: vec![],
+        }
+    };
+    (0..count).map(state).collect()
+}

@@ -1,0 +1,285 @@
+//! The generator's check of its own work: every spec and every scene passes, and functions with a
+//! mistake of each known kind do not.
+
+use std::path::{Path, PathBuf};
+
+use bgdyn_codegen::bond_graph::{self, BondGraph, Gyrostat, Rotor};
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::formulation::{FORMULATIONS, Search};
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::mechanism::{LinkId, Mechanism, Value};
+use bgdyn_codegen::method::{Method, Role};
+use bgdyn_codegen::model::{Model, Options, beside, read_scene, scene_functions, stem};
+use bgdyn_codegen::system::System;
+use bgdyn_codegen::verify::{Difference, check_functions, check_scene, explain};
+use bgdyn_runtime::Dd;
+
+/// Files with this ending below a folder of the repository.
+fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .join(folder);
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let mut found: Vec<PathBuf> = paths
+        .filter(|path| path.display().to_string().ends_with(ending))
+        .collect();
+    found.sort();
+    assert!(!found.is_empty());
+    found
+}
+
+fn text(path: &Path) -> String {
+    std::fs::read_to_string(path).expect("a file")
+}
+
+fn mechanism(text: &str, name: &str) -> Mechanism {
+    let (mechanism, faults) = bgdyn_codegen::read(text, Some(name));
+    mechanism.unwrap_or_else(|| panic!("{}", faults.render(name, text)))
+}
+
+fn scene(text: &str, mechanism: &str) -> System {
+    let read = read_scene(text, "scene", |_| Ok(mechanism.to_owned()));
+    read.unwrap_or_else(|refusal| panic!("{refusal:?}")).0
+}
+
+fn all() -> Options {
+    Options {
+        derivatives: true,
+        ..Options::default()
+    }
+}
+
+/// Every function, scenes' Jacobian and canonical form with them.
+fn functions(system: &System) -> Vec<Function> {
+    let options = Options {
+        jacobian: true,
+        canonical: true,
+        ..Options::default()
+    };
+    scene_functions(system, &options)
+}
+
+#[test]
+fn every_spec_passes() {
+    let specs = files("specs", ".yaml");
+    for path in specs.iter().chain(&files("tests/golden/specs", ".yaml")) {
+        let mechanism = mechanism(&text(path), &stem(path));
+        let options = Options {
+            // Derivatives of long chains take a minute each.
+            derivatives: mechanism.nv() <= 10,
+            ..Options::default()
+        };
+        let model = Model::new(mechanism, &options).expect("a model");
+        let found = check_functions("spec", &model.bond_graph, &model.functions);
+        assert!(found.is_empty(), "{}: {}", path.display(), explain(&found));
+    }
+}
+
+#[test]
+fn every_scene_passes() {
+    for path in files("specs/scenes", ".yaml") {
+        let load = |mechanism: &str| Ok(text(&beside(&path, mechanism)));
+        let (system, _) = read_scene(&text(&path), &stem(&path), load).expect("a scene");
+        let found = check_scene(&system, &functions(&system));
+        assert!(found.is_empty(), "{}: {}", path.display(), explain(&found));
+    }
+}
+
+#[test]
+fn every_formulation_passes() {
+    let graph = bond_graph::build(&mechanism(ARM, "arm"));
+    for formulation in FORMULATIONS {
+        let search = Search::new(&graph, Some(formulation));
+        let methods = Method::possible(&graph.sites).into_iter();
+        let made = methods.filter_map(|m| search.function(m));
+        let made: Vec<Function> = made.map(|f| (*f).clone()).collect();
+        let found = check_functions("arm", &graph, &made);
+        assert!(found.is_empty(), "{}", explain(&found));
+    }
+}
+
+const ARM: &str = "\
+format: 1
+links:
+  - name: upper
+    joint: { name: shoulder, type: revolute, axis: z }
+    mass: 2
+    com: [0.2, 0, 0.03]
+    inertia: { xx: 0.01, yy: 0.05, zz: 0.05, xy: 0.002 }
+  - name: fore
+    parent: upper
+    joint: { name: elbow, type: revolute, axis: [0, 0.8, 0.6], origin: { xyz: [0.4, 0.02, 0] } }
+    mass: 1
+    com: [0.15, 0, 0]
+    inertia: { xx: 0.005, yy: 0.02, zz: 0.02 }
+  - name: hand
+    parent: fore
+    joint: { name: wrist, type: revolute, axis: x, origin: { xyz: [0.3, 0, 0] } }
+    mass: 0.5
+    com: [0.05, 0, 0.02]
+    inertia: { xx: 0.001, yy: 0.002, zz: 0.002 }
+";
+
+/// The arm with a full rotor of the elbow on this link.
+fn with_rotor(on: &str) -> System {
+    let text = format!(
+        "scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products, gravity, motor: \
+         {{ type: rotor, joint: elbow, inertia: 2e-4, ratio: 100, on: {on}, axis: [1, 2, 0.5] }}]\n"
+    );
+    scene(&text, ARM)
+}
+
+/// The functions found to differ from those of `right`, where they are made from a changed graph.
+fn found(right: &System, change: impl Fn(&mut BondGraph), roles: &[Role]) -> Vec<Difference> {
+    let mut wrong = right.clone();
+    change(&mut wrong.graph);
+    let mut mixed = functions(right);
+    for function in &mut mixed {
+        if roles
+            .iter()
+            .any(|role| function.method == Method::Scene(*role))
+        {
+            let Method::Scene(role) = function.method else {
+                unreachable!("chosen by its role")
+            };
+            *function = wrong.function(role);
+        }
+    }
+    check_scene(right, &mixed)
+}
+
+fn names(found: &[Difference]) -> Vec<&str> {
+    found.iter().map(|d| d.function.as_str()).collect()
+}
+
+/// A mass matrix that lacks what a full rotor has about the axis of its own joint: 2 N J e·z.
+#[test]
+fn a_rotor_left_out_of_the_mass_matrix_is_found() {
+    let right = with_rotor("hand");
+    let missing = |graph: &mut BondGraph| {
+        let own = graph.rotors[0].clone();
+        graph.rotors.push(Rotor {
+            carrier: None,
+            ratio: Value::Fixed(Dd::from_f64(-0.01)),
+            ..own
+        });
+    };
+    let differing = found(&right, missing, &[Role::Derivative, Role::ToCanonical]);
+    assert_eq!(
+        names(&differing),
+        ["derivative", "to_canonical"],
+        "{differing:?}"
+    );
+    let power = found(&right, missing, &[Role::Inverse]);
+    assert_eq!(names(&power), ["inverse"], "{power:?}");
+}
+
+/// A Jacobian that leaves full rotors out.
+#[test]
+fn a_rotor_left_out_of_the_jacobian_is_found() {
+    let right = with_rotor("upper");
+    let left_out = |graph: &mut BondGraph| graph.rotors[0].carrier = None;
+    let differing = found(&right, left_out, &[Role::Jacobian]);
+    assert_eq!(names(&differing), ["jacobian"], "{differing:?}");
+    let elsewhere = |graph: &mut BondGraph| {
+        let carrier = graph.rotors[0].carrier.clone().expect("a full rotor");
+        graph.rotors[0].carrier = Some(Gyrostat {
+            link: LinkId(1),
+            ..carrier
+        });
+    };
+    let differing = found(&right, elsewhere, &[Role::Jacobian, Role::Power]);
+    assert_eq!(names(&differing), ["power", "jacobian"], "{differing:?}");
+}
+
+/// Axes of a link that are not orthogonal, or point the other way.
+#[test]
+fn wrong_axes_are_found_in_every_method() {
+    let graph = bond_graph::build(&mechanism(ARM, "arm"));
+    for sheared in [false, true] {
+        let mut wrong = graph.clone();
+        let axes = &mut wrong.frames[1].origin.rotation.0;
+        match sheared {
+            // One part in 1e9 is below the digits of a printed value.
+            true => axes[2][1] = axes[2][1] + Dd::from_f64(1e-9),
+            false => axes.iter_mut().for_each(|row| row[2] = -row[2]),
+        }
+        let search = Search::new(&wrong, None);
+        let methods = Options::select(&all(), &wrong.sites, 3).expect("methods");
+        let made = methods.into_iter().filter_map(|m| search.function(m));
+        let made: Vec<Function> = made.map(|f| (*f).clone()).collect();
+        let differing = check_functions("arm", &graph, &made);
+        let differing = names(&differing);
+        for method in [
+            "inverse_dynamics",
+            "gravity",
+            "forward_dynamics",
+            "pose_hand",
+        ] {
+            assert!(
+                differing.contains(&method),
+                "{method} passes: {differing:?}"
+            );
+        }
+    }
+}
+
+/// Each method alone, with the sign of one of its outputs turned.
+#[test]
+fn a_turned_sign_is_found_in_every_method() {
+    let model = Model::new(mechanism(ARM, "arm"), &all()).expect("a model");
+    let state = |n: usize, from: f64| {
+        (0..n)
+            .map(|k| Dd::from_f64(from + 0.4 * k as f64))
+            .collect()
+    };
+    let inputs = Inputs {
+        q: state(3, 0.3),
+        v: state(3, -0.6),
+        a: state(3, 1.7),
+        u: state(3, -2.0),
+        ..Inputs::default()
+    };
+    for function in &model.functions {
+        let values = function.evaluate(inputs.clone()).0;
+        // The effort of gravity at the vertical shoulder is zero, or a rounding.
+        let sized = values
+            .iter()
+            .enumerate()
+            .filter(|(_, x)| x.to_f64().abs() > 1e-20);
+        for (k, _) in sized {
+            let mut wrong = function.clone();
+            let outputs = &mut wrong.blocks.last_mut().expect("a block").outputs;
+            outputs[k].negative = !outputs[k].negative;
+            let one = std::slice::from_ref(&wrong);
+            let differing = check_functions("arm", &model.bond_graph, one);
+            assert_eq!(
+                differing.len(),
+                1,
+                "{}, output {k} of {values:?}",
+                function.name
+            );
+        }
+    }
+}
+
+#[test]
+fn a_difference_names_all_that_is_needed_to_see_it() {
+    let graph = bond_graph::build(&mechanism(ARM, "arm"));
+    let mut function = (*Search::new(&graph, None)
+        .function(Method::Gravity)
+        .expect("one"))
+    .clone();
+    function.blocks[0].outputs[1].negative = !function.blocks[0].outputs[1].negative;
+    let message = explain(&check_functions("arm", &graph, &[function]));
+    for part in [
+        "`gravity` of `arm`",
+        "recursion",
+        "component 1",
+        "q = [",
+        "verify = false",
+    ] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+}
