@@ -18,13 +18,8 @@ pub(crate) trait Split: Scalar {
 
 /// What lanes and dual numbers need of the numbers they are made of.
 pub(crate) trait Float: Split {
-    /// Up to here, in radians, two terms of a Taylor series stand for a tail's sine and cosine.
-    const SMALL_TAIL: Self;
     /// A pivot must exceed this many times the terms it was subtracted from.
     const PIVOT_FLOOR: Self;
-
-    /// Sine and cosine of a + `tail` from those of a.
-    fn turn(sine_cosine: (Self, Self), tail: Self) -> (Self, Self);
 }
 
 /// The sum of `angles` and `offset`, rounded, and what the rounding leaves, but for a single angle;
@@ -68,7 +63,7 @@ pub(crate) fn exact_sum<T: Split>(
 }
 
 macro_rules! float_scalar {
-    ($float:ident, $small_tail:expr, $sqrt:path, $exp:path, $ln:path, $tanh:path) => {
+    ($float:ident, $sqrt:path, $exp:path, $ln:path, $tanh:path) => {
         impl Scalar for $float {
             type Mask = bool;
             type Refused = Option<usize>;
@@ -192,35 +187,10 @@ macro_rules! float_scalar {
         }
 
         impl Float for $float {
-            const SMALL_TAIL: Self = $small_tail;
             const PIVOT_FLOOR: Self = PIVOT_ULPS as $float * $float::EPSILON;
-
-            fn turn((s, c): (Self, Self), tail: Self) -> (Self, Self) {
-                if tail.abs() <= Self::SMALL_TAIL {
-                    // Adding the small correction last leaves its rounding as the only new error.
-                    (
-                        s + tail * (c - 0.5 * tail * s),
-                        c - tail * (s + 0.5 * tail * c),
-                    )
-                } else if tail.is_finite() {
-                    let (ds, dc) = sine::one(tail, None);
-                    (s * dc + c * ds, c * dc - s * ds)
-                } else {
-                    (s, c)
-                }
-            }
         }
     };
 }
 
-// Up to 2⁻¹⁸ (2⁻⁸), in radians, two terms of a Taylor series stand for the sine and cosine of a
-// tail: what they leave out, tail³/6, is less than a tenth of the spacing of the numbers above 1.
-float_scalar!(f64, 3.8e-6, libm::sqrt, libm::exp, libm::log, libm::tanh);
-float_scalar!(
-    f32,
-    3.9e-3,
-    root::single,
-    libm::expf,
-    libm::logf,
-    libm::tanhf
-);
+float_scalar!(f64, libm::sqrt, libm::exp, libm::log, libm::tanh);
+float_scalar!(f32, root::single, libm::expf, libm::logf, libm::tanhf);

@@ -193,6 +193,46 @@ fn errors_of_sums() {
     sums::<f32>(9);
 }
 
+/// Sums far beyond the limit of the branch-free path: of two angles, exact whatever is left of them;
+/// of three terms, but for |q|·eps².
+fn large_sums<T: Float>(seed: u64) {
+    let mut random = Random(seed);
+    for round in 0..40_000 {
+        let size = libm::exp2(33.0 + random.unit() * 20.0);
+        let [a, b, c] = [0, 1, 2].map(|_| T::of(random.unit() * size));
+        // In one round of two the angles all but cancel.
+        let b = if round % 2 == 0 {
+            b
+        } else {
+            T::of(random.unit() * 3.0 - a.wide())
+        };
+        for angles in [&[a, b][..], &[a, b, c]] {
+            let wide: Vec<Dd> = angles.iter().map(|x| Dd::from(x.wide())).collect();
+            let (sin, cos) = Dd::sin_cos_sum(&wide, (0.0, 0.0));
+            let (s, c) = T::sin_cos_sum(angles, (0.0, 0.0));
+            let largest = size * (angles.len() - 2) as f64;
+            let words = libm::scalbn(largest, 3 - 2 * T::DIGITS);
+            for (x, exact) in [(s, sin), (c, cos)] {
+                let off = (Dd::from(x.wide()) - exact).hi().abs();
+                // One unit, and the rounding of the sum.
+                let unit = off / units(x, exact).max(f64::MIN_POSITIVE);
+                assert!(
+                    off <= unit + words,
+                    "{} units at {:?}",
+                    units(x, exact),
+                    angles.iter().map(|x| x.wide()).collect::<Vec<_>>()
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn errors_of_large_sums() {
+    large_sums::<f64>(10);
+    large_sums::<f32>(11);
+}
+
 /// What is no angle has no sine, small ones are their own.
 #[test]
 fn ends_of_the_range() {

@@ -55,7 +55,7 @@ impl Turn {
         Self::of_word(x.hi).plus(Self::of_word(x.lo))
     }
 
-    fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         let mut sum = self;
         let mut carry = 0_u128;
         for i in (0..WORDS).rev() {

@@ -9,29 +9,31 @@ use crate::dd::{Turn, inverse_tau_digits};
 
 /// Scalars with an exact reduction.
 pub(crate) trait Large: Pack {
-    /// The quarter turn nearest to the finite angle, modulo 4, and the radians from there.
-    fn split(self) -> (u32, Self, Self);
+    /// The quarter turn nearest to the finite angle `self` + `tail`, modulo 4, and the radians from
+    /// there in two words.
+    fn split(self, tail: Self) -> (u32, Self, Self);
     /// n as [`Pack::turned`] takes it.
     fn quarters(n: u32) -> Self;
     /// Whether it is a number.
     fn finite(self) -> bool;
 }
 
-/// Sine and cosine of an angle of any size; NaN where it is none.
+/// Sine and cosine of `angle` + `tail`, of any size; NaN where the angle is none.
 #[cold]
 #[inline(never)]
-pub(super) fn sin_cos<T: Large>(angle: T) -> (T, T) {
+pub(super) fn sin_cos<T: Large>(angle: T, tail: T) -> (T, T) {
     if !angle.finite() {
         return (T::splat(f64::NAN), T::splat(f64::NAN));
     }
-    let (n, r, low) = angle.split();
+    let (n, r, low) = angle.split(tail);
     let (s, c) = of_rest(r, low);
     T::turned(T::quarters(n), s, c)
 }
 
 impl Large for f64 {
-    fn split(self) -> (u32, f64, f64) {
-        let (quarter, radians) = Turn::of_word(self).split();
+    fn split(self, tail: f64) -> (u32, f64, f64) {
+        let turn = Turn::of_word(self).plus(Turn::of_word(tail));
+        let (quarter, radians) = turn.split();
         (quarter as u32, radians.hi(), radians.lo())
     }
     fn quarters(n: u32) -> f64 {
@@ -48,22 +50,23 @@ const TAU: u64 = 0xc90f_daa2_2168_c234;
 const EIGHTH: u64 = 1 << 61;
 const QUARTER: u64 = 1 << 62;
 
+/// The finite angle x, less its whole turns, in units of 2⁻⁶⁴ turns. No `f32` comes closer than
+/// 2⁻³⁴ turns to a quarter turn, so that 64 digits leave 30.
+fn turn_of(x: f32) -> u64 {
+    let bits = x.to_bits();
+    let mantissa = u64::from(bits & 0x7f_ffff | 0x80_0000);
+    // |x| = mantissa · 2^exponent; what is smaller than a normal number is less than a unit here.
+    let exponent = ((bits >> 23) & 0xff) as i32 - 150;
+    let high = inverse_tau_digits(exponent).wrapping_mul(mantissa);
+    let low = (u128::from(inverse_tau_digits(exponent + 64)) * u128::from(mantissa)) >> 64;
+    let turn = high.wrapping_add(low as u64);
+    if x < 0.0 { turn.wrapping_neg() } else { turn }
+}
+
 /// In whole numbers and `f32` only: a controller without double precision has nothing else.
 impl Large for f32 {
-    fn split(self) -> (u32, f32, f32) {
-        let bits = self.to_bits();
-        let mantissa = u64::from(bits & 0x7f_ffff | 0x80_0000);
-        let exponent = ((bits >> 23) & 0xff) as i32 - 150;
-        // |x| = mantissa · 2^exponent. No f32 comes closer than 2⁻³⁴ turns to a quarter turn, so
-        // that 64 digits leave 30.
-        let high = inverse_tau_digits(exponent).wrapping_mul(mantissa);
-        let low = (u128::from(inverse_tau_digits(exponent + 64)) * u128::from(mantissa)) >> 64;
-        let turn = high.wrapping_add(low as u64);
-        let turn = if self < 0.0 {
-            turn.wrapping_neg()
-        } else {
-            turn
-        };
+    fn split(self, tail: f32) -> (u32, f32, f32) {
+        let turn = turn_of(self).wrapping_add(turn_of(tail));
         let shifted = turn.wrapping_add(EIGHTH);
         let (quarter, rest) = (shifted / QUARTER, (shifted % QUARTER).wrapping_sub(EIGHTH));
         let negative = rest >> 63 == 1;

@@ -3,7 +3,6 @@
 use core::ops::{Add, Mul, Neg, Sub};
 
 use super::large;
-use crate::float::Float;
 
 /// k₀ + k₁x + k₂x² + …, of either length that there is: read in a loop, the numbers are no constants
 /// to a compiler that saves space, and `f32` would be converted from `f64` when running.
@@ -175,7 +174,7 @@ macro_rules! scalar_pack {
             }
             #[cold]
             fn beyond(self, tail: Self) -> (Self, Self) {
-                <$float as Float>::turn(large::sin_cos(self), tail)
+                large::sin_cos(self, tail)
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {
