@@ -283,3 +283,13 @@ fn a_difference_names_all_that_is_needed_to_see_it() {
         assert!(message.contains(part), "{part}: {message}");
     }
 }
+
+/// Nothing moves, so there is nothing to compare but energies and poses.
+#[test]
+fn a_mechanism_without_coordinates_passes() {
+    let text = "format: 1\nlinks:\n  - name: post\n    joint: { type: fixed, origin: { xyz: [1, 2, 3] } }\n    \
+                mass: 2\n    com: [0.1, 0, 0.3]\n";
+    let model = Model::new(mechanism(text, "post"), &all()).expect("a model");
+    let found = check_functions("post", &model.bond_graph, &model.functions);
+    assert!(found.is_empty(), "{}", explain(&found));
+}

@@ -247,7 +247,7 @@ impl Subject<'_> {
         let [along_q, along_v, along_tau] = directions(n);
         let parts = [&along_q, &along_v, &along_tau]
             .into_iter()
-            .zip(matrices.chunks(n * n));
+            .zip(matrices.chunks((n * n).max(1)));
         let moved = parts.fold(vec![Dd::ZERO; n], |sum, (d, m)| plus(&sum, &times(m, d)));
         let side = |s: f64| {
             let (q, v) = (beside(&at.q, &along_q, s), beside(&at.v, &along_v, s));

@@ -135,7 +135,7 @@ impl Checked<'_> {
     /// Σ supplied = Σ d(stored)/dt + Σ dissipated. Only where no joint is held: a held joint's rate
     /// is its counterpart's, which a state at random does not know.
     fn power(&self, function: &Function, at: &Inputs<Dd>, entries: &[Dd]) -> Option<Difference> {
-        if at.modes.iter().any(|mode| *mode == Dd::ZERO) {
+        if at.modes.contains(&Dd::ZERO) {
             return None;
         }
         let sum = |k: usize| {
