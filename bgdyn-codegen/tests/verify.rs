@@ -202,7 +202,7 @@ fn wrong_axes_are_found_in_every_method() {
         let axes = &mut wrong.frames[1].origin.rotation.0;
         match sheared {
             // One part in 1e9 is below the digits of a printed value.
-            true => axes[2][1] = axes[2][1] + Dd::from_f64(1e-9),
+            true => axes[2][1] += Dd::from_f64(1e-9),
             false => axes.iter_mut().for_each(|row| row[2] = -row[2]),
         }
         let search = Search::new(&wrong, None);

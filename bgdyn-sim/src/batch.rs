@@ -103,12 +103,12 @@ where
     Y: AsRef<[Of<P::State>]> + AsMut<[Of<P::State>]> + Clone,
 {
     let see = |run: &Run<P, M>| look(run.plant(), run.t(), run.y(), run.modes());
+    let mut failure = run.settle().err();
     let mut last = see(&run);
     let (mut low, mut high) = (last.clone(), last.clone());
-    let mut failure = None;
     for _ in 0..course.steps {
-        if let Err(failed) = run.step(course.step) {
-            failure = Some(failed);
+        failure = failure.or_else(|| run.step(course.step).err());
+        if failure.is_some() {
             break;
         }
         last = see(&run);

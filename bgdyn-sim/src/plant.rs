@@ -107,6 +107,27 @@ pub trait Plant {
         fell: impl Fn(usize) -> bool,
     ) -> Result<(Self::State, Self::Modes), Self::Error>;
 
+    /// State and modes that agree with each other, the inputs and the parameters: what moves slips
+    /// the way it moves, what is at rest holds where it can. `rest` says up to which part of its
+    /// velocity a joint counts as at rest. Nothing where state and modes agree as they are, and for
+    /// plants whose modes need no such agreement.
+    ///
+    /// [`crate::Run`] asks for it at its beginning and after every change from outside.
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    #[expect(clippy::type_complexity, reason = "state and modes, where they change")]
+    fn settled(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+        rest: Time<Self>,
+    ) -> Result<Option<(Self::State, Self::Modes)>, Self::Error> {
+        let _ = (t, y, modes, rest);
+        Ok(None)
+    }
+
     /// Nothing, for every entry of the balance of power.
     fn nothing(&self) -> Self::Entries;
 

@@ -35,7 +35,25 @@ type Proposed<P, M> = Proposal<<P as Plant>::State, <M as Method<<P as Plant>::S
 /// Events within one call of [`Run::step`] at the most.
 const EVENTS: usize = 64;
 
+/// A joint that is held while a run goes on drifts by the errors of the method: it counts as at rest
+/// up to this part of its velocity.
+const DRIFT: f64 = 1e-6;
+
+/// Whether modes agree with the state, the inputs and the parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Agreement {
+    /// Nothing has looked yet: a run that begins.
+    Unknown,
+    /// Inputs or parameters may have changed since.
+    Disturbed,
+    /// They do.
+    Settled,
+}
+
 /// A run of a plant by a method; [`Rk4`] where nothing else is said.
+///
+/// Modes are settled when the run begins and after [`Run::plant_mut`]: a joint that moves slips, one
+/// at rest holds where it can, whatever the modes it begins with say.
 ///
 /// A step ends at an event and goes on from there: at a change of a mode with the state after it, at
 /// a kink so that the method keeps its order. Where a step fails the run stays at the last good
@@ -56,6 +74,7 @@ pub struct Run<P: Plant, M: Method<P::State> = Rk4> {
     pub kinks: usize,
     /// Events that followed each other in next to no time.
     crowded: usize,
+    agreement: Agreement,
 }
 
 /// How many events a call may still meet.
@@ -116,6 +135,7 @@ where
             last_event: Time::<P>::from_f64(0.0),
             kinks: 0,
             crowded: 0,
+            agreement: Agreement::Unknown,
         }
     }
 
@@ -165,9 +185,13 @@ where
         &self.plant
     }
 
-    /// The plant, to change its given inputs or its parameters.
+    /// The plant, to change its given inputs or its parameters. Modes are settled before the next
+    /// step.
     pub fn plant_mut(&mut self) -> &mut P {
         self.solver.forget();
+        if self.agreement == Agreement::Settled {
+            self.agreement = Agreement::Disturbed;
+        }
         &mut self.plant
     }
 
@@ -181,6 +205,34 @@ where
             plant: &self.plant,
             modes: &self.modes,
         }
+    }
+
+    /// Settles the modes now, where the next step would: for those who look at them before.
+    ///
+    /// # Errors
+    /// Where the plant has no rates in this state.
+    pub fn settle(&mut self) -> Result<(), Failed<P>> {
+        let settled = self.settle_modes();
+        settled.map_err(|reason| self.solver.failure(reason))
+    }
+
+    fn settle_modes(&mut self) -> Result<(), Refused<P>> {
+        let rest = match self.agreement {
+            Agreement::Settled => return Ok(()),
+            Agreement::Unknown => Time::<P>::from_f64(0.0),
+            Agreement::Disturbed => Time::<P>::from_f64(DRIFT),
+        };
+        let found = self.plant.settled(self.t(), self.y(), &self.modes, rest);
+        if let Some((y, modes)) = found.map_err(Reason::Singular)? {
+            self.modes = modes;
+            self.solver.restart(y);
+            if self.agreement == Agreement::Disturbed {
+                self.events += 1;
+                self.last_event = self.t();
+            }
+        }
+        self.agreement = Agreement::Settled;
+        Ok(())
     }
 
     /// On by `h`, s: one fixed step or as many controlled ones as it takes, from event to event where
@@ -221,6 +273,7 @@ where
         budget: &mut Budget,
         densely: bool,
     ) -> Result<(Time<P>, Option<Dense<P::State>>), Refused<P>> {
+        self.settle_modes()?;
         if self.audited && !self.ledger.is_open() {
             let energy = self.plant.energy(self.t(), self.y(), &self.modes);
             self.ledger.note(energy.map_err(Reason::Singular)?);

@@ -6,6 +6,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::differenced::differences;
 use crate::ode::Jacobian;
 use crate::plant::{Held, Plant, Power};
+use crate::settle::mode_by_slip;
 use crate::space::Real;
 
 /// A scene's slopes: (∂ẏ/∂y, ∂ẏ/∂t) by state, modes, given inputs, time.
@@ -213,6 +214,31 @@ where
         Ok((rested, held))
     }
 
+    fn settled(
+        &self,
+        t: T,
+        y: &SVector<T, N>,
+        modes: &SVector<T, NM>,
+        rest: T,
+    ) -> Result<Option<(SVector<T, N>, SVector<T, NM>)>, S::Singular> {
+        if NM == 0 {
+            return Ok(None);
+        }
+        let zero = T::from_f64(0.0);
+        let input = self.input(t, y, modes);
+        let contacts = self.scene.contacts(y, modes, &input, t)?;
+        let (mut rested, mut now) = (*y, *modes);
+        for (k, &velocity) in self.scene.mode_velocities().iter().enumerate() {
+            let slip = contacts[k].slip;
+            now[k] = mode_by_slip(modes[k], slip, y[velocity], rest);
+            if now[k] == zero && modes[k] != zero {
+                rested[velocity] = rested[velocity] - slip;
+            }
+        }
+        let now = settle(self.scene, &rested, &now, &input, t, zero)?;
+        Ok((now != *modes || rested != *y).then_some((rested, now)))
+    }
+
     fn nothing(&self) -> SVector<T, NP> {
         SVector::repeat(T::from_f64(0.0))
     }
@@ -359,6 +385,18 @@ where
         let y = self.to_natural(t, z, modes)?;
         let (y, held) = self.natural.change(t, &y, modes, fell)?;
         Ok((self.to_canonical(t, &y, &held), held))
+    }
+
+    fn settled(
+        &self,
+        t: T,
+        z: &SVector<T, N>,
+        modes: &SVector<T, NM>,
+        rest: T,
+    ) -> Result<Option<(SVector<T, N>, SVector<T, NM>)>, S::Singular> {
+        let y = self.to_natural(t, z, modes)?;
+        let found = self.natural.settled(t, &y, modes, rest)?;
+        Ok(found.map(|(y, modes)| (self.to_canonical(t, &y, &modes), modes)))
     }
 
     fn nothing(&self) -> SVector<T, NP> {

@@ -8,7 +8,7 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
 use bgdyn_runtime::{Contact, Dd, settle_by};
-use bgdyn_sim::{Jacobian, Moment, Plant, Power};
+use bgdyn_sim::{Jacobian, Moment, Plant, Power, mode_by_slip};
 use nalgebra::{DMatrix, DVector};
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
@@ -362,6 +362,27 @@ impl Plant for Evaluated<'_> {
         let y = self.natural(t, state, modes)?;
         let (y, held) = self.changed(t, y, modes, fell)?;
         Ok((self.own(t, &y, &held), held))
+    }
+
+    fn settled(
+        &self,
+        t: f64,
+        state: &Numbers,
+        modes: &Numbers,
+        rest: f64,
+    ) -> Tried<Option<(Numbers, Numbers)>> {
+        let y = self.natural(t, state, modes)?;
+        let (mut rested, mut now) = (y.clone(), modes.clone());
+        for (k, contact) in self.contacts(t, &y, modes)?.iter().enumerate() {
+            let velocity = self.positions() + self.functions.mode_coordinates[k];
+            now[k] = mode_by_slip(modes[k], contact.slip, y[velocity], rest);
+            if now[k] == 0.0 && modes[k] != 0.0 {
+                rested[velocity] -= contact.slip;
+            }
+        }
+        let now = settle_by(&now, 0.0, |modes| self.contacts(t, &rested, modes))?;
+        let changed = now != *modes || rested != y;
+        Ok(changed.then(|| (self.own(t, &rested, &now), now)))
     }
 
     fn nothing(&self) -> Numbers {

@@ -144,8 +144,10 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
     }
 
     fn complete(&mut self) -> Result<(), Failed> {
+        let settled = self.run.settle();
         let begin = self.run.y().clone();
         self.keep(0.0, &begin, false);
+        settled?;
         self.points = 1;
         let Integration { pace, end, .. } = self.way.integration;
         match pace {
