@@ -208,7 +208,10 @@ fn two_joints_on_one_axis_of_random_mechanisms() {
         let link = &mut draft.links[k];
         link.parent = Some(front.name.clone());
         link.joint.rpy = [(); 3].map(|()| "0".into());
-        let step = *rng.pick(&[0.0, 0.25]);
+        // A noisy axis times a number is rounded: a joint there would be beside the axis.
+        let round = |x: f64| (x * 1000.0).round() / 1000.0 == x;
+        let smooth = front.joint.axis.into_iter().all(round);
+        let step = *rng.pick(&[0.0, 0.25]) * f64::from(u8::from(smooth));
         link.joint.xyz = front.joint.axis.map(|x| x * step);
         draft.links.insert(k, front);
         let robot = Robot::read(&draft.yaml(), None);

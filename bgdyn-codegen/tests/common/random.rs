@@ -1,5 +1,5 @@
 //! Random mechanisms, written as specs: trees with everything that makes structure (exact,
-//! parallel, opposite, coaxial and skew axes, quarter turns, massless and fixed links, several
+//! parallel, opposite, coaxial, skew and noisy axes, quarter turns, massless and fixed links, several
 //! roots) and everything that has none.
 
 use std::fmt::Write;
@@ -28,6 +28,8 @@ pub struct Joint {
 /// A mechanism as text.
 #[derive(Clone, Debug)]
 pub struct Draft {
+    /// `snap: 0`: axes are what they are.
+    pub exact: bool,
     pub gravity: Option<[f64; 3]>,
     pub links: Vec<Link>,
     pub frames: Vec<String>,
@@ -72,10 +74,45 @@ impl Draft {
             ));
             frames.push("{ name: bench, link: world }".into());
         }
-        Draft {
+        let mut draft = Draft {
+            exact: false,
             gravity,
             links,
             frames,
+        };
+        // From a stream of its own, so that the rest does not depend on it.
+        let mut noise = Rng::new(rng.clone().next());
+        if noise.chance(0.4) {
+            draft.roughen(&mut noise);
+        }
+        draft
+    }
+
+    /// Axes as they come out of a computation: off their exact directions by 1e-17 to 1e-7, taken
+    /// as they are in most cases. Those parallel or opposite to the parent's have its noise or
+    /// another one.
+    fn roughen(&mut self, noise: &mut Rng) {
+        self.exact = noise.chance(0.75);
+        let smooth: Vec<[f64; 3]> = self.links.iter().map(|l| l.joint.axis).collect();
+        for i in 0..self.links.len() {
+            let named = |l: &Link| Some(&l.name) == self.links[i].parent.as_ref();
+            let parent = self.links.iter().position(named);
+            let of_parent = parent.map(|p| (smooth[p], self.links[p].joint.axis));
+            let axis = smooth[i];
+            let size = 10f64.powi(-7 - noise.below(11) as i32);
+            let off = [0; 3].map(|_| {
+                if noise.chance(0.5) {
+                    noise.within(size)
+                } else {
+                    0.0
+                }
+            });
+            let keep = noise.chance(0.5);
+            self.links[i].joint.axis = match of_parent {
+                Some((was, is)) if keep && axis == was => is,
+                Some((was, is)) if keep && axis == was.map(|x| -x) => is.map(|x| -x),
+                _ => std::array::from_fn(|k| axis[k] + off[k]),
+            };
         }
     }
 
@@ -87,6 +124,9 @@ impl Draft {
     /// As a spec of that name.
     pub fn named(&self, name: &str) -> String {
         let mut text = format!("format: 1\nname: {name}\n");
+        if self.exact {
+            text += "snap: 0\n";
+        }
         if let Some(g) = self.gravity {
             writeln!(text, "gravity: {g:?}").unwrap();
         }

@@ -59,6 +59,7 @@ fn draft(genes: Vec<(Index, Joint, String)>, gravity: Option<[f64; 3]>) -> Draft
         "{{ name: tool, link: {on}, origin: {{ xyz: [0, 1, 2] }} }}"
     )];
     Draft {
+        exact: false,
         gravity,
         links,
         frames,

@@ -16,9 +16,16 @@ mod hydraulics;
 mod laws;
 mod one;
 mod page;
+#[allow(dead_code)] // written for more than scenes
+#[path = "../common/random.rs"]
+mod random;
 mod reference;
 mod refused;
 mod refused_bodies;
+#[allow(dead_code)]
+#[path = "../common/rng.rs"]
+mod rng;
+mod rotors;
 mod settle;
 mod springs;
 mod staged;

@@ -125,6 +125,33 @@ impl<'g> Beyond<'g> {
         }
     }
 
+    /// A rotor that `joint` turns, seen from the body it sits on, in that body's own axes: a unit
+    /// rate gives it the momentum h alone, which the body's ω turns, so that it takes the moment
+    /// ω × h. By position it changes nothing. The dot products of [`Beyond::entries`] give the
+    /// changes h · z̈ + ω × h · ż and 2 h · ż + ω × h · z of the effort h · ω̇ with its swirl ω × h.
+    pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Ex<'g>>, axis: &Axis<'g>) -> Self {
+        let zero = Vec3([b.zero(); 3]);
+        let half = axis.factor * Dd::from_f64(0.5);
+        let whirl = axis.spin.omega.cross(h).map(|x| x * half);
+        Beyond {
+            momentum: Momentum {
+                joint,
+                linear: zero,
+                angular: h,
+            },
+            swirl: whirl,
+            by_position: Wrench::zero(b),
+            by_rate: Wrench {
+                force: zero,
+                moment: whirl,
+            },
+            offset: zero,
+            drift: zero,
+            last: None,
+            met: None,
+        }
+    }
+
     /// In other axes.
     pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
         Beyond {

@@ -56,7 +56,10 @@ pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Ways {
             let link = &geometry.bodies[j].name;
             way.generated.formulation += &format!("; {link} has next to no inertia of its own");
         }
-        return found;
+        // Articulated bodies know no rotors that turn with their carriers.
+        if !found.kept.is_empty() {
+            return found;
+        }
     }
     let mut tried: Vec<Judged> = cheap(search).into_iter().map(judged).collect();
     for way in [Articulated::Base, Articulated::Own] {

@@ -4,7 +4,7 @@
 use bgdyn_runtime::Dd;
 
 use super::base::{Parts, regrouped};
-use super::geometry::{Body, Geometry, angle_of};
+use super::geometry::{Geometry, angle_of};
 use super::inertia::{Inertia, Point, turn};
 use super::rotors::Rotors;
 use crate::bond_graph::BondGraph;
@@ -152,10 +152,14 @@ impl<'g> Frames<'g> {
         let (parts, energy) = regrouped(b, graph, geometry, plan);
         let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<Frame<'g>> = Vec::new();
+        // Cosine and sine of the angle by which each body's axes are turned about z.
+        let mut aims: Vec<(Dd, Dd)> = Vec::new();
         for (j, body) in geometry.bodies.iter().enumerate() {
             b.section(|| format!("{}: place and inertia", body.name));
             let parts = parts[j].in_units_of(plan.unit);
-            let (weight, phase) = aim(b, body, plan.aimed[j], &parts);
+            let (weight, aimed) = aim(b, plan.aimed[j], &parts);
+            let phase = after(body.phase, aimed);
+            aims.push(aimed);
             let continues = plan.grouped && body.parallel();
             let (mut terms, start) = match body.parent {
                 Some(p) if continues => angles[p].clone(),
@@ -170,10 +174,7 @@ impl<'g> Frames<'g> {
             if body.motion == Motion::Rotation {
                 terms.push(signed(x.q[j]));
             }
-            let phase = (
-                start.0 * phase.0 - start.1 * phase.1,
-                start.0 * phase.1 + start.1 * phase.0,
-            );
+            let phase = after(start, phase);
             let mut local = b.vector(origin_offset(geometry, plan, j).scale(Dd::ONE / plan.unit));
             if body.motion == Motion::Translation {
                 local.0[2] = local.0[2] + signed(x.q[j]) * scale;
@@ -208,7 +209,7 @@ impl<'g> Frames<'g> {
             gravity: gravity.collect(),
             bodies,
             constant_energy: energy,
-            rotors: Rotors::new(b, graph, geometry, x),
+            rotors: Rotors::new(b, graph, geometry, &aims, x),
         }
     }
 }
@@ -257,10 +258,13 @@ impl<'g> Weight<'g> {
 }
 
 /// Turns the axes of a tip about z so that x points at its centre of mass; gives its inertia in
-/// the new axes and the new phase.
-fn aim<'g>(b: &'g Builder, body: &Body, aimed: bool, parts: &Parts<'g>) -> (Weight<'g>, (Dd, Dd)) {
+/// the new axes, and cosine and sine of the turn.
+fn aim<'g>(b: &'g Builder, aimed: bool, parts: &Parts<'g>) -> (Weight<'g>, (Dd, Dd)) {
     let rest = parts.sum();
-    let straight = || (Weight::new(b, rest, parts.points.clone()), body.phase);
+    let straight = || {
+        let weight = Weight::new(b, rest, parts.points.clone());
+        (weight, (Dd::ONE, Dd::ZERO))
+    };
     let [x, y, _] = rest.first.0.map(Ex::as_constant);
     let (Some(x), Some(y), true) = (x, y, aimed && rest.is_constant()) else {
         return straight();
@@ -274,9 +278,15 @@ fn aim<'g>(b: &'g Builder, body: &Body, aimed: bool, parts: &Parts<'g>) -> (Weig
     let mut turned = rest.turned(back);
     turned.first.0[1] = b.zero();
     let points = parts.points.iter().map(|p| p.turned(back)).collect();
-    let (cos, sin) = body.phase;
-    let phase = (cos * c - sin * s, sin * c + cos * s);
-    (Weight::new(b, turned, points), phase)
+    (Weight::new(b, turned, points), (c, s))
+}
+
+/// Cosine and sine of the sum of two angles.
+fn after(first: (Dd, Dd), second: (Dd, Dd)) -> (Dd, Dd) {
+    (
+        first.0 * second.0 - first.1 * second.1,
+        first.0 * second.1 + first.1 * second.0,
+    )
 }
 
 /// Cosine and sine of Σ terms + phase; quarter turns cost nothing.

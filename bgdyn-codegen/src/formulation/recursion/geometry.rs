@@ -155,7 +155,7 @@ fn align_parallel_axes(bodies: &mut [Body], placed: &[Pose]) {
     for j in 0..bodies.len() {
         let Some(p) = bodies[j].parent else { continue };
         let z = bodies[p].axes.transpose() * (placed[j].rotation * bodies[j].axes.column(2));
-        if clean(z) == -unit(2) {
+        if along_z(z) && z.0[2] < Dd::ZERO {
             bodies[j].opposite = true;
             bodies[j].axes = bodies[j].axes * half_turn_about_x();
         }
@@ -219,14 +219,23 @@ fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd
     children.into_iter().find_map(normal)
 }
 
+/// Whether a direction is along the third unit vector or opposite to it, but for rounding. What
+/// decides is what lies across: the third component is 1 to the last digit for axes 1e-16 rad
+/// apart already.
+fn along_z(z: Vec3<Dd>) -> bool {
+    z.0[..2].iter().all(|x| x.hi().abs() < NOISE)
+}
+
 /// Axes with third column `z` and the first one along the common normal with the third unit
 /// vector; the identity where they are parallel.
 fn twisted_axes(z: Vec3<Dd>) -> Mat3<Dd> {
-    let normal = clean(unit(2).cross(z));
-    if normal == Vec3([Dd::ZERO; 3]) {
-        return identity();
+    if along_z(z) {
+        return match z.0[2] < Dd::ZERO {
+            true => half_turn_about_x(),
+            false => identity(),
+        };
     }
-    let mut x = normalised(normal);
+    let mut x = normalised(clean(unit(2).cross(z)));
     // Of the two directions the one with a positive leading component: twist, not half a turn.
     if x.0[0] < Dd::ZERO || (x.0[0] == Dd::ZERO && x.0[1] < Dd::ZERO) {
         x = -x;
@@ -234,12 +243,14 @@ fn twisted_axes(z: Vec3<Dd>) -> Mat3<Dd> {
     clean_matrix(columns(x, z.cross(x), z))
 }
 
-/// Right-handed axes with third column `z`, along the unit vectors where z is one.
+/// Right-handed axes with third column `z`, along the unit vectors where z is one: to the last
+/// digit in every component, as a component is 1 in double-double for axes that are 1e-16 rad off.
 fn basis_with_z(z: Vec3<Dd>) -> Mat3<Dd> {
     let least = (0..3)
         .rev()
         .min_by(|&a, &b| z.0[a].abs().hi().total_cmp(&z.0[b].abs().hi()));
-    let third = (0..3).find(|&k| z.0[k].abs() == Dd::ONE);
+    let exact = |k: usize| (0..3).all(|i| i == k || z.0[i] == Dd::ZERO);
+    let third = (0..3).find(|&k| exact(k));
     let x = match third {
         Some(k) => unit((k + 1) % 3),
         None => {
@@ -283,19 +294,24 @@ fn perpendicular(v: Vec3<Dd>, z: Vec3<Dd>) -> Vec3<Dd> {
     normalised(v - z.scale(z.dot(v)))
 }
 
-/// A direction without what rounding left of its zeros and ones.
+/// A direction without what rounding left of its zeros, and of its one where nothing else is left.
 fn clean(v: Vec3<Dd>) -> Vec3<Dd> {
+    let small = |x: &Dd| x.hi().abs() < NOISE;
+    let alone = v.0.iter().filter(|x| small(x)).count() == 2;
     v.map(|x| {
-        let snapped = [Dd::ZERO, Dd::ONE, -Dd::ONE];
-        snapped
-            .into_iter()
-            .find(|s| (x - *s).hi().abs() < NOISE)
-            .unwrap_or(x)
+        if small(&x) {
+            return Dd::ZERO;
+        }
+        let ones = [Dd::ONE, -Dd::ONE].into_iter();
+        let mut near = ones.filter(|&one| alone && small(&(x - one)));
+        near.next().unwrap_or(x)
     })
 }
 
+/// The same for each column of a rotation.
 fn clean_matrix(m: Mat3<Dd>) -> Mat3<Dd> {
-    m.map(|x| clean(Vec3([x; 3])).0[0])
+    let [x, y, z] = std::array::from_fn(|k| clean(m.column(k)));
+    columns(x, y, z)
 }
 
 /// A place without what rounding left of its zeros.

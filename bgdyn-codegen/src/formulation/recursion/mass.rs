@@ -5,6 +5,8 @@
 //! L = (−D_xz, −D_yz, J_zz), numbers that the turned composite holds already; carried to the base
 //! they give the row of k.
 
+use std::cmp::Ordering;
+
 use bgdyn_runtime::Dd;
 
 use super::frames::{Frame, Frames};
@@ -48,10 +50,34 @@ impl<'g> Momentum<'g> {
     }
 }
 
+/// Momenta of joints, one for each.
+#[derive(Clone)]
+pub(super) struct Momenta<'g>(Vec<Momentum<'g>>);
+
+impl<'g> Momenta<'g> {
+    /// With another one, in the same axes and about the same point. What a unit rate gives to a
+    /// rotor elsewhere counts with what it gives to all beyond its joint.
+    pub fn add(&mut self, more: Momentum<'g>) {
+        match self.0.iter_mut().find(|m| m.joint == more.joint) {
+            Some(m) => {
+                m.linear = m.linear + more.linear;
+                m.angular = m.angular + more.angular;
+            }
+            None => self.0.push(more),
+        }
+    }
+}
+
+impl<'g> Extend<Momentum<'g>> for Momenta<'g> {
+    fn extend<I: IntoIterator<Item = Momentum<'g>>>(&mut self, more: I) {
+        more.into_iter().for_each(|m| self.add(m));
+    }
+}
+
 /// What a body has gathered from those beyond it.
 struct Gathered<'g> {
     inertia: Inertia<'g>,
-    momenta: Vec<Momentum<'g>>,
+    momenta: Momenta<'g>,
 }
 
 /// All that a joint moves as one body, in the axes of its basis, and what a unit rate gives it.
@@ -120,7 +146,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
     let n = frames.bodies.len();
     let empty = || Gathered {
         inertia: Inertia::zero(b),
-        momenta: Vec::new(),
+        momenta: Momenta(Vec::new()),
     };
     let mut own: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
     let mut basis: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
@@ -135,26 +161,25 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
         });
         let (inner, outer) = (&own[j], &basis[j]);
         let composite = Composite::new(b, j, frame, &inner.inertia, &outer.inertia);
-        let mut momenta: Vec<Momentum<'g>> = inner
-            .momenta
-            .iter()
-            .map(|m| m.map(|v| turn(v, frame.turn)))
-            .collect();
-        momenta.extend(&outer.momenta);
-        frames.rotors.add_momenta(frames, j, &mut momenta);
-        for m in &momenta {
-            let other = &frames.bodies[m.joint];
-            mass[m.joint][j] = (m.along(frame) * frame.effort * other.effort)
-                .named(|| format!("m_{}_{}", frame.joint, other.joint));
-        }
+        let mut momenta = Momenta(Vec::new());
+        momenta.extend(
+            inner
+                .momenta
+                .0
+                .iter()
+                .map(|m| m.map(|v| turn(v, frame.turn))),
+        );
+        momenta.extend(outer.momenta.0.iter().copied());
+        frames.rotors.add_momenta(b, frames, j, &mut momenta);
+        enter(&mut mass, frames, j, &momenta);
         let unit = composite.unit;
         let diagonal = unit.along(frame) * (frame.effort * frame.effort);
-        mass[j][j] = (diagonal + frames.rotors.armature(j))
+        mass[j][j] = (mass[j][j] + (diagonal + frames.rotors.armature(j)))
             .named(|| format!("m_{}_{}", frame.joint, frame.joint));
-        momenta.push(unit);
+        momenta.add(unit);
         let Some(p) = frame.parent else { continue };
         let shifted = composite.whole.shifted(frame.position);
-        let carried = momenta.into_iter().map(|m| m.carried(frame.position));
+        let carried = momenta.0.into_iter().map(|m| m.carried(frame.position));
         let twist = frame.twist.map(|x| b.constant(x));
         let (home, momenta) = if frame.continues {
             (&mut basis[p], carried.collect())
@@ -166,6 +191,25 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
         home.momenta.extend(momenta);
     }
     mass
+}
+
+/// Adds to M what momenta at body j, in the axes of its basis, have in the direction of its joint.
+fn enter<'g>(mass: &mut [Vec<Ex<'g>>], frames: &Frames<'g>, j: usize, momenta: &Momenta<'g>) {
+    let frame = &frames.bodies[j];
+    for m in &momenta.0 {
+        let other = &frames.bodies[m.joint];
+        let share = m.along(frame) * frame.effort * other.effort;
+        let entry = &mut mass[m.joint.max(j)][m.joint.min(j)];
+        *entry = match m.joint.cmp(&j) {
+            Ordering::Greater => {
+                (*entry + share).named(|| format!("m_{}_{}", frame.joint, other.joint))
+            }
+            // A rotor that its own joint carries: the momentum counts in row and column.
+            Ordering::Equal => share + share,
+            // A rotor beyond its joint, or on another branch.
+            Ordering::Less => *entry + share,
+        };
+    }
 }
 
 /// The momentum that a unit rate of `joint` gives to `whole`, in the axes of its basis.

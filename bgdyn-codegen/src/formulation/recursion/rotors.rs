@@ -3,19 +3,22 @@
 //!
 //! A rotor turns N times as fast as its joint about an axis e of its carrier, so the carrier holds
 //! the momentum h = N J q̇_j e beside its own. What moves it is ḣ = N J (q̈_j e + q̇_j ω × e) on the
-//! carrier, and N J e · ω̇ on the joint beside N² J q̈_j.
+//! carrier, and N J e · ω̇ on the joint beside N² J q̈_j. In M it is N J e · z_k for every joint k
+//! that turns the carrier, and twice that where k is j itself.
 
 use bgdyn_runtime::Dd;
 
+use super::beyond::{Axis, Beyond};
+use super::composite::Composite;
 use super::frames::Frames;
 use super::geometry::Geometry;
 use super::inertia::turn;
-use super::mass::Momentum;
+use super::mass::{Momenta, Momentum};
 use super::motion::Moving;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
 use crate::formulation::{Arguments, reflected, spin};
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 
 /// The rotors of a mechanism.
 pub(super) struct Rotors<'g> {
@@ -34,8 +37,23 @@ struct Spinning<'g> {
     momentum: Vec3<Ex<'g>>,
 }
 
+impl<'g> Spinning<'g> {
+    /// What a unit rate along the joint's z gives it.
+    fn per_unit(&self, frames: &Frames<'g>) -> Vec3<Ex<'g>> {
+        let per_unit = Dd::ONE / frames.bodies[self.joint].effort;
+        self.momentum.map(|x| x * per_unit)
+    }
+}
+
 impl<'g> Rotors<'g> {
-    pub fn new(b: &'g Builder, graph: &BondGraph, geometry: &Geometry, x: &Arguments<'g>) -> Self {
+    /// `aims` has cosine and sine of the angle about z by which a plan turns each body's axes.
+    pub fn new(
+        b: &'g Builder,
+        graph: &BondGraph,
+        geometry: &Geometry,
+        aims: &[(Dd, Dd)],
+        x: &Arguments<'g>,
+    ) -> Self {
         let mut rotors = Rotors {
             armature: vec![b.zero(); geometry.bodies.len()],
             rate: x.v.clone(),
@@ -50,7 +68,9 @@ impl<'g> Rotors<'g> {
             };
             for (body, of) in geometry.bodies.iter().enumerate() {
                 if let Some((_, place)) = of.links.iter().find(|(l, _)| *l == carrier.link) {
-                    let axis = of.axes.transpose() * (place.rotation * carrier.axis);
+                    let [x, y, z] = (of.axes.transpose() * (place.rotation * carrier.axis)).0;
+                    let (c, s) = aims[body];
+                    let axis = Vec3([c * x + s * y, c * y - s * x, z]);
                     rotors.spinning.push(Spinning {
                         body,
                         joint: j,
@@ -64,8 +84,7 @@ impl<'g> Rotors<'g> {
 
     /// ḣ of the rotors on a body, its own axes.
     pub fn moment(&self, body: usize, motion: &Moving<'g>) -> Option<Vec3<Ex<'g>>> {
-        let on = self.spinning.iter().filter(|s| s.body == body);
-        let moment = on.map(|s| {
+        let moment = self.on(body).map(|s| {
             let whirl = motion.own.omega.cross(s.momentum);
             s.momentum.scale(self.acceleration[s.joint]) + whirl.scale(self.rate[s.joint])
         });
@@ -89,15 +108,56 @@ impl<'g> Rotors<'g> {
     }
 
     /// Adds to momenta, in the axes of a body's basis, what a unit rate of each joint gives the
-    /// rotors on that body.
-    pub fn add_momenta(&self, frames: &Frames<'g>, body: usize, momenta: &mut [Momentum<'g>]) {
-        for s in self.spinning.iter().filter(|s| s.body == body) {
-            let per_unit = Dd::ONE / frames.bodies[s.joint].effort;
-            let turned = turn(s.momentum, frames.bodies[body].turn).map(|x| x * per_unit);
-            for m in momenta.iter_mut().filter(|m| m.joint == s.joint) {
-                m.angular = m.angular + turned;
-            }
+    /// rotors on that body. The joint may be anywhere: beyond the body, before it, or its own.
+    pub fn add_momenta(
+        &self,
+        b: &'g Builder,
+        frames: &Frames<'g>,
+        body: usize,
+        momenta: &mut Momenta<'g>,
+    ) {
+        for s in self.on(body) {
+            let angular = turn(s.per_unit(frames), frames.bodies[body].turn);
+            momenta.add(Momentum {
+                joint: s.joint,
+                linear: Vec3([b.zero(); 3]),
+                angular,
+            });
         }
+    }
+
+    /// Adds the rotors on a body to what that body carries, in its own axes. Seen from the body,
+    /// the momentum H = h q̇_j is a flow of mass in place: its E is −[H]× (times `factor` / 2), as
+    /// the moment ω × H must be E ω. What changes H takes h q̈_j.
+    pub fn add_flow(&self, b: &'g Builder, body: usize, factor: Dd, whole: &mut Composite<'g>) {
+        let half = factor * Dd::from_f64(0.5);
+        for s in self.on(body) {
+            let [x, y, z] = s.momentum.scale(self.rate[s.joint]).map(|x| x * half).0;
+            let moment = Mat3([[b.zero(), z, -y], [-z, b.zero(), x], [y, -x, b.zero()]]);
+            whole.flow.moment = whole.flow.moment + moment;
+            let turned = s.momentum.scale(self.acceleration[s.joint]);
+            whole.rest.moment = whole.rest.moment + turned;
+        }
+    }
+
+    /// The rotors on a body as the joints before it see them, in its own axes: each with the joint
+    /// that turns it. See [`Beyond::of_rotor`].
+    pub fn seen<'s>(
+        &'s self,
+        b: &'g Builder,
+        frames: &'s Frames<'g>,
+        body: usize,
+        axis: &'s Axis<'g>,
+    ) -> impl Iterator<Item = Beyond<'g>> + 's
+    where
+        'g: 's,
+    {
+        self.on(body)
+            .map(move |s| Beyond::of_rotor(b, s.joint, s.per_unit(frames), axis))
+    }
+
+    fn on(&self, body: usize) -> impl Iterator<Item = &Spinning<'g>> {
+        self.spinning.iter().filter(move |s| s.body == body)
     }
 
     /// Twice the kinetic energy that the rotors have beyond the links': N² J q̇² + 2 N J q̇ e · ω.

@@ -21,6 +21,9 @@
 //! ∂τ/∂v = 2 C with Christoffel's C, and C + Cᵀ = Ṁ: two entries whose place in M holds a constant
 //! are each other's negative.
 //!
+//! A rotor with its axis fixed to a body is a flow of that body's mass in place, and to the joint
+//! that turns it a momentum of its own, wherever that joint is (see [`super::rotors`]).
+//!
 //! Carpentier and Mansard (2018), and Singh, Russell and Wensing (2022), order the derivatives of
 //! the Newton-Euler recursion by composites as well, in spatial vectors.
 
@@ -93,10 +96,15 @@ fn pass<'g>(
             factor,
             view: views[j],
         };
+        let axis = place.axis_of_body();
+        own[j]
+            .beyond
+            .extend(frames.rotors.seen(b, frames, j, &axis));
+        frames.rotors.add_flow(b, j, factor, &mut own[j].whole);
         let mut beyond = slopes.enter_beyond(&place, frames, &own[j], &basis[j]);
         let unit = Unit::new(&place, &own[j], &basis[j]);
         let diagonal = unit.joint.diagonal(frame);
-        slopes.enter(frames, j, &unit.joint, diagonal);
+        slopes.add(frames, (j, j), diagonal.own);
         beyond.push(unit.joint.entered(b, frame.motion, diagonal));
 
         let Some(p) = frame.parent else { continue };
@@ -160,18 +168,29 @@ impl<'g> Slopes<'g> {
         beyond
     }
 
-    /// Writes down the entries of joints j and `joint`.
+    /// Adds the entries of joints j and `joint`: those of a rotor and those of the joint that turns
+    /// it come one after the other.
     fn enter(&mut self, frames: &Frames<'g>, j: usize, joint: &Beyond<'g>, entries: Entries<'g>) {
         let k = joint.momentum.joint;
-        let factor = frames.bodies[j].effort * frames.bodies[k].effort;
         let Entries { own, mut beyond } = entries;
         if j != k && joint.mass(&frames.bodies[j]).as_constant().is_some() {
             beyond.1 = -own.1;
         }
-        for (i, j, (by_position, by_rate)) in [(k, j, beyond), (j, k, own)] {
-            self.by_position[i][j] = by_position * factor;
-            self.by_rate[i][j] = by_rate * factor;
-        }
+        self.add(frames, (k, j), beyond);
+        self.add(frames, (j, k), own);
+    }
+
+    /// Adds to the derivatives of effort i by position and rate of joint j.
+    fn add(
+        &mut self,
+        frames: &Frames<'g>,
+        (i, j): (usize, usize),
+        (by_position, by_rate): (Ex<'g>, Ex<'g>),
+    ) {
+        let factor = frames.bodies[i].effort * frames.bodies[j].effort;
+        let (position, rate) = (&mut self.by_position[i][j], &mut self.by_rate[i][j]);
+        *position = *position + by_position * factor;
+        *rate = *rate + by_rate * factor;
     }
 }
 

@@ -1,0 +1,215 @@
+//! Full rotors anywhere: on a link before their own joint, on the one that it moves, beyond it, on
+//! another branch; alone and beside other effects.
+
+use std::fmt::Write;
+
+use super::common::{Random, scene, state};
+use super::random::Draft;
+use super::rng::Rng;
+use super::{forms, laws};
+use bgdyn_codegen::formulation::by_name;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::system::System;
+use bgdyn_runtime::Dd;
+
+/// Three joints in a row and a branch from the first link, one of them a slide.
+const TREE: &str = "\
+format: 1
+links:
+  - name: upper
+    joint: { name: shoulder, type: revolute, axis: z }
+    mass: 2
+    com: [0.2, 0, 0]
+    inertia: { xx: 0.01, yy: 0.05, zz: 0.05 }
+  - name: fore
+    parent: upper
+    joint: { name: elbow, type: revolute, axis: y, origin: { xyz: [0.4, 0, 0] } }
+    mass: 1
+    com: [0.15, 0, 0]
+    inertia: { xx: 0.005, yy: 0.02, zz: 0.02 }
+  - name: hand
+    parent: fore
+    joint: { name: wrist, type: revolute, axis: -y, origin: { xyz: [0.3, 0, 0.1] } }
+    mass: 0.5
+    com: [0.05, 0, 0.02]
+    inertia: { xx: 0.001, yy: 0.002, zz: 0.002 }
+  - name: mast
+    parent: upper
+    joint: { name: lift, type: prismatic, axis: [1, 0, 2], origin: { xyz: [0, 0.2, 0] } }
+    mass: 0.7
+    com: [0.05, 0.01, 0.02]
+    inertia: { xx: 0.002, yy: 0.002, zz: 0.002 }
+  - name: head
+    parent: mast
+    joint: { name: nod, type: revolute, axis: x, origin: { xyz: [0, 0, 0.3] } }
+    mass: 0.4
+    com: [0, 0.05, 0.02]
+    inertia: { xx: 0.001, yy: 0.002, zz: 0.002 }
+";
+
+const JOINTS: [&str; 5] = ["shoulder", "elbow", "wrist", "lift", "nod"];
+const LINKS: [&str; 5] = ["upper", "fore", "hand", "mast", "head"];
+
+fn with_rotors(rotors: &[(&str, &str)]) -> System {
+    let mut text = "scene: 1\nmechanism: tree.yaml\neffects:\n  - inertia\n  - velocity_products\n  - gravity\n".to_owned();
+    for (k, (joint, on)) in rotors.iter().enumerate() {
+        let axis = [[1.0, 2.0, 0.5], [0.0, -1.0, 0.25], [0.3, 0.0, 0.0]][k % 3];
+        writeln!(text, "  - motor_{k}: {{ type: rotor, joint: {joint}, inertia: 2e-4, ratio: 80, on: {on}, axis: {axis:?} }}").unwrap();
+    }
+    scene(&text, TREE)
+}
+
+/// M, the inverse and its slopes by the recursion equal those of the literal sum.
+fn equals_the_literal_sum(system: &System) {
+    for method in [
+        Method::MassMatrix,
+        Method::Bias,
+        Method::InverseDynamics,
+        Method::KineticEnergy,
+        Method::CoriolisMatrix,
+        Method::InverseDynamicsDerivatives,
+        Method::ForwardDynamics,
+    ] {
+        let by = |name: &str| {
+            let way = by_name(name).expect("a formulation");
+            bgdyn_codegen::formulation::Search::new(&system.graph, Some(way))
+        };
+        let literal = by("literal").function(method).expect("the literal sum");
+        for name in ["recursion", "recursion_own"] {
+            let way = by_name(name).expect("a formulation");
+            let found = way.function(&by(name), method).expect("a function");
+            for seed in 0..4 {
+                let mut at = state(system, &mut Random(seed), true);
+                at.u = at.a.iter().map(|&a| a * Dd::from_f64(0.7)).collect();
+                let (wanted, _) = literal.evaluate(at.clone());
+                let (found, refused) = found.evaluate(at);
+                assert!(refused.is_none());
+                let size = wanted.iter().map(|x| x.to_f64().abs()).fold(1.0, f64::max);
+                for (i, (found, wanted)) in found.iter().zip(&wanted).enumerate() {
+                    let off = (*found - *wanted).to_f64().abs() / size;
+                    assert!(
+                        off < 1e-22,
+                        "{name}, {method:?}, entry {i}: {found:?}, not {wanted:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Every joint's rotor on every link: before its joint, at it, beyond it, on the other branch.
+#[test]
+fn a_rotor_on_any_link_is_as_in_the_literal_sum() {
+    for joint in JOINTS {
+        for on in LINKS {
+            equals_the_literal_sum(&with_rotors(&[(joint, on)]));
+        }
+    }
+}
+
+/// Rotors of one joint on several links, and of several joints on one link.
+#[test]
+fn rotors_on_several_links_are_as_in_the_literal_sum() {
+    equals_the_literal_sum(&with_rotors(&[
+        ("elbow", "upper"),
+        ("elbow", "hand"),
+        ("elbow", "head"),
+    ]));
+    equals_the_literal_sum(&with_rotors(&[
+        ("wrist", "fore"),
+        ("elbow", "fore"),
+        ("nod", "fore"),
+    ]));
+    equals_the_literal_sum(&with_rotors(&[
+        ("lift", "hand"),
+        ("shoulder", "head"),
+        ("wrist", "hand"),
+    ]));
+}
+
+#[test]
+fn a_rotor_on_any_link_keeps_the_laws_and_the_jacobian() {
+    for (joint, on) in [
+        ("elbow", "upper"),
+        ("wrist", "fore"),
+        ("elbow", "fore"),
+        ("elbow", "hand"),
+        ("shoulder", "hand"),
+        ("wrist", "head"),
+        ("nod", "fore"),
+        ("lift", "head"),
+    ] {
+        let system = with_rotors(&[(joint, on)]);
+        laws::hold(&system);
+        forms::hold(&system);
+    }
+}
+
+/// Random scenes tried.
+const TRIED: u64 = 10;
+
+/// Effects of a random scene: full rotors on random links and about random axes, and some of all
+/// that does not ask for particular joints.
+fn effects(rng: &mut Rng, draft: &Draft) -> String {
+    let moving: Vec<&str> = (draft.links.iter())
+        .filter(|l| l.joint.kind != "fixed")
+        .map(|l| l.name.trim_start_matches("link_"))
+        .collect();
+    let link = |rng: &mut Rng| rng.pick(&draft.links).name.clone();
+    let mut list: Vec<String> = Vec::new();
+    // Enough inertia on each joint that M is positive definite, whatever the links are.
+    for k in &moving {
+        list.push(format!(
+            "held_{k}: {{ type: rotor, joint: joint_{k}, inertia: 2e-3, ratio: 40 }}"
+        ));
+    }
+    for i in 0..1 + rng.below(3) {
+        let axis = [0; 3].map(|_| rng.within(1.0));
+        let (k, on) = (*rng.pick(&moving), link(rng));
+        list.push(format!(
+            "full_{i}: {{ type: rotor, joint: joint_{k}, inertia: 2e-3, ratio: {}, on: {on}, axis: {axis:?} }}",
+            20 + rng.below(80)
+        ));
+    }
+    let (k, at) = (*rng.pick(&moving), link(rng));
+    let others = [
+        "gravity".to_owned(),
+        "velocity_products".to_owned(),
+        "inertia".to_owned(),
+        format!("oil: {{ type: viscous, joint: joint_{k}, damping: 0.3 }}"),
+        format!("dry: {{ type: coulomb, joint: joint_{k}, kinetic: 2, static: 3 }}"),
+        format!("wind: {{ type: drag, at: {at}, linear: 3, quadratic: 5, angular: 1 }}"),
+        format!("push: {{ type: wrench, at: {at}, axes: link }}"),
+        format!("rope: {{ type: spring, between: [pole, {at}], stiffness: 8, rest: 2 }}"),
+    ];
+    let share = [0.8, 0.8, 0.9, 0.5, 0.4, 0.4, 0.4, 0.5];
+    let chosen = others.into_iter().zip(share);
+    list.extend(
+        chosen
+            .filter(|(_, share)| rng.chance(*share))
+            .map(|(e, _)| e),
+    );
+    list.iter().map(|e| format!("  - {e}\n")).collect()
+}
+
+#[test]
+fn random_scenes_with_full_rotors_keep_the_laws_and_the_jacobian() {
+    for seed in 0..TRIED {
+        let mut rng = Rng::new(4200 + seed);
+        let mut draft = Draft::random(&mut rng, 5);
+        draft
+            .frames
+            .push("{ name: pole, link: world, origin: { xyz: [40, 30, 20] } }".into());
+        let text = format!(
+            "scene: 1\nmechanism: random.yaml\neffects:\n{}",
+            effects(&mut rng, &draft)
+        );
+        // Shown where the test fails.
+        println!("{}{text}", draft.yaml());
+        let system = scene(&text, &draft.yaml());
+        assert!(system.scene.layout.nv() > 0);
+        equals_the_literal_sum(&system);
+        laws::hold(&system);
+        forms::hold(&system);
+    }
+}
