@@ -8,13 +8,11 @@ use std::path::{Path, PathBuf};
 
 /// Make a mechanism from a URDF or from a table of Denavit–Hartenberg parameters
 #[derive(Debug, Clone, Default, clap::Args)]
-#[command(
-    after_help = "Examples:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n  \
+#[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n  \
     bgdyn import pr2.urdf --chain torso_lift_link r_gripper_tool_frame --lock r_wrist_roll_joint=0.5\n  \
     bgdyn import ur5.csv --convention standard\n\n\
     The mechanism's module is called after the file it is written to. Changed names, what is not taken over and what \
-    was written are told on stderr."
-)]
+    was written are told on stderr.")]
 pub struct ImportArgs {
     /// The URDF (a xacro file must be expanded first), or a table `.csv`
     #[arg(value_name = "FILE")]

@@ -153,10 +153,12 @@ fn snap_zero_takes_only_what_is_exact() {
 #[test]
 fn what_snapping_changes_is_told_with_how_far() {
     let spec = |snap: &str, rpy: &str, axis: &str| {
-        sound(&format!(
+        checked(&format!(
             "format: 1\nname: arm\n{snap}links:\n  - name: a\n    joint: {{ name: j, type: revolute, axis: {axis}, \
              origin: {{ rpy: {rpy} }} }}\n    mass: 1\n    com: [1, 2, 3]\n"
         ))
+        .0
+        .expect("a mechanism")
     };
     let told = |snap: &str, rpy: &str, axis: &str| {
         let mechanism = spec(snap, rpy, axis);
