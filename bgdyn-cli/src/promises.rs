@@ -63,7 +63,18 @@ fn well_said(faults: &Faults, text: &str) {
 }
 
 fn urdf(text: &str) {
-    match import::import(text) {
+    well_made(import::import(text));
+    let all = import::Options {
+        frames: vec!["all".into()],
+        ..import::Options::default()
+    };
+    well_made(import::import_with(text, &all));
+    let standard = Some(import::Convention::Standard);
+    well_made(import::import_table(text, "arm", standard, &all));
+}
+
+fn well_made(made: anyhow::Result<import::Import>) {
+    match made {
         Ok(made) => {
             let (_, faults) = read(&made.yaml, None);
             let unread = [
@@ -76,7 +87,11 @@ fn urdf(text: &str) {
             ];
             let broken = faults.0.iter().find(|fault| unread.contains(&fault.rule));
             assert!(broken.is_none(), "{broken:?} in\n{}", made.yaml);
-            let told = made.notes.iter().chain(&made.warnings);
+            let told = made
+                .notes
+                .iter()
+                .chain(&made.warnings)
+                .chain([&made.written]);
             assert!(told.into_iter().all(|line| !line.contains('\n')));
         }
         Err(error) => {

@@ -18,7 +18,7 @@ fn told(import: &Import) -> String {
     for warning in &import.warnings {
         out += &format!("warning: {warning}\n");
     }
-    out
+    out + &format!("written: {}\n", import.written)
 }
 
 fn error(urdf: &str) -> String {
@@ -247,6 +247,7 @@ fn the_command_writes_the_file() {
     run(ImportArgs {
         file: file.clone(),
         output: Some(output.clone()),
+        ..ImportArgs::default()
     })
     .unwrap();
     assert_eq!(
@@ -258,6 +259,7 @@ fn the_command_writes_the_file() {
     let error = run(ImportArgs {
         file: file.clone(),
         output: None,
+        ..ImportArgs::default()
     })
     .unwrap_err()
     .to_string();
@@ -272,6 +274,7 @@ fn the_command_writes_the_file() {
     let error = run(ImportArgs {
         file: file.clone(),
         output: None,
+        ..ImportArgs::default()
     })
     .unwrap_err()
     .to_string();
@@ -280,5 +283,9 @@ fn the_command_writes_the_file() {
         "{error}"
     );
     std::fs::remove_dir_all(&dir).unwrap();
-    assert!(run(ImportArgs { file, output: None }).is_err());
+    let gone = ImportArgs {
+        file,
+        ..ImportArgs::default()
+    };
+    assert!(run(gone).is_err());
 }

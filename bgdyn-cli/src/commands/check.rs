@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Severity};
-use bgdyn_codegen::mechanism::{LinkId, Mechanism, Parameter};
+use bgdyn_codegen::mechanism::{LinkId, Mechanism, Parameter, Snapped};
 use bgdyn_codegen::model::Refusal;
 use bgdyn_codegen::scene::{Part, Solved};
 use bgdyn_codegen::system::System;
@@ -48,9 +48,23 @@ impl Check {
             let names = coordinates(&m).join(", ");
             let sizes = format!("NQ {}, NV {}", m.nq(), m.nv());
             print(&format!("ok: {}, {sizes}: {names}\n", m.name()))?;
+            if let Some(snapped) = m.snapped() {
+                print(&format!("snapped: {}\n", snapped_words(snapped)))?;
+            }
         }
         Ok(())
     }
+}
+
+/// What snapping changed, on one line.
+pub(crate) fn snapped_words(snapped: &Snapped) -> String {
+    let Snapped { count, most, place } = snapped;
+    let path = &place.path;
+    let what = match count {
+        1 => format!("1 direction, {most:.1e} rad off (`{path}`)"),
+        _ => format!("{count} directions, the farthest {most:.1e} rad off (`{path}`)"),
+    };
+    format!("{what}; taken as exact, `snap: 0` at the top keeps what is written")
 }
 
 impl Check {
@@ -150,6 +164,7 @@ fn model(mechanism: &Mechanism) -> Value {
         "nv": mechanism.nv(),
         "coordinates": coordinates(mechanism),
         "parameters": parameters,
+        "snapped": mechanism.snapped().map(|s| json!({ "count": s.count, "most": s.most, "path": s.place.path })),
     })
 }
 

@@ -60,7 +60,7 @@ pub(crate) struct Simulate {
     many: Many,
 }
 
-/// Drifts, of the energy that moved, above which the result means little.
+/// Drifts, of the energy that could move, above which the result means little.
 const DRIFT: f64 = 1e-2;
 /// The same of errors, of the range of an output.
 const ERROR: f64 = 1e-2;
@@ -112,7 +112,7 @@ impl Simulate {
         // A drift that is no number is none that is small.
         if closed.is_nan() || closed > DRIFT {
             tell(&format!(
-                "bgdyn: warning: the energy does not add up by {} of what moved: the result means little; take a smaller step or tolerance\n",
+                "bgdyn: warning: the energy does not add up by {} of what could move: the result means little; take a smaller step or tolerance\n",
                 number(closed)
             ));
         }

@@ -1,29 +1,36 @@
-//! `bgdyn import`: a mechanism from a URDF.
+//! `bgdyn import`: a mechanism from a URDF, or from a table of Denavit–Hartenberg parameters.
 //!
 //! Text → elements with their places (`xml`) → the part a mechanism can hold, the rest counted (`select`) →
-//! links and joints (`reading`) → their order (`tree`) and names (`naming`) → YAML (`writing`).
+//! links and joints (`reading`; of a table `dh`) → what the caller asks to change (`rework`) → their order (`tree`)
+//! and names (`naming`) → YAML (`writing`). `doubts` says what looks wrong, `placement` computes poses.
 
 mod attributes;
+mod command;
 mod defaults;
+mod dh;
+mod doubts;
 mod groups;
 mod inertia;
 mod naming;
 mod number;
+mod placement;
 mod reading;
+mod rework;
 mod select;
 mod tree;
 mod writing;
 mod xml;
 
-use crate::output::{print, tell};
-use crate::spec_file::read_text;
-use anyhow::{Context, Result, anyhow};
-use inertia::{DUST, Verdict, is_dust, judge};
+use crate::commands::check::snapped_words;
+use anyhow::Result;
 use naming::{identifiers, shown};
 use number::Num;
-use reading::{Inertial, Model};
-use std::collections::{HashMap, HashSet};
-use std::path::{Path, PathBuf};
+use reading::Model;
+use std::collections::HashSet;
+use urdf_rs::JointType;
+
+pub use command::{ImportArgs, run};
+pub use dh::Convention;
 
 /// A mechanism made from a URDF, and what there is to say about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,39 +44,162 @@ pub struct Import {
     pub notes: Vec<String>,
     /// What was not taken over, and what looks wrong, one line each.
     pub warnings: Vec<String>,
+    /// What was written, on one line: how many links, joints, frames and effects, and what is fixed to the world.
+    pub written: String,
+}
+
+/// What a caller asks for beside the file.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// Joints to fix, each where its coordinate has a value.
+    pub lock: Vec<Lock>,
+    /// The first and the last link of the chain to keep, with what is fixed to it.
+    pub chain: Option<[String; 2]>,
+    /// `snap` as the mechanism states it, rad; its reader's own if none.
+    pub snap: Option<f64>,
+    /// Links to make frames, by name; `all` for every link without inertia that is fixed and carries no body.
+    pub frames: Vec<String>,
+    /// Leave damping and friction out: otherwise they are declared as effects.
+    pub no_effects: bool,
+}
+
+/// A joint to fix where its coordinate has a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lock {
+    joint: String,
+    /// rad or m.
+    value: Num,
 }
 
 /// Makes a mechanism from the text of a URDF.
 ///
 /// Links keep the order of their joints, numbers their decimal text. An error starts with `LINE:COLUMN: `.
 pub fn import(urdf_text: &str) -> Result<Import> {
-    let mut model = reading::read(urdf_text)?;
-    let dusty = without_dust(&mut model);
+    import_with(urdf_text, &Options::default())
+}
+
+/// [`import`] with options.
+///
+/// # Errors
+/// What is wrong with the text, with `LINE:COLUMN: ` before it, or with an option, with its name before it.
+pub fn import_with(urdf_text: &str, options: &Options) -> Result<Import> {
+    made(reading::read(urdf_text)?, options)
+}
+
+/// Makes a mechanism from a table of Denavit–Hartenberg parameters: comma-separated values, the columns named in the
+/// first line (`docs/import.md`). `convention` is that of rows that do not say theirs, `name` the robot's name.
+///
+/// # Errors
+/// As [`import_with`].
+pub fn import_table(
+    text: &str,
+    name: &str,
+    convention: Option<Convention>,
+    options: &Options,
+) -> Result<Import> {
+    made(dh::read(text, name, convention)?, options)
+}
+
+fn made(mut model: Model, options: &Options) -> Result<Import> {
+    let dusty = doubts::without_dust(&mut model);
+    // What is wrong with the file comes first.
+    tree::order(&model)?;
+    let told = rework::rework(&mut model, options)?;
     let tree = tree::order(&model)?;
+    let named = Names::new(&model);
 
-    let original: Vec<&str> = model.links.iter().map(|link| link.name.as_str()).collect();
-    let links = identifiers(&original, "link");
-    let original: Vec<&str> = model
-        .joints
-        .iter()
-        .map(|joint| joint.name.as_str())
-        .collect();
-    let joints = identifiers(&original, "joint");
-    let name = naming::identifier(&model.name, "robot");
-
-    let mut warnings = doubtful(&model, &tree);
+    let mut warnings = doubts::doubtful(&model, &tree);
+    warnings.extend(told);
     warnings.extend(dusty);
     let mut allowed = vec![false; model.links.len()];
     for (link, allowed) in model.links.iter().zip(&mut allowed) {
         if let Some(inertial) = &link.inertial {
-            *allowed = judge_inertial(&shown(&link.name), inertial, &mut warnings);
+            *allowed = doubts::judge_inertial(&shown(&link.name), inertial, &mut warnings);
         }
     }
 
-    let mut taken: HashSet<String> = joints.iter().cloned().collect();
+    let mut taken: HashSet<String> = named.joints.iter().cloned().collect();
+    let entries = entries(&model, &tree, &named, &allowed, &mut taken);
+    let frames = frames(&model, &named);
+    let effects = match options.no_effects {
+        true => Vec::new(),
+        false => effects(&model, &named, taken),
+    };
+    if options.no_effects && model.joints.iter().any(has_losses) {
+        warnings.push("damping and friction of joints are left out, as asked".into());
+    }
+    let snap = options.snap.map(|snap| Num::computed(snap).text);
+    let yaml = writing::head(&model, snap.as_deref())
+        + &entries.join("\n")
+        + &writing::frames(&frames)
+        + &writing::effects(&effects);
+    let (mechanism, _) = bgdyn_codegen::read(&yaml, Some("robot"));
+    let snapped = mechanism.as_ref().and_then(|m| m.snapped());
+    warnings.extend(snapped.map(|snapped| format!("snapped: {}", snapped_words(snapped))));
+    let written = written(&model, &tree, &named, effects.len());
+    let notes = named.notes(&model);
+    warnings.extend(model.warnings);
+    Ok(Import {
+        yaml,
+        name: named.robot,
+        notes,
+        warnings,
+        written,
+    })
+}
+
+/// The names of the mechanism, in the order of the model's.
+struct Names {
+    robot: String,
+    links: Vec<String>,
+    joints: Vec<String>,
+    frames: Vec<String>,
+}
+
+impl Names {
+    fn new(model: &Model) -> Self {
+        let places = model.links.iter().map(|link| link.name.as_str());
+        let places: Vec<&str> = places
+            .chain(model.frames.iter().map(|frame| frame.name.as_str()))
+            .collect();
+        let mut links = identifiers(&places, "link");
+        let frames = links.split_off(model.links.len());
+        let joints = model.joints.iter().map(|joint| joint.name.as_str());
+        let joints: Vec<&str> = joints.collect();
+        Names {
+            robot: naming::identifier(&model.name, "robot"),
+            links,
+            joints: identifiers(&joints, "joint"),
+            frames,
+        }
+    }
+
+    /// Those that are not as they were.
+    fn notes(&self, model: &Model) -> Vec<String> {
+        let links = model.links.iter().map(|link| &link.name);
+        let joints = model.joints.iter().map(|joint| &joint.name);
+        let frames = model.frames.iter().map(|frame| &frame.name);
+        let notes = [
+            renamed("robot", [(&model.name, &self.robot)].into_iter()),
+            renamed("links", links.zip(&self.links)),
+            renamed("joints", joints.zip(&self.joints)),
+            renamed("frames", frames.zip(&self.frames)),
+        ];
+        notes.into_iter().flatten().collect()
+    }
+}
+
+/// The links as text, those that no joint carries first; adds the names of their joints to those taken.
+fn entries(
+    model: &Model,
+    tree: &tree::Tree,
+    named: &Names,
+    allowed: &[bool],
+    taken: &mut HashSet<String>,
+) -> Vec<String> {
     let entry = |link: usize| writing::Entry {
         link: &model.links[link],
-        name: &links[link],
+        name: &named.links[link],
         parent: None,
         joint: None,
         mount: None,
@@ -78,41 +208,99 @@ pub fn import(urdf_text: &str) -> Result<Import> {
     let mut entries = Vec::new();
     for root in &tree.roots {
         // Without a joint of its own the root's would be called so: find another name where a joint has that one.
-        let default = format!("{}_mount", links[*root]);
-        let free = (2..)
-            .map(|number| format!("{default}_{number}"))
-            .find(|name| !taken.contains(name));
-        let mount = if taken.contains(&default) { free } else { None };
+        let default = format!("{}_mount", named.links[*root]);
+        let mount = taken.contains(&default).then(|| free(&default, taken));
         taken.insert(mount.clone().unwrap_or(default));
         entries.push(writing::entry(&writing::Entry {
             mount,
             ..entry(*root)
         }));
     }
-    for ((joint, name), (parent, child)) in model.joints.iter().zip(&joints).zip(&tree.ends) {
-        let (parent, joint) = (Some(links[*parent].as_str()), Some((joint, name.as_str())));
+    for ((joint, name), (parent, child)) in model.joints.iter().zip(&named.joints).zip(&tree.ends) {
+        let (parent, joint) = (
+            Some(named.links[*parent].as_str()),
+            Some((joint, name.as_str())),
+        );
         entries.push(writing::entry(&writing::Entry {
             parent,
             joint,
             ..entry(*child)
         }));
     }
+    entries
+}
 
-    let old = model.links.iter().map(|link| &link.name);
-    let of_links = renamed("links", old.zip(&links));
-    let old = model.joints.iter().map(|joint| &joint.name);
-    let of_joints = renamed("joints", old.zip(&joints));
-    let of_robot = renamed("robot", [(&model.name, &name)].into_iter());
-    let notes = [of_robot, of_links, of_joints].into_iter().flatten();
-    let notes = notes.collect();
-    let yaml = writing::head(&model.name) + &entries.join("\n");
-    warnings.extend(model.warnings);
-    Ok(Import {
-        yaml,
-        name,
-        notes,
-        warnings,
-    })
+/// The name, or its first numbered form that is not taken.
+fn free(name: &str, taken: &HashSet<String>) -> String {
+    let numbered = (2..).map(|number| format!("{name}_{number}"));
+    let mut names = [name.to_owned()].into_iter().chain(numbered);
+    names.find(|name| !taken.contains(name)).unwrap_or_default()
+}
+
+/// The frames with their names and those of their links.
+fn frames<'a>(model: &'a Model, named: &'a Names) -> Vec<(&'a reading::Frame, &'a str, &'a str)> {
+    let link = |name: &str| {
+        let found = model.links.iter().position(|link| link.name == name);
+        found.map_or("", |i| named.links[i].as_str())
+    };
+    let frames = model.frames.iter().zip(&named.frames);
+    let frames = frames.map(|(frame, name)| (frame, name.as_str(), link(&frame.link)));
+    frames.collect()
+}
+
+/// What damping and friction of joints are as effects.
+fn effects<'a>(
+    model: &'a Model,
+    named: &'a Names,
+    mut taken: HashSet<String>,
+) -> Vec<writing::Effect<'a>> {
+    taken.extend(named.links.iter().chain(&named.frames).cloned());
+    let mut effects = Vec::new();
+    for (joint, name) in model.joints.iter().zip(&named.joints) {
+        let losses = [
+            ("damping", ["viscous", "damping"], &joint.damping),
+            ("friction", ["coulomb", "kinetic"], &joint.friction),
+        ];
+        for (what, law, value) in losses {
+            let Some(value) = value else { continue };
+            let own = free(&format!("{name}_{what}"), &taken);
+            taken.insert(own.clone());
+            effects.push(writing::Effect {
+                name: own,
+                law,
+                joint: name,
+                value,
+            });
+        }
+    }
+    effects
+}
+
+fn has_losses(joint: &reading::Joint) -> bool {
+    joint.damping.is_some() || joint.friction.is_some()
+}
+
+/// What was written, on one line.
+fn written(model: &Model, tree: &tree::Tree, named: &Names, effects: usize) -> String {
+    let moving = model
+        .joints
+        .iter()
+        .filter(|joint| joint.kind != JointType::Fixed);
+    let roots = tree
+        .roots
+        .iter()
+        .map(|root| format!("`{}`", named.links[*root]));
+    let roots: Vec<String> = roots.collect();
+    let plural = select::plural;
+    format!(
+        "{}, {} ({} moving), {}, {}; fixed to the world: {}",
+        plural(model.links.len(), "link"),
+        plural(model.joints.len(), "joint"),
+        moving.count(),
+        plural(model.frames.len(), "frame"),
+        plural(effects, "effect"),
+        roots.join(", ")
+    )
 }
 
 /// The names that changed, on one line.
@@ -124,131 +312,4 @@ fn renamed<'a>(
     let shown = changed.map(|(old, new)| format!("`{}` → `{new}`", shown(old)));
     let shown: Vec<String> = shown.collect();
     (!shown.is_empty()).then(|| format!("{what} {}", shown.join(", ")))
-}
-
-/// Warnings about the robot as a whole.
-fn doubtful(model: &Model, tree: &tree::Tree) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if model.name.is_empty() {
-        warnings.push("the robot has no name".into());
-    }
-    if tree.roots.len() > 1 {
-        let roots: Vec<String> = tree
-            .roots
-            .iter()
-            .map(|root| format!("`{}`", shown(&model.links[*root].name)))
-            .collect();
-        warnings.push(format!(
-            "several links have no joint, all are fixed to the world: {}",
-            roots.join(", ")
-        ));
-    }
-    let mut times = HashMap::new();
-    for joint in &model.joints {
-        let times = times.entry(&joint.name).or_insert(0);
-        *times += 1;
-        if *times == 2 {
-            warnings.push(format!(
-                "several joints are called `{}`",
-                shown(&joint.name)
-            ));
-        }
-    }
-    warnings
-}
-
-/// Sets tensors to zero that are what rounding left of one, and says of which links.
-fn without_dust(model: &mut Model) -> Option<String> {
-    let mut names = Vec::new();
-    for link in &mut model.links {
-        let Some(inertial) = &mut link.inertial else {
-            continue;
-        };
-        if is_dust(inertial.tensor.each_ref().map(|entry| entry.value)) {
-            inertial.tensor = std::array::from_fn(|_| Num::zero());
-            names.push(format!("`{}`", shown(&link.name)));
-        }
-    }
-    let names = (!names.is_empty()).then(|| names.join("; "));
-    names.map(|names| {
-        format!("tensors that no body has, all entries below {DUST:e} kg·m², taken as 0: {names}")
-    })
-}
-
-/// Warns of an inertial that no body has; true where the mechanism must allow it.
-fn judge_inertial(link: &str, inertial: &Inertial, warnings: &mut Vec<String>) -> bool {
-    if inertial.mass.value < 0.0 {
-        let mass = &inertial.mass.text;
-        warnings.push(format!(
-            "link `{link}`: the mass {mass} kg is negative; `bgdyn check` will refuse it"
-        ));
-    }
-    let verdict = judge(inertial.tensor.each_ref().map(|entry| entry.value));
-    let (moments, fault) = match &verdict {
-        Verdict::Physical => return false,
-        Verdict::NoTriangle(moments) => (
-            moments,
-            "break the triangle inequality; kept, with `nonphysical: allow`",
-        ),
-        Verdict::Indefinite(moments) => (
-            moments,
-            "are not all positive or zero; kept, but `bgdyn check` will refuse them",
-        ),
-    };
-    let [a, b, c] = moments.map(|moment| Num::computed(rounded(moment)).text);
-    warnings.push(format!(
-        "link `{link}`: the principal moments {a}, {b}, {c} kg·m² {fault}"
-    ));
-    matches!(verdict, Verdict::NoTriangle(_))
-}
-
-/// Rounded to six digits, for reading.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
-}
-
-/// Make a mechanism from a URDF
-#[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n\n\
-    The mechanism's module is called after the file it is written to. Changed names and what is not taken over are \
-    told on stderr.")]
-pub struct ImportArgs {
-    /// The URDF; a xacro file must be expanded first
-    #[arg(value_name = "FILE.urdf")]
-    pub file: PathBuf,
-    /// Where to write the mechanism; stdout if not given
-    #[arg(short, long, value_name = "FILE.yaml")]
-    pub output: Option<PathBuf>,
-}
-
-/// Runs `bgdyn import`.
-pub fn run(args: ImportArgs) -> Result<()> {
-    let path = args.file.display();
-    let text = read_text(&args.file)?;
-    let mut made = import(&text).map_err(|error| anyhow!("{path}:{error}"))?;
-    match &args.output {
-        Some(output) => {
-            std::fs::write(output, &made.yaml)
-                .with_context(|| format!("{} cannot be written", output.display()))?;
-            made.warnings.extend(unfit_stem(output, &made.name));
-        }
-        None => print(&made.yaml)?,
-    }
-    for note in &made.notes {
-        tell(&format!("renamed: {note}\n"));
-    }
-    for warning in &made.warnings {
-        tell(&format!("warning: {warning}\n"));
-    }
-    Ok(())
-}
-
-/// A warning where the module could not be called after the file.
-fn unfit_stem(output: &Path, name: &str) -> Option<String> {
-    let file = output.file_name()?.to_string_lossy().into_owned();
-    let stem = file.split('.').next().unwrap_or_default();
-    let unfit = !naming::is_identifier(stem);
-    unfit.then(|| {
-        format!("a module cannot be called `{stem}`: rename {file}, for example to {name}.yaml")
-    })
 }

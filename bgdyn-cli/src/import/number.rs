@@ -1,5 +1,7 @@
 //! Decimal numbers, kept as they were written.
 
+use bgdyn_runtime::Dd;
+
 /// A number: its decimal text, fit for YAML, and its value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Num {
@@ -12,6 +14,9 @@ const MAX_DIGITS: usize = 32;
 
 /// Integers of more digits are written with a decimal point.
 const MAX_INTEGER: usize = 18;
+
+/// What follows the digits of an angle in degrees.
+const DEGREES: &str = " deg";
 
 impl Num {
     /// Zero.
@@ -70,6 +75,30 @@ impl Num {
             text.push_str(".0");
         }
         Some(Num { text, value })
+    }
+
+    /// An angle from its degrees, written with their unit: `90 deg`.
+    pub(super) fn degrees(text: &str) -> Option<Self> {
+        let degrees = Num::parse(text).filter(|degrees| degrees.value.is_finite())?;
+        if degrees.is_zero() {
+            return Some(degrees);
+        }
+        let mut angle = Num {
+            text: format!("{}{DEGREES}", degrees.text),
+            value: 0.0,
+        };
+        angle.value = angle.exact().to_f64();
+        Some(angle)
+    }
+
+    /// The value in double-double: the decimal as it stands, degrees in rad.
+    pub(super) fn exact(&self) -> Dd {
+        let read = |text: &str| text.parse::<Dd>().ok().filter(|x| x.is_finite());
+        match self.text.strip_suffix(DEGREES) {
+            Some(degrees) => read(degrees).map(|x| x * Dd::PI / Dd::from_f64(180.0)),
+            None => read(&self.text),
+        }
+        .unwrap_or(Dd::from_f64(self.value))
     }
 
     /// Whether the number is 0.

@@ -5,6 +5,7 @@ use super::defaults::{INERTIAL, complete};
 use super::groups::Groups;
 use super::naming::shown;
 use super::number::Num;
+use super::placement::Placement;
 use super::select::select;
 use super::xml::{At, Element, fault, parse};
 use anyhow::Result;
@@ -13,9 +14,13 @@ use urdf_rs::JointType;
 /// A robot as far as a mechanism can hold it.
 pub(super) struct Model {
     pub(super) name: String,
+    /// What it was read from: the first words of the mechanism's comment.
+    pub(super) source: String,
     pub(super) links: Vec<Link>,
     /// In the order of the file.
     pub(super) joints: Vec<Joint>,
+    /// Places on links that are no bodies.
+    pub(super) frames: Vec<Frame>,
     pub(super) warnings: Vec<String>,
 }
 
@@ -23,6 +28,24 @@ pub(super) struct Link {
     pub(super) name: String,
     pub(super) at: At,
     pub(super) inertial: Option<Inertial>,
+    /// Where a link that no joint carries is fixed to the world; at its origin if nothing is said.
+    pub(super) place: Option<Placement>,
+}
+
+/// A named place on a link.
+pub(super) struct Frame {
+    pub(super) name: String,
+    /// The name of its link.
+    pub(super) link: String,
+    pub(super) place: Placement,
+}
+
+impl Link {
+    /// Whether it has a mass or a tensor.
+    pub(super) fn is_body(&self) -> bool {
+        let inertial = self.inertial.as_ref();
+        inertial.is_some_and(|it| !it.mass.is_zero() || !it.tensor.iter().all(Num::is_zero))
+    }
 }
 
 pub(super) struct Inertial {
@@ -39,10 +62,13 @@ pub(super) struct Joint {
     pub(super) kind: JointType,
     pub(super) parent: String,
     pub(super) child: String,
-    pub(super) xyz: [Num; 3],
-    pub(super) rpy: [Num; 3],
+    pub(super) origin: Placement,
     pub(super) axis: [Num; 3],
     pub(super) limits: Limits,
+    /// Viscous damping, N·m·s/rad or N·s/m; none where it is 0.
+    pub(super) damping: Option<Num>,
+    /// Coulomb friction, N·m or N; none where it is 0.
+    pub(super) friction: Option<Num>,
 }
 
 #[derive(Default)]
@@ -68,8 +94,10 @@ pub(super) fn read(text: &str) -> Result<Model> {
         .collect::<Result<_>>()?;
     Ok(Model {
         name: root.get("name").unwrap_or_default().to_string(),
+        source: "a URDF".into(),
         links,
         joints,
+        frames: Vec::new(),
         warnings: groups.lines().chain(ignored).collect(),
     })
 }
@@ -154,6 +182,7 @@ fn link(element: &Element) -> Result<Link> {
         name: name(element)?.to_string(),
         at: element.at,
         inertial: inertial.transpose()?,
+        place: None,
     })
 }
 
@@ -185,17 +214,21 @@ fn joint(element: &Element, meaning: &urdf_rs::Joint, groups: &mut Groups) -> Re
         }
         limits = self::limits(element, meaning, &label, groups)?;
     }
-    report(element, &label, groups);
+    let [damping, friction] = dynamics(element, &kind, &label, groups);
     Ok(Joint {
         name: joint_name.to_string(),
         at: element.at,
         kind,
         parent: end(element, "parent")?.to_string(),
         child: end(element, "child")?.to_string(),
-        xyz: place(origin)?,
-        rpy: origin.map_or(Ok(zeros()), turn)?,
+        origin: Placement {
+            xyz: place(origin)?,
+            rpy: origin.map_or(Ok(zeros()), turn)?,
+        },
         axis,
         limits,
+        damping,
+        friction,
     })
 }
 
@@ -270,8 +303,13 @@ fn limits(
     Ok(limits)
 }
 
-/// Tells of a joint's elements that a mechanism cannot hold yet, with their values.
-fn report(element: &Element, label: &str, groups: &mut Groups) {
+/// A joint's damping and friction; tells of what a mechanism cannot hold, with the values.
+fn dynamics(
+    element: &Element,
+    kind: &JointType,
+    label: &str,
+    groups: &mut Groups,
+) -> [Option<Num>; 2] {
     if let Some(mimic) = element.child("mimic") {
         let item = format!("{label} ({})", values(&mimic.attributes));
         groups.add(
@@ -279,16 +317,32 @@ fn report(element: &Element, label: &str, groups: &mut Groups) {
             item,
         );
     }
-    if let Some(dynamics) = element.child("dynamics") {
-        let mut given = dynamics.attributes.clone();
-        given.retain(|(_, value)| Num::parse(value).is_none_or(|number| !number.is_zero()));
-        if !given.is_empty() {
-            groups.add(
-                "damping and friction of joints, not taken over, may be written as effects of a scene (docs/effects.md)",
-                format!("{label} ({})", values(&given)),
-            );
+    let Some(dynamics) = element.child("dynamics") else {
+        return [None, None];
+    };
+    let mut taken = [None, None];
+    let mut left = Vec::new();
+    for (name, value) in &dynamics.attributes {
+        let number = Num::parse(value);
+        if number.as_ref().is_some_and(Num::is_zero) {
+            continue;
+        }
+        let sound = number.filter(|x| x.value.is_finite() && x.value > 0.0);
+        let slot = ["damping", "friction"]
+            .iter()
+            .position(|known| known == name);
+        match (slot, sound) {
+            (Some(slot), Some(sound)) if *kind != JointType::Fixed => taken[slot] = Some(sound),
+            _ => left.push((name.clone(), value.clone())),
         }
     }
+    if !left.is_empty() {
+        groups.add(
+            "of `<dynamics>`, not taken over",
+            format!("{label} ({})", values(&left)),
+        );
+    }
+    taken
 }
 
 fn values(attributes: &[(String, String)]) -> String {

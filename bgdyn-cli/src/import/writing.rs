@@ -2,7 +2,8 @@
 
 use super::naming::shown;
 use super::number::{Num, all_zero};
-use super::reading::{Inertial, Joint, Limits, Link};
+use super::placement::Placement;
+use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
 use urdf_rs::JointType;
 
 /// Longer lines are broken up.
@@ -21,18 +22,62 @@ pub(super) struct Entry<'a> {
 }
 
 /// The text up to the first link.
-pub(super) fn head(robot: &str) -> String {
-    match robot {
-        "" => {
-            "# Imported from a URDF (robot without a name) by bgdyn import\nformat: 1\n\nlinks:\n"
-                .into()
+pub(super) fn head(model: &Model, snap: Option<&str>) -> String {
+    let robot = match model.name.as_str() {
+        "" => "robot without a name".to_owned(),
+        name => format!("robot {}", shown(name)),
+    };
+    let mut text = format!(
+        "# Imported from {} ({robot}) by bgdyn import\nformat: 1\n",
+        model.source
+    );
+    if !model.name.is_empty() {
+        text += &format!("label: {}\n", scalar(&model.name));
+    }
+    if let Some(snap) = snap {
+        text += &format!("snap: {snap}\n");
+    }
+    text + "\nlinks:\n"
+}
+
+/// The list of frames, with their names and those of their links; nothing where there is none.
+pub(super) fn frames(frames: &[(&Frame, &str, &str)]) -> String {
+    let entry = |(frame, name, link): &(&Frame, &str, &str)| {
+        let mut keys = vec![format!("name: {}", scalar(name))];
+        if *name != frame.name {
+            keys.push(format!("label: {}", scalar(&frame.name)));
         }
-        _ => {
-            let (name, label) = (shown(robot), scalar(robot));
-            format!(
-                "# Imported from a URDF (robot {name}) by bgdyn import\nformat: 1\nlabel: {label}\n\nlinks:\n"
-            )
-        }
+        keys.push(format!("link: {}", scalar(link)));
+        keys.extend(origin(&frame.place));
+        format!("  - {{ {} }}\n", keys.join(", "))
+    };
+    let entries: String = frames.iter().map(entry).collect();
+    match entries.as_str() {
+        "" => entries,
+        _ => format!("\nframes:\n{entries}"),
+    }
+}
+
+/// An effect that the mechanism declares.
+pub(super) struct Effect<'a> {
+    pub(super) name: String,
+    /// Its type and the key of its number.
+    pub(super) law: [&'static str; 2],
+    pub(super) joint: &'a str,
+    pub(super) value: &'a Num,
+}
+
+/// The effects that scenes may call for; nothing where there is none.
+pub(super) fn effects(effects: &[Effect<'_>]) -> String {
+    let entry = |effect: &Effect<'_>| {
+        let ([law, key], joint) = (effect.law, scalar(effect.joint));
+        let (name, value) = (&effect.name, &effect.value.text);
+        format!("  {name}: {{ type: {law}, joint: {joint}, {key}: {value} }}\n")
+    };
+    let entries: String = effects.iter().map(entry).collect();
+    match entries.as_str() {
+        "" => entries,
+        _ => format!("\neffects:\n{entries}"),
     }
 }
 
@@ -48,8 +93,15 @@ pub(super) fn entry(entry: &Entry<'_>) -> String {
     if let Some((joint, name)) = entry.joint {
         write_joint(joint, name, &mut lines);
     }
-    if let Some(mount) = &entry.mount {
-        lines.push(format!("joint: {{ name: {}, type: fixed }}", scalar(mount)));
+    let mount = entry
+        .mount
+        .as_ref()
+        .map(|name| format!("name: {}", scalar(name)));
+    let place = entry.link.place.as_ref().and_then(origin);
+    if mount.is_some() || place.is_some() {
+        let keys = [mount, Some("type: fixed".into()), place];
+        let keys: Vec<String> = keys.into_iter().flatten().collect();
+        lines.push(format!("joint: {{ {} }}", keys.join(", ")));
     }
     if let Some(inertial) = &entry.link.inertial {
         write_inertial(inertial, &mut lines);
@@ -69,7 +121,7 @@ fn write_joint(joint: &Joint, name: &str, lines: &mut Vec<String>) {
     if joint.kind != JointType::Fixed {
         keys.extend(axis(&joint.axis));
     }
-    keys.extend(origin(&joint.xyz, &joint.rpy));
+    keys.extend(origin(&joint.origin));
     keys.extend(limits(&joint.limits));
     let flow = format!("joint: {{ {} }}", keys.join(", "));
     if flow.len() + 4 <= WIDTH {
@@ -106,8 +158,8 @@ fn axis(axis: &[Num; 3]) -> Option<String> {
     Some(format!("axis: {name}"))
 }
 
-fn origin(xyz: &[Num; 3], rpy: &[Num; 3]) -> Option<String> {
-    let parts = [("xyz", xyz), ("rpy", rpy)]
+fn origin(place: &Placement) -> Option<String> {
+    let parts = [("xyz", &place.xyz), ("rpy", &place.rpy)]
         .into_iter()
         .filter(|(_, part)| !all_zero(*part));
     let parts: Vec<String> = parts

@@ -16,7 +16,7 @@ use super::varied::{Given, Varied};
 pub(crate) struct Told {
     /// Of each output: at the end, the least, the largest.
     pub(crate) outputs: Vec<[f64; 3]>,
-    /// What the energy's account lacks, of the energy that moved.
+    /// What the energy's account lacks, of the energy that could move.
     pub(crate) drift: f64,
     /// When it ended, s.
     pub(crate) t: f64,

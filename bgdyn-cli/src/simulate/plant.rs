@@ -209,6 +209,23 @@ impl<'a> Evaluated<'a> {
         at
     }
 
+    /// What the stores hold at a state, J: the energy of its motion (what would be missing if every
+    /// velocity were 0), and the sizes of all entries together.
+    ///
+    /// # Errors
+    /// Where the mass matrix is singular and the state is one of momenta.
+    pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<(f64, f64)> {
+        let y = self.natural(t, state, modes)?;
+        let energy = |y: &Numbers| -> Numbers {
+            let at = self.driven(t, y, modes);
+            self.functions.energy.evaluate(at).0.into()
+        };
+        let still = self.with_velocities(&y, &vec![0.0; self.system.scene.layout.nv()]);
+        let now = energy(&y);
+        let motion = (&now - energy(&still)).lp_norm(1);
+        Ok((motion, now.lp_norm(1)))
+    }
+
     /// A value that exists where the mass matrix is regular.
     fn regular(&self, function: &Function, at: Inputs<f64>) -> Tried<Vec<f64>> {
         let (values, refused) = function.evaluate(at);

@@ -107,7 +107,8 @@ pub struct Record {
     pub modes: Numbers,
     /// Where the energy went, J.
     pub audit: Audit<Numbers>,
-    /// The most energy that was supplied, stored or dissipated at any of the points, J.
+    /// The most energy that moved or could have at any of the points, J: supplied, stored more than at
+    /// the start, dissipated, or held by the motion itself; no less than 1e-12 of what is stored.
     pub moved: f64,
     /// Why it ended early, if it did.
     pub failure: Option<String>,

@@ -70,6 +70,10 @@ impl WithMethod<Numbers> for Start<'_> {
 
 type Failed = Failure<Numbers, Undefined>;
 
+/// The energy that could move is no less than this share of what is stored: a hundredth of it, which the
+/// account may lack, is the rounding of sums of that size.
+const ROUNDING: f64 = 1e-12;
+
 /// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
 const CROWDED: usize = 16;
 
@@ -265,6 +269,10 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
         let (t, audit) = (self.run.t(), self.run.audit());
         for part in [&audit.supplied, &audit.stored, &audit.dissipated] {
             self.moved = self.moved.max(part.lp_norm(1));
+        }
+        let held = self.run.plant().held(t, self.run.y(), self.run.modes());
+        if let Ok((motion, all)) = held {
+            self.moved = self.moved.max(motion).max(ROUNDING * all);
         }
         if self.energy.last().is_none_or(|last| last.t < t) {
             self.energy.push(EnergyAt {

@@ -124,14 +124,15 @@ fn energy(system: &System, record: &Record) -> String {
     }
     let _ = writeln!(
         text,
-        "drift: {} J, stored + dissipated − supplied, {} of the energy that moved",
+        "drift: {} J, stored + dissipated − supplied, {} of the energy that could move",
         number(audit.drift()),
         number(drift(record))
     );
     text
 }
 
-/// What the account lacks, of the energy that moved; 0 where none did.
+/// What the account lacks, of the energy that moved or could have (see [`Record::moved`]); 0 where it
+/// lacks nothing.
 pub(crate) fn drift(record: &Record) -> f64 {
     let drift = record.audit.drift().abs();
     if drift == 0.0 {

@@ -13,6 +13,7 @@ mod ops;
 mod schema;
 mod schema_scene;
 mod simulate;
+mod simulate_energy;
 mod simulate_many;
 mod simulate_page;
 mod usage;

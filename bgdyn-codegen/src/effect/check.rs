@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::mechanism::name::is_identifier;
-use crate::mechanism::{Limits, Motion};
+use crate::mechanism::{Limits, Motion, Places};
 use crate::spec::{Dimension, Entry, Fields, Key, Located, Number, Raw, Reads, misfit};
 
 /// The key that says what an effect is.
@@ -41,7 +41,7 @@ pub struct Context {
     /// Joints that a scene locks.
     pub locked: Vec<String>,
     /// Links and frames.
-    pub places: Vec<String>,
+    pub(crate) places: Places,
     /// Hydraulic nodes.
     pub nodes: Vec<String>,
 }
@@ -322,6 +322,15 @@ impl Declared {
                 for name in names.iter().filter(|n| !known.contains(&n.value.as_str())) {
                     faults.push(unknown(key, &name.value, &name.place, &known, context));
                 }
+                let [a, b] = names.each_ref().map(|name| name.value.as_str());
+                if let Some(distance) = context.places.constant_distance(a, b) {
+                    faults.push(wording::constant_distance(
+                        place,
+                        &self.name.value,
+                        [a, b],
+                        distance,
+                    ));
+                }
                 Some(Checked::Names(names.each_ref().map(|n| n.value.clone())))
             }
             (Entry::Vector(vector), _) => {
@@ -356,7 +365,7 @@ fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
             let own = joints.filter(|n| !context.added.contains(n));
             own.map(String::as_str).collect()
         }
-        Reads::Place | Reads::Places => context.places.iter().map(String::as_str).collect(),
+        Reads::Place | Reads::Places => context.places.names().iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
         Reads::Input | Reads::Number(_) | Reads::Vector(_) | Reads::Group(..) => return None,
     })

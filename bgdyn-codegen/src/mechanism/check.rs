@@ -30,6 +30,10 @@ const FORMAT: u32 = 1;
 pub fn check(spec: &Spec, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
     let mut faults = Faults::default();
     let mechanism = mechanism(spec, stem, &mut faults);
+    let still = mechanism.as_ref().is_some_and(|m| m.nv() == 0) && !faults.any_fault();
+    if let Some(links) = spec.links.given().filter(|_| still) {
+        faults.push(wording::no_coordinates(&links.place));
+    }
     faults.sort();
     let sound = spec.complete && !faults.any_fault();
     (mechanism.filter(|_| sound), faults)
@@ -67,6 +71,7 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
         parameters: parameters.into_all(),
         coordinates,
         effects: Vec::new(),
+        snapped: directions.into_snapped(),
     };
     let effects = effects::effects(spec, &mechanism, faults);
     Some(Mechanism {

@@ -7,17 +7,20 @@ mod check;
 pub mod joint;
 mod lettered;
 pub mod name;
+mod places;
 
 use std::fmt;
 
 use bgdyn_runtime::Dd;
 
 use crate::effect::Declared;
+use crate::fault::Place;
 use crate::math::{Mat3, Vec3};
 pub use check::check;
 pub(crate) use check::check_tensor;
 pub use joint::{JointType, Motion};
 pub use lettered::{Letter, Lettered};
+pub(crate) use places::Places;
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -172,6 +175,18 @@ pub struct Frame {
     pub origin: Pose,
 }
 
+/// What snapping changed of a spec's directions: angles and axes taken as exact that were farther off
+/// than the rounding of an `f64`, 1e-15.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapped {
+    /// How many rotations and axes.
+    pub count: usize,
+    /// The farthest that one of their numbers was moved: rad, or of an axis's length.
+    pub most: f64,
+    /// Where that is.
+    pub place: Place,
+}
+
 /// A mechanism that passed every check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
@@ -184,6 +199,7 @@ pub struct Mechanism {
     parameters: Vec<Parameter>,
     coordinates: Vec<LinkId>,
     effects: Vec<Declared>,
+    snapped: Option<Snapped>,
 }
 
 impl Mechanism {
@@ -230,6 +246,11 @@ impl Mechanism {
     /// What acts in it beside its links, for scenes to call for.
     pub fn effects(&self) -> &[Declared] {
         &self.effects
+    }
+
+    /// What snapping changed of its directions; nothing where all were exact to 1e-15 or kept as written.
+    pub fn snapped(&self) -> Option<&Snapped> {
+        self.snapped.as_ref()
     }
 
     /// The same with these links welded to their carriers in these poses.

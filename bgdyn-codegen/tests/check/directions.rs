@@ -149,3 +149,52 @@ fn snap_zero_takes_only_what_is_exact() {
     assert_eq!(joint.origin.rotation.0[0], [Dd::ZERO, Dd::ZERO, Dd::ONE]);
     assert_eq!(joint.axis.0, [Dd::ZERO, Dd::ZERO, Dd::ONE]);
 }
+
+#[test]
+fn what_snapping_changes_is_told_with_how_far() {
+    let spec = |snap: &str, rpy: &str, axis: &str| {
+        checked(&format!(
+            "format: 1\nname: arm\n{snap}links:\n  - name: a\n    joint: {{ name: j, type: revolute, axis: {axis}, \
+             origin: {{ rpy: {rpy} }} }}\n    mass: 1\n    com: [1, 2, 3]\n"
+        ))
+        .0
+        .expect("a mechanism")
+    };
+    let told = |snap: &str, rpy: &str, axis: &str| {
+        let mechanism = spec(snap, rpy, axis);
+        let found = mechanism.snapped().cloned();
+        found.map(|s| (s.count, format!("{:.1e}", s.most), s.place.path))
+    };
+    let (plain, slanted) = ("[0, 0, 0]", "[1, 0.5, 0]");
+    // The rounding of an f64 is none.
+    assert_eq!(
+        told("", "[1.5707963267948966, 3.141592653589793, 0]", "z"),
+        None
+    );
+    assert_eq!(told("", "[90 deg, 0.3, -180 deg]", slanted), None);
+    assert_eq!(told("", plain, "[1, 1e-16, 0]"), None);
+    // What is farther off is.
+    let at = |count, most: &str, path: &str| Some((count, most.to_owned(), path.to_owned()));
+    let (rpy, axis) = ("links[0].joint.origin.rpy", "links[0].joint.axis");
+    assert_eq!(
+        told("", "[1.57079632679, 0, 0]", "z"),
+        at(1, "4.9e-12", rpy)
+    );
+    assert_eq!(told("", plain, "[2, 4e-12, 0]"), at(1, "2.0e-12", axis));
+    assert_eq!(
+        told("", "[1.57079632679, 0, 0]", "[2, 4e-12, 0]"),
+        at(2, "4.9e-12", rpy)
+    );
+    // Angles that almost undo each other about a turned axis.
+    let undone = told("", "[0.4, 90 deg, 0.400000000005]", "z");
+    assert_eq!(undone, at(1, "5.0e-12", rpy));
+    // Kept as written; asked for.
+    assert_eq!(
+        told("snap: 0\n", "[1.57079632679, 0, 0]", "[2, 4e-12, 0]"),
+        None
+    );
+    assert_eq!(
+        told("snap: 1e-4\n", "[1.5708, 0, 0]", "z"),
+        at(1, "3.7e-6", rpy)
+    );
+}

@@ -13,7 +13,9 @@ use bgdyn_runtime::Dd;
 /// What is found, but for joints without inertia: these specs are of no use but for what they test.
 fn checked(text: &str) -> (Option<Mechanism>, Faults) {
     let (mechanism, mut faults) = read(text, Some("arm"));
-    faults.0.retain(|fault| fault.rule != "no-inertia");
+    faults
+        .0
+        .retain(|fault| !["no-inertia", "no-coordinates"].contains(&fault.rule));
     (mechanism, faults)
 }
 
@@ -389,4 +391,27 @@ fn joints_without_inertia_are_named() {
         let wanted = "nothing that the joint `two` moves has inertia";
         assert_eq!(found, if named { vec![wanted] } else { vec![] }, "{text}");
     }
+}
+
+#[test]
+fn a_mechanism_that_cannot_move_is_told_of() {
+    let link = |kind: &str| {
+        format!(
+            "format: 1\nname: arm\nlinks:\n  - name: a\n    joint: {{ name: j, type: {kind} }}\n    mass: 1\n    com: [1, 0, 0]\n"
+        )
+    };
+    let told = |text: &str| {
+        let (mechanism, faults) = read(text, Some("arm"));
+        let rules = faults
+            .0
+            .iter()
+            .map(|fault| (fault.rule, fault.path.clone()));
+        (mechanism.is_some(), rules.collect::<Vec<_>>())
+    };
+    let still = vec![("no-coordinates", "links".to_owned())];
+    assert_eq!(told(&link("fixed")), (true, still));
+    assert_eq!(told(&link("revolute")), (true, vec![]));
+    // Other findings come first: what they hide may move.
+    let (_, rules) = told(&link("fixed").replace("mass: 1", "mass: -1"));
+    assert_eq!(rules.len(), 1, "{rules:?}");
 }

@@ -14,6 +14,7 @@ mod friction;
 mod hard_cases;
 mod hydraulics;
 mod laws;
+mod lines;
 mod one;
 mod page;
 #[allow(dead_code)] // written for more than scenes

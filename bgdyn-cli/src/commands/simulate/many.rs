@@ -121,7 +121,7 @@ impl Many {
         let drift = told.iter().filter(|run| run.failure.is_none());
         let drift = drift.map(|run| run.drift).fold(0.0, f64::max);
         print(&format!(
-            "largest drift: {} of the energy that moved\n",
+            "largest drift: {} of the energy that could move\n",
             number(drift)
         ))?;
         let failed: Vec<_> = told.iter().enumerate().collect();

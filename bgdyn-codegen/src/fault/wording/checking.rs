@@ -290,6 +290,38 @@ pub(crate) fn negative_mass(place: &Place, text: &str) -> Fault {
     .with_help("a mass is 0 (which may be left out) or positive, in kg")
 }
 
+pub(crate) fn no_coordinates(place: &Place) -> Fault {
+    let message = "no joint moves: the mechanism has no coordinate (NQ 0, NV 0), so there is nothing to compute the motion of";
+    Fault::new(place, "no-coordinates", message)
+        .with_help(
+            "give a joint the type `revolute`, `continuous` or `prismatic`; a base that moves is written as massless links on three slides and three turns",
+        )
+        .into_warning()
+}
+
+// Effects
+
+pub(crate) fn constant_distance(
+    place: &Place,
+    effect: &str,
+    [a, b]: [&str; 2],
+    distance: f64,
+) -> Fault {
+    let (effect, distance) = (quote(effect), figure(distance));
+    let message = if a == b {
+        format!("{effect} acts between {} and itself", quote(a))
+    } else {
+        format!(
+            "{effect} acts between {} and {}, which are {distance} m apart in every position",
+            quote(a),
+            quote(b)
+        )
+    };
+    Fault::new(place, "constant-distance", message).with_help(
+        "nothing can change along this line; name two links or frames whose distance varies with a coordinate",
+    )
+}
+
 // Directions
 
 pub(crate) fn snap_out_of_range(place: &Place, text: &str) -> Fault {

@@ -2,11 +2,13 @@
 //!
 //! Exact means: sines and cosines that are 0 or ±1, components that are 0.
 
+use std::cell::RefCell;
+
 use bgdyn_runtime::Dd;
 
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Place, wording};
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::Pose;
+use crate::mechanism::{Pose, Snapped};
 use crate::spec::{Field, Located, Origin, Spec, Vector};
 
 /// How far a direction may be off and still be taken as exact, if the spec says nothing.
@@ -20,24 +22,59 @@ const NOISE: f64 = 1e-28;
 /// The largest angle of a rotation, rad: beyond it the digits after the point are few.
 const TURNS: f64 = 1e4;
 
+/// Numbers that snapping changes by more are told: what is less is the rounding of the file's `f64`.
+const TOLD: f64 = 1e-15;
+
 /// How directions of this spec are read.
 #[derive(Debug)]
 pub(super) struct Directions {
     snap: f64,
+    /// What snapping has changed so far.
+    snapped: RefCell<Option<Snapped>>,
 }
 
 impl Directions {
     /// By the spec's `snap`.
     pub(super) fn new(spec: &Spec, faults: &mut Faults) -> Self {
         let Some(given) = spec.snap.given() else {
-            return Directions { snap: SNAP };
+            return Self::within(SNAP);
         };
         let snap = given.value.value.to_f64();
         if !(0.0..=MOST).contains(&snap) {
             faults.push(wording::snap_out_of_range(&given.place, &given.value.text));
-            return Directions { snap: SNAP };
+            return Self::within(SNAP);
         }
-        Directions { snap }
+        Self::within(snap)
+    }
+
+    fn within(snap: f64) -> Self {
+        Directions {
+            snap,
+            snapped: RefCell::new(None),
+        }
+    }
+
+    /// What snapping changed, once everything is read.
+    pub(super) fn into_snapped(self) -> Option<Snapped> {
+        self.snapped.into_inner()
+    }
+
+    /// Notes how far snapping moved the direction at this place.
+    fn note(&self, place: &Place, moved: f64) {
+        if moved <= TOLD {
+            return;
+        }
+        let mut snapped = self.snapped.borrow_mut();
+        let all = snapped.get_or_insert_with(|| Snapped {
+            count: 0,
+            most: 0.0,
+            place: place.clone(),
+        });
+        all.count += 1;
+        if moved > all.most {
+            all.most = moved;
+            all.place = place.clone();
+        }
     }
 
     /// The pose that changes nothing.
@@ -85,7 +122,23 @@ impl Directions {
         let turns = super::fixed(&angles.value).map(|angle| Turn::new(angle, self.snap));
         self.warn_of_turns(angles, turns.0, faults);
         let [roll, pitch, yaw] = turns.0;
-        Some(self.square(yaw.about(2) * pitch.about(1) * roll.about(0)))
+        let turned = yaw.about(2) * pitch.about(1) * roll.about(0);
+        let square = self.square(turned);
+        let turn = |turn: Turn| {
+            if turn.off <= self.exact() {
+                turn.off
+            } else {
+                0.0
+            }
+        };
+        let entries = (0..9).map(|k| {
+            (square.0[k / 3][k % 3] - turned.0[k / 3][k % 3])
+                .to_f64()
+                .abs()
+        });
+        let moved = turns.0.into_iter().map(turn).chain(entries);
+        self.note(&angles.place, moved.fold(0.0, f64::max));
+        Some(square)
     }
 
     fn warn_of_turns(&self, angles: &Located<Vector>, turns: [Turn; 3], faults: &mut Faults) {
@@ -117,8 +170,11 @@ impl Directions {
         if !off.is_empty() {
             faults.push(wording::nearly_axis(&axis.place, &off));
         }
+        let near = |share: f64| share <= self.exact();
+        let moved = share.0.into_iter().filter(|share| near(*share));
+        self.note(&axis.place, moved.fold(0.0, f64::max));
         let kept = |i: usize| {
-            if share.0[i] <= self.exact() {
+            if near(share.0[i]) {
                 Dd::ZERO
             } else {
                 given.0[i]

@@ -9,6 +9,9 @@ use crate::spec::Spec;
 /// The effects, each sound by itself.
 pub(super) fn effects(spec: &Spec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Declared> {
     let raws = spec.effects.value().map_or(&[][..], Vec::as_slice);
+    if raws.is_empty() {
+        return Vec::new();
+    }
     let found: Vec<Declared> = raws
         .iter()
         .filter_map(|raw| declared(raw, faults))

@@ -4,7 +4,7 @@ use super::super::causality::{Chain, chains};
 use super::{given, joint_names};
 use crate::effect::{Beside, Context, Declared, Element, called, once_per_joint};
 use crate::fault::{Fault, Faults};
-use crate::mechanism::{LinkId, Mechanism};
+use crate::mechanism::{LinkId, Mechanism, Places};
 use crate::spec::SceneSpec;
 
 /// The names that effects may refer to.
@@ -17,14 +17,12 @@ pub(crate) fn context(mechanism: &Mechanism, locked: Vec<String>) -> Context {
         let joint = &mechanism.links()[link.0].joint;
         (joint.name.clone(), joint.limits)
     };
-    let links = mechanism.links().iter().map(|l| l.name.clone());
-    let frames = mechanism.frames().iter().map(|f| f.name.clone());
     Context {
         coordinates: mechanism.coordinates().iter().map(coordinate).collect(),
         limits: mechanism.coordinates().iter().map(limits).collect(),
         added: Vec::new(),
         locked,
-        places: links.chain(frames).collect(),
+        places: Places::new(mechanism),
         nodes: Vec::new(),
     }
 }

@@ -1,0 +1,104 @@
+//! The command: its arguments, the file it reads, what it writes and says.
+
+use super::{Convention, Lock, Options, import_table, import_with, naming};
+use crate::output::{print, tell};
+use crate::spec_file::read_text;
+use anyhow::{Context, Result, anyhow};
+use std::path::{Path, PathBuf};
+
+/// Make a mechanism from a URDF or from a table of Denavit–Hartenberg parameters
+#[derive(Debug, Clone, Default, clap::Args)]
+#[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n  \
+    bgdyn import pr2.urdf --chain torso_lift_link r_gripper_tool_frame --lock r_wrist_roll_joint=0.5\n  \
+    bgdyn import ur5.csv --convention standard\n\n\
+    The mechanism's module is called after the file it is written to. Changed names, what is not taken over and what \
+    was written are told on stderr.")]
+pub struct ImportArgs {
+    /// The URDF (a xacro file must be expanded first), or a table `.csv`
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Where to write the mechanism; stdout if not given
+    #[arg(short, long, value_name = "FILE.yaml")]
+    pub output: Option<PathBuf>,
+    /// Fix this joint where its coordinate has this value, in rad or m, or `90deg`; at 0 without one. May be repeated
+    #[arg(long, value_name = "JOINT[=VALUE]", value_parser = Lock::parse)]
+    pub lock: Vec<Lock>,
+    /// Keep the links from BASE to TIP only, with what is fixed to them; BASE is fixed to the world
+    #[arg(long, value_names = ["BASE", "TIP"], num_args = 2)]
+    pub chain: Vec<String>,
+    /// Write this `snap` into the mechanism, rad: directions so near to exact ones are taken as exact
+    #[arg(long, value_name = "VALUE", value_parser = snap)]
+    pub snap: Option<f64>,
+    /// Write these links as frames: links without inertia on fixed joints, commas between; `all` for all of them
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub frames: Vec<String>,
+    /// Leave damping and friction out, which are otherwise declared as effects
+    #[arg(long)]
+    pub no_effects: bool,
+    /// The convention of a table's rows that do not say theirs
+    #[arg(long, value_enum)]
+    pub convention: Option<Convention>,
+}
+
+fn snap(text: &str) -> Result<f64, String> {
+    let value: Option<f64> = text.parse().ok();
+    let value = value.filter(|value| (0.0..=1e-3).contains(value));
+    value.ok_or_else(|| "snap is a number from 0 to 1e-3, in rad".to_owned())
+}
+
+/// Runs `bgdyn import`.
+pub fn run(args: ImportArgs) -> Result<()> {
+    let path = args.file.display().to_string();
+    let text = read_text(&args.file)?;
+    let options = Options {
+        lock: args.lock,
+        chain: <[String; 2]>::try_from(args.chain).ok(),
+        snap: args.snap,
+        frames: args.frames,
+        no_effects: args.no_effects,
+    };
+    let ending = args.file.extension();
+    let made = match ending.is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+        true => {
+            let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
+            import_table(&text, &stem, args.convention, &options)
+        }
+        false if args.convention.is_some() => Err(anyhow!(
+            "--convention is for a table, a file that ends in .csv"
+        )),
+        false => import_with(&text, &options),
+    };
+    let mut made = made.map_err(|error| {
+        // A place in the file follows its path at once.
+        let place = error.to_string().starts_with(|c: char| c.is_ascii_digit());
+        anyhow!("{path}:{}{error}", if place { "" } else { " " })
+    })?;
+    let mut to = String::new();
+    match &args.output {
+        Some(output) => {
+            std::fs::write(output, &made.yaml)
+                .with_context(|| format!("{} cannot be written", output.display()))?;
+            made.warnings.extend(unfit_stem(output, &made.name));
+            to = format!("{}, ", output.display());
+        }
+        None => print(&made.yaml)?,
+    }
+    for note in &made.notes {
+        tell(&format!("renamed: {note}\n"));
+    }
+    for warning in &made.warnings {
+        tell(&format!("warning: {warning}\n"));
+    }
+    tell(&format!("written: {to}{}\n", made.written));
+    Ok(())
+}
+
+/// A warning where the module could not be called after the file.
+fn unfit_stem(output: &Path, name: &str) -> Option<String> {
+    let file = output.file_name()?.to_string_lossy().into_owned();
+    let stem = file.split('.').next().unwrap_or_default();
+    let unfit = !naming::is_identifier(stem);
+    unfit.then(|| {
+        format!("a module cannot be called `{stem}`: rename {file}, for example to {name}.yaml")
+    })
+}

@@ -1,0 +1,388 @@
+//! A table of Denavit–Hartenberg parameters as links and joints.
+//!
+//! A mechanism's link has its origin on its own joint's axis. A row of the modified convention places it
+//! there; of the standard one it says where the *next* axis is, so what stands behind the turn about z is
+//! carried over to the next row, and the last of it is a frame.
+
+use super::attributes::zeros;
+use super::naming::shown;
+use super::number::Num;
+use super::placement::{Pose, about, displaced};
+use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
+use super::xml::{At, fault};
+use anyhow::{Result, bail};
+use bgdyn_codegen::math::Vec3;
+use bgdyn_runtime::Dd;
+use urdf_rs::JointType;
+
+/// What the four numbers of a row mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Convention {
+    /// Rz(θ) Tz(d) Tx(a) Rx(α): a and α lead from this axis to the next.
+    Standard,
+    /// Rx(α) Tx(a) Rz(θ) Tz(d): a and α lead from the axis before to this one.
+    Modified,
+}
+
+/// The columns that a table may have.
+const COLUMNS: [&str; 24] = [
+    "a",
+    "alpha",
+    "d",
+    "theta",
+    "type",
+    "joint",
+    "link",
+    "convention",
+    "lower",
+    "upper",
+    "velocity",
+    "effort",
+    "damping",
+    "friction",
+    "mass",
+    "cx",
+    "cy",
+    "cz",
+    "ixx",
+    "iyy",
+    "izz",
+    "ixy",
+    "ixz",
+    "iyz",
+];
+
+/// One row: its cells by the names of their columns.
+struct Row<'a> {
+    line: u64,
+    /// Name, column of the text, text; only cells with something in them.
+    cells: Vec<(&'a str, u64, &'a str)>,
+}
+
+/// Reads a table. `name` is the robot's, `convention` that of rows that do not say theirs.
+pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Result<Model> {
+    let rows = rows(text)?;
+    let mut model = Model {
+        name: name.to_owned(),
+        source: "a table of Denavit–Hartenberg parameters".into(),
+        links: vec![base()],
+        joints: Vec::new(),
+        frames: Vec::new(),
+        warnings: Vec::new(),
+    };
+    // From the axes of the last link to those in which the next row begins.
+    let mut carried = about(2, Dd::ZERO);
+    for (i, row) in rows.iter().enumerate() {
+        let [placed, after] = row.poses(convention)?;
+        let parent = model
+            .links
+            .last()
+            .map_or_else(String::new, |link| link.name.clone());
+        let (link, joint) = row.link(i + 1, &parent, &carried.then(&placed), &after)?;
+        model.links.push(link);
+        model.joints.push(joint);
+        carried = after;
+    }
+    let last = model
+        .links
+        .last()
+        .map_or_else(String::new, |link| link.name.clone());
+    let place = carried.placement();
+    if rows.last().is_some_and(|row| {
+        row.convention(convention)
+            .is_ok_and(|c| c == Convention::Standard)
+    }) {
+        model.frames.push(Frame {
+            name: "flange".into(),
+            link: last,
+            place,
+        });
+    }
+    Ok(model)
+}
+
+/// The link before the first row.
+fn base() -> Link {
+    Link {
+        name: "base".into(),
+        at: (1, 1),
+        inertial: None,
+        place: None,
+    }
+}
+
+/// The rows below the names of the columns; empty lines and those that begin with `#` are none.
+fn rows(text: &str) -> Result<Vec<Row<'_>>> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let lines = (1..).zip(text.lines());
+    let mut lines = lines.filter(|(_, line)| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with('#')
+    });
+    let Some((line, head)) = lines.next() else {
+        bail!("1:1: the table is empty: its first line names the columns, `a, alpha, d, theta`");
+    };
+    let columns: Vec<(u64, &str)> = cells(head).collect();
+    for (i, (at, column)) in columns.iter().enumerate() {
+        if !COLUMNS.contains(column) {
+            let (column, known) = (shown(column), COLUMNS.join(", "));
+            let message = format!("there is no column `{column}`; the columns are {known}");
+            return Err(fault((line, *at), message));
+        }
+        if columns[..i].iter().any(|(_, other)| other == column) {
+            return Err(fault(
+                (line, *at),
+                format_args!("a second column `{column}`"),
+            ));
+        }
+    }
+    let missing = ["a", "alpha", "d", "theta"].into_iter();
+    let missing = missing.filter(|name| columns.iter().all(|(_, column)| column != name));
+    let missing: Vec<&str> = missing.collect();
+    if !missing.is_empty() {
+        let message = format!("columns are missing: {}", missing.join(", "));
+        return Err(fault((line, 1), message));
+    }
+    let rows: Result<Vec<Row<'_>>> = lines
+        .map(|(line, text)| {
+            let given: Vec<(u64, &str)> = cells(text).collect();
+            if given.len() > columns.len() {
+                let message = format!("{} cells below {} columns", given.len(), columns.len());
+                return Err(fault((line, given[columns.len()].0), message));
+            }
+            let cells = columns
+                .iter()
+                .zip(given)
+                .filter(|(_, (_, text))| !text.is_empty());
+            let cells = cells.map(|((_, name), (at, text))| (*name, at, text));
+            Ok(Row {
+                line,
+                cells: cells.collect(),
+            })
+        })
+        .collect();
+    let rows = rows?;
+    if rows.is_empty() {
+        bail!("{line}:1: the table has no row below the names of its columns");
+    }
+    Ok(rows)
+}
+
+/// The cells of a line with the columns of the text where they begin, without quotes and spaces.
+fn cells(line: &str) -> impl Iterator<Item = (u64, &str)> {
+    let mut at = 1;
+    line.split(',').map(move |cell| {
+        let begin = cell.chars().take_while(|c| c.is_whitespace()).count() as u64;
+        let place = at + begin;
+        at += cell.chars().count() as u64 + 1;
+        (place, cell.trim().trim_matches('"').trim())
+    })
+}
+
+impl<'a> Row<'a> {
+    fn cell(&self, name: &str) -> Option<(At, &'a str)> {
+        let found = self.cells.iter().find(|(column, ..)| *column == name);
+        found.map(|(_, at, text)| ((self.line, *at), *text))
+    }
+
+    /// A number; none where the cell is empty.
+    fn number(&self, name: &str, unit: Unit) -> Result<Option<Num>> {
+        let Some((at, text)) = self.cell(name) else {
+            return Ok(None);
+        };
+        let number = unit.read(text).filter(|number| number.value.is_finite());
+        let message = || {
+            let (text, units) = (shown(text), unit.words());
+            fault(
+                at,
+                format_args!("`{name}` must be a number{units}, not `{text}`"),
+            )
+        };
+        number.ok_or_else(message).map(Some)
+    }
+
+    fn or_zero(&self, name: &str, unit: Unit) -> Result<Num> {
+        Ok(self.number(name, unit)?.unwrap_or(Num::zero()))
+    }
+
+    fn convention(&self, usual: Option<Convention>) -> Result<Convention> {
+        match self.cell("convention") {
+            Some((_, "standard")) => Ok(Convention::Standard),
+            Some((_, "modified")) => Ok(Convention::Modified),
+            Some((at, word)) => {
+                let word = shown(word);
+                Err(fault(at, format_args!("the convention is `standard` or `modified`, not `{word}`")))
+            }
+            None => usual.ok_or_else(|| {
+                let message = "which convention the row follows is not said: give `--convention standard` or \
+                               `--convention modified`, or a column `convention`";
+                fault((self.line, 1), message)
+            }),
+        }
+    }
+
+    fn kind(&self) -> Result<JointType> {
+        match self.cell("type") {
+            None | Some((_, "revolute")) => Ok(JointType::Revolute),
+            Some((_, "continuous")) => Ok(JointType::Continuous),
+            Some((_, "prismatic")) => Ok(JointType::Prismatic),
+            Some((_, "fixed")) => Ok(JointType::Fixed),
+            Some((at, word)) => {
+                let word = shown(word);
+                let message =
+                    format!("the type is revolute, continuous, prismatic or fixed, not `{word}`");
+                Err(fault(at, message))
+            }
+        }
+    }
+
+    /// The link's place in the axes in which the row begins, and the row's own frame in the link's axes.
+    fn poses(&self, usual: Option<Convention>) -> Result<[Pose; 2]> {
+        let [a, d] = [
+            self.or_zero("a", Unit::Metre)?,
+            self.or_zero("d", Unit::Metre)?,
+        ];
+        let [alpha, theta] = ["alpha", "theta"].map(|name| self.or_zero(name, Unit::Radian));
+        let (a, d) = (
+            displaced([a.exact(), Dd::ZERO, Dd::ZERO]),
+            displaced([Dd::ZERO, Dd::ZERO, d.exact()]),
+        );
+        let (alpha, theta) = (about(0, alpha?.exact()), about(2, theta?.exact()));
+        Ok(match self.convention(usual)? {
+            Convention::Standard => [theta, d.then(&a).then(&alpha)],
+            Convention::Modified => [alpha.then(&a).then(&theta).then(&d), about(2, Dd::ZERO)],
+        })
+    }
+
+    /// The link and its joint; `placed` is in the axes of the link before, `after` the row's frame in its own.
+    fn link(
+        &self,
+        number: usize,
+        parent: &str,
+        placed: &Pose,
+        after: &Pose,
+    ) -> Result<(Link, Joint)> {
+        let named = |column: &str| self.cell(column).map(|(_, text)| text.to_owned());
+        let name = named("link").unwrap_or_else(|| format!("link_{number}"));
+        let kind = self.kind()?;
+        let unit = match kind {
+            JointType::Prismatic => Unit::Metre,
+            _ => Unit::Radian,
+        };
+        let fixed = kind == JointType::Fixed;
+        let limits = Limits {
+            lower: self.number("lower", unit)?,
+            upper: self.number("upper", unit)?,
+            velocity: self.number("velocity", Unit::Si)?,
+            effort: self.number("effort", Unit::Si)?,
+        };
+        let loss = |column: &str| -> Result<Option<Num>> {
+            let value = self
+                .number(column, Unit::Si)?
+                .filter(|value| !value.is_zero());
+            if let (Some((at, _)), Some(value)) = (self.cell(column), &value)
+                && value.value < 0.0
+            {
+                return Err(fault(at, format_args!("`{column}` is negative")));
+            }
+            Ok(value.filter(|_| !fixed))
+        };
+        let joint = Joint {
+            name: named("joint").unwrap_or_else(|| format!("joint_{number}")),
+            at: (self.line, 1),
+            parent: parent.to_owned(),
+            child: name.clone(),
+            origin: placed.placement(),
+            axis: [Num::zero(), Num::zero(), Num::computed(1.0)],
+            limits: if fixed { Limits::default() } else { limits },
+            damping: loss("damping")?,
+            friction: loss("friction")?,
+            kind,
+        };
+        let link = Link {
+            name,
+            at: (self.line, 1),
+            inertial: self.inertial(after)?,
+            place: None,
+        };
+        Ok((link, joint))
+    }
+
+    /// Mass, centre of mass and tensor about it, which the row gives in its own frame's axes.
+    fn inertial(&self, frame: &Pose) -> Result<Option<Inertial>> {
+        let own = ["cx", "cy", "cz"].map(|name| self.or_zero(name, Unit::Metre));
+        let [x, y, z] = own;
+        let own = [x?, y?, z?];
+        let com = Pose {
+            translation: Vec3(own.each_ref().map(Num::exact)),
+            ..about(2, Dd::ZERO)
+        };
+        let plain = frame.placement();
+        let place = plain.then(&com.placement());
+        let mut tensor = zeros6();
+        for (entry, name) in tensor
+            .iter_mut()
+            .zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"])
+        {
+            *entry = self.or_zero(name, Unit::Si)?;
+        }
+        let mass = self.or_zero("mass", Unit::Si)?;
+        let body = !mass.is_zero() || tensor.iter().any(|entry| !entry.is_zero());
+        Ok(body.then_some(Inertial {
+            mass,
+            com: place.xyz,
+            rpy: plain.rpy,
+            tensor,
+        }))
+    }
+}
+
+fn zeros6() -> [Num; 6] {
+    let ([a, b, c], [d, e, f]) = (zeros(), zeros());
+    [a, b, c, d, e, f]
+}
+
+/// What a column's numbers measure.
+#[derive(Clone, Copy)]
+enum Unit {
+    /// m, or mm and cm where the cell says so.
+    Metre,
+    /// rad, or deg where the cell says so.
+    Radian,
+    /// The SI unit.
+    Si,
+}
+
+impl Unit {
+    fn read(self, text: &str) -> Option<Num> {
+        let strip = |unit: &str| text.strip_suffix(unit).map(str::trim_end);
+        match self {
+            Unit::Si => Num::parse(text),
+            Unit::Radian => match (strip("deg"), strip("rad")) {
+                (Some(degrees), _) => Num::degrees(degrees),
+                (None, Some(radians)) => Num::parse(radians),
+                (None, None) => Num::parse(text),
+            },
+            Unit::Metre => {
+                let parts = [("mm", 1000.0), ("cm", 100.0), ("m", 1.0), ("", 1.0)];
+                let found = parts
+                    .into_iter()
+                    .find_map(|(unit, parts)| Some((strip(unit)?, parts)));
+                let (digits, parts) = found?;
+                let number = Num::parse(digits)?;
+                Some(match parts == 1.0 {
+                    true => number,
+                    false => Num::computed((number.exact() / Dd::from_f64(parts)).to_f64()),
+                })
+            }
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Unit::Metre => " of m, or with `mm` or `cm` behind it",
+            Unit::Radian => " of rad, or with `deg` behind it",
+            Unit::Si => "",
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! What looks wrong of a robot, or was decided for its maker.
+
+use super::inertia::{DUST, Verdict, is_dust, judge};
+use super::naming::shown;
+use super::number::Num;
+use super::reading::{Inertial, Model};
+use super::tree::Tree;
+use bgdyn_codegen::mechanism::name::WORLD;
+use std::collections::HashMap;
+use urdf_rs::JointType;
+
+/// Warnings about the robot as a whole.
+pub(super) fn doubtful(model: &Model, tree: &Tree) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if model.name.is_empty() {
+        warnings.push("the robot has no name".into());
+    }
+    if tree.roots.len() > 1 {
+        let roots: Vec<String> = tree
+            .roots
+            .iter()
+            .map(|root| format!("`{}`", shown(&model.links[*root].name)))
+            .collect();
+        warnings.push(format!(
+            "several links have no joint, all are fixed to the world: {}",
+            roots.join(", ")
+        ));
+    }
+    warnings.extend(grounded(model, tree));
+    let mut times = HashMap::new();
+    for joint in &model.joints {
+        let times = times.entry(&joint.name).or_insert(0);
+        *times += 1;
+        if *times == 2 {
+            warnings.push(format!(
+                "several joints are called `{}`",
+                shown(&joint.name)
+            ));
+        }
+    }
+    warnings
+}
+
+/// Sets tensors to zero that are what rounding left of one, and says of which links.
+pub(super) fn without_dust(model: &mut Model) -> Option<String> {
+    let mut names = Vec::new();
+    for link in &mut model.links {
+        let Some(inertial) = &mut link.inertial else {
+            continue;
+        };
+        if is_dust(inertial.tensor.each_ref().map(|entry| entry.value)) {
+            inertial.tensor = std::array::from_fn(|_| Num::zero());
+            names.push(format!("`{}`", shown(&link.name)));
+        }
+    }
+    let names = (!names.is_empty()).then(|| names.join("; "));
+    names.map(|names| {
+        format!("tensors that no body has, all entries below {DUST:e} kg·m², taken as 0: {names}")
+    })
+}
+
+/// Warns of an inertial that no body has; true where the mechanism must allow it.
+pub(super) fn judge_inertial(link: &str, inertial: &Inertial, warnings: &mut Vec<String>) -> bool {
+    if inertial.mass.value < 0.0 {
+        let mass = &inertial.mass.text;
+        warnings.push(format!(
+            "link `{link}`: the mass {mass} kg is negative; `bgdyn check` will refuse it"
+        ));
+    }
+    let verdict = judge(inertial.tensor.each_ref().map(|entry| entry.value));
+    let (moments, fault) = match &verdict {
+        Verdict::Physical => return false,
+        Verdict::NoTriangle(moments) => (
+            moments,
+            "break the triangle inequality; kept, with `nonphysical: allow`",
+        ),
+        Verdict::Indefinite(moments) => (
+            moments,
+            "are not all positive or zero; kept, but `bgdyn check` will refuse them",
+        ),
+    };
+    let [a, b, c] = moments.map(|moment| Num::computed(rounded(moment)).text);
+    warnings.push(format!(
+        "link `{link}`: the principal moments {a}, {b}, {c} kg·m² {fault}"
+    ));
+    matches!(verdict, Verdict::NoTriangle(_))
+}
+
+/// Rounded to six digits, for reading.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// The links that are fixed to the world although nothing in the file says so, and that have mass: the maker may
+/// have meant a base that moves.
+fn grounded(model: &Model, tree: &Tree) -> Option<String> {
+    let heavy = |root: &usize| {
+        let mut rigid = vec![*root];
+        let mut mass = 0.0;
+        while let Some(link) = rigid.pop() {
+            let inertial = model.links[link].inertial.as_ref();
+            mass += inertial.map_or(0.0, |inertial| inertial.mass.value);
+            let fixed = model.joints.iter().zip(&tree.ends);
+            let fixed = fixed
+                .filter(|(joint, (parent, _))| *parent == link && joint.kind == JointType::Fixed);
+            rigid.extend(fixed.map(|(_, (_, child))| *child));
+        }
+        (mass != 0.0).then(|| {
+            let mass = Num::computed(rounded(mass)).text;
+            format!("`{}` ({mass} kg)", shown(&model.links[*root].name))
+        })
+    };
+    // A root called so is what the maker stands the robot on.
+    let said = |root: &&usize| {
+        let link = &model.links[**root];
+        link.name != WORLD && link.place.is_none()
+    };
+    let heavy: Vec<String> = tree.roots.iter().filter(said).filter_map(heavy).collect();
+    (!heavy.is_empty()).then(|| {
+        format!(
+            "fixed to the world, since no joint carries it: {}; where the base drives, walks or flies, put six massless \
+             links before it, three slides and three turns (docs/import.md, \"A base that moves\")",
+            heavy.join(", ")
+        )
+    })
+}

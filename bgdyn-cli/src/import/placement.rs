@@ -1,0 +1,166 @@
+//! Poses computed from a robot's numbers, in double-double, and written as numbers again.
+
+use super::attributes::zeros;
+use super::number::{Num, all_zero};
+use bgdyn_codegen::math::{Mat3, Vec3};
+use bgdyn_runtime::Dd;
+
+/// Angles this near a multiple of 90° are one: what is off is the rounding of double-double.
+const EXACT: f64 = 1e-25;
+
+/// A placement as a mechanism writes it: `xyz` in m, `rpy` in rad.
+#[derive(Clone, Debug)]
+pub(super) struct Placement {
+    pub(super) xyz: [Num; 3],
+    pub(super) rpy: [Num; 3],
+}
+
+impl Placement {
+    /// No displacement, no turn.
+    pub(super) fn identity() -> Self {
+        Placement {
+            xyz: zeros(),
+            rpy: zeros(),
+        }
+    }
+
+    fn is_identity(&self) -> bool {
+        all_zero(&self.xyz) && all_zero(&self.rpy)
+    }
+
+    /// `inner`, given in this placement's axes, in the axes in which this one is given. Where one of the
+    /// two is none, the other's text stays as it is.
+    pub(super) fn then(&self, inner: &Placement) -> Placement {
+        if inner.is_identity() {
+            return self.clone();
+        }
+        if self.is_identity() {
+            return inner.clone();
+        }
+        self.pose().then(&inner.pose()).placement()
+    }
+
+    /// The same in double-double.
+    pub(super) fn pose(&self) -> Pose {
+        let [roll, pitch, yaw] = self.rpy.each_ref().map(Num::exact);
+        let turned = about(2, yaw).then(&about(1, pitch)).then(&about(0, roll));
+        Pose {
+            translation: Vec3(self.xyz.each_ref().map(Num::exact)),
+            ..turned
+        }
+    }
+}
+
+/// A placement in double-double.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pose {
+    pub(super) rotation: Mat3<Dd>,
+    pub(super) translation: Vec3<Dd>,
+}
+
+impl Pose {
+    /// `inner`, given in this pose's axes, in the axes in which this one is given.
+    pub(super) fn then(&self, inner: &Pose) -> Pose {
+        Pose {
+            rotation: self.rotation * inner.rotation,
+            translation: self.translation + self.rotation * inner.translation,
+        }
+    }
+
+    /// As numbers of a mechanism. At a pitch of ±90° the yaw is 0.
+    pub(super) fn placement(&self) -> Placement {
+        let r = self.rotation.0;
+        let level = (r[0][0] * r[0][0] + r[1][0] * r[1][0]).sqrt();
+        let pitch = angle(-r[2][0], level);
+        let (roll, yaw) = match level.to_f64() < EXACT {
+            true => (angle(-r[1][2], r[1][1]), Dd::ZERO),
+            false => (angle(r[2][1], r[2][2]), angle(r[1][0], r[0][0])),
+        };
+        Placement {
+            xyz: self.translation.0.map(metres),
+            rpy: [roll, pitch, yaw].map(radians),
+        }
+    }
+}
+
+/// A displacement.
+pub(super) fn displaced(by: [Dd; 3]) -> Pose {
+    Pose {
+        translation: Vec3(by),
+        ..about(2, Dd::ZERO)
+    }
+}
+
+/// A turn about a coordinate axis: 0 is x. What is off a quarter turn by the rounding of an `f64` is one.
+pub(super) fn about(axis: usize, angle: Dd) -> Pose {
+    let mut e = [Dd::ZERO; 3];
+    e[axis] = Dd::ONE;
+    turned(Vec3(e), angle)
+}
+
+/// A turn about an axis of any length but zero.
+pub(super) fn turned(axis: Vec3<Dd>, angle: Dd) -> Pose {
+    let n = unit(axis);
+    let (sin, cos) = sin_cos(angle);
+    let columns: [Vec3<Dd>; 3] = std::array::from_fn(|j| {
+        let mut e = [Dd::ZERO; 3];
+        e[j] = Dd::ONE;
+        let e = Vec3(e);
+        e.scale(cos) + n.cross(e).scale(sin) + n.scale(n.0[j] * (Dd::ONE - cos))
+    });
+    Pose {
+        rotation: Mat3::from_fn(|i, j| columns[j].0[i]),
+        translation: Vec3([Dd::ZERO; 3]),
+    }
+}
+
+/// The vector at length 1.
+pub(super) fn unit(v: Vec3<Dd>) -> Vec3<Dd> {
+    let length = v.dot(v).sqrt();
+    v.map(|x| x / length)
+}
+
+/// The rounding of a multiple of 90° in `f64`, rad.
+const ROUNDED: f64 = 1e-15;
+
+fn sin_cos(angle: Dd) -> (Dd, Dd) {
+    match quarters(angle, ROUNDED) {
+        Some(count) => match count.rem_euclid(4) {
+            0 => (Dd::ZERO, Dd::ONE),
+            1 => (Dd::ONE, Dd::ZERO),
+            2 => (Dd::ZERO, -Dd::ONE),
+            _ => (-Dd::ONE, Dd::ZERO),
+        },
+        None => angle.sin_cos(),
+    }
+}
+
+/// How many quarter turns the angle is, if it is within this of a whole number of them.
+fn quarters(angle: Dd, within: f64) -> Option<i64> {
+    let count = (angle / Dd::FRAC_PI_2).to_f64().round();
+    let off = angle - Dd::FRAC_PI_2 * Dd::from_f64(count);
+    (off.to_f64().abs() <= within).then_some(count as i64)
+}
+
+/// The angle whose sine and cosine are these: found in `f64`, and corrected once.
+fn angle(sin: Dd, cos: Dd) -> Dd {
+    let near = Dd::from_f64(sin.to_f64().atan2(cos.to_f64()));
+    let (s, c) = near.sin_cos();
+    near + (sin * c - cos * s)
+}
+
+fn metres(x: Dd) -> Num {
+    // What products of zeros and ones leave of a sum that cancels.
+    if x.to_f64().abs() < EXACT {
+        return Num::zero();
+    }
+    Num::computed(x.to_f64())
+}
+
+fn radians(angle: Dd) -> Num {
+    match quarters(angle, EXACT) {
+        Some(0) => Num::zero(),
+        Some(count) => Num::degrees(&format!("{}", 90 * count)).unwrap_or(Num::zero()),
+        None => Num::computed(angle.to_f64()),
+    }
+}

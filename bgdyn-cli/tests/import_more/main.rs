@@ -1,0 +1,62 @@
+//! `bgdyn import` with options, and of tables of Denavit–Hartenberg parameters.
+
+mod options;
+mod table;
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::{Options, function};
+
+/// The mechanism of a text that has no fault.
+fn mechanism(yaml: &str) -> Mechanism {
+    let (mechanism, faults) = bgdyn_codegen::read(yaml, Some("arm"));
+    mechanism.unwrap_or_else(|| panic!("{}\n{yaml}", faults.render("arm.yaml", yaml)))
+}
+
+/// A method's value at a state.
+fn value(mechanism: &Mechanism, method: Method, [q, v, a]: [&[f64]; 3]) -> Vec<f64> {
+    let function = function(mechanism, method, &Options::default()).expect("the method");
+    let inputs = Inputs {
+        q: q.to_vec(),
+        v: v.to_vec(),
+        a: a.to_vec(),
+        ..Inputs::default()
+    };
+    function.evaluate(inputs).0
+}
+
+/// The pose of a place: rotation row by row or column by column as the method has it, and origin.
+fn pose(mechanism: &Mechanism, place: &str, q: &[f64]) -> Vec<f64> {
+    let sites = bgdyn_codegen::bond_graph::build(mechanism).sites;
+    let method = Method::named(&sites, &format!("pose_{place}")).expect("the place");
+    value(mechanism, method, [q, &[], &[]])
+}
+
+fn near(a: &[f64], b: &[f64], bar: f64) {
+    assert_eq!(a.len(), b.len());
+    let size = a
+        .iter()
+        .chain(b)
+        .fold(1.0, |size: f64, x| size.max(x.abs()));
+    for (x, y) in a.iter().zip(b) {
+        assert!((x - y).abs() <= bar * size, "{a:?}\n{b:?}");
+    }
+}
+
+/// Evenly spread numbers from −1 to 1, the same in every run.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn many(&mut self, count: usize) -> Vec<f64> {
+        (0..count).map(|_| self.next()).collect()
+    }
+}

@@ -1,0 +1,115 @@
+//! Where links and frames are at a few sampled positions: whether two of them ever move apart.
+
+use bgdyn_runtime::Dd;
+
+use super::{LinkId, Mechanism, Motion, Pose};
+use crate::math::{Mat3, Vec3};
+
+/// At so many positions.
+const POSITIONS: usize = 4;
+/// Distances that differ by less, of the largest coordinate, are equal: rounding of double-double with
+/// room to spare.
+const ROUNDING: f64 = 1e-26;
+
+/// The origins of links and frames in the world at sampled positions, m.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Places {
+    names: Vec<String>,
+    origins: Vec<[Vec3<Dd>; POSITIONS]>,
+}
+
+impl Places {
+    /// Those of a mechanism: links first, then frames.
+    pub(crate) fn new(mechanism: &Mechanism) -> Self {
+        let poses: [Vec<Pose>; POSITIONS] = std::array::from_fn(|k| link_poses(mechanism, k));
+        let links = mechanism.links().iter().enumerate();
+        let links = links.map(|(i, link)| {
+            let origins = std::array::from_fn(|k| poses[k][i].translation);
+            (link.name.clone(), origins)
+        });
+        let frames = mechanism.frames().iter().map(|frame| {
+            let carrier = |k: usize| frame.link.map_or(Pose::IDENTITY, |link| poses[k][link.0]);
+            let origins = std::array::from_fn(|k| after(carrier(k), frame.origin).translation);
+            (frame.name.clone(), origins)
+        });
+        let (names, origins) = links.chain(frames).unzip();
+        Places { names, origins }
+    }
+
+    /// The names.
+    pub(crate) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The distance of two places where it is the same at all positions, m.
+    pub(crate) fn constant_distance(&self, a: &str, b: &str) -> Option<f64> {
+        let of = |name: &str| {
+            let i = self.names.iter().position(|known| known == name);
+            i.and_then(|i| self.origins.get(i))
+        };
+        let (a, b) = (of(a)?, of(b)?);
+        let size = a.iter().chain(b).flat_map(|r| r.0);
+        let size = size.map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+        let apart = |k: usize| {
+            let d = a[k] - b[k];
+            d.dot(d)
+        };
+        let first = apart(0);
+        let same =
+            (1..POSITIONS).all(|k| (apart(k) - first).to_f64().abs() <= ROUNDING * size * size);
+        same.then(|| first.to_f64().max(0.0).sqrt())
+    }
+}
+
+/// The poses of the links in the world at sampled position `k`.
+fn link_poses(mechanism: &Mechanism, k: usize) -> Vec<Pose> {
+    let mut poses: Vec<Pose> = Vec::with_capacity(mechanism.links().len());
+    for link in mechanism.links() {
+        let carrier = |LinkId(i): LinkId| poses.get(i).copied().unwrap_or(Pose::IDENTITY);
+        let placed = after(
+            link.parent.map_or(Pose::IDENTITY, carrier),
+            link.joint.origin,
+        );
+        let coordinate = link.joint.coordinate.map(|j| sampled(j.0, k));
+        let moved = match (link.joint.kind.motion, coordinate) {
+            (Motion::Rotation, Some(q)) => Pose {
+                rotation: turn(link.joint.axis, q),
+                ..Pose::IDENTITY
+            },
+            (Motion::Translation, Some(q)) => Pose {
+                translation: link.joint.axis.scale(q),
+                ..Pose::IDENTITY
+            },
+            _ => Pose::IDENTITY,
+        };
+        poses.push(after(placed, moved));
+    }
+    poses
+}
+
+/// A coordinate at a sampled position: multiples of the golden ratio have no pattern that a mechanism
+/// could share.
+fn sampled(coordinate: usize, position: usize) -> Dd {
+    let step = (1 + coordinate * POSITIONS + position) as f64 * 0.618_033_988_749_894_9;
+    Dd::from_f64(5.0 * (step - step.floor()) - 2.5)
+}
+
+/// `inner`, given in the axes of `outer`, in the axes in which `outer` is given.
+fn after(outer: Pose, inner: Pose) -> Pose {
+    Pose {
+        rotation: outer.rotation * inner.rotation,
+        translation: outer.translation + outer.rotation * inner.translation,
+    }
+}
+
+/// The rotation by an angle about a unit vector.
+fn turn(axis: Vec3<Dd>, angle: Dd) -> Mat3<Dd> {
+    let (sin, cos) = angle.sin_cos();
+    let columns: [Vec3<Dd>; 3] = std::array::from_fn(|j| {
+        let e = Vec3(std::array::from_fn(
+            |i| if i == j { Dd::ONE } else { Dd::ZERO },
+        ));
+        e.scale(cos) + axis.cross(e).scale(sin) + axis.scale(axis.0[j] * (Dd::ONE - cos))
+    });
+    Mat3::from_fn(|i, j| columns[j].0[i])
+}
