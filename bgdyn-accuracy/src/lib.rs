@@ -25,6 +25,7 @@ mod clock;
 mod compiled;
 mod contender;
 mod converge;
+pub mod dark;
 mod erased;
 mod figures;
 #[cfg(feature = "generate")]
