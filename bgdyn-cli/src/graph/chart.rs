@@ -84,7 +84,7 @@ impl Chart {
         }
         if !self.folded.is_empty() {
             let names = self.folded.join(", ");
-            text += &format!(". Massless and not drawn: {names}");
+            text += &format!(". Massless and not drawn, with their transformers: {names}");
         }
         text
     }

@@ -113,7 +113,8 @@ fn link(graph: &BondGraph, order: &[CoordinateId], i: LinkId) -> Link {
         transformers: transformers(graph, order, i, junction),
         ports: ports(graph, i, junction),
     });
-    let acts = |f: &Flow| !f.transformers.is_empty() && !f.ports.is_empty();
+    let massless = massless(graph, i);
+    let acts = |f: &Flow| !massless && !f.transformers.is_empty() && !f.ports.is_empty();
     let flows = flows.into_iter().filter(acts);
     Link {
         name: frame.name.clone(),
@@ -122,6 +123,21 @@ fn link(graph: &BondGraph, order: &[CoordinateId], i: LinkId) -> Link {
             .collect(),
         flows: flows.collect(),
     }
+}
+
+/// Whether a link has neither mass nor inertia: its stores and its weight are nothing.
+fn massless(graph: &BondGraph, i: LinkId) -> bool {
+    let own = [graph.translation(i), graph.rotation(i)];
+    let nothing = |value: &Value| *value == Value::Fixed(Dd::ZERO);
+    let stores = graph.stores.iter().filter(|s| own.contains(&s.junction));
+    let sources = graph.sources.iter().filter(|s| own.contains(&s.junction));
+    let mut weights = sources.flat_map(|s| &s.efforts);
+    let empty = |store: &Store| match &store.inertia {
+        Inertia::Mass(mass) => nothing(mass),
+        Inertia::Tensor(entries) => entries.iter().all(nothing),
+    };
+    stores.map(empty).all(|empty| empty)
+        && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
 }
 
 /// The transformers into a link's flow, in the order of the velocities.

@@ -108,7 +108,7 @@ fn massless_links_are_folded() {
         assert!(!svg.contains(&format!(">{folded}</text>")), "{folded}");
     }
     assert!(svg.contains("4 velocities, 4 links"));
-    assert!(svg.contains("Massless and not drawn: base, knuckle"), "{svg}");
+    assert!(svg.contains("not drawn, with their transformers: base, knuckle"), "{svg}");
     assert_eq!(svg.matches("has no store and no source").count(), 1);
     // Every transformer is below the head of its velocity.
     let dot = bgdyn(&["graph", &file, "--format", "dot"]).good();
@@ -132,7 +132,7 @@ links:
     mass: 2 kg
     com: [0, 0, -0.3 m]
 frames:
-  - { name: tip, parent: arm, xyz: [0, 0, -0.6 m] }
+  - { name: tip, link: arm, origin: { xyz: [0, 0, -0.6 m] } }
 effects:
   walls: { type: stop, joint: slide, lower: -0.2 m, upper: 0.3 m, stiffness: 1e5, restitution: 0.5, impact_speed: 1 }
   peg: { type: stop, joint: swing, upper: 90 deg, stiffness: 1e4, restitution: 0.5, impact_speed: 1 }
