@@ -136,14 +136,14 @@ frames:
 effects:
   walls: { type: stop, joint: slide, lower: -0.2 m, upper: 0.3 m, stiffness: 1e5, restitution: 0.5, impact_speed: 1 }
   peg: { type: stop, joint: swing, upper: 90 deg, stiffness: 1e4, restitution: 0.5, impact_speed: 1 }
-  box: { type: payload, at: tip, mass: 3 kg }
+  load: { type: payload, at: tip, mass: 3 kg }
 ";
 
 #[test]
 fn stops_and_payloads_are_on_the_page() {
     let text = STOPS.replace("parameters: {}\n", "");
     scratch("pictures", "stops.yaml", &text);
-    let scene = "scene: 1\nmechanism: stops.yaml\neffects: [gravity, inertia, walls, peg, box]\nintegration: { method: rk4, step: 1 ms, end: 0.05 s }\n";
+    let scene = "scene: 1\nmechanism: stops.yaml\neffects: [gravity, inertia, walls, peg, load]\nintegration: { method: rk4, step: 1 ms, end: 0.05 s }\n";
     let scene = scratch("pictures", "stops.scene.yaml", scene);
     let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "pictures"].iter().collect();
     bgdyn(&["simulate", &scene, "--out", &out.display().to_string()]).good();
@@ -171,6 +171,6 @@ fn stops_and_payloads_are_on_the_page() {
     let points = data["bodies"][2]["points"].as_array().expect("points");
     let loads: Vec<&Value> = points.iter().filter(|p| p["load"] == true).collect();
     let [load] = loads[..] else { panic!("one load: {points:?}") };
-    assert_eq!((&load["name"], &load["mass"]), (&Value::from("box"), &Value::from(3.0)));
+    assert_eq!((&load["name"], &load["mass"]), (&Value::from("load"), &Value::from(3.0)));
     is(&load["at"], [0.0, 0.0, -0.6]);
 }

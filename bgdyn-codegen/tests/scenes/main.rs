@@ -14,6 +14,7 @@ mod friction;
 mod hard_cases;
 mod hydraulics;
 mod laws;
+mod motors;
 mod one;
 mod page;
 mod reference;
