@@ -152,7 +152,11 @@ impl Subject {
             let (y, modes) = (begin.y, begin.modes);
             for _ in 0..times {
                 let (y, modes) = (black_box(&y), black_box(&modes));
-                let _ = black_box(scene.derivative(y, modes, black_box(&input), begin.t).is_ok());
+                let _ = black_box(
+                    scene
+                        .derivative(y, modes, black_box(&input), begin.t)
+                        .is_ok(),
+                );
             }
         };
         self.prices.push(Priced {

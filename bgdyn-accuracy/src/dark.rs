@@ -179,16 +179,24 @@ mod tests {
         assert_eq!(parsed("#ü12345"), None);
         for rgb in [[0.0; 3], [1.0; 3], [0.2, 0.5, 0.9]] {
             let there_and_back = of_oklab(oklab(rgb));
-            let close = rgb.iter().zip(there_and_back).all(|(a, b)| (a - b).abs() < 1e-6);
+            let close = rgb
+                .iter()
+                .zip(there_and_back)
+                .all(|(a, b)| (a - b).abs() < 1e-6);
             assert!(close, "{rgb:?} becomes {there_and_back:?}");
         }
     }
 
     #[test]
     fn every_colour_of_a_drawing_has_its_rule() {
-        let svg = "<svg width=\"2\"><rect fill=\"#fff\"/><line stroke=\"#0072B2\" fill=\"none\"/></svg>";
+        let svg =
+            "<svg width=\"2\"><rect fill=\"#fff\"/><line stroke=\"#0072B2\" fill=\"none\"/></svg>";
         let both = with_dark_mode(svg);
-        for rule in ["[fill=\"#fff\"]{fill:#", "[stroke=\"#0072B2\"]{stroke:#", "svg:not([fill])"] {
+        for rule in [
+            "[fill=\"#fff\"]{fill:#",
+            "[stroke=\"#0072B2\"]{stroke:#",
+            "svg:not([fill])",
+        ] {
             assert!(both.contains(rule), "{both}");
         }
         assert!(!both.contains("[fill=\"none\"]"));

@@ -186,7 +186,10 @@ impl Study {
         let numbers = numbers.join("\t");
         let (samples, kinked) = (f.samples, f.kinked);
         let rows = crate::row::csv(&self.rows);
-        let costs = self.costs.iter().map(|cost| format!("$\t{}\n", cost.line()));
+        let costs = self
+            .costs
+            .iter()
+            .map(|cost| format!("$\t{}\n", cost.line()));
         let costs: String = costs.collect();
         format!(
             "#\t{}\t{samples}\t{kinked}\t{numbers}\n{costs}{rows}",

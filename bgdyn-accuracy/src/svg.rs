@@ -111,7 +111,11 @@ impl Drawing {
     /// A filled polygon.
     pub fn area(&mut self, points: &[(f64, f64)], colour: &str) {
         let corners = joined(points);
-        writeln!(self.body, "<polygon points=\"{corners}\" fill=\"{colour}\"/>").expect("text");
+        writeln!(
+            self.body,
+            "<polygon points=\"{corners}\" fill=\"{colour}\"/>"
+        )
+        .expect("text");
     }
 
     /// A disc of this radius.

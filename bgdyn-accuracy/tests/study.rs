@@ -2,8 +2,8 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Contender, Cost, CountSteps, Finding, Grid, Pace, Plan, Ran, Status, Stop, Study, Subject, costs_csv, csv, figures, page,
-    study, targets, verdicts,
+    Contender, Cost, CountSteps, Finding, Grid, Pace, Plan, Ran, Status, Stop, Study, Subject,
+    costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
@@ -187,9 +187,18 @@ fn the_figure_of_effects_shows_calls_and_steps() {
     let figure = figures.iter().find(|f| f.name.ends_with("_effects.svg"));
     let svg = &figure.expect("a figure of effects").svg;
     for number in ["42", "30", "37", "12.5", "12.8", "11", "300", "40", "0.5"] {
-        assert!(svg.contains(&format!(">{number}</text>")), "{number}: {svg}");
+        assert!(
+            svg.contains(&format!(">{number}</text>")),
+            "{number}: {svg}"
+        );
     }
-    for words in ["all effects", "without springs", "without drag", "operations", "steps"] {
+    for words in [
+        "all effects",
+        "without springs",
+        "without drag",
+        "operations",
+        "steps",
+    ] {
         assert!(svg.contains(&format!(">{words}</text>")), "{words}");
     }
     assert!(!svg.contains(">-") && !svg.contains(">−"), "{svg}");

@@ -116,7 +116,10 @@ impl Bars {
             (l.min(x), h.max(x))
         });
         let (low, high) = match low <= high {
-            true => (low.floor() as i32, (high.ceil() as i32).max(low.floor() as i32 + 1)),
+            true => (
+                low.floor() as i32,
+                (high.ceil() as i32).max(low.floor() as i32 + 1),
+            ),
             false => (-1, 0),
         };
         let span = f64::from(high - low);

@@ -339,7 +339,9 @@ fn left_out(study: &Study) -> Option<Figure> {
     }];
     lines.extend(named.iter().map(without));
     let facts = &study.facts;
-    let changes = named.iter().filter_map(|(effect, row)| Some((effect, row.error?)));
+    let changes = named
+        .iter()
+        .filter_map(|(effect, row)| Some((effect, row.error?)));
     let most = changes.max_by(|a, b| a.1.total_cmp(&b.1));
     let what = most.map_or(String::new(), |(effect, change)| {
         format!(
@@ -410,7 +412,10 @@ fn added(study: &Study) -> Option<Figure> {
         svg: Bars {
             title,
             columns: vec![
-                linear(format!("{}time", about(study)), "ns per simulated ms".into()),
+                linear(
+                    format!("{}time", about(study)),
+                    "ns per simulated ms".into(),
+                ),
                 logarithmic("distance from the full scene".into(), study),
             ],
             lines,

@@ -202,7 +202,9 @@ fn list(title: &str, all: &[Considered]) -> String {
     if all.is_empty() {
         return String::new();
     }
-    let lines = all.iter().map(|one| format!("    {}: {}\n", one.what, one.cost));
+    let lines = all
+        .iter()
+        .map(|one| format!("    {}: {}\n", one.what, one.cost));
     format!("  {title}\n{}", lines.collect::<String>())
 }
 

@@ -210,8 +210,7 @@ impl Simulate {
             .with_context(|| format!("the folder {} cannot be made", out.display()))?;
         let [table, picture] = ["csv", "svg"].map(|kind| out.join(format!("{name}.{kind}")));
         std::fs::write(&table, report::csv(columns, run)).with_context(|| shown(&table))?;
-        plot::draw(&picture, name, columns, run)
-            .with_context(|| shown(&picture))?;
+        plot::draw(&picture, name, columns, run).with_context(|| shown(&picture))?;
         let rows = run.rows.len();
         Ok(format!(
             "written: {} ({rows} rows), {}",

@@ -136,8 +136,7 @@ fn massless(graph: &BondGraph, i: LinkId) -> bool {
         Inertia::Mass(mass) => nothing(mass),
         Inertia::Tensor(entries) => entries.iter().all(nothing),
     };
-    stores.map(empty).all(|empty| empty)
-        && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
+    stores.map(empty).all(|empty| empty) && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
 }
 
 /// The transformers into a link's flow, in the order of the velocities.

@@ -155,7 +155,9 @@ pub(super) fn vector_width(transformer: &Transformer) -> f64 {
 
 fn band(link: &Link, columns: &[Column], top: f64) -> Band {
     let transformers = || link.flows.iter().flat_map(|flow| &flow.transformers);
-    let used = transformers().map(|t| t.velocity).chain(link.velocities.iter().copied());
+    let used = transformers()
+        .map(|t| t.velocity)
+        .chain(link.velocities.iter().copied());
     let used: Vec<&Column> = used.map(|j| &columns[j]).collect();
     let left = used.iter().map(|c| c.x).reduce(f64::min);
     let left = left.unwrap_or(MARGIN + INDENT);

@@ -115,19 +115,32 @@ mod tests {
 
     #[test]
     fn ticks_are_round_numbers_on_the_axis() {
-        for range in [(0.0, 5.0), (-1.2e-5, 3.4e-5), (1e6, 1e6 + 1.0), (2.0, 2.0), (-7e9, 4e8)] {
+        for range in [
+            (0.0, 5.0),
+            (-1.2e-5, 3.4e-5),
+            (1e6, 1e6 + 1.0),
+            (2.0, 2.0),
+            (-7e9, 4e8),
+        ] {
             let axis = Axis::new(range);
             let ticks = axis.ticks(6);
             assert!((2..=7).contains(&ticks.len()), "{range:?}: {ticks:?}");
             for (x, text) in &ticks {
                 assert!(*x >= axis.low - 1e-9 && *x <= axis.high + 1e-9);
                 let told: f64 = text.replace('−', "-").parse().expect("a number");
-                assert!((told - x).abs() <= 1e-9 * x.abs().max(1e-3), "{x} is told as {text}");
+                assert!(
+                    (told - x).abs() <= 1e-9 * x.abs().max(1e-3),
+                    "{x} is told as {text}"
+                );
             }
             let words: std::collections::BTreeSet<_> = ticks.iter().map(|t| &t.1).collect();
             assert_eq!(words.len(), ticks.len(), "{ticks:?}");
         }
-        let time: Vec<String> = Axis::tight(0.0, 5.0).ticks(9).into_iter().map(|t| t.1).collect();
+        let time: Vec<String> = Axis::tight(0.0, 5.0)
+            .ticks(9)
+            .into_iter()
+            .map(|t| t.1)
+            .collect();
         assert_eq!(time, ["0", "1", "2", "3", "4", "5"]);
     }
 }

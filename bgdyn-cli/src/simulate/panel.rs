@@ -76,7 +76,13 @@ impl Panel<'_> {
         d.line((left, bottom), (right, bottom), FAINT, "");
         d.line((left, top), (left, bottom), FAINT, "");
         if !self.below.is_empty() {
-            d.text((middle, bottom + 34.0), 13, INK, Anchor::Middle, &self.below);
+            d.text(
+                (middle, bottom + 34.0),
+                13,
+                INK,
+                Anchor::Middle,
+                &self.below,
+            );
         }
         d.upright((self.at.0 + 18.0, 0.5 * (top + bottom)), 13, &self.beside);
     }

@@ -47,7 +47,12 @@ pub(crate) fn report(system: &System, record: &Record) -> String {
 fn events(system: &System, record: &Record) -> String {
     let mut text = format!("events: {}\n", record.events.len());
     for event in record.events.iter().take(EVENTS) {
-        let _ = writeln!(text, "  t = {} s: {}", short(event.t), changes(system, event));
+        let _ = writeln!(
+            text,
+            "  t = {} s: {}",
+            short(event.t),
+            changes(system, event)
+        );
     }
     if let Some(more) = record.events.len().checked_sub(EVENTS).filter(|&n| n > 0) {
         let _ = writeln!(text, "  … and {more} more");
@@ -95,7 +100,9 @@ fn state(system: &System, record: &Record) -> String {
 /// Where a run ended, on one line.
 pub(crate) fn place(system: &System, record: &Record) -> String {
     let parts = parts(system, record).into_iter();
-    let told: Vec<String> = parts.map(|[name, value]| format!("{name} = {value}")).collect();
+    let told: Vec<String> = parts
+        .map(|[name, value]| format!("{name} = {value}"))
+        .collect();
     told.join(", ")
 }
 
@@ -154,7 +161,13 @@ pub(crate) fn short(x: f64) -> String {
     let text = number(x);
     let (digits, power) = text.split_at(text.find('e').unwrap_or(text.len()));
     match digits.contains('.') {
-        true => digits.trim_end_matches('0').trim_end_matches('.').to_owned() + power,
+        true => {
+            digits
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned()
+                + power
+        }
         false => text,
     }
 }
@@ -196,7 +209,10 @@ mod tests {
                 let digits = mantissa.replace(['-', '.'], "");
                 assert!(digits.trim_start_matches('0').len() <= 6, "{text}");
                 let back: f64 = text.parse().expect("a number");
-                assert!((back - x).abs() <= 5.000_1e-6 * x.abs(), "{x} is told as {text}");
+                assert!(
+                    (back - x).abs() <= 5.000_1e-6 * x.abs(),
+                    "{x} is told as {text}"
+                );
             }
         }
     }

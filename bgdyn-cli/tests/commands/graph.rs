@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Value as MassValue};
-use bgdyn_runtime::Dd;
 use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_runtime::Dd;
 
 use crate::{bgdyn, root, scratch};
 
@@ -102,7 +102,9 @@ fn what_is_drawn_is_what_is_there() {
             assert!(drawing.contains(name.as_str()), "{file}: {name}");
         }
         let links = mechanism.links().iter().enumerate();
-        let links = links.filter(|(i, _)| !massless.contains(i)).map(|(_, link)| &link.name);
+        let links = links
+            .filter(|(i, _)| !massless.contains(i))
+            .map(|(_, link)| &link.name);
         let joints = (0..mechanism.nv()).map(|j| &mechanism.joint(CoordinateId(j)).name);
         for name in links.chain(joints) {
             assert!(

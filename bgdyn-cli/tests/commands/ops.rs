@@ -171,7 +171,10 @@ fn explanations_are_on_stdout() {
     let explained = json["explained"].as_object().expect("functions");
     let functions = json["functions"].as_object().expect("functions");
     assert!(explained.keys().eq(functions.keys()));
-    for line in explained.values().flat_map(|lines| lines.as_array().expect("lines")) {
+    for line in explained
+        .values()
+        .flat_map(|lines| lines.as_array().expect("lines"))
+    {
         let line = line.as_str().expect("a line");
         assert!(plain.lines().any(|l| l == line), "{line}");
     }

@@ -32,7 +32,10 @@ fn holds(name: &str, svg: &str) {
         let colours: BTreeSet<&str> = all.filter_map(|rest| rest.split('"').next()).collect();
         for colour in colours.into_iter().filter(|c| *c != "none") {
             let rule = format!("[{attribute}=\"{colour}\"]{{{attribute}:#");
-            assert!(rules.contains(&rule), "{name}: no dark {attribute} for {colour}");
+            assert!(
+                rules.contains(&rule),
+                "{name}: no dark {attribute} for {colour}"
+            );
         }
     }
     for text in body.split("<text").skip(1) {
@@ -65,12 +68,22 @@ fn plots_have_tenths_of_pixels() {
     let folder = out.display().to_string();
     let scene = "specs/scenes/stick_slip.scene.yaml";
     bgdyn(&["simulate", scene, "--out", &folder]).good();
-    bgdyn(&["simulate", scene, "--out", &folder, "--sweep", "slide=0:0.02:5"]).good();
+    bgdyn(&[
+        "simulate",
+        scene,
+        "--out",
+        &folder,
+        "--sweep",
+        "slide=0:0.02:5",
+    ])
+    .good();
     for name in ["stick_slip.svg", "stick_slip_batch.svg"] {
         let svg = fs::read_to_string(out.join(name)).expect("a plot");
         holds(name, &svg);
         let curves = svg.split("<polyline points=\"").skip(1);
-        let longest = curves.map(|rest| rest.split('"').next().unwrap_or("")).max_by_key(|c| c.len());
+        let longest = curves
+            .map(|rest| rest.split('"').next().unwrap_or(""))
+            .max_by_key(|c| c.len());
         let places = longest.expect("a curve").split([' ', ',']);
         let between = places.filter(|n| !n.ends_with(".0")).count();
         assert!(between > 4, "{name}: all places are whole pixels");
@@ -108,7 +121,10 @@ fn massless_links_are_folded() {
         assert!(!svg.contains(&format!(">{folded}</text>")), "{folded}");
     }
     assert!(svg.contains("4 velocities, 4 links"));
-    assert!(svg.contains("not drawn, with their transformers: base, knuckle"), "{svg}");
+    assert!(
+        svg.contains("not drawn, with their transformers: base, knuckle"),
+        "{svg}"
+    );
     assert_eq!(svg.matches("has no store and no source").count(), 1);
     // Every transformer is below the head of its velocity.
     let dot = bgdyn(&["graph", &file, "--format", "dot"]).good();
@@ -151,26 +167,50 @@ fn stops_and_payloads_are_on_the_page() {
     let (_, rest) = page.split_once("id=\"data\">").expect("data");
     let (data, _) = rest.split_once("</script>").expect("its end");
     let data: Value = serde_json::from_str(data).expect("JSON");
-    let stops = |body: usize| data["bodies"][body]["joint"]["stops"].as_array().expect("stops");
+    let stops = |body: usize| {
+        data["bodies"][body]["joint"]["stops"]
+            .as_array()
+            .expect("stops")
+    };
     let numbers = |list: &Value| -> Vec<f64> {
-        list.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
+        list.as_array()
+            .expect("a list")
+            .iter()
+            .map(|x| x.as_f64().expect("a number"))
+            .collect()
     };
     let is = |found: &Value, wanted: [f64; 3]| {
-        let apart = numbers(found).iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let apart = numbers(found)
+            .iter()
+            .zip(wanted)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
         assert!(apart < 1e-12, "{found}, not {wanted:?}");
     };
-    let [low, high] = &stops(1)[..] else { panic!("two walls") };
+    let [low, high] = &stops(1)[..] else {
+        panic!("two walls")
+    };
     is(&low["at"], [-0.2, 0.0, 0.5]);
     is(&high["at"], [0.3, 0.0, 0.5]);
-    assert_eq!((&low["side"], &high["side"]), (&Value::from(-1.0), &Value::from(1.0)));
-    let [peg] = &stops(2)[..] else { panic!("one peg") };
+    assert_eq!(
+        (&low["side"], &high["side"]),
+        (&Value::from(-1.0), &Value::from(1.0))
+    );
+    let [peg] = &stops(2)[..] else {
+        panic!("one peg")
+    };
     is(&peg["at"], [0.1, 0.0, 0.0]);
     // The arm hangs; a quarter turn about y brings −z to −x.
     is(&peg["way"], [-1.0, 0.0, 0.0]);
     assert_eq!(peg["name"], "peg");
     let points = data["bodies"][2]["points"].as_array().expect("points");
     let loads: Vec<&Value> = points.iter().filter(|p| p["load"] == true).collect();
-    let [load] = loads[..] else { panic!("one load: {points:?}") };
-    assert_eq!((&load["name"], &load["mass"]), (&Value::from("load"), &Value::from(3.0)));
+    let [load] = loads[..] else {
+        panic!("one load: {points:?}")
+    };
+    assert_eq!(
+        (&load["name"], &load["mass"]),
+        (&Value::from("load"), &Value::from(3.0))
+    );
     is(&load["at"], [0.0, 0.0, -0.6]);
 }

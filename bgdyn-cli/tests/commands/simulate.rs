@@ -112,7 +112,10 @@ fn events_are_told_when_they_are() {
     for (i, line) in events.enumerate() {
         let (t, what) = line["  t = ".len()..].split_once(" s: ").expect("a time");
         let told = t.parse::<f64>().expect("a time");
-        assert!((told - wanted).abs() <= 5.1e-6 * wanted, "{line}, not {wanted}");
+        assert!(
+            (told - wanted).abs() <= 5.1e-6 * wanted,
+            "{line}, not {wanted}"
+        );
         assert!(t.len() <= "0.400000".len(), "{line}");
         let off = times.iter().map(|t| (t - wanted).abs()).fold(1.0, f64::min);
         assert!(off < 1e-9, "no row at {wanted}");

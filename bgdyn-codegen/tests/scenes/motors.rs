@@ -19,13 +19,17 @@ fn applied(motor: &str, asked: f64, speed: f64, current: Option<f64>) -> f64 {
 /// R = 2 ohm, k N = 3 V s/m; the supply gives 24 V.
 #[test]
 fn the_voltage_is_the_one_that_is_left_by_the_limits() {
-    let plain = "it: { type: dc_motor, joint: slide, resistance: 2, torque_constant: 0.5, ratio: 6 }";
+    let plain =
+        "it: { type: dc_motor, joint: slide, resistance: 2, torque_constant: 0.5, ratio: 6 }";
     let with = |more: &str| plain.replace(" }", &format!(", {more} }}"));
     for asked in [-100.0, -7.3, 0.0, 11.1, 100.0] {
         // Without a limit what is asked for, to the last bit.
         assert_eq!(applied(plain, asked, 1.7, None), asked);
         let supply = asked.clamp(-24.0, 24.0);
-        assert_eq!(applied(&with("voltage_limit: 24"), asked, 1.7, None), supply);
+        assert_eq!(
+            applied(&with("voltage_limit: 24"), asked, 1.7, None),
+            supply
+        );
         // No more than drives 4 A: 8 V more than is induced, 8 V less on the other side.
         let both = with("voltage_limit: 24, current_limit: 4");
         for speed in [-2.0, 0.5, 1.7] {

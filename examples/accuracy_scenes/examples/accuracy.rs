@@ -9,7 +9,8 @@ use std::process::ExitCode;
 
 use accuracy_scenes::SUBJECTS;
 use bgdyn_accuracy::{
-    Cost, Machine, Plan, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets, verdicts,
+    Cost, Machine, Plan, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets,
+    verdicts,
 };
 
 const USAGE: &str = "What accuracy costs in time, on scenes of the repository
@@ -135,7 +136,8 @@ fn write(studies: &[Study], out: &Path) -> std::io::Result<()> {
     std::fs::write(out.join("accuracy.csv"), csv(rows))?;
     let named = |study: &'_ Study| -> Vec<(String, Cost)> {
         let all = study.costs.iter();
-        all.map(|c| (study.facts.scene.clone(), c.clone())).collect()
+        all.map(|c| (study.facts.scene.clone(), c.clone()))
+            .collect()
     };
     let costs: Vec<(String, Cost)> = studies.iter().flat_map(named).collect();
     let costs = costs.iter().map(|(scene, cost)| (scene.as_str(), cost));

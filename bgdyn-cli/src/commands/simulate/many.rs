@@ -131,7 +131,9 @@ impl Many {
             .collect();
         for (i, run, reason) in failed.iter().take(FAILURES) {
             let values = varied.quantities.iter().zip(&varied.runs[*i]);
-            let values: Vec<String> = values.map(|(s, x)| format!("{} = {}", s.name, quantity(*x, s.unit))).collect();
+            let values: Vec<String> = values
+                .map(|(s, x)| format!("{} = {}", s.name, quantity(*x, s.unit)))
+                .collect();
             let (run, t) = (i + 1, short(run.t));
             print(&format!(
                 "run {run}, {}: ends at t = {t} s: {reason}\n",

@@ -21,7 +21,13 @@ pub(super) struct Stop {
 }
 
 /// The stops of a joint: `on` is its place on the body that carries it, `body` what it moves.
-pub(super) fn stops(scene: &Scene, joint: &str, on: &Placed, body: &Body, slides: bool) -> Vec<Stop> {
+pub(super) fn stops(
+    scene: &Scene,
+    joint: &str,
+    on: &Placed,
+    body: &Body,
+    slides: bool,
+) -> Vec<Stop> {
     let axis = body.axis();
     let radius = outwards(body, axis);
     let own = |e: &&Element| e.effect.keyword() == "stop" && e.name("joint") == Some(joint);
