@@ -103,7 +103,11 @@ impl Bars {
             d.line((at, TOP + PITCH - 6.0), (at, bottom), INK, "4 3");
         }
         for (y, x) in self.numbers(k) {
-            let at = (place(x) + 6.0, y + 12.5);
+            // Not on the dashed line.
+            let beyond = first.filter(|_| self.compared).map_or(0.0, place);
+            let crossed = place(x) < beyond && place(x) + NUMBERS > beyond;
+            let end = if crossed { beyond } else { place(x) };
+            let at = (end + 6.0, y + 12.5);
             d.text(at, 13, INK, Anchor::Start, &number(x));
         }
         d.line((from, TOP - 6.0), (from, bottom), FAINT, "");
@@ -129,7 +133,10 @@ impl Bars {
         for power in (low..=high).filter(|p| (p - low) % every == 0) {
             let at = place(f64::from(power));
             d.line((at, TOP - 6.0), (at, bottom), GRID, "");
-            let text = format!("1e{power}");
+            let text = match power {
+                -2..=3 => format!("{}", 10_f64.powi(power)),
+                _ => format!("1e{power}"),
+            };
             d.text((at, bottom + 16.0), 11, FAINT, Anchor::Middle, &text);
         }
         d.line((from, bottom), (to, bottom), FAINT, "");

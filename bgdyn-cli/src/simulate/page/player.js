@@ -10,7 +10,7 @@ if (!moving) document.querySelector("main").classList.add("plain");
 const signs = ["● centres of mass"];
 if (bodies.some((b) => b.points.some((p) => p.load))) signs.push("yellow boxes: payloads");
 if (bodies.some((b) => b.joint && b.joint.stops)) signs.push("red blocks: stops");
-byId("legend").textContent = moving ? [...signs, "axes: red x, green y, blue z"].join(" · ") : "";
+byId("legend").textContent = moving ? [...signs, "red x, green y, blue z"].join(" · ") : "";
 
 let now = 0, playing = false, last = 0, asked = false;
 const slider = byId("slider");

@@ -33,6 +33,7 @@ const size = (() => {
       const pose = poseAt(body, T[i]);
       for (const point of body.points) stretch(inWorld(pose, point.at));
       if (body !== bodies[0]) stretch(pose.o);
+      for (const stop of (body.joint && body.joint.stops) || []) stretch(inWorld(poseAt(bodies[body.joint.on], T[i]), stop.at));
     }
   }
   const near = bodies[0].points.some((p) => length(p.at) > 0);
