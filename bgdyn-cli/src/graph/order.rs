@@ -129,14 +129,14 @@ fn link(graph: &BondGraph, order: &[CoordinateId], i: LinkId) -> Link {
 fn massless(graph: &BondGraph, i: LinkId) -> bool {
     let own = [graph.translation(i), graph.rotation(i)];
     let nothing = |value: &Value| *value == Value::Fixed(Dd::ZERO);
-    let stores = graph.stores.iter().filter(|s| own.contains(&s.junction));
+    let mut stores = graph.stores.iter().filter(|s| own.contains(&s.junction));
     let sources = graph.sources.iter().filter(|s| own.contains(&s.junction));
     let mut weights = sources.flat_map(|s| &s.efforts);
     let empty = |store: &Store| match &store.inertia {
         Inertia::Mass(mass) => nothing(mass),
         Inertia::Tensor(entries) => entries.iter().all(nothing),
     };
-    stores.map(empty).all(|empty| empty) && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
+    stores.all(empty) && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
 }
 
 /// The transformers into a link's flow, in the order of the velocities.

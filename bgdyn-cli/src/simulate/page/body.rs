@@ -214,7 +214,10 @@ impl Bodies {
         let is_load = |e: &Element| e.effect.keyword() == "payload" && e.name == link.name;
         let load = scene.elements.iter().any(is_load);
         self.all[body].points.push(Point {
-            name: load.then(|| link.name.clone()).unwrap_or_default(),
+            name: match load {
+                true => link.name.clone(),
+                false => String::new(),
+            },
             mass: Some(mass),
             load,
             from,
