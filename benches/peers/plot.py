@@ -7,6 +7,17 @@ import page
 OPERATIONS = {"inverse_dynamics": "inverse dynamics", "mass_matrix": "mass matrix", "forward_dynamics": "forward dynamics"}
 # Colours that colour-blind readers can tell apart (Okabe, Ito 2008).
 COLOURS = dict(zip(page.PEERS, ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9"]))
+# The counterparts of all colours on a dark ground, as `bgdyn_accuracy::dark` makes them.
+DARK_COLOURS = {
+    "fill": {"#0072B2": "#3793d6", "#009E73": "#16a479", "#222": "#c4c4c4", "#56B4E9": "#56b4e9",
+             "#CC79A7": "#cc79a7", "#D55E00": "#dc6410", "white": "#161616"},
+    "stroke": {"#222": "#c4c4c4", "#ddd": "#383838", "#eee": "#292929"},
+}
+DARK = (
+    "<style>@media (prefers-color-scheme: dark){svg:not([fill]){fill:#f5f5f5}"
+    + "".join(f'[{a}="{c}"]{{{a}:{d}}}' for a, all_of in DARK_COLOURS.items() for c, d in all_of.items())
+    + "}</style>"
+)
 TICKS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
 LEFT, TOP, WIDTH, ROW, GAP = 190, 64, 560, 15, 9
 
@@ -23,6 +34,7 @@ def svg(results):
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {LEFT + WIDTH + 20} {height}" '
         'font-family="sans-serif" font-size="11" fill="#222">',
+        DARK,
         '<rect width="100%" height="100%" fill="white"/>',
         text(10, 18, "Times as long as bgdyn, one state a call, f64", 'font-size="14"'),
     ]

@@ -36,6 +36,32 @@ pub(crate) fn times(jobs: &[(&Contender, Pace)], grid: &Grid, plan: &Plan) -> Ve
         .collect()
 }
 
+/// Time of one call, ns, of each of these, which make as many calls as they are told: measured as
+/// [`times`] measures runs.
+pub(crate) fn calls(jobs: &[&dyn Fn(usize)], plan: &Plan) -> Vec<f64> {
+    let spent = |job: &dyn Fn(usize), count: usize| {
+        let begin = Instant::now();
+        job(black_box(count));
+        begin.elapsed().as_secs_f64()
+    };
+    let enough = |job: &dyn Fn(usize)| {
+        let mut count = 64;
+        while spent(job, count) < plan.resolution && count < 1 << 24 {
+            count *= 2;
+        }
+        count
+    };
+    let counts: Vec<usize> = jobs.iter().map(|job| enough(*job)).collect();
+    let mut rounds = vec![Vec::with_capacity(plan.rounds); jobs.len()];
+    for _ in 0..plan.rounds {
+        for ((job, &count), found) in jobs.iter().zip(&counts).zip(&mut rounds) {
+            let tried = (0..BEST_OF).map(|_| spent(*job, count));
+            found.push(1e9 * tried.fold(f64::INFINITY, f64::min) / count as f64);
+        }
+    }
+    rounds.iter_mut().map(|found| median(found)).collect()
+}
+
 /// So many runs, s.
 fn seconds((contender, pace): &(&Contender, Pace), grid: &Grid, runs: usize) -> f64 {
     let begin = Instant::now();

@@ -16,6 +16,15 @@ use bgdyn_codegen::system::System;
 /// Coordinates up to which the literal sum is written out: it grows with the cube of their number.
 const LITERAL: usize = 4;
 
+/// What stands before a family of effects that is left out.
+pub const ALL_BUT: &str = "all but ";
+
+/// Operations of one call of the scene's `derivative`; a pair of sine and cosine is one.
+pub fn operations(system: &System) -> usize {
+    let o = system.function(Role::Derivative).operations();
+    o.total() + o.div + o.sqrt + o.sincos + o.other
+}
+
 /// A scene with some of its effects.
 #[derive(Debug)]
 pub struct Level {
@@ -80,7 +89,7 @@ pub fn levels(system: &System) -> Vec<Level> {
     }
     for family in families.iter().filter(|_| families.len() > 1) {
         let rest: Vec<&str> = families.iter().copied().filter(|f| f != family).collect();
-        found.push(with(format!("all but {family}"), &rest));
+        found.push(with(format!("{ALL_BUT}{family}"), &rest));
     }
     found
 }
@@ -169,11 +178,13 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
     let add = |effects: &str, model: &str, text: &mut String| {
         writeln!(text, "subject.{call}({effects:?}, {model}, || {method});").expect("text");
     };
-    add(
-        "all",
-        &format!("all::{structure}::<f64>::default()"),
-        &mut calls,
-    );
+    let price = |effects: &str, system: &System, model: &str, text: &mut String| {
+        let count = operations(system);
+        writeln!(text, "subject.price({effects:?}, {count}, {model});").expect("text");
+    };
+    let model = format!("all::{structure}::<f64>::default()");
+    add("all", &model, &mut calls);
+    price("all", &full, &model, &mut calls);
     for (i, level) in levels(&full).iter().enumerate() {
         let Some(system) = &level.system else {
             writeln!(calls, "subject.missing_level({:?});", level.effects).expect("text");
@@ -183,6 +194,9 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
         text += &module(system, &scene_functions(system, &options), &inner)?;
         let model = format!("{inner}::{structure}::<f64>::default()");
         add(&level.effects, &model, &mut calls);
+        if level.effects.starts_with(ALL_BUT) {
+            price(&level.effects, system, &model, &mut calls);
+        }
     }
     text += &format!(
         "/// What is measured of it.\npub fn subject() -> bgdyn_accuracy::Subject {{\nlet mut subject = {};\nsubject.kinked = {};\n{calls}subject\n}}\n}}\n",

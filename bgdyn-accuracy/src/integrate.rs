@@ -73,7 +73,7 @@ where
 }
 
 /// A reason in a few words.
-fn in_short<E: Debug>(reason: &Reason<E>) -> String {
+pub(crate) fn in_short<E: Debug>(reason: &Reason<E>) -> String {
     match reason {
         Reason::Singular(at) => format!("no rate of {}", format!("{at:?}").trim_matches('"')),
         Reason::NotFinite => "unstable: not finite".into(),

@@ -12,6 +12,8 @@
 //! - [`Subject`] is what is measured: runs of compiled scenes behind plain closures, so that what
 //!   follows knows no scene.
 //! - [`study()`] runs each of them, takes the time and gives rows: `accuracy.csv`.
+//! - What single effects cost is asked of one call of `derivative` and of the number of steps
+//!   ([`Cost`]): differences of the times of whole runs say little about it.
 //! - [`verdicts`], [`front`], [`figures`] and [`page`] read rows only.
 //!
 //! # The error
@@ -25,6 +27,8 @@ mod clock;
 mod compiled;
 mod contender;
 mod converge;
+mod cost;
+pub mod dark;
 mod erased;
 mod figures;
 #[cfg(feature = "generate")]
@@ -43,6 +47,7 @@ pub use bgdyn_runtime::Dd;
 pub use bgdyn_sim;
 pub use contender::{Contender, Grid, Pace, Ran, Runner, Stop};
 pub use converge::{Finding, Verdict, verdicts};
+pub use cost::{Call, Cost, CountSteps, METHOD as STEPS_METHOD, Priced, costs_csv};
 pub use figures::{Figure, figures};
 pub use integrate::{Integrate, Measured};
 pub use ladder::Plan;

@@ -72,7 +72,7 @@ fn today() -> String {
 /// What is measured, in words: the same in both reports.
 const ERROR: &str = "The error of a run is the largest distance of the scene's measured output from the reference over equally spaced sample times. The reference is made by extrapolation of order 12; what it is off by is taken from a second one with a tolerance a hundred times as large.";
 const VARIED: &str = "One factor is varied at a time, from all effects in f64 by the cheapest formulation: the method with its step or tolerance, the scalar, the way the equations are written, the effects. Steps are halved, tolerances divided by ten, until the error is rounding or falls no more.";
-const TIMES: &str = "Times are of compiled code, runs of the whole scene with what the method needs, medians of five rounds in which every run is timed in turn, in each round the best of three measurements. Integrators call the scene's functions through a pointer.";
+const TIMES: &str = "Times are of compiled code, runs of the whole scene with what the method needs, medians of five rounds in which every run is timed in turn, in each round the best of three measurements. Integrators call the scene's functions through a pointer. Times of one call of `derivative` are taken in the same way, at the start of the run, without a pointer.";
 const GUESSES: &str = "Times are estimates from the weighted count of operations: no cargo, or no crates, to compile the scene with. Nothing of the evaluator's own speed is in them.";
 
 /// What a study is about, in a sentence.
@@ -122,7 +122,7 @@ fn verdict_rows(study: &Study) -> Vec<([String; 4], bool)> {
     verdicts(study).into_iter().map(row).collect()
 }
 
-const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#282828;max-width:1040px;margin:2em auto;padding:0 1em}h1{font-size:1.7em}h2{margin-top:2.2em;border-top:2px solid #282828;padding-top:.6em}h3{font-size:1.05em;margin-bottom:.3em}table{border-collapse:collapse;margin:.6em 0}th,td{text-align:left;padding:.2em 1.2em .2em 0;border-bottom:1px solid #e3e3e3}th{font-weight:600}.alarm{color:#c2410c}.faint{color:#777}svg{max-width:100%;height:auto}nav a{margin-right:1em}";
+const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#282828;max-width:1040px;margin:2em auto;padding:0 1em}h1{font-size:1.7em}h2{margin-top:2.2em;border-top:2px solid #282828;padding-top:.6em}h3{font-size:1.05em;margin-bottom:.3em}table{border-collapse:collapse;margin:.6em 0}th,td{text-align:left;padding:.2em 1.2em .2em 0;border-bottom:1px solid #e3e3e3}th{font-weight:600}.alarm{color:#c2410c}.faint{color:#777}svg{max-width:100%;height:auto}nav a{margin-right:1em}:root{color-scheme:light dark}@media (prefers-color-scheme: dark){body{background:#161616;color:#bfbfbf}h2{border-color:#bfbfbf}th,td{border-color:#333}a{color:#689de5}.alarm{color:#dc6410}.faint{color:#838383}}";
 
 /// The report as one HTML file that fetches nothing.
 pub fn page(studies: &[Study], machine: &Machine) -> String {
@@ -190,7 +190,7 @@ pub fn readme(studies: &[Study], machine: &Machine, again: &str) -> String {
     let measured = studies.iter().all(Study::is_measured);
     let times = if measured { TIMES } else { GUESSES };
     let mut text = format!(
-        "# What accuracy costs in time\n\n{ERROR}\n\n{VARIED}\n\n{times}\n\nMeasured on {}. Made again by:\n\n```sh\n{again}\n```\n\nAll rows are in `accuracy.csv`, the same report with everything on one page is `report.html`.\n",
+        "# What accuracy costs in time\n\n{ERROR}\n\n{VARIED}\n\n{times}\n\nMeasured on {}. Made again by:\n\n```sh\n{again}\n```\n\nAll rows are in `accuracy.csv`, what each effect costs is in `costs.csv`, the same report with everything on one page is `report.html`.\n",
         machine.line()
     );
     for study in studies {

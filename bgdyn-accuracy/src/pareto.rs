@@ -96,6 +96,7 @@ mod tests {
                 reference_error: 1e-20,
             },
             rows: points.iter().map(row).collect(),
+            costs: Vec::new(),
         }
     }
 

@@ -129,7 +129,7 @@ impl Row {
 }
 
 /// A field of CSV (RFC 4180).
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     match text.contains([',', '"', '\n']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.into(),
@@ -137,7 +137,7 @@ fn quoted(text: &str) -> String {
 }
 
 /// The fields of a line of CSV.
-fn fields(line: &str) -> Vec<String> {
+pub(crate) fn fields(line: &str) -> Vec<String> {
     let mut fields = vec![String::new()];
     let (mut inside, mut characters) = (false, line.chars().peekable());
     while let Some(c) = characters.next() {

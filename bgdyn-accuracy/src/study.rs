@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::clock::times;
 use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
 use crate::ladder::{Plan, Scale, Tried, ladder};
 use crate::row::{Row, Status};
@@ -41,6 +42,8 @@ pub struct Study {
     pub facts: Facts,
     /// What came of it.
     pub rows: Vec<Row>,
+    /// What the scene costs with all effects, and without each.
+    pub costs: Vec<Cost>,
 }
 
 /// Why a scene cannot be studied.
@@ -125,6 +128,7 @@ pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
             reference_error: error,
         },
         rows: rows(&subject.scene, &tried, &grid, plan),
+        costs: costs(&subject.prices, grid.end, plan),
     })
 }
 
@@ -173,7 +177,7 @@ fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) ->
 }
 
 impl Study {
-    /// As text: a line of facts, then CSV. For programs that measure and programs that show.
+    /// As text: a line of facts, one for each cost, then CSV. For programs that measure and programs that show.
     pub fn write(&self) -> String {
         let f = &self.facts;
         let numbers = [f.end, f.size, f.floor, f.reference_error].map(|x| format!("{x:e}"));
@@ -182,8 +186,13 @@ impl Study {
         let numbers = numbers.join("\t");
         let (samples, kinked) = (f.samples, f.kinked);
         let rows = crate::row::csv(&self.rows);
+        let costs = self
+            .costs
+            .iter()
+            .map(|cost| format!("$\t{}\n", cost.line()));
+        let costs: String = costs.collect();
         format!(
-            "#\t{}\t{samples}\t{kinked}\t{numbers}\n{rows}",
+            "#\t{}\t{samples}\t{kinked}\t{numbers}\n{costs}{rows}",
             words.join("\t")
         )
     }
@@ -197,7 +206,10 @@ impl Study {
                 all.push(Study {
                     facts,
                     rows: Vec::new(),
+                    costs: Vec::new(),
                 });
+            } else if let Some(cost) = line.strip_prefix("$\t") {
+                all.last_mut()?.costs.push(Cost::of_line(cost)?);
             } else if !line.starts_with("scene,effects,") {
                 all.last_mut()?.rows.push(Row::of_line(line)?);
             }

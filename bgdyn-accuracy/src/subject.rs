@@ -5,6 +5,7 @@ use bgdyn_sim::{Method, WithMethod, with_method};
 use nalgebra::SVector;
 
 use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::cost::Priced;
 
 /// The measured output at each sample, in double-double, by a tolerance.
 pub type References = Box<dyn Fn(&Grid, f64) -> Result<Vec<Vec<Dd>>, Stop>>;
@@ -33,6 +34,8 @@ pub struct Subject {
     pub contenders: Vec<Contender>,
     /// The scene with fewer effects, each at the scene's own pace.
     pub levels: Vec<Contender>,
+    /// The scene with all effects, and without each: what a call and a run cost.
+    pub prices: Vec<Priced>,
 }
 
 impl Subject {
@@ -55,6 +58,7 @@ impl Subject {
             tolerances: (1e-20, 1e-18),
             contenders: Vec::new(),
             levels: Vec::new(),
+            prices: Vec::new(),
         }
     }
 }
@@ -67,6 +71,7 @@ impl std::fmt::Debug for Subject {
             .field("output", &self.output)
             .field("contenders", &self.contenders)
             .field("levels", &self.levels)
+            .field("prices", &self.prices)
             .finish_non_exhaustive()
     }
 }

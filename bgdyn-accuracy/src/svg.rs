@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use crate::dark::with_dark_mode;
 use crate::text::escaped;
 
 /// Colour of axes and words.
@@ -86,18 +87,14 @@ impl Drawing {
     }
 
     fn polyline(&mut self, points: &[(f64, f64)], colour: &str, width: f64, dashes: &str) {
-        let path: Vec<String> = points
-            .iter()
-            .map(|(x, y)| format!("{x:.1},{y:.1}"))
-            .collect();
+        let path = joined(points);
         let dashes = match dashes {
             "" => String::new(),
             dashes => format!(" stroke-dasharray=\"{dashes}\""),
         };
         writeln!(
             self.body,
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{dashes}/>",
-            path.join(" ")
+            "<polyline points=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{dashes}/>"
         )
         .expect("text");
     }
@@ -107,6 +104,25 @@ impl Drawing {
         writeln!(
             self.body,
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"{colour}\"/>"
+        )
+        .expect("text");
+    }
+
+    /// A filled polygon.
+    pub fn area(&mut self, points: &[(f64, f64)], colour: &str) {
+        let corners = joined(points);
+        writeln!(
+            self.body,
+            "<polygon points=\"{corners}\" fill=\"{colour}\"/>"
+        )
+        .expect("text");
+    }
+
+    /// A disc of this radius.
+    pub fn disc(&mut self, (x, y): (f64, f64), radius: f64, colour: &str) {
+        writeln!(
+            self.body,
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{colour}\"/>"
         )
         .expect("text");
     }
@@ -192,15 +208,22 @@ impl Drawing {
         self.body.push_str("</g>\n");
     }
 
-    /// The drawing as a file's text.
+    /// The drawing as a file's text, for light and dark pages.
     pub fn finish(self) -> String {
         let Drawing {
             width,
             height,
             body,
         } = self;
-        format!(
+        let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" font-family=\"sans-serif\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
-        )
+        );
+        with_dark_mode(&svg)
     }
+}
+
+/// Points as SVG lists them, in tenths of a pixel.
+fn joined(points: &[(f64, f64)]) -> String {
+    let all = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}"));
+    all.collect::<Vec<_>>().join(" ")
 }

@@ -2,10 +2,12 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Contender, Finding, Grid, Pace, Plan, Ran, Status, Stop, Study, Subject, csv, figures, page,
-    study, targets, verdicts,
+    Contender, Cost, CountSteps, Finding, Grid, Pace, Plan, Ran, Status, Stop, Study, Subject,
+    costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
+use bgdyn_sim::{Plant, Power};
+use nalgebra::SVector;
 
 /// A few steps and one round: times are looked at by nobody.
 const PLAN: Plan = Plan {
@@ -142,6 +144,152 @@ fn a_study_is_read_as_it_was_written() {
     assert_eq!(again[0].facts.scene, "oscillator");
     assert_eq!(again[0].write(), study.write());
     assert_eq!(Study::read("scene,effects\n1,2"), None);
+}
+
+/// A study with costs: what is left out takes less, or more.
+fn priced() -> Study {
+    let mut study = studied(RIGHT);
+    for (effects, error) in [("all but springs", 0.5), ("all but drag", 0.0)] {
+        let mut row = study.rows[0].clone();
+        row.effects = effects.into();
+        row.error = Some(error);
+        study.rows.push(row);
+    }
+    let cost = |effects: &str, operations, ns, steps| Cost {
+        effects: effects.into(),
+        operations,
+        ns,
+        steps,
+    };
+    study.costs = vec![
+        cost("all", 42, 12.5, Some(300)),
+        cost("all but springs", 30, 12.75, Some(40)),
+        cost("all but drag", 37, 11.0, None),
+    ];
+    study
+}
+
+#[test]
+fn costs_of_effects_are_written_and_read() {
+    let study = priced();
+    let again = Study::read(&study.write()).expect("a study");
+    assert_eq!(again[0].costs, study.costs);
+    let table = costs_csv(study.costs.iter().map(|c| ("arm", c)));
+    let wanted = "scene,effects,operations,ns_per_call,steps\narm,all,42,1.250e1,300\narm,all but springs,30,1.275e1,40\narm,all but drag,37,1.100e1,\n";
+    assert_eq!(table, wanted);
+}
+
+/// Costs are those of calls with an effect and without it: no difference of two times is shown.
+#[test]
+fn the_figure_of_effects_shows_calls_and_steps() {
+    let study = priced();
+    let figures = figures(&study);
+    let figure = figures.iter().find(|f| f.name.ends_with("_effects.svg"));
+    let svg = &figure.expect("a figure of effects").svg;
+    for number in ["42", "30", "37", "12.5", "12.8", "11", "300", "40", "0.5"] {
+        assert!(
+            svg.contains(&format!(">{number}</text>")),
+            "{number}: {svg}"
+        );
+    }
+    for words in [
+        "all effects",
+        "without springs",
+        "without drag",
+        "operations",
+        "steps",
+    ] {
+        assert!(svg.contains(&format!(">{words}</text>")), "{words}");
+    }
+    assert!(!svg.contains(">-") && !svg.contains(">−"), "{svg}");
+    // A bar for each cost, a dot for the change that is not 0.
+    assert_eq!(svg.matches("fill=\"#0072b2\"/>").count(), 8);
+    assert_eq!(svg.matches("fill=\"#d55e00\"/>").count(), 1);
+    let mut unpriced = study.clone();
+    unpriced.costs.clear();
+    let without = bgdyn_accuracy::figures(&unpriced);
+    assert!(without.iter().all(|f| !f.name.ends_with("_effects.svg")));
+}
+
+#[test]
+fn no_figure_has_marks_of_code() {
+    for figure in figures(&priced()) {
+        assert!(!figure.svg.contains('`'), "{}", figure.name);
+        assert!(figure.svg.contains("prefers-color-scheme: dark"));
+    }
+}
+
+type V = SVector<f64, 1>;
+type Nothing = SVector<f64, 0>;
+
+/// ẋ = −x
+struct Decay;
+
+impl Plant for Decay {
+    type State = V;
+    type Modes = Nothing;
+    type Values = Nothing;
+    type Entries = Nothing;
+    type Error = String;
+
+    fn rates(&self, _: f64, y: &V, _: &Nothing) -> Result<V, String> {
+        Ok(-y)
+    }
+
+    fn events(&self, _: f64, _: &V, _: &Nothing) -> Result<Nothing, String> {
+        Ok(Nothing::zeros())
+    }
+
+    fn changes_mode(&self, _: usize) -> bool {
+        false
+    }
+
+    fn change(
+        &self,
+        _: f64,
+        y: &V,
+        modes: &Nothing,
+        _: impl Fn(usize) -> bool,
+    ) -> Result<(V, Nothing), String> {
+        Ok((*y, *modes))
+    }
+
+    fn nothing(&self) -> Nothing {
+        Nothing::zeros()
+    }
+
+    fn energy(&self, _: f64, _: &V, _: &Nothing) -> Result<Nothing, String> {
+        Ok(Nothing::zeros())
+    }
+
+    fn power(&self, _: f64, _: &V, _: &Nothing) -> Result<Power<Nothing>, String> {
+        Ok(Power {
+            supplied: Nothing::zeros(),
+            dissipated: Nothing::zeros(),
+        })
+    }
+}
+
+/// ẋ = −x by controlled steps: one step behind the other to the end, more of them for a longer run.
+#[test]
+fn steps_are_counted() {
+    use bgdyn_sim::{Moment, WithMethod};
+    let steps = |end: f64| {
+        let count = CountSteps {
+            plant: Decay,
+            begin: Moment {
+                t: 0.0,
+                y: V::repeat(1.0),
+                modes: SVector::zeros(),
+            },
+            end,
+        };
+        count.with(bgdyn_sim::Dopri5).expect("a run")
+    };
+    let (short, long) = (steps(0.1), steps(10.0));
+    assert!((1..10).contains(&short), "{short}");
+    // At the tolerance 1e-6 the fifth order takes steps of some tenths of a second.
+    assert!((10..200).contains(&long), "{long}");
 }
 
 #[test]

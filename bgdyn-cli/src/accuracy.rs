@@ -4,8 +4,11 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use bgdyn_accuracy::generate::{kinked, levels, measured, own_way};
-use bgdyn_accuracy::{Contender, Integrate, Measured, Pace, Ran, Runner, Subject, order};
+use bgdyn_accuracy::generate::{ALL_BUT, kinked, levels, measured, operations, own_way};
+use bgdyn_accuracy::{
+    Call, Contender, CountSteps, Integrate, Measured, Pace, Priced, Ran, Runner, STEPS_METHOD,
+    Subject, order,
+};
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
 use bgdyn_runtime::Dd;
@@ -22,6 +25,9 @@ const TOLERANCES: (f64, f64) = (1e-14, 1e-12);
 /// What one call of each function takes in compiled code, ns: an estimate.
 #[derive(Clone, Copy, Debug)]
 struct Calls {
+    /// Operations of `derivative`.
+    operations: usize,
+    derivative: f64,
     rates: f64,
     slopes: f64,
     events: f64,
@@ -35,8 +41,11 @@ impl Calls {
             false => 0.0,
         };
         let inputs = one(Role::Inputs);
+        let derivative = one(Role::Derivative);
         Calls {
-            rates: one(Role::Derivative) + inputs,
+            operations: operations(system),
+            derivative,
+            rates: derivative + inputs,
             slopes: one(Role::Jacobian),
             events: one(Role::Events) + inputs,
         }
@@ -66,6 +75,24 @@ impl Counted {
 
     fn spend(&self, ns: f64) {
         self.spent.set(self.spent.get() + ns);
+    }
+
+    /// What a call and a run cost.
+    fn price(&self, effects: &str) -> Priced {
+        let counted = self.clone();
+        Priced {
+            effects: effects.to_owned(),
+            operations: self.calls.operations,
+            call: Call::Estimated(self.calls.derivative),
+            steps: Box::new(move |end| {
+                let run = CountSteps {
+                    plant: counted.clone(),
+                    begin: counted.plant.begin(),
+                    end,
+                };
+                with_method(STEPS_METHOD, run).expect("a method of bgdyn-sim")
+            }),
+        }
     }
 
     /// Runs it by a method of this name.
@@ -187,11 +214,15 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
         });
     }
     subject.add_level("all", counted.runner(method));
+    subject.prices.push(counted.price("all"));
     for level in levels {
         match level.system {
             Some(system) => {
-                let run = Counted::new(system).runner(method);
-                subject.add_level(&level.effects, run);
+                let counted = Counted::new(system);
+                subject.add_level(&level.effects, counted.runner(method));
+                if level.effects.starts_with(ALL_BUT) {
+                    subject.prices.push(counted.price(&level.effects));
+                }
             }
             None => subject.missing_level(&level.effects),
         }

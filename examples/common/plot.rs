@@ -4,6 +4,7 @@ mod panel;
 
 use std::path::{Path, PathBuf};
 
+use bgdyn_accuracy::dark::with_dark_mode;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -46,7 +47,11 @@ pub fn draw<G, C, E, L, const N: usize>(
         .map_err(|e| format!("the folder {} cannot be made: {e}", out.display()))?;
     let path = out.join(format!("{}.svg", cell.name));
     let runs = Runs { computed, baseline };
-    draw_all(cell, &runs, &path).map_err(|e| format!("{} cannot be drawn: {e}", path.display()))?;
+    let mut svg = String::new();
+    draw_all(cell, &runs, &mut svg)
+        .map_err(|e| format!("{} cannot be drawn: {e}", path.display()))?;
+    std::fs::write(&path, with_dark_mode(&svg))
+        .map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
     Ok(path)
 }
 
@@ -55,11 +60,11 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 fn draw_all<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     runs: &Runs<'_, N>,
-    path: &Path,
+    svg: &mut String,
 ) -> Drawn {
     let rows = ROW * N as u32 + 20;
     let size = (WIDTH, HEADER + rows + TOOL_ROW);
-    let root = SVGBackend::new(path, size).into_drawing_area();
+    let root = SVGBackend::with_string(svg, size).into_drawing_area();
     root.fill(&WHITE)?;
     let (header, rest) = root.split_vertically(HEADER);
     let (joints, tool) = rest.split_vertically(rows);

@@ -1,123 +1,179 @@
-//! Two bars for each line: what something costs, and what comes of it.
+//! Lines with a number in each column: bars from zero, or dots on a logarithmic axis, where a bar's
+//! length would mean nothing.
 
-use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK};
+use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
 use crate::text::short;
 
-/// A line with its two bars.
-pub(super) struct Bar {
+/// A line.
+pub(super) struct Line {
     pub label: String,
-    /// On a linear axis; may be negative.
-    pub left: Option<f64>,
-    /// On a logarithmic axis.
-    pub right: Option<f64>,
-    /// Why there are none.
+    /// A number for each column.
+    pub values: Vec<Option<f64>>,
+    /// Why the last column has none.
     pub failed: Option<String>,
+}
+
+/// A column.
+pub(super) struct Column {
+    /// What it shows, and of what or in which unit.
+    pub title: [String; 2],
+    pub scale: Scale,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scale {
+    /// Bars from zero.
+    Linear,
+    /// Dots.
+    Log,
 }
 
 /// A figure of such lines.
 pub(super) struct Bars {
     pub title: String,
-    pub left: String,
-    pub right: String,
-    pub bars: Vec<Bar>,
-    /// Left bars shorter than this say nothing, and are drawn so.
-    pub noise: f64,
+    pub columns: Vec<Column>,
+    pub lines: Vec<Line>,
+    /// Whether the first line is what the others are compared with.
+    pub compared: bool,
 }
 
 const WIDTH: f64 = 1000.0;
-const TOP: f64 = 92.0;
-const LINE: f64 = 30.0;
-const THICK: f64 = 17.0;
-/// Where the bars of both sides begin and end.
-const COST: (f64, f64) = (225.0, 560.0);
-const CHANGE: (f64, f64) = (630.0, 910.0);
+const MARGIN: f64 = 24.0;
+const TOP: f64 = 104.0;
+const PITCH: f64 = 30.0;
+const THICK: f64 = 15.0;
+/// Room for labels, and for the numbers behind bars and dots.
+const LABELS: f64 = 190.0;
+const NUMBERS: f64 = 62.0;
+/// Between two columns.
+const GAP: f64 = 26.0;
+const BAR: &str = "#0072b2";
+const DOT: &str = "#d55e00";
+/// Letters that fit beside a column.
+const LETTERS: usize = 24;
 
 impl Bars {
     pub fn draw(&self) -> String {
-        let bottom = TOP + LINE * self.bars.len() as f64;
-        let mut d = Drawing::new(WIDTH, bottom + 18.0);
-        d.text((24.0, 32.0), 17, INK, Anchor::Start, &self.title);
-        d.text((COST.0, TOP - 24.0), 14, INK, Anchor::Start, &self.left);
-        d.text((CHANGE.0, TOP - 24.0), 14, INK, Anchor::Start, &self.right);
-        for (i, bar) in self.bars.iter().enumerate() {
-            let y = TOP + LINE * i as f64;
-            d.line((24.0, y - 6.0), (WIDTH - 24.0, y - 6.0), GRID, "");
-            d.text((COST.0 - 60.0, y + 13.0), 14, INK, Anchor::End, &bar.label);
-            self.cost(&mut d, bar, y);
-            self.change(&mut d, bar, y);
+        let logarithmic = self.columns.iter().any(|c| c.scale == Scale::Log);
+        let bottom = TOP + PITCH * self.lines.len() as f64;
+        let mut d = Drawing::new(WIDTH, bottom + if logarithmic { 30.0 } else { 14.0 });
+        d.text((MARGIN, 32.0), 17, INK, Anchor::Start, &self.title);
+        for (i, line) in self.lines.iter().enumerate() {
+            let y = TOP + PITCH * i as f64;
+            d.line((MARGIN, y - 6.0), (WIDTH - MARGIN, y - 6.0), GRID, "");
+            let at = (MARGIN + LABELS - 16.0, y + 13.0);
+            match self.compared && i == 0 {
+                true => d.bold(at, 13, INK, Anchor::End, &line.label),
+                false => d.text(at, 13, INK, Anchor::End, &line.label),
+            }
         }
+        let count = self.columns.len() as f64;
+        let width = (WIDTH - 2.0 * MARGIN - LABELS + GAP) / count - GAP;
+        for (k, column) in self.columns.iter().enumerate() {
+            let from = MARGIN + LABELS + (width + GAP) * k as f64;
+            let [what, unit] = &column.title;
+            d.text((from, TOP - 34.0), 14, INK, Anchor::Start, what);
+            d.text((from, TOP - 16.0), 12, FAINT, Anchor::Start, unit);
+            let ends = (from, from + width - NUMBERS);
+            match column.scale {
+                Scale::Linear => self.bars(&mut d, k, ends),
+                Scale::Log => self.dots(&mut d, k, ends),
+            }
+        }
+        self.failures(&mut d, width);
         d.finish()
     }
 
-    /// The left bar, from a zero that leaves room for negative ones.
-    fn cost(&self, d: &mut Drawing, bar: &Bar, y: f64) {
-        let values = || self.bars.iter().filter_map(|b| b.left);
-        let (low, high) = values().fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
-        let span = (high - low).max(f64::MIN_POSITIVE);
-        // Room for the numbers behind the bars.
-        let scale = (COST.1 - COST.0 - 70.0) / span;
-        let zero = COST.0 - low * scale;
-        let Some(x) = bar.left else {
-            return;
-        };
-        let (from, length) = (zero + x.min(0.0) * scale, x.abs() * scale);
-        let colour = match x {
-            x if x.abs() < self.noise => FAINT,
-            x if x < 0.0 => "#9ccbe6",
-            _ => "#0072b2",
-        };
-        d.rectangle((from, y), (length.max(1.0), THICK), colour);
-        match x < 0.0 {
-            true => d.text((from - 6.0, y + 13.0), 13, INK, Anchor::End, &short(x)),
-            false => d.text(
-                (from + length + 6.0, y + 13.0),
-                13,
-                INK,
-                Anchor::Start,
-                &short(x),
-            ),
-        }
-        d.line((zero, y - 6.0), (zero, y + LINE - 6.0), FAINT, "");
+    /// The numbers of a column, with the heights of their lines.
+    fn numbers(&self, k: usize) -> impl Iterator<Item = (f64, f64)> {
+        let lines = self.lines.iter().enumerate();
+        lines.filter_map(move |(i, line)| Some((TOP + PITCH * i as f64, line.values[k]?)))
     }
 
-    /// The right bar, from the decade below the smallest.
-    fn change(&self, d: &mut Drawing, bar: &Bar, y: f64) {
-        let logs = self
-            .bars
-            .iter()
-            .filter_map(|b| b.right)
-            .filter(|x| *x > 0.0);
-        let logs = logs.map(f64::log10);
+    fn bars(&self, d: &mut Drawing, k: usize, (from, to): (f64, f64)) {
+        let most = self.numbers(k).map(|(_, x)| x).fold(0.0, f64::max);
+        let place = |x: f64| from + (to - from) * x.max(0.0) / most.max(f64::MIN_POSITIVE);
+        for (y, x) in self.numbers(k) {
+            d.rectangle((from, y), ((place(x) - from).max(1.0), THICK), BAR);
+        }
+        let bottom = TOP + PITCH * self.lines.len() as f64 - 6.0;
+        let first = self.lines.first().and_then(|line| line.values[k]);
+        if let Some(x) = first.filter(|_| self.compared) {
+            let at = place(x);
+            d.line((at, TOP + PITCH - 6.0), (at, bottom), INK, "4 3");
+        }
+        for (y, x) in self.numbers(k) {
+            // Not on the dashed line.
+            let beyond = first.filter(|_| self.compared).map_or(0.0, place);
+            let crossed = place(x) < beyond && place(x) + NUMBERS > beyond;
+            let end = if crossed { beyond } else { place(x) };
+            let at = (end + 6.0, y + 12.5);
+            d.text(at, 13, INK, Anchor::Start, &number(x));
+        }
+        d.line((from, TOP - 6.0), (from, bottom), FAINT, "");
+    }
+
+    fn dots(&self, d: &mut Drawing, k: usize, (from, to): (f64, f64)) {
+        let logs = self.numbers(k).filter(|(_, x)| *x > 0.0 && x.is_finite());
+        let logs = logs.map(|(_, x)| x.log10());
         let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
             (l.min(x), h.max(x))
         });
-        if let Some(why) = &bar.failed {
-            d.text(
-                (CHANGE.0 + 4.0, y + 13.0),
-                13,
-                ALARM,
-                Anchor::Start,
-                &format!("failed: {why}"),
-            );
-            return;
+        let (low, high) = match low <= high {
+            true => (
+                low.floor() as i32,
+                (high.ceil() as i32).max(low.floor() as i32 + 1),
+            ),
+            false => (-1, 0),
+        };
+        let span = f64::from(high - low);
+        let place = |log: f64| from + (to - from) * (log - f64::from(low)) / span;
+        let bottom = TOP + PITCH * self.lines.len() as f64 - 6.0;
+        let every = (high - low + 3) / 4;
+        for power in (low..=high).filter(|p| (p - low) % every == 0) {
+            let at = place(f64::from(power));
+            d.line((at, TOP - 6.0), (at, bottom), GRID, "");
+            let text = match power {
+                -2..=3 => format!("{}", 10_f64.powi(power)),
+                _ => format!("1e{power}"),
+            };
+            d.text((at, bottom + 16.0), 11, FAINT, Anchor::Middle, &text);
         }
-        let Some(x) = bar.right else {
-            return;
-        };
-        let low = (low - 0.3).floor();
-        let span = (high - low).max(1.0);
-        let length = match x > 0.0 {
-            true => (CHANGE.1 - CHANGE.0) * (x.log10() - low) / span,
-            false => 0.0,
-        };
-        d.rectangle((CHANGE.0, y), (length.max(1.0), THICK), "#d55e00");
-        d.text(
-            (CHANGE.0 + length + 6.0, y + 13.0),
-            13,
-            INK,
-            Anchor::Start,
-            &short(x),
-        );
-        d.line((CHANGE.0, y - 6.0), (CHANGE.0, y + LINE - 6.0), FAINT, "");
+        d.line((from, bottom), (to, bottom), FAINT, "");
+        for (y, x) in self.numbers(k) {
+            if x > 0.0 && x.is_finite() {
+                let at = place(x.log10());
+                d.marker((at, y + 8.0), Marker::Circle, DOT);
+                d.text((at + 10.0, y + 12.5), 13, INK, Anchor::Start, &short(x));
+            } else {
+                d.text((from, y + 12.5), 13, FAINT, Anchor::Start, &short(x));
+            }
+        }
+    }
+
+    /// Reasons in the last column, cut where there is no room; the pointer shows them whole.
+    fn failures(&self, d: &mut Drawing, width: f64) {
+        let from = WIDTH - MARGIN - width;
+        let letters = (LETTERS as f64 * (width / 170.0).max(1.0)) as usize;
+        for (i, line) in self.lines.iter().enumerate() {
+            let Some(why) = &line.failed else { continue };
+            let whole = format!("failed: {why}");
+            let shown = match whole.chars().count() > letters {
+                true => whole.chars().take(letters - 1).chain(['…']).collect(),
+                false => whole.clone(),
+            };
+            let at = (from, TOP + PITCH * i as f64 + 12.5);
+            d.group(&whole);
+            d.text(at, 12, ALARM, Anchor::Start, &shown);
+            d.end_group();
+        }
+    }
+}
+
+/// Whole numbers in full.
+fn number(x: f64) -> String {
+    match x.fract() == 0.0 && x.abs() < 1e7 {
+        true => format!("{x}"),
+        false => short(x),
     }
 }

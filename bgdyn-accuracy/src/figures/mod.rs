@@ -5,12 +5,13 @@ mod diagram;
 
 use crate::contender::Pace;
 use crate::converge::{Verdict, verdicts};
+use crate::cost::{Cost, METHOD, TOLERANCE};
 use crate::pareto::targets;
 use crate::row::{Row, Status};
 use crate::study::Study;
 use crate::svg::Marker;
 use crate::text::{short, step, time};
-use bars::{Bar, Bars};
+use bars::{Bars, Column, Line, Scale};
 use diagram::{Diagram, Series};
 
 /// A figure.
@@ -44,6 +45,9 @@ fn look(method: &str) -> (&'static str, Marker) {
         None => (colour, marker),
     }
 }
+
+/// What stands before a family of effects that is left out, in the names of levels.
+const ALL_BUT: &str = "all but ";
 
 /// The figures of a study: methods, scalars and momenta, formulations, effects left out, effects
 /// added one after the other. Those that would have nothing to compare are left away.
@@ -85,7 +89,7 @@ fn message(study: &Study) -> String {
         .or_else(|| choices.last());
     match wanted {
         Some(choice) => format!(
-            "{}: {:.0e} {} at `{}` costs {}{} per simulated ms, by {}",
+            "{}: {:.0e} {} at {} costs {}{} per simulated ms, by {}",
             facts.scene,
             choice.target,
             facts.unit,
@@ -141,7 +145,7 @@ fn diagram<'a>(study: &'a Study, title: String, series: Vec<Series<'a>>) -> Stri
     Diagram {
         title,
         x: format!("time of compiled code per simulated ms, ns{estimated}"),
-        y: format!("largest error of `{}`, {}", facts.output, facts.unit),
+        y: format!("largest error of {}, {}", facts.output, facts.unit),
         size: facts.size,
         floor: facts.floor,
         series,
@@ -231,20 +235,19 @@ fn formulations(study: &Study) -> Option<Figure> {
     let base = by("cheapest");
     let shared = |r: &&&Row| names.iter().all(|n| by(n).iter().any(|o| o.pace == r.pace));
     let pace = base.iter().rev().find(shared)?.pace;
-    let bar = |name: &&str| {
+    let line = |name: &&str| {
         let rows = by(name);
         let at = rows.iter().find(|r| r.pace == pace);
         let errors = rows.iter().filter_map(|r| r.error);
-        Bar {
+        Line {
             label: (*name).to_owned(),
-            left: at.and_then(|r| r.ns),
-            right: errors.reduce(f64::min),
+            values: vec![at.and_then(|r| r.ns), errors.reduce(f64::min)],
             failed: None,
         }
     };
     let facts = &study.facts;
-    let bars: Vec<Bar> = names.iter().map(bar).collect();
-    let costs = bars.iter().filter_map(|b| b.left);
+    let lines: Vec<Line> = names.iter().map(line).collect();
+    let costs = lines.iter().filter_map(|line| line.values[0]);
     let (low, high) = costs.fold((f64::INFINITY, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
     let title = format!(
         "{}: formulations differ by {:.1} times in time",
@@ -256,20 +259,34 @@ fn formulations(study: &Study) -> Option<Figure> {
         caption: "The same equations written in different ways, by rk4 at the same step.".into(),
         svg: Bars {
             title,
-            left: format!(
-                "{}time by rk4 at {}, ns per simulated ms",
-                about(study),
-                step(pace.value())
-            ),
-            right: format!(
-                "least error of `{}`, {} (log scale)",
-                facts.output, facts.unit
-            ),
-            bars,
-            noise: 0.0,
+            columns: vec![
+                linear(
+                    format!("{}time by rk4 at {}", about(study), step(pace.value())),
+                    "ns per simulated ms".into(),
+                ),
+                logarithmic(format!("least error of {}", facts.output), study),
+            ],
+            lines,
+            compared: false,
         }
         .draw(),
     })
+}
+
+/// A column of bars.
+fn linear(what: String, unit: String) -> Column {
+    Column {
+        title: [what, unit],
+        scale: Scale::Linear,
+    }
+}
+
+/// A column of dots, in the measured output's unit.
+fn logarithmic(what: String, study: &Study) -> Column {
+    Column {
+        title: [what, format!("{}, logarithmic", study.facts.unit)],
+        scale: Scale::Log,
+    }
 }
 
 /// The rows of levels: the scene with all effects by its own way, then those that `name` takes.
@@ -297,52 +314,59 @@ fn why(row: &Row) -> Option<String> {
     }
 }
 
-/// By how much of its time a scene may seem faster or slower for no more than where its code comes to
-/// lie: effects that cost nothing were seen to make that difference.
-const NOISE: f64 = 0.05;
-
-/// What each effect costs, and what it changes.
+/// What each effect costs, and what it changes: the scene with all effects, and without each.
 fn left_out(study: &Study) -> Option<Figure> {
-    let (own, named) = levels(study, |e| e.strip_prefix("all but "))?;
-    let bar = |(effect, row): &(&str, &Row)| Bar {
-        label: (*effect).to_owned(),
-        left: row.ns.zip(own.ns).map(|(without, with)| with - without),
-        right: row.error,
+    let (_, named) = levels(study, |e| e.strip_prefix(ALL_BUT))?;
+    let of = |effects: &str| study.costs.iter().find(|c| c.effects == effects);
+    let whole = of("all")?;
+    let values = |cost: Option<&Cost>, error: Option<f64>| {
+        vec![
+            cost.map(|c| c.operations as f64),
+            cost.map(|c| c.ns),
+            cost.and_then(|c| c.steps).map(|n| n as f64),
+            error,
+        ]
+    };
+    let without = |(effect, row): &(&str, &Row)| Line {
+        label: format!("without {effect}"),
+        values: values(of(&row.effects), row.error),
         failed: why(row),
     };
+    let mut lines = vec![Line {
+        label: "all effects".into(),
+        values: values(Some(whole), None),
+        failed: None,
+    }];
+    lines.extend(named.iter().map(without));
     let facts = &study.facts;
-    let bars: Vec<Bar> = named.iter().map(bar).collect();
-    let most = bars
+    let changes = named
         .iter()
-        .filter(|b| b.right.is_some())
-        .max_by(|a, b| a.right.partial_cmp(&b.right).expect("numbers"));
-    let what = most.map_or(String::new(), |b| {
+        .filter_map(|(effect, row)| Some((effect, row.error?)));
+    let most = changes.max_by(|a, b| a.1.total_cmp(&b.1));
+    let what = most.map_or(String::new(), |(effect, change)| {
         format!(
-            ": `{}` changes the motion most, by {} {}",
-            b.label,
-            short(b.right.unwrap_or(0.0)),
+            ": {effect} changes the motion most, by {} {}",
+            short(change),
             facts.unit
         )
     });
+    let of_call = "one call of derivative";
     Some(Figure {
         name: format!("{}_effects.svg", facts.scene),
         caption: format!(
-            "What each effect costs and changes: time of the scene with all effects ({}{} per simulated ms, {}) less that of the scene without this one, and how far `{}` moves away from its course without it. Differences below {:.0} % of the scene's time, in grey, are no more than where the code comes to lie.",
-            about(study),
-            time(own.ns.unwrap_or(0.0)),
-            way(own),
+            "What each effect costs and changes: the scene with all effects, and without each in turn. Operations (additions, multiplications, divisions, roots, pairs of sine and cosine) and time of one call of `derivative`; the steps that {METHOD} takes for the run with the tolerance {TOLERANCE:e}; and how far `{}` moves away from its course. The dashed line is the scene with all effects. Fewer operations can take as long, where the processor does them side by side. Without an effect a run may also take more steps: a damper that is left out lets fast motions go on, and a run on which a joint's friction no longer holds it meets other events.",
             facts.output,
-            100.0 * NOISE,
         ),
         svg: Bars {
             title: format!("{}{what}", facts.scene),
-            left: format!("{}cost of the effect, ns per simulated ms", about(study)),
-            right: format!(
-                "change of `{}` without it, {} (log scale)",
-                facts.output, facts.unit
-            ),
-            bars,
-            noise: NOISE * own.ns.unwrap_or(0.0),
+            columns: vec![
+                linear("operations".into(), of_call.into()),
+                linear(format!("{}time, ns", about(study)), of_call.into()),
+                linear("steps".into(), format!("{METHOD}, tolerance {TOLERANCE:e}")),
+                logarithmic(format!("change of {}", facts.output), study),
+            ],
+            lines,
+            compared: true,
         }
         .draw(),
     })
@@ -353,25 +377,23 @@ fn added(study: &Study) -> Option<Figure> {
     let (own, named) = levels(study, |e| {
         (!e.starts_with("all")).then(|| e.rsplit('+').next().unwrap_or(e))
     })?;
-    let bar = |(i, (effect, row)): (usize, &(&str, &Row))| Bar {
+    let line = |(i, (effect, row)): (usize, &(&str, &Row))| Line {
         label: if i == 0 {
             (*effect).to_owned()
         } else {
             format!("+ {effect}")
         },
-        left: row.ns,
-        right: row.error,
+        values: vec![row.ns, row.error],
         failed: why(row),
     };
-    let mut bars: Vec<Bar> = named.iter().enumerate().map(bar).collect();
-    bars.push(Bar {
+    let mut lines: Vec<Line> = named.iter().enumerate().map(line).collect();
+    lines.push(Line {
         label: "all".into(),
-        left: own.ns,
-        right: own.error,
+        values: vec![own.ns, own.error],
         failed: why(own),
     });
     let facts = &study.facts;
-    let first = bars.iter().find_map(|b| b.left);
+    let first = lines.iter().find_map(|line| line.values[0]);
     let title = match (first, own.ns) {
         (Some(first), Some(last)) => format!(
             "{}: all effects take {:.1} times as long as the first stage that runs",
@@ -389,10 +411,15 @@ fn added(study: &Study) -> Option<Figure> {
         ),
         svg: Bars {
             title,
-            left: format!("{}time, ns per simulated ms", about(study)),
-            right: format!("distance from the full scene, {} (log scale)", facts.unit),
-            bars,
-            noise: 0.0,
+            columns: vec![
+                linear(
+                    format!("{}time", about(study)),
+                    "ns per simulated ms".into(),
+                ),
+                logarithmic("distance from the full scene".into(), study),
+            ],
+            lines,
+            compared: false,
         }
         .draw(),
     })

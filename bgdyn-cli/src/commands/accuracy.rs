@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_accuracy::generate::variants;
-use bgdyn_accuracy::{Machine, Plan, Study, csv, figures, page, study, targets, verdicts};
+use bgdyn_accuracy::{
+    Machine, Plan, Study, costs_csv, csv, figures, page, study, targets, verdicts,
+};
 use bgdyn_codegen::system::System;
 use clap::Args;
 
@@ -19,7 +21,7 @@ use crate::usage::Usage;
 /// are estimates from the operations, and marked as such.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn accuracy specs/scenes/stick_slip.scene.yaml --out accuracy --bgdyn .\n\nWrites accuracy.csv, figures (SVG) and report.html. Exit 1 where a method that should converge does not."
+    after_help = "Example:\n  bgdyn accuracy specs/scenes/stick_slip.scene.yaml --out accuracy --bgdyn .\n\nWrites accuracy.csv, costs.csv, figures (SVG) and report.html. Exit 1 where a method that should converge does not."
 )]
 pub(crate) struct Accuracy {
     /// The scene
@@ -121,6 +123,9 @@ fn write(study: &Study, out: &Path) -> Result<()> {
         std::fs::write(&path, text).with_context(|| format!("{} cannot be written", path.display()))
     };
     put("accuracy.csv", &csv(&study.rows))?;
+    let scene = study.facts.scene.as_str();
+    let costs = study.costs.iter().map(|cost| (scene, cost));
+    put("costs.csv", &costs_csv(costs))?;
     for figure in figures(study) {
         put(&figure.name, &figure.svg)?;
     }

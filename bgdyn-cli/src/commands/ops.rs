@@ -13,7 +13,7 @@ use bgdyn_codegen::system::System;
 use clap::Args;
 use serde::{Serialize, Serializer};
 
-use crate::output::{print, tell};
+use crate::output::print;
 use crate::spec_file::{Asked, SpecFile, unknown};
 use crate::usage::Usage;
 
@@ -53,19 +53,19 @@ impl Ops {
         }
         let mechanism = spec.mechanism()?;
         let model = Model::new(mechanism.clone(), &options).map_err(unknown)?;
-        self.report(&model.functions)?;
-        if self.explain {
-            explain(&mechanism, &model);
-        }
-        Ok(())
+        let explained = self.explain.then(|| explained(&mechanism, &model));
+        self.report(&model.functions, explained)
     }
 
-    fn report(&self, functions: &[Function]) -> Result<()> {
+    fn report(&self, functions: &[Function], explained: Option<Explained>) -> Result<()> {
         if !self.json {
-            return print(&table(functions));
+            let words = explained.map(|all| all.0.into_iter().map(|(_, text)| text).collect());
+            let words: Vec<String> = words.unwrap_or_default();
+            return print(&(table(functions) + &words.concat()));
         }
         let report = serde_json::to_string_pretty(&Report {
             functions: Functions(functions),
+            explained,
         })?;
         print(&(report + "\n"))
     }
@@ -82,13 +82,26 @@ impl Ops {
         if self.per_effect {
             return super::per_effect::report(system, self.json, &self.bgdyn);
         }
-        self.report(&scene_functions(system, options))
+        self.report(&scene_functions(system, options), None)
     }
 }
 
 #[derive(Serialize)]
 struct Report<'a> {
     functions: Functions<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explained: Option<Explained>,
+}
+
+/// What is said of each function, by its name, in the module's order.
+struct Explained(Vec<(String, String)>);
+
+/// Lists of lines, since strings of JSON show no ends of lines.
+impl Serialize for Explained {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
+        serializer.collect_map(self.0.iter().map(|(name, text)| (name, lines(text))))
+    }
 }
 
 /// One entry per generated function, in the module's order.
@@ -153,41 +166,46 @@ fn table(functions: &[Function]) -> String {
     text
 }
 
-/// Goes to stderr, so that it can stand beside `--json`.
-fn explain(mechanism: &Mechanism, model: &Model) {
-    for f in &model.functions {
-        let lost = told(loss(f, &model.bond_graph));
-        tell(&format!("{}: {}; {lost}\n", f.name(), f.formulation));
-        tell(&format!("  cost {}\n", f.cost()));
-        list("plans before factoring, the first one taken", &f.plans);
-        list("passed over", &f.passed_over);
-        tell("  formulations\n");
-        for formulation in FORMULATIONS.iter().filter(|known| known.knows(f.method)) {
-            let asked = Options {
-                formulation: Some(*formulation),
-                ..Options::default()
-            };
-            if let Some(other) = function(mechanism, f.method, &asked) {
-                tell(&format!(
-                    "    {:<16} {}; {}  ({})\n",
-                    formulation.name(),
-                    other.cost(),
-                    told(loss(&other, &model.bond_graph)),
-                    formulation.summary()
-                ));
-            }
+/// Function by function: what was chosen, what the other ways cost, and how many digits each loses.
+fn explained(mechanism: &Mechanism, model: &Model) -> Explained {
+    let one = |f: &Function| (f.name().to_string(), explain(mechanism, model, f));
+    Explained(model.functions.iter().map(one).collect())
+}
+
+fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
+    let lost = told(loss(f, &model.bond_graph));
+    let mut text = format!("{}: {}; {lost}\n", f.name(), f.formulation);
+    text += &format!("  cost {}\n", f.cost());
+    text += &list("plans before factoring, the first one taken", &f.plans);
+    text += &list("passed over", &f.passed_over);
+    text += "  formulations\n";
+    for formulation in FORMULATIONS.iter().filter(|known| known.knows(f.method)) {
+        let asked = Options {
+            formulation: Some(*formulation),
+            ..Options::default()
+        };
+        if let Some(other) = function(mechanism, f.method, &asked) {
+            text += &format!(
+                "    {:<16} {}; {}  ({})\n",
+                formulation.name(),
+                other.cost(),
+                told(loss(&other, &model.bond_graph)),
+                formulation.summary()
+            );
         }
     }
+    text
 }
 
 /// Candidates and what they cost, one per line.
-fn list(title: &str, all: &[Considered]) {
-    if !all.is_empty() {
-        tell(&format!("  {title}\n"));
+fn list(title: &str, all: &[Considered]) -> String {
+    if all.is_empty() {
+        return String::new();
     }
-    for one in all {
-        tell(&format!("    {}: {}\n", one.what, one.cost));
-    }
+    let lines = all
+        .iter()
+        .map(|one| format!("    {}: {}\n", one.what, one.cost));
+    format!("  {title}\n{}", lines.collect::<String>())
 }
 
 /// A loss of digits in words.

@@ -14,7 +14,7 @@ use self::many::{Batch, Many};
 use crate::output::{print, tell};
 use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
-use crate::simulate::report::{self, number};
+use crate::simulate::report::{self, number, quantity, short};
 use crate::simulate::{
     Column, Evaluated, Record, Way, columns, plot, prepared, record_from, varied,
 };
@@ -118,7 +118,7 @@ impl Simulate {
         }
         if let Some(reason) = &run.failure {
             self.page(&file.stem, (&system, &way), &columns, &run, told)?;
-            let (t, place) = (run.t, report::place(&system, &run));
+            let (t, place) = (short(run.t), report::place(&system, &run));
             bail!("the run ends early at t = {t} s, {place}: {reason}");
         }
         told += &estimate(&plant, &way, &columns, &run)?;
@@ -210,8 +210,7 @@ impl Simulate {
             .with_context(|| format!("the folder {} cannot be made", out.display()))?;
         let [table, picture] = ["csv", "svg"].map(|kind| out.join(format!("{name}.{kind}")));
         std::fs::write(&table, report::csv(columns, run)).with_context(|| shown(&table))?;
-        plot::draw(&picture, name, columns, run)
-            .map_err(|e| anyhow!("{}: {e}", shown(&picture)))?;
+        plot::draw(&picture, name, columns, run).with_context(|| shown(&picture))?;
         let rows = run.rows.len();
         Ok(format!(
             "written: {} ({rows} rows), {}",
@@ -241,9 +240,10 @@ fn watched(what: &'static str, plant: &Evaluated<'_>, way: &Way) -> Record {
 fn summary(name: &str, integration: &Integration) -> String {
     let Integration { method, pace, end } = integration;
     let pace = match pace {
-        Pace::Step(h) => format!("in steps of {h} s"),
-        Pace::Tolerance(t) => format!("with the tolerance {t:e}"),
+        Pace::Step(h) => format!("in steps of {} s", short(*h)),
+        Pace::Tolerance(t) => format!("with the tolerance {}", short(*t)),
     };
+    let end = short(*end);
     format!("{name}: {} {pace}, to t = {end} s", method.name())
 }
 
@@ -255,7 +255,7 @@ fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) 
         Pace::Tolerance(_) => "a tenth of the tolerance",
     };
     if let Some(reason) = finer.failure {
-        let t = finer.t;
+        let t = short(finer.t);
         let warning = format!(
             "warning: with {against} the run ends early at t = {t} s ({reason}): the result means little\n"
         );
@@ -268,9 +268,9 @@ fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) 
     let Column { name, unit } = &columns[found.column];
     let text = format!(
         "`{name}` by {}, {} of its range, at t = {} s",
-        format!("{} {unit}", number(found.size)).trim_end(),
+        quantity(found.size, unit),
         number(found.share),
-        found.t
+        short(found.t)
     );
     let told = format!("a run with {against} differs most in {text}\n");
     print(&told)?;

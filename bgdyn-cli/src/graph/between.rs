@@ -39,7 +39,7 @@ pub(super) fn lines(chart: &Chart, system: &System, fluid: &mut Fluid<'_>) -> Ve
         };
         drawn.push(Link {
             name: format!("{} – {}, m/s", ends[0], ends[1]),
-            velocity: None,
+            velocities: Vec::new(),
             flows: vec![flow],
         });
     }

@@ -17,6 +17,9 @@ pub(crate) struct Chart {
     pub lines: Vec<Link>,
     /// Names of links that no coordinate moves: none of their junctions is there.
     pub still: Vec<String>,
+    /// Names of links that move and carry others, but have no store and no source: none of their
+    /// junctions is there, the velocities of their joints act on the links that they carry.
+    pub folded: Vec<String>,
     /// What has to be said of it beside.
     pub notes: Vec<String>,
 }
@@ -58,7 +61,8 @@ impl Chart {
 
     /// How much of the graph is there.
     pub fn census(&self) -> String {
-        let (nv, links) = (self.velocities.len(), self.links.len() + self.still.len());
+        let not_drawn = self.still.len() + self.folded.len();
+        let (nv, links) = (self.velocities.len(), self.links.len() + not_drawn);
         let of_links = || self.transformers().filter(|t| t.is_vector());
         let there = of_links().count();
         let count = |of: fn(&Component) -> bool| {
@@ -77,6 +81,10 @@ impl Chart {
         );
         if !self.still.is_empty() {
             text += &format!(". No joint moves {}", self.still.join(", "));
+        }
+        if !self.folded.is_empty() {
+            let names = self.folded.join(", ");
+            text += &format!(". Massless and not drawn, with their transformers: {names}");
         }
         text
     }
@@ -107,8 +115,9 @@ pub(crate) struct Velocity {
 pub(crate) struct Link {
     /// Its name.
     pub name: String,
-    /// The velocity that its joint adds, as its place among [`Chart::velocities`].
-    pub velocity: Option<usize>,
+    /// The velocities that begin here, as places among [`Chart::velocities`]: those of the folded
+    /// links that carry it, then its own joint's.
+    pub velocities: Vec<usize>,
     /// Its flows that transformers feed and on which something acts.
     pub flows: Vec<Flow>,
 }

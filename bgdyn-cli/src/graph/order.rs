@@ -32,16 +32,45 @@ impl Chart {
         };
         let (moving, still): (Vec<_>, Vec<_>) = links.into_iter().partition(moved);
         let name = |i: LinkId| graph.frames[i.0].name.clone();
+        let moving = moving.into_iter().map(|i| (i, link(graph, &order, i)));
+        let (links, folded) = folded(graph, moving.collect());
         Chart {
             title: title.to_owned(),
             description: description.map(str::to_owned),
             velocities: order.iter().map(|&j| velocity(graph, j)).collect(),
-            links: moving.into_iter().map(|i| link(graph, &order, i)).collect(),
+            links,
             lines: Vec::new(),
             still: still.into_iter().map(name).collect(),
+            folded,
             notes: Vec::new(),
         }
     }
+}
+
+/// The links without those that have no junctions but carry some that have, whose names come beside.
+/// The velocities of the joints of the latter begin at the next link.
+fn folded(graph: &BondGraph, all: Vec<(LinkId, Link)>) -> (Vec<Link>, Vec<String>) {
+    let acting = all.iter().filter(|(_, link)| !link.flows.is_empty());
+    let mut carries_some = vec![false; graph.frames.len()];
+    for (i, _) in acting {
+        let mut carrier = graph.frames[i.0].parent;
+        while let Some(c) = carrier {
+            carries_some[c.0] = true;
+            carrier = graph.frames[c.0].parent;
+        }
+    }
+    let (mut links, mut names) = (Vec::new(), Vec::new());
+    let mut waiting: Vec<usize> = Vec::new();
+    for (i, mut link) in all {
+        if link.flows.is_empty() && carries_some[i.0] {
+            waiting.append(&mut link.velocities);
+            names.push(link.name);
+        } else {
+            link.velocities.splice(0..0, waiting.drain(..));
+            links.push(link);
+        }
+    }
+    (links, names)
 }
 
 /// The links, each before all that it carries and those before the next one.
@@ -84,15 +113,30 @@ fn link(graph: &BondGraph, order: &[CoordinateId], i: LinkId) -> Link {
         transformers: transformers(graph, order, i, junction),
         ports: ports(graph, i, junction),
     });
-    let acts = |f: &Flow| !f.transformers.is_empty() && !f.ports.is_empty();
+    let massless = massless(graph, i);
+    let acts = |f: &Flow| !massless && !f.transformers.is_empty() && !f.ports.is_empty();
     let flows = flows.into_iter().filter(acts);
     Link {
         name: frame.name.clone(),
-        velocity: frame
-            .coordinate
-            .and_then(|j| order.iter().position(|&k| k == j)),
+        velocities: (0..order.len())
+            .filter(|&k| frame.coordinate == Some(order[k]))
+            .collect(),
         flows: flows.collect(),
     }
+}
+
+/// Whether a link has neither mass nor inertia: its stores and its weight are nothing.
+fn massless(graph: &BondGraph, i: LinkId) -> bool {
+    let own = [graph.translation(i), graph.rotation(i)];
+    let nothing = |value: &Value| *value == Value::Fixed(Dd::ZERO);
+    let mut stores = graph.stores.iter().filter(|s| own.contains(&s.junction));
+    let sources = graph.sources.iter().filter(|s| own.contains(&s.junction));
+    let mut weights = sources.flat_map(|s| &s.efforts);
+    let empty = |store: &Store| match &store.inertia {
+        Inertia::Mass(mass) => nothing(mass),
+        Inertia::Tensor(entries) => entries.iter().all(nothing),
+    };
+    stores.all(empty) && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
 }
 
 /// The transformers into a link's flow, in the order of the velocities.

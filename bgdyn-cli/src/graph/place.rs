@@ -30,7 +30,7 @@ const FIRST: f64 = 24.0;
 const ROW: f64 = 66.0;
 /// From the last bar across to the lower edge of a link.
 const LAST: f64 = 24.0;
-/// Height of what stands above a link: the 1-junction of its velocity.
+/// Height of what stands above a link, for each velocity that begins there: its 1-junction.
 const HEAD: f64 = 50.0;
 /// Between the upper edge of it and that junction.
 const ABOVE_HEAD: f64 = 34.0;
@@ -90,7 +90,7 @@ pub(super) fn place(chart: &Chart, top: f64) -> Places {
     let mut y = top;
     let mut bands = Vec::new();
     for link in chart.bands() {
-        if let Some(j) = link.velocity {
+        for &j in &link.velocities {
             columns[j].head = y + ABOVE_HEAD;
             columns[j].end = columns[j].head;
             y += head_height(&chart.velocities[j]);
@@ -155,7 +155,9 @@ pub(super) fn vector_width(transformer: &Transformer) -> f64 {
 
 fn band(link: &Link, columns: &[Column], top: f64) -> Band {
     let transformers = || link.flows.iter().flat_map(|flow| &flow.transformers);
-    let used = transformers().map(|t| t.velocity).chain(link.velocity);
+    let used = transformers()
+        .map(|t| t.velocity)
+        .chain(link.velocities.iter().copied());
     let used: Vec<&Column> = used.map(|j| &columns[j]).collect();
     let left = used.iter().map(|c| c.x).reduce(f64::min);
     let left = left.unwrap_or(MARGIN + INDENT);

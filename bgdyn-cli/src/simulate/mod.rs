@@ -1,9 +1,11 @@
 //! Runs of scenes through the evaluator, and what is told of them.
 
+mod axis;
 pub(crate) mod batch;
 pub(crate) mod batch_plot;
 mod difference;
 pub(crate) mod page;
+mod panel;
 mod plant;
 pub(crate) mod plot;
 pub(crate) mod progress;

@@ -47,7 +47,12 @@ pub(crate) fn report(system: &System, record: &Record) -> String {
 fn events(system: &System, record: &Record) -> String {
     let mut text = format!("events: {}\n", record.events.len());
     for event in record.events.iter().take(EVENTS) {
-        let _ = writeln!(text, "  t = {} s: {}", event.t, changes(system, event));
+        let _ = writeln!(
+            text,
+            "  t = {} s: {}",
+            short(event.t),
+            changes(system, event)
+        );
     }
     if let Some(more) = record.events.len().checked_sub(EVENTS).filter(|&n| n > 0) {
         let _ = writeln!(text, "  … and {more} more");
@@ -72,26 +77,22 @@ pub(crate) fn changes(system: &System, event: &Event) -> String {
     }
 }
 
-/// Where the run ended: "slide = 0.1 m", part by part.
-fn parts(system: &System, record: &Record) -> Vec<[String; 3]> {
+/// Where the run ended, part by part: "slide" and "0.1 m".
+fn parts(system: &System, record: &Record) -> Vec<[String; 2]> {
     let columns = state_columns(system);
     let values = columns.into_iter().zip(record.y.iter());
-    let state = values.map(|(c, x)| [c.name, format!("{x:?}"), c.unit.to_owned()]);
+    let state = values.map(|(c, &x)| [c.name, quantity(x, c.unit)]);
     let modes = system.scene.layout.modes.iter().zip(record.modes.iter());
-    let modes = modes.map(|(m, x)| [format!("{}_mode", m.name), format!("{x}"), String::new()]);
+    let modes = modes.map(|(m, x)| [format!("{}_mode", m.name), format!("{x}")]);
     state.chain(modes).collect()
 }
 
 fn state(system: &System, record: &Record) -> String {
     let parts = parts(system, record);
     let width = parts.iter().map(|p| p[0].len()).max().unwrap_or(0);
-    let mut text = format!("state at t = {} s:\n", record.t);
-    for [name, value, unit] in parts {
-        let _ = writeln!(
-            text,
-            "{}",
-            format!("  {name:width$}  {value} {unit}").trim_end()
-        );
+    let mut text = format!("state at t = {} s:\n", short(record.t));
+    for [name, value] in parts {
+        let _ = writeln!(text, "  {name:width$}  {value}");
     }
     text
 }
@@ -99,8 +100,9 @@ fn state(system: &System, record: &Record) -> String {
 /// Where a run ended, on one line.
 pub(crate) fn place(system: &System, record: &Record) -> String {
     let parts = parts(system, record).into_iter();
-    let told = parts.map(|[name, value, unit]| format!("{name} = {value} {unit}"));
-    let told: Vec<String> = told.map(|part| part.trim_end().to_owned()).collect();
+    let told: Vec<String> = parts
+        .map(|[name, value]| format!("{name} = {value}"))
+        .collect();
     told.join(", ")
 }
 
@@ -142,16 +144,85 @@ pub(crate) fn drift(record: &Record) -> f64 {
     }
 }
 
-/// Six digits.
+/// Six digits, with a power of ten where the number is very large or very small.
 pub(crate) fn number(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        return "0".into();
+    let scientific = format!("{x:.5e}");
+    let exponent = scientific.split('e').nth(1).and_then(|e| e.parse().ok());
+    match exponent {
+        _ if x == 0.0 => "0".into(),
+        // A rounded number may have one digit more in front than the number itself.
+        Some(e @ -3..=5) => format!("{x:.*}", usize::try_from(5 - e).unwrap_or(0)),
+        Some::<i32>(_) => scientific,
+        None => format!("{x}"),
     }
-    if !(1e-3..1e6).contains(&size) {
-        return format!("{x:.5e}");
+}
+
+/// At most six digits: as [`number`], without zeros behind the last other digit.
+pub(crate) fn short(x: f64) -> String {
+    let text = number(x);
+    let (digits, power) = text.split_at(text.find('e').unwrap_or(text.len()));
+    match digits.contains('.') {
+        true => {
+            digits
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned()
+                + power
+        }
+        false => text,
     }
-    let before = size.log10().floor() as i32;
-    let decimals = usize::try_from(5 - before).unwrap_or(0);
-    format!("{x:.decimals$}")
+}
+
+/// A quantity with its unit; an angle in degrees beside: `0.5 rad (28.6479°)`.
+pub(crate) fn quantity(x: f64, unit: &str) -> String {
+    let plain = format!("{} {unit}", short(x));
+    match unit.strip_prefix("rad") {
+        Some(per) if x.is_finite() => format!("{plain} ({}°{per})", short(x.to_degrees())),
+        _ => plain.trim_end().to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_six_digits() {
+        let told = [
+            (0.0, "0", "0"),
+            (0.1, "0.100000", "0.1"),
+            (-123.456789, "-123.457", "-123.457"),
+            (999_999.6, "1.00000e6", "1e6"),
+            (0.001, "0.00100000", "0.001"),
+            (9.999_999e-4, "0.00100000", "0.001"),
+            (1.5e-7, "1.50000e-7", "1.5e-7"),
+            (100_000.0, "100000", "100000"),
+            (f64::NAN, "NaN", "NaN"),
+        ];
+        for (x, all, less) in told {
+            assert_eq!((number(x).as_str(), short(x).as_str()), (all, less));
+        }
+        // Over all sizes and signs: six digits, and no more is lost than they leave out.
+        for k in 0..4000 {
+            let x = (f64::from(k) * 0.7).sin() * 10_f64.powi(k % 40 - 20);
+            for text in [number(x), short(x)] {
+                let mantissa = text.split('e').next().unwrap_or("");
+                let digits = mantissa.replace(['-', '.'], "");
+                assert!(digits.trim_start_matches('0').len() <= 6, "{text}");
+                let back: f64 = text.parse().expect("a number");
+                assert!(
+                    (back - x).abs() <= 5.000_1e-6 * x.abs(),
+                    "{x} is told as {text}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn angles_are_told_in_degrees_too() {
+        assert_eq!(quantity(0.5, "rad"), "0.5 rad (28.6479°)");
+        assert_eq!(quantity(-1.0, "rad/s"), "-1 rad/s (-57.2958°/s)");
+        assert_eq!(quantity(2.0, "m"), "2 m");
+        assert_eq!(quantity(2.0, ""), "2");
+    }
 }

@@ -44,6 +44,28 @@ fn times_without_cargo_are_marked_as_estimates() {
     let errors: Vec<f64> = errors.map(|r| r[6].parse().expect("an error")).collect();
     assert!(errors[2] < 0.2 * errors[0], "{errors:?}");
     assert!(text.contains("all but springs"), "{text}");
+    // What each effect costs: all of them, and without each.
+    let costs = std::fs::read_to_string(format!("{out}/costs.csv")).expect("a table");
+    let costs: Vec<Vec<&str>> = costs
+        .lines()
+        .skip(1)
+        .map(|l| l.split(',').collect())
+        .collect();
+    assert_eq!(costs[0][1], "all");
+    assert!(costs.iter().any(|c| c[1] == "all but springs"), "{costs:?}");
+    let numbers = |k: usize| {
+        costs
+            .iter()
+            .map(move |c| c[k].parse::<f64>().expect("a number"))
+    };
+    let (operations, steps) = (numbers(2), numbers(4));
+    let all: Vec<f64> = operations.collect();
+    // The scene without an effect has no operation more, and every scene some steps.
+    assert!(all.iter().all(|n| *n >= 0.0 && *n <= all[0]), "{all:?}");
+    assert!(
+        numbers(3).all(|ns| ns >= 0.0) && steps.into_iter().all(|n| n >= 1.0),
+        "{costs:?}"
+    );
     let page = std::fs::read_to_string(format!("{out}/report.html")).expect("a page");
     assert!(page.contains("Times are estimates"));
 }

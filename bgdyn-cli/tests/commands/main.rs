@@ -10,6 +10,7 @@ mod generate;
 mod golden_specs;
 mod graph;
 mod ops;
+mod pictures;
 mod schema;
 mod schema_scene;
 mod simulate;

@@ -145,10 +145,13 @@ fn accuracy_may_be_preferred() {
     assert_ne!(eval("operations"), eval("accuracy"));
 }
 
+/// On stdout, behind the table; with `--json` as part of it.
 #[test]
-fn explanations_stand_beside_the_json() {
-    let run = bgdyn(&["ops", SCARA, "--json", "--explain"]);
-    assert!(run.stderr.contains("inverse_dynamics: "), "{}", run.stderr);
+fn explanations_are_on_stdout() {
+    let plain = bgdyn(&["ops", SCARA, "--explain"]);
+    assert_eq!(plain.stderr, "");
+    let plain = plain.good();
+    assert!(plain.starts_with("function "), "{plain}");
     for way in [
         "literal",
         "recursion",
@@ -158,16 +161,25 @@ fn explanations_stand_beside_the_json() {
         "articulated_base",
     ] {
         let line = format!("  {way} ");
-        assert!(run.stderr.contains(&line), "{way}: {}", run.stderr);
+        assert!(plain.contains(&line), "{way}: {plain}");
     }
-    assert!(
-        run.stderr.contains("; error in f64 up to "),
-        "{}",
-        run.stderr
-    );
-    let chosen = "forward_dynamics: recursion: ";
-    assert!(run.stderr.contains(chosen), "{}", run.stderr);
-    assert!(serde_json::from_str::<Value>(&run.good()).is_ok());
+    assert!(plain.contains("; error in f64 up to "), "{plain}");
+    assert!(plain.contains("forward_dynamics: recursion: "), "{plain}");
+    let json = bgdyn(&["ops", SCARA, "--explain", "--json"]);
+    assert_eq!(json.stderr, "");
+    let json: Value = serde_json::from_str(&json.good()).expect("JSON");
+    let explained = json["explained"].as_object().expect("functions");
+    let functions = json["functions"].as_object().expect("functions");
+    assert!(explained.keys().eq(functions.keys()));
+    for line in explained
+        .values()
+        .flat_map(|lines| lines.as_array().expect("lines"))
+    {
+        let line = line.as_str().expect("a line");
+        assert!(plain.lines().any(|l| l == line), "{line}");
+    }
+    let without: Value = counts(&[]);
+    assert!(without.get("explained").is_none());
 }
 
 /// `116 = 30 mul + 24 add + 30 × 2 sincos − 0.2 × 17 fusable`: the sum, and the sum of the parts.
@@ -195,7 +207,7 @@ fn sums(cost: &str) -> (f64, f64) {
 
 #[test]
 fn explanations_show_what_decided() {
-    let told = bgdyn(&["ops", SCARA, "--explain"]).stderr;
+    let told = bgdyn(&["ops", SCARA, "--explain"]).good();
     let begin = told.find("forward_dynamics: ").expect(&told);
     let lines: Vec<&str> = told[begin..].lines().skip(1).collect();
     let end = lines.iter().position(|l| !l.starts_with(' '));

@@ -94,7 +94,8 @@ fn every_kind_of_method_follows_the_known_motion() {
     }
 }
 
-/// The block on the belt, in closed form: it slips for 3π/20 s and sticks for 0.2 s.
+/// The block on the belt, in closed form: it slips for 3π/20 s and sticks for 0.2 s. The report has
+/// six digits, the table all.
 #[test]
 fn events_are_told_when_they_are() {
     let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "simulate_belt"]
@@ -103,13 +104,21 @@ fn events_are_told_when_they_are() {
     let folder = out.display().to_string();
     let scene = "specs/scenes/stick_slip.scene.yaml";
     let told = bgdyn(&["simulate", scene, "--out", &folder, "--points", "6"]).good();
+    let table = fs::read_to_string(out.join("stick_slip.csv")).expect("a table");
+    let times: Vec<f64> = rows(&table).iter().map(|row| row[0]).collect();
     let mut wanted = 0.4;
     let events = told.lines().filter(|line| line.starts_with("  t = "));
     let mut count = 0;
     for (i, line) in events.enumerate() {
         let (t, what) = line["  t = ".len()..].split_once(" s: ").expect("a time");
-        let off = (t.parse::<f64>().expect("a time") - wanted).abs();
-        assert!(off < 1e-9, "{line}, not {wanted}");
+        let told = t.parse::<f64>().expect("a time");
+        assert!(
+            (told - wanted).abs() <= 5.1e-6 * wanted,
+            "{line}, not {wanted}"
+        );
+        assert!(t.len() <= "0.400000".len(), "{line}");
+        let off = times.iter().map(|t| (t - wanted).abs()).fold(1.0, f64::min);
+        assert!(off < 1e-9, "no row at {wanted}");
         let expected = ["`belt` breaks away, -1", "`belt` is held"][i % 2];
         assert_eq!(what, expected);
         wanted += [3.0 * PI / 20.0, 0.2][i % 2];

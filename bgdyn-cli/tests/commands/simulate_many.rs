@@ -135,7 +135,8 @@ fn a_table_of_runs_keeps_those_that_fail() {
     assert_eq!(run.code, Some(1));
     assert!(run.stderr.contains("1 of 3 runs failed"), "{}", run.stderr);
     assert!(
-        run.stdout.contains("run 2, block_mass = 0.0"),
+        run.stdout
+            .contains("run 2, block_mass = 0 kg, slide = 0.1 m: "),
         "{}",
         run.stdout
     );

@@ -137,6 +137,7 @@ impl Effect for DcMotor {
         let resistance = laws.number(element, "resistance");
         let induced = gyrator * joint.rate;
         let voltage = supplied_voltage(element, laws);
+        let asked = voltage;
         let (current, voltage) = match laws.optional(element, "inductance") {
             Some(inductance) => {
                 let current = laws.own_velocity(element);
@@ -174,6 +175,12 @@ impl Effect for DcMotor {
         if element.quantity("inductance").is_none() {
             laws.reading(format!("{name}_current"), current, "A", "A".into());
         }
+        laws.reading(
+            format!("{name}_voltage"),
+            applied_voltage(element, laws, (asked, voltage), induced),
+            "V",
+            "voltage at the motor, after its limits".into(),
+        );
     }
 }
 
@@ -182,6 +189,26 @@ fn supplied_voltage<'g>(element: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
     let asked = laws.input(&element.name);
     match laws.optional(element, "voltage_limit") {
         Some(limit) if laws.limited() => asked.max(-limit).min(limit),
+        _ => asked,
+    }
+}
+
+/// The voltage at the motor, after all limits. `law` is what the law makes of it: without inductance
+/// the current goes before it, and it would be a rounding off what is asked for.
+fn applied_voltage<'g>(
+    element: &Element,
+    laws: &Laws<'g, '_>,
+    (asked, law): (Ex<'g>, Ex<'g>),
+    induced: Ex<'g>,
+) -> Ex<'g> {
+    if element.quantity("inductance").is_some() {
+        return law;
+    }
+    match laws.optional(element, "current_limit") {
+        Some(limit) if laws.limited() => {
+            let drop = laws.number(element, "resistance") * limit;
+            asked.max(induced - drop).min(induced + drop)
+        }
         _ => asked,
     }
 }

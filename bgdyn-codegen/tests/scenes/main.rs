@@ -15,6 +15,7 @@ mod hard_cases;
 mod hydraulics;
 mod laws;
 mod lines;
+mod motors;
 mod one;
 mod page;
 #[allow(dead_code)] // written for more than scenes

@@ -4,6 +4,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use bgdyn_accuracy::dark::with_dark_mode;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
@@ -179,7 +180,7 @@ fn figure(effect: &dyn Effect, paths: [&[[f64; 2]]; 2]) -> String {
         }
     }
     svg += "<line x1=\"330\" y1=\"238\" x2=\"360\" y2=\"238\" stroke=\"#c0392b\" stroke-width=\"2\"/><text x=\"366\" y=\"242\">with the effect</text>\n<line x1=\"490\" y1=\"238\" x2=\"520\" y2=\"238\" stroke=\"#555\" stroke-dasharray=\"5 4\"/><text x=\"526\" y=\"242\">without</text>\n</svg>\n";
-    svg
+    with_dark_mode(&svg)
 }
 
 /// The element on its junction: a bond with its half arrow.

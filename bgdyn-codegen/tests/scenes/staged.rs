@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
+use bgdyn_accuracy::dark::with_dark_mode;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
@@ -218,7 +219,7 @@ fn figure(panels: &[Panel], end: f64) -> String {
     }
     let y = high - 18.0;
     write!(svg, "<line x1=\"62\" y1=\"{y}\" x2=\"92\" y2=\"{y}\" stroke=\"#555\" stroke-dasharray=\"5 4\"/><text x=\"98\" y=\"{0}\">point masses</text>\n<line x1=\"222\" y1=\"{y}\" x2=\"252\" y2=\"{y}\" stroke=\"#c0392b\" stroke-width=\"2\"/><text x=\"258\" y=\"{0}\">distributed masses</text>\n</svg>\n", y + 4.0).unwrap();
-    svg
+    with_dark_mode(&svg)
 }
 
 /// Operations of a function, and its sines.

@@ -1,7 +1,7 @@
 //! What accuracy costs in time, on scenes of the repository: error and time of compiled code by
 //! method, step, scalar, formulation and level of effects.
 //!
-//! Writes `accuracy.csv`, the figures, `README.md` and `report.html`, which needs nothing but a
+//! Writes `accuracy.csv`, `costs.csv`, the figures, `README.md` and `report.html`, which needs nothing but a
 //! browser. Exit 1 where a method that should converge does not.
 
 use std::path::{Path, PathBuf};
@@ -9,7 +9,8 @@ use std::process::ExitCode;
 
 use accuracy_scenes::SUBJECTS;
 use bgdyn_accuracy::{
-    Machine, Plan, Study, Verdict, csv, figures, page, readme, study, targets, verdicts,
+    Cost, Machine, Plan, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets,
+    verdicts,
 };
 
 const USAGE: &str = "What accuracy costs in time, on scenes of the repository
@@ -133,6 +134,14 @@ fn write(studies: &[Study], out: &Path) -> std::io::Result<()> {
     let machine = Machine::here();
     let rows = studies.iter().flat_map(|study| &study.rows);
     std::fs::write(out.join("accuracy.csv"), csv(rows))?;
+    let named = |study: &'_ Study| -> Vec<(String, Cost)> {
+        let all = study.costs.iter();
+        all.map(|c| (study.facts.scene.clone(), c.clone()))
+            .collect()
+    };
+    let costs: Vec<(String, Cost)> = studies.iter().flat_map(named).collect();
+    let costs = costs.iter().map(|(scene, cost)| (scene.as_str(), cost));
+    std::fs::write(out.join("costs.csv"), costs_csv(costs))?;
     for figure in studies.iter().flat_map(figures) {
         std::fs::write(out.join(&figure.name), &figure.svg)?;
     }

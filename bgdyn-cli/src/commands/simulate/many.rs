@@ -3,12 +3,12 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 use bgdyn_codegen::scene::Scene;
 use bgdyn_codegen::system::System;
 use clap::Args;
 
-use super::number;
+use super::{number, quantity, short};
 use crate::output::print;
 use crate::simulate::progress::Progress;
 use crate::simulate::varied::{self, Given, Varied};
@@ -112,7 +112,7 @@ impl Many {
         std::fs::write(&table, batch::csv(of.columns, varied, &told))
             .with_context(|| shown(&table))?;
         batch_plot::draw(&picture, of.name, of.columns, (varied, &told))
-            .map_err(|e| anyhow!("{}: {e}", shown(&picture)))?;
+            .with_context(|| shown(&picture))?;
         print(&format!(
             "written: {} ({total} runs), {}\n",
             table.display(),
@@ -131,8 +131,10 @@ impl Many {
             .collect();
         for (i, run, reason) in failed.iter().take(FAILURES) {
             let values = varied.quantities.iter().zip(&varied.runs[*i]);
-            let values: Vec<String> = values.map(|(s, x)| format!("{} = {x:?}", s.name)).collect();
-            let (run, t) = (i + 1, run.t);
+            let values: Vec<String> = values
+                .map(|(s, x)| format!("{} = {}", s.name, quantity(*x, s.unit)))
+                .collect();
+            let (run, t) = (i + 1, short(run.t));
             print(&format!(
                 "run {run}, {}: ends at t = {t} s: {reason}\n",
                 values.join(", ")

@@ -1,9 +1,12 @@
 //! What of a mechanism is drawn: its moving bodies with the places on them.
 
+use bgdyn_codegen::effect::Element;
 use bgdyn_codegen::math::{Mat3, Vec3};
 use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
 use bgdyn_codegen::scene::Scene;
 use serde::Serialize;
+
+use super::stops::{Stop, stops};
 
 /// The world, or a link with all that is welded to it, in that link's axes.
 #[derive(Serialize)]
@@ -38,6 +41,11 @@ pub(super) struct Joint {
     along: [f64; 3],
     from: [f64; 3],
     to: [f64; 3],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    stops: Vec<Stop>,
+    /// Where it is on that body.
+    #[serde(skip)]
+    placed: Placed,
 }
 
 /// A place on a body.
@@ -59,6 +67,9 @@ pub(super) struct Point {
     /// Mass of the link whose centre of mass it is, kg.
     #[serde(skip_serializing_if = "Option::is_none")]
     mass: Option<f64>,
+    /// Whether that is a payload, which has a name.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    load: bool,
 }
 
 /// A place on a body, for what hangs between two of them.
@@ -70,7 +81,7 @@ pub(super) struct End {
 
 /// A frame in another: x ↦ R x + o.
 #[derive(Clone, Copy)]
-struct Placed {
+pub(super) struct Placed {
     r: Mat3<f64>,
     o: [f64; 3],
 }
@@ -88,11 +99,11 @@ impl Placed {
         }
     }
 
-    fn turned(&self, x: [f64; 3]) -> [f64; 3] {
+    pub(super) fn turned(&self, x: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| self.r.row(i).dot(Vec3(x)))
     }
 
-    fn point(&self, x: [f64; 3]) -> [f64; 3] {
+    pub(super) fn point(&self, x: [f64; 3]) -> [f64; 3] {
         let turned = self.turned(x);
         std::array::from_fn(|i| turned[i] + self.o[i])
     }
@@ -131,7 +142,20 @@ impl Bodies {
         }
         bodies.frames(mechanism);
         bodies.tips(mechanism);
+        bodies.stops(scene);
         bodies
+    }
+
+    fn stops(&mut self, scene: &Scene) {
+        for body in &mut self.all {
+            let found = body.joint.as_ref().map(|joint| {
+                let slides = joint.kind == "prismatic";
+                stops(scene, &joint.name, &joint.placed, body, slides)
+            });
+            if let (Some(joint), Some(found)) = (&mut body.joint, found) {
+                joint.stops = found;
+            }
+        }
     }
 
     fn carrier(&self, link: Option<LinkId>) -> (usize, Placed) {
@@ -164,6 +188,8 @@ impl Bodies {
             along,
             from: moved(low),
             to: moved(high),
+            stops: Vec::new(),
+            placed: joint,
         });
         self.all.push(body);
         self.on.push((self.all.len() - 1, Placed::HERE));
@@ -185,8 +211,15 @@ impl Bodies {
             self.all[body].beam(place.o, at);
         }
         let from = self.all[body].nearest(at);
+        let is_load = |e: &Element| e.effect.keyword() == "payload" && e.name == link.name;
+        let load = scene.elements.iter().any(is_load);
         self.all[body].points.push(Point {
+            name: match load {
+                true => link.name.clone(),
+                false => String::new(),
+            },
             mass: Some(mass),
+            load,
             from,
             ..Point::at(at)
         });
@@ -263,6 +296,16 @@ impl Body {
         }
     }
 
+    /// The axis of its joint, in its own axes.
+    pub(super) fn axis(&self) -> [f64; 3] {
+        self.joint.as_ref().map_or([0.0, 0.0, 1.0], |j| j.axis)
+    }
+
+    /// All places on it.
+    pub(super) fn places(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.points.iter().map(|p| p.at)
+    }
+
     fn beam(&mut self, from: [f64; 3], at: [f64; 3]) {
         if from != at {
             self.points.push(Point {
@@ -300,6 +343,7 @@ impl Point {
             axes: None,
             tip: false,
             mass: None,
+            load: false,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod curve;
+mod stops;
 
 use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::method::Method;
@@ -13,7 +14,7 @@ use self::body::{Bodies, Body, End};
 use self::curve::{Curve, LEVELS};
 use super::difference::range;
 use super::record::{Column, Record, Row};
-use super::report::changes;
+use super::report::{changes, short};
 
 /// Poses that a page holds: more rows than this allows are thinned out.
 const POSES: usize = 36_000;
@@ -127,7 +128,7 @@ fn data<'a>(system: &'a System, columns: &[Column], run: &Record, words: &'a Wor
         failure: run
             .failure
             .as_ref()
-            .map(|reason| format!("ends early at t = {} s: {reason}", run.t)),
+            .map(|reason| format!("ends early at t = {} s: {reason}", short(run.t))),
         levels: LEVELS,
         grain,
         t: rows.iter().map(|row| instant(row.t)).collect(),

@@ -7,7 +7,10 @@ if (data.failure) {
   byId("failure").hidden = false;
 }
 if (!moving) document.querySelector("main").classList.add("plain");
-byId("legend").textContent = moving ? "● centres of mass · red x, green y, blue z" : "";
+const signs = ["● centres of mass"];
+if (bodies.some((b) => b.points.some((p) => p.load))) signs.push("yellow boxes: payloads");
+if (bodies.some((b) => b.joint && b.joint.stops)) signs.push("red blocks: stops");
+byId("legend").textContent = moving ? [...signs, "red x, green y, blue z"].join(" · ") : "";
 
 let now = 0, playing = false, last = 0, asked = false;
 const slider = byId("slider");

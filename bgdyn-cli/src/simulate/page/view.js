@@ -33,6 +33,7 @@ const size = (() => {
       const pose = poseAt(body, T[i]);
       for (const point of body.points) stretch(inWorld(pose, point.at));
       if (body !== bodies[0]) stretch(pose.o);
+      for (const stop of (body.joint && body.joint.stops) || []) stretch(inWorld(poseAt(bodies[body.joint.on], T[i]), stop.at));
     }
   }
   const near = bodies[0].points.some((p) => length(p.at) > 0);
@@ -50,7 +51,7 @@ const size = (() => {
 })();
 
 const COLOURS = ["#8d99a6", "#5b9bd5", "#e0a458", "#6fb98f", "#c58fc0", "#d9776c", "#7f9fd0", "#b7b168"];
-const JOINT = "#4b5560", RAIL = "#9aa4af", RAM = "#b0453f", ROD = "#c9ced4";
+const JOINT = "#4b5560", RAIL = "#9aa4af", RAM = "#b0453f", ROD = "#c9ced4", STOP = "#d0483e", LOAD = "#c9a227";
 const colourOf = (i) => (i === 0 ? COLOURS[0] : COLOURS[1 + ((i - 1) % (COLOURS.length - 1))]);
 const heaviest = Math.max(1e-300, ...bodies.flatMap((b) => b.points.map((p) => p.mass || 0)));
 
@@ -63,11 +64,26 @@ const solids = (poses, t) => {
   bodies.forEach((body, i) => {
     const pose = poses[i], colour = colourOf(i);
     for (const point of body.points) {
+      if (point.load) {
+        const at = inWorld(pose, point.at), half = r * (1 + 1.1 * Math.cbrt(point.mass / heaviest));
+        faces.push(...prism(add(at, pose.R[2], -half), add(at, pose.R[2], half), half * Math.SQRT2, 4, LOAD, 2));
+      }
       if (point.beam) beam(inWorld(pose, point.from), inWorld(pose, point.at), 0.95 * r, colour);
     }
     const joint = body.joint;
     if (!joint) return;
     const axis = turned(pose, joint.axis);
+    for (const stop of joint.stops || []) {
+      // A slide's stop is where its block ends; another joint's is beside the beam that meets it.
+      const base = poses[joint.on], at = inWorld(base, stop.at), way = turned(base, stop.way);
+      if (joint.type === "prismatic") {
+        const end = add(at, way, 2.2 * r * stop.side);
+        faces.push(...prism(end, add(end, way, 0.9 * r * stop.side), 2.4 * r, 4, STOP, 1));
+      } else {
+        const side = cross(axis, way), foot = add(at, side, 1.5 * r * stop.side);
+        faces.push(...prism(add(foot, way, 1.9 * r), add(foot, way, 4.6 * r), 0.7 * r, 4, STOP, 2));
+      }
+    }
     if (joint.type === "prismatic") {
       const base = poses[joint.on], from = inWorld(base, joint.from), to = inWorld(base, joint.to), way = unit(turned(base, joint.along));
       beam(add(from, way, -2.5 * r), add(to, way, 2.5 * r), 0.55 * r, RAIL);
@@ -135,6 +151,7 @@ const drawView = (t) => {
     names.push([at, point.name, point.tip]);
   }));
   bodies.forEach((body, i) => body.joint && names.push([poses[i].o, body.joint.name, true]));
+  bodies.forEach((body, i) => body.points.forEach((p) => p.load && names.push([inWorld(poses[i], p.at), p.name, true])));
   for (const link of data.between) {
     const [from, to] = link.ends.map((e) => inWorld(poses[e.body], e.at));
     names.push([add(from, add(to, from, -1), 0.5), link.name, true]);
@@ -152,7 +169,7 @@ const drawGrid = (line) => {
 
 // The usual sign of a centre of mass, a disc in quarters, larger for more mass.
 const drawMasses = (draw, lens, poses, dark) => bodies.forEach((body, i) => body.points.forEach((point) => {
-  if (!point.mass) return;
+  if (!point.mass || point.load) return;
   const [x, y] = lens.project(inWorld(poses[i], point.at));
   const radius = Math.max(3.5, size.r * lens.scale * (0.45 + 0.75 * Math.cbrt(point.mass / heaviest)));
   for (let k = 0; k < 4; k++) {

@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
+use bgdyn_accuracy::dark::with_dark_mode;
 use hard_cases::{Curve, Panel};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -27,7 +28,14 @@ const LINE: i32 = 17;
 
 /// Draws both panels.
 pub fn draw(path: &Path, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
-    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+    let mut svg = String::new();
+    draw_all(&mut svg, curves)?;
+    std::fs::write(path, with_dark_mode(&svg))?;
+    Ok(())
+}
+
+fn draw_all(svg: &mut String, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
+    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
     let (header, rest) = root.split_vertically(HEADER);
     let text = |size: u32| (FONT, size).into_font().color(&INK);

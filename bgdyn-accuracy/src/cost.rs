@@ -1,0 +1,211 @@
+//! What an effect costs: operations and time of one call of `derivative`, with it and without, and the
+//! steps that a method with controlled steps takes.
+
+use std::fmt::{self, Write};
+use std::hint::black_box;
+
+use bgdyn_runtime::System;
+use bgdyn_sim::{Dopri5, Method, Moment, Of, Plant, Real, Run, Scene, Tolerance, WithMethod};
+
+use crate::clock::calls;
+use crate::contender::Stop;
+use crate::integrate::in_short;
+use crate::ladder::Plan;
+use crate::row::{fields, quoted};
+use crate::subject::Subject;
+
+/// The method by which steps are counted.
+pub const METHOD: &str = "dopri5";
+/// Its tolerance, absolute and relative, in SI units.
+pub const TOLERANCE: f64 = 1e-6;
+/// Runs of more steps are given up.
+const STEPS: usize = 1_000_000;
+
+/// What one call takes: measured, or known beforehand.
+pub enum Call {
+    /// Makes so many calls.
+    Compiled(Box<dyn Fn(usize)>),
+    /// ns, an estimate from the operations.
+    Estimated(f64),
+}
+
+/// A scene with all effects, or all but some, whose costs are asked for.
+pub struct Priced {
+    /// The effects of the scene: `all`, `all but friction`.
+    pub effects: String,
+    /// Multiplications, additions, divisions, roots, sines (a pair of sine and cosine is one) and
+    /// others of one call of `derivative`.
+    pub operations: usize,
+    /// One call of `derivative`.
+    pub call: Call,
+    /// Steps of [`METHOD`] from the start to this time, s.
+    pub steps: Box<dyn Fn(f64) -> Result<usize, Stop>>,
+}
+
+/// Without the closures.
+impl fmt::Debug for Priced {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Priced")
+            .field("effects", &self.effects)
+            .field("operations", &self.operations)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cost {
+    /// The effects of the scene: `all`, `all but friction`.
+    pub effects: String,
+    /// Operations of one call of `derivative`.
+    pub operations: usize,
+    /// Time of one call, ns.
+    pub ns: f64,
+    /// Steps of [`METHOD`] in the scene's run; none where the run ends early.
+    pub steps: Option<usize>,
+}
+
+/// Costs of all, timed in turn.
+pub(crate) fn costs(all: &[Priced], end: f64, plan: &Plan) -> Vec<Cost> {
+    let compiled = |p: &Priced| matches!(p.call, Call::Compiled(_));
+    let jobs = all.iter().filter_map(|p| match &p.call {
+        Call::Compiled(call) => Some(&**call),
+        Call::Estimated(_) => None,
+    });
+    let mut times = calls(&jobs.collect::<Vec<_>>(), plan).into_iter();
+    let one = |p: &Priced| Cost {
+        effects: p.effects.clone(),
+        operations: p.operations,
+        ns: match (compiled(p), &p.call) {
+            (false, Call::Estimated(ns)) => *ns,
+            _ => times.next().unwrap_or(f64::NAN),
+        },
+        steps: (p.steps)(end).ok(),
+    };
+    all.iter().map(one).collect()
+}
+
+/// Counts the steps of a run by controlled steps.
+#[derive(Debug)]
+pub struct CountSteps<P: Plant> {
+    /// What is run.
+    pub plant: P,
+    /// Where it begins.
+    pub begin: Moment<P::State, P::Modes>,
+    /// When it ends, s.
+    pub end: f64,
+}
+
+impl<P: Plant> WithMethod<P::State> for CountSteps<P>
+where
+    Of<P::State>: Real,
+    P::Error: fmt::Debug,
+{
+    type Output = Result<usize, Stop>;
+
+    fn with<M: Method<P::State>>(self, method: M) -> Self::Output {
+        let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
+        let tolerance = Tolerance {
+            absolute: number(TOLERANCE),
+            relative: number(TOLERANCE),
+        };
+        let run = Run::by(method, self.plant, self.begin).unaudited();
+        let mut run = run.with_tolerance(tolerance);
+        for steps in 0..STEPS {
+            let left = self.end - run.t().to_f64();
+            if left <= 1e-12 * self.end {
+                return Ok(steps);
+            }
+            let taken = run.advance_densely(number(left));
+            taken.map_err(|failure| Stop {
+                t: failure.t.to_f64(),
+                why: in_short(&failure.reason),
+            })?;
+        }
+        let why = format!("more than {STEPS:e} steps");
+        let t = run.t().to_f64();
+        Err(Stop { t, why })
+    }
+}
+
+impl Subject {
+    /// The scene with these effects, whose `derivative` has so many operations: what it costs.
+    pub fn price<
+        S: System<f64, N, NM, NU, NE, NY, NP> + 'static,
+        const N: usize,
+        const NM: usize,
+        const NU: usize,
+        const NE: usize,
+        const NY: usize,
+        const NP: usize,
+    >(
+        &mut self,
+        effects: &str,
+        operations: usize,
+        scene: S,
+    ) {
+        let scene: &'static S = Box::leak(Box::new(scene));
+        let begin = Run::begin(scene);
+        let plant = Scene::new(scene);
+        let input = plant.input(begin.t, &begin.y, &begin.modes);
+        let call = move |times: usize| {
+            let (y, modes) = (begin.y, begin.modes);
+            for _ in 0..times {
+                let (y, modes) = (black_box(&y), black_box(&modes));
+                let _ = black_box(
+                    scene
+                        .derivative(y, modes, black_box(&input), begin.t)
+                        .is_ok(),
+                );
+            }
+        };
+        self.prices.push(Priced {
+            effects: effects.into(),
+            operations,
+            call: Call::Compiled(Box::new(call)),
+            steps: Box::new(move |end| {
+                let count = CountSteps {
+                    plant: Scene::new(scene),
+                    begin: Run::begin(scene),
+                    end,
+                };
+                count.with(Dopri5)
+            }),
+        });
+    }
+}
+
+/// The columns, in their order.
+const COLUMNS: &str = "scene,effects,operations,ns_per_call,steps";
+
+/// Costs as CSV, with a header; each with its scene's name.
+pub fn costs_csv<'a>(costs: impl IntoIterator<Item = (&'a str, &'a Cost)>) -> String {
+    let mut text = COLUMNS.to_owned() + "\n";
+    for (scene, cost) in costs {
+        let _ = writeln!(text, "{},{}", quoted(scene), cost.line());
+    }
+    text
+}
+
+impl Cost {
+    /// One line of CSV, without the scene.
+    pub(crate) fn line(&self) -> String {
+        let steps = self.steps.map_or(String::new(), |n| n.to_string());
+        let effects = quoted(&self.effects);
+        format!("{effects},{},{:.3e},{steps}", self.operations, self.ns)
+    }
+
+    /// The cost of such a line; `None` where it is none.
+    pub(crate) fn of_line(line: &str) -> Option<Cost> {
+        let [effects, operations, ns, steps] = <[String; 4]>::try_from(fields(line)).ok()?;
+        Some(Cost {
+            effects,
+            operations: operations.parse().ok()?,
+            ns: ns.parse().ok()?,
+            steps: match steps.as_str() {
+                "" => None,
+                steps => Some(steps.parse().ok()?),
+            },
+        })
+    }
+}

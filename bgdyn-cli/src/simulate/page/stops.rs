@@ -1,0 +1,89 @@
+//! Where the stops of joints are.
+
+use bgdyn_codegen::effect::Element;
+use bgdyn_codegen::math::Vec3;
+use bgdyn_codegen::scene::Scene;
+use serde::Serialize;
+
+use super::body::{Body, Placed};
+
+/// An end of a joint's travel, in the axes of the body that carries the joint.
+#[derive(Serialize)]
+pub(super) struct Stop {
+    name: String,
+    /// A slide: where the joint is when it meets the stop. Else the joint's place, m.
+    at: [f64; 3],
+    /// A slide: the unit vector of its travel. Else the unit vector from the axis to that point of the
+    /// body which meets the stop, when it does.
+    way: [f64; 3],
+    /// From which side the body comes: −1 at the lower end, +1 at the upper one.
+    side: f64,
+}
+
+/// The stops of a joint: `on` is its place on the body that carries it, `body` what it moves.
+pub(super) fn stops(
+    scene: &Scene,
+    joint: &str,
+    on: &Placed,
+    body: &Body,
+    slides: bool,
+) -> Vec<Stop> {
+    let axis = body.axis();
+    let radius = outwards(body, axis);
+    let own = |e: &&Element| e.effect.keyword() == "stop" && e.name("joint") == Some(joint);
+    let elements = scene.elements.iter().filter(own);
+    let ends = elements.flat_map(|e| [(e, "lower", -1.0), (e, "upper", 1.0)]);
+    let stop = |(element, key, side): (&Element, &'static str, f64)| {
+        let q = value(scene, element, key)?;
+        let (at, way) = match slides {
+            true => (axis.map(|x| q * x), axis),
+            false => ([0.0; 3], turned(radius, axis, q)),
+        };
+        Some(Stop {
+            name: element.name.clone(),
+            at: on.point(at),
+            way: on.turned(way),
+            side,
+        })
+    };
+    ends.filter_map(stop).collect()
+}
+
+/// A number of an element: the default of its run-time parameter, where it has one.
+fn value(scene: &Scene, element: &Element, key: &str) -> Option<f64> {
+    let quantity = element.quantity(key)?;
+    let named = |name: &String| scene.parameters.iter().find(|p| p.name == *name);
+    let parameter = quantity.parameter.as_ref().and_then(named);
+    let value = parameter.map_or(quantity.value, |p| p.default);
+    Some(value.to_f64()).filter(|x| x.is_finite())
+}
+
+/// The unit vector from the axis to the point of the body that is farthest from it; any across the
+/// axis where there is none.
+fn outwards(body: &Body, axis: [f64; 3]) -> [f64; 3] {
+    let axis = Vec3(axis);
+    let across = |p: [f64; 3]| {
+        let along = axis.dot(Vec3(p));
+        std::array::from_fn::<f64, 3, _>(|k| p[k] - along * axis.0[k])
+    };
+    let size = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let largest = |all: &mut dyn Iterator<Item = [f64; 3]>| {
+        all.map(across).max_by(|a, b| size(a).total_cmp(&size(b)))
+    };
+    let found = largest(&mut body.places()).filter(|p| size(p) > 1e-9);
+    let found = found.or_else(|| largest(&mut units.into_iter()));
+    let found = found.unwrap_or(units[0]);
+    found.map(|x| x / size(&found))
+}
+
+/// A vector across a unit axis, turned about it by an angle.
+fn turned(x: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
+    let across = [
+        axis[1] * x[2] - axis[2] * x[1],
+        axis[2] * x[0] - axis[0] * x[2],
+        axis[0] * x[1] - axis[1] * x[0],
+    ];
+    let (sine, cosine) = angle.sin_cos();
+    std::array::from_fn(|k| cosine * x[k] + sine * across[k])
+}
