@@ -25,7 +25,9 @@
 #[cfg(feature = "macros")]
 pub use bgdyn_macros::bgdyn;
 pub use bgdyn_runtime as runtime;
-pub use bgdyn_runtime::{Dynamics, Scalar, Singular};
+pub use bgdyn_runtime::{
+    Coriolis, Derivatives, Description, Dynamics, Frame, Kinematics, Scalar, Singular,
+};
 pub use nalgebra;
 
 /// The book's examples, compiled and run by `cargo test --doc -p bgdyn`.

@@ -19,6 +19,8 @@
 //! - `wide`: [`Scalar`] for the lanes of the crate `wide`, re-exported as `wide`. Stays `no_std`.
 //! - `num-dual`: [`Scalar`] for the dual numbers of the crate `num-dual`, re-exported as
 //!   `num_dual`. That crate needs `std`; this one still does not use it.
+//! - `serde`: `Serialize` and `Deserialize` for the structs of generated modules (run-time parameters,
+//!   a scene's `State` and `Input`), for [`Limits`] and [`Dd`]; re-exported as `serde`. Stays `no_std`.
 #![no_std]
 // But for one instruction on some Arm processors: see `root.rs`.
 #![cfg_attr(
@@ -27,6 +29,7 @@
 )]
 
 mod dd;
+mod description;
 #[cfg(feature = "num-dual")]
 mod dual;
 mod dynamics;
@@ -40,6 +43,8 @@ mod pose;
 mod root;
 pub mod rotation;
 mod scalar;
+#[cfg(feature = "serde")]
+mod serial;
 mod settle;
 mod sine;
 mod singular;
@@ -47,6 +52,7 @@ mod storage;
 mod system;
 
 pub use dd::{Dd, ParseDdError};
+pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
 #[cfg(feature = "num-dual")]
 pub use dual::DualPart;
 pub use dynamics::Dynamics;
@@ -59,9 +65,22 @@ pub use num_dual;
 pub use operations::Operations;
 pub use pose::Pose;
 pub use scalar::Scalar;
+#[cfg(feature = "serde")]
+pub use serde;
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use serial::{__read_fields, __write_fields};
 pub use settle::{settle, settle_by};
 pub use singular::Singular;
 pub use storage::{inner_products, matrix, mirror, vector};
 pub use system::{Balance, Canonical, Contact, Slope, System};
 #[cfg(feature = "wide")]
 pub use wide;
+
+/// Without the feature `serde` nothing is implemented.
+#[cfg(not(feature = "serde"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __serde {
+    ($($struct:tt)*) => {};
+}

@@ -61,3 +61,81 @@ pub fn unskew<T: Scalar>(m: &Matrix3<T>) -> Vector3<T> {
     let pair = |i, j| half * (m[(i, j)] - m[(j, i)]);
     Vector3::new(pair(2, 1), pair(0, 2), pair(1, 0))
 }
+
+/// The rotation vector of the turn R: its direction is the axis, its length the angle, 0 to π rad.
+///
+/// `rotation` must be orthogonal to rounding. The error is that of the entries' rounding, near no turn
+/// and near half a turn as well; of half a turn the axis has either sign. No branch, and no root of what
+/// may vanish: lanes and dual numbers run it, and the derivative is right where there is no turn.
+pub fn vector<T: Scalar>(rotation: &Matrix3<T>) -> Vector3<T> {
+    let [mut w, mut x, mut y, mut z] = quaternion(rotation);
+    let (half, one) = (T::from_f64(0.5), T::from_f64(1.0));
+    for _ in 0..HALVINGS {
+        // Half the angle: the cosine from its double, which is not negative; the sine from both.
+        let cosine = (half * (one + w)).sqrt();
+        let scale = half / cosine;
+        (w, x, y, z) = (cosine, x * scale, y * scale, z * scale);
+    }
+    let share = one / w;
+    let [x, y, z] = [x * share, y * share, z * share];
+    // angle / tan(angle) as a series in the square of the tangent.
+    let tangent = x * x + y * y + z * z;
+    let last = T::from_f64(0.0);
+    let series = (0..TERMS).rev().fold(last, |sum, k| {
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let coefficient = T::from_f64(sign) / T::from_f64(2.0 * f64::from(k) + 1.0);
+        sum * tangent + coefficient
+    });
+    let whole = T::from_f64(2.0 * f64::from(1_u32 << HALVINGS)) * series;
+    Vector3::new(x * whole, y * whole, z * whole)
+}
+
+/// Halvings of the half angle, which is π/2 at the most: π/32 is left, with a tangent of less than 0.1.
+const HALVINGS: u32 = 4;
+/// Terms of the series, of which the first one left out is below 2⁻¹⁰⁶.
+const TERMS: u32 = 16;
+
+/// The rotation vector that turns the axes `from` to the axes `to`, both given by their columns in world
+/// axes: the vector is in world axes, rad, no longer than π, and its turn times `from` is `to`.
+pub fn between<T: Scalar>(from: &Matrix3<T>, to: &Matrix3<T>) -> Vector3<T> {
+    vector(&product(to, &from.transpose()))
+}
+
+/// The unit quaternion of a turn, real part first and not negative.
+fn quaternion<T: Scalar>(r: &Matrix3<T>) -> [T; 4] {
+    let one = T::from_f64(1.0);
+    let (xx, yy, zz) = (r[(0, 0)], r[(1, 1)], r[(2, 2)]);
+    let sum = |i, j| r[(i, j)] + r[(j, i)];
+    let rest = |i, j| r[(i, j)] - r[(j, i)];
+    // The quaternion times four times one of its components: times the largest one it keeps its digits.
+    let candidates = [
+        [one + xx + yy + zz, rest(2, 1), rest(0, 2), rest(1, 0)],
+        [rest(2, 1), one + xx - yy - zz, sum(0, 1), sum(0, 2)],
+        [rest(0, 2), sum(0, 1), one - xx + yy - zz, sum(1, 2)],
+        [rest(1, 0), sum(0, 2), sum(1, 2), one - xx - yy + zz],
+    ];
+    let [mut best, others @ ..] = candidates;
+    let mut square = best[0];
+    for (k, other) in others.iter().enumerate() {
+        let larger = T::less(square, other[k + 1]);
+        square = T::select(larger, other[k + 1], square);
+        for (chosen, &component) in best.iter_mut().zip(other) {
+            *chosen = T::select(larger, component, *chosen);
+        }
+    }
+    let [w, x, y, z] = best;
+    let length = (w * w + x * x + y * y + z * z).sqrt();
+    let positive = T::select(w.less(T::from_f64(0.0)), -one, one);
+    best.map(|component| component * positive / length)
+}
+
+/// R x.
+pub(crate) fn turn<T: Scalar>(r: &Matrix3<T>, x: &Vector3<T>) -> Vector3<T> {
+    let row = |i: usize| r[(i, 0)] * x[0] + r[(i, 1)] * x[1] + r[(i, 2)] * x[2];
+    Vector3::new(row(0), row(1), row(2))
+}
+
+/// A B.
+pub(crate) fn product<T: Scalar>(a: &Matrix3<T>, b: &Matrix3<T>) -> Matrix3<T> {
+    Matrix3::from_fn(|i, j| a[(i, 0)] * b[(0, j)] + a[(i, 1)] * b[(1, j)] + a[(i, 2)] * b[(2, j)])
+}

@@ -14,6 +14,10 @@ pub(super) fn constants(model: &Model) -> TokenStream {
     let mechanism = &model.mechanism;
     let (nq, nv) = (size(mechanism.nq()), size(mechanism.nv()));
     let joints = model.bond_graph.coordinates.iter().map(|c| c.name.as_str());
+    let labels = (0..mechanism.nv()).map(|j| {
+        let joint = mechanism.joint(CoordinateId(j));
+        joint.label.as_ref().unwrap_or(&joint.name)
+    });
     let links: Vec<&str> = mechanism.links().iter().map(|l| l.name.as_str()).collect();
     let count = size(links.len());
     let motions = model.bond_graph.coordinates.iter().map(|c| match c.motion {
@@ -28,6 +32,8 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         pub const NV: usize = #nv;
         /// Names of the moving joints, in the order of the coordinates.
         pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
+        /// Names that the joints have elsewhere; without such a name the joint's own.
+        pub const JOINT_LABELS: [&str; NV] = [#(#labels),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
         /// What each coordinate is: an angle or a displacement.

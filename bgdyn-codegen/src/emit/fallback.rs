@@ -8,6 +8,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constants::{operations, size};
+use super::traits::Traits;
 use super::{Place, argument_type, fields, ident, rebuild, return_type, struct_ident};
 use crate::bond_graph::Site;
 use crate::expr::Operations;
@@ -32,11 +33,18 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
     let sites = sites(interface);
     let possible = Method::possible(&sites);
     let methods = possible.iter();
-    let methods = methods.map(|&m| method(m, &sites, interface.certain, true));
+    let methods = methods.map(|&m| method(m, &sites, interface.certain));
     let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();
     let nothing = names.iter().map(|n| (n.as_str(), Operations::default()));
     let operations = operations(nothing);
-    let dynamics = dynamics(interface, &model);
+    let traits = Traits {
+        name: &model,
+        methods: &possible,
+        sites: &sites,
+        nv: interface.certain.then_some(interface.joints.len()),
+    };
+    let traits = traits.tokens();
+    let serde = super::serde(&model, interface.parameters.iter().map(String::as_str));
     quote! {
         #[doc = #doc]
         #[allow(unused, unreachable_pub, clippy::all, reason = "stands in for a refused spec")]
@@ -54,10 +62,11 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
                     ::core::unreachable!()
                 }
             }
+            #serde
             impl<T: __Scalar> #model<T> {
                 #(#methods)*
             }
-            #dynamics
+            #traits
             #operations
         }
     }
@@ -85,6 +94,8 @@ fn constants(interface: &Interface) -> TokenStream {
         pub const NV: usize = #nv;
         /// Names of the moving joints, in the order of the coordinates.
         pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
+        /// Names that the joints have elsewhere; without such a name the joint's own.
+        pub const JOINT_LABELS: [&str; NV] = [#(#joints),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
         /// What each coordinate is: an angle or a displacement.
@@ -95,8 +106,8 @@ fn constants(interface: &Interface) -> TokenStream {
     }
 }
 
-/// A method; where the size is a guess and no trait fixes it, the vectors' own sizes count.
-fn method(method: Method, sites: &[Site], sized: bool, inherent: bool) -> TokenStream {
+/// A method; where the size is a guess, the vectors' own sizes count.
+fn method(method: Method, sites: &[Site], sized: bool) -> TokenStream {
     let name = ident(&method.name(sites));
     let arguments = method.arguments();
     let names = arguments.iter().map(|a| ident(a.name()));
@@ -113,45 +124,11 @@ fn method(method: Method, sites: &[Site], sized: bool, inherent: bool) -> TokenS
         let types = arguments.iter().map(|a| argument_type(*a)).collect();
         (Some(sizes), types)
     };
-    let (docs, public) = if inherent {
-        let doc = format!(" {}", method.summary(sites));
-        (Some(quote! { #[doc = #doc] }), Some(quote! { pub }))
-    } else {
-        (None, None)
-    };
+    let doc = format!(" {}", method.summary(sites));
     quote! {
-        #docs
-        #public fn #name #sizes(&self, #(#names: #types),*) -> #result {
+        #[doc = #doc]
+        pub fn #name #sizes(&self, #(#names: #types),*) -> #result {
             ::core::unreachable!()
-        }
-    }
-}
-
-fn dynamics(interface: &Interface, model: &proc_macro2::Ident) -> TokenStream {
-    let sizes = (!interface.certain).then(|| quote! { , const NQ: usize, const NV: usize });
-    let methods = Method::OF_TRAIT
-        .into_iter()
-        .map(|m| method(m, &[], true, false));
-    quote! {
-        impl<T: __Scalar #sizes> __rt::Dynamics<T, NQ, NV> for #model<T> {
-            fn joint_names(&self) -> &'static [&'static str; NV] {
-                ::core::unreachable!()
-            }
-            #(#methods)*
-            fn integrate(
-                &self,
-                q: &__na::SVector<T, NQ>,
-                dv: &__na::SVector<T, NV>,
-            ) -> __na::SVector<T, NQ> {
-                ::core::unreachable!()
-            }
-            fn difference(
-                &self,
-                q1: &__na::SVector<T, NQ>,
-                q0: &__na::SVector<T, NQ>,
-            ) -> __na::SVector<T, NV> {
-                ::core::unreachable!()
-            }
         }
     }
 }

@@ -10,12 +10,13 @@ mod loops;
 mod names;
 mod scene;
 mod sines;
+mod traits;
 mod writer;
 
 pub use fallback::fallback;
 use heck::ToUpperCamelCase;
 use proc_macro2::{Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 pub use scene::{scene_fallback, scene_module};
 
 use crate::function::Function;
@@ -110,9 +111,14 @@ pub fn module(model: &Model, place: &Place) -> TokenStream {
     let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
     let methods = model.functions.iter().map(|f| method(f, model));
     let struct_name = struct_name(model);
-    let has = |m: Method| model.function(m).is_some();
-    let whole = Method::OF_TRAIT.into_iter().all(has);
-    let dynamics = whole.then(|| dynamics(model));
+    let present: Vec<Method> = model.functions.iter().map(|f| f.method).collect();
+    let traits = traits::Traits {
+        name: &struct_name,
+        methods: &present,
+        sites: &model.bond_graph.sites,
+        nv: Some(model.mechanism.nv()),
+    };
+    let traits = traits.tokens();
     let rebuild = rebuild(place);
     quote! {
         #(#[doc = #docs])*
@@ -134,7 +140,7 @@ pub fn module(model: &Model, place: &Place) -> TokenStream {
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
             }
-            #dynamics
+            #traits
             #operations
         }
     }
@@ -221,6 +227,7 @@ fn structure(name: &proc_macro2::Ident, about: &str, parameters: &[Parameter]) -
     let scalar = parameters
         .is_empty()
         .then(|| quote! { scalar: ::core::marker::PhantomData });
+    let serde = serde(name, parameters.iter().map(|p| p.name.as_str()));
     quote! {
         #(#[doc = #docs])*
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -230,7 +237,14 @@ fn structure(name: &proc_macro2::Ident, about: &str, parameters: &[Parameter]) -
                 Self { #(#defaults,)* #scalar }
             }
         }
+        #serde
     }
+}
+
+/// What reads and writes a struct of these fields, where the runtime has its feature `serde`.
+fn serde<'a>(name: &proc_macro2::Ident, fields: impl Iterator<Item = &'a str>) -> TokenStream {
+    let fields = fields.map(ident);
+    quote! { __rt::__serde! { #name { #(#fields),* } } }
 }
 
 /// Public fields, so that a struct literal can set them; without any, one that takes no space and
@@ -354,51 +368,4 @@ fn comment(line: &str) -> Option<String> {
     let text = syn::parse_str::<syn::LitStr>(literal).ok()?.value();
     let comment = text.starts_with(writer::COMMENT);
     comment.then(|| format!("{margin}{text}"))
-}
-
-/// The trait implementation: every method by delegation.
-fn dynamics(model: &Model) -> TokenStream {
-    let name = struct_name(model);
-    let of_trait = model.functions.iter().filter(|f| f.method.of_trait());
-    let methods = of_trait.map(|function| {
-        let name = ident(function.name());
-        let arguments = function.method.arguments();
-        let names: Vec<_> = arguments.iter().map(|a| ident(a.name())).collect();
-        let types = arguments.iter().map(|a| argument_type(*a));
-        let result = return_type(function.shape());
-        quote! {
-            fn #name(&self, #(#names: #types),*) -> #result {
-                self.#name(#(#names),*)
-            }
-        }
-    });
-    let each = |prefix: &str, n: usize| -> Vec<_> {
-        (0..n).map(|i| format_ident!("{prefix}{i}")).collect()
-    };
-    let n = model.mechanism.nv();
-    let (x, y) = (each("x", n), each("y", n));
-    quote! {
-        impl<T: __Scalar> __rt::Dynamics<T, NQ, NV> for #name<T> {
-            fn joint_names(&self) -> &'static [&'static str; NV] {
-                &JOINT_NAMES
-            }
-            #(#methods)*
-            fn integrate(
-                &self,
-                q: &__na::SVector<T, NQ>,
-                dv: &__na::SVector<T, NV>,
-            ) -> __na::SVector<T, NQ> {
-                let ([[#(#x),*]], [[#(#y),*]]) = (q.data.0, dv.data.0);
-                __rt::vector([#(#x + #y),*])
-            }
-            fn difference(
-                &self,
-                q1: &__na::SVector<T, NQ>,
-                q0: &__na::SVector<T, NQ>,
-            ) -> __na::SVector<T, NV> {
-                let ([[#(#x),*]], [[#(#y),*]]) = (q1.data.0, q0.data.0);
-                __rt::vector([#(#x - #y),*])
-            }
-        }
-    }
 }

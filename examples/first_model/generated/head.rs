@@ -30,6 +30,8 @@ pub mod head {
     pub const NV: usize = 2;
     /// Names of the moving joints, in the order of the coordinates.
     pub const JOINT_NAMES: [&str; NV] = ["pan", "tilt"];
+    /// Names that the joints have elsewhere; without such a name the joint's own.
+    pub const JOINT_LABELS: [&str; NV] = ["pan", "tilt"];
     /// Names of the links, parents before children.
     pub const LINK_NAMES: [&str; 3] = ["yoke", "cradle", "lens"];
     /// What each coordinate is: an angle or a displacement.
@@ -67,6 +69,9 @@ pub mod head {
             }
         }
     }
+    __rt::__serde! {
+        Head { lens_mass }
+    }
     impl<T: __Scalar> Head<T> {
         /// Joint efforts that hold the mechanism at rest.
         ///
@@ -86,6 +91,12 @@ pub mod head {
             let tau_tilt = k(9.81) * x2;
             __rt::vector([k(0.0), -tau_tilt])
         }
+    }
+    impl<T: __Scalar> __rt::Description<NV> for Head<T> {
+        const JOINT_NAMES: [&'static str; NV] = JOINT_NAMES;
+        const JOINT_LABELS: [&'static str; NV] = JOINT_LABELS;
+        const JOINT_MOTIONS: [__rt::Motion; NV] = JOINT_MOTIONS;
+        const JOINT_LIMITS: [__rt::Limits; NV] = JOINT_LIMITS;
     }
     /// What one call of each method executes: multiplications, additions, divisions, roots,
     /// pairs of sine and cosine, others.

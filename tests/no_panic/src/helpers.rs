@@ -65,6 +65,13 @@ macro_rules! scalar {
                 from_pseudo_inertia(d: &Matrix3<T>) -> Matrix3<T> = inertia::from_pseudo_inertia(d);
                 transform_point(x: &Pose<T>, p: &Vector3<T>) -> Vector3<T> = x.transform_point(p);
                 transform_vector(x: &Pose<T>, v: &Vector3<T>) -> Vector3<T> = x.transform_vector(v);
+                transform_twist(x: &Pose<T>, v: &SVector<T, 6>) -> SVector<T, 6> = x.transform_twist(v);
+                turn_twist(x: &Pose<T>, v: &SVector<T, 6>) -> SVector<T, 6> = x.turn_twist(v);
+                error_to(x: &Pose<T>, y: &Pose<T>) -> SVector<T, 6> = x.error_to(y);
+                inverse(x: &Pose<T>) -> Pose<T> = x.inverse();
+                product(x: Pose<T>, y: Pose<T>) -> Pose<T> = x * y;
+                rotation_vector(x: &Matrix3<T>) -> Vector3<T> = rotation::vector(x);
+                between(x: &Matrix3<T>, y: &Matrix3<T>) -> Vector3<T> = rotation::between(x, y);
                 to_homogeneous(x: &Pose<T>) -> Matrix4<T> = x.to_homogeneous();
                 vector_of(x: [T; 7]) -> SVector<T, 7> = vector(x);
                 matrix_of(x: [[T; 6]; 7]) -> SMatrix<T, 6, 7> = matrix(x);

@@ -9,6 +9,13 @@ fn hold<M: Dynamics<f64, N, N>, const N: usize>(model: &M, q: &SVector<f64, N>) 
     model.gravity(q)
 }
 
+fn labels<M, const N: usize>(_: &M, _: &SVector<f64, N>) -> [&'static str; N]
+where
+    M: bgdyn::Description<N> + bgdyn::Coriolis<f64, N, N> + bgdyn::Derivatives<f64, N, N>,
+{
+    M::JOINT_LABELS
+}
+
 fn main() -> Result<(), Singular> {
     let arm = no_yaml::NoYaml::default();
     let (q, v) = (Vector2::new(0.3, -0.4), SVector::<f64, 2>::zeros());
@@ -18,5 +25,6 @@ fn main() -> Result<(), Singular> {
     let energy = arm.kinetic_energy(&q, &a) + arm.potential_energy(&q) + tau[0] * 2.0;
     println!("{energy} {:?} {}", hold(&arm, &q) - mass * arm.bias(&q, &v), no_yaml::NV);
     println!("{:?} {:?}", no_yaml::JOINT_NAMES, no_yaml::LINK_NAMES.len());
+    println!("{:?} {:?}", labels(&arm, &q), no_yaml::JOINT_LABELS);
     Ok(())
 }

@@ -9,6 +9,15 @@ fn falling<M: Dynamics<f64, N, N>, const N: usize>(model: &M) -> SVector<f64, N>
     model.gravity(&SVector::zeros())
 }
 
+fn place<F, M, const N: usize>(model: &M, q: &SVector<f64, N>) -> &'static str
+where
+    F: bgdyn::Frame,
+    M: bgdyn::Description<N> + bgdyn::Kinematics<F, f64, N, N> + bgdyn::Derivatives<f64, N, N>,
+{
+    model.pose(q);
+    M::JOINT_LABELS[0]
+}
+
 fn main() -> Result<(), Singular> {
     let arm = broken_arm::BrokenArm::default();
     let (q, v) = (Vector2::new(0.3, -0.4), SVector::<f64, { broken_arm::NV }>::zeros());
@@ -23,5 +32,6 @@ fn main() -> Result<(), Singular> {
     println!("{:?}", arm.joint_names());
     let hanging = broken_arm::BrokenArm { drop: -0.1, ..arm };
     println!("{}", hanging.drop);
+    println!("{}", place::<broken_arm::frames::Forearm, _, 2>(&arm, &q));
     Ok(())
 }

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::super::{ident, serde};
 use super::parts::{
     Field, coordinate_parts, field, input_parts, literal, mode_parts, moving_parts, named_type,
     names_of, numbered, of_named, signed,
@@ -39,7 +40,9 @@ pub(super) fn types(scene: &SceneInterface) -> TokenStream {
     let contacts = (!names.is_empty())
         .then(|| named_type("Contacts", "Dry friction, mode by mode.", &names, contact));
     let conversions = conversions(scene, &moving, &modes, &inputs, &outputs);
-    quote! { #state #rates #coordinates #input #output #energy #power #contacts #conversions }
+    let serde = [("State", &whole), ("Input", &inputs)]
+        .map(|(name, parts)| serde(&ident(name), parts.iter().map(|p| p.name.as_str())));
+    quote! { #state #rates #coordinates #input #output #energy #power #contacts #conversions #(#serde)* }
 }
 
 /// Between named parts and vectors, and where the scene begins.

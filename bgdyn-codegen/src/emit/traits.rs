@@ -1,0 +1,213 @@
+//! The traits of a mechanism's module: what its joints and frames are, and its methods, each by
+//! delegation.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::{argument_type, ident, return_type};
+use crate::bond_graph::{Site, SiteId};
+use crate::method::Method;
+
+/// What a module has that traits can carry.
+pub(super) struct Traits<'a> {
+    /// The struct's name.
+    pub(super) name: &'a Ident,
+    /// The methods that it has.
+    pub(super) methods: &'a [Method],
+    pub(super) sites: &'a [Site],
+    /// Number of velocities; `None` where it is a guess: any number then.
+    pub(super) nv: Option<usize>,
+}
+
+impl Traits<'_> {
+    /// The implementations, and the types of the frames. Where the number of joints is a guess, nothing
+    /// ever runs.
+    pub(super) fn tokens(&self) -> TokenStream {
+        let has = |m: &Method| self.methods.contains(m);
+        let whole = Method::OF_TRAIT.iter().all(has);
+        let dynamics = whole.then(|| self.dynamics());
+        let description = self.description();
+        let coriolis = has(&Method::CoriolisMatrix)
+            .then(|| self.delegated(quote! { Coriolis }, None, &[Method::CoriolisMatrix]));
+        let derivatives = [
+            Method::InverseDynamicsDerivatives,
+            Method::ForwardDynamicsDerivatives,
+        ];
+        let slopes = derivatives.iter().all(has);
+        let slopes = slopes.then(|| self.delegated(quote! { Derivatives }, None, &derivatives));
+        let sites = (0..self.sites.len()).map(SiteId);
+        let sites: Vec<SiteId> = sites
+            .filter(|&site| Method::of_site(site).iter().all(has))
+            .collect();
+        let kinematics = sites.iter().map(|&site| {
+            let frame = frame_type(&self.sites[site.0].name);
+            let methods = Method::of_site(site);
+            self.delegated(quote! { Kinematics }, Some(frame), &methods)
+        });
+        let names = sites.iter().map(|site| self.sites[site.0].name.as_str());
+        let frames = (!sites.is_empty()).then(|| frames(names));
+        quote! { #dynamics #description #coriolis #slopes #(#kinematics)* #frames }
+    }
+
+    /// The parameters of the implementation beside the scalar.
+    fn sizes(&self) -> Option<TokenStream> {
+        (self.nv.is_none()).then(|| quote! { , const NQ: usize, const NV: usize })
+    }
+
+    /// What a method of a trait does: calls the struct's own.
+    fn body(&self, call: TokenStream) -> TokenStream {
+        match self.nv {
+            Some(_) => call,
+            None => quote! { ::core::unreachable!() },
+        }
+    }
+
+    /// The implementation of a trait, of a frame's where there is one.
+    fn delegated(&self, of: TokenStream, frame: Option<Ident>, methods: &[Method]) -> TokenStream {
+        let (name, sizes) = (self.name, self.sizes());
+        let methods = methods.iter().map(|&m| self.delegate(m));
+        let frame = frame.map(|frame| quote! { frames::#frame, });
+        quote! {
+            impl<T: __Scalar #sizes> __rt::#of<#frame T, NQ, NV> for #name<T> {
+                #(#methods)*
+            }
+        }
+    }
+
+    fn delegate(&self, method: Method) -> TokenStream {
+        let own = ident(&method.name(self.sites));
+        let name = match method {
+            Method::Pose(_) => ident("pose"),
+            Method::Velocity(_) => ident("velocity"),
+            Method::Jacobian(_) => ident("jacobian_world"),
+            Method::JacobianDotV(_) => ident("jacobian_dot_v_world"),
+            _ => own.clone(),
+        };
+        let arguments = method.arguments();
+        let names: Vec<_> = arguments.iter().map(|a| ident(a.name())).collect();
+        let types = arguments.iter().map(|a| argument_type(*a));
+        let result = return_type(method.shape());
+        let body = self.body(quote! { self.#own(#(#names),*) });
+        quote! {
+            fn #name(&self, #(#names: #types),*) -> #result {
+                #body
+            }
+        }
+    }
+
+    fn description(&self) -> TokenStream {
+        let name = self.name;
+        let sizes = (self.nv.is_none()).then(|| quote! { , const NV: usize });
+        let [names, labels, motions, limits] = match self.nv {
+            Some(_) => [
+                quote! { JOINT_NAMES },
+                quote! { JOINT_LABELS },
+                quote! { JOINT_MOTIONS },
+                quote! { JOINT_LIMITS },
+            ],
+            None => [0; 4].map(|_| quote! { ::core::unreachable!() }),
+        };
+        quote! {
+            impl<T: __Scalar #sizes> __rt::Description<NV> for #name<T> {
+                const JOINT_NAMES: [&'static str; NV] = #names;
+                const JOINT_LABELS: [&'static str; NV] = #labels;
+                const JOINT_MOTIONS: [__rt::Motion; NV] = #motions;
+                const JOINT_LIMITS: [__rt::Limits; NV] = #limits;
+            }
+        }
+    }
+
+    /// The trait `Dynamics`: the methods, and how positions and velocities go together.
+    fn dynamics(&self) -> TokenStream {
+        let (name, sizes) = (self.name, self.sizes());
+        let methods = Method::OF_TRAIT.into_iter().map(|m| self.delegate(m));
+        let names = self.body(quote! { &JOINT_NAMES });
+        let integrate = self.joint_by_joint(["q", "dv"], quote! { + });
+        let difference = self.joint_by_joint(["q1", "q0"], quote! { - });
+        quote! {
+            impl<T: __Scalar #sizes> __rt::Dynamics<T, NQ, NV> for #name<T> {
+                fn joint_names(&self) -> &'static [&'static str; NV] {
+                    #names
+                }
+                #(#methods)*
+                fn integrate(
+                    &self,
+                    q: &__na::SVector<T, NQ>,
+                    dv: &__na::SVector<T, NV>,
+                ) -> __na::SVector<T, NQ> {
+                    #integrate
+                }
+                fn difference(
+                    &self,
+                    q1: &__na::SVector<T, NQ>,
+                    q0: &__na::SVector<T, NQ>,
+                ) -> __na::SVector<T, NV> {
+                    #difference
+                }
+            }
+        }
+    }
+
+    /// Sums or differences of the components of two vectors.
+    fn joint_by_joint(&self, vectors: [&str; 2], operator: TokenStream) -> TokenStream {
+        let n = self.nv.unwrap_or_default();
+        let each =
+            |prefix: &str| -> Vec<Ident> { (0..n).map(|i| format_ident!("{prefix}{i}")).collect() };
+        let ([x, y], [a, b]) = ([each("x"), each("y")], vectors.map(ident));
+        self.body(quote! {
+            let ([[#(#x),*]], [[#(#y),*]]) = (#a.data.0, #b.data.0);
+            __rt::vector([#(#x #operator #y),*])
+        })
+    }
+}
+
+/// The types that stand for the frames.
+fn frames<'a>(names: impl Iterator<Item = &'a str>) -> TokenStream {
+    let frames = names.map(|name| {
+        let (frame, doc) = (frame_type(name), format!(" The frame `{name}`."));
+        quote! {
+            #[doc = #doc]
+            #[derive(Clone, Copy, Debug)]
+            pub struct #frame;
+            impl super::__rt::Frame for #frame {
+                const NAME: &'static str = #name;
+            }
+        }
+    });
+    quote! {
+        /// Links and frames as types, for the trait `Kinematics`.
+        #[allow(non_camel_case_types, reason = "different names stay different")]
+        pub mod frames {
+            #(#frames)*
+        }
+    }
+}
+
+/// The type of a frame: its words begin with capitals, and one that begins with a digit keeps its `_`, so
+/// that `tool_1` and `tool1` do not meet.
+fn frame_type(name: &str) -> Ident {
+    let word = |word: &str| match word.split_at(1) {
+        (first, rest) if first.starts_with(|c: char| c.is_ascii_digit()) => {
+            format!("_{first}{rest}")
+        }
+        (first, rest) => first.to_ascii_uppercase() + rest,
+    };
+    ident(&name.split('_').map(word).collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_of_different_names_are_different_types() {
+        let names = [
+            "tool", "tool1", "tool_1", "tool_1_2", "tool_12", "too_l", "t_ool",
+        ];
+        let types = names.map(|name| frame_type(name).to_string());
+        let wanted = [
+            "Tool", "Tool1", "Tool_1", "Tool_1_2", "Tool_12", "TooL", "TOol",
+        ];
+        assert_eq!(types, wanted);
+    }
+}
