@@ -4,6 +4,10 @@ use super::{Fault, Faults, Severity};
 
 /// How many characters of a source line an excerpt shows.
 const EXCERPT_WIDTH: usize = 100;
+/// How many warnings of one cause are shown one by one.
+const REPEATS: usize = 3;
+/// Of how many repeated warnings the place is shown.
+const PLACES: usize = 5;
 
 impl Fault {
     /// `FILE:LINE:COLUMN: links[2].inertia: message [rule]`, on one line.
@@ -35,15 +39,45 @@ impl Fault {
     }
 }
 
-impl Faults {
-    /// Every finding with its excerpt, an empty line between them.
-    pub fn render(&self, file: &str, source: &str) -> String {
-        self.0
-            .iter()
-            .map(|f| f.render(file, source))
-            .collect::<Vec<_>>()
-            .join("\n")
+impl Fault {
+    /// Whether both are warnings by the same rule with the same way out.
+    fn has_the_cause_of(&self, other: &Fault) -> bool {
+        let both = [self, other];
+        both.iter().all(|f| f.severity == Severity::Warning)
+            && self.rule == other.rule
+            && self.help == other.help
     }
+}
+
+impl Faults {
+    /// Every finding with its excerpt, an empty line between them. Of more than three warnings
+    /// of one cause (the same rule, the same way out) the first is shown, with the number of others
+    /// and where they begin. Faults are shown one by one.
+    pub fn render(&self, file: &str, source: &str) -> String {
+        let mut texts = Vec::new();
+        for (i, fault) in self.0.iter().enumerate() {
+            let alike = |other: &&Fault| fault.has_the_cause_of(other);
+            let count = self.0.iter().filter(alike).count();
+            if count <= REPEATS {
+                texts.push(fault.render(file, source));
+            } else if !self.0[..i].iter().any(|other| alike(&other)) {
+                let others: Vec<&Fault> = self.0[i + 1..].iter().filter(alike).collect();
+                texts.push(fault.render(file, source) + &more(&others));
+            }
+        }
+        texts.join("\n")
+    }
+}
+
+/// ` = 442 more of the same cause, at 9:5, 12:5, 15:5, …`
+fn more(others: &[&Fault]) -> String {
+    let shown = others.iter().take(PLACES).map(|f| f.position.to_string());
+    let mut places: Vec<String> = shown.collect();
+    if others.len() > PLACES {
+        places.push("…".into());
+    }
+    let places = places.join(", ");
+    format!(" = {} more of the same cause, at {places}\n", others.len())
 }
 
 /// Line `number` (from 1) of `source`, by YAML's line breaks: LF, CR LF, CR.
@@ -82,7 +116,7 @@ fn excerpt(line: &str, column: usize) -> (String, usize) {
 
 #[cfg(test)]
 mod tests {
-    use crate::fault::{Fault, Place, Position};
+    use crate::fault::{Fault, Faults, Place, Position};
 
     fn fault(line: usize, column: usize) -> Fault {
         let place = Place {
@@ -99,6 +133,44 @@ mod tests {
             text,
             "a.yaml:2:9: links[0].mass: the mass is -1 [negative-mass]\n  |\n2 |   mass: -1\n  |         ^\n  \
              = help: leave it out\n"
+        );
+    }
+
+    /// Warnings of two causes in turn, `count` of each, and two faults like the first ones.
+    fn repeated(count: usize) -> Faults {
+        let warning = |line| fault(line, 1).into_warning();
+        let mut faults = Faults(vec![fault(1, 1), fault(2, 1)]);
+        for line in 0..count {
+            faults.push(warning(10 + 2 * line));
+            faults.push(warning(11 + 2 * line).with_help("write 0 there"));
+        }
+        faults
+    }
+
+    #[test]
+    fn many_warnings_of_one_cause_are_one_with_a_count() {
+        let text = repeated(40).render("a.yaml", "");
+        let headlines = text.lines().filter(|l| l.starts_with("a.yaml:")).count();
+        assert_eq!(headlines, 4, "{text}");
+        for places in [
+            "12:1, 14:1, 16:1, 18:1, 20:1, …",
+            "13:1, 15:1, 17:1, 19:1, 21:1, …",
+        ] {
+            let line = format!(" = 39 more of the same cause, at {places}\n");
+            assert!(text.contains(&line), "{text}");
+        }
+        assert_eq!(text.matches("= help: write 0 there").count(), 1);
+    }
+
+    #[test]
+    fn few_warnings_and_all_faults_are_shown_one_by_one() {
+        let text = repeated(3).render("a.yaml", "");
+        assert_eq!(text.lines().filter(|l| l.starts_with("a.yaml:")).count(), 8);
+        let faults = Faults((1..50).map(|line| fault(line, 1)).collect());
+        let text = faults.render("a.yaml", "");
+        assert_eq!(
+            text.lines().filter(|l| l.starts_with("a.yaml:")).count(),
+            49
         );
     }
 
