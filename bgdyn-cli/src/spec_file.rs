@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::{
@@ -26,6 +26,12 @@ impl SpecFile {
     /// Reads the file.
     pub(crate) fn open(path: &Path) -> Result<Self> {
         let text = read_text(path)?;
+        if is_urdf(&text) {
+            let shown = path.display();
+            bail!(
+                "{shown}:1:1: this is a URDF, not a spec: `bgdyn import {shown}` writes the spec of it [urdf-given]"
+            );
+        }
         Ok(SpecFile {
             path: path.to_path_buf(),
             text,
@@ -89,6 +95,13 @@ impl SpecFile {
         tell(&self.render(&faults));
         mechanism.ok_or_else(|| anyhow!("{} has {}", self.path.display(), faults.tally()))
     }
+}
+
+/// Whether a text is XML with a robot in it. The beginning decides first: a spec may quote XML.
+fn is_urdf(text: &str) -> bool {
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let xml = ["<?xml", "<!--", "<robot"];
+    xml.iter().any(|start| text.starts_with(start)) && text.contains("<robot")
 }
 
 /// A file's text.

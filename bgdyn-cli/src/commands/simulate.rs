@@ -39,13 +39,18 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "NAME")]
     method: Option<String>,
     /// Length of every step, s
-    #[arg(long, value_name = "S", conflicts_with = "tolerance")]
+    #[arg(
+        long,
+        value_name = "S",
+        conflicts_with = "tolerance",
+        allow_hyphen_values = true
+    )]
     step: Option<f64>,
     /// Error that a step may have, absolute and relative, in SI units
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// When the run ends, s
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     end: Option<f64>,
     /// Points of the table from 0 to the end; events come besides
     #[arg(long, value_name = "N", default_value_t = 1001)]

@@ -142,3 +142,26 @@ links:
     }]);
     assert_eq!(report["model"]["parameters"], payload);
 }
+
+#[test]
+fn a_urdf_is_recognised() {
+    for (name, text) in [
+        ("plain.urdf", "<robot name=\"a\"><link name=\"b\"/></robot>"),
+        (
+            "headed.urdf",
+            "\u{feff}<?xml version=\"1.0\"?>\n<robot name=\"a\"/>",
+        ),
+        ("told.urdf", "\n<!-- an arm -->\n<robot name=\"a\"/>"),
+    ] {
+        let file = scratch("check_urdf", name, text);
+        let told = format!(
+            "bgdyn: {file}:1:1: this is a URDF, not a spec: `bgdyn import {file}` writes the spec of it [urdf-given]\n"
+        );
+        for command in ["check", "ops", "simulate"] {
+            assert_eq!(bgdyn(&[command, &file]).bad_input(), told);
+        }
+    }
+    let yaml = "# <robot name=\"a\"/>\nformat: 2\n";
+    let file = scratch("check_urdf", "quoted.yaml", yaml);
+    assert!(!bgdyn(&["check", &file]).bad_input().contains("URDF"));
+}

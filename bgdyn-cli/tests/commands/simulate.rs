@@ -162,10 +162,16 @@ fn a_run_that_fails_keeps_what_there_is() {
 
 #[test]
 fn what_is_refused() {
-    let refused: [(&[&str], &str); 7] = [
+    let refused: [(&[&str], &str); 10] = [
         (&["--method", "euler"], "there is no method `euler`"),
         (&["--tolerance", "1e-8"], "`rk4` does not go by a tolerance"),
         (&["--step", "0"], "greater than 0"),
+        (
+            &["--step", "-1"],
+            "`--step -1`: write a number greater than 0",
+        ),
+        (&["--tolerance", "-1e-9"], "greater than 0"),
+        (&["--end", "-2"], "greater than 0"),
         (&["--end", "inf"], "greater than 0"),
         (&["--points", "1"], "the start and the end are 2"),
         (&["--step", "1e-12"], "take a longer step"),
