@@ -190,7 +190,7 @@ fn lanes_give_the_bits_of_scalars() {
         Matrix3::identity(),
         rotation::about_x(1e-9),
         rotation::about_y(2.8),
-        rotation::about_z(-3.1415),
+        rotation::about_z(-3.125),
     ];
     let packed = Matrix3::from_fn(|i, j| f64x4::new(lanes.map(|r| r[(i, j)])));
     let vectors = rotation::vector(&packed);

@@ -1,6 +1,6 @@
 //! Comparing results, and writing down where they differ.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, Scalar};
 
 use super::Difference;
 use crate::expr::Inputs;
@@ -79,6 +79,17 @@ pub(super) fn largest(x: &[Dd]) -> f64 {
         } else {
             most.max(size)
         }
+    })
+}
+
+/// A vector with other signs of its components: what cancels in a product with it does not in these.
+pub(super) fn turned(x: &[Dd]) -> [Vec<Dd>; 3] {
+    [1, 2, 3].map(|period| {
+        let signed = x.iter().enumerate().map(|(j, x)| {
+            let size = Dd::abs(*x);
+            if j / period % 2 == 0 { size } else { -size }
+        });
+        signed.collect()
     })
 }
 

@@ -5,6 +5,7 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::compare::{
     DIFFERENCED, EXACT, Law, SOLVED, beside, differs, dot, largest, minus, plus, slope, times,
+    turned,
 };
 use super::states::{Random, of_mechanism};
 use crate::bond_graph::BondGraph;
@@ -17,7 +18,10 @@ use crate::method::Method;
 /// at one beyond ten coordinates. At most one difference for each function.
 pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) -> Vec<Difference> {
     let literal = Literal::new(graph);
-    let states = of_mechanism(graph);
+    let states: Vec<State> = of_mechanism(graph)
+        .into_iter()
+        .map(|at| (literal.size(&at), at))
+        .collect();
     let found = functions.iter().filter_map(|function| {
         let subject = Subject {
             name,
@@ -25,10 +29,13 @@ pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) ->
             literal: &literal,
         };
         let refused = subject.refuses_all(&states);
-        refused.or_else(|| states.iter().find_map(|at| subject.check(at)))
+        refused.or_else(|| states.iter().find_map(|state| subject.check(state)))
     });
     found.collect()
 }
+
+/// A state, and the size of the efforts in it: [`Literal::size`].
+type State = (f64, Inputs<Dd>);
 
 /// The literal sum of a bond graph.
 pub(super) struct Literal<'a> {
@@ -60,6 +67,21 @@ impl<'a> Literal<'a> {
             ..at.clone()
         };
         self.inverse.evaluate(inputs).0
+    }
+
+    /// The size of the terms that add up to efforts: of P(q, v, a), and of M times the squares of the
+    /// velocities, which is what centrifugal terms are like before they cancel.
+    fn size(&self, at: &Inputs<Dd>) -> f64 {
+        let squares: Vec<Dd> = at.v.iter().map(|&v| v * v).collect();
+        let whole = largest(&self.efforts(at, &at.q, &at.v, &at.a));
+        whole.max(largest(&self.inertial(at, &at.q, &squares)))
+    }
+
+    /// The size of the terms of M(q) x, which cancel where x is large and M nearly singular: the
+    /// largest product with other signs of the components of x.
+    fn size_of_product(&self, at: &Inputs<Dd>, x: &[Dd]) -> f64 {
+        let products = turned(x).map(|x| largest(&self.inertial(at, &at.q, &x)));
+        products.into_iter().fold(0.0, f64::max)
     }
 
     /// M(q) x = P(q, 0, x) − P(q, 0, 0)
@@ -104,32 +126,40 @@ impl Sides {
 impl Subject<'_> {
     /// The first law that the function does not obey at this state. A state in which it refuses a
     /// pivot has nothing to compare.
-    fn check(&self, at: &Inputs<Dd>) -> Option<Difference> {
+    fn check(&self, (efforts, at): &State) -> Option<Difference> {
         let (found, refused) = self.function.evaluate(at.clone());
         if refused.is_some() {
             return None;
         }
+        let speed = largest(&at.v);
+        let size = match self.function.method {
+            Method::Pose(_) | Method::Jacobian(_) => 1.0,
+            Method::Velocity(_) => speed,
+            Method::JacobianDotV(_) => speed * speed,
+            _ => *efforts,
+        };
         let laws = self.laws(at, found).into_iter();
         laws.filter_map(|sides| {
             let pair = (&sides.found[..], &sides.expected[..]);
-            differs((self.name, self.function), &sides.law, pair, sides.size, at)
+            let size = sides.size.max(size);
+            differs((self.name, self.function), &sides.law, pair, size, at)
         })
         .next()
     }
 
     /// A function that refuses every state though the literal sum refuses none of them.
-    fn refuses_all(&self, states: &[Inputs<Dd>]) -> Option<Difference> {
+    fn refuses_all(&self, states: &[State]) -> Option<Difference> {
         let refuses = |function: &Function| {
-            let refused = |at: &Inputs<Dd>| function.evaluate(at.clone()).1.is_some();
+            let refused = |(_, at): &State| function.evaluate(at.clone()).1.is_some();
             states.iter().all(refused)
         };
         if states.is_empty() || !self.function.shape().checked() || !refuses(self.function) {
             return None;
         }
         let literal = specification().function(&self.literal.search, Method::ForwardDynamics)?;
-        let answered = states
+        let (_, answered) = states
             .iter()
-            .find(|at| literal.evaluate((*at).clone()).1.is_none())?;
+            .find(|(_, at)| literal.evaluate(at.clone()).1.is_none())?;
         let text = "the literal sum, which accepts this mass matrix";
         let law = Law { text, allowed: 0.0 };
         let sides = ([Dd::ONE], [Dd::ZERO]);
@@ -194,11 +224,9 @@ impl Subject<'_> {
     }
 
     fn solved(&self, at: &Inputs<Dd>, accelerations: &[Dd]) -> Sides {
-        let driven = self.literal.efforts(at, &at.q, &at.v, accelerations);
-        let bias = self
-            .literal
-            .efforts(at, &at.q, &at.v, &vec![Dd::ZERO; at.q.len()]);
-        let size = largest(&bias);
+        let lit = self.literal;
+        let driven = lit.efforts(at, &at.q, &at.v, accelerations);
+        let size = lit.size_of_product(at, accelerations);
         Sides::new("P(q, v, q̈) = τ", SOLVED, driven, at.u.clone()).sized(size)
     }
 
@@ -255,7 +283,7 @@ impl Subject<'_> {
         };
         let above = side(1.0);
         let found = slope(&above, &side(-1.0));
-        let size = largest(&lit.inertial(at, &at.q, &moved)).max(largest(&above));
+        let size = lit.size_of_product(at, &moved).max(largest(&above));
         let text = "dP(q, v, q̈) = dτ with dq̈ = ∂q̈/∂q dq + ∂q̈/∂v dv + ∂q̈/∂τ dτ";
         let sides = Sides::new(text, DIFFERENCED, found, along_tau);
         vec![self.solved(at, accelerations), sides.sized(size)]

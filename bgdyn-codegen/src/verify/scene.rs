@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::Difference;
 use super::compare::{
-    DIFFERENCED, EXACT, Law, SOLVED, beside, differs, largest, minus, plus, slope,
+    DIFFERENCED, EXACT, Law, SOLVED, beside, differs, largest, minus, plus, slope, turned,
 };
 use super::states::{Random, of_scene};
 use crate::expr::Inputs;
@@ -34,6 +34,9 @@ pub fn check_scene(system: &System, functions: &[Function]) -> Vec<Difference> {
     });
     found.collect()
 }
+
+/// Rates of first-order states below this, times what is allowed, are zero: SI units.
+const LEAST_RATE: f64 = 1e-12;
 
 struct Checked<'a> {
     system: &'a System,
@@ -65,7 +68,8 @@ impl Checked<'_> {
             Role::Inverse => {
                 let expected = self.inverse.evaluate(at.clone()).0;
                 let text = "own efforts = P(q, v, a) − E";
-                self.compare(function, (text, EXACT), (&found, &expected), 0.0, at)
+                let size = largest(&self.sides_at(&at.a, at));
+                self.compare(function, (text, EXACT), (&found, &expected), size, at)
             }
             Role::Power => self.power(function, at, &found),
             Role::Jacobian => self.jacobian(function, at, &found),
@@ -109,12 +113,15 @@ impl Checked<'_> {
         let free: Vec<usize> = (0..nv).filter(|j| !self.holds(*j, at)).collect();
         let pick = |all: &[Dd]| -> Vec<Dd> { free.iter().map(|&j| all[j]).collect() };
         let text = "P(q, v, v̇) = E on free coordinates";
-        let size = largest(&still[..2 * nv]).max(largest(inertial));
+        let size = turned(accelerations)
+            .iter()
+            .map(|a| largest(&self.sides_at(a, at)[..nv]))
+            .fold(largest(&still[..2 * nv]), f64::max);
         let pair = (&pick(inertial)[..], &pick(efforts)[..]);
         self.compare(function, (text, SOLVED), pair, size, at)
             .or_else(|| {
                 let law = ("the rates of its effects' laws", EXACT);
-                self.compare(function, law, (first_order, expected), 0.0, at)
+                self.compare(function, law, (first_order, expected), LEAST_RATE, at)
             })
     }
 

@@ -52,6 +52,7 @@ pub fn told(refusal: &Refusal, text: &str) -> String {
         Refusal::Spec(faults) => faults.render("scene.yaml", text),
         Refusal::Mechanism { path, text, faults } => faults.render(path, text),
         Refusal::Options(_) => "options".into(),
+        Refusal::Unequal(differences) => bgdyn_codegen::verify::explain(differences),
     }
 }
 
