@@ -1,6 +1,6 @@
 //! Comparing results, and writing down where they differ.
 
-use bgdyn_runtime::{Dd, Scalar};
+use bgdyn_runtime::Dd;
 
 use super::Difference;
 use crate::expr::Inputs;
