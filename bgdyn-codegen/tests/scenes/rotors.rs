@@ -180,7 +180,7 @@ fn effects(rng: &mut Rng, draft: &Draft) -> String {
         format!("dry: {{ type: coulomb, joint: joint_{k}, kinetic: 2, static: 3 }}"),
         format!("wind: {{ type: drag, at: {at}, linear: 3, quadratic: 5, angular: 1 }}"),
         format!("push: {{ type: wrench, at: {at}, axes: link }}"),
-        format!("rope: {{ type: spring, between: [pole, {at}], stiffness: 8, rest: 2 }}"),
+        format!("rope: {{ type: spring, between: [pole, hook], stiffness: 8, rest: 2 }}"),
     ];
     let share = [0.8, 0.8, 0.9, 0.5, 0.4, 0.4, 0.4, 0.5];
     let chosen = others.into_iter().zip(share);
@@ -200,6 +200,14 @@ fn random_scenes_with_full_rotors_keep_the_laws_and_the_jacobian() {
         draft
             .frames
             .push("{ name: pole, link: world, origin: { xyz: [40, 30, 20] } }".into());
+        // Off every axis of a link that moves, so that the rope's length changes.
+        let last = draft.links.iter().rfind(|l| l.joint.kind != "fixed");
+        let last = last.expect("a moving link");
+        let hook = format!(
+            "{{ name: hook, link: {}, origin: {{ xyz: [0.31, 0.17, -0.23] }} }}",
+            last.name
+        );
+        draft.frames.push(hook);
         let text = format!(
             "scene: 1\nmechanism: random.yaml\neffects:\n{}",
             effects(&mut rng, &draft)
