@@ -180,7 +180,7 @@ fn effects(rng: &mut Rng, draft: &Draft) -> String {
         format!("dry: {{ type: coulomb, joint: joint_{k}, kinetic: 2, static: 3 }}"),
         format!("wind: {{ type: drag, at: {at}, linear: 3, quadratic: 5, angular: 1 }}"),
         format!("push: {{ type: wrench, at: {at}, axes: link }}"),
-        format!("rope: {{ type: spring, between: [pole, hook], stiffness: 8, rest: 2 }}"),
+        "rope: { type: spring, between: [pole, hook], stiffness: 8, rest: 2 }".to_owned(),
     ];
     let share = [0.8, 0.8, 0.9, 0.5, 0.4, 0.4, 0.4, 0.5];
     let chosen = others.into_iter().zip(share);
