@@ -56,6 +56,20 @@ where
     settle_by(modes, rest, |modes| system.contacts(y, modes, input, t))
 }
 
+/// The mode that a coordinate's slip calls for: 0 where it is at rest against its counterpart, which
+/// is a slip of no more than `rest` in size (rad/s, m/s, A), else the sign of the slip. One that slips
+/// the way its `mode` says keeps it, however slow it is.
+pub fn mode_by_slip<T: Scalar<Mask = bool>>(mode: T, slip: T, rest: T) -> T {
+    let zero = T::from_f64(0.0);
+    if zero.less(mode * slip) {
+        mode
+    } else if rest.less(slip.abs()) {
+        slip.sign()
+    } else {
+        zero
+    }
+}
+
 /// [`settle`] for contacts that come from elsewhere, of a number known when compiling or when
 /// running: `contacts` gives one per mode, at the modes it is asked for.
 ///
@@ -98,7 +112,7 @@ where
                 let slips = tried[k] * contacts(&tried)?.as_ref()[k].slip_rate;
                 zero.less(slips).then_some(tried[k])
             } else {
-                broken[k] = found[k].limit.less(found[k].holding.abs());
+                broken[k] = found[k].margin.less(zero);
                 broken[k].then(|| against(&found[k]))
             };
             if let Some(mode) = changed {

@@ -116,7 +116,7 @@ impl<const K: usize> System<f64, 0, K, 0, 0, 0, 0> for Blocks<K> {
             slip: self.slip[k],
             slip_rate: rates[k],
             holding: left[k],
-            limit: self.limit[k],
+            margin: self.limit[k] - left[k].abs(),
         }))
     }
     fn output(
@@ -167,7 +167,7 @@ impl<const K: usize> Blocks<K> {
                 .iter()
                 .zip(modes.iter())
                 .all(|(c, mode)| match *mode {
-                    0.0 => c.holding.abs() <= c.limit,
+                    0.0 => c.margin >= 0.0,
                     mode => c.slip_rate * mode >= 0.0,
                 })
         })

@@ -107,6 +107,6 @@ pub use rodas4::Rodas4;
 pub use run::{Moment, Run};
 pub use scene::{CanonicalScene, Scene};
 pub use semi_implicit_euler::SemiImplicitEuler;
-pub use settle::mode_by_slip;
+pub use settle::resting_slip;
 pub use solver::Solver;
 pub use space::{Of, Real, Space};

@@ -1,12 +1,12 @@
 //! Compiled scenes as plants.
 
-use bgdyn_runtime::{Balance, Canonical, Slope, System, settle};
+use bgdyn_runtime::{Balance, Canonical, Slope, System, mode_by_slip, settle};
 use nalgebra::{SMatrix, SVector};
 
 use crate::differenced::differences;
 use crate::ode::Jacobian;
 use crate::plant::{Held, Plant, Power};
-use crate::settle::mode_by_slip;
+use crate::settle::resting_slip;
 use crate::space::Real;
 
 /// A scene's slopes: (∂ẏ/∂y, ∂ẏ/∂t) by state, modes, given inputs, time.
@@ -230,7 +230,7 @@ where
         let (mut rested, mut now) = (*y, *modes);
         for (k, &velocity) in self.scene.mode_velocities().iter().enumerate() {
             let slip = contacts[k].slip;
-            now[k] = mode_by_slip(modes[k], slip, y[velocity], rest);
+            now[k] = mode_by_slip(modes[k], slip, resting_slip(slip, y[velocity], rest));
             if now[k] == zero && modes[k] != zero {
                 rested[velocity] = rested[velocity] - slip;
             }

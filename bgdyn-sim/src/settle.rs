@@ -1,22 +1,10 @@
-//! Modes of dry friction that agree with the state.
+//! Which joints a run takes to be at rest.
 
 use crate::space::Real;
 
-/// The mode that a joint's slip calls for: 0 where it rests against its counterpart, else the
-/// direction it slips in.
-///
-/// `slip` is the joint's `velocity` less its counterpart's, rad/s or m/s. At rest is a joint whose
-/// slip is no more than the part `rest` of the larger of both velocities; one that slips the way its
-/// `mode` says keeps it, however slow it is.
-pub fn mode_by_slip<T: Real>(mode: T, slip: T, velocity: T, rest: T) -> T {
-    let zero = T::from_f64(0.0);
+/// The slip, rad/s or m/s, up to which a coordinate with this `velocity` counts as at rest: the part
+/// `rest` of the larger of its own and its counterpart's velocity, and what rounding leaves.
+pub fn resting_slip<T: Real>(slip: T, velocity: T, rest: T) -> T {
     let largest = velocity.abs().max((velocity - slip).abs());
-    let rounding = T::EPSILON * T::from_f64(64.0);
-    if mode * slip > zero {
-        mode
-    } else if slip.abs() <= rest * largest + rounding {
-        zero
-    } else {
-        slip.sign()
-    }
+    rest * largest + T::EPSILON * T::from_f64(64.0)
 }

@@ -7,8 +7,8 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
-use bgdyn_runtime::{Contact, Dd, settle_by};
-use bgdyn_sim::{Jacobian, Moment, Plant, Power, mode_by_slip};
+use bgdyn_runtime::{Contact, Dd, mode_by_slip, settle_by};
+use bgdyn_sim::{Jacobian, Moment, Plant, Power, resting_slip};
 use nalgebra::{DMatrix, DVector};
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
@@ -256,7 +256,7 @@ impl<'a> Evaluated<'a> {
         Undefined { at, singular }
     }
 
-    /// Dry friction, mode by mode, at y.
+    /// What can hold a coordinate, mode by mode, at y.
     fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Vec<Contact<f64>>> {
         let Some(contacts) = &self.functions.contacts else {
             return Ok(vec![]);
@@ -266,7 +266,7 @@ impl<'a> Evaluated<'a> {
             slip: c[0],
             slip_rate: c[1],
             holding: c[2],
-            limit: c[3],
+            margin: c[3],
         };
         Ok(values.chunks_exact(4).map(one).collect())
     }
@@ -392,7 +392,8 @@ impl Plant for Evaluated<'_> {
         let (mut rested, mut now) = (y.clone(), modes.clone());
         for (k, contact) in self.contacts(t, &y, modes)?.iter().enumerate() {
             let velocity = self.positions() + self.functions.mode_coordinates[k];
-            now[k] = mode_by_slip(modes[k], contact.slip, y[velocity], rest);
+            let at_rest = resting_slip(contact.slip, y[velocity], rest);
+            now[k] = mode_by_slip(modes[k], contact.slip, at_rest);
             if now[k] == 0.0 && modes[k] != 0.0 {
                 rested[velocity] -= contact.slip;
             }

@@ -5,7 +5,7 @@ use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, Element, Given};
 use crate::scene::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
+use crate::system::{Hold, Laws};
 
 pub(super) struct Coulomb;
 
@@ -83,6 +83,6 @@ impl Effect for Coulomb {
         laws.push(&port, effort);
         laws.dissipate(-(effort * (port.rate - counterpart[0])));
         laws.supply(effort * counterpart[0]);
-        laws.contact(&element.name, &port, counterpart, limit);
+        laws.contact(&element.name, &port, counterpart, Hold::Within(limit));
     }
 }

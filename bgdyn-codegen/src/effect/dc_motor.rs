@@ -1,13 +1,22 @@
 //! A DC motor with permanent magnets: a gyrator between the current and the joint. The charge is a
 //! coordinate, the current its velocity, the inductance its store and the voltage its drive; where
 //! there is no inductance the current follows from the voltage at once.
+//!
+//! The supply limits the voltage, the amplifier the current. Without inductance both limits are kinks
+//! of the law, and events say where. With inductance the current is a state, and the amplifier holds
+//! it: a limit is a counterpart that moves at ±I, against which the current comes to rest when it gets
+//! there. It is held as long as the voltage asked for exceeds R I + k N q̇, which is what the motor
+//! gets then, and which may be more than the supply has where the joint turns the motor. A current
+//! beyond its limit, at the start or after the limit was lowered, falls to it with L di/dt = R (I − i).
+
+use bgdyn_runtime::Dd;
 
 use super::viscous::JOINT;
 use super::{Effect, Element, Given};
 use crate::expr::Ex;
 use crate::scene::{Layout, algebraic_loop};
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::{Laws, behind_gear};
+use crate::system::{Hold, Laws, behind_gear};
 
 pub(super) struct DcMotor;
 
@@ -127,44 +136,30 @@ impl Effect for DcMotor {
         } else {
             layout.control(name.clone(), Dimension::Voltage, joint, about);
         }
+        declare_limits(element, layout);
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let joint = laws.port(element);
-        let one = laws.b.number(1.0);
-        let gyrator = laws.number(element, "torque_constant")
-            * laws.optional(element, "ratio").unwrap_or(one);
-        let resistance = laws.number(element, "resistance");
-        let induced = gyrator * joint.rate;
-        let voltage = supplied_voltage(element, laws);
-        let asked = voltage;
-        let (current, voltage) = match laws.optional(element, "inductance") {
-            Some(inductance) => {
-                let current = laws.own_velocity(element);
-                let voltage = held_voltage(element, laws, voltage, current, induced);
-                laws.inertia(element, inductance);
-                laws.push_own(element, voltage - resistance * current - induced);
-                (current, voltage)
-            }
-            // R i + k N q̇ = u, solved for i
-            None => {
-                let wanted = (voltage - induced) / resistance;
-                let current = match laws.optional(element, "current_limit") {
-                    Some(limit) if laws.limited() => wanted.max(-limit).min(limit),
-                    _ => wanted,
-                };
-                // The amplifier lowers the voltage to what the limited current needs.
-                (current, resistance * current + induced)
-            }
+        let circuit = Circuit {
+            element,
+            induced: gyrator(element, laws) * joint.rate,
+            resistance: laws.number(element, "resistance"),
+            asked: supplied_voltage(element, laws),
         };
-        let torque = gyrator * current;
+        let flowing = match laws.optional(element, "inductance") {
+            Some(inductance) => circuit.with_inductance(inductance, laws),
+            None => circuit.at_once(laws),
+        };
+        let torque = gyrator(element, laws) * flowing.current;
         let geared = match laws.optional(element, "efficiency") {
             Some(efficiency) => behind_gear(laws.b, torque, joint.rate, efficiency),
             None => torque,
         };
         laws.push(&joint, geared);
-        laws.supply(voltage * current);
-        laws.dissipate(resistance * current * current + (torque - geared) * joint.rate);
+        laws.supply(flowing.supplied * flowing.current);
+        let heat = circuit.resistance * flowing.current * flowing.current;
+        laws.dissipate(heat + (torque - geared) * joint.rate);
         let name = &element.name;
         laws.reading(
             format!("{name}_torque"),
@@ -173,62 +168,164 @@ impl Effect for DcMotor {
             "effort of the motor at the joint".into(),
         );
         if element.quantity("inductance").is_none() {
-            laws.reading(format!("{name}_current"), current, "A", "A".into());
+            let about = "A".into();
+            laws.reading(format!("{name}_current"), flowing.current, "A", about);
         }
         laws.reading(
             format!("{name}_voltage"),
-            applied_voltage(element, laws, (asked, voltage), induced),
+            flowing.measured,
             "V",
             "voltage at the motor, after its limits".into(),
         );
     }
 }
 
-/// The voltage within the supply's limit.
-fn supplied_voltage<'g>(element: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
-    let asked = laws.input(&element.name);
-    match laws.optional(element, "voltage_limit") {
-        Some(limit) if laws.limited() => asked.max(-limit).min(limit),
-        _ => asked,
+/// k N, of the motor with its gear.
+fn gyrator<'g>(element: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
+    let one = laws.b.number(1.0);
+    let ratio = laws.optional(element, "ratio").unwrap_or(one);
+    laws.number(element, "torque_constant") * ratio
+}
+
+const VOLTAGE_LIMIT: &str = "voltage_limit";
+const CURRENT_LIMIT: &str = "current_limit";
+
+/// The name of an event, or of a mode with its event.
+fn named(element: &Element, part: &str) -> String {
+    format!("{}_{part}", element.name)
+}
+
+/// The limits of the current: the name of their mode, the sign of the current there.
+const SIDES: [(&str, f64); 2] = [("upper_limit", 1.0), ("lower_limit", -1.0)];
+
+/// The kinks of the limits, and the modes of a current that is held.
+fn declare_limits(element: &Element, layout: &mut Layout) {
+    let name = &element.name;
+    if element.quantity(VOLTAGE_LIMIT).is_some() {
+        let about = format!("the voltage of `{name}` reaches its limit, or leaves it");
+        layout.event(named(element, VOLTAGE_LIMIT), about);
+    }
+    if element.quantity(CURRENT_LIMIT).is_none() {
+        return;
+    }
+    if element.quantity("inductance").is_none() {
+        let about = format!("the current of `{name}` reaches its limit, or leaves it");
+        layout.event(named(element, CURRENT_LIMIT), about);
+        return;
+    }
+    for ((side, _), which) in SIDES.into_iter().zip(["upper", "lower"]) {
+        let mode = format!(
+            "whether the current of `{name}` is held at its {which} limit (0), or the sign of what it is above it"
+        );
+        layout.mode(named(element, side), mode);
+        let event = format!("the current of `{name}` reaches its {which} limit, or leaves it");
+        layout.event(named(element, side), event);
     }
 }
 
-/// The voltage at the motor, after all limits. `law` is what the law makes of it: without inductance
-/// the current goes before it, and it would be a rounding off what is asked for.
-fn applied_voltage<'g>(
-    element: &Element,
-    laws: &Laws<'g, '_>,
-    (asked, law): (Ex<'g>, Ex<'g>),
-    induced: Ex<'g>,
-) -> Ex<'g> {
-    if element.quantity("inductance").is_some() {
-        return law;
-    }
-    match laws.optional(element, "current_limit") {
+/// The voltage within the supply's limit.
+fn supplied_voltage<'g>(element: &Element, laws: &mut Laws<'g, '_>) -> Ex<'g> {
+    let asked = laws.input(&element.name);
+    match laws.optional(element, VOLTAGE_LIMIT) {
         Some(limit) if laws.limited() => {
-            let drop = laws.number(element, "resistance") * limit;
-            asked.max(induced - drop).min(induced + drop)
+            laws.event(&named(element, VOLTAGE_LIMIT), limit - asked.abs());
+            asked.max(-limit).min(limit)
         }
         _ => asked,
     }
 }
 
-/// Where the current has reached its limit I, the amplifier lets no more voltage through than keeps
-/// it there: R I + k N q̇.
-fn held_voltage<'g>(
-    element: &Element,
-    laws: &Laws<'g, '_>,
-    voltage: Ex<'g>,
-    current: Ex<'g>,
+/// The loop of voltages: u = L di/dt + R i + k N q̇.
+struct Circuit<'g, 'e> {
+    element: &'e Element,
+    /// k N q̇
     induced: Ex<'g>,
-) -> Ex<'g> {
-    let Some(limit) = laws
-        .optional(element, "current_limit")
-        .filter(|_| laws.limited())
-    else {
-        return voltage;
-    };
-    let drop = laws.number(element, "resistance") * limit;
-    let below = current.if_less(limit, voltage, voltage.min(drop + induced));
-    (-limit).if_less(current, below, voltage.max(induced - drop))
+    /// R
+    resistance: Ex<'g>,
+    /// u, within the supply's limit.
+    asked: Ex<'g>,
+}
+
+/// What flows through a motor.
+struct Flowing<'g> {
+    current: Ex<'g>,
+    /// The voltage at the motor, as the law has it.
+    supplied: Ex<'g>,
+    /// The same for those who measure it: where nothing limits it, what is asked for to the last bit.
+    measured: Ex<'g>,
+}
+
+impl<'g> Circuit<'g, '_> {
+    /// The limit of the current, where there is one.
+    fn current_limit(&self, laws: &Laws<'g, '_>) -> Option<Ex<'g>> {
+        let limit = laws.optional(self.element, CURRENT_LIMIT);
+        limit.filter(|_| laws.limited())
+    }
+
+    /// The current that follows from the voltage at once: R i + k N q̇ = u, solved for i.
+    fn at_once(&self, laws: &mut Laws<'g, '_>) -> Flowing<'g> {
+        let wanted = (self.asked - self.induced) / self.resistance;
+        let Some(limit) = self.current_limit(laws) else {
+            return Flowing {
+                current: wanted,
+                supplied: self.resistance * wanted + self.induced,
+                measured: self.asked,
+            };
+        };
+        laws.event(&named(self.element, CURRENT_LIMIT), limit - wanted.abs());
+        let current = wanted.max(-limit).min(limit);
+        let drop = self.resistance * limit;
+        Flowing {
+            current,
+            // The amplifier lowers the voltage to what the limited current needs.
+            supplied: self.resistance * current + self.induced,
+            measured: (self.asked)
+                .max(self.induced - drop)
+                .min(self.induced + drop),
+        }
+    }
+
+    /// The current that the inductance keeps; its acceleration is that of an own coordinate.
+    fn with_inductance(&self, inductance: Ex<'g>, laws: &mut Laws<'g, '_>) -> Flowing<'g> {
+        let current = laws.own_velocity(self.element);
+        let (free, applied) = match self.current_limit(laws) {
+            Some(limit) => self.held(current, limit, laws),
+            None => (self.asked, self.asked),
+        };
+        laws.inertia(self.element, inductance);
+        let rest = free - self.resistance * current - self.induced;
+        laws.push_own(self.element, rest);
+        Flowing {
+            current,
+            supplied: applied,
+            measured: applied,
+        }
+    }
+
+    /// The voltage that drives the current where nothing holds it, and the one that is applied where
+    /// the amplifier holds |i| to the limit I.
+    fn held(&self, current: Ex<'g>, limit: Ex<'g>, laws: &mut Laws<'g, '_>) -> (Ex<'g>, Ex<'g>) {
+        let half = laws.b.number(0.5);
+        let port = laws.coordinate(&self.element.name);
+        let still = laws.b.zero();
+        // With this voltage the current stays as it is.
+        let keeps = self.resistance * current + self.induced;
+        let (mut free, mut applied) = (self.asked, self.asked);
+        for (side, sign) in SIDES {
+            let at = limit * Dd::from_f64(sign);
+            let name = named(self.element, side);
+            let mode = laws.mode(&name);
+            // Beyond the limit, what would keep the current at it brings it back.
+            let back = self.resistance * at + self.induced;
+            let (hold, back) = match sign > 0.0 {
+                true => (Hold::Lowers, free.min(back)),
+                false => (Hold::Raises, free.max(back)),
+            };
+            let beyond = |yes, no| half.if_less(mode * Dd::from_f64(sign), yes, no);
+            (free, applied) = (beyond(back, free), beyond(back, applied));
+            applied = mode.abs().if_less(half, keeps, applied);
+            laws.contact(&name, &port, [at, still], hold);
+        }
+        (free, applied)
+    }
 }

@@ -22,7 +22,7 @@ pub struct SceneInterface {
     pub outputs: Vec<Named>,
     /// The entries of its balance of power.
     pub entries: Vec<Named>,
-    /// The coordinate of each mode's friction.
+    /// The coordinate that each mode may hold.
     pub mode_coordinates: Vec<usize>,
     /// Run-time parameters.
     pub parameters: Vec<Parameter>,

@@ -15,6 +15,7 @@ mod subset;
 use bgdyn_runtime::Dd;
 
 use crate::effect::Element;
+use crate::fault::Place;
 use crate::mechanism::{Mechanism, Parameter};
 use crate::spec::{Located, Raw};
 pub(crate) use causality::algebraic_loop;
@@ -62,6 +63,27 @@ struct Written {
     initial: Vec<Raw>,
     /// The mechanism before effects change its links.
     unloaded: Mechanism,
+    /// The modes that a start in place of the file's states; nothing where the file's is the start.
+    modes: Option<Vec<usize>>,
+}
+
+impl Scene {
+    /// Where the mode with this number is stated: in the file, or for a start in place of the file's.
+    /// Nothing where it is left to the run.
+    pub fn stated_mode(&self, mode: usize) -> Option<Place> {
+        if let Some(modes) = &self.written.modes {
+            return modes.contains(&mode).then(Place::file);
+        }
+        let name = mode_name(&self.layout.modes[mode]);
+        let mut all = self.written.initial.iter();
+        all.find(|raw| raw.name.value == name)
+            .map(|raw| raw.name.place.clone())
+    }
+}
+
+/// The name of a mode as a part of the state.
+pub fn mode_name(part: &Part) -> String {
+    format!("{}_mode", part.name)
 }
 
 /// Where a run begins.

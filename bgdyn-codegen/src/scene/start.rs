@@ -100,13 +100,21 @@ impl Scene {
     }
 
     /// The same scene with these values, SI units, in place of its file's. A drive that the file does
-    /// not place starts with its joint.
+    /// not place starts with its joint; modes that are not among the values are settled anew.
     ///
     /// # Errors
     /// Values that a state cannot have.
     pub fn starting(&self, values: &[(Settable, Dd)]) -> Result<Scene, Faults> {
         let mut scene = self.clone();
         let mut faults = Faults::default();
+        // What the file states of modes, it states of its own start.
+        let modes = values.iter().filter_map(|(s, _)| match s.kind {
+            SettableKind::Mode(i) => Some(i),
+            _ => None,
+        });
+        if !values.is_empty() {
+            scene.written.modes = Some(modes.collect());
+        }
         for (settable, value) in values {
             let value = *value;
             match settable.kind {

@@ -41,6 +41,8 @@ impl Scene {
         let layout = &laid_out.layout;
         let known_input = |name: &str| layout.inputs.iter().any(|i| i.name == name);
         written.inputs.retain(|raw| known_input(&raw.name.value));
+        // With other efforts other modes hold: they are settled anew.
+        written.modes = Some(Vec::new());
         let scene = Scene { written, ..bare };
         Scene {
             outputs: Vec::new(),

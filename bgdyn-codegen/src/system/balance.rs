@@ -2,8 +2,9 @@
 //!
 //! Σ supplied = Σ d(stored)/dt + Σ dissipated holds to round-off, whatever the effects are.
 
-use super::dynamics::{held, rates};
-use super::{Balance, Laws, Named, Own, System};
+use super::dynamics::rates;
+use super::holds::held;
+use super::{Balance, Contact, Hold, Laws, Named, Own, System};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent};
 use crate::method::Method;
@@ -90,12 +91,14 @@ pub(super) fn energy<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
 pub(super) fn power<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
     let mut laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
     let rates = rates(system, &laws, b);
-    // What holds a joint against a moving counterpart takes its power from there.
+    // Friction that holds a joint against a moving counterpart takes its power from there. What holds
+    // a coordinate at the limit of its rate has it in the element's law.
     if !laws.contacts().is_empty() {
         let holding = held(system, &laws, b).holding;
         let half = b.number(0.5);
         let contacts = laws.contacts().to_vec();
-        for (c, holding) in contacts.iter().zip(holding) {
+        let friction = |c: &&(Contact<'g>, Ex<'g>)| matches!(c.0.hold, Hold::Within(_));
+        for (c, holding) in contacts.into_iter().zip(holding).filter(|c| friction(&c)) {
             let mode = laws.mode_at(c.mode);
             let carried = holding * c.reference[0];
             let held = mode.abs().if_less(half, carried, b.zero());

@@ -7,7 +7,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::dynamics::{Holds, held, own_inertia};
+use super::dynamics::own_inertia;
+use super::holds::{Holds, held};
 use super::jacobian::{Response, expressions};
 use super::laws::copied;
 use super::{Laws, System};
@@ -184,7 +185,7 @@ fn at_velocities(system: &System, drift: Drift) -> (Graph, Vec<Expr>) {
                 } else {
                     own_inertia(&laws, j) * accelerations[j]
                 };
-                *momentum = holds.choose(j, moved, *momentum);
+                *momentum = holds.at.choose(j, moved, *momentum);
             }
         }
         let places = laws.v[..nq].iter().copied();

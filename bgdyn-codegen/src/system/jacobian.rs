@@ -6,7 +6,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::dynamics::{Holds, driven, joined, own_inertia, rates};
+use super::dynamics::{driven, joined, own_inertia, rates};
+use super::holds::Holds;
 use super::laws::copied;
 use super::{Laws, Own, System, signals};
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
@@ -76,7 +77,7 @@ fn differentiated(system: &System) -> Function {
 
 /// M ∂v̇ = ∂E − ∂P, with each way to M⁻¹.
 fn implicit(system: &System) -> Vec<Function> {
-    if !system.scene.layout.modes.is_empty() {
+    if system.may_hold_joints() {
         let b = Builder::new();
         let columns = {
             let laws = system.laws_under_driven_inputs(&b);
@@ -136,7 +137,7 @@ fn columns<'g>(
         let own = (n..nv).map(|j| laws.effort(j) / own_inertia(laws, j));
         let states = laws.rates().iter().copied();
         let driven = slopes(b, leaf, efforts.chain(own).chain(states));
-        let counterpart: Vec<Option<Ex<'g>>> = (holds.counterpart.iter())
+        let counterpart: Vec<Option<Ex<'g>>> = (holds.at.counterpart.iter())
             .map(|r| r.map(|r| slopes(b, leaf, [r].into_iter())[0]))
             .collect();
         let force: Vec<Ex<'g>> = (0..n).map(|i| driven[i] - of_links(i, leaf)).collect();
@@ -144,7 +145,7 @@ fn columns<'g>(
             Some(response) => response.solve(b, &force),
             None => holds.solve(b, &force, &counterpart),
         });
-        all.extend((n..nv).map(|j| holds.known(j, driven[j], &counterpart)));
+        all.extend((n..nv).map(|j| holds.at.known(j, driven[j], &counterpart)));
         all.extend_from_slice(&driven[nv..]);
     }
     expressions(&all)

@@ -7,12 +7,14 @@
 mod balance;
 mod canonical;
 mod dynamics;
+mod holds;
 mod jacobian;
 mod laws;
 mod range;
 mod reference;
 mod signals;
 mod slope;
+mod start;
 
 use bgdyn_runtime::Dd;
 
@@ -24,7 +26,7 @@ use crate::function::Function;
 use crate::method::{Method, Role};
 use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
-pub use laws::{Balance, Contact, Laws, Own, Port, Reading, behind_gear};
+pub use laws::{Balance, Contact, Hold, Laws, Own, Port, Reading, behind_gear};
 
 /// The equations of a scene.
 #[derive(Clone, Debug)]
@@ -57,7 +59,7 @@ impl System {
     ///
     /// # Errors
     /// Outputs that the scene does not have; values that do not stay positive over the limits of
-    /// the joints.
+    /// the joints; stated modes that contradict the state.
     pub fn new(scene: Scene) -> Result<Self, Faults> {
         let mut graph = bond_graph::build(&scene.mechanism).bare();
         for element in &scene.elements {
@@ -77,21 +79,17 @@ impl System {
         let outputs = outputs(&system, &laws, &mut faults);
         let outputs = outputs.into_iter().map(|(named, _)| named).collect();
         range::check(&system.scene, &laws, &mut faults);
-        let started = start(&system.scene, &laws);
         drop(laws);
         (system.entries, system.outputs) = (entries, outputs);
-        system.initial.x = started;
-        if faults.any_fault() {
-            return Err(faults);
-        }
-        Ok(system)
+        system.started(faults)
     }
 
     /// The same equations with these values, SI units, at the start and for run-time parameters. The
     /// functions stay as they are, but for what they read.
     ///
     /// # Errors
-    /// Values that a state cannot have, or with which something is not positive that must be.
+    /// Values that a state cannot have, or with which something is not positive that must be; modes
+    /// that contradict the state.
     pub fn starting(&self, values: &[(Settable, Dd)]) -> Result<Self, Faults> {
         let scene = self.scene.starting(values)?;
         let mut system = System {
@@ -102,14 +100,9 @@ impl System {
         let b = Builder::silent();
         let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
         range::check(&system.scene, &laws, &mut faults);
-        let started = start(&system.scene, &laws);
         drop(laws);
         system.initial = system.scene.initial.clone();
-        system.initial.x = started;
-        if faults.any_fault() {
-            return Err(faults);
-        }
-        Ok(system)
+        system.started(faults)
     }
 
     /// Joints that nothing in the scene gives inertia, in any position.
@@ -133,7 +126,7 @@ impl System {
             .collect()
     }
 
-    /// The coordinate of each mode's friction.
+    /// The coordinate that each mode may hold.
     pub fn mode_coordinates(&self) -> Vec<usize> {
         let b = Builder::silent();
         let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
@@ -190,8 +183,8 @@ impl System {
             Role::Derivative => dynamics::derivatives(self),
             Role::Inverse => vec![self.one(role, dynamics::inverse)],
             Role::Inputs => vec![self.one(role, signals::inputs)],
-            Role::Events => vec![self.one(role, dynamics::events)],
-            Role::Contacts => vec![self.one(role, dynamics::contacts)],
+            Role::Events => vec![self.one(role, holds::events)],
+            Role::Contacts => vec![self.one(role, holds::contacts)],
             Role::Power => vec![self.one(role, balance::power)],
             Role::Energy => vec![self.one(role, balance::energy)],
             Role::Outputs => vec![self.one(role, |system, b| {
@@ -236,17 +229,6 @@ impl System {
         let method = Method::Scene(role);
         Function::flat(&self.graph, method, formulation, b.into_graph(), outputs)
     }
-}
-
-/// First-order states at the start: what the scene gives, as its effects store it.
-fn start(scene: &Scene, laws: &Laws<'_, '_>) -> Vec<Dd> {
-    let given = &scene.initial;
-    let parts = scene.layout.states.iter().zip(&given.x);
-    let value = |(part, &x): (&crate::scene::Part, &Dd)| {
-        let stored = laws.stored_as(&part.name, x);
-        laws.at_start(stored, given)
-    };
-    parts.map(value).collect()
 }
 
 /// The outputs asked for, with their expressions.

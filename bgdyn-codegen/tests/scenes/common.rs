@@ -74,6 +74,17 @@ impl Random {
     }
 }
 
+/// The winding, the sign and the size of the limit whose mode has this name.
+fn current_limit(system: &System, mode: &str) -> Option<(usize, f64, Dd)> {
+    let sides = [("_upper_limit", 1.0), ("_lower_limit", -1.0)];
+    let (name, side) = sides
+        .iter()
+        .find_map(|(end, side)| Some((mode.strip_suffix(end)?, *side)))?;
+    let element = system.scene.elements.iter().find(|e| e.name == name)?;
+    let winding = system.scene.layout.coordinate_named(name)?;
+    Some((winding, side, element.quantity("current_limit")?.value))
+}
+
 /// A random state of a scene near its start, with random inputs and accelerations; `slipping`
 /// modes, or held ones.
 pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd> {
@@ -101,8 +112,22 @@ pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd>
     let u = random.many(layout.inputs.len(), 2.0);
     let a = random.many(layout.nv(), 3.0);
     let mut modes = Vec::new();
+    let upper = u.first().is_none_or(|u| *u > Dd::ZERO);
     for part in &layout.modes {
         let sign = if random.unit() < 0.0 { -1.0 } else { 1.0 };
+        if let Some((motor, side, limit)) = current_limit(system, &part.name) {
+            // At one of its limits at a time.
+            let held = !slipping && (side > 0.0) == upper;
+            modes.push(Dd::from_f64(match (held, slipping) {
+                (true, _) => 0.0,
+                (false, true) => sign,
+                (false, false) => -side,
+            }));
+            if held {
+                v[motor] = limit * Dd::from_f64(side);
+            }
+            continue;
+        }
         modes.push(Dd::from_f64(if slipping { sign } else { 0.0 }));
         // A held joint moves as its counterpart does.
         let element = system.scene.elements.iter().find(|e| e.name == part.name);

@@ -99,7 +99,8 @@ fn dry_friction_holds_a_drive() {
     close(rates[0], effort / MASS);
     close(rates[1], acceleration);
     let (contact, _) = contacts.evaluate(at);
-    let wanted = [0.0, 0.0, acceleration - motor + effort, 5.0];
+    let holding: f64 = acceleration - motor + effort;
+    let wanted = [0.0, 0.0, holding, 5.0 - holding.abs()];
     for (got, wanted) in contact.iter().zip(wanted) {
         close(*got, wanted);
     }

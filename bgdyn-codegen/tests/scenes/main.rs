@@ -31,6 +31,7 @@ mod rotors;
 mod settle;
 mod springs;
 mod staged;
+mod start;
 mod written;
 mod zero;
 

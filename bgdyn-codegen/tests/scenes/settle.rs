@@ -145,7 +145,7 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize>
             slip: all[4 * k],
             slip_rate: all[4 * k + 1],
             holding: all[4 * k + 2],
-            limit: all[4 * k + 3],
+            margin: all[4 * k + 3],
         }))
     }
     fn output(
@@ -236,7 +236,7 @@ fn consistent(contacts: &[Contact<f64>; 3], modes: &SVector<f64, 3>) -> bool {
         .iter()
         .zip(modes.iter())
         .all(|(c, mode)| match *mode {
-            0.0 => c.holding.abs() <= c.limit,
+            0.0 => c.margin >= 0.0,
             mode => c.slip_rate * mode >= 0.0,
         })
 }
@@ -315,7 +315,7 @@ fn moving_joints_keep_their_modes() {
         for k in [0, 2] {
             let c = &contacts[k];
             assert!(if found[k] == 0.0 {
-                c.holding.abs() <= c.limit
+                c.margin >= 0.0
             } else {
                 c.slip_rate * found[k] >= 0.0
             });

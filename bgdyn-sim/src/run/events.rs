@@ -15,6 +15,9 @@ pub(super) struct Passed<V> {
     behind: V,
 }
 
+/// How far behind an event a step ends, in multiples of what instants are told apart by.
+const BEHIND: f64 = 4.0;
+
 /// How far an event's value is from passing through zero, negative or 0 once it has; `passed` whether
 /// it has. `None` where its passage would be none: the rise of a value whose fall changes a mode.
 fn passage<T: Real>(before: T, now: T, changes_mode: bool) -> Option<(T, bool)> {
@@ -117,7 +120,11 @@ where
             let there = self.shorter(whole, theta)?;
             Ok(distance(&self.values(there.t.0, &there.y.0)?))
         };
-        let at = first_passage(value, ends, guess.map(|(_, at)| at), self.resolution(whole))?;
+        let width = self.resolution(whole);
+        let at = first_passage(value, ends, guess.map(|(_, at)| at), width)?;
+        // On the kink itself rounding would choose the side whose slope is taken: a little behind it
+        // every function sees the side that comes.
+        let at = one.min(at + width * Time::<P>::from_f64(BEHIND));
         let there = self.shorter(whole, at)?;
         let behind = self.values(there.t.0, &there.y.0)?;
         Ok(Some((there, Passed { before, behind })))

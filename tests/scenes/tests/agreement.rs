@@ -120,7 +120,7 @@ fn agrees<
             "{name}: events"
         );
         let contacts = compiled.contacts(&y, &m, &u, t).expect("regular");
-        let contacts = contacts.map(|c| [c.slip, c.slip_rate, c.holding, c.limit]);
+        let contacts = contacts.map(|c| [c.slip, c.slip_rate, c.holding, c.margin]);
         assert_eq!(
             contacts.concat(),
             evaluate(Role::Contacts, &inputs),

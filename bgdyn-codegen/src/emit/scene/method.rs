@@ -132,9 +132,9 @@ fn finish(
         Role::Events => ok(vector(values)),
         Role::Contacts => {
             let one = |v: &[TokenStream]| match v {
-                [slip, slip_rate, holding, limit] => quote! {
+                [slip, slip_rate, holding, margin] => quote! {
                     __rt::Contact {
-                        slip: #slip, slip_rate: #slip_rate, holding: #holding, limit: #limit
+                        slip: #slip, slip_rate: #slip_rate, holding: #holding, margin: #margin
                     }
                 },
                 _ => unreachable!("four numbers a contact"),

@@ -37,8 +37,14 @@ pub(super) fn types(scene: &SceneInterface) -> TokenStream {
     let names = modes.iter().map(|m| field(m.name.clone(), m.about.clone()));
     let names: Vec<Field> = names.collect();
     let contact = quote! { __rt::Contact<T> };
-    let contacts = (!names.is_empty())
-        .then(|| named_type("Contacts", "Dry friction, mode by mode.", &names, contact));
+    let contacts = (!names.is_empty()).then(|| {
+        named_type(
+            "Contacts",
+            "What can hold a coordinate, mode by mode.",
+            &names,
+            contact,
+        )
+    });
     let conversions = conversions(scene, &moving, &modes, &inputs, &outputs);
     let serde = [("State", &whole), ("Input", &inputs)]
         .map(|(name, parts)| serde(&ident(name), parts.iter().map(|p| p.name.as_str())));

@@ -68,6 +68,7 @@ fn scene(spec: &SceneSpec, stem: Option<&str>, whole: &Mechanism, faults: &mut F
             inputs: given(&spec.inputs).to_vec(),
             initial: given(&spec.initial).to_vec(),
             unloaded,
+            modes: None,
         },
     };
     let scene = assembled(empty, faults);

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Condition, Contact, Laws, Port, Reading};
+use super::{Condition, Contact, Hold, Laws, Port, Reading};
 use crate::effect::Element;
 use crate::expr::Ex;
 
@@ -91,8 +91,9 @@ impl<'g> Laws<'g, '_> {
         self.events.insert(name.to_owned(), value);
     }
 
-    /// Dry friction that can hold its coordinate.
-    pub fn contact(&mut self, mode: &str, port: &Port<'g>, reference: [Ex<'g>; 2], limit: Ex<'g>) {
+    /// What can hold its coordinate at the rate of a counterpart, whose rate and acceleration are
+    /// the `reference`.
+    pub fn contact(&mut self, mode: &str, port: &Port<'g>, reference: [Ex<'g>; 2], hold: Hold<'g>) {
         let modes = &self.scene.layout.modes;
         if let (Some(mode), Some(&(coordinate, _))) = (
             modes.iter().position(|m| m.name == mode),
@@ -104,7 +105,7 @@ impl<'g> Laws<'g, '_> {
                 coordinate,
                 slip: port.rate - reference[0],
                 reference,
-                limit,
+                hold,
             });
         }
     }

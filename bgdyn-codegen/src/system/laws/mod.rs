@@ -35,7 +35,7 @@ pub struct Balance<'g> {
     pub dissipated: Ex<'g>,
 }
 
-/// Dry friction that can hold.
+/// What can hold a coordinate at the rate of a counterpart: dry friction, the limit of a rate.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact<'g> {
     /// The element it belongs to, by its place in the scene.
@@ -48,8 +48,30 @@ pub struct Contact<'g> {
     pub slip: Ex<'g>,
     /// Speed and acceleration of the counterpart.
     pub reference: [Ex<'g>; 2],
-    /// The largest effort it holds.
-    pub limit: Ex<'g>,
+    /// The efforts it can hold with.
+    pub hold: Hold<'g>,
+}
+
+/// The efforts that a contact can hold with.
+#[derive(Clone, Copy, Debug)]
+pub enum Hold<'g> {
+    /// As large as this in both directions: dry friction.
+    Within(Ex<'g>),
+    /// Of any size that lowers the rate: an upper limit.
+    Lowers,
+    /// Of any size that raises the rate: a lower limit.
+    Raises,
+}
+
+impl<'g> Contact<'g> {
+    /// What is left until it gives way, where it holds with this effort; negative beyond.
+    pub fn margin(&self, holding: Ex<'g>) -> Ex<'g> {
+        match self.hold {
+            Hold::Within(limit) => limit - holding.abs(),
+            Hold::Lowers => -holding,
+            Hold::Raises => holding,
+        }
+    }
 }
 
 /// A quantity worth knowing: a force, a pressure.

@@ -1,0 +1,221 @@
+//! Coordinates that are held: by dry friction, or at the limit of their rate.
+
+use super::dynamics::{driven, own_inertia};
+use super::{Laws, Own, System};
+use crate::expr::{Builder, Ex};
+use crate::formulation::{self, Search};
+use crate::method::Method;
+
+impl System {
+    /// Whether anything may hold a joint of the links, whose row of M q̈ = f then falls out.
+    pub(super) fn may_hold_joints(&self) -> bool {
+        let joints = self.graph.coordinates.len();
+        let modes = !self.scene.layout.modes.is_empty();
+        modes && self.mode_coordinates().iter().any(|&j| j < joints)
+    }
+}
+
+/// What holding joints adds to the equations.
+pub(super) struct Held<'g> {
+    /// Of every coordinate.
+    pub accelerations: Vec<Ex<'g>>,
+    /// For each contact the effort that it holds its joint with; what is left over of the
+    /// equation where it slips is nothing.
+    pub holding: Vec<Ex<'g>>,
+}
+
+/// Accelerations where some coordinates are held.
+pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Held<'g> {
+    let n = system.graph.coordinates.len();
+    let own_holding = |j: usize, a: Ex<'g>| own_inertia(laws, j) * a - laws.effort(j);
+    if laws.contacts().iter().all(|c| c.coordinate >= n) {
+        let search = Search::new(&system.graph, None);
+        let mut ways = search.forward_dynamics();
+        let forward = ways.next().expect("there is a way");
+        let mut accelerations = driven(b, forward, laws, system);
+        accelerations.extend(own_accelerations(system, laws, &Holding::new(laws)));
+        let contacts = laws.contacts().iter().map(|c| c.coordinate);
+        return Held {
+            holding: contacts.map(|j| own_holding(j, accelerations[j])).collect(),
+            accelerations,
+        };
+    }
+    let holds = Holds::new(laws);
+    let bias = laws.method(Method::Bias);
+    let force: Vec<Ex<'g>> = (0..n).map(|j| laws.effort(j) - bias[j]).collect();
+    let mut accelerations = holds.solve(b, &force, &holds.at.counterpart);
+    accelerations.extend(own_accelerations(system, laws, &holds.at));
+    let holding = laws.contacts().iter().map(|c| {
+        let j = c.coordinate;
+        if j >= n {
+            return own_holding(j, accelerations[j]);
+        }
+        let moved = (0..n).map(|k| holds.entry(j, k) * accelerations[k]);
+        moved.fold(-force[j], |sum, x| sum + x)
+    });
+    Held {
+        holding: holding.collect(),
+        accelerations,
+    }
+}
+
+/// Accelerations of the coordinates that store their own momentum: I v̇ = E, or held.
+pub(super) fn own_accelerations<'g>(
+    system: &System,
+    laws: &Laws<'g, '_>,
+    holding: &Holding<'g>,
+) -> Vec<Ex<'g>> {
+    let own = system.graph.coordinates.len()..system.scene.layout.nv();
+    let free = |j| laws.effort(j) / own_inertia(laws, j);
+    own.map(|j| holding.known(j, free(j), &holding.counterpart))
+        .collect()
+}
+
+/// Which coordinates may be held, and how they move then.
+pub(super) struct Holding<'g> {
+    half: Ex<'g>,
+    /// Of each coordinate that may be held, r̈.
+    pub counterpart: Vec<Option<Ex<'g>>>,
+    modes: Vec<Vec<Ex<'g>>>,
+}
+
+impl<'g> Holding<'g> {
+    pub(super) fn new(laws: &Laws<'g, '_>) -> Self {
+        let nv = laws.v.len();
+        let mut holding = Holding {
+            half: laws.b.number(0.5),
+            counterpart: vec![None; nv],
+            modes: vec![Vec::new(); nv],
+        };
+        for c in laws.contacts() {
+            holding.counterpart[c.coordinate] = Some(c.reference[1]);
+            holding.modes[c.coordinate].push(laws.mode_at(c.mode));
+        }
+        holding
+    }
+
+    /// `yes` where coordinate `j` is held, else `no`.
+    pub(super) fn choose(&self, j: usize, yes: Ex<'g>, no: Ex<'g>) -> Ex<'g> {
+        let modes = self.modes[j].iter();
+        modes.fold(no, |no, mode| mode.abs().if_less(self.half, yes, no))
+    }
+
+    /// The coordinate's counterpart's where it is held, else `free`.
+    pub(super) fn known(&self, j: usize, free: Ex<'g>, counterpart: &[Option<Ex<'g>>]) -> Ex<'g> {
+        match counterpart[j] {
+            Some(reference) => self.choose(j, reference, free),
+            None => free,
+        }
+    }
+}
+
+/// The equations of the links where joints may be held: the rows of these in M q̈ = f are replaced by
+/// q̈_j = r̈_j, and what is known goes over to the other rows. A coordinate that stores its own
+/// momentum has a row of its own, I_j q̈_j = f_j.
+pub(super) struct Holds<'g> {
+    /// Which may be held.
+    pub at: Holding<'g>,
+    /// Lower triangle of M.
+    triangle: Vec<Ex<'g>>,
+    /// Number of coordinates that M is about.
+    n: usize,
+}
+
+impl<'g> Holds<'g> {
+    pub(super) fn new(laws: &Laws<'g, '_>) -> Self {
+        let triangle = laws.method(Method::MassMatrix);
+        let n = (0..).find(|n| n * (n + 1) / 2 == triangle.len());
+        Holds {
+            at: Holding::new(laws),
+            n: n.unwrap_or(0),
+            triangle,
+        }
+    }
+
+    /// M_ij
+    pub(super) fn entry(&self, i: usize, j: usize) -> Ex<'g> {
+        self.triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)]
+    }
+
+    /// The accelerations of the links' coordinates under these forces, where the counterparts of
+    /// held ones accelerate so.
+    pub(super) fn solve(
+        &self,
+        b: &'g Builder,
+        force: &[Ex<'g>],
+        counterpart: &[Option<Ex<'g>>],
+    ) -> Vec<Ex<'g>> {
+        let (zero, one) = (b.zero(), b.number(1.0));
+        let mut mass: Vec<Vec<Ex<'g>>> = Vec::new();
+        let mut right = force.to_vec();
+        for i in 0..self.n {
+            let row = (0..=i).map(|j| {
+                let own = if i == j { one } else { zero };
+                self.at
+                    .choose(i, own, self.at.choose(j, own, self.entry(i, j)))
+            });
+            mass.push(row.collect());
+            for j in (0..self.n).filter(|&j| j != i) {
+                if let Some(reference) = counterpart[j] {
+                    right[i] = right[i] - self.at.choose(j, self.entry(i, j) * reference, zero);
+                }
+            }
+        }
+        let right = right.into_iter().enumerate();
+        let right = right.map(|(j, f)| self.at.known(j, f, counterpart));
+        formulation::solve_symmetric(b, mass, right.collect())
+    }
+}
+
+/// Values whose fall through zero is an event. A contact's: its slip in the direction it slips in,
+/// or how much more it would hold.
+pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let of_contacts = if laws.contacts().is_empty() {
+        vec![]
+    } else {
+        let holding = held(system, &laws, b).holding;
+        let half = b.number(0.5);
+        let contacts = laws.contacts().iter().zip(holding);
+        contacts
+            .map(|(c, holding)| {
+                let mode = laws.mode_at(c.mode);
+                let margin = c.margin(holding);
+                let name = &system.scene.layout.modes[c.mode].name;
+                (
+                    name.clone(),
+                    mode.abs().if_less(half, margin, c.slip * mode),
+                )
+            })
+            .collect()
+    };
+    let value = |part: &crate::scene::Part| {
+        let contact = of_contacts.iter().find(|(name, _)| *name == part.name);
+        contact
+            .map(|(_, value)| *value)
+            .or_else(|| laws.event_named(&part.name))
+            .unwrap_or(b.number(1.0))
+    };
+    system.scene.layout.events.iter().map(value).collect()
+}
+
+/// For each mode: its slip, the acceleration of its slip, the effort it holds or would have to hold
+/// to keep its present acceleration, and what is left until it gives way.
+pub(super) fn contacts<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    contacts_under(system, &laws)
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// The same for each mode, under these laws.
+pub(super) fn contacts_under<'g>(system: &System, laws: &Laws<'g, '_>) -> Vec<[Ex<'g>; 4]> {
+    let held = held(system, laws, laws.b);
+    let mut rows = vec![[laws.b.zero(); 4]; system.scene.layout.modes.len()];
+    for (c, holding) in laws.contacts().iter().zip(held.holding) {
+        let relative = held.accelerations[c.coordinate] - c.reference[1];
+        rows[c.mode] = [c.slip, relative, holding, c.margin(holding)];
+    }
+    rows
+}

@@ -1,0 +1,169 @@
+//! Where a scene begins: first-order states as its effects store them, and modes that agree with the
+//! rest of the state.
+
+use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, settle_by};
+use nalgebra::DVector;
+
+use super::holds::contacts_under;
+use super::{Laws, Own, System};
+use crate::expr::{Builder, Expr, Inputs, Leaf, Node, NodeId, evaluate, reachable};
+use crate::fault::{Fault, Faults};
+use crate::scene::{Scene, mode_name};
+
+/// A slip that counts as none: what the rounding of two rates leaves, rad/s, m/s or A.
+const NO_SLIP: f64 = 64.0 * f64::EPSILON;
+
+impl System {
+    /// The same with its first-order states and modes at the start.
+    ///
+    /// # Errors
+    /// The `faults` so far, and stated modes that contradict the rest of the state.
+    pub(super) fn started(mut self, mut faults: Faults) -> Result<System, Faults> {
+        let b = Builder::silent();
+        let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
+        let states = states(&self.scene, &laws);
+        drop(laws);
+        self.initial.x = states;
+        if !faults.any_fault() && !self.scene.layout.modes.is_empty() {
+            self.initial.modes = modes(&self, &mut faults);
+        }
+        match faults.any_fault() {
+            true => Err(faults),
+            false => Ok(self),
+        }
+    }
+}
+
+/// First-order states at the start: what the scene gives, as its effects store it.
+fn states(scene: &Scene, laws: &Laws<'_, '_>) -> Vec<Dd> {
+    let given = &scene.initial;
+    let parts = scene.layout.states.iter().zip(&given.x);
+    let value = |(part, &x): (&crate::scene::Part, &Dd)| {
+        let stored = laws.stored_as(&part.name, x);
+        laws.at_start(stored, given)
+    };
+    parts.map(value).collect()
+}
+
+/// The modes at the start: what moves slips the way it moves, what is at rest holds where it can. A
+/// mode that is stated and is another one is a fault, unless inputs decide that only the caller knows;
+/// these are 0 here.
+fn modes(system: &System, faults: &mut Faults) -> Vec<Dd> {
+    let start = Start::of(system);
+    let stated = DVector::from_vec(system.initial.modes.clone());
+    let moving = start
+        .contacts(&stated)
+        .into_iter()
+        .zip(&system.initial.modes);
+    let by_slip = moving.map(|(contact, &mode)| {
+        let none = Dd::from_f64(NO_SLIP);
+        mode_by_slip(mode, contact.slip, none)
+    });
+    let by_slip = DVector::from_iterator(stated.len(), by_slip);
+    let contacts = |modes: &DVector<Dd>| Ok::<_, ()>(start.contacts(modes));
+    let Ok(settled) = settle_by(&by_slip, Dd::ZERO, contacts) else {
+        return system.initial.modes.clone();
+    };
+    for k in 0..stated.len() {
+        let place = system.scene.stated_mode(k).filter(|_| !start.by_caller[k]);
+        if let Some(place) = place.filter(|_| stated[k] != settled[k]) {
+            let message = start.contradiction(k, &stated, settled[k]);
+            let name = mode_name(&system.scene.layout.modes[k]);
+            let help = format!(
+                "leave `{name}` out: modes are settled when a run begins; or mend the rate or the effort"
+            );
+            faults.push(Fault::new(&place, "initial-mode", message).with_help(help));
+        }
+    }
+    settled.as_slice().to_vec()
+}
+
+/// The contacts of a scene at its start, at any modes.
+struct Start<'a> {
+    system: &'a System,
+    graph: crate::expr::Graph,
+    /// Four numbers for each mode.
+    rows: Vec<Expr>,
+    /// For each mode, whether an input that the caller gives decides.
+    by_caller: Vec<bool>,
+}
+
+impl<'a> Start<'a> {
+    fn of(system: &'a System) -> Self {
+        let b = Builder::silent();
+        let rows: Vec<Expr> = {
+            let laws = system.laws_under_driven_inputs(&b);
+            let all = contacts_under(system, &laws).into_iter().flatten();
+            all.map(|x| x.expr()).collect()
+        };
+        let graph = b.into_graph();
+        let given = |row: &[Expr]| {
+            let needed = reachable(&graph, row);
+            let input =
+                |i: &usize| matches!(graph.node(NodeId(*i as u32)), Node::Leaf(Leaf::Input(_)));
+            (0..graph.len()).filter(|i| needed[*i]).any(|i| input(&i))
+        };
+        let by_caller = rows.chunks_exact(4).map(given).collect();
+        Start {
+            system,
+            graph,
+            rows,
+            by_caller,
+        }
+    }
+
+    fn contacts(&self, modes: &DVector<Dd>) -> Vec<Contact<Dd>> {
+        let (scene, initial) = (&self.system.scene, &self.system.initial);
+        let inputs = Inputs {
+            q: initial.q.clone(),
+            v: initial.v.clone(),
+            a: vec![],
+            x: initial.x.clone(),
+            u: vec![Dd::ZERO; scene.layout.inputs.len()],
+            modes: modes.as_slice().to_vec(),
+            parameters: scene.parameters.iter().map(|p| p.default).collect(),
+            t: Some(Dd::ZERO),
+            passed: vec![],
+        };
+        let values = evaluate(&self.graph, &self.rows, &inputs, &mut Dd::none_refused());
+        let one = |row: &[Dd]| Contact {
+            slip: row[0],
+            slip_rate: row[1],
+            holding: row[2],
+            margin: row[3],
+        };
+        values.chunks_exact(4).map(one).collect()
+    }
+
+    /// What is wrong with the mode `k` that the scene states among `modes`; `right` is the one it has.
+    fn contradiction(&self, k: usize, modes: &DVector<Dd>, right: Dd) -> String {
+        let layout = &self.system.scene.layout;
+        let name = mode_name(&layout.modes[k]);
+        let coordinate = &layout.coordinates[self.system.mode_coordinates()[k]];
+        let [_, rate, effort] = coordinate.dimensions.map(|d| d.si());
+        let (stated, right) = (modes[k].to_f64(), right.to_f64());
+        let mut held = modes.clone();
+        held[k] = Dd::ZERO;
+        let contact = &self.contacts(&held)[k];
+        let (slip, holding) = (contact.slip.to_f64(), contact.holding.to_f64());
+        let of = &coordinate.rate_name;
+        let why = if slip.abs() > NO_SLIP {
+            format!(
+                "`{of}` begins with {} {rate} against its counterpart",
+                six(slip)
+            )
+        } else if right == 0.0 {
+            format!("at rest it is held: that takes {} {effort}", six(holding))
+        } else {
+            let beyond = six(-contact.margin.to_f64());
+            let holding = six(holding);
+            format!("holding takes {holding} {effort}, {beyond} {effort} more than it can hold")
+        };
+        format!("`{name}` begins with {stated}, but {why}: its mode is {right}")
+    }
+}
+
+/// A number to six digits.
+fn six(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}

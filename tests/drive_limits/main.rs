@@ -1,0 +1,211 @@
+//! Limits of voltage and current: motions over them converge with the order of the method, and the
+//! limits are kept to round-off.
+
+use bgdyn::nalgebra::SVector;
+use bgdyn_sim::{Method, Moment, Plant, Rk4, Run, Scene, Tolerance, WithMethod, with_method};
+
+bgdyn::bgdyn!("winding.scene.yaml", jacobian = true);
+bgdyn::bgdyn!("at_once.scene.yaml", jacobian = true);
+
+/// Of the current, A.
+const LIMIT: f64 = 25.0;
+
+/// The end of the runs, s.
+const END: f64 = 0.3;
+
+/// The state after `END` by a method in `steps` equal steps, and what was seen on the way.
+struct Ended<const N: usize> {
+    y: SVector<f64, N>,
+    events: usize,
+    kinks: usize,
+    largest_current: f64,
+}
+
+struct Winding(usize);
+
+impl WithMethod<SVector<f64, 3>> for Winding {
+    type Output = Ended<3>;
+
+    fn with<M: Method<SVector<f64, 3>>>(self, method: M) -> Ended<3> {
+        let scene = winding::Winding::<f64>::default();
+        let begin = Run::begin(&scene);
+        let run = Run::by(method, Scene::with_slope(&scene), begin);
+        ended(run, self.0, |y| y[2])
+    }
+}
+
+struct AtOnce(usize);
+
+impl WithMethod<SVector<f64, 2>> for AtOnce {
+    type Output = Ended<2>;
+
+    fn with<M: Method<SVector<f64, 2>>>(self, method: M) -> Ended<2> {
+        let scene = at_once::AtOnce::<f64>::default();
+        let begin = Run::begin(&scene);
+        let run = Run::by(method, Scene::with_slope(&scene), begin);
+        ended(run, self.0, |_| 0.0)
+    }
+}
+
+fn ended<P, M, const N: usize>(
+    mut run: Run<P, M>,
+    steps: usize,
+    current: impl Fn(&SVector<f64, N>) -> f64,
+) -> Ended<N>
+where
+    P: Plant<State = SVector<f64, N>>,
+    M: Method<SVector<f64, N>>,
+{
+    let mut largest = 0.0_f64;
+    for k in 0..steps {
+        let stepped = run.step(END / steps as f64);
+        stepped.unwrap_or_else(|failure| panic!("step {k} of {steps}: {failure:?}"));
+        largest = largest.max(current(run.y()).abs());
+    }
+    Ended {
+        y: *run.y(),
+        events: run.events,
+        kinks: run.kinks,
+        largest_current: largest,
+    }
+}
+
+/// The order from errors with steps halved again and again, by least squares over their logarithms:
+/// how far the steps are from the events varies, so that a single halving says little.
+fn order(errors: &[f64]) -> f64 {
+    let middle = (errors.len() as f64 - 1.0) / 2.0;
+    let parts = errors.iter().enumerate().map(|(k, e)| {
+        let k = k as f64 - middle;
+        (-k * e.log2(), k * k)
+    });
+    let (sum, squares) = parts.fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));
+    sum / squares
+}
+
+/// What is wrong with a method's errors for this order.
+fn converges(name: &str, errors: &[f64], wanted: f64) {
+    let above: Vec<f64> = errors.iter().copied().filter(|e| *e > ROUNDING).collect();
+    let found = order(&above);
+    println!("{name}: {errors:?}, order {found:.2}");
+    let last = errors[errors.len() - 1];
+    assert!(
+        last < ROUNDING || found > wanted - 0.35,
+        "{name}: {errors:?}"
+    );
+}
+
+/// Errors that rounding alone would leave, rad and rad/s.
+const ROUNDING: f64 = 1e-12;
+
+/// Methods with their orders.
+const FIXED: [(&str, f64); 7] = [
+    ("rk4", 4.0),
+    ("midpoint", 2.0),
+    ("gauss2", 4.0),
+    ("gauss3", 6.0),
+    ("rodas4", 4.0),
+    ("dopri5", 5.0),
+    ("dop853", 8.0),
+];
+
+#[test]
+fn a_limited_winding_converges_with_the_order_of_the_method() {
+    let run = |name: &str, steps| with_method(name, Winding(steps)).expect("in the list");
+    let right = run("gauss3", 9600).y;
+    for (name, wanted) in FIXED {
+        let runs = [1200, 2400, 4800, 9600].map(|steps| run(name, steps));
+        for run in &runs {
+            assert!(
+                run.largest_current <= LIMIT * (1.0 + 4.0 * f64::EPSILON),
+                "{name}: {} A",
+                run.largest_current
+            );
+            // The limits of the current are reached four times and left three times, those of the
+            // voltage left and reached seven times.
+            assert_eq!((run.events, run.kinks), (7, 7), "{name}");
+        }
+        let errors = runs.map(|run| (run.y - right).fixed_rows::<2>(0).norm());
+        converges(name, &errors, wanted);
+    }
+}
+
+#[test]
+fn a_limited_current_without_inductance_converges_with_the_order_of_the_method() {
+    let run = |name: &str, steps| with_method(name, AtOnce(steps)).expect("in the list");
+    let right = run("gauss3", 4800).y;
+    for (name, wanted) in FIXED {
+        // Within the step that ends at a kink, stages of explicit methods may pass it by O(h³).
+        let wanted = wanted.min(4.0);
+        let runs = [300, 600, 1200, 2400, 4800].map(|steps| run(name, steps));
+        assert!(runs.iter().all(|run| run.kinks == 13), "{name}");
+        let errors = runs.map(|run| (run.y - right).fixed_rows::<2>(0).norm());
+        converges(name, &errors, wanted);
+    }
+}
+
+/// With controlled steps the end does not depend on how the steps fell.
+#[test]
+fn controlled_steps_agree_over_the_limits() {
+    let scene = winding::Winding::<f64>::default();
+    let end = |tolerance: f64| {
+        let begin = Run::begin(&scene);
+        let run = Run::by(bgdyn_sim::Dop853, Scene::with_slope(&scene), begin);
+        let tolerance = Tolerance {
+            absolute: tolerance,
+            relative: tolerance,
+        };
+        let ended = ended(run.with_tolerance(tolerance), 1, |y| y[2]);
+        assert_eq!(ended.events, 7);
+        ended.y
+    };
+    let (rough, fine) = (end(1e-9), end(1e-13));
+    for k in 0..3 {
+        let size = fine[k].abs().max(1.0);
+        assert!((rough[k] - fine[k]).abs() < 1e-6 * size, "{rough} {fine}");
+    }
+}
+
+/// Held, the current does not move, and the power that the amplifier supplies is what the winding
+/// and the joint take.
+#[test]
+fn a_held_current_keeps_the_balance_of_power() {
+    let scene = winding::Winding::<f64>::default();
+    let mut run = Run::new(&scene);
+    let mut held = 0;
+    for _ in 0..500 {
+        run.step(1e-4).expect("a step");
+        let modes = run.modes();
+        if modes.iter().any(|mode| *mode == 0.0) {
+            assert_eq!(run.y()[2].abs(), LIMIT);
+            held += 1;
+        }
+    }
+    assert!(held > 50, "held in {held} steps");
+    let audit = run.audit();
+    assert!(audit.drift().abs() < 1e-6, "{}", audit.drift());
+}
+
+/// Lowered between two steps, the limit is reached as R and L say, and held again.
+#[test]
+fn a_current_beyond_a_lowered_limit_falls_to_it() {
+    let mut scene = winding::Winding::<f64>::default();
+    let begin = Run::begin(&scene);
+    let mut run = Run::by(Rk4, Scene::new(&scene), begin);
+    for _ in 0..20 {
+        run.step(1e-4).expect("a step");
+    }
+    assert_eq!(run.y()[2], LIMIT);
+    let from = Moment {
+        t: run.t(),
+        y: *run.y(),
+        modes: *run.modes(),
+    };
+    scene.most = 10.0;
+    let mut run = Run::by(Rk4, Scene::new(&scene), from);
+    for _ in 0..10 {
+        run.step(1e-4).expect("a step");
+    }
+    // L/R = 1 ms.
+    let wanted = 10.0 + 15.0 * (-1.0_f64).exp();
+    assert!((run.y()[2] - wanted).abs() < 1e-3, "{} A", run.y()[2]);
+}
