@@ -31,6 +31,7 @@ mod cost;
 pub mod dark;
 mod erased;
 mod figures;
+pub mod fine;
 #[cfg(feature = "generate")]
 pub mod generate;
 mod integrate;

@@ -5,6 +5,7 @@ mod panel;
 use std::path::{Path, PathBuf};
 
 use bgdyn_accuracy::dark::with_dark_mode;
+use bgdyn_accuracy::fine::{FINE, shown_at};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -30,6 +31,16 @@ const ROW: u32 = 185;
 const TOOL_ROW: u32 = 400;
 const FONT: &str = "sans-serif";
 
+/// Whole pixels in the drawing's units.
+const fn px(pixels: u32) -> u32 {
+    FINE * pixels
+}
+
+/// A place in whole pixels, in the drawing's units.
+const fn at(x: i32, y: i32) -> (i32, i32) {
+    (FINE as i32 * x, FINE as i32 * y)
+}
+
 /// The samples of both laws.
 struct Runs<'a, const N: usize> {
     computed: &'a [Sample<N>],
@@ -48,26 +59,31 @@ pub fn draw<G, C, E, L, const N: usize>(
     let path = out.join(format!("{}.svg", cell.name));
     let runs = Runs { computed, baseline };
     let mut svg = String::new();
-    draw_all(cell, &runs, &mut svg)
+    let size = (WIDTH, HEADER + rows::<N>() + TOOL_ROW);
+    draw_all(cell, &runs, &mut svg, size)
         .map_err(|e| format!("{} cannot be drawn: {e}", path.display()))?;
-    std::fs::write(&path, with_dark_mode(&svg))
+    std::fs::write(&path, with_dark_mode(&shown_at(&svg, size)))
         .map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
     Ok(path)
 }
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
+/// Height of the joints' rows.
+const fn rows<const N: usize>() -> u32 {
+    ROW * N as u32 + 20
+}
+
 fn draw_all<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     runs: &Runs<'_, N>,
     svg: &mut String,
+    (width, height): (u32, u32),
 ) -> Drawn {
-    let rows = ROW * N as u32 + 20;
-    let size = (WIDTH, HEADER + rows + TOOL_ROW);
-    let root = SVGBackend::with_string(svg, size).into_drawing_area();
+    let root = SVGBackend::with_string(svg, (px(width), px(height))).into_drawing_area();
     root.fill(&WHITE)?;
-    let (header, rest) = root.split_vertically(HEADER);
-    let (joints, tool) = rest.split_vertically(rows);
+    let (header, rest) = root.split_vertically(px(HEADER));
+    let (joints, tool) = rest.split_vertically(px(rows::<N>()));
     draw_header(cell, &header)?;
     for (i, row) in joints.split_evenly((N, 1)).iter().enumerate() {
         draw_joint(cell, runs, i, row)?;
@@ -81,8 +97,8 @@ fn draw_all<G, C, E, L, const N: usize>(
 
 /// Title and legend.
 fn draw_header<G, C, E, L, const N: usize>(cell: &Cell<G, C, E, L, N>, area: &Area<'_>) -> Drawn {
-    let text = |size: u32| (FONT, size).into_font().color(&INK);
-    area.draw_text(cell.title, &text(27), (30, 18))?;
+    let text = |size: u32| (FONT, px(size)).into_font().color(&INK);
+    area.draw_text(cell.title, &text(27), at(30, 18))?;
     let y = 76;
     let entries: [(i32, &str, RGBColor, u32); 3] = [
         (30, "wanted", GREY, 6),
@@ -91,18 +107,18 @@ fn draw_header<G, C, E, L, const N: usize>(cell: &Cell<G, C, E, L, N>, area: &Ar
     ];
     let middle = text(17).pos(Pos::new(HPos::Left, VPos::Center));
     for (x, name, color, width) in entries {
-        let line = vec![(x, y), (x + 36, y)];
-        area.draw(&PathElement::new(line, color.stroke_width(width)))?;
-        area.draw_text(name, &middle, (x + 44, y))?;
+        let line = vec![at(x, y), at(x + 36, y)];
+        area.draw(&PathElement::new(line, color.stroke_width(px(width))))?;
+        area.draw_text(name, &middle, at(x + 44, y))?;
     }
-    let swatch = [(760, y - 10), (796, y + 10)];
+    let swatch = [at(760, y - 10), at(796, y + 10)];
     area.draw(&Rectangle::new(swatch, CARRIED.filled()))?;
-    area.draw_text("part of 2 kg carried", &middle, (804, y))?;
+    area.draw_text("part of 2 kg carried", &middle, at(804, y))?;
     for x in [990, 1002, 1014] {
-        let dash = vec![(x, y), (x + 7, y)];
-        area.draw(&PathElement::new(dash, INK.stroke_width(1)))?;
+        let dash = vec![at(x, y), at(x + 7, y)];
+        area.draw(&PathElement::new(dash, INK.stroke_width(px(1))))?;
     }
-    area.draw_text("limit of the drive", &middle, (1030, y))?;
+    area.draw_text("limit of the drive", &middle, at(1030, y))?;
     Ok(())
 }
 
@@ -168,7 +184,7 @@ fn draw_plan<G, C, E, L, const N: usize>(
     let tool = |q: &Joints<N>| (cell.machine.tool)(q);
     // x is forward: up in the picture; y is to the left.
     let seen = |q: &Joints<N>| (-tool(q).y, tool(q).x);
-    let at = |gripper, name: &'static str| {
+    let mark = |gripper, name: &'static str| {
         let call = (cell.cycle.time_of(gripper).unwrap_or(0.0) / PERIOD).round() as usize;
         (seen(&runs.computed[call].wanted.q), name)
     };
@@ -182,8 +198,8 @@ fn draw_plan<G, C, E, L, const N: usize>(
     ];
     let marks = [
         ((0.0, 0.0), "base"),
-        at(Gripper::Takes, "pick"),
-        at(Gripper::Releases, "place"),
+        mark(Gripper::Takes, "pick"),
+        mark(Gripper::Releases, "place"),
     ];
     panel::draw_plan(area, "tool from above", &lines, &marks)
 }

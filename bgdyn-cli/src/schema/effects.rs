@@ -1,6 +1,6 @@
 //! Effects, from the generator's own table.
 
-use bgdyn_codegen::effect::{EFFECTS, Effect};
+use bgdyn_codegen::effect::{EFFECTS, Effect, keys_declared};
 use bgdyn_codegen::spec::{Dimension, Reads};
 use serde_json::{Value, json};
 
@@ -27,11 +27,18 @@ pub(super) fn effects() -> Value {
 
 fn keys(effect: &dyn Effect) -> Value {
     let word = ("type", json!({ "const": effect.keyword() }));
-    let keys = effect.keys().iter();
+    let declared = keys_declared(effect);
+    let keys = declared.iter();
     let keys = keys.map(|key| (key.name, described(key.about, reads(key.reads))));
-    let needed = effect.keys().iter().filter(|key| key.needed);
+    let needed = declared.iter().filter(|key| key.needed);
     let needed: Vec<&str> = needed.map(|key| key.name).collect();
-    object(&keys.chain([word]).collect::<Vec<_>>(), &needed)
+    // `joints` may be in place of `joint`.
+    let others: Vec<&str> = needed.iter().copied().filter(|n| *n != "joint").collect();
+    let mut found = object(&keys.chain([word]).collect::<Vec<_>>(), &others);
+    if others.len() < needed.len() {
+        found["oneOf"] = json!([{ "required": ["joint"] }, { "required": ["joints"] }]);
+    }
+    found
 }
 
 pub(super) fn reads(reads: Reads) -> Value {
@@ -40,6 +47,9 @@ pub(super) fn reads(reads: Reads) -> Value {
         Reads::Word(words) => json!({ "enum": words }),
         Reads::Coordinate | Reads::Joint | Reads::Place | Reads::Node | Reads::Input => {
             identifier()
+        }
+        Reads::Joints => {
+            json!({ "anyOf": [{ "const": "all" }, { "type": "array", "items": identifier() }] })
         }
         Reads::Places => {
             json!({ "type": "array", "items": identifier(), "minItems": 2, "maxItems": 2 })

@@ -1,7 +1,7 @@
 //! A scene's file. What an input, a coordinate or a part of the state measures is the mechanism's to say, so their
 //! numbers may have any unit here.
 
-use bgdyn_codegen::effect::{EFFECTS, Effect};
+use bgdyn_codegen::effect::{EFFECTS, Effect, keys_declared};
 use bgdyn_codegen::scene::Integrator;
 use bgdyn_codegen::spec::Dimension;
 use serde_json::{Map, Value, json};
@@ -92,7 +92,7 @@ fn setting(effect: &dyn Effect) -> Value {
 fn changed() -> Value {
     let all = EFFECTS.iter().filter(|effect| !effect.built_in());
     let mut names: Vec<&str> = all
-        .flat_map(|effect| effect.keys())
+        .flat_map(|effect| keys_declared(*effect))
         .map(|key| {
             key.name
                 .split_once('.')

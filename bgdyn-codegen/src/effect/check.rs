@@ -1,6 +1,7 @@
 //! From what stands in a file to a checked element: its type, its keys, its names, its rules.
 
 use super::element::node_names;
+use super::joints::keys_declared;
 use bgdyn_runtime::Dd;
 
 use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
@@ -151,7 +152,7 @@ fn varied(raw: &Raw, own: &Declared, faults: &mut Faults) -> Option<Declared> {
     Some(Declared {
         name: raw.name.clone(),
         effect: own.effect,
-        fields: fields.over(&own.fields),
+        fields: Declared::over(fields, &own.fields),
     })
 }
 
@@ -182,7 +183,7 @@ fn of_type(word: &Located<String>, faults: &mut Faults) -> Option<&'static dyn E
 }
 
 fn fields_of(raw: &Raw, effect: &'static dyn Effect, faults: &mut Faults) -> Option<Fields> {
-    let mut keys = effect.keys().to_vec();
+    let mut keys = keys_declared(effect);
     if !effect.built_in() {
         keys.push(TYPE);
     }
@@ -289,7 +290,10 @@ impl Declared {
 
     fn missing(&self, key: &Key) -> Fault {
         let message = format!("`{}` has no `{}`: {}", self.name.value, key.name, key.about);
-        let help = format!("add `{}: …`", key.name);
+        let help = match key.name {
+            "joint" => "add `joint: …`, or `joints: all` for one effect at each".to_owned(),
+            name => format!("add `{name}: …`"),
+        };
         Fault::new(&self.name.place, "missing-key", message).with_help(help)
     }
 
@@ -367,7 +371,9 @@ fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
         }
         Reads::Place | Reads::Places => context.places.names().iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
-        Reads::Input | Reads::Number(_) | Reads::Vector(_) | Reads::Group(..) => return None,
+        Reads::Joints | Reads::Input | Reads::Number(_) | Reads::Vector(_) | Reads::Group(..) => {
+            return None;
+        }
     })
 }
 

@@ -8,6 +8,7 @@
 mod check;
 mod element;
 mod given;
+mod joints;
 mod once;
 mod slip;
 
@@ -41,6 +42,7 @@ use crate::system::Laws;
 pub use check::{Context, Declared, called, declared};
 pub use element::{Checked, Element, Quantity};
 pub use given::Given;
+pub use joints::keys_declared;
 pub(crate) use once::once_per_joint;
 
 /// A kind of effect.

@@ -21,7 +21,7 @@ use crate::spec::{Located, Raw};
 pub(crate) use causality::algebraic_loop;
 pub use causality::{Chain, Solved};
 pub use check::check;
-pub(crate) use check::{context, sketch, taken};
+pub(crate) use check::{context, joint_names, sketch, taken};
 pub use integration::{Integration, Integrator, Pace};
 pub use layout::{Coordinate, Entered, Layout, Level, Part, Store};
 pub use signal::{Drive, Signal};

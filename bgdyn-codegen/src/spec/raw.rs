@@ -31,6 +31,8 @@ pub enum Reads {
     Coordinate,
     /// The name of a moving joint of the mechanism.
     Joint,
+    /// `all`, or a list of names of coordinates.
+    Joints,
     /// The name of a link or a frame.
     Place,
     /// The names of two of them.
@@ -98,11 +100,25 @@ impl Fields {
         self
     }
 
+    /// These without a key.
+    pub fn without(mut self, key: &str) -> Fields {
+        self.0.retain(|(k, _)| *k != key);
+        self
+    }
+
+    /// These and a name behind a key.
+    pub fn with(mut self, key: &'static str, name: Located<String>) -> Fields {
+        let (value, place) = (Entry::Text(name.value), name.place);
+        self.0.push((key, Located { value, place }));
+        self
+    }
+
     /// The same as if they stood at this place: of another file.
     pub fn placed(mut self, place: &Place) -> Fields {
         for (_, entry) in &mut self.0 {
             entry.place = place.clone();
             match &mut entry.value {
+                Entry::Words(words) => words.iter_mut().for_each(|w| w.place = place.clone()),
                 Entry::Pair(names) => names.iter_mut().for_each(|n| n.place = place.clone()),
                 Entry::Group(numbers) => {
                     numbers
@@ -265,7 +281,10 @@ impl Reader {
             | Reads::Node
             | Reads::Input => self.text(at).map(Entry::Text),
             Reads::Vector(fit) => self.vector(at, fit).map(|v| Entry::Vector(Box::new(v))),
-            Reads::Words(_) => {
+            Reads::Joints if !matches!(at.tree.data, Data::List(_)) => {
+                self.text(at).map(Entry::Text)
+            }
+            Reads::Words(_) | Reads::Joints => {
                 let items = self.list(at, ("a list of words", "`[fx, fz]`"))?;
                 let word = |at: &At<'_>| {
                     Some(Located {

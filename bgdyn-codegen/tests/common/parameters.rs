@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::mechanism::{Mechanism, Tensor, Value};
 
 use super::random::Draft;
 use super::rng::Rng;
@@ -31,20 +31,67 @@ pub fn parametrised(draft: &Draft, rng: &mut Rng) -> Draft {
     draft
 }
 
-/// Values that some body has: another mass, another centre of mass, tensors as the spec has them
-/// or, where the whole tensor is of parameters, multiples of those.
+/// Values that some body has: another mass, another centre of mass, another tensor.
 pub fn values(mechanism: &Mechanism, rng: &mut Rng) -> Vec<f64> {
     let factor = 0.25 + rng.unit();
-    let values = mechanism.parameters().iter().map(|p| {
-        let default = p.default.to_f64();
-        match p.unit {
-            "kg" => 0.05 + 3.0 * rng.unit(),
-            "m" => rng.within(0.3),
-            _ if p.name.starts_with("whole") => default * factor,
-            _ => default,
+    let mut values: Vec<f64> = (mechanism.parameters().iter())
+        .map(|p| {
+            let default = p.default.to_f64();
+            match p.unit {
+                "kg" => 0.05 + 3.0 * rng.unit(),
+                "m" => rng.within(0.3),
+                _ if p.name.starts_with("whole") => default * factor,
+                _ => default,
+            }
+        })
+        .collect();
+    for link in mechanism.links() {
+        vary_entries(&link.inertial.inertia, mechanism, &mut values, rng);
+    }
+    values
+}
+
+/// Moves the entries of a tensor that are parameters beside others that are not, as far as it stays
+/// a body's: by up to a third of its trace, or half of that, and so on.
+fn vary_entries(tensor: &Tensor, mechanism: &Mechanism, values: &mut [f64], rng: &mut Rng) {
+    let place = |k: usize| match tensor.entries[k] {
+        Value::Parameter(id) if mechanism.parameters()[id.0].name.starts_with("part") => Some(id.0),
+        _ => None,
+    };
+    let number = |value: &Value, values: &[f64]| match value {
+        Value::Fixed(x) => x.to_f64(),
+        Value::Parameter(id) => values[id.0],
+    };
+    let moved: [f64; 6] = std::array::from_fn(|_| rng.within(1.0));
+    let of = |values: &[f64]| tensor.entries.each_ref().map(|e| number(e, values));
+    let before = of(values);
+    let trace = before[0] + before[1] + before[2];
+    for halved in 1..12 {
+        let size = trace / 3.0 * 0.5_f64.powi(halved - 1);
+        for k in 0..6 {
+            if let Some(at) = place(k) {
+                values[at] = before[k] + size * moved[k];
+            }
         }
-    });
-    values.collect()
+        if is_of_a_body(of(values)) {
+            return;
+        }
+    }
+    for k in 0..6 {
+        if let Some(at) = place(k) {
+            values[at] = before[k];
+        }
+    }
+}
+
+/// Whether ½ tr(J) − J, the body's second moments of mass, is positive definite with room to spare.
+fn is_of_a_body([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> bool {
+    let half = (xx + yy + zz) / 2.0;
+    let (a, b, c) = (half - xx, half - yy, half - zz);
+    let minor = a * b - xy * xy;
+    let whole = c * minor - a * yz * yz - b * xz * xz - 2.0 * xy * xz * yz;
+    let size = half.max(1e-300);
+    a > 1e-3 * size && minor > 1e-5 * size * size && whole > 1e-7 * size.powi(3)
 }
 
 fn body(body: &str, link: &str, rng: &mut Rng) -> String {

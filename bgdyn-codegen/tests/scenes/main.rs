@@ -13,6 +13,7 @@ mod forms;
 mod friction;
 mod hard_cases;
 mod hydraulics;
+mod joints;
 mod laws;
 mod lines;
 mod motors;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use bgdyn_accuracy::dark::with_dark_mode;
-use bgdyn_codegen::effect::{EFFECTS, Effect};
+use bgdyn_codegen::effect::{EFFECTS, Effect, keys_declared};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
@@ -221,6 +221,7 @@ fn reads(key: &Key) -> String {
         Reads::Words(words) => format!("list of {}", words.join(", ")),
         Reads::Coordinate => "a coordinate".into(),
         Reads::Joint => "a joint".into(),
+        Reads::Joints => "`all` or a list of coordinates".into(),
         Reads::Place => "a link or frame".into(),
         Reads::Places => "two links or frames".into(),
         Reads::Node => "a node".into(),
@@ -268,7 +269,7 @@ fn section(effect: &dyn Effect, pair: &[System; 2]) -> String {
     .unwrap();
     if !effect.keys().is_empty() {
         text += "| key | needed | value | |\n|---|---|---|---|\n";
-        for key in effect.keys() {
+        for key in &keys_declared(effect) {
             let needed = if key.needed { "yes" } else { "no" };
             let about = key.about.replace('|', "\\|");
             writeln!(

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Area, BLUE, CARRIED, Drawn, FONT, GREY, INK, VERMILION};
+use super::{Area, BLUE, CARRIED, Drawn, FONT, GREY, INK, VERMILION, at, px};
 
 /// A line of a panel.
 pub struct Line {
@@ -14,19 +14,19 @@ pub struct Line {
 impl Line {
     /// What was wanted: broad and pale, so that the lines on it stay visible.
     pub fn wanted(points: Vec<(f64, f64)>) -> Self {
-        let style = GREY.stroke_width(5);
+        let style = GREY.stroke_width(px(5));
         Line { points, style }
     }
 
     /// The run under computed torque.
     pub fn computed(points: Vec<(f64, f64)>) -> Self {
-        let style = BLUE.stroke_width(2);
+        let style = BLUE.stroke_width(px(2));
         Line { points, style }
     }
 
     /// The run it is compared with.
     pub fn baseline(points: Vec<(f64, f64)>) -> Self {
-        let style = VERMILION.stroke_width(2);
+        let style = VERMILION.stroke_width(px(2));
         Line { points, style }
     }
 
@@ -84,13 +84,13 @@ impl Panel {
         let (low, high) = self.y_range(lines);
         let bottom = if self.x_label.is_some() { 46 } else { 26 };
         let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, (FONT, 16).into_font().color(&INK))
-            .margin_left(10)
-            .margin_right(22)
-            .margin_top(4)
-            .margin_bottom(if self.x_label.is_some() { 6 } else { 0 })
-            .x_label_area_size(bottom)
-            .y_label_area_size(68)
+            .caption(&self.title, (FONT, px(16)).into_font().color(&INK))
+            .margin_left(px(10))
+            .margin_right(px(22))
+            .margin_top(px(4))
+            .margin_bottom(px(if self.x_label.is_some() { 6 } else { 0 }))
+            .x_label_area_size(px(bottom))
+            .y_label_area_size(px(68))
             .build_cartesian_2d(self.x.0..self.x.1, low..high)?;
         if let Some((from, to)) = self.carried {
             let shade = [(from, low), (to, high)];
@@ -105,19 +105,25 @@ impl Panel {
             .y_desc(&self.y_label)
             .x_label_formatter(&axis_number)
             .y_label_formatter(&axis_number)
-            .label_style((FONT, 13).into_font().color(&INK))
-            .axis_desc_style((FONT, 14).into_font().color(&INK))
+            .label_style((FONT, px(13)).into_font().color(&INK))
+            .axis_desc_style((FONT, px(14)).into_font().color(&INK))
             .light_line_style(TRANSPARENT)
-            .bold_line_style(BLACK.mix(0.10))
-            .axis_style(INK.mix(0.6))
+            .bold_line_style(BLACK.mix(0.10).stroke_width(px(1)))
+            .axis_style(INK.mix(0.6).stroke_width(px(1)))
+            .set_all_tick_mark_size(px(5))
             .draw()?;
         if low < 0.0 && high > 0.0 {
             let zero = [(self.x.0, 0.0), (self.x.1, 0.0)];
-            chart.draw_series(LineSeries::new(zero, BLACK.mix(0.35)))?;
+            chart.draw_series(LineSeries::new(zero, BLACK.mix(0.35).stroke_width(px(1))))?;
         }
         for limit in self.limit.into_iter().flat_map(|l| [-l, l]) {
             let ends = [(self.x.0, limit), (self.x.1, limit)];
-            chart.draw_series(DashedLineSeries::new(ends, 7, 5, INK.stroke_width(1)))?;
+            chart.draw_series(DashedLineSeries::new(
+                ends,
+                px(7),
+                px(5),
+                INK.stroke_width(px(1)),
+            ))?;
         }
         for line in lines {
             chart.draw_series(LineSeries::new(line.points.iter().copied(), line.style))?;
@@ -133,7 +139,7 @@ pub fn draw_plan(
     lines: &[Line],
     marks: &[((f64, f64), &'static str)],
 ) -> Drawn {
-    const SIDES: (u32, u32) = (10 + 68 + 22, 4 + 24 + 46 + 6);
+    const SIDES: (u32, u32) = (px(10 + 68 + 22), px(4 + 24 + 46 + 6));
     let places = || {
         let points = lines.iter().flat_map(|l| l.points.iter().copied());
         points.chain(marks.iter().map(|m| m.0))
@@ -149,13 +155,13 @@ pub fn draw_plan(
         middle - half..middle + half
     };
     let mut chart = ChartBuilder::on(area)
-        .caption(title, (FONT, 16).into_font().color(&INK))
-        .margin_left(10)
-        .margin_right(22)
-        .margin_top(4)
-        .margin_bottom(6)
-        .x_label_area_size(46)
-        .y_label_area_size(68)
+        .caption(title, (FONT, px(16)).into_font().color(&INK))
+        .margin_left(px(10))
+        .margin_right(px(22))
+        .margin_top(px(4))
+        .margin_bottom(px(6))
+        .x_label_area_size(px(46))
+        .y_label_area_size(px(68))
         .build_cartesian_2d(around(left, right, width), around(low, high, height))?;
     chart
         .configure_mesh()
@@ -165,21 +171,22 @@ pub fn draw_plan(
         .y_desc("x / m")
         .x_label_formatter(&|x| axis_number(&-x))
         .y_label_formatter(&axis_number)
-        .label_style((FONT, 13).into_font().color(&INK))
-        .axis_desc_style((FONT, 14).into_font().color(&INK))
+        .label_style((FONT, px(13)).into_font().color(&INK))
+        .axis_desc_style((FONT, px(14)).into_font().color(&INK))
         .light_line_style(TRANSPARENT)
-        .bold_line_style(BLACK.mix(0.10))
-        .axis_style(INK.mix(0.6))
+        .bold_line_style(BLACK.mix(0.10).stroke_width(px(1)))
+        .axis_style(INK.mix(0.6).stroke_width(px(1)))
+        .set_all_tick_mark_size(px(5))
         .draw()?;
     for line in lines {
         chart.draw_series(LineSeries::new(line.points.iter().copied(), line.style))?;
     }
     let below = Pos::new(HPos::Center, VPos::Top);
-    let style = (FONT, 15).into_font().color(&INK).pos(below);
+    let style = (FONT, px(15)).into_font().color(&INK).pos(below);
     chart.draw_series(marks.iter().map(|(place, name)| {
         EmptyElement::at(*place)
-            + Circle::new((0, 0), 5, INK.filled())
-            + Text::new(*name, (0, 10), style.clone())
+            + Circle::new((0, 0), px(5), INK.filled())
+            + Text::new(*name, at(0, 10), style.clone())
     }))?;
     Ok(())
 }

@@ -3,7 +3,7 @@
 use crate::effect::{Declared, declared};
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
-use crate::scene::{context, taken};
+use crate::scene::{context, joint_names, taken};
 use crate::spec::Spec;
 
 /// The effects, each sound by itself.
@@ -16,9 +16,12 @@ pub(super) fn effects(spec: &Spec, mechanism: &Mechanism, faults: &mut Faults) -
         .iter()
         .filter_map(|raw| declared(raw, faults))
         .collect();
-    let context = context(mechanism, Vec::new()).with(found.iter());
-    taken(&found, mechanism, faults);
-    for effect in &found {
+    let all = joint_names(mechanism);
+    let each = found.iter().cloned();
+    let each: Vec<Declared> = each.flat_map(|d| d.of_each_joint(&all, faults)).collect();
+    let context = context(mechanism, Vec::new()).with(each.iter());
+    taken(&each, mechanism, faults);
+    for effect in &each {
         effect.element(&context, faults);
     }
     found

@@ -35,8 +35,13 @@ pub(super) fn elements(
     faults: &mut Faults,
 ) -> (Vec<Element>, Vec<Chain>) {
     let mut wanted: Vec<Declared> = Vec::new();
+    let free = joint_names(reduced);
     for raw in given(&spec.effects) {
-        for declared in called(raw, whole.effects(), faults) {
+        let called = called(raw, whole.effects(), faults).into_iter();
+        let each: Vec<Declared> = called
+            .flat_map(|declared| declared.of_each_joint(&free, faults))
+            .collect();
+        for declared in each {
             let name = &declared.name.value;
             if wanted.iter().any(|w| w.name.value == *name) {
                 let message = format!("the effect `{name}` is called for twice");
@@ -47,7 +52,6 @@ pub(super) fn elements(
             wanted.push(declared);
         }
     }
-    let free = joint_names(reduced);
     let all = joint_names(whole);
     let locked = all.into_iter().filter(|name| !free.contains(name));
     let context = context(reduced, locked.map(str::to_owned).collect()).with(wanted.iter());

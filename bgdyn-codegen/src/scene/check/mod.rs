@@ -169,7 +169,8 @@ fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(L
     locked
 }
 
-fn joint_names(mechanism: &Mechanism) -> Vec<&str> {
+/// Names of the moving joints.
+pub(crate) fn joint_names(mechanism: &Mechanism) -> Vec<&str> {
     let of = |link: &LinkId| mechanism.links()[link.0].joint.name.as_str();
     mechanism.coordinates().iter().map(of).collect()
 }

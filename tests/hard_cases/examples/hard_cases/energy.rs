@@ -4,6 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use bgdyn_accuracy::dark::with_dark_mode;
+use bgdyn_accuracy::fine::{FINE, shown_at};
 use hard_cases::{Curve, Panel};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -23,29 +24,39 @@ const FONT: &str = "sans-serif";
 const SIZE: (u32, u32) = (1400, 540);
 const HEADER: u32 = 64;
 /// Room for the names of the curves, and between two of them.
-const NAMES: i32 = 176;
+const NAMES: u32 = 176;
 const LINE: i32 = 17;
+
+/// Whole pixels in the drawing's units.
+const fn px(pixels: u32) -> u32 {
+    FINE * pixels
+}
+
+/// A place in whole pixels, in the drawing's units.
+const fn at(x: i32, y: i32) -> (i32, i32) {
+    (FINE as i32 * x, FINE as i32 * y)
+}
 
 /// Draws both panels.
 pub fn draw(path: &Path, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
     let mut svg = String::new();
     draw_all(&mut svg, curves)?;
-    std::fs::write(path, with_dark_mode(&svg))?;
+    std::fs::write(path, with_dark_mode(&shown_at(&svg, SIZE)))?;
     Ok(())
 }
 
 fn draw_all(svg: &mut String, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    let root = SVGBackend::with_string(svg, (px(SIZE.0), px(SIZE.1))).into_drawing_area();
     root.fill(&WHITE)?;
-    let (header, rest) = root.split_vertically(HEADER);
-    let text = |size: u32| (FONT, size).into_font().color(&INK);
+    let (header, rest) = root.split_vertically(px(HEADER));
+    let text = |size: u32| (FONT, px(size)).into_font().color(&INK);
     header.draw_text(
         "Energy of a double pendulum, step by step",
         &text(22),
-        (16, 8),
+        at(16, 8),
     )?;
     let about = "largest |ΔE| since the point before, in units of 29.43 J, half of what it takes to stand the pendulum up";
-    header.draw_text(about, &text(14), (16, 38))?;
+    header.draw_text(about, &text(14), at(16, 38))?;
     let panels = rest.split_evenly((1, 2));
     panel(
         &panels[0],
@@ -77,11 +88,11 @@ fn panel(
     let ends = own.iter().filter_map(|c| c.points.last());
     let end = ends.fold(1.0_f64, |end, p| end.max(p.0.log10()));
     let mut chart = ChartBuilder::on(area)
-        .caption(title, (FONT, 16).into_font().color(&INK))
-        .margin(10)
-        .margin_right(NAMES)
-        .x_label_area_size(44)
-        .y_label_area_size(60)
+        .caption(title, (FONT, px(16)).into_font().color(&INK))
+        .margin(px(10))
+        .margin_right(px(NAMES))
+        .x_label_area_size(px(44))
+        .y_label_area_size(px(60))
         .build_cartesian_2d(0.0..end, powers.clone())?;
     chart
         .configure_mesh()
@@ -90,11 +101,12 @@ fn panel(
         .y_label_formatter(&|y| power(*y))
         .x_labels(end as usize + 1)
         .y_labels((powers.end - powers.start) as usize / 2 + 1)
-        .label_style((FONT, 13).into_font().color(&INK))
-        .axis_desc_style((FONT, 14).into_font().color(&INK))
+        .label_style((FONT, px(13)).into_font().color(&INK))
+        .axis_desc_style((FONT, px(14)).into_font().color(&INK))
         .light_line_style(TRANSPARENT)
-        .bold_line_style(BLACK.mix(0.12))
-        .axis_style(INK.mix(0.6))
+        .bold_line_style(BLACK.mix(0.12).stroke_width(px(1)))
+        .axis_style(INK.mix(0.6).stroke_width(px(1)))
+        .set_all_tick_mark_size(px(5))
         .draw()?;
     let mut names = vec![];
     for (curve, color) in own.iter().zip(COLORS) {
@@ -103,7 +115,7 @@ fn panel(
         if let Some(last) = points.last() {
             names.push((chart.backend_coord(last), curve.name, color));
         }
-        chart.draw_series(LineSeries::new(points, color.stroke_width(2)))?;
+        chart.draw_series(LineSeries::new(points, color.stroke_width(px(2))))?;
     }
     // Beside the curves' ends, each on a line of its own.
     names.sort_by_key(|((_, y), ..)| *y);
@@ -111,10 +123,10 @@ fn panel(
     let mut free = i32::MIN;
     for ((x, y), name, color) in names {
         let y = y.max(free);
-        free = y + LINE;
-        let style = (FONT, 13).into_font().color(&color);
+        free = y + at(0, LINE).1;
+        let style = (FONT, px(13)).into_font().color(&color);
         let style = style.pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(name, &style, (x - left + 8, y - top))?;
+        area.draw_text(name, &style, (x - left + at(8, 0).0, y - top))?;
     }
     Ok(())
 }

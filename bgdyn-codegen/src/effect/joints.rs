@@ -1,0 +1,113 @@
+//! One declaration for several joints: `joints: all`, or a list, in place of `joint`.
+//!
+//! It stands for one effect per joint, called NAME_JOINT, with the same values.
+
+use super::{Declared, Effect};
+use crate::fault::{Fault, Faults};
+use crate::spec::{Entry, Fields, Key, Located, Reads};
+
+/// The key of several joints.
+pub const JOINTS: Key = Key {
+    name: "joints",
+    reads: Reads::Joints,
+    needed: false,
+    about: "`all`, or a list: one effect for each, called NAME_JOINT",
+};
+
+/// The key of one joint, which [`JOINTS`] stands in place of.
+const JOINT: &str = "joint";
+
+/// The keys that an effect is declared with: its own, and that of several joints where it acts on
+/// one.
+pub fn keys_declared(effect: &dyn Effect) -> Vec<Key> {
+    let mut keys = effect.keys().to_vec();
+    if let Some(at) = keys.iter().position(|key| key.name == JOINT) {
+        keys.insert(at + 1, JOINTS);
+    }
+    keys
+}
+
+impl Declared {
+    /// Whether it stands for one effect per joint.
+    pub fn has_joints(&self) -> bool {
+        self.fields.get(JOINTS.name).is_some()
+    }
+
+    /// One effect for each of its joints, or itself where it has no `joints`. `all` are the names
+    /// that the word stands for.
+    pub fn of_each_joint(self, all: &[&str], faults: &mut Faults) -> Vec<Declared> {
+        let Some(joints) = self.fields.get(JOINTS.name).cloned() else {
+            return vec![self];
+        };
+        if let Some(joint) = self.fields.get(JOINT) {
+            let message = format!("`{}` has a `joint` and `joints`", self.name.value);
+            let fault = Fault::new(&joint.place, "effect-joints", message);
+            faults.push(fault.with_help("keep one of them"));
+            return vec![];
+        }
+        let Some(names) = names(&joints, all, faults) else {
+            return vec![];
+        };
+        let own = self.fields.without(JOINTS.name);
+        let one = |joint: Located<String>| {
+            let name = format!("{}_{}", self.name.value, joint.value);
+            Declared {
+                name: Located {
+                    value: name,
+                    place: self.name.place.clone(),
+                },
+                effect: self.effect,
+                fields: own.clone().with(JOINT, joint),
+            }
+        };
+        names.into_iter().map(one).collect()
+    }
+
+    /// These values, and those of `base` whose keys are missing here; `joint` and `joints` are in
+    /// place of each other.
+    pub(super) fn over(fields: Fields, base: &Fields) -> Fields {
+        let given = |key| fields.get(key).is_some();
+        let base = match given(JOINT) || given(JOINTS.name) {
+            true => base.clone().without(JOINT).without(JOINTS.name),
+            false => base.clone(),
+        };
+        fields.over(&base)
+    }
+}
+
+/// The joints meant, each once.
+fn names(
+    joints: &Located<Entry>,
+    all: &[&str],
+    faults: &mut Faults,
+) -> Option<Vec<Located<String>>> {
+    let place = &joints.place;
+    match &joints.value {
+        Entry::Text(word) if word == "all" => {
+            let located = |name: &&str| Located {
+                value: (*name).to_owned(),
+                place: place.clone(),
+            };
+            Some(all.iter().map(located).collect())
+        }
+        Entry::Words(words) => {
+            for (i, word) in words.iter().enumerate() {
+                if words[..i].iter().any(|other| other.value == word.value) {
+                    let message = format!("`{}` is in the list twice", word.value);
+                    let fault = Fault::new(&word.place, "effect-joints", message);
+                    faults.push(fault.with_help("leave one of them out"));
+                    return None;
+                }
+            }
+            Some(words.clone())
+        }
+        _ => {
+            let message = "`joints` is neither `all` nor a list of joints".to_owned();
+            let fault = Fault::new(place, "effect-joints", message);
+            faults.push(fault.with_help(
+                "write `joints: all`, `joints: [shoulder, elbow]` or `joint: shoulder`",
+            ));
+            None
+        }
+    }
+}
