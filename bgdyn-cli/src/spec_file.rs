@@ -74,10 +74,20 @@ impl SpecFile {
                 tell(&self.render(&faults));
                 anyhow!("{shown} has {}", faults.tally())
             }
-            Refusal::Mechanism { path, text, faults } => {
+            Refusal::Mechanism {
+                path,
+                text,
+                faults,
+                scene,
+            } => {
                 let file = beside(&self.path, &path);
+                tell(&self.render(&scene));
                 tell(&faults.render(&file.display().to_string(), &text));
-                anyhow!("{} has {}", file.display(), faults.tally())
+                let its = format!("{} has {}", file.display(), faults.tally());
+                match scene.any_fault() {
+                    true => anyhow!("{shown} has {}, {its}", scene.tally()),
+                    false => anyhow!("{its}"),
+                }
             }
             Refusal::Unequal(differences) => anyhow!("{shown}: {}", explain(&differences)),
             Refusal::Options(names) => unknown(names).into(),

@@ -9,6 +9,7 @@ mod check;
 mod element;
 mod given;
 mod once;
+mod refused;
 mod slip;
 
 mod coulomb;
@@ -42,6 +43,7 @@ pub use check::{Context, Declared, called, declared};
 pub use element::{Checked, Element, Quantity};
 pub use given::Given;
 pub(crate) use once::once_per_joint;
+pub use refused::Refused;
 
 /// A kind of effect.
 pub trait Effect: Sync {
