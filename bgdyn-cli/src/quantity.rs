@@ -1,6 +1,6 @@
 //! Numbers of the command line: as in files, with units, read by the same reader.
 
-use bgdyn_codegen::spec::{Dimension, quantity};
+use bgdyn_codegen::spec::{Dimension, Number, quantity};
 use bgdyn_runtime::Dd;
 
 use crate::usage::Usage;
@@ -10,13 +10,18 @@ use crate::usage::Usage;
 /// # Errors
 /// What a file's reader says of it, with the way out.
 pub(crate) fn value(text: &str, fit: &[Dimension]) -> Result<Dd, String> {
-    let found = quantity(text, fit);
-    found
-        .map(|number| number.value)
-        .map_err(|fault| match fault.help {
-            Some(help) => format!("{}: {help}", fault.message),
-            None => fault.message,
-        })
+    read(text, fit).map(|number| number.value)
+}
+
+/// The same with its unit.
+///
+/// # Errors
+/// As [`value`].
+pub(crate) fn read(text: &str, fit: &[Dimension]) -> Result<Number, String> {
+    quantity(text, fit).map_err(|fault| match fault.help {
+        Some(help) => format!("{}: {help}", fault.message),
+        None => fault.message,
+    })
 }
 
 /// The same of a quantity with this SI unit, nothing for a pure number.

@@ -22,7 +22,7 @@ pub struct ImportArgs {
     /// Where to write the mechanism; stdout if not given
     #[arg(short, long, value_name = "FILE.yaml")]
     pub output: Option<PathBuf>,
-    /// Fix this joint where its coordinate has this value, in rad or m, or `90deg`; at 0 without one. May be repeated
+    /// Fix this joint where its coordinate has this value, `90deg` or `20 mm`, rad or m without a unit; at 0 without one. May be repeated
     #[arg(long, value_name = "JOINT[=VALUE]", value_parser = Lock::parse)]
     pub lock: Vec<Lock>,
     /// Keep the links from BASE to TIP only, with what is fixed to them; BASE is fixed to the world
