@@ -85,7 +85,7 @@ fn line(line: &str) -> String {
             "^" => paint(
                 BLUE,
                 &text[..head + 1],
-                &paint(RED, rest, "").replace(end, ""),
+                &format!("\x1b[{RED}m{rest}\x1b[0m"),
             ),
             _ => paint(BLUE, &text[..head + 1], rest),
         };
