@@ -169,12 +169,18 @@ fn bare(text: &str) -> String {
 
 #[test]
 fn colours_change_nothing_but_colours() {
+    let light = "format: 1\nlinks:\n  - { name: a, joint: { name: j, type: revolute, axis: y } }\n";
+    let warned = scratch("messages_colour", "light.yaml", light);
+    let told = fed("", &["check", &warned, "--color", "always"], &[]);
+    assert!(told.good().starts_with("ok: light"));
+    let told = fed("", &["check", &warned, "--color", "always"], &[]).stderr;
+    assert!(told.contains("\x1b[1;33mwarning:\x1b[0m"), "{told:?}");
     let twice = scratch(
         "messages_colour",
         "twice.yaml",
         file(INVALID).replace("mass: -", "mass:  -"),
     );
-    for file in [INVALID, "nowhere.yaml", &twice, "specs/pr2.yaml"] {
+    for file in [INVALID, "nowhere.yaml", &twice, &warned] {
         let plain = fed("", &["check", file], &[]).stderr;
         assert!(!plain.contains('\x1b'), "{plain:?}");
         let run = fed("", &["check", file, "--color", "always"], &[]);
