@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 . ./toolchain.sh
+. ../.ci/skip.sh
 programs=(scara puma560 payload)
 
 # run CPU FLAGS…: runs the controllers.
@@ -47,9 +48,9 @@ run m7 --features double
 
 riscv=riscv32imafc-unknown-none-elf
 if ! command -v qemu-riscv32 >/dev/null; then
-  echo "== RISC-V: skipped, no qemu-riscv32 (Debian: qemu-user)"
+  skip "firmware on RISC-V" "there is no qemu-riscv32" "install qemu-user"
 elif [ -z "${CARGO_UNSTABLE_BUILD_STD:-}" ] && [ ! -d "$("$rustc" --print sysroot)/lib/rustlib/$riscv" ]; then
-  echo "== RISC-V: skipped, \`rustup target add $riscv\` first"
+  skip "firmware on RISC-V" "no library for $riscv" "\`rustup target add $riscv\`"
 else
   for level in 3 s; do
     echo "== RISC-V (RV32IMAFC), f32, opt-level $level"

@@ -4,11 +4,13 @@
 #![forbid(unsafe_code)]
 
 mod accuracy;
+mod colour;
 mod commands;
 mod graph;
 pub mod import;
 mod output;
 pub mod promises;
+mod quantity;
 pub mod schema;
 mod scratch;
 pub mod simulate;
@@ -29,6 +31,9 @@ use usage::Usage;
     after_help = "Example:\n  bgdyn check specs/scara.yaml"
 )]
 struct Arguments {
+    /// Colours on stderr; `auto`: on a terminal, unless NO_COLOR is set
+    #[arg(long, global = true, value_enum, value_name = "WHEN", default_value_t)]
+    color: colour::Colour,
     #[command(subcommand)]
     command: Command,
 }
@@ -49,7 +54,9 @@ enum Command {
 
 /// Runs the command line.
 pub fn run() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let arguments = Arguments::parse();
+    arguments.color.choose();
+    let done = match arguments.command {
         Command::Check(command) => command.run(),
         Command::Ops(command) => command.run(),
         Command::Eval(command) => command.run(),

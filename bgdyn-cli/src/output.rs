@@ -5,6 +5,8 @@ use std::io::{ErrorKind, Write};
 
 use anyhow::{Context, Result};
 
+use crate::colour::painted;
+
 /// Writes to stdout. Whoever reads it may stop early (`| head -1`).
 pub(crate) fn print(text: &str) -> Result<()> {
     let mut stdout = std::io::stdout().lock();
@@ -19,5 +21,5 @@ pub(crate) fn print(text: &str) -> Result<()> {
 
 /// Writes to stderr; there is nowhere to say that it failed.
 pub(crate) fn tell(text: &str) {
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    let _ = std::io::stderr().lock().write_all(painted(text).as_bytes());
 }

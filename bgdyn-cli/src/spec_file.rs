@@ -1,13 +1,15 @@
 //! A spec as the commands read it.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use bgdyn_codegen::fault::Faults;
+use bgdyn_codegen::fault::{Fault, Faults, Place};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::{
     Options, Refusal, Unknown, beside, formulation_named, preference_named, read_scene, stem,
 };
+use bgdyn_codegen::spec::{parse, parse_scene};
 use bgdyn_codegen::system::System;
 use bgdyn_codegen::verify::explain;
 use clap::Args;
@@ -22,20 +24,58 @@ pub(crate) struct SpecFile {
     pub(crate) stem: String,
 }
 
+/// What the name of standard input is, in place of a file's.
+const STDIN: &str = "-";
+/// The name of what comes from standard input and says none.
+pub(crate) const STDIN_NAME: &str = "stdin";
+
+/// Whether standard input is meant.
+pub(crate) fn is_stdin(path: &Path) -> bool {
+    path.as_os_str() == STDIN
+}
+
+/// A path as messages show it.
+pub(crate) fn shown(path: &Path) -> String {
+    match is_stdin(path) {
+        true => "<stdin>".into(),
+        false => path.display().to_string(),
+    }
+}
+
 impl SpecFile {
-    /// Reads the file.
+    /// Reads the file, or standard input for `-`.
     pub(crate) fn open(path: &Path) -> Result<Self> {
-        let text = read_text(path)?;
-        if is_urdf(&text) {
-            let shown = path.display();
-            bail!(
-                "{shown}:1:1: this is a URDF, not a spec: `bgdyn import {shown}` writes the spec of it [urdf-given]"
-            );
+        let file = SpecFile::read_any(path)?;
+        match file.urdf() {
+            Some(fault) => bail!("{}", fault.headline(&shown(path))),
+            None => Ok(file),
         }
+    }
+
+    /// The same, whatever is in it.
+    pub(crate) fn read_any(path: &Path) -> Result<Self> {
+        let text = read_text(path)?;
+        let stem = match is_stdin(path) {
+            true => written_name(&text).unwrap_or_else(|| STDIN_NAME.into()),
+            false => stem(path),
+        };
         Ok(SpecFile {
-            path: path.to_path_buf(),
+            path: shown(path).into(),
             text,
-            stem: stem(path),
+            stem,
+        })
+    }
+
+    /// That it is a URDF, if it is one.
+    pub(crate) fn urdf(&self) -> Option<Fault> {
+        is_urdf(&self.text).then(|| {
+            let file = match self.path.to_str() {
+                Some("<stdin>") => STDIN.into(),
+                _ => self.path.display().to_string(),
+            };
+            let message =
+                format!("this is a URDF, not a spec: `bgdyn import {file}` writes the spec of it");
+            Fault::new(&Place::file(), "urdf-given", message)
         })
     }
 
@@ -68,19 +108,62 @@ impl SpecFile {
 
     /// A refusal as an error; its faults go to stderr.
     pub(crate) fn refused(&self, refusal: Refusal) -> anyhow::Error {
+        if let Refusal::Options(names) = refusal {
+            return unknown(names).into();
+        }
+        let (told, why) = self.refusal(refusal);
+        tell(&told);
+        anyhow!(why)
+    }
+
+    /// A refusal's faults, for people, and how many there are.
+    pub(crate) fn refusal(&self, refusal: Refusal) -> (String, String) {
         let shown = self.path.display();
         match refusal {
-            Refusal::Spec(faults) => {
-                tell(&self.render(&faults));
-                anyhow!("{shown} has {}", faults.tally())
+            Refusal::Spec(faults) => (
+                self.render(&faults),
+                format!("{shown} has {}", faults.tally()),
+            ),
+            Refusal::Mechanism {
+                path,
+                text,
+                faults,
+                scene,
+            } => {
+                let file = beside(&self.path, &path).display().to_string();
+                let own = self.render(&scene);
+                let parts = [own, faults.render(&file, &text)];
+                let told: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
+                let its = format!("{file} has {}", faults.tally());
+                let why = match scene.any_fault() {
+                    true => format!("{shown} has {}, {its}", scene.tally()),
+                    false => its,
+                };
+                (told.join("\n"), why)
             }
-            Refusal::Mechanism { path, text, faults } => {
-                let file = beside(&self.path, &path);
-                tell(&faults.render(&file.display().to_string(), &text));
-                anyhow!("{} has {}", file.display(), faults.tally())
+            Refusal::Unequal(differences) => {
+                (String::new(), format!("{shown}: {}", explain(&differences)))
             }
-            Refusal::Unequal(differences) => anyhow!("{shown}: {}", explain(&differences)),
-            Refusal::Options(names) => unknown(names).into(),
+            Refusal::Options(names) => (String::new(), unknown(names).0),
+        }
+    }
+
+    /// A refusal's faults, each with its file where that is another.
+    pub(crate) fn findings(&self, refusal: &Refusal) -> Vec<(Option<String>, Fault)> {
+        match refusal {
+            Refusal::Spec(faults) => faults.0.iter().map(|f| (None, f.clone())).collect(),
+            Refusal::Mechanism {
+                path,
+                faults,
+                scene,
+                ..
+            } => {
+                let file = beside(&self.path, path).display().to_string();
+                let own = scene.0.iter().map(|f| (None, f.clone()));
+                let its = faults.0.iter().map(|f| (Some(file.clone()), f.clone()));
+                own.chain(its).collect()
+            }
+            Refusal::Unequal(_) | Refusal::Options(_) => Vec::new(),
         }
     }
 
@@ -97,6 +180,15 @@ impl SpecFile {
     }
 }
 
+/// The name that a spec gives itself.
+fn written_name(text: &str) -> Option<String> {
+    let name = match bgdyn_codegen::spec::is_scene(text) {
+        true => parse_scene(text).0?.name,
+        false => parse(text).0?.name,
+    };
+    name.value().cloned()
+}
+
 /// Whether a text is XML with a robot in it. The beginning decides first: a spec may quote XML.
 fn is_urdf(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_start();
@@ -104,15 +196,25 @@ fn is_urdf(text: &str) -> bool {
     xml.iter().any(|start| text.starts_with(start)) && text.contains("<robot")
 }
 
-/// A file's text.
+/// A file's text, or that of standard input for `-`.
 pub(crate) fn read_text(path: &Path) -> Result<String> {
-    let shown = path.display();
-    let bytes = std::fs::read(path).with_context(|| format!("{shown} cannot be read"))?;
+    let shown = shown(path);
+    let bytes = match is_stdin(path) {
+        true => stdin_bytes(),
+        false => std::fs::read(path),
+    };
+    let bytes = bytes.with_context(|| format!("{shown} cannot be read"))?;
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
         anyhow!("{shown}:{line}:1: this line is not UTF-8: convert the file first")
     })
+}
+
+fn stdin_bytes() -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// The generator's options, as the command line gives them.

@@ -236,9 +236,18 @@ impl Build {
             Refusal::Spec(faults) => {
                 format!("{}\n{}", faults.render(&shown, text), faults.tally())
             }
-            Refusal::Mechanism { path, text, faults } => {
-                let shown = beside(&self.spec, &path).display().to_string();
-                format!("{}\n{}", faults.render(&shown, &text), faults.tally())
+            Refusal::Mechanism {
+                path,
+                text: its_text,
+                faults,
+                scene,
+            } => {
+                let its = beside(&self.spec, &path).display().to_string();
+                let its = format!("{}\n{}", faults.render(&its, &its_text), faults.tally());
+                match scene.any_fault() {
+                    true => format!("{}\n{its}\n{}", scene.render(&shown, text), scene.tally()),
+                    false => its,
+                }
             }
             Refusal::Unequal(differences) => format!("{shown}: {}", explain(&differences)),
             Refusal::Options(unknown) => {

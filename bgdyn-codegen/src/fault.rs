@@ -76,6 +76,14 @@ impl Fault {
         }
     }
 
+    /// The same finding as one that only follows from others.
+    pub(crate) fn following(self) -> Self {
+        Fault {
+            rule: FOLLOWS,
+            ..self
+        }
+    }
+
     /// The same finding as a warning.
     pub fn into_warning(self) -> Self {
         Fault {
@@ -84,6 +92,9 @@ impl Fault {
         }
     }
 }
+
+/// The rule of findings that only follow from others. They refuse the spec and are not shown.
+const FOLLOWS: &str = "follows";
 
 /// All that was found in one run, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -100,6 +111,17 @@ impl Faults {
         self.0.iter().any(|f| f.severity == Severity::Fault)
     }
 
+    /// Whether anything refuses what stands behind this key of the file.
+    pub fn any_in(&self, key: &str) -> bool {
+        let inside = |f: &Fault| match f.path.strip_prefix(key) {
+            Some(rest) => rest.is_empty() || rest.starts_with(['.', '[']),
+            None => false,
+        };
+        self.0
+            .iter()
+            .any(|f| f.severity == Severity::Fault && inside(f))
+    }
+
     /// How many findings refuse the spec.
     pub fn count(&self) -> usize {
         self.0
@@ -114,6 +136,11 @@ impl Faults {
             1 => "1 fault".into(),
             n => format!("{n} faults"),
         }
+    }
+
+    /// Leaves out what only follows from other findings.
+    pub(crate) fn forget_following(&mut self) {
+        self.0.retain(|f| f.rule != FOLLOWS);
     }
 
     /// Sorts by position; findings at one place keep their order.

@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use crate::bond_graph::{self, BondGraph};
 use crate::cut::cut;
 use crate::emit;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, Severity};
 use crate::formulation::{self, Search};
 use crate::function::Function;
 use crate::interface::{Interface, SceneInterface};
@@ -17,7 +17,7 @@ use crate::method::Method;
 pub use crate::options::{
     Asked, DYNAMICS, Options, Preference, Unknown, formulation_named, preference_named,
 };
-use crate::scene;
+use crate::scene::{self, Verdict};
 use crate::spec::{is_scene, parse_scene};
 use crate::system::System;
 use crate::verify::{Difference, check_functions, check_scene};
@@ -101,15 +101,23 @@ pub fn read_scene(
     let Some(spec) = spec else {
         return Err(Refusal::Spec(faults));
     };
-    let Some(path) = spec.mechanism.given() else {
-        return Err(Refusal::Spec(faults));
+    let alone = |mut faults: Faults| {
+        faults.0.extend(scene::check_alone(&spec, Some(stem)).0);
+        faults.sort();
+        faults
     };
-    let loaded = load(&path.value).map_err(|why| {
-        let message = format!("the mechanism `{}` cannot be read: {why}", path.value);
-        let fault = Fault::new(&path.place, "no-mechanism", message);
-        faults.push(fault.with_help("write its path from the scene's own folder"));
-        Refusal::Spec(faults.clone())
-    })?;
+    let Some(path) = spec.mechanism.given() else {
+        return Err(Refusal::Spec(alone(faults)));
+    };
+    let loaded = match load(&path.value) {
+        Ok(loaded) => loaded,
+        Err(why) => {
+            let message = format!("the mechanism `{}` cannot be read: {why}", path.value);
+            let fault = Fault::new(&path.place, "no-mechanism", message);
+            faults.push(fault.with_help("write its path from the scene's own folder"));
+            return Err(Refusal::Spec(alone(faults)));
+        }
+    };
     let name = self::stem(Path::new(&path.value));
     let (mechanism, found) = crate::read(&loaded, Some(&name));
     let Some(mechanism) = mechanism else {
@@ -118,15 +126,29 @@ pub fn read_scene(
             path,
             text: loaded,
             faults: found,
+            scene: alone(faults),
         });
     };
-    let (scene, more) = scene::check(&spec, Some(stem), &mechanism);
+    let (verdict, more) = scene::check(&spec, Some(stem), &mechanism);
     faults.0.extend(more.0);
-    faults.sort();
-    let Some(scene) = scene else {
-        return Err(Refusal::Spec(faults));
+    let system = match verdict {
+        Verdict::Sound(scene) => System::new(*scene),
+        Verdict::Drawn(scene) => {
+            let found = System::new(*scene).err().unwrap_or_default();
+            faults.0.extend(independent(found, &faults));
+            Err(Faults::default())
+        }
+        Verdict::Refused => Err(Faults::default()),
     };
-    let system = System::new(scene).map_err(Refusal::Spec)?;
+    let system = match system {
+        Ok(system) => system,
+        Err(more) => {
+            faults.0.extend(more.0);
+            faults.sort();
+            return Err(Refusal::Spec(faults));
+        }
+    };
+    faults.sort();
     for joint in system.without_inertia() {
         let path = &path.place;
         let message = format!(
@@ -138,6 +160,17 @@ pub fn read_scene(
         faults.push(fault.into_warning());
     }
     Ok((system, faults))
+}
+
+/// What is wrong with the equations of a scene that has faults, where it does not follow from these: values
+/// out of range may come from a start that could not be read.
+fn independent(found: Faults, faults: &Faults) -> Vec<Fault> {
+    let elsewhere = |f: &Fault| f.severity == Severity::Fault && f.path.is_empty();
+    let start =
+        ["initial", "lock"].iter().any(|key| faults.any_in(key)) || faults.0.iter().any(elsewhere);
+    let mut found = found.0;
+    found.retain(|f| !(start && f.rule == "effect-range"));
+    found
 }
 
 /// The functions of a scene: the usual ones, what its method of integration needs, and what is
@@ -161,6 +194,8 @@ pub enum Refusal {
         text: String,
         /// What is wrong with it.
         faults: Faults,
+        /// What is wrong with the scene besides.
+        scene: Faults,
     },
     /// Names asked for that the mechanism does not have, options that have no place here.
     Options(Vec<Unknown>),

@@ -114,8 +114,12 @@ fn module(
             path: mechanism,
             text: its_text,
             faults,
+            scene,
         }) => {
-            let message = faults.render(&mechanism, &its_text);
+            let mut message = faults.render(&mechanism, &its_text);
+            if scene.any_fault() {
+                message = format!("{}\n{message}", scene.render(&written, &text));
+            }
             Err(refused(message.trim_end().to_string(), &text, &place))
         }
         Err(Refusal::Unequal(differences)) => {

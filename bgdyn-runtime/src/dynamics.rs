@@ -8,6 +8,12 @@ use crate::Scalar;
 ///
 /// Lets a simulator or a controller take any generated model. Units: rad and m for positions, N·m
 /// and N for efforts, joint by joint.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not have all methods of `Dynamics`",
+    label = "a model without some of these methods",
+    note = "generated with `methods = […]`: add `dynamics` to the list, or leave the list out",
+    note = "the list is an argument of `bgdyn!`, `.methods([…])` in a build script, `--methods` of `bgdyn generate`"
+)]
 pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     /// Names of the moving joints, in the order of the velocities.
     fn joint_names(&self) -> &'static [&'static str; NV];

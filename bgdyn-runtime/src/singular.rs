@@ -14,7 +14,7 @@ use crate::Scalar;
 /// Where every body has a fair share of the inertia that its joint moves, M is never singular, and
 /// a factor of M is refused at 64 units of rounding of the entry it was computed from. Elsewhere
 /// (massless links, heavy loads on light links) a bound for the error is computed beside the pivot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Singular {
     /// Index of the joint, in the order of `JOINT_NAMES`.
     pub joint: usize,
@@ -22,13 +22,27 @@ pub struct Singular {
     pub name: &'static str,
 }
 
+/// What it may come from: the pivot alone does not tell.
+const CAUSE: &str = "has no inertia left to accelerate, or an input is not finite";
+
 impl fmt::Display for Singular {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "singular mass matrix: joint `{}` (number {}) has no inertia left to accelerate, or an input is not finite",
+            "singular mass matrix: joint `{}` (number {}) {CAUSE}",
             self.name, self.joint
         )
+    }
+}
+
+/// As a struct, with both causes: `unwrap` shows this.
+impl fmt::Debug for Singular {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Singular")
+            .field("joint", &self.joint)
+            .field("name", &self.name)
+            .field("cause", &format_args!("{CAUSE}"))
+            .finish()
     }
 }
 

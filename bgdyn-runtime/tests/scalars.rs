@@ -183,6 +183,10 @@ fn the_first_refused_joint_is_named() {
     let wide = SVector::<Dd, 2>::new(Dd::ONE, Dd::PI);
     assert_eq!(Dd::finish(wide, Some(1), &NAMES), Err(singular));
     assert!(singular.to_string().contains("`knee` (number 1)"));
+    for shown in [singular.to_string(), format!("{singular:?}")] {
+        assert!(shown.contains("or an input is not finite"), "{shown}");
+    }
+    assert!(format!("{singular:?}").starts_with("Singular { joint: 1, name: \"knee\", "));
 }
 
 #[test]

@@ -7,13 +7,14 @@ use bgdyn_accuracy::generate::variants;
 use bgdyn_accuracy::{
     Machine, Plan, Study, costs_csv, csv, figures, page, study, targets, verdicts,
 };
+use bgdyn_codegen::spec::Dimension;
 use bgdyn_codegen::system::System;
 use clap::Args;
 
 use crate::output::{print, tell};
+use crate::quantity::positive;
 use crate::scratch::Scratch;
 use crate::spec_file::SpecFile;
-use crate::usage::Usage;
 
 /// What accuracy costs in time on a scene: error and time by method, step, scalar, formulation, effects
 ///
@@ -29,9 +30,9 @@ pub(crate) struct Accuracy {
     /// The folder for the files, made if it is not there
     #[arg(long, value_name = "DIR", default_value = "accuracy")]
     out: PathBuf,
-    /// When the runs end, s
-    #[arg(long, value_name = "S")]
-    end: Option<f64>,
+    /// When the runs end: `2 s`
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    end: Option<String>,
     /// Fewer steps and samples
     #[arg(long)]
     quick: bool,
@@ -52,12 +53,9 @@ impl Accuracy {
                 "{shown} is a mechanism: what is compared are runs of a scene, a file with `scene: 1`"
             );
         }
-        if let Some(end) = self.end.filter(|x| !(x.is_finite() && *x > 0.0)) {
-            let message = format!("`--end {end}`: write a number greater than 0");
-            return Err(Usage(message).into());
-        }
+        let end = positive("end", self.end.as_ref(), Dimension::Time)?;
         let system = file.scene()?;
-        let study = self.study(&system)?;
+        let study = self.study(&system, end)?;
         write(&study, &self.out)?;
         print(&told(&study, &self.out))?;
         let wrong = verdicts(&study).into_iter().filter(|v| v.is_failure());
@@ -71,14 +69,14 @@ impl Accuracy {
     }
 
     /// The study of compiled code, or of the evaluator where there is no cargo.
-    fn study(&self, system: &System) -> Result<Study> {
-        let program = match self.compiled(system) {
+    fn study(&self, system: &System, end: Option<f64>) -> Result<Study> {
+        let program = match self.compiled(system, end) {
             Ok(text) => text,
             Err(why) => {
                 tell(&format!(
                     "bgdyn: times are estimated from operations: {why:#}\n"
                 ));
-                return self.evaluated(system);
+                return evaluated(system, end);
             }
         };
         if let Some(why) = program.strip_prefix(REFUSED) {
@@ -92,9 +90,9 @@ impl Accuracy {
     }
 
     /// What the program prints that studies the compiled scene.
-    fn compiled(&self, system: &System) -> Result<String> {
+    fn compiled(&self, system: &System, end: Option<f64>) -> Result<String> {
         let scratch = Scratch::new("accuracy", &self.bgdyn, &["bgdyn-accuracy"])?;
-        let text = variants(system, self.end).map_err(|e| anyhow!(e))?;
+        let text = variants(system, end).map_err(|e| anyhow!(e))?;
         scratch.write("src/scene.rs", &text)?;
         let name = &system.scene.name;
         let plan = if self.quick { "QUICK" } else { "FULL" };
@@ -104,14 +102,14 @@ impl Accuracy {
         scratch.write("src/main.rs", &main)?;
         scratch.run()
     }
+}
 
-    /// The study through the evaluator.
-    fn evaluated(&self, system: &System) -> Result<Study> {
-        let subject = crate::accuracy::subject(system, self.end)
-            .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
-        // The evaluator takes its time.
-        study(&subject, &Plan::QUICK).map_err(|e| anyhow!("{e}"))
-    }
+/// The study through the evaluator.
+fn evaluated(system: &System, end: Option<f64>) -> Result<Study> {
+    let subject = crate::accuracy::subject(system, end)
+        .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
+    // The evaluator takes its time.
+    study(&subject, &Plan::QUICK).map_err(|e| anyhow!("{e}"))
 }
 
 /// Writes table, figures and page.

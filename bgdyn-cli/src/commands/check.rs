@@ -1,58 +1,188 @@
 //! `bgdyn check`: whether a spec is sound, and if not, everything that is wrong with it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
-use bgdyn_codegen::fault::{Fault, Severity};
+use bgdyn_codegen::fault::{Fault, Place, Severity};
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Parameter, Snapped};
-use bgdyn_codegen::model::Refusal;
 use bgdyn_codegen::scene::{Part, Solved};
 use bgdyn_codegen::system::System;
 use clap::Args;
 use serde_json::{Value, json};
 
 use crate::output::{print, tell};
-use crate::spec_file::SpecFile;
+use crate::spec_file::{SpecFile, shown};
 
-/// Check a spec; report every fault with its place
+/// Check specs; report every fault with its place
 #[derive(Args)]
-#[command(after_help = "Example:\n  bgdyn check specs/scara.yaml")]
+#[command(
+    after_help = "Example:\n  bgdyn check specs/scara.yaml\n  bgdyn check specs/*.yaml --json\n\nExit 1 where any file is refused. With --json: one report, or a list of reports for several files."
+)]
 pub(crate) struct Check {
-    /// The spec
-    file: PathBuf,
+    /// Mechanisms and scenes; `-` is standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
     /// Print the findings as JSON
     #[arg(long)]
     json: bool,
 }
 
+/// What was found in one file.
+#[derive(Default)]
+struct Checked {
+    ok: bool,
+    /// For stdout where no JSON is wanted.
+    lines: Vec<String>,
+    /// For stderr where no JSON is wanted.
+    told: String,
+    /// For stderr either way.
+    tally: Option<String>,
+    /// Whether that says of which file.
+    names_its_file: bool,
+    /// As JSON: `model` or `scene`, and what it is.
+    model: Option<(&'static str, Value)>,
+    findings: Vec<Value>,
+}
+
 impl Check {
     pub(crate) fn run(self) -> Result<()> {
-        let spec = SpecFile::open(&self.file)?;
-        if spec.is_scene() {
-            return self.scene(&spec);
-        }
-        let (mechanism, faults) = spec.read();
-        if self.json {
-            let found: Vec<Value> = faults.0.iter().map(finding).collect();
-            let model = mechanism.as_ref().map(model);
-            let report = json!({ "ok": model.is_some(), "model": model, "findings": found });
-            print(&format!("{report:#}\n"))?;
-        } else {
-            tell(&spec.render(&faults));
-        }
-        let Some(m) = mechanism else {
-            tell(&format!("{}\n", faults.tally()));
-            return Err(anyhow!(""));
-        };
-        if !self.json {
-            let names = coordinates(&m).join(", ");
-            let sizes = format!("NQ {}, NV {}", m.nq(), m.nv());
-            print(&format!("ok: {}, {sizes}: {names}\n", m.name()))?;
-            if let Some(snapped) = m.snapped() {
-                print(&format!("snapped: {}\n", snapped_words(snapped)))?;
+        let several = self.files.len() > 1;
+        let (mut sound, mut reports) = (true, Vec::new());
+        for path in &self.files {
+            let found = check(path);
+            sound &= found.ok;
+            if self.json {
+                let (kind, model) = found.model.unwrap_or(("model", Value::Null));
+                let mut report = json!({
+                    "file": shown(path),
+                    "ok": found.ok,
+                    "findings": found.findings,
+                });
+                report[kind] = model;
+                reports.push(report);
+            } else {
+                tell(&found.told);
+                for line in found.lines {
+                    print(&format!("{line}\n"))?;
+                }
+            }
+            if let Some(tally) = found.tally {
+                tell(&match several && !found.names_its_file {
+                    true => format!("{} has {tally}\n", shown(path)),
+                    false => format!("{tally}\n"),
+                });
             }
         }
-        Ok(())
+        if self.json {
+            let report = match several {
+                true => Value::Array(reports),
+                false => reports.swap_remove(0),
+            };
+            print(&format!("{report:#}\n"))?;
+        }
+        match sound {
+            true => Ok(()),
+            false => Err(anyhow!("")),
+        }
+    }
+}
+
+fn check(path: &Path) -> Checked {
+    let spec = match SpecFile::read_any(path) {
+        Ok(spec) => spec,
+        Err(error) => {
+            let error = format!("{error:#}");
+            let fault = Fault::new(&Place::file(), "unreadable", error.clone());
+            return Checked {
+                told: format!("bgdyn: {error}\n"),
+                findings: vec![finding(&fault)],
+                ..Checked::default()
+            };
+        }
+    };
+    if let Some(fault) = spec.urdf() {
+        return Checked {
+            told: format!("bgdyn: {}\n", fault.headline(&shown(path))),
+            findings: vec![finding(&fault)],
+            ..Checked::default()
+        };
+    }
+    match spec.is_scene() {
+        true => scene(&spec),
+        false => mechanism(&spec),
+    }
+}
+
+fn mechanism(spec: &SpecFile) -> Checked {
+    let (mechanism, faults) = spec.read();
+    let mut found = Checked {
+        ok: mechanism.is_some(),
+        told: spec.render(&faults),
+        tally: mechanism.is_none().then(|| faults.tally()),
+        model: Some(("model", mechanism.as_ref().map_or(Value::Null, model))),
+        findings: faults.0.iter().map(finding).collect(),
+        ..Checked::default()
+    };
+    if let Some(m) = mechanism {
+        let names = coordinates(&m).join(", ");
+        let sizes = format!("NQ {}, NV {}", m.nq(), m.nv());
+        found
+            .lines
+            .push(format!("ok: {}, {sizes}: {names}", m.name()));
+        let snapped = m.snapped().map(snapped_words);
+        found
+            .lines
+            .extend(snapped.map(|words| format!("snapped: {words}")));
+    }
+    found
+}
+
+fn scene(spec: &SpecFile) -> Checked {
+    let null = Some(("scene", Value::Null));
+    let (system, faults) = match spec.read_scene() {
+        Ok(read) => read,
+        Err(refusal) => {
+            let findings = spec.findings(&refusal);
+            let (told, why) = spec.refusal(refusal);
+            return Checked {
+                told,
+                tally: Some(why),
+                names_its_file: true,
+                model: null,
+                findings: findings
+                    .into_iter()
+                    .map(|(file, fault)| {
+                        let mut found = finding(&fault);
+                        if let Some(file) = file {
+                            found["file"] = file.into();
+                        }
+                        found
+                    })
+                    .collect(),
+                ..Checked::default()
+            };
+        }
+    };
+    let layout = &system.scene.layout;
+    let ok = format!(
+        "ok: {}, NQ {}, NV {}, NX {}, modes {}, inputs {}",
+        system.scene.name,
+        layout.nq(),
+        layout.nv(),
+        layout.nx(),
+        layout.modes.len(),
+        layout.inputs.len()
+    );
+    let solved = system.scene.solved();
+    let solved = solved.iter().map(|s| format!("solved: {}", words(s)));
+    Checked {
+        ok: true,
+        lines: std::iter::once(ok).chain(solved).collect(),
+        told: spec.render(&faults),
+        tally: None,
+        model: Some(("scene", scene_model(&system))),
+        findings: faults.0.iter().map(finding).collect(),
+        names_its_file: false,
     }
 }
 
@@ -65,46 +195,6 @@ pub(crate) fn snapped_words(snapped: &Snapped) -> String {
         _ => format!("{count} directions, the farthest {most:.1e} rad off (`{path}`)"),
     };
     format!("{what}; taken as exact, `snap: 0` at the top keeps what is written")
-}
-
-impl Check {
-    fn scene(&self, spec: &SpecFile) -> Result<()> {
-        let read = spec.read_scene();
-        let (system, faults) = match read {
-            Ok((system, warnings)) => (Some(system), warnings),
-            Err(Refusal::Spec(faults)) if self.json => (None, faults),
-            Err(refusal) => {
-                let error = spec.refused(refusal);
-                tell(&format!("{error}\n"));
-                return Err(anyhow!(""));
-            }
-        };
-        if self.json {
-            let found: Vec<Value> = faults.0.iter().map(finding).collect();
-            let model = system.as_ref().map(scene_model);
-            let report = json!({ "ok": model.is_some(), "scene": model, "findings": found });
-            print(&format!("{report:#}\n"))?;
-        } else {
-            tell(&spec.render(&faults));
-        }
-        let system = system.ok_or_else(|| anyhow!(""))?;
-        if !self.json {
-            let layout = &system.scene.layout;
-            print(&format!(
-                "ok: {}, NQ {}, NV {}, NX {}, modes {}, inputs {}\n",
-                system.scene.name,
-                layout.nq(),
-                layout.nv(),
-                layout.nx(),
-                layout.modes.len(),
-                layout.inputs.len()
-            ))?;
-            for solved in system.scene.solved() {
-                print(&format!("solved: {}\n", words(&solved)))?;
-            }
-        }
-        Ok(())
-    }
 }
 
 /// `elbow_motor: without inductance: …`

@@ -4,7 +4,7 @@ mod scene;
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, anyhow, bail};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Parameter};
@@ -14,7 +14,8 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::output::print;
-use crate::spec_file::{Choice, SpecFile, read_text};
+use crate::quantity::value_in;
+use crate::spec_file::{Choice, SpecFile, read_text, shown};
 use crate::usage::Usage;
 
 /// Evaluate a method at the states of a file, without a compiler
@@ -32,7 +33,7 @@ pub(crate) struct Eval {
     states: PathBuf,
     #[command(flatten)]
     choice: Choice,
-    /// Set a run-time parameter, in SI units; the spec's value otherwise. May be repeated
+    /// Set a run-time parameter: `payload=500 g`; the spec's value otherwise. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
 }
@@ -130,24 +131,25 @@ fn parameters(all: &[Parameter], set: &[String]) -> Result<Vec<f64>, Usage> {
             return Err(Usage(format!("the parameter `{name}` is set twice")));
         }
         done.push(name);
-        let number = value.trim().parse().ok().filter(|x: &f64| x.is_finite());
-        values[found] = number.ok_or_else(|| {
-            let unit = all[found].unit;
-            Usage(format!(
-                "`{value}` is no value of `{name}`: write a finite number, in {unit}"
-            ))
-        })?;
+        let wrong = |what: String| Usage(format!("`--parameter {text}`: {what}"));
+        values[found] = value_in(value, all[found].unit).map_err(wrong)?.to_f64();
     }
     Ok(values)
 }
 
 fn states(path: &std::path::Path) -> Result<Vec<Value>> {
     let text = read_text(path)?;
-    let file: Value = serde_json::from_str(&without_bare_words(&text))
-        .with_context(|| format!("{} is not JSON", path.display()))?;
+    let file: Value = serde_json::from_str(&without_bare_words(&text)).map_err(|e| {
+        anyhow!(
+            "{}:{}:{}: this is not JSON: {e}",
+            shown(path),
+            e.line(),
+            e.column()
+        )
+    })?;
     match file.get("states") {
         Some(Value::Array(states)) => Ok(states.clone()),
-        _ => bail!("{} has no array `states`", path.display()),
+        _ => bail!("{}:1:1: this has no array `states`", shown(path)),
     }
 }
 

@@ -8,7 +8,7 @@ use bgdyn_codegen::model::generate_file;
 use clap::Args;
 
 use crate::output::{print, tell};
-use crate::spec_file::{Asked, SpecFile, read_text};
+use crate::spec_file::{Asked, SpecFile, is_stdin, read_text};
 use crate::usage::Usage;
 
 /// Write the generated Rust source
@@ -60,8 +60,11 @@ impl Generate {
     }
 
     fn place(&self) -> std::result::Result<Place, String> {
-        let source = self.file.file_name().map(|n| n.to_string_lossy());
-        let place = Place::source_text(source.unwrap_or_default().into_owned());
+        let source = match is_stdin(&self.file) {
+            true => "standard input".into(),
+            false => self.file.file_name().unwrap_or_default().to_string_lossy(),
+        };
+        let place = Place::source_text(source.into_owned());
         let place = place
             .with_crate(&self.bgdyn)?
             .with_visibility(&self.visibility)?;

@@ -48,7 +48,7 @@ impl Ops {
             return self.scene(&spec.scene()?, &options);
         }
         if self.per_effect {
-            let message = "`--per-effect` is for scenes: a file that begins with `scene: 1`";
+            let message = "`--per-effect` is for scenes: a file with `scene: 1`";
             return Err(Usage(message.into()).into());
         }
         let mechanism = spec.mechanism()?;

@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::scene::{Integration, Integrator, Pace};
+use bgdyn_codegen::spec::Dimension;
 use bgdyn_codegen::system::System;
 use clap::Args;
 
 use self::many::{Batch, Many};
 use crate::output::{print, tell};
+use crate::quantity::positive;
 use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{self, number, quantity, short};
@@ -27,7 +29,7 @@ use crate::usage::Usage;
 /// the step or a tenth of the tolerance, to tell how far its result can be trusted.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2 --points 201\n  bgdyn simulate arm.scene.yaml --parameter payload=2.5 --initial shoulder=0.3\n  bgdyn simulate arm.scene.yaml --sweep payload=0:5:21\n  bgdyn simulate arm.scene.yaml --random shoulder=-1:1 --random payload=0:5 --runs 500\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
+    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2s --points 201\n  bgdyn simulate arm.scene.yaml --parameter payload=2.5 --initial shoulder=\"30 deg\"\n  bgdyn simulate arm.scene.yaml --sweep payload=0:5:21\n  bgdyn simulate arm.scene.yaml --random shoulder=-1:1 --random payload=0:5 --runs 500\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
 )]
 pub(crate) struct Simulate {
     /// The scene
@@ -38,31 +40,38 @@ pub(crate) struct Simulate {
     /// The method of integration, as scenes name it
     #[arg(long, value_name = "NAME")]
     method: Option<String>,
-    /// Length of every step, s
+    /// Length of every step: `1 ms`; s without a unit
     #[arg(
         long,
         value_name = "S",
         conflicts_with = "tolerance",
         allow_hyphen_values = true
     )]
-    step: Option<f64>,
+    step: Option<String>,
     /// Error that a step may have, absolute and relative, in SI units
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// When the run ends, s
+    tolerance: Option<String>,
+    /// When the run ends: `2 s`
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
-    end: Option<f64>,
+    end: Option<String>,
     /// Points of the table from 0 to the end; events come besides
     #[arg(long, value_name = "N", default_value_t = 1001)]
     points: usize,
-    /// Set a run-time parameter, in SI units; the file's value otherwise. May be repeated
+    /// Set a run-time parameter: `payload=500 g`; the file's value otherwise. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
-    /// Begin with this position, velocity (`NAME_rate`), state or mode, in SI units. May be repeated
+    /// Begin with this position, velocity (`NAME_rate`), state or mode: `shoulder=30 deg`. May be repeated
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     initial: Vec<String>,
     #[command(flatten)]
     many: Many,
+}
+
+/// Numbers of the options, SI units.
+struct Numbers {
+    step: Option<f64>,
+    tolerance: Option<f64>,
+    end: Option<f64>,
 }
 
 /// Drifts, of the energy that could move, above which the result means little.
@@ -81,11 +90,11 @@ impl Simulate {
                 "{shown} is a mechanism: what is run is a scene, a file with `scene: 1` that names a mechanism and its effects"
             );
         }
-        self.numbers()?;
+        let numbers = self.numbers()?;
         let system = file.scene()?;
         let given = varied::fixed(&system.scene, &self.parameters, &self.initial)?;
         let way = Way {
-            integration: self.integration(system.scene.integration)?,
+            integration: self.integration(system.scene.integration, &numbers)?,
             points: self.points,
             audited: true,
         };
@@ -151,28 +160,22 @@ impl Simulate {
         print(&format!("replay: {}\n", path.display()))
     }
 
-    /// Numbers that make no sense, whatever the scene.
-    fn numbers(&self) -> Result<(), Usage> {
-        let named = [
-            ("step", self.step),
-            ("tolerance", self.tolerance),
-            ("end", self.end),
-        ];
-        for (name, value) in named {
-            if let Some(x) = value.filter(|x| !(x.is_finite() && *x > 0.0)) {
-                let message = format!("`--{name} {x}`: write a number greater than 0");
-                return Err(Usage(message));
-            }
-        }
+    /// The numbers given.
+    fn numbers(&self) -> Result<Numbers, Usage> {
+        use Dimension::{One, Time};
         if self.points < 2 {
             let message = format!("`--points {}`: the start and the end are 2", self.points);
             return Err(Usage(message));
         }
-        Ok(())
+        Ok(Numbers {
+            step: positive("step", self.step.as_ref(), Time)?,
+            tolerance: positive("tolerance", self.tolerance.as_ref(), One)?,
+            end: positive("end", self.end.as_ref(), Time)?,
+        })
     }
 
     /// The scene's way to run, as the options change it.
-    fn integration(&self, scene: Integration) -> Result<Integration, Usage> {
+    fn integration(&self, scene: Integration, given: &Numbers) -> Result<Integration, Usage> {
         let method = match &self.method {
             None => scene.method,
             Some(name) => Integrator::named(name).ok_or_else(|| {
@@ -181,7 +184,7 @@ impl Simulate {
                 Usage(format!("there is no method `{name}`; there are {all}"))
             })?,
         };
-        let pace = match (self.step, self.tolerance) {
+        let pace = match (given.step, given.tolerance) {
             (Some(step), _) => Pace::Step(step),
             (_, Some(tolerance)) => Pace::Tolerance(tolerance),
             _ => scene.pace,
@@ -195,7 +198,7 @@ impl Simulate {
                 "`{name}` does not go by a tolerance: give `--step`, or a method that does: {all}"
             )));
         }
-        let end = self.end.unwrap_or(scene.end);
+        let end = given.end.unwrap_or(scene.end);
         if let Pace::Step(h) = pace
             && end / h > STEPS
         {

@@ -2,8 +2,10 @@
 
 use super::{Convention, Lock, Options, import_table, import_with, naming};
 use crate::output::{print, tell};
-use crate::spec_file::read_text;
+use crate::quantity::value;
+use crate::spec_file::{STDIN_NAME, is_stdin, read_text, shown};
 use anyhow::{Context, Result, anyhow};
+use bgdyn_codegen::spec::Dimension;
 use std::path::{Path, PathBuf};
 
 /// Make a mechanism from a URDF or from a table of Denavit–Hartenberg parameters
@@ -14,19 +16,19 @@ use std::path::{Path, PathBuf};
     The mechanism's module is called after the file it is written to. Changed names, what is not taken over and what \
     was written are told on stderr.")]
 pub struct ImportArgs {
-    /// The URDF (a xacro file must be expanded first), or a table `.csv`
+    /// The URDF (a xacro file must be expanded first), or a table `.csv`; `-` reads either from standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Where to write the mechanism; stdout if not given
     #[arg(short, long, value_name = "FILE.yaml")]
     pub output: Option<PathBuf>,
-    /// Fix this joint where its coordinate has this value, in rad or m, or `90deg`; at 0 without one. May be repeated
+    /// Fix this joint where its coordinate has this value, `90deg` or `20 mm`, rad or m without a unit; at 0 without one. May be repeated
     #[arg(long, value_name = "JOINT[=VALUE]", value_parser = Lock::parse)]
     pub lock: Vec<Lock>,
     /// Keep the links from BASE to TIP only, with what is fixed to them; BASE is fixed to the world
     #[arg(long, value_names = ["BASE", "TIP"], num_args = 2)]
     pub chain: Vec<String>,
-    /// Write this `snap` into the mechanism, rad: directions so near to exact ones are taken as exact
+    /// Write this `snap` into the mechanism, `1e-9` or `0.01 deg`: directions so near to exact ones are taken as exact
     #[arg(long, value_name = "VALUE", value_parser = snap)]
     pub snap: Option<f64>,
     /// Write these links as frames: links without inertia on fixed joints, commas between; `all` for all of them
@@ -41,14 +43,15 @@ pub struct ImportArgs {
 }
 
 fn snap(text: &str) -> Result<f64, String> {
-    let value: Option<f64> = text.parse().ok();
-    let value = value.filter(|value| (0.0..=1e-3).contains(value));
-    value.ok_or_else(|| "snap is a number from 0 to 1e-3, in rad".to_owned())
+    let value = value(text, &[Dimension::Angle])?.to_f64();
+    let fits = (0.0..=1e-3).contains(&value);
+    fits.then_some(value)
+        .ok_or_else(|| format!("{value} rad: snap is from 0 to 1e-3 rad"))
 }
 
 /// Runs `bgdyn import`.
 pub fn run(args: ImportArgs) -> Result<()> {
-    let path = args.file.display().to_string();
+    let path = shown(&args.file);
     let text = read_text(&args.file)?;
     let options = Options {
         lock: args.lock,
@@ -58,9 +61,19 @@ pub fn run(args: ImportArgs) -> Result<()> {
         no_effects: args.no_effects,
     };
     let ending = args.file.extension();
-    let made = match ending.is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+    let table = match is_stdin(&args.file) {
+        true => !text
+            .trim_start_matches('\u{feff}')
+            .trim_start()
+            .starts_with('<'),
+        false => ending.is_some_and(|ending| ending.eq_ignore_ascii_case("csv")),
+    };
+    let made = match table {
         true => {
-            let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
+            let stem = match is_stdin(&args.file) {
+                true => STDIN_NAME.into(),
+                false => args.file.file_stem().unwrap_or_default().to_string_lossy(),
+            };
             import_table(&text, &stem, args.convention, &options)
         }
         false if args.convention.is_some() => Err(anyhow!(

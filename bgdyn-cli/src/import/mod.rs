@@ -23,6 +23,7 @@ mod xml;
 
 use crate::commands::check::snapped_words;
 use anyhow::Result;
+use bgdyn_codegen::spec::Dimension;
 use naming::{identifiers, shown};
 use number::Num;
 use reading::Model;
@@ -69,6 +70,8 @@ pub struct Lock {
     joint: String,
     /// rad or m.
     value: Num,
+    /// What its unit measures, where it has one.
+    unit: Option<Dimension>,
 }
 
 /// Makes a mechanism from the text of a URDF.

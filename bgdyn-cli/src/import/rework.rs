@@ -7,8 +7,10 @@ use super::placement::{Placement, displaced, turned};
 use super::reading::{Frame, Joint, Limits, Model};
 use super::tree::{Tree, order};
 use super::{Lock, Options};
+use crate::quantity;
 use anyhow::{Result, bail};
 use bgdyn_codegen::math::Vec3;
+use bgdyn_codegen::spec::Dimension;
 use urdf_rs::JointType;
 
 /// The word that means every link that may be a frame.
@@ -58,7 +60,7 @@ fn link(model: &Model, asked: &str, option: &str) -> Result<usize> {
 
 /// Fixes a joint where its coordinate has a value.
 fn lock(model: &mut Model, asked: &Lock) -> Result<()> {
-    let Lock { joint, value } = asked;
+    let Lock { joint, value, unit } = asked;
     let moves = |it: &Joint| it.kind != JointType::Fixed;
     let exact = model.joints.iter().position(|it| it.name == *joint);
     let called = |it: &Joint| is_called(&it.name, joint, "joint");
@@ -75,6 +77,18 @@ fn lock(model: &mut Model, asked: &Lock) -> Result<()> {
         bail!(
             "--lock: the joint `{}` is fixed already",
             shown(&found.name)
+        );
+    }
+    let (own, does) = match found.kind {
+        JointType::Prismatic => (Dimension::Length, "slides"),
+        _ => (Dimension::Angle, "turns"),
+    };
+    if let Some(unit) = unit.filter(|unit| *unit != own) {
+        let units: Vec<&str> = own.units().collect();
+        bail!(
+            "--lock: the joint `{}` {does}, and its value is {unit}: write {own}, in {}",
+            shown(&found.name),
+            units.join(" or ")
         );
     }
     let axis = Vec3(found.axis.each_ref().map(Num::exact));
@@ -249,20 +263,28 @@ impl Lock {
     /// Reads `JOINT` or `JOINT=VALUE`.
     ///
     /// # Errors
-    /// Where the value is no finite number.
+    /// Where the value is no finite number, or its unit measures neither an angle nor a length.
     pub fn parse(text: &str) -> Result<Lock, String> {
         let (joint, value) = text.rsplit_once('=').unwrap_or((text, "0"));
-        let number = match value.trim().strip_suffix("deg") {
-            Some(degrees) => Num::degrees(degrees),
-            None => Num::parse(value),
+        let text = value.trim();
+        let read = quantity::read(text, &[Dimension::Angle, Dimension::Length])
+            .map_err(|what| format!("`{joint}`: {what}"))?;
+        let number = match read.unit {
+            Some(unit) if unit.degrees => Num::degrees(text.trim_end_matches(unit_of_degrees)),
+            Some(_) => Some(Num::computed(read.value.to_f64())),
+            None => Num::parse(text),
         };
         let number = number.filter(|number| number.value.is_finite());
-        let value = number.ok_or_else(|| {
-            format!("`{value}` is no number: write JOINT=VALUE in rad or m, or JOINT=90deg")
-        })?;
+        let value = number.ok_or_else(|| format!("`{value}` is no number"))?;
         Ok(Lock {
             joint: joint.trim().to_owned(),
             value,
+            unit: read.unit.map(|unit| unit.dimension),
         })
     }
+}
+
+/// Whether a character belongs to what is written behind degrees: `deg`, `°`.
+fn unit_of_degrees(c: char) -> bool {
+    "deg° ".contains(c)
 }

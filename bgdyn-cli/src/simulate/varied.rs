@@ -5,6 +5,7 @@ use anyhow::{Result, anyhow};
 use bgdyn_codegen::scene::{Scene, Settable, SettableKind};
 use bgdyn_runtime::Dd;
 
+use crate::quantity::value_in;
 use crate::usage::Usage;
 
 /// Runs that a batch may have.
@@ -56,8 +57,8 @@ pub(crate) fn fixed(
         if found.iter().any(|(s, _)| *s == settable) {
             return Err(wrong(format!("`{}` is set twice", settable.name)));
         }
-        let value = finite(value).ok_or_else(|| wrong(no_number(value, &settable)))?;
-        found.push((settable, Dd::from_f64(value)));
+        let value = value_in(value, settable.unit).map_err(wrong)?;
+        found.push((settable, value));
     }
     Ok(found)
 }
@@ -89,7 +90,9 @@ pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<Varied> {
             ));
         }
         let values = fields.iter().zip(&varied.quantities).map(|(text, s)| {
-            finite(text).ok_or_else(|| anyhow!("{shown}:{at}: {}", no_number(text, s)))
+            let value = value_in(text, s.unit);
+            let wrong = |what| anyhow!("{shown}:{at}: `{}`: {what}", s.name);
+            Ok(value.map_err(wrong)?.to_f64())
         });
         varied.runs.push(values.collect::<Result<_>>()?);
     }
@@ -179,7 +182,11 @@ pub(crate) fn chance(
         let (name, range) = text.split_once('=').ok_or_else(|| wrong(usage.into()))?;
         let quantity = new(scene, name, &varied).map_err(wrong)?;
         let (low, high) = range.split_once(':').ok_or_else(|| wrong(usage.into()))?;
-        of.push(ends(low, high, &quantity).map_err(wrong)?);
+        let [low, high] = ends(low, high, &quantity).map_err(wrong)?;
+        if low > high {
+            return Err(wrong(format!("{low} is above {high}: {usage}")));
+        }
+        of.push([low, high]);
         varied.quantities.push(quantity);
     }
     if !(1..=RUNS).contains(&runs) {
@@ -205,25 +212,8 @@ fn new(scene: &Scene, name: &str, varied: &Varied) -> Result<Settable, String> {
 }
 
 fn ends(low: &str, high: &str, quantity: &Settable) -> Result<[f64; 2], String> {
-    let end = |text: &str| finite(text).ok_or_else(|| no_number(text, quantity));
+    let end = |text: &str| value_in(text, quantity.unit).map(|value| value.to_f64());
     Ok([end(low)?, end(high)?])
-}
-
-fn finite(text: &str) -> Option<f64> {
-    text.trim().parse().ok().filter(|x: &f64| x.is_finite())
-}
-
-fn no_number(text: &str, of: &Settable) -> String {
-    let unit = if of.unit.is_empty() {
-        String::new()
-    } else {
-        format!(", in {}", of.unit)
-    };
-    format!(
-        "`{}` is no value of `{}`: write a finite number{unit}",
-        text.trim(),
-        of.name
-    )
 }
 
 /// SplitMix64 (Steele, Lea and Flood 2014).

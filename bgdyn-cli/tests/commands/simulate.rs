@@ -162,7 +162,7 @@ fn a_run_that_fails_keeps_what_there_is() {
 
 #[test]
 fn what_is_refused() {
-    let refused: [(&[&str], &str); 10] = [
+    let refused: [(&[&str], &str); 12] = [
         (&["--method", "euler"], "there is no method `euler`"),
         (&["--tolerance", "1e-8"], "`rk4` does not go by a tolerance"),
         (&["--step", "0"], "greater than 0"),
@@ -172,7 +172,9 @@ fn what_is_refused() {
         ),
         (&["--tolerance", "-1e-9"], "greater than 0"),
         (&["--end", "-2"], "greater than 0"),
-        (&["--end", "inf"], "greater than 0"),
+        (&["--end", "inf"], "`--end inf`: "),
+        (&["--end", "NaN"], "`--end NaN`: "),
+        (&["--step", "1 kg"], "`--step 1 kg`: `1 kg` is a mass"),
         (&["--points", "1"], "the start and the end are 2"),
         (&["--step", "1e-12"], "take a longer step"),
         (&["--step", "1", "--tolerance", "1"], "cannot be used with"),

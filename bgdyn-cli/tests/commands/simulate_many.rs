@@ -78,7 +78,7 @@ fn names_and_values_that_are_not_there_are_told() {
         (&["--parameter", "zz=3"], "there are block_mass"),
         (&["--parameter", "block_mass"], "write NAME=VALUE"),
         (&["--initial", "slide_rat=1"], "did you mean `slide_rate`?"),
-        (&["--initial", "slide=inf"], "write a finite number, in m"),
+        (&["--initial", "slide=inf"], "`--initial slide=inf`: "),
         (
             &["--initial", "slide=1", "--initial", "slide=2"],
             "set twice",

@@ -114,6 +114,44 @@ fn a_locked_joint_at_zero_keeps_its_digits() {
     assert_eq!(degrees.yaml, radians.yaml);
 }
 
+/// Units are those of files, and they fit the joint.
+#[test]
+fn a_lock_has_a_unit_that_its_joint_moves_in() {
+    let yaml = |text: &str| {
+        made(Options {
+            lock: locks(&[text]),
+            ..Options::default()
+        })
+        .yaml
+    };
+    assert_eq!(yaml("slide=20 mm"), yaml("slide=0.02"));
+    assert_eq!(yaml("wrist=90 °"), yaml("wrist=90deg"));
+    assert_eq!(yaml("wrist=0.5 rad"), yaml("wrist=0.5"));
+    for (text, said) in [
+        (
+            "slide=90deg",
+            "`slide` slides, and its value is an angle: write a length, in m",
+        ),
+        (
+            "wrist=20 mm",
+            "`wrist` turns, and its value is a length: write an angle, in rad",
+        ),
+    ] {
+        let options = Options {
+            lock: locks(&[text]),
+            ..Options::default()
+        };
+        let told = import_with(ROBOT, &options)
+            .expect_err("refused")
+            .to_string();
+        assert!(told.contains(said), "{told}");
+    }
+    for text in ["slide=2 kg", "slide=nan", "slide=", "slide=far"] {
+        let told = Lock::parse(text).expect_err("refused");
+        assert!(told.starts_with("`slide`: "), "{told}");
+    }
+}
+
 #[test]
 fn a_chain_keeps_what_is_fixed_to_it_and_the_direction_of_gravity() {
     let whole = made(Options::default()).yaml;

@@ -2,6 +2,7 @@
 
 use super::element::node_names;
 use super::joints::keys_declared;
+use super::refused::Refused;
 use bgdyn_runtime::Dd;
 
 use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
@@ -45,6 +46,8 @@ pub struct Context {
     pub(crate) places: Places,
     /// Hydraulic nodes.
     pub nodes: Vec<String>,
+    /// What effects that were refused may have brought.
+    pub refused: Refused,
 }
 
 impl Context {
@@ -403,7 +406,12 @@ fn unknown(key: &Key, word: &str, place: &Place, known: &[&str], context: &Conte
     };
     let message = unknown_name(what, word, known, &all);
     let help = format!("`{}`: {}", key.name, key.about);
-    Fault::new(place, "unknown-name", message).with_help(help)
+    let fault = Fault::new(place, "unknown-name", message).with_help(help);
+    let brought = matches!(key.reads, Reads::Coordinate | Reads::Node);
+    match brought && context.refused.may_bring(word) {
+        true => fault.following(),
+        false => fault,
+    }
 }
 
 /// Two dimensions are those of a rotation and of a translation.

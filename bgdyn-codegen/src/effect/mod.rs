@@ -10,6 +10,7 @@ mod element;
 mod given;
 mod joints;
 mod once;
+mod refused;
 mod slip;
 
 mod coulomb;
@@ -44,6 +45,7 @@ pub use element::{Checked, Element, Quantity};
 pub use given::Given;
 pub use joints::keys_declared;
 pub(crate) use once::once_per_joint;
+pub use refused::Refused;
 
 /// A kind of effect.
 pub trait Effect: Sync {

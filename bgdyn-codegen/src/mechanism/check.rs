@@ -36,6 +36,7 @@ pub fn check(spec: &Spec, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
     }
     faults.sort();
     let sound = spec.complete && !faults.any_fault();
+    faults.forget_following();
     (mechanism.filter(|_| sound), faults)
 }
 
@@ -60,18 +61,24 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
         .map(|f| frame(f, &tree, &directions, faults))
         .collect();
     let gravity = vector_or(&spec.gravity, standard_gravity());
-    let (links, coordinates) = assemble(bodies, &tree)?;
-    let mechanism = Mechanism {
-        name: name?,
-        label: text(&spec.label),
-        description: text(&spec.description),
-        gravity: gravity?,
-        links,
-        frames: all(frames)?,
-        parameters: parameters.into_all(),
-        coordinates,
-        effects: Vec::new(),
-        snapped: directions.into_snapped(),
+    let whole = || {
+        let (links, coordinates) = assemble(bodies, &tree)?;
+        Some(Mechanism {
+            name: name?,
+            label: text(&spec.label),
+            description: text(&spec.description),
+            gravity: gravity?,
+            links,
+            frames: all(frames)?,
+            parameters: parameters.into_all(),
+            coordinates,
+            effects: Vec::new(),
+            snapped: directions.into_snapped(),
+        })
+    };
+    let Some(mechanism) = whole() else {
+        effects::alone(spec, faults);
+        return None;
     };
     let effects = effects::effects(spec, &mechanism, faults);
     Some(Mechanism {

@@ -20,7 +20,7 @@ use crate::mechanism::{Mechanism, Parameter};
 use crate::spec::{Located, Raw};
 pub(crate) use causality::algebraic_loop;
 pub use causality::{Chain, Solved};
-pub use check::check;
+pub use check::{Verdict, check, check_alone};
 pub(crate) use check::{context, joint_names, sketch, taken};
 pub use integration::{Integration, Integrator, Pace};
 pub use layout::{Coordinate, Entered, Layout, Level, Part, Store};

@@ -3,7 +3,7 @@
 use super::Scene;
 use super::causality::{chains, is_solvable};
 use super::check::assembled;
-use crate::effect::{Beside, Checked, Element};
+use crate::effect::{Beside, Checked, Element, Refused};
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 
@@ -37,7 +37,7 @@ impl Scene {
             ..self.clone()
         };
         // Entries for what is gone are no faults here.
-        let laid_out = assembled(bare.clone(), &mut Faults::default());
+        let laid_out = assembled(bare.clone(), &Refused::default(), &mut Faults::default());
         let layout = &laid_out.layout;
         let known_input = |name: &str| layout.inputs.iter().any(|i| i.name == name);
         written.inputs.retain(|raw| known_input(&raw.name.value));
@@ -46,7 +46,7 @@ impl Scene {
         let scene = Scene { written, ..bare };
         Scene {
             outputs: Vec::new(),
-            ..assembled(scene, &mut Faults::default())
+            ..assembled(scene, &Refused::default(), &mut Faults::default())
         }
     }
 }

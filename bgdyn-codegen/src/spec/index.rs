@@ -49,6 +49,31 @@ pub(super) fn index(text: &str) -> Result<Option<Rc<Node>>, Fault> {
     Ok(builder.root)
 }
 
+/// The keys of the root's mapping that are texts; of a text that is no YAML, those before the mistake.
+pub(super) fn root_keys(text: &str) -> Vec<String> {
+    let mut parser: Parser<'_, StrInput<'_>> = Parser::new_from_str(text);
+    let (mut keys, mut depth, mut is_key) = (Vec::new(), 0_usize, true);
+    while let Some(Ok((event, _))) = parser.next_event() {
+        match event {
+            Event::SequenceStart(..) if depth == 0 => break,
+            Event::MappingStart(..) | Event::SequenceStart(..) => {
+                depth += 1;
+                continue;
+            }
+            Event::MappingEnd | Event::SequenceEnd => depth = depth.saturating_sub(1),
+            Event::Scalar(text, ..) if depth == 1 && is_key => keys.push(text.into_owned()),
+            Event::Scalar(..) | Event::Alias(_) => {}
+            Event::DocumentEnd => break,
+            _ => continue,
+        }
+        // A value of the root's mapping has ended, or a key.
+        if depth == 1 {
+            is_key = !is_key;
+        }
+    }
+    keys
+}
+
 fn position(mark: Marker) -> Position {
     Position {
         line: mark.line().max(1),

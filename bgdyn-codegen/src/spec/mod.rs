@@ -18,6 +18,7 @@ use bgdyn_runtime::Dd;
 use crate::fault::Place;
 pub use field::{Field, Located};
 pub(crate) use number::misfit;
+pub use number::quantity;
 pub use parse::parse;
 pub use raw::{Entry, Fields, Key, Raw, Reads};
 pub use scene::{SceneSpec, is_scene, parse_scene};

@@ -46,6 +46,19 @@ pub(super) fn number(
     })
 }
 
+/// The number that a text outside of any file writes, as `30 deg` or `0.5` on a command line.
+///
+/// # Errors
+/// As for a number in a file: no number, a unit that is none or measures something else.
+pub fn quantity(text: &str, fit: &[Dimension]) -> Result<Number, Fault> {
+    let bare = decimal(text).is_some_and(|(_, _, rest)| rest.is_empty());
+    let kind = match bare {
+        true => Kind::Number,
+        false => Kind::Text { quoted: false },
+    };
+    number(kind, text.trim(), &Place::file(), fit)
+}
+
 /// Whether a number with its unit measures one of `fit`.
 pub(crate) fn misfit(number: &Located<Number>, fit: &[Dimension]) -> Option<Fault> {
     let unit = number.value.unit?;

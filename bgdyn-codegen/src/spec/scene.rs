@@ -1,5 +1,6 @@
 //! A scene's file as written: what a run calls for.
 
+use super::index::root_keys;
 use super::walk::{At, Reader};
 use super::yaml;
 use super::{Dimension, Field, Located, Number, Raw};
@@ -22,6 +23,8 @@ pub struct SceneSpec {
     pub mechanism: Field<String>,
     /// Joints that stand still, with their coordinates.
     pub lock: Field<Vec<Raw>>,
+    /// Whether all of `effects` could be read, or there is none.
+    pub effects_read: bool,
     /// The effects called for: words, or names with keys.
     pub effects: Field<Vec<Raw>>,
     /// What drives the inputs.
@@ -34,16 +37,21 @@ pub struct SceneSpec {
     pub integration: Field<Raw>,
 }
 
-/// The first key of a scene's file.
+/// The key that makes a file a scene's.
 const SCENE: &str = "scene";
 
-/// Whether the text is a scene's: its first key is `scene`.
+/// Whether the text is a scene's: it has the key `scene`, in any place, and not `format` before it. Without
+/// either: it names a mechanism and has no links.
 pub fn is_scene(text: &str) -> bool {
-    let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
-    let mut written = lines.filter(|l| !l.is_empty() && !l.starts_with('#') && *l != "---");
-    let first = written.find(|l| !l.starts_with('%'));
-    let key = first.and_then(|line| line.trim_start_matches('{').split(':').next());
-    key.is_some_and(|key| key.trim().trim_matches(['"', '\'']) == SCENE)
+    let keys = root_keys(text);
+    let has = |wanted: &str| keys.iter().any(|key| key == wanted);
+    match keys
+        .iter()
+        .find(|key| [SCENE, "format"].contains(&key.as_str()))
+    {
+        Some(key) => key == SCENE,
+        None => has("mechanism") && !has("links"),
+    }
 }
 
 /// Reads a scene. What cannot be read is reported and left out, the rest is there.
@@ -53,7 +61,16 @@ pub fn parse_scene(text: &str) -> (Option<SceneSpec>, Faults) {
     let spec = tree.and_then(|tree| reader.scene(&At::root(&tree)));
     let complete = !reader.faults.any_fault();
     reader.faults.sort();
-    let spec = spec.map(|spec| SceneSpec { complete, ..spec });
+    let effects_read = |spec: &SceneSpec| match spec.effects {
+        // An unknown key may be meant for it.
+        Field::Absent => complete,
+        _ => !reader.faults.any_in("effects"),
+    };
+    let spec = spec.map(|spec| SceneSpec {
+        complete,
+        effects_read: effects_read(&spec),
+        ..spec
+    });
     (spec, reader.faults)
 }
 
@@ -105,6 +122,7 @@ impl Reader {
             integration: self.field(&map, "integration", |_, at| Some(whole("integration", at))),
             place: map.place,
             complete: false,
+            effects_read: false,
         })
     }
 }

@@ -179,6 +179,11 @@ impl Dimension {
             .map(|u| u.text)
     }
 
+    /// What this SI unit measures; a pure number where it is empty.
+    pub fn measured_in(si: &str) -> Dimension {
+        Unit::find(si).map_or(Dimension::One, |unit| unit.dimension)
+    }
+
     /// Its SI unit; empty for a pure number.
     pub fn si(self) -> &'static str {
         self.units().next().unwrap_or("")

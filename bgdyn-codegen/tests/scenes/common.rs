@@ -50,7 +50,12 @@ pub fn try_scene(
 pub fn told(refusal: &Refusal, text: &str) -> String {
     match refusal {
         Refusal::Spec(faults) => faults.render("scene.yaml", text),
-        Refusal::Mechanism { path, text, faults } => faults.render(path, text),
+        Refusal::Mechanism {
+            path,
+            text: its,
+            faults,
+            scene,
+        } => scene.render("scene.yaml", text) + &faults.render(path, its),
         Refusal::Options(_) => "options".into(),
         Refusal::Unequal(differences) => bgdyn_codegen::verify::explain(differences),
     }

@@ -25,6 +25,7 @@ mod random;
 mod reference;
 mod refused;
 mod refused_bodies;
+mod refused_phases;
 #[allow(dead_code)]
 #[path = "../common/rng.rs"]
 mod rng;

@@ -26,7 +26,7 @@ const FAILURES: usize = 10;
 )]
 pub(super) struct Many {
     /// One run per row of a table with commas: names of initial states and parameters in its first
-    /// line, values in SI units
+    /// line, values with units or in SI units
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "random"])]
     batch: Option<PathBuf>,
     /// N values from FROM to TO, both included. May be repeated: all combinations

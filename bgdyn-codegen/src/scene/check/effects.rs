@@ -2,10 +2,10 @@
 
 use super::super::causality::{Chain, chains};
 use super::{given, joint_names};
-use crate::effect::{Beside, Context, Declared, Element, called, once_per_joint};
+use crate::effect::{Beside, Context, Declared, Element, Refused, called, once_per_joint};
 use crate::fault::{Fault, Faults};
 use crate::mechanism::{LinkId, Mechanism, Places};
-use crate::spec::SceneSpec;
+use crate::spec::{Raw, SceneSpec};
 
 /// The names that effects may refer to.
 pub(crate) fn context(mechanism: &Mechanism, locked: Vec<String>) -> Context {
@@ -24,23 +24,96 @@ pub(crate) fn context(mechanism: &Mechanism, locked: Vec<String>) -> Context {
         locked,
         places: Places::new(mechanism),
         nodes: Vec::new(),
+        refused: Refused::default(),
     }
 }
 
-/// The effects called for, checked, in the order in which their laws run; those in series.
+/// The effects called for.
+pub(super) struct Called {
+    /// Checked, in the order in which their laws run.
+    pub(super) elements: Vec<Element>,
+    /// Those in series.
+    pub(super) chains: Vec<Chain>,
+    /// Those that are missing.
+    pub(super) refused: Refused,
+}
+
+/// The effects called for, checked.
 pub(super) fn elements(
     spec: &SceneSpec,
     whole: &Mechanism,
     reduced: &Mechanism,
     faults: &mut Faults,
-) -> (Vec<Element>, Vec<Chain>) {
-    let mut wanted: Vec<Declared> = Vec::new();
+) -> Called {
+    let mut refused = Refused::default();
+    if !spec.effects_read {
+        refused.unread();
+    }
     let free = joint_names(reduced);
+    let wanted = wanted(spec, (whole, &free), &mut refused, faults);
+    let all = joint_names(whole);
+    let locked = all.into_iter().filter(|name| !free.contains(name));
+    let mut context = context(reduced, locked.map(str::to_owned).collect());
+    context.refused = refused.clone();
+    let context = context.with(wanted.iter());
+    taken(&wanted, whole, faults);
+    let mut elements: Vec<Element> = Vec::new();
+    for declared in &wanted {
+        match declared.element(&context, faults) {
+            Some(element) => elements.push(element),
+            None => refused.effect(declared),
+        }
+    }
+    once_per_joint(&elements, faults);
+    elements.sort_by_key(|e| e.effect.order());
+    let beside = Beside {
+        elements: &elements,
+        mechanism: reduced,
+    };
+    // Where one is missing, others of its kind would seem to be joined to nothing.
+    for element in &elements {
+        if !refused.may_be(element.effect.family()) {
+            element.effect.fits(element, &beside, faults);
+        }
+    }
+    let alone = elements.iter().filter(|e| e.effect.is_junction());
+    let whole = |e: &Element| !refused.may_be(e.effect.family());
+    let chains = match alone.into_iter().all(whole) {
+        true => chains(&elements, faults),
+        false => vec![],
+    };
+    Called {
+        elements,
+        chains,
+        refused,
+    }
+}
+
+/// What can be said of the effects that a scene gives with their types, without its mechanism.
+pub(super) fn alone(spec: &SceneSpec, faults: &mut Faults) {
+    let typed = |raw: &&Raw| raw.is_mapping() && raw.peek("type").is_some();
+    for raw in given(&spec.effects).iter().filter(typed) {
+        crate::effect::declared(raw, faults);
+    }
+}
+
+/// The effects called for, each once, with the values that it has here; one for each joint where it is
+/// of several, of the `free` ones where it is of all.
+fn wanted(
+    spec: &SceneSpec,
+    (whole, free): (&Mechanism, &[&str]),
+    refused: &mut Refused,
+    faults: &mut Faults,
+) -> Vec<Declared> {
+    let mut wanted: Vec<Declared> = Vec::new();
     for raw in given(&spec.effects) {
+        let before = faults.count();
         let called = called(raw, whole.effects(), faults).into_iter();
-        let each: Vec<Declared> = called
-            .flat_map(|declared| declared.of_each_joint(&free, faults))
-            .collect();
+        let each = called.flat_map(|declared| declared.of_each_joint(free, faults));
+        let each: Vec<Declared> = each.collect();
+        if each.is_empty() && faults.count() > before {
+            refused.call(raw, whole.effects());
+        }
         for declared in each {
             let name = &declared.name.value;
             if wanted.iter().any(|w| w.name.value == *name) {
@@ -52,29 +125,7 @@ pub(super) fn elements(
             wanted.push(declared);
         }
     }
-    let all = joint_names(whole);
-    let locked = all.into_iter().filter(|name| !free.contains(name));
-    let context = context(reduced, locked.map(str::to_owned).collect()).with(wanted.iter());
-    taken(&wanted, whole, faults);
-    let mut elements: Vec<Element> = wanted
-        .iter()
-        .filter_map(|d| d.element(&context, faults))
-        .collect();
-    once_per_joint(&elements, faults);
-    elements.sort_by_key(|e| e.effect.order());
-    // Where one is missing, others would seem to be joined to nothing.
-    if elements.len() < wanted.len() {
-        return (elements, vec![]);
-    }
-    let beside = Beside {
-        elements: &elements,
-        mechanism: reduced,
-    };
-    for element in &elements {
-        element.effect.fits(element, &beside, faults);
-    }
-    let chains = chains(&elements, faults);
-    (elements, chains)
+    wanted
 }
 
 /// The mechanism with what the effects change in it.

@@ -2,6 +2,7 @@
 
 use super::super::layout::{Coordinate, Layout};
 use super::super::signal::{self, Drive};
+use crate::effect::Refused;
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::spec::Raw;
 
@@ -19,7 +20,12 @@ pub(super) fn add_efforts(layout: &mut Layout, inputs: &[Raw]) {
 }
 
 /// What drives each input.
-pub(super) fn drives(layout: &Layout, inputs: &[Raw], faults: &mut Faults) -> Vec<Drive> {
+pub(super) fn drives(
+    layout: &Layout,
+    inputs: &[Raw],
+    refused: &Refused,
+    faults: &mut Faults,
+) -> Vec<Drive> {
     let mut drives = vec![Drive::Given; layout.inputs.len()];
     for raw in inputs {
         let name = &raw.name.value;
@@ -32,8 +38,12 @@ pub(super) fn drives(layout: &Layout, inputs: &[Raw], faults: &mut Faults) -> Ve
                 .collect();
             let message = unknown_name("input", name, &all, &all.join(", "));
             let fault = Fault::new(&raw.name.place, "unknown-input", message);
-            faults
-                .push(fault.with_help("inputs are efforts of joints and what the effects declare"));
+            let fault =
+                fault.with_help("inputs are efforts of joints and what the effects declare");
+            faults.push(match refused.may_bring(name) {
+                true => fault.following(),
+                false => fault,
+            });
             continue;
         };
         let part = &layout.inputs[i];

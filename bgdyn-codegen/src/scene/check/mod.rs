@@ -3,6 +3,7 @@
 
 mod effects;
 mod inputs;
+mod outputs;
 mod run;
 mod state;
 
@@ -11,6 +12,7 @@ use bgdyn_runtime::Dd;
 use super::layout::Layout;
 use super::reduce::held;
 use super::{Initial, Scene, Written};
+use crate::effect::Refused;
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::mechanism::name::is_identifier;
 use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
@@ -20,33 +22,67 @@ pub(crate) use effects::{context, taken};
 /// The only version of the format there is.
 const VERSION: f64 = 1.0;
 
+/// What a check finds a scene to be.
+pub enum Verdict {
+    /// Nothing refuses it.
+    Sound(Box<Scene>),
+    /// Something refuses it, but not its effects: its equations can be made, to check them as well.
+    Drawn(Box<Scene>),
+    /// No equations.
+    Refused,
+}
+
 /// Checks a scene against every rule. `stem` is the file's stem, `mechanism` what it names.
-///
-/// The scene is there exactly if nothing refuses it.
-pub fn check(
-    spec: &SceneSpec,
-    stem: Option<&str>,
-    mechanism: &Mechanism,
-) -> (Option<Scene>, Faults) {
+pub fn check(spec: &SceneSpec, stem: Option<&str>, mechanism: &Mechanism) -> (Verdict, Faults) {
     let mut faults = Faults::default();
-    let scene = scene(spec, stem, mechanism, &mut faults);
-    faults.sort();
+    let (scene, drawn) = scene(spec, stem, mechanism, &mut faults);
     let sound = spec.complete && !faults.any_fault();
-    (sound.then_some(scene), faults)
+    faults.forget_following();
+    faults.sort();
+    let scene = Box::new(scene);
+    let verdict = match (sound, drawn) {
+        (true, _) => Verdict::Sound(scene),
+        (false, true) => Verdict::Drawn(scene),
+        (false, false) => Verdict::Refused,
+    };
+    (verdict, faults)
+}
+
+/// What can be said of a scene without its mechanism.
+pub fn check_alone(spec: &SceneSpec, stem: Option<&str>) -> Faults {
+    let mut faults = Faults::default();
+    version(spec, &mut faults);
+    name(spec, stem, &mut faults);
+    run::integration(&spec.integration, &mut faults);
+    effects::alone(spec, &mut faults);
+    faults.sort();
+    faults
 }
 
 /// The state and the outputs that a scene seems to have, whether it is sound or not.
 pub(crate) fn sketch(spec: &SceneSpec, mechanism: &Mechanism) -> (Layout, Vec<Located<String>>) {
-    let scene = scene(spec, None, mechanism, &mut Faults::default());
+    let (scene, _) = scene(spec, None, mechanism, &mut Faults::default());
     (scene.layout, scene.outputs)
 }
 
-fn scene(spec: &SceneSpec, stem: Option<&str>, whole: &Mechanism, faults: &mut Faults) -> Scene {
+/// The scene, and whether its equations can be made.
+fn scene(
+    spec: &SceneSpec,
+    stem: Option<&str>,
+    whole: &Mechanism,
+    faults: &mut Faults,
+) -> (Scene, bool) {
     version(spec, faults);
     let name = name(spec, stem, faults);
     let locked = locks(spec, whole, faults);
     let mechanism = whole.welded(&locked);
-    let (elements, chains) = effects::elements(spec, whole, &mechanism, faults);
+    let before = faults.count();
+    let effects::Called {
+        elements,
+        chains,
+        refused,
+    } = effects::elements(spec, whole, &mechanism, faults);
+    let sound = faults.count() == before && refused.is_empty();
     let integration = run::integration(&spec.integration, faults);
     let unloaded = mechanism.clone();
     let empty = Scene {
@@ -71,16 +107,21 @@ fn scene(spec: &SceneSpec, stem: Option<&str>, whole: &Mechanism, faults: &mut F
             modes: None,
         },
     };
-    let scene = assembled(empty, faults);
-    Scene {
+    let scene = assembled(empty, &refused, faults);
+    let drawn = sound && scene.layout.repeated().is_none();
+    if !drawn {
+        outputs::names(&scene, &refused, faults);
+    }
+    let scene = Scene {
         // Where there is none a fault says so.
         name: name.unwrap_or_default(),
         ..scene
-    }
+    };
+    (scene, drawn)
 }
 
 /// The scene with its state laid out: what follows from its elements and what the file says.
-pub(in crate::scene) fn assembled(scene: Scene, faults: &mut Faults) -> Scene {
+pub(in crate::scene) fn assembled(scene: Scene, refused: &Refused, faults: &mut Faults) -> Scene {
     let mechanism = effects::reduced(scene.written.unloaded.clone(), &scene.elements);
     let scene = Scene { mechanism, ..scene };
     let mut layout = state::layout(&scene.mechanism, &scene.elements);
@@ -95,8 +136,8 @@ pub(in crate::scene) fn assembled(scene: Scene, faults: &mut Faults) -> Scene {
     }
     Scene {
         parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
-        drives: inputs::drives(&layout, inputs, faults),
-        initial: state::initial(&layout, &scene.written.initial, faults),
+        drives: inputs::drives(&layout, inputs, refused, faults),
+        initial: state::initial(&layout, &scene.written.initial, refused, faults),
         layout,
         ..scene
     }

@@ -7,7 +7,7 @@ use bgdyn_runtime::Dd;
 use super::super::Initial;
 use super::super::layout::{Coordinate, Layout, Store};
 use super::dimensions;
-use crate::effect::Element;
+use crate::effect::{Element, Refused};
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::mechanism::{CoordinateId, Mechanism, Parameter};
 use crate::spec::{Dimension, Raw};
@@ -74,7 +74,12 @@ pub(super) fn parameters(
 }
 
 /// Where the run begins.
-pub(super) fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> Initial {
+pub(super) fn initial(
+    layout: &Layout,
+    entries: &[Raw],
+    refused: &Refused,
+    faults: &mut Faults,
+) -> Initial {
     let mut initial = Initial {
         q: vec![Dd::ZERO; layout.nq()],
         v: vec![Dd::ZERO; layout.nv()],
@@ -102,7 +107,11 @@ pub(super) fn initial(layout: &Layout, entries: &[Raw], faults: &mut Faults) -> 
             let known: Vec<&str> = places.keys().map(String::as_str).collect();
             let message = unknown_name("part of the state", name, &known, &known.join(", "));
             let fault = Fault::new(&raw.name.place, "unknown-name", message);
-            faults.push(fault.with_help("joints by their names, rates as `shoulder_rate`"));
+            let fault = fault.with_help("joints by their names, rates as `shoulder_rate`");
+            faults.push(match refused.may_bring(name) {
+                true => fault.following(),
+                false => fault,
+            });
             continue;
         };
         if let Some(number) = raw.number(&[dimension], faults) {

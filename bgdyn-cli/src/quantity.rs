@@ -1,0 +1,51 @@
+//! Numbers of the command line: as in files, with units, read by the same reader.
+
+use bgdyn_codegen::spec::{Dimension, Number, quantity};
+use bgdyn_runtime::Dd;
+
+use crate::usage::Usage;
+
+/// The number in SI units that `text` writes: `30 deg`, `0.5`.
+///
+/// # Errors
+/// What a file's reader says of it, with the way out.
+pub(crate) fn value(text: &str, fit: &[Dimension]) -> Result<Dd, String> {
+    read(text, fit).map(|number| number.value)
+}
+
+/// The same with its unit.
+///
+/// # Errors
+/// As [`value`].
+pub(crate) fn read(text: &str, fit: &[Dimension]) -> Result<Number, String> {
+    quantity(text, fit).map_err(|fault| match fault.help {
+        Some(help) => format!("{}: {help}", fault.message),
+        None => fault.message,
+    })
+}
+
+/// The same of a quantity with this SI unit, nothing for a pure number.
+///
+/// # Errors
+/// As [`value`].
+pub(crate) fn value_in(text: &str, si: &str) -> Result<Dd, String> {
+    value(text, &[Dimension::measured_in(si)])
+}
+
+/// The value of an option that must be greater than 0: `--step 1 ms`.
+///
+/// # Errors
+/// As [`value`]; and where it is not greater than 0.
+pub(crate) fn positive(
+    option: &str,
+    text: Option<&String>,
+    dimension: Dimension,
+) -> Result<Option<f64>, Usage> {
+    let Some(text) = text else { return Ok(None) };
+    let wrong = |what: String| Usage(format!("`--{option} {text}`: {what}"));
+    let number = value(text, &[dimension]).map_err(wrong)?.to_f64();
+    match number > 0.0 {
+        true => Ok(Some(number)),
+        false => Err(wrong("write a number greater than 0".into())),
+    }
+}

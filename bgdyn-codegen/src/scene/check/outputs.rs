@@ -1,0 +1,30 @@
+//! The names of outputs, where the effects are not sound: what they report is not known then.
+
+use super::super::Scene;
+use crate::effect::Refused;
+use crate::fault::{Fault, Faults, unknown_name};
+
+/// Notes the outputs that are no parts of the state, no places, and nothing that an effect may report.
+pub(super) fn names(scene: &Scene, refused: &Refused, faults: &mut Faults) {
+    let (layout, mechanism) = (&scene.layout, &scene.mechanism);
+    let stored = layout.coordinates.iter().filter(|c| c.stored);
+    let positions = stored.map(|c| c.name.as_str());
+    let rates = layout.coordinates.iter().map(|c| c.rate_name.as_str());
+    let states = layout.states.iter().map(|s| s.name.as_str());
+    let links = mechanism.links().iter().map(|l| l.name.as_str());
+    let frames = mechanism.frames().iter().map(|f| f.name.as_str());
+    let known = positions.chain(rates).chain(states);
+    let known: Vec<&str> = known.chain(links).chain(frames).collect();
+    for output in &scene.outputs {
+        let name = output.value.as_str();
+        let reported = scene.elements.iter().any(|e| name.starts_with(&e.name));
+        if known.contains(&name) || reported || refused.may_bring(name) {
+            continue;
+        }
+        let message = unknown_name("output", name, &known, &known.join(", "));
+        let fault = Fault::new(&output.place, "unknown-output", message);
+        faults.push(
+            fault.with_help("outputs are parts of the state, places and what effects report"),
+        );
+    }
+}
