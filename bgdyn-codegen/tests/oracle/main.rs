@@ -18,6 +18,7 @@ mod random;
 mod rng;
 mod scene;
 mod state;
+mod tree;
 mod vector;
 mod yaml;
 
@@ -52,6 +53,10 @@ fn agree(seeds: std::ops::Range<u64>, depth: impl Fn(u64) -> Depth) {
         }
         if let Err(difference) = pair.compare(&mut rng, &mut worst) {
             panic!("seed {seed}: {difference}");
+        }
+        // What is right is not refused.
+        if let Some(refused) = pair.refused() {
+            panic!("seed {seed}: {refused}\n{}", pair.written.scene);
         }
     }
     println!("{worst:?}\n{kinds:?}");
