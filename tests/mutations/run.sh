@@ -83,6 +83,13 @@ mutate "golden values" $recursion/motion.rs \
 mutate "golden values" $src/expr/eval.rs \
     'if b.negative => at(a) - at(&b.node)' 'if b.negative => at(a) + at(&b.node)' \
     "${codegen[@]}" golden
+mutate "golden values of places" $src/formulation/site.rs \
+    'angular = angular + column.angular.scale(rate)' 'angular = angular - column.angular.scale(rate)' \
+    "${codegen[@]}" golden_places
+mutate "oracle of scenes: rotors" $recursion/rotors.rs \
+    'efforts[s.joint] + carried' 'efforts[s.joint] - carried' "${codegen[@]}" oracle
+mutate "oracle of scenes: a law" $src/effect/lugre.rs \
+    'stiffness * z + damping * rate' 'stiffness * z - damping * rate' "${codegen[@]}" oracle
 mutate "laws: formulations equal" $recursion/mass.rs \
     'linear: Vec3([-y, x, b.zero()])' 'linear: Vec3([y, x, b.zero()])' "${codegen[@]}" laws
 mutate "laws: forward undoes inverse" $src/formulation/solve.rs \

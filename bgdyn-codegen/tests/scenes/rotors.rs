@@ -221,3 +221,60 @@ fn random_scenes_with_full_rotors_keep_the_laws_and_the_jacobian() {
         forms::hold(&system);
     }
 }
+
+/// Accelerations by every formulation equal those of the literal sum.
+fn moves_as_the_literal_sum(system: &System) {
+    let by = |name: &str| system.derivative_by(by_name(name).expect("a formulation"));
+    let literal = by("literal").expect("the literal sum");
+    for name in [
+        "recursion",
+        "recursion_own",
+        "articulated",
+        "articulated_base",
+    ] {
+        let way = by(name).expect("rotors that sit on no link are known to all");
+        for seed in 0..4 {
+            let at = state(system, &mut Random(seed), true);
+            let (wanted, _) = literal.evaluate(at.clone());
+            let (found, refused) = way.evaluate(at);
+            assert!(refused.is_none());
+            let size = wanted.iter().map(|x| x.to_f64().abs()).fold(1.0, f64::max);
+            for (i, (found, wanted)) in found.iter().zip(&wanted).enumerate() {
+                let off = (*found - *wanted).to_f64().abs() / size;
+                assert!(off < 1e-20, "{name}, rate {i}: {found:?}, not {wanted:?}");
+            }
+        }
+    }
+}
+
+/// A rotor behind a gear keeps its joint from giving way whole, so that the joints before it feel more
+/// of what is beyond: one at a time on a tree, on every joint of random mechanisms.
+#[test]
+fn rotors_behind_gears_are_felt_by_the_joints_before() {
+    let scene_of = |joints: &[&str], mechanism: &str| {
+        let rotor = |joint: &&str| {
+            format!("  - of_{joint}: {{ type: rotor, joint: {joint}, inertia: 2e-4, ratio: 40 }}\n")
+        };
+        let rotors: String = joints.iter().map(rotor).collect();
+        scene(
+            &format!(
+                "scene: 1\nmechanism: random.yaml\neffects:\n  - inertia\n  - velocity_products\n  - gravity\n{rotors}"
+            ),
+            mechanism,
+        )
+    };
+    for joint in JOINTS {
+        moves_as_the_literal_sum(&scene_of(&[joint], TREE));
+    }
+    for seed in 0..TRIED {
+        let draft = Draft::random(&mut Rng::new(4300 + seed), 5);
+        let moving = draft.links.iter().filter(|l| l.joint.kind != "fixed");
+        let joints: Vec<String> = moving
+            .map(|l| format!("joint_{}", l.name.trim_start_matches("link_")))
+            .collect();
+        let joints: Vec<&str> = joints.iter().map(String::as_str).collect();
+        let mechanism = draft.yaml();
+        println!("{mechanism}");
+        moves_as_the_literal_sum(&scene_of(&joints, &mechanism));
+    }
+}

@@ -30,8 +30,11 @@ pub(super) struct Column<'g> {
     pub wrench: Wrench<'g>,
     /// The same over its part along the joint.
     pub share: Wrench<'g>,
-    /// One over its part along the joint.
+    /// One over what the joint moves: the part along it, and the armature.
     pub inverse: Ex<'g>,
+    /// What of the inertia along the joint is felt from outside: armature / (part along + armature),
+    /// nothing where the joint has no rotor and gives way whole.
+    kept: Ex<'g>,
 }
 
 impl<'g> Column<'g> {
@@ -40,7 +43,7 @@ impl<'g> Column<'g> {
         Column {
             wrench: self.wrench.map(&f),
             share: self.share.map(&f),
-            inverse: self.inverse,
+            ..*self
         }
     }
 }
@@ -99,8 +102,15 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// I S: the wrench of a unit acceleration along the joint, with I S / `pivot`.
-    pub fn column(&self, b: &'g Builder, motion: Motion, pivot: Ex<'g>) -> Column<'g> {
+    /// I S: the wrench of a unit acceleration along the joint, with I S / `pivot`. The pivot is the
+    /// part along the joint and the `armature`, the inertia that only the joint's own rate moves.
+    pub fn column(
+        &self,
+        b: &'g Builder,
+        motion: Motion,
+        pivot: Ex<'g>,
+        armature: Ex<'g>,
+    ) -> Column<'g> {
         let wrench = match motion {
             Motion::Rotation => Wrench {
                 moment: self.angular.row(2),
@@ -114,8 +124,11 @@ impl<'g> ArticulatedInertia<'g> {
         let inverse = b.constant(Dd::ONE) / pivot;
         let along = self.along(motion);
         // What equals the pivot has a share of one, exactly.
+        let free = armature.is_zero();
         let share = |x: Ex<'g>| {
-            if x == along {
+            if !free {
+                x * inverse
+            } else if x == along {
                 b.number(1.0)
             } else if x == -along {
                 b.number(-1.0)
@@ -127,13 +140,20 @@ impl<'g> ArticulatedInertia<'g> {
             wrench,
             share: wrench.map(|v| v.map(share)),
             inverse,
+            kept: if free { b.zero() } else { armature * inverse },
         }
     }
 
-    /// Without what the joint gives way to: I − I S (SᵀI S)⁻¹ SᵀI. The row and the column along
-    /// the joint are zero, and said to be so.
+    /// Without what the joint gives way to: I − I S (SᵀI S + A)⁻¹ SᵀI with the armature A. The row
+    /// and the column along the joint are A/(SᵀI S + A) of what they were: zero without a rotor, and
+    /// said to be so.
     pub fn projected(&self, b: &'g Builder, motion: Motion, column: &Column<'g>) -> Self {
-        let Column { wrench, share, .. } = column;
+        let Column {
+            wrench,
+            share,
+            kept,
+            ..
+        } = column;
         let (angular, linear) = match motion {
             Motion::Rotation => (Some(2), None),
             _ => (None, Some(2)),
@@ -143,7 +163,11 @@ impl<'g> ArticulatedInertia<'g> {
                     column: (Vec3<Ex<'g>>, Option<usize>)| {
             Mat3::from_fn(|i, j| {
                 if row.1 == Some(i) || column.1 == Some(j) {
-                    b.zero()
+                    if kept.is_zero() {
+                        b.zero()
+                    } else {
+                        m.0[i][j] * *kept
+                    }
                 } else {
                     m.0[i][j] - row.0.0[i] * column.0.0[j]
                 }

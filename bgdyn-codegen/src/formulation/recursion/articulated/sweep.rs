@@ -103,12 +103,12 @@ impl<'g, 'f> Sweep<'g, 'f> {
             } else {
                 b.zero()
             };
-            // A rotor of its own adds to what the joint moves, not to what it hands on.
+            // A rotor adds to what the joint moves, and keeps it from giving way whole.
             let pivot = (along + armature).pivot(magnitude, j);
             let (hinge, rest) = if basis[j].is_zero() {
                 // Turning about the joint's axis and giving way along it can change places: the
                 // latter first, which leaves a row and a column of zeros.
-                let column = inner.column(b, frame.motion, pivot);
+                let column = inner.column(b, frame.motion, pivot, armature);
                 let rest = inner.projected(b, frame.motion, &column);
                 // A rigid body's column is constant and turned once; another's stays where it is.
                 let hinge = if own[j].is_zero() {
@@ -120,7 +120,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
                 (hinge, rest.turned(frame.turn, careful))
             } else {
                 let whole = inner.turned(frame.turn, careful).plus(&basis[j]);
-                let column = whole.column(b, frame.motion, pivot);
+                let column = whole.column(b, frame.motion, pivot, armature);
                 let rest = whole.projected(b, frame.motion, &column);
                 (Hinge { column, own: false }, rest)
             };

@@ -1,0 +1,350 @@
+//! The oracle beside what is generated: derivative, energy, power, Jacobian.
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::formulation::by_name;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Role;
+use bgdyn_codegen::system::System;
+use bgdyn_codegen::verify::{check_scene, explain};
+use bgdyn_runtime::Dd;
+
+use super::draft::Written;
+use super::laws::Effect;
+use super::rng::Rng;
+use super::scene::Scene;
+use super::state::{Named, State};
+use super::vector::dd;
+
+/// Formulations asked for by name, beside those that the generator chooses among.
+const WAYS: [&str; 4] = [
+    "recursion",
+    "recursion_own",
+    "articulated",
+    "articulated_base",
+];
+/// States per scene.
+const STATES: usize = 3;
+/// Of derivatives and energies in double-double, relative to the largest of them. A pressure is
+/// β ln(W/V): flows between almost equal ones lose ten digits and more.
+const EXACT: f64 = 1e-20;
+/// Of the Jacobian against differences of the oracle's derivative, likewise.
+const SLOPE: f64 = 1e-11;
+/// Step of those differences.
+const STEP: f64 = 1e-10;
+
+/// A scene twice: by the oracle, and by the generator.
+pub struct Pair {
+    pub written: Written,
+    pub oracle: Scene,
+    pub system: System,
+    derivatives: Vec<Function>,
+    energy: Function,
+    power: Function,
+    /// Every way to it.
+    jacobians: Vec<Function>,
+}
+
+/// How much is generated of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Depth {
+    /// The derivative as it is emitted and by one more formulation, the rest before it is factored; the
+    /// Jacobian of some scenes.
+    Part(u64),
+    /// All of it, as it is emitted.
+    Whole,
+}
+
+/// The worst differences seen, relative to what they are of.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Worst {
+    pub derivative: f64,
+    pub energy: f64,
+    pub power: f64,
+    pub slope: f64,
+}
+
+impl Pair {
+    pub fn new(written: Written, system: System, depth: Depth) -> Self {
+        let made = |role: Role| match depth {
+            Depth::Whole => vec![system.function(role)],
+            Depth::Part(_) => system.ways(role),
+        };
+        let by = |name: &&str| system.derivative_by(by_name(name)?);
+        let mut derivatives = vec![system.function(Role::Derivative)];
+        derivatives.extend(system.ways(Role::Derivative));
+        let jacobians = match depth {
+            Depth::Part(seed) => {
+                derivatives.extend(by(&WAYS[seed as usize % WAYS.len()]));
+                let wanted = seed % 3 == 0;
+                if wanted { made(Role::Jacobian) } else { vec![] }
+            }
+            Depth::Whole => {
+                derivatives.extend(WAYS.iter().filter_map(by));
+                made(Role::Jacobian)
+            }
+        };
+        let one = |role| made(role).swap_remove(0);
+        Pair {
+            oracle: Scene::read(&written.scene, &written.mechanism),
+            derivatives,
+            energy: one(Role::Energy),
+            power: one(Role::Power),
+            jacobians,
+            written,
+            system,
+        }
+    }
+
+    /// What the generator's own check says of functions that it would write.
+    pub fn refused(&self) -> Option<String> {
+        let made = self.derivatives[..1].iter().chain(&self.jacobians);
+        let functions: Vec<Function> = made.cloned().collect();
+        let differences = check_scene(&self.system, &functions);
+        (!differences.is_empty()).then(|| explain(&differences))
+    }
+
+    /// Compares all in random states; the first difference, with the scene, is the error.
+    pub fn compare(&self, rng: &mut Rng, worst: &mut Worst) -> Result<(), String> {
+        for _ in 0..STATES {
+            let state = self.state(rng);
+            let along = self.direction(rng);
+            let compared = self
+                .derivative(&state, worst)
+                .and_then(|()| self.energy(&state, worst))
+                .and_then(|()| self.slope(&state, &along, worst));
+            compared.map_err(|what| {
+                let Written { mechanism, scene } = &self.written;
+                format!("{what}\n--- mechanism\n{mechanism}--- scene\n{scene}--- state\n{state}")
+            })?;
+        }
+        Ok(())
+    }
+
+    /// A random state with modes that fit it.
+    fn state(&self, rng: &mut Rng) -> State {
+        let layout = &self.system.scene.layout;
+        let mut state = State::default();
+        for c in &layout.coordinates {
+            if c.stored {
+                state.q.insert(c.name.clone(), dd(rng.within(1.2)));
+            }
+            state.v.insert(c.name.clone(), dd(rng.within(2.0)));
+        }
+        for input in &layout.inputs {
+            let size = if input.name.starts_with("joint") {
+                9.0
+            } else {
+                2.0
+            };
+            state.u.insert(input.name.clone(), dd(rng.within(size)));
+        }
+        for part in &layout.states {
+            state.x.insert(part.name.clone(), dd(rng.within(2e-3)));
+        }
+        for e in self.oracle.effects.iter().filter(|e| e.kind() == "coulomb") {
+            let mode = f64::from(rng.below(3) as u32) - 1.0;
+            state.modes.insert(e.name.clone(), dd(mode));
+            let reference = e
+                .has("reference")
+                .then(|| format!("{}_rate", e.text("reference")));
+            let belt = reference.map_or(Dd::ZERO, |r| state.u[&r]);
+            let slip = dd(mode) * dd(0.1 + rng.unit());
+            state.v.insert(e.text("joint").into(), belt + slip);
+        }
+        let mut pressure = || dd(1e6 + 1e7 * rng.unit());
+        self.oracle.fill(&mut state, &mut pressure);
+        state
+    }
+
+    /// A direction in the state, along which held joints do not slip.
+    fn direction(&self, rng: &mut Rng) -> State {
+        let layout = &self.system.scene.layout;
+        let held = |name: &str| {
+            let on = |e: &&Effect| e.kind() == "coulomb" && e.text("joint") == name;
+            self.oracle.effects.iter().find(on).is_some()
+        };
+        let mut along = State::default();
+        for c in &layout.coordinates {
+            if c.stored {
+                along.q.insert(c.name.clone(), dd(rng.within(1.0)));
+            }
+            let rate = if held(&c.name) { 0.0 } else { rng.within(1.0) };
+            along.v.insert(c.name.clone(), dd(rate));
+        }
+        for part in &layout.states {
+            along.x.insert(part.name.clone(), dd(rng.within(1e-3)));
+        }
+        along
+    }
+
+    fn inputs(&self, state: &State) -> Inputs<Dd> {
+        let layout = &self.system.scene.layout;
+        let stored = layout.coordinates.iter().filter(|c| c.stored);
+        Inputs {
+            q: stored.map(|c| state.q[&c.name]).collect(),
+            v: layout
+                .coordinates
+                .iter()
+                .map(|c| state.v[&c.name])
+                .collect(),
+            a: vec![Dd::ZERO; layout.coordinates.len()],
+            x: layout.states.iter().map(|p| state.x[&p.name]).collect(),
+            u: layout.inputs.iter().map(|p| state.u[&p.name]).collect(),
+            modes: layout.modes.iter().map(|p| state.modes[&p.name]).collect(),
+            parameters: self
+                .system
+                .scene
+                .parameters
+                .iter()
+                .map(|p| p.default)
+                .collect(),
+            t: Some(dd(0.3)),
+            passed: vec![],
+        }
+    }
+
+    /// The oracle's rates, in the generator's order.
+    fn wanted(&self, state: &State) -> Vec<Dd> {
+        let layout = &self.system.scene.layout;
+        let answer = self.oracle.answer(state);
+        let coordinates = layout
+            .coordinates
+            .iter()
+            .map(|c| answer.accelerations[&c.name]);
+        let states = layout.states.iter().map(|p| answer.rates[&p.name]);
+        coordinates.chain(states).collect()
+    }
+
+    fn names(&self) -> Vec<&str> {
+        let layout = &self.system.scene.layout;
+        let coordinates = layout.coordinates.iter().map(|c| c.rate_name.as_str());
+        coordinates
+            .chain(layout.states.iter().map(|p| p.name.as_str()))
+            .collect()
+    }
+
+    fn value(&self, function: &Function, state: &State) -> Result<Vec<Dd>, String> {
+        let (found, refused) = function.evaluate(self.inputs(state));
+        match refused {
+            None => Ok(found),
+            Some(j) => Err(format!("{}: pivot {j} is refused", function.formulation)),
+        }
+    }
+
+    fn derivative(&self, state: &State, worst: &mut Worst) -> Result<(), String> {
+        let wanted = self.wanted(state);
+        for function in &self.derivatives {
+            let found = self.value(function, state)?;
+            let what = format!("derivative by {}", function.formulation);
+            let off = self.equal(&what, &found, &wanted, EXACT)?;
+            worst.derivative = worst.derivative.max(off);
+        }
+        Ok(())
+    }
+
+    /// Entry by entry, accelerations relative to the largest of them, first-order states each on its
+    /// own scale.
+    fn equal(&self, what: &str, found: &[Dd], wanted: &[Dd], allowed: f64) -> Result<f64, String> {
+        let names = self.names();
+        assert_eq!((found.len(), wanted.len()), (names.len(), names.len()));
+        let coordinates = self.system.scene.layout.coordinates.len();
+        let size = |x: Dd| x.to_f64().abs();
+        let largest = wanted[..coordinates]
+            .iter()
+            .fold(1.0, |m, &x| size(x).max(m));
+        let mut worst = 0.0_f64;
+        for (i, (&x, &y)) in found.iter().zip(wanted).enumerate() {
+            let scale = if i < coordinates {
+                largest
+            } else {
+                size(y).max(1e-9)
+            };
+            let off = size(x - y) / scale;
+            if off.is_nan() || off > allowed {
+                let (x, y) = (x.to_f64(), y.to_f64());
+                return Err(format!(
+                    "{what}: rate of {} is {x:e}, by the oracle {y:e}; off by {off:e} of {scale:e}",
+                    names[i]
+                ));
+            }
+            worst = worst.max(off);
+        }
+        Ok(worst)
+    }
+
+    /// The sum of what is stored is the oracle's; the balance of power closes.
+    fn energy(&self, state: &State, worst: &mut Worst) -> Result<(), String> {
+        let stored = self.value(&self.energy, state)?;
+        let size = stored.iter().fold(1.0, |m: f64, x| m.max(x.to_f64().abs()));
+        let sum = stored.into_iter().fold(Dd::ZERO, |s, x| s + x);
+        let wanted = self.oracle.answer(state).energy;
+        let off = (sum - wanted).to_f64().abs() / size;
+        if off.is_nan() || off > EXACT {
+            return Err(format!(
+                "energy is {:e}, by the oracle {:e}",
+                sum.to_f64(),
+                wanted.to_f64()
+            ));
+        }
+        let (mut left, mut size) = (Dd::ZERO, 1.0_f64);
+        for entry in self.value(&self.power, state)?.chunks(3) {
+            left = left + entry[0] - entry[1] - entry[2];
+            size = entry.iter().fold(size, |m, x| m.max(x.to_f64().abs()));
+        }
+        let open = left.to_f64().abs() / size;
+        if open.is_nan() || open > EXACT {
+            return Err(format!("{:e} W are left over", left.to_f64()));
+        }
+        (worst.energy, worst.power) = (worst.energy.max(off), worst.power.max(open));
+        Ok(())
+    }
+
+    /// The Jacobian times a direction is the slope of the oracle's derivative.
+    fn slope(&self, state: &State, along: &State, worst: &mut Worst) -> Result<(), String> {
+        let moved = |by: f64| {
+            let shift = |x: &Named, d: &Named| -> Named {
+                let get = |name: &String| d.get(name).copied().unwrap_or(Dd::ZERO);
+                x.iter()
+                    .map(|(name, &x)| (name.clone(), x + get(name) * dd(by)))
+                    .collect()
+            };
+            let (q, v, x) = (
+                shift(&state.q, &along.q),
+                shift(&state.v, &along.v),
+                shift(&state.x, &along.x),
+            );
+            self.wanted(&State {
+                q,
+                v,
+                x,
+                ..state.clone()
+            })
+        };
+        let (after, before) = (moved(STEP), moved(-STEP));
+        let wanted: Vec<Dd> = after
+            .iter()
+            .zip(&before)
+            .map(|(&a, &b)| (a - b) / dd(2.0 * STEP))
+            .collect();
+        let direction = self.inputs(&State {
+            u: state.u.clone(),
+            modes: state.modes.clone(),
+            ..along.clone()
+        });
+        let columns = direction.q.iter().chain(&direction.v).chain(&direction.x);
+        for jacobian in &self.jacobians {
+            let slopes = self.value(jacobian, state)?;
+            let mut found = vec![Dd::ZERO; wanted.len()];
+            for (column, &d) in slopes.chunks(wanted.len()).zip(columns.clone()) {
+                found
+                    .iter_mut()
+                    .zip(column)
+                    .for_each(|(sum, &x)| *sum += x * d);
+            }
+            let what = format!("Jacobian by {}", jacobian.formulation);
+            let off = self.equal(&what, &found, &wanted, SLOPE)?;
+            worst.slope = worst.slope.max(off);
+        }
+        Ok(())
+    }
+}
