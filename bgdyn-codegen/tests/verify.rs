@@ -130,6 +130,35 @@ fn with_rotor(on: &str) -> System {
     scene(&text, ARM)
 }
 
+/// A full rotor on any link, before its joint, on the link that this moves, and beyond: in every function.
+#[test]
+fn full_rotors_on_any_link_pass() {
+    for on in ["upper", "fore", "hand"] {
+        let system = with_rotor(on);
+        let found = check_scene(&system, &functions(&system));
+        assert!(found.is_empty(), "on {on}: {}", explain(&found));
+    }
+}
+
+/// Axes as they are (`snap: 0`), almost coordinate axes and almost opposite: in every method.
+#[test]
+fn noisy_axes_pass() {
+    for off in [1e-17, 1e-16, 3e-15, 1e-13] {
+        let text = ARM
+            .replace("format: 1", "format: 1\nsnap: 0")
+            .replace("axis: z", &format!("axis: [{off:e}, 0, 1]"))
+            .replace("axis: [0, 0.8, 0.6]", &format!("axis: [{:e}, 0, -1]", -off));
+        let graph = bond_graph::build(&mechanism(&text, "arm"));
+        let search = Search::new(&graph, None);
+        let methods = Method::possible(&graph.sites).into_iter();
+        let made: Vec<Function> = methods
+            .filter_map(|m| search.function(m).map(|f| (*f).clone()))
+            .collect();
+        let found = check_functions("arm", &graph, &made);
+        assert!(found.is_empty(), "off by {off:e}: {}", explain(&found));
+    }
+}
+
 /// The functions found to differ from those of `right`, where they are made from a changed graph.
 fn found(right: &System, change: impl Fn(&mut BondGraph), roles: &[Role]) -> Vec<Difference> {
     let mut wrong = right.clone();

@@ -120,6 +120,26 @@ mutate "executed = counted operations" $src/expr/count.rs \
     'Node::Add(..) => operations.add += 1' 'Node::Add(..) => operations.add += 2' \
     -p compiled -- counting::
 
+# Faults that were there once: the generator's own check must find each, and so must the tests of its topic.
+once() {
+    local topic=$1 file=$2 old=$3 new=$4
+    shift 4
+    mutate "verify: $topic" "$file" "$old" "$new" "${codegen[@]}" verify
+    mutate "$topic" "$file" "$old" "$new" "${codegen[@]}" "$@"
+}
+once "a rotor its own joint carries" $recursion/mass.rs \
+    'Ordering::Equal => share + share' 'Ordering::Equal => *entry' scenes rotors::
+once "a rotor beyond its joint" $recursion/mass.rs \
+    'Ordering::Less => *entry + share' 'Ordering::Less => *entry' scenes rotors::
+once "rotors in derivatives" $recursion/slopes.rs \
+    'frames.rotors.add_flow(b, j, factor, &mut own[j].whole);' '' scenes rotors::
+once "rotors' joints in derivatives" $recursion/slopes.rs \
+    '.extend(frames.rotors.seen(b, frames, j, &axis));' '.extend(frames.rotors.seen(b, frames, j, &axis).take(0));' \
+    scenes rotors::
+once "axes that are almost z" $recursion/geometry.rs \
+    'let third = (0..3).find(|&k| exact(k));' \
+    'let third = (0..3).find(|&k| exact(k) || z.0[k].abs() == Dd::ONE);' noisy_axes
+
 if [[ $survivors -gt 0 ]]; then
     echo "$survivors mutations were not caught, or could not be made" >&2
     exit 1

@@ -17,7 +17,9 @@ use super::{Robot, State, full};
 mod measure;
 
 #[allow(unused_imports)] // each test file uses a part
-pub use measure::{Digits, Found, Hard, Reading, Reference, Subject, apart, norm, off, rounded};
+pub use measure::{
+    Digits, Found, Hard, Reference, SINGULAR, Subject, apart, norm, off, part, rounded,
+};
 
 /// The methods of a mechanism as they are generated.
 pub struct Generated {
@@ -111,12 +113,13 @@ impl Reference for Generated {
 /// Bars 1 to 5 of what is generated.
 pub fn all<T: Digits>(what: &str, generated: &Generated, state: &State, cond: Option<f64>) {
     let hard = Hard::new::<T>(generated, state, cond);
-    for found in hard.all::<T>(&generated.within::<T>(), generated, Reading::STRICT) {
+    for found in hard.all::<T>(&generated.within::<T>(), generated, SINGULAR) {
         let Found {
             bar,
             what: of,
             measured,
             allowed,
+            ..
         } = found;
         assert!(
             measured <= allowed,

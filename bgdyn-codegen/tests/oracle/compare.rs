@@ -151,6 +151,21 @@ impl Pair {
             let slip = dd(mode) * dd(0.1 + rng.unit());
             state.v.insert(e.text("joint").into(), belt + slip);
         }
+        for e in self.oracle.effects.iter().filter(|e| limits_a_winding(e)) {
+            // Free, held at either limit, beyond either.
+            let (current, upper, lower) = match rng.below(5) {
+                0 => (0.9 * rng.within(1.0), -1.0, 1.0),
+                1 => (1.0, 0.0, 1.0),
+                2 => (-1.0, -1.0, 0.0),
+                3 => (1.0 + rng.unit(), 1.0, 1.0),
+                _ => (-1.0 - rng.unit(), -1.0, -1.0),
+            };
+            let current = e.number("current_limit") * dd(current);
+            state.v.insert(e.name.clone(), current);
+            for (side, mode) in [("upper_limit", upper), ("lower_limit", lower)] {
+                state.modes.insert(format!("{}_{side}", e.name), dd(mode));
+            }
+        }
         let mut pressure = || dd(1e6 + 1e7 * rng.unit());
         self.oracle.fill(&mut state, &mut pressure);
         state
@@ -160,7 +175,10 @@ impl Pair {
     fn direction(&self, rng: &mut Rng) -> State {
         let layout = &self.system.scene.layout;
         let held = |name: &str| {
-            let on = |e: &&Effect| e.kind() == "coulomb" && e.text("joint") == name;
+            let on = |e: &&Effect| {
+                let friction = e.kind() == "coulomb" && e.text("joint") == name;
+                friction || limits_a_winding(e) && e.name == name
+            };
             self.oracle.effects.iter().find(on).is_some()
         };
         let mut along = State::default();
@@ -347,4 +365,9 @@ impl Pair {
         }
         Ok(())
     }
+}
+
+/// Whether it is a motor whose current is a part of the state and limited.
+fn limits_a_winding(e: &Effect) -> bool {
+    e.kind() == "dc_motor" && e.has("inductance") && e.has("current_limit")
 }

@@ -244,16 +244,15 @@ fn dc_motor(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     let current = if e.has("inductance") {
         let (current, inductance) = (at.v(&e.name), e.number("inductance"));
         let mut net = left - resistance * current;
-        // At its limit the current is not let grow.
-        if e.has("current_limit") && current.abs() >= e.number("current_limit") {
-            let outwards = sign(current);
-            let drop = resistance * e.number("current_limit") * outwards;
-            let least = if (left - drop) * outwards > Dd::ZERO {
-                drop
-            } else {
-                left
-            };
-            net = least - resistance * current;
+        if e.has("current_limit") {
+            let (limit, outwards) = (e.number("current_limit"), sign(current));
+            let drop = resistance * limit * outwards;
+            // Held at its limit, brought back from beyond.
+            if current.abs() == limit {
+                net = Dd::ZERO;
+            } else if current.abs() > limit && (left - drop) * outwards > Dd::ZERO {
+                net = drop - resistance * current;
+            }
         }
         sums.push(&e.name, net);
         sums.inertia.insert(e.name.clone(), inductance);

@@ -95,40 +95,34 @@ pub struct Found {
     pub what: &'static str,
     /// The error.
     pub measured: f64,
-    /// What it may be.
+    /// What it may be, as the bar is read.
     pub allowed: f64,
+    /// How much of the bar as asked is used: of `allowed`, where it is read as asked.
+    pub asked: f64,
 }
 
-/// How bars are read where a mechanism is so uneven that they say nothing of a method.
-#[derive(Clone, Copy, Debug)]
-pub struct Reading {
-    /// 1/(cond M · eps) up to which forward dynamics may refuse.
-    pub singular: f64,
-    /// Whether efforts may be met as by rounded arguments, see [`Hard::backward_rounded`].
-    pub rounded_arguments: bool,
+impl Found {
+    /// An error and the bar, which is read as asked.
+    pub fn new(bar: &'static str, what: &'static str, measured: f64, allowed: f64) -> Self {
+        Found {
+            bar,
+            what,
+            measured,
+            allowed,
+            asked: part(measured, allowed),
+        }
+    }
 }
 
-impl Reading {
-    /// As the bars are written: what may be refused is singular but for its rounding.
-    pub const STRICT: Reading = Reading {
-        singular: 1.0,
-        rounded_arguments: false,
-    };
-}
+/// 1/(cond M · eps) up to which forward dynamics may refuse: what is singular but for its rounding.
+pub const SINGULAR: f64 = 1.0;
 
-/// Of joints' errors beside what they may be the one where most of that is used.
-fn worst(joints: Vec<(f64, f64)>) -> Found {
-    // Where nothing acts on a joint at all, nothing is to be met.
-    let part = |(error, allowed): (f64, f64)| if error == 0.0 { 0.0 } else { error / allowed };
-    let worst = joints
-        .into_iter()
-        .max_by(|a, b| part(*a).total_cmp(&part(*b)));
-    let (measured, allowed) = worst.expect("a joint");
-    Found {
-        bar: "",
-        what: "",
-        measured,
-        allowed,
+/// How much of what is allowed an error uses; nothing where there is none.
+pub fn part(measured: f64, allowed: f64) -> f64 {
+    match measured {
+        // Where nothing acts on a joint at all, nothing is to be met.
+        0.0 => 0.0,
+        _ => (measured / allowed).abs(),
     }
 }
 
@@ -192,12 +186,8 @@ impl Hard {
         let g = rounded(&reference.gravity(s));
         let moved = apart(&rounded(&exact), &self.bias);
         let size = moved + apart(&self.bias, &g) + norm(&g);
-        Found {
-            bar: "1",
-            what: "inverse dynamics",
-            measured: norm(&off(&subject.inverse(s), &exact)),
-            allowed: 32.0 * T::EPS * size,
-        }
+        let measured = norm(&off(&subject.inverse(s), &exact));
+        Found::new("1", "inverse dynamics", measured, 32.0 * T::EPS * size)
     }
 
     /// How far inverse dynamics moves where each acceleration is rounded, by half an eps of itself: the
@@ -219,35 +209,32 @@ impl Hard {
         let (found, n) = (subject.mass(&self.state), self.n);
         let even = (0..n).all(|i| (0..i).all(|j| found[i * n + j] == found[j * n + i]));
         let error = norm(&off(&found, &reference.mass(&self.state)));
-        Found {
-            bar: "4",
-            what: "mass matrix",
-            measured: if even { error } else { f64::INFINITY },
-            allowed: 8.0 * n as f64 * T::EPS * self.most,
-        }
+        let measured = if even { error } else { f64::INFINITY };
+        let allowed = 8.0 * n as f64 * T::EPS * self.most;
+        Found::new("4", "mass matrix", measured, allowed)
     }
 
-    /// Backward error of accelerations: each joint's effort is met to 8 n eps of its terms. The joint
-    /// where most of that is used.
+    /// Backward error of accelerations, joint by joint, the one where most of what is allowed is used.
+    ///
+    /// As asked, a joint's effort is met to 8 n eps of its terms. As read, it is met to what it changes
+    /// by where each position and velocity is rounded, where that is more: the accelerations are the
+    /// exact ones of arguments that round to the same numbers.
     pub fn backward<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
+        let unmet = self.unmet::<T>(found, reference);
+        let asked = unmet.iter().map(|&(error, bar)| part(error, bar));
+        let asked = asked.fold(0.0, f64::max);
+        // The reading can only allow more: it is worked out where that decides.
+        let changed = match asked > 1.0 {
+            true => self.rounded_arguments::<T>(found, reference),
+            false => vec![0.0; self.n],
+        };
+        let joints = unmet.iter().zip(changed);
+        let joints = joints.map(|(&(error, bar), changed)| (error, changed.max(bar)));
+        let worst = joints.max_by(|a, b| part(a.0, a.1).total_cmp(&part(b.0, b.1)));
+        let (measured, allowed) = worst.expect("a joint");
         Found {
-            bar: "2",
-            what: "forward dynamics, efforts met",
-            ..worst(self.unmet::<T>(found, reference))
-        }
-    }
-
-    /// The same; but where rounding the arguments alone changes an effort by more than that, by half
-    /// an eps of each, as much as that: the accelerations are the exact ones of arguments that round
-    /// to the same numbers.
-    pub fn backward_rounded<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
-        let changed = self.rounded_arguments::<T>(found, reference);
-        let unmet = self.unmet::<T>(found, reference).into_iter().zip(changed);
-        let rounded = unmet.map(|((error, bar), changed)| (error, changed.max(bar)));
-        Found {
-            bar: "2",
-            what: "forward dynamics, efforts met, as rounded arguments",
-            ..worst(rounded.collect())
+            asked,
+            ..Found::new("2", "forward dynamics, efforts met", measured, allowed)
         }
     }
 
@@ -296,25 +283,19 @@ impl Hard {
         changed
     }
 
-    /// Error of accelerations ≤ (16 + cond M) eps ‖q̈‖; but where rounding the arguments alone changes
-    /// q̈ by more than that, which is where efforts and bias all but balance, four times what it
-    /// changes.
+    /// Error of accelerations: as asked at most (16 + cond M) eps ‖q̈‖. As read, at most four times
+    /// what rounding the arguments changes, where that is more: where efforts and bias all but balance.
     pub fn forward<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
         let exact = reference.forward(&self.state);
         let (measured, bar) = (norm(&off(found, &exact)), self.forward_bar::<T>(&exact));
-        let found = |what, allowed| Found {
-            bar: "3",
-            what,
-            measured,
-            allowed,
+        let allowed = match measured > bar {
+            true => (4.0 * self.rounding::<T>(reference)).max(bar),
+            false => bar,
         };
-        if measured > bar {
-            let rounding = self.rounding::<T>(reference);
-            if rounding > bar {
-                return found("forward dynamics, as rounded arguments", 4.0 * rounding);
-            }
+        Found {
+            asked: part(measured, bar),
+            ..Found::new("3", "forward dynamics", measured, allowed)
         }
-        found("forward dynamics", bar)
     }
 
     /// (16 + cond M) eps ‖q̈‖
@@ -344,26 +325,25 @@ impl Hard {
         };
         let found = subject.forward(&state)?;
         let size = self.most * norm(&state.a) + norm(&self.bias);
-        Some(Found {
-            bar: "5",
-            what: "forward of inverse dynamics",
-            measured: apart(&found, &state.a),
-            allowed: 8.0 * self.n as f64 * T::EPS * self.inverse * size,
-        })
+        let measured = apart(&found, &state.a);
+        let allowed = 8.0 * self.n as f64 * T::EPS * self.inverse * size;
+        let what = "forward of inverse dynamics";
+        Some(Found::new("5", what, measured, allowed))
     }
 
-    /// Bars 1 to 5.
+    /// Bars 1 to 5; forward dynamics may be refused where 1/(cond M · eps) is at most `singular`.
     pub fn all<T: Digits>(
         &self,
         subject: &impl Subject<T>,
         reference: &impl Reference,
-        reading: Reading,
+        singular: f64,
     ) -> Vec<Found> {
-        let refused = |bar| Found {
-            bar,
-            what: "refused, 1/(cond eps)",
-            measured: 1.0 / (self.most * self.inverse * T::EPS),
-            allowed: reading.singular,
+        let refused = |bar| {
+            let measured = 1.0 / (self.most * self.inverse * T::EPS);
+            Found {
+                asked: part(measured, SINGULAR),
+                ..Found::new(bar, "refused, 1/(cond eps)", measured, singular)
+            }
         };
         let mut all = vec![
             self.inverse_dynamics(subject, reference),
@@ -371,11 +351,10 @@ impl Hard {
         ];
         match subject.forward(&self.state) {
             Some(found) => {
-                let mut met = self.backward::<T>(&found, reference);
-                if reading.rounded_arguments && met.measured > met.allowed {
-                    met = self.backward_rounded::<T>(&found, reference);
-                }
-                all.extend([met, self.forward::<T>(&found, reference)]);
+                all.extend([
+                    self.backward::<T>(&found, reference),
+                    self.forward::<T>(&found, reference),
+                ]);
             }
             None => all.push(refused("2")),
         }

@@ -1,6 +1,6 @@
 //! Bodies on two massless rings, close to where the outer and the inner axis are parallel: forward
 //! dynamics against Euler's equations. M's condition number grows with 1/angle², but its inverse is a
-//! product in which nothing cancels: bar 12's 16 eps, or four times what rounding the arguments does.
+//! product in which nothing cancels: bar 12's 16 eps, or what rounding the arguments does.
 
 use bgdyn_runtime::Dd;
 
@@ -112,18 +112,14 @@ impl Reference for Euler {
 }
 
 /// Bar 1; but where rounding the accelerations alone changes τ by more, which is where their efforts
-/// all but cancel in M q̈, four times what it changes: near lock two rings turn about almost one axis.
+/// all but cancel in M q̈, what it changes: near lock two rings turn about almost one axis.
 fn inverse_dynamics<T: Digits>(hard: &Hard, subject: &impl Subject<T>, reference: &Euler) -> Found {
     let found = hard.inverse_dynamics::<T>(subject, reference);
     let rounding = hard.rounded_accelerations::<T>();
-    if found.measured > found.allowed && rounding > found.allowed {
-        return Found {
-            what: "inverse dynamics, as rounded accelerations",
-            allowed: 4.0 * rounding,
-            ..found
-        };
+    Found {
+        allowed: found.allowed.max(rounding),
+        ..found
     }
-    found
 }
 
 fn close<T: Digits + Compiled>(
@@ -146,12 +142,7 @@ fn close<T: Digits + Compiled>(
             hard.backward::<T>(&a, reference),
             hard.forward::<T>(&a, reference),
         ]),
-        None => found.push(Found {
-            bar: "12",
-            what: "refused",
-            measured: 1.0,
-            allowed: 0.0,
-        }),
+        None => found.push(Found::new("12", "refused", 1.0, 0.0)),
     }
     worst.add(case, T::MARK, &at, found);
 }
@@ -178,7 +169,7 @@ pub(crate) fn near_lock(extent: Extent) -> Vec<Outcome> {
         let mut worst = Worst::default();
         let mut rng = Rng::new(19);
         for exponent in 2..=12 {
-            for _ in 0..extent.of(1000, 20) {
+            for _ in 0..extent.of(3000, 20) {
                 let mut some = |size: f64| (0..3).map(|_| rng.within(size)).collect::<Vec<f64>>();
                 let mut s = State {
                     q: some(3.0),

@@ -128,12 +128,12 @@ macro_rules! topics {
 topics! {
     chains: single::chains;
     mass_ratios: single::ratios;
-    uneven_masses: single::uneven, "10 states a mechanism instead of 100";
-    robots: single::robots, "3 states a mechanism instead of 100";
+    uneven_masses: single::uneven, "20 states a mechanism instead of 30,000";
+    robots: single::robots, "6 states a mechanism instead of 30,000";
     large_angles: places::large_angles;
     moved_base: places::moved_base, "200 states instead of 10,000, a motion of 1,000 steps instead of 10,000";
     singular: singular::exact_answers, "1,000 states a mechanism instead of 100,000";
-    near_lock: gimbal::near_lock, "20 states an angle instead of 1,000";
+    near_lock: gimbal::near_lock, "20 states an angle instead of 3,000";
     a01_simple_pendulum: smooth::a01_simple_pendulum;
     double_pendulum_chaotic: smooth::double_pendulum_chaotic;
     chain8_rods: smooth::chain8_rods;

@@ -13,7 +13,7 @@ use crate::State;
 use crate::bars::Reference;
 
 /// Joints up to which the literal sum is the reference; beyond, where it would take too long, the
-/// recursion with each body's own inertia, which is proved equal to it.
+/// recursion with each body's own inertia, which tests hold equal to it.
 const SHORT: usize = 6;
 
 /// A mechanism's methods, to be evaluated.

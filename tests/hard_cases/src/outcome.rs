@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::bars::Found;
+use crate::bars::{Found, part};
 
 /// What was measured of a case, beside what is allowed.
 #[derive(Clone, Debug)]
@@ -15,8 +15,11 @@ pub struct Outcome {
     pub quantity: String,
     /// The measured value, where it is the largest part of what is allowed.
     pub measured: f64,
-    /// What is allowed.
+    /// What is allowed, as the bar is read.
     pub allowed: f64,
+    /// The most of the bar as asked that is used anywhere. Where the bar is read as asked, that is the
+    /// measured part of what is allowed.
+    pub asked: f64,
     /// Where that was: a time, a state. May be empty.
     pub at: String,
 }
@@ -47,6 +50,7 @@ impl Outcome {
             quantity: quantity.into(),
             measured,
             allowed,
+            asked: part(measured, allowed),
             at: String::new(),
         }
     }
@@ -78,10 +82,7 @@ impl Outcome {
 
     /// What is measured in units of what is allowed; what is no number is more than anything.
     fn part(&self) -> f64 {
-        match self.measured {
-            0.0 => 0.0,
-            measured => (measured / self.allowed).abs(),
-        }
+        part(self.measured, self.allowed)
     }
 
     /// Whether what is measured is within what is allowed.
@@ -101,12 +102,18 @@ impl Worst {
     pub fn add(&mut self, case: &str, mark: &str, at: &str, found: Vec<Found>) {
         for found in found {
             let quantity = format!("{}{mark}", found.what);
-            let new = Outcome::new(case, found.bar, quantity, found.measured, found.allowed);
+            let mut new = Outcome::new(case, found.bar, quantity, found.measured, found.allowed);
+            new.asked = found.asked;
             let new = new.at(at);
             let same = |o: &&mut Outcome| o.bar == new.bar && o.quantity == new.quantity;
             match self.outcomes.iter_mut().find(same) {
-                Some(old) if old.part().total_cmp(&new.part()).is_lt() => *old = new,
-                Some(_) => {}
+                Some(old) => {
+                    let asked = old.asked.max(new.asked);
+                    if old.part().total_cmp(&new.part()).is_lt() {
+                        *old = new;
+                    }
+                    old.asked = asked;
+                }
                 None => self.outcomes.push(new),
             }
         }
@@ -126,8 +133,8 @@ impl fmt::Display for Outcome {
         let verdict = if self.met() { "pass" } else { "FAIL" };
         write!(
             f,
-            "{:<28} {:>3}  {:<48} {:>8.1e} {:>8.1e}  {verdict}",
-            self.case, self.bar, self.quantity, self.measured, self.allowed
+            "{:<28} {:>3}  {:<48} {:>8.1e} {:>8.1e} {:>8.1e}  {verdict}",
+            self.case, self.bar, self.quantity, self.measured, self.allowed, self.asked
         )?;
         match self.met() || self.at.is_empty() {
             true => Ok(()),

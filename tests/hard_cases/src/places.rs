@@ -15,12 +15,9 @@ use hard_cases_compiled::{Compiled, Model, model, spec};
 fn turned<T: Digits + Compiled>(name: &str, reference: &Literal, s: &State) -> Found {
     let exact = reference.inverse(s);
     let found = Subject::<T>::inverse(&model::<T>(name), s);
-    Found {
-        bar: "11",
-        what: "inverse dynamics",
-        measured: norm(&off(&found, &exact)),
-        allowed: 16.0 * T::EPS * norm(&rounded(&exact)),
-    }
+    let measured = norm(&off(&found, &exact));
+    let allowed = 16.0 * T::EPS * norm(&rounded(&exact));
+    Found::new("11", "inverse dynamics", measured, allowed)
 }
 
 /// Angles to 1e12 rad, with skew and with parallel axes. The arguments are numbers of `f32` too; there
@@ -45,12 +42,10 @@ pub(crate) fn large_angles(_: Extent) -> Vec<Outcome> {
             let at = format!("{scale:e} rad");
             if name == "spatial_4" {
                 let wanted = list(&case_of_file["tau"]);
-                let found = Found {
-                    bar: "ref",
-                    what: "inverse dynamics, against the file",
-                    measured: crate::bars::apart(&rounded(&reference.inverse(&s)), &wanted),
-                    allowed: 2.0 * f64::EPSILON * norm(&wanted),
-                };
+                let measured = crate::bars::apart(&rounded(&reference.inverse(&s)), &wanted);
+                let allowed = 2.0 * f64::EPSILON * norm(&wanted);
+                let what = "inverse dynamics, against the file";
+                let found = Found::new("ref", what, measured, allowed);
                 worst.add(case, "", &at, vec![found]);
             }
             worst.add(case, "", &at, vec![turned::<f64>(name, &reference, &s)]);

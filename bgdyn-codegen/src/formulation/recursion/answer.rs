@@ -1,6 +1,8 @@
 //! The answer of forward dynamics at one state, in double-double, with the sizes that bound what a
 //! scalar with fewer digits can make of it.
 
+use std::cell::OnceCell;
+
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::expr::Inputs;
@@ -48,6 +50,15 @@ impl Terms {
     }
 }
 
+/// What changes where each argument is rounded by half an eps of itself: the sums over all of them.
+#[derive(Default)]
+pub(super) struct Rounding {
+    /// Of each joint's effort at the answer's accelerations.
+    pub efforts: Vec<f64>,
+    /// Of ‖q̈‖.
+    pub accelerations: f64,
+}
+
 /// A state and its answer.
 pub(super) struct Answer {
     /// The state.
@@ -58,8 +69,8 @@ pub(super) struct Answer {
     pub bias: Vec<f64>,
     /// q̈ under the efforts of the state.
     pub exact: Vec<Dd>,
-    /// How far q̈ moves where the arguments are rounded.
-    pub rounding: f64,
+    /// What rounding the arguments changes, once it was asked for.
+    rounding: OnceCell<Rounding>,
     /// Whether the efforts were made from the state's accelerations, and rounded.
     pub round_trip: bool,
     /// ‖M‖
@@ -82,15 +93,11 @@ impl Answer {
         }
         let factor = Factor::new(here.mass.clone())?;
         let exact = factor.solve(here.drive(&in_double_double(&inputs).u));
-        let rounded = nudged(&inputs);
-        let there = terms(&rounded);
-        let moved = Factor::new(there.mass.clone())?.solve(there.drive(&rounded.u));
-        let moved = moved.iter().zip(&exact).map(|(&x, &y)| (x - y).to_f64());
         let rough: Vec<Vec<f64>> = rows(&here.mass, Dd::to_f64);
         let rough_factor = factor.rounded();
         let n = exact.len();
         Some(Answer {
-            rounding: norm(moved),
+            rounding: OnceCell::new(),
             bias: here.bias.iter().map(|h| h.to_f64()).collect(),
             most: spectral_norm(n, |x| product(&rough, &x)),
             inverse: spectral_norm(n, |x| rough_factor.solve(x)),
@@ -100,19 +107,54 @@ impl Answer {
             round_trip,
         })
     }
-}
 
-/// The arguments, each off by half a unit of its rounding, up or down.
-fn nudged(inputs: &Inputs<f64>) -> Inputs<Dd> {
-    let mut nudged = in_double_double(inputs);
-    let arguments = [&mut nudged.q, &mut nudged.v, &mut nudged.u];
-    for (i, x) in arguments.into_iter().flatten().enumerate() {
-        // In the proportions of the golden ratio: the signs have no pattern.
-        let up = (i as f64 * 0.618_033_988_75).fract() < 0.5;
-        let by = if up { 0.5 } else { -0.5 } * f64::EPSILON;
-        *x *= Dd::ONE + Dd::from_f64(by);
+    /// What rounding the arguments changes; `terms` as for [`Answer::new`]. Worked out at the first
+    /// call: it takes M and h twice a joint.
+    pub fn rounding(&self, terms: impl Fn(&Inputs<Dd>) -> Terms) -> &Rounding {
+        self.rounding.get_or_init(|| self.rounded(terms))
     }
-    nudged
+
+    fn rounded(&self, terms: impl Fn(&Inputs<Dd>) -> Terms) -> Rounding {
+        let here = in_double_double(&self.inputs);
+        let n = self.exact.len();
+        let half = Dd::from_f64(f64::EPSILON / 2.0);
+        let mut sum = Rounding {
+            efforts: vec![0.0; n],
+            accelerations: 0.0,
+        };
+        for (joint, velocity) in (0..n).flat_map(|j| [(j, false), (j, true)]) {
+            let mut inputs = here.clone();
+            let of = if velocity {
+                &mut inputs.v
+            } else {
+                &mut inputs.q
+            };
+            if of[joint] == Dd::ZERO {
+                continue;
+            }
+            of[joint] *= Dd::ONE + half;
+            let there = terms(&inputs);
+            if let Some(factor) = Factor::new(there.mass.clone()) {
+                let found = factor.solve(there.drive(&here.u));
+                let by = found.iter().zip(&self.exact);
+                sum.accelerations += norm(by.map(|(&x, &y)| (x - y).to_f64()));
+            }
+            let met = product(&there.mass, &self.exact);
+            let met = met.iter().zip(&there.bias).map(|(&x, &h)| x + h);
+            for (i, (met, &u)) in met.zip(&here.u).enumerate() {
+                sum.efforts[i] += (met - u).to_f64().abs();
+            }
+        }
+        if let Some(factor) = Factor::new(self.mass.clone()) {
+            for joint in 0..n {
+                let mut efforts = vec![Dd::ZERO; n];
+                efforts[joint] = here.u[joint] * half;
+                let by = factor.solve(efforts);
+                sum.accelerations += norm(by.iter().map(|x| x.to_f64()));
+            }
+        }
+        sum
+    }
 }
 
 fn rows<T: Copy, U>(m: &[Vec<T>], f: impl Fn(T) -> U + Copy) -> Vec<Vec<U>> {

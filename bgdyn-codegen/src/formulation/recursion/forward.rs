@@ -1,7 +1,8 @@
 //! Which forward dynamics: M with its factors, or articulated bodies.
 //!
 //! Where each body has a fair share of the inertia that its joint moves, the ways are tried in
-//! sampled states, and the cheapest one that meets the bars wins. Where a share is next to nothing
+//! sampled states, and the cheapest one that meets the bars wins, unless it costs more than 1.05 times one
+//! that loses no digit either. Where a share is next to nothing
 //! (a massless link, a heavy load on a light one), a pivot is a small rest of large terms, or of
 //! nothing at all: articulated bodies with their own inertia keep its digits, and no sample of
 //! states could show that another way always does.
@@ -9,7 +10,7 @@
 use std::cmp::Ordering;
 
 use super::articulated::Articulated;
-use super::bars::{Bars, Standing};
+use super::bars::{Bars, PRICE, Standing, cost};
 use super::plan::SEARCHED;
 use super::share::{FAIR, own_shares};
 use super::{cheapest_plans, with_plan};
@@ -72,8 +73,9 @@ pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Ways {
     best(tried)
 }
 
-/// Those that meet the bars, the cheapest first; where there are none, the one that comes nearest.
-/// Each says what is wrong with those that do not.
+/// Those that meet the bars, the cheapest first; where there are none, the one that comes nearest. But
+/// where one that costs less loses no digit, and they cost more than [`PRICE`] times as much, that one.
+/// Each says what is wrong with those that do not meet them.
 fn best(mut tried: Vec<Judged>) -> Ways {
     tried.sort_by_key(|(_, way)| way.generated.cost().weighted());
     let wrong: String = tried
@@ -87,6 +89,11 @@ fn best(mut tried: Vec<Judged>) -> Ways {
     let (mut kept, mut near): (Vec<Judged>, Vec<Judged>) = tried
         .into_iter()
         .partition(|(standing, _)| standing.meets());
+    if let Some(k) = spared(&kept, &near) {
+        let (standing, mut way) = near.remove(k);
+        way.generated.formulation += "; no digit is lost";
+        kept.insert(0, (standing, way));
+    }
     if kept.is_empty() {
         near.sort_by(|(x, _), (y, _)| x.partial_cmp(y).unwrap_or(Ordering::Equal));
         kept.extend((!near.is_empty()).then(|| near.remove(0)));
@@ -100,6 +107,15 @@ fn best(mut tried: Vec<Judged>) -> Ways {
         kept: kept.into_iter().map(told).collect(),
         near: near.into_iter().map(|(_, way)| way).collect(),
     }
+}
+
+/// Of the ways that miss the bars and lose no digit the cheapest, where it is to be taken: those that
+/// meet them cost too much for what they keep, or there are none.
+fn spared(kept: &[Judged], near: &[Judged]) -> Option<usize> {
+    let of = |(_, way): &Judged| cost(&way.generated);
+    let k = near.iter().position(|(standing, _)| standing.keeps())?;
+    let least = kept.iter().map(of).fold(f64::INFINITY, f64::min);
+    (least > PRICE * of(&near[k])).then_some(k)
 }
 
 /// The ways that cost least, as far as they are worth a search.

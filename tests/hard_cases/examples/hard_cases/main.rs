@@ -14,7 +14,9 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use hard_cases::{Curve, Extent, Measured, Outcome, TOPICS, single_precision_of_long_chains};
+use hard_cases::{
+    Curve, Extent, Measured, Outcome, TOPICS, Topic, single_precision_of_long_chains,
+};
 use options::Options;
 
 fn main() -> ExitCode {
@@ -41,9 +43,19 @@ fn report(options: &Options) -> Result<bool, String> {
     let folder = &options.out;
     fs::create_dir_all(folder)
         .map_err(|e| format!("the folder {} cannot be made: {e}", folder.display()))?;
+    let topics = TOPICS.iter().filter(|t| t.name.contains(&options.only));
+    let topics: Vec<&Topic> = topics.collect();
+    if topics.is_empty() {
+        let names: Vec<&str> = TOPICS.iter().map(|t| t.name).collect();
+        let names = names.join(", ");
+        return Err(format!(
+            "no topic's name holds `{}`: there are {names}",
+            options.only
+        ));
+    }
     if options.extent == Extent::Quick {
         println!("Quick: every case and every bar, but");
-        for topic in TOPICS {
+        for topic in &topics {
             if let Some(shortened) = topic.shortened {
                 println!("  {}: {shortened}", topic.name);
             }
@@ -51,7 +63,7 @@ fn report(options: &Options) -> Result<bool, String> {
         println!();
     }
     let began = Instant::now();
-    let measured = run_all(options.extent);
+    let measured = run_all(&topics, options.extent);
     let (outcomes, curves) = sorted(measured);
     println!("{}", tables::HEADER);
     for outcome in &outcomes {
@@ -76,14 +88,14 @@ fn report(options: &Options) -> Result<bool, String> {
     Ok(failed == 0)
 }
 
-/// All topics, as many at a time as there are cores; the results in the order of the topics.
-fn run_all(extent: Extent) -> Vec<Measured> {
+/// The topics, as many at a time as there are cores; the results in the order of the topics.
+fn run_all(topics: &[&Topic], extent: Extent) -> Vec<Measured> {
     let next = AtomicUsize::new(0);
-    let results: Vec<Mutex<Measured>> = TOPICS.iter().map(|_| Mutex::default()).collect();
+    let results: Vec<Mutex<Measured>> = topics.iter().map(|_| Mutex::default()).collect();
     let work = || {
         while let Some((topic, result)) = {
             let k = next.fetch_add(1, Ordering::Relaxed);
-            TOPICS.get(k).zip(results.get(k))
+            topics.get(k).zip(results.get(k))
         } {
             let began = Instant::now();
             let measured = (topic.run)(extent);

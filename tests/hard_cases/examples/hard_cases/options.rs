@@ -1,4 +1,4 @@
-//! The command line: `--quick`, `--out DIR`, `--help`.
+//! The command line: `--quick`, `--only PART`, `--out DIR`, `--help`.
 
 use std::path::PathBuf;
 
@@ -8,6 +8,8 @@ use hard_cases::Extent;
 pub struct Options {
     /// How much is run.
     pub extent: Extent,
+    /// Only topics whose names hold this.
+    pub only: String,
     /// Folder of the tables and the figure.
     pub out: PathBuf,
 }
@@ -15,10 +17,12 @@ pub struct Options {
 /// How to call the example.
 pub const USAGE: &str = "Hard cases through compiled code: what is measured, beside what is allowed
 
-Usage: cargo run --release --example hard_cases [-- [--quick] [--out DIR]]
+Usage: cargo run --release --example hard_cases [-- [--quick] [--only PART] [--out DIR]]
 
 Options:
       --quick    Every case and every bar, with shorter horizons and fewer samples
+      --only PART
+                 Only topics whose names hold PART: `energy`, `limits`, `robots`, …
       --out DIR  Where to write the tables and the figure [default: target/hard_cases/]
   -h, --help     Print help
 
@@ -29,6 +33,7 @@ impl Options {
     pub fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Option<Self>, String> {
         let mut options = Options {
             extent: Extent::Full,
+            only: String::new(),
             out: PathBuf::from("target/hard_cases"),
         };
         while let Some(argument) = arguments.next() {
@@ -38,6 +43,10 @@ impl Options {
                     return Ok(None);
                 }
                 "--quick" => options.extent = Extent::Quick,
+                "--only" => match arguments.next() {
+                    Some(part) => options.only = part,
+                    None => return Err("`--only` needs a part of a topic's name".into()),
+                },
                 "--out" => match arguments.next() {
                     Some(folder) => options.out = PathBuf::from(folder),
                     None => return Err("`--out` needs a folder".into()),

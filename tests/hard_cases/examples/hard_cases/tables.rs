@@ -6,12 +6,13 @@ use hard_cases::{Outcome, Single};
 
 /// What stands above the printed table.
 pub const HEADER: &str = "\
-case                         bar  what                                             measured  allowed";
+case                         bar  what                                             measured  allowed of asked";
 
 /// The table in Markdown.
 pub fn outcomes(outcomes: &[Outcome]) -> String {
-    let mut text =
-        String::from("| case | bar | what | measured | allowed | |\n|---|---|---|---|---|---|\n");
+    let mut text = String::from(
+        "| case | bar | what | measured | allowed | of the bar as asked | |\n|---|---|---|---|---|---|---|\n",
+    );
     for o in outcomes {
         let verdict = if o.met() { "pass" } else { "**fail**" };
         let Outcome {
@@ -20,11 +21,12 @@ pub fn outcomes(outcomes: &[Outcome]) -> String {
             quantity,
             measured,
             allowed,
+            asked,
             ..
         } = o;
         writeln!(
             text,
-            "| {case} | {bar} | {quantity} | {measured:.1e} | {allowed:.1e} | {verdict} |"
+            "| {case} | {bar} | {quantity} | {measured:.1e} | {allowed:.1e} | {asked:.1e} | {verdict} |"
         )
         .expect("text takes it");
     }
