@@ -27,12 +27,14 @@ pub mod math;
 pub mod mechanism;
 pub mod method;
 pub mod model;
+pub mod name;
 mod options;
 mod products;
 mod read;
 pub mod scene;
 pub mod spec;
 pub mod system;
+pub mod unit;
 pub mod verify;
 
 #[cfg(feature = "source")]

@@ -4,6 +4,7 @@ use crate::bond_graph;
 use crate::fault::wording::no_inertia;
 use crate::fault::{Fault, Faults};
 use crate::mechanism::{Mechanism, check};
+use crate::method;
 use crate::spec::{Joint, Spec, parse};
 
 /// Reads and checks a spec. `stem` is the file's name without its ending, if there is a file; only
@@ -16,7 +17,7 @@ pub fn read(text: &str, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
     let Some(spec) = spec else {
         return (None, faults);
     };
-    let (mechanism, more) = check(&spec, stem);
+    let (mechanism, more) = check(&spec, stem, &method::names());
     faults.0.extend(more.0);
     if let Some(mechanism) = &mechanism {
         faults.0.extend(without_inertia(mechanism, &spec));

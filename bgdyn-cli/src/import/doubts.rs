@@ -5,7 +5,7 @@ use super::naming::shown;
 use super::number::Num;
 use super::reading::{Inertial, Model};
 use super::tree::Tree;
-use bgdyn_codegen::mechanism::name::WORLD;
+use bgdyn_codegen::name::WORLD;
 use std::collections::HashMap;
 use urdf_rs::JointType;
 

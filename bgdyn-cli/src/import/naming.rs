@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use bgdyn_codegen::mechanism::name::{WORLD, is_keyword, snake_case};
+use bgdyn_codegen::name::{WORLD, is_keyword, snake_case};
 
 /// Whether the name can stay: words of lower-case letters and digits joined by single `_`, no reserved word.
 pub(super) fn is_identifier(name: &str) -> bool {

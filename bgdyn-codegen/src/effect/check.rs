@@ -7,8 +7,8 @@ use bgdyn_runtime::Dd;
 
 use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
-use crate::mechanism::name::is_identifier;
 use crate::mechanism::{Limits, Motion, Places};
+use crate::name::is_identifier;
 use crate::spec::{Dimension, Entry, Fields, Key, Located, Number, Raw, Reads, misfit};
 
 /// The key that says what an effect is.

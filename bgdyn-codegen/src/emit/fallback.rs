@@ -14,8 +14,8 @@ use crate::bond_graph::Site;
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
-use crate::mechanism::name::is_identifier;
 use crate::method::{Argument, Method};
+use crate::name::is_identifier;
 
 /// The module with bodies that never run.
 pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {

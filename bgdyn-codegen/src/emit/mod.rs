@@ -21,9 +21,9 @@ pub use scene::{scene_fallback, scene_module};
 
 use crate::function::Function;
 use crate::mechanism::Parameter;
-use crate::mechanism::name::is_identifier;
 use crate::method::{Argument, Method, Shape};
 use crate::model::Model;
+use crate::name::is_identifier;
 
 /// Where and from what the code is generated.
 #[derive(Clone, Debug)]

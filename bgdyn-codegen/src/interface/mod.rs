@@ -3,7 +3,7 @@
 mod scene;
 
 use crate::mechanism::joint::{JOINT_TYPES, Motion};
-use crate::mechanism::name::is_identifier;
+use crate::name::is_identifier;
 use crate::spec::{Field, Link, Spec};
 pub use scene::SceneInterface;
 

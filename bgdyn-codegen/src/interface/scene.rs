@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::bond_graph;
-use crate::mechanism::name::is_identifier;
 use crate::mechanism::{CoordinateId, Mechanism, Parameter};
+use crate::name::is_identifier;
 use crate::scene::{self, Coordinate, Initial, Layout, Part, Store};
 use crate::spec::{Dimension, Located, Raw, SceneSpec, parse_scene};
 use crate::system::{Named, System};

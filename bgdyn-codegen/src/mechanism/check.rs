@@ -24,12 +24,13 @@ use parameters::Parameters;
 const FORMAT: u32 = 1;
 
 /// Checks a spec against every rule. `stem` is the file's name without its ending, if there is a
-/// file; only what stands before its first dot counts.
+/// file; only what stands before its first dot counts. `methods` are the names of what is generated,
+/// which no run-time parameter may have.
 ///
 /// The mechanism is there exactly if nothing refuses the spec.
-pub fn check(spec: &Spec, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
+pub fn check(spec: &Spec, stem: Option<&str>, methods: &[String]) -> (Option<Mechanism>, Faults) {
     let mut faults = Faults::default();
-    let mechanism = mechanism(spec, stem, &mut faults);
+    let mechanism = mechanism(spec, stem, methods, &mut faults);
     let still = mechanism.as_ref().is_some_and(|m| m.nv() == 0) && !faults.any_fault();
     if let Some(links) = spec.links.given().filter(|_| still) {
         faults.push(wording::no_coordinates(&links.place));
@@ -40,7 +41,12 @@ pub fn check(spec: &Spec, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
     (mechanism.filter(|_| sound), faults)
 }
 
-fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mechanism> {
+fn mechanism(
+    spec: &Spec,
+    stem: Option<&str>,
+    methods: &[String],
+    faults: &mut Faults,
+) -> Option<Mechanism> {
     format(spec, faults);
     let name = names::mechanism_name(spec, stem, faults);
     let directions = Directions::new(spec, faults);
@@ -51,7 +57,7 @@ fn mechanism(spec: &Spec, stem: Option<&str>, faults: &mut Faults) -> Option<Mec
     }
     names::check(links, frames, faults);
     let tree = Tree::new(links, frames, faults);
-    let mut parameters = Parameters::default();
+    let mut parameters = Parameters::new(methods);
     let bodies = links
         .iter()
         .map(|link| body(link, &directions, &mut parameters, faults))
@@ -115,7 +121,7 @@ struct Body {
 fn body(
     link: &spec::Link,
     directions: &Directions,
-    parameters: &mut Parameters,
+    parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<Body> {
     let joint = joint::joint(link, directions, faults);
@@ -132,7 +138,7 @@ fn body(
 fn inertial(
     link: &spec::Link,
     directions: &Directions,
-    parameters: &mut Parameters,
+    parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<Inertial> {
     if let Some(mass) = link.mass.given().filter(|mass| mass.value.value < Dd::ZERO) {

@@ -6,7 +6,6 @@
 mod check;
 pub mod joint;
 mod lettered;
-pub mod name;
 mod places;
 
 use std::fmt;

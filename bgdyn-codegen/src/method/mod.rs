@@ -141,6 +141,12 @@ pub enum Method {
     Scene(Role),
 }
 
+/// Names of all methods that a generated struct may have, whatever its places are called.
+pub fn names() -> Vec<String> {
+    let all = Method::possible(&[]);
+    all.iter().map(|method| method.name(&[])).collect()
+}
+
 impl Method {
     /// The methods of [`bgdyn_runtime::Dynamics`], which every model has.
     pub const OF_TRAIT: [Method; 7] = [

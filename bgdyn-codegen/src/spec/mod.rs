@@ -9,20 +9,19 @@ mod number;
 mod parse;
 mod raw;
 mod scene;
-mod unit;
 mod walk;
 mod yaml;
 
 use bgdyn_runtime::Dd;
 
 use crate::fault::Place;
+pub use crate::unit::{Dimension, Unit};
 pub use field::{Field, Located};
 pub(crate) use number::misfit;
 pub use number::quantity;
 pub use parse::parse;
 pub use raw::{Entry, Fields, Key, Raw, Reads};
 pub use scene::{SceneSpec, is_scene, parse_scene};
-pub use unit::{Dimension, Unit};
 
 /// A number as written.
 #[derive(Clone, Debug, PartialEq)]

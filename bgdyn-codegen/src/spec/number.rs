@@ -2,10 +2,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::unit::{Dimension, Unit};
 use super::yaml::Kind;
 use super::{Located, Number};
 use crate::fault::{Fault, Place, wording};
+use crate::unit::{Dimension, Unit};
 
 /// Sizes a number may have unless it is 0: beyond them no product would be safe from overflow.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;

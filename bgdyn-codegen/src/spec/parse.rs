@@ -1,12 +1,12 @@
 //! The tree → the spec: one function per mapping of the format.
 
-use super::unit::Dimension;
 use super::walk::{At, Mapping, Reader};
 use super::yaml::{self, Data};
 use super::{
     Field, Frame, Inertia, Joint, LENGTHS, Limits, Link, Located, Number, Origin, Spec, Vector,
 };
 use crate::fault::{Faults, wording};
+use crate::unit::Dimension;
 use bgdyn_runtime::Dd;
 
 /// Reads a spec. What cannot be read is reported and left out, the rest is there.

@@ -1,12 +1,12 @@
 //! Entries whose keys are known only to the step that reads them: effects, inputs, initial values.
 //! They keep what stands in the file, with places, until somebody says what belongs there.
 
-use super::unit::Dimension;
 use super::walk::{At, Reader};
 use super::yaml::{Data, Kind, Tree};
 use super::{Located, Number, Vector};
 use crate::fault::wording::Wanted;
 use crate::fault::{Faults, Place};
+use crate::unit::Dimension;
 
 /// A named entry, unread.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,11 +2,11 @@
 //! the reading goes on.
 
 use super::number::number;
-use super::unit::Dimension;
 use super::yaml::{Data, Entry, Kind, Tree};
 use super::{Field, Located, Number, Vector};
 use crate::fault::wording::Wanted;
 use crate::fault::{Faults, Place, wording};
+use crate::unit::Dimension;
 
 /// The key that makes a mapping a run-time parameter.
 const PARAMETER: &str = "parameter";

@@ -2,8 +2,8 @@
 
 use super::{figure, listed, meant, quote};
 use crate::fault::{Fault, Place};
-use crate::mechanism::name::{is_keyword, to_identifier};
-use crate::spec::Dimension;
+use crate::name::{is_keyword, to_identifier};
+use crate::unit::Dimension;
 
 // Names
 

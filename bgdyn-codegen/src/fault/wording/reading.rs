@@ -2,7 +2,7 @@
 
 use super::{escape, listed, meant, quote};
 use crate::fault::{Fault, Place, Position};
-use crate::spec::{Dimension, Unit};
+use crate::unit::{Dimension, Unit};
 
 fn at(position: Position) -> Place {
     Place {

@@ -23,7 +23,7 @@ const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1,
 pub(super) fn tensor(
     link: &Link,
     directions: &Directions,
-    parameters: &mut Parameters,
+    parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<Tensor> {
     let allowed = allows_nonphysical(link, faults);
@@ -81,7 +81,7 @@ fn written(
     link: &Link,
     inertia: &Inertia,
     directions: &Directions,
-    parameters: &mut Parameters,
+    parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<Written> {
     if inertia.solid.is_broken() || solid::conflicts(inertia, faults) {
@@ -168,7 +168,7 @@ fn allows_nonphysical(link: &Link, faults: &mut Faults) -> bool {
 fn entries(
     link: &Link,
     inertia: &Inertia,
-    parameters: &mut Parameters,
+    parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<[Value; 6]> {
     let link = link.name.value().map_or("", String::as_str);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::fault::{Fault, Faults, Place, wording};
-use crate::mechanism::name::{WORLD, is_identifier};
+use crate::name::{WORLD, is_identifier};
 use crate::spec::{Field, Frame, Joint, Link, Located, Spec};
 
 /// The one name whose struct, `T`, would hide the type parameter of generated code.

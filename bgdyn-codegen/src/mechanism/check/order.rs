@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::fault::{Faults, wording};
 use crate::mechanism::LinkId;
-use crate::mechanism::name::WORLD;
+use crate::name::WORLD;
 use crate::spec::{Field, Frame, Link, Located};
 
 /// What a link or frame is fixed to, by its place in the file.

@@ -3,15 +3,15 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Place, wording};
-use crate::mechanism::name::is_identifier;
 use crate::mechanism::{Parameter, ParameterId, Value};
-use crate::method::Method;
+use crate::name::is_identifier;
 use crate::spec::{Dimension, Located, Number};
 
 /// The parameters found so far, in the file's order.
-#[derive(Default)]
-pub(super) struct Parameters {
+pub(super) struct Parameters<'a> {
     found: Vec<Found>,
+    /// The methods of every generated struct.
+    methods: &'a [String],
 }
 
 struct Found {
@@ -22,7 +22,15 @@ struct Found {
     first: Place,
 }
 
-impl Parameters {
+impl<'a> Parameters<'a> {
+    /// None yet; none may be called like one of these `methods`.
+    pub(super) fn new(methods: &'a [String]) -> Self {
+        Parameters {
+            found: Vec::new(),
+            methods,
+        }
+    }
+
     /// A number of the spec, or the parameter that it is the default of. `meaning` says what it
     /// stands for.
     pub(super) fn value(
@@ -43,7 +51,9 @@ impl Parameters {
         if !is_identifier(&name.value) {
             faults.push(wording::parameter_not_identifier(&name.place, &name.value));
         }
-        if is_method(&name.value) {
+        // A field may have a method's name in Rust, but `arm.gravity` and `arm.gravity(q)` would be
+        // two things.
+        if self.methods.contains(&name.value) {
             faults.push(wording::parameter_is_method(&name.place, &name.value));
         }
         self.found.push(Found {
@@ -104,10 +114,4 @@ impl Found {
         self.parameter.meaning += " and ";
         self.parameter.meaning += &meaning;
     }
-}
-
-/// Whether a method of every generated struct has this name. A field may have it in Rust, but
-/// `arm.gravity` and `arm.gravity(q)` would be two things.
-fn is_method(name: &str) -> bool {
-    Method::possible(&[]).iter().any(|m| m.name(&[]) == name)
 }

@@ -14,8 +14,8 @@ use super::reduce::held;
 use super::{Initial, Scene, Written};
 use crate::effect::Refused;
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
-use crate::mechanism::name::is_identifier;
 use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
+use crate::name::is_identifier;
 use crate::spec::{Dimension, Field, Located, Raw, SceneSpec};
 pub(crate) use effects::{context, taken};
 
