@@ -7,7 +7,7 @@ use std::{env, fs};
 
 use bgdyn_codegen::build_script::Build;
 use bgdyn_codegen::emit::struct_ident;
-use bgdyn_codegen::model::stem;
+use bgdyn_codegen::files::stem;
 
 const METHODS: [&str; 5] = [
     "inverse_dynamics",

@@ -12,7 +12,7 @@ use std::time::Instant;
 use std::{env, fs};
 
 use bgdyn_codegen::build_script::Build;
-use bgdyn_codegen::model::stem;
+use bgdyn_codegen::files::stem;
 
 /// Of a controller: what a build with all five adds.
 const METHODS: [&str; 5] = [

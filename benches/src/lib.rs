@@ -21,7 +21,7 @@ use bgdyn_codegen::mechanism::Mechanism;
 pub fn read(path: &Path) -> Result<Mechanism, String> {
     let shown = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| format!("{shown}: {e}"))?;
-    let stem = bgdyn_codegen::model::stem(path);
+    let stem = bgdyn_codegen::files::stem(path);
     let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem));
     mechanism.ok_or_else(|| faults.render(&shown, &text))
 }

@@ -38,8 +38,8 @@ effects:
 ";
 
 fn scene(text: &str) {
-    let read = model::read_scene(text, "arm", |_| Ok(ARM.to_owned()));
-    if let Err(model::Refusal::Spec(faults)) = read {
+    let read = bgdyn_codegen::read_scene(text, "arm", |_| Ok(ARM.to_owned()));
+    if let Err(refusal::Refusal::Spec(faults)) = read {
         well_said(&faults, text);
     }
 }

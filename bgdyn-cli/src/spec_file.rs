@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults, Place};
+use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::model::{
-    Options, Refusal, Unknown, beside, formulation_named, preference_named, read_scene, stem,
-};
+use bgdyn_codegen::options::{Options, Unknown, formulation_named, preference_named};
+use bgdyn_codegen::read_scene;
+use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::spec::{parse, parse_scene};
 use bgdyn_codegen::system::System;
 use bgdyn_codegen::verify::explain;

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
 use bgdyn_codegen::expr::Operations;
-use bgdyn_codegen::model::{Options, scene_functions};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::system::System;
 
 use crate::scratch::Scratch;

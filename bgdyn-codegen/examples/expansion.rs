@@ -7,7 +7,9 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use bgdyn_codegen::emit::Place;
-use bgdyn_codegen::model::{Options, generate, stem};
+use bgdyn_codegen::files::stem;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::generate;
 
 const PASSES: usize = 5;
 

@@ -25,8 +25,11 @@ use std::path::{Path, PathBuf};
 
 use crate::emit::{Place, source_text};
 use crate::fault::{Faults, Severity};
-use crate::model::{Options, Refusal, beside, generate_file, stem};
+use crate::files::{beside, stem};
+use crate::options::Options;
 use crate::options::{formulation_named, preference_named};
+use crate::pipeline::generate_file;
+use crate::refusal::Refusal;
 use crate::verify::explain;
 
 /// Writes the module of a spec to `OUT_DIR`: [`Build`] with nothing asked for in particular.

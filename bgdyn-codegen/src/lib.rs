@@ -2,7 +2,7 @@
 //!
 //! One path, one direction: [`spec`] (the file as written) → [`mechanism`] (checked) →
 //! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) →
-//! [`emit`] (Rust tokens). Data types import no steps; [`model`] runs the steps in order.
+//! [`emit`] (Rust tokens). Data types import no steps; [`pipeline`] runs the steps in order.
 //!
 //! Units, frames, the order of spatial vectors and the sign of gravity are said once, in
 //! [`bgdyn_runtime`]; how to add a joint, an effect, a formulation or a backend in
@@ -19,6 +19,7 @@ pub mod effect;
 pub mod emit;
 pub mod expr;
 pub mod fault;
+pub mod files;
 pub mod formulation;
 pub mod function;
 pub mod interface;
@@ -28,9 +29,11 @@ pub mod mechanism;
 pub mod method;
 pub mod model;
 pub mod name;
-mod options;
+pub mod options;
+pub mod pipeline;
 mod products;
 mod read;
+pub mod refusal;
 pub mod scene;
 pub mod spec;
 pub mod system;
@@ -39,7 +42,7 @@ pub mod verify;
 
 #[cfg(feature = "source")]
 pub use build_script::{Build, build};
-pub use read::read;
+pub use read::{read, read_scene};
 
 /// The examples of `docs/extending.md`, compiled by `cargo test --doc -p bgdyn-codegen`.
 #[cfg(doctest)]

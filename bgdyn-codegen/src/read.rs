@@ -1,11 +1,17 @@
-//! YAML text → checked mechanism: reading, then checking, all findings together.
+//! YAML text → checked mechanism, or the equations of a scene: reading, then checking, all findings together.
+
+use std::path::Path;
 
 use crate::bond_graph;
 use crate::fault::wording::no_inertia;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, Severity};
+use crate::files::stem;
 use crate::mechanism::{Mechanism, check};
 use crate::method;
-use crate::spec::{Joint, Spec, parse};
+use crate::refusal::Refusal;
+use crate::scene::{self, Verdict};
+use crate::spec::{Joint, Spec, parse, parse_scene};
+use crate::system::System;
 
 /// Reads and checks a spec. `stem` is the file's name without its ending, if there is a file; only
 /// what stands before its first dot counts.
@@ -39,4 +45,90 @@ fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
         Some(no_inertia(&joint.place, name))
     });
     found.collect()
+}
+
+/// Reads a scene and the mechanism it names. `load` gives the text of a file from the path that
+/// the scene writes.
+///
+/// # Errors
+/// What is wrong with the scene or with its mechanism.
+pub fn read_scene(
+    text: &str,
+    stem: &str,
+    load: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<(System, Faults), Refusal> {
+    let (spec, mut faults) = parse_scene(text);
+    let Some(spec) = spec else {
+        return Err(Refusal::Spec(faults));
+    };
+    let alone = |mut faults: Faults| {
+        faults.0.extend(scene::check_alone(&spec, Some(stem)).0);
+        faults.sort();
+        faults
+    };
+    let Some(path) = spec.mechanism.given() else {
+        return Err(Refusal::Spec(alone(faults)));
+    };
+    let loaded = match load(&path.value) {
+        Ok(loaded) => loaded,
+        Err(why) => {
+            let message = format!("the mechanism `{}` cannot be read: {why}", path.value);
+            let fault = Fault::new(&path.place, "no-mechanism", message);
+            faults.push(fault.with_help("write its path from the scene's own folder"));
+            return Err(Refusal::Spec(alone(faults)));
+        }
+    };
+    let name = self::stem(Path::new(&path.value));
+    let (mechanism, found) = read(&loaded, Some(&name));
+    let Some(mechanism) = mechanism else {
+        let path = path.value.clone();
+        return Err(Refusal::Mechanism {
+            path,
+            text: loaded,
+            faults: found,
+            scene: alone(faults),
+        });
+    };
+    let (verdict, more) = scene::check(&spec, Some(stem), &mechanism);
+    faults.0.extend(more.0);
+    let system = match verdict {
+        Verdict::Sound(scene) => System::new(*scene),
+        Verdict::Drawn(scene) => {
+            let found = System::new(*scene).err().unwrap_or_default();
+            faults.0.extend(independent(found, &faults));
+            Err(Faults::default())
+        }
+        Verdict::Refused => Err(Faults::default()),
+    };
+    let system = match system {
+        Ok(system) => system,
+        Err(more) => {
+            faults.0.extend(more.0);
+            faults.sort();
+            return Err(Refusal::Spec(faults));
+        }
+    };
+    faults.sort();
+    for joint in system.without_inertia() {
+        let path = &path.place;
+        let message = format!(
+            "in this scene nothing gives the joint `{joint}` inertia: it has no acceleration of its own"
+        );
+        let fault = Fault::new(path, "no-inertia", message).with_help(
+            "call for `inertia` or for a rotor, or lock the joint; `inverse` is sound as it is",
+        );
+        faults.push(fault.into_warning());
+    }
+    Ok((system, faults))
+}
+
+/// What is wrong with the equations of a scene that has faults, where it does not follow from these: values
+/// out of range may come from a start that could not be read.
+fn independent(found: Faults, faults: &Faults) -> Vec<Fault> {
+    let elsewhere = |f: &Fault| f.severity == Severity::Fault && f.path.is_empty();
+    let start =
+        ["initial", "lock"].iter().any(|key| faults.any_in(key)) || faults.0.iter().any(elsewhere);
+    let mut found = found.0;
+    found.retain(|f| !(start && f.rule == "effect-range"));
+    found
 }

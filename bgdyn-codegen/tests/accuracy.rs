@@ -7,7 +7,8 @@ use bgdyn_codegen::formulation::{FORMULATIONS, Formulation};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::loss::{Loss, loss};
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{self, Options, Preference, preference_named};
+use bgdyn_codegen::options::{Options, Preference, preference_named};
+use bgdyn_codegen::pipeline;
 use bgdyn_runtime::Dd;
 use common::bars::near_aligned;
 use common::hard::Chain;
@@ -25,7 +26,7 @@ fn accurate_by(robot: &Robot, method: Method, by: Option<&'static dyn Formulatio
         formulation: by,
         ..Options::default()
     };
-    model::function(&robot.mechanism, method, &options).expect("every method is known")
+    pipeline::function(&robot.mechanism, method, &options).expect("every method is known")
 }
 
 /// The worst error of a function over many random states, in roundings of the largest component.
@@ -199,7 +200,7 @@ fn a_formulation_asked_for_is_taken() {
         formulation: bgdyn_codegen::formulation::by_name("articulated_base"),
         ..Options::default()
     };
-    let of = |method| model::function(&robot.mechanism, method, &options).expect("known");
+    let of = |method| pipeline::function(&robot.mechanism, method, &options).expect("known");
     let forward = of(Method::ForwardDynamics).formulation;
     assert!(forward.starts_with("articulated_base: "), "{forward}");
     let inverse = of(Method::InverseDynamics).formulation;

@@ -7,7 +7,7 @@ mod common;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use bgdyn_codegen::model::stem;
+use bgdyn_codegen::files::stem;
 use common::Robot;
 use common::bars::{Generated, all, driven, near_aligned};
 use common::rng::Rng;

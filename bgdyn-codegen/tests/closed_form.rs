@@ -11,8 +11,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::closed_form::{LIMIT, Refused, closed_form, latex, text};
+use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::stem;
 use bgdyn_runtime::Dd;
 use common::parameters::{parametrised, values};
 use common::printed::{Printed, evaluate};

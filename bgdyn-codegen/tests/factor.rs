@@ -7,7 +7,8 @@ use bgdyn_codegen::expr::{Expr, Graph, Inputs, Leaf, Node, Operations, count, ev
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{self, Options};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline;
 use bgdyn_runtime::{Dd, Scalar};
 use common::random::Draft;
 use common::rng::Rng;
@@ -156,7 +157,7 @@ fn mechanism(seed: u64, most: usize) {
         ..Options::default()
     };
     for method in Method::possible(&robot.graph.sites) {
-        let made = |options: &Options| model::function(&robot.mechanism, method, options);
+        let made = |options: &Options| pipeline::function(&robot.mechanism, method, options);
         let what = format!("seed {seed}\n{text}{state:?}\nseed {seed}");
         if Method::OF_TRAIT.contains(&method) {
             let whole = robot.whole("recursion", method);

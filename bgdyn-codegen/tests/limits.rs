@@ -8,10 +8,10 @@ use std::fs;
 use std::path::Path;
 
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::files::stem;
 use bgdyn_codegen::formulation::Search;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Argument, Method};
-use bgdyn_codegen::model::stem;
 use common::Robot;
 use common::bars::Digits;
 use common::rng::Rng;

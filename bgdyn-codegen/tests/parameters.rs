@@ -6,7 +6,7 @@ mod common;
 use bgdyn_codegen::emit::Place;
 use bgdyn_codegen::interface::Interface;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::generate;
+use bgdyn_codegen::pipeline::generate;
 use common::rng::Rng;
 use common::{Robot, State, largest};
 

@@ -8,8 +8,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::expr::Operations;
+use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Options, function, stem};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::read;
 
 /// The methods compared, with the head of their column.

@@ -7,7 +7,8 @@ mod strategy;
 
 use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Options, function};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::function;
 use bgdyn_runtime::Dd;
 use common::laws::{self, Case, EXACT};
 use common::random::{Draft, Joint, Link};

@@ -154,7 +154,8 @@ fn columns_in_loops_undo_the_inverse() {
     for (name, columns) in [("scara_rrpr", 0), ("panda_gen", 12), ("chain8", 15)] {
         let robot = golden::robot(name);
         let method = Method::ForwardDynamicsDerivatives;
-        let emitted = bgdyn_codegen::model::function(&robot.mechanism, method, &Default::default());
+        let emitted =
+            bgdyn_codegen::pipeline::function(&robot.mechanism, method, &Default::default());
         let emitted = emitted.expect("every method is known");
         for forward in [&robot.chosen(method), &emitted] {
             let groups = forward.loops.iter().flat_map(|loops| &loops.groups);

@@ -7,7 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{self, Options};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline;
 use bgdyn_runtime::Dd;
 use common::rng::Rng;
 use common::{FORMULATIONS, Robot, State, assert_close, full, golden, largest};
@@ -208,7 +209,7 @@ fn the_torsos_right_arm_mirrors_the_left() {
 fn the_palletiser_takes_no_sine_twice() {
     let robot = robot("palletiser");
     for method in Method::OF_TRAIT {
-        let function = model::function(&robot.mechanism, method, &Options::default());
+        let function = pipeline::function(&robot.mechanism, method, &Options::default());
         let pairs = function.expect("every method").operations().sincos;
         let (name, joints) = (method.name(&robot.graph.sites), robot.nv());
         assert!(pairs <= joints, "{name}: {pairs} pairs for {joints} joints");

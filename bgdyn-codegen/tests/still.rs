@@ -2,7 +2,9 @@
 
 use bgdyn_codegen::emit::Place;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Model, Options, generate};
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::generate;
 use bgdyn_codegen::read;
 
 const TEXT: &str = "
@@ -25,7 +27,7 @@ fn everything_is_generated() {
     let (tokens, _) = generate(TEXT, "still", &place, &options).expect("no fault");
     assert!(tokens.to_string().contains("forward_dynamics_derivatives"));
     let (mechanism, _) = read(TEXT, Some("still"));
-    let model = Model::new(mechanism.expect("no fault"), &options).expect("nothing unknown");
+    let model = pipeline::model(mechanism.expect("no fault"), &options).expect("nothing unknown");
     let energy = model.function(Method::PotentialEnergy).expect("a method");
     let (value, _) = energy.evaluate::<f64>(Default::default());
     assert!((value[0] - 3.0 * 9.81 * 2.0).abs() < 1e-12);

@@ -5,11 +5,15 @@ use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::bond_graph::{self, BondGraph, Gyrostat, Rotor};
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::formulation::{FORMULATIONS, Search};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Value};
 use bgdyn_codegen::method::{Method, Role};
-use bgdyn_codegen::model::{Model, Options, beside, read_scene, scene_functions, stem};
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::scene_functions;
+use bgdyn_codegen::read_scene;
 use bgdyn_codegen::system::System;
 use bgdyn_codegen::verify::{Difference, check_functions, check_scene, explain};
 use bgdyn_runtime::Dd;
@@ -70,7 +74,7 @@ fn every_spec_passes() {
             derivatives: mechanism.nv() <= 10,
             ..Options::default()
         };
-        let model = Model::new(mechanism, &options).expect("a model");
+        let model = pipeline::model(mechanism, &options).expect("a model");
         let found = check_functions("spec", &model.bond_graph, &model.functions);
         assert!(found.is_empty(), "{}: {}", path.display(), explain(&found));
     }
@@ -289,7 +293,7 @@ fn a_turned_sign_is_found_in_every_function_of_a_scene() {
 /// Each method alone, with the sign of one of its outputs turned.
 #[test]
 fn a_turned_sign_is_found_in_every_method() {
-    let model = Model::new(mechanism(ARM, "arm"), &all()).expect("a model");
+    let model = pipeline::model(mechanism(ARM, "arm"), &all()).expect("a model");
     let state = |n: usize, from: f64| {
         (0..n)
             .map(|k| Dd::from_f64(from + 0.4 * k as f64))
@@ -350,7 +354,7 @@ fn a_difference_names_all_that_is_needed_to_see_it() {
 fn a_mechanism_without_coordinates_passes() {
     let text = "format: 1\nlinks:\n  - name: post\n    joint: { type: fixed, origin: { xyz: [1, 2, 3] } }\n    \
                 mass: 2\n    com: [0.1, 0, 0.3]\n";
-    let model = Model::new(mechanism(text, "post"), &all()).expect("a model");
+    let model = pipeline::model(mechanism(text, "post"), &all()).expect("a model");
     let found = check_functions("post", &model.bond_graph, &model.functions);
     assert!(found.is_empty(), "{}", explain(&found));
 }

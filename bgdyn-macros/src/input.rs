@@ -1,7 +1,7 @@
 //! What the user writes between the parentheses.
 
-use bgdyn_codegen::model::{Asked, Options, Unknown, formulation_named, preference_named};
 use bgdyn_codegen::name::is_identifier;
+use bgdyn_codegen::options::{Asked, Options, Unknown, formulation_named, preference_named};
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};

@@ -10,7 +10,8 @@ mod input;
 use std::path::Path;
 
 use bgdyn_codegen::emit::Place;
-use bgdyn_codegen::model::{self, Refusal};
+use bgdyn_codegen::pipeline;
+use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::verify::explain;
 use proc_macro::TokenStream;
 use quote::quote;
@@ -82,10 +83,10 @@ fn module(
     let found = find::find(&written, input.path.span());
     let load = |mechanism: &str| {
         let path = found.clone()?;
-        std::fs::read_to_string(model::beside(&path, mechanism)).map_err(|e| e.to_string())
+        std::fs::read_to_string(files::beside(&path, mechanism)).map_err(|e| e.to_string())
     };
     let stand_in = |text: &str, place: &Place| {
-        model::fallback(text, &model::stem(Path::new(&place.source)), place, load)
+        pipeline::fallback(text, &files::stem(Path::new(&place.source)), place, load)
     };
     let refused = |message: String, text: &str, place: &Place| Refused {
         errors: vec![syn::Error::new(input.path.span(), message)],
@@ -97,11 +98,11 @@ fn module(
         refused(message, "", &place)
     })?;
     place.rebuild = Some(path.display().to_string());
-    if let Some(mechanism) = model::mechanism_of(&text) {
-        let file = model::beside(&path, &mechanism);
+    if let Some(mechanism) = files::mechanism_of(&text) {
+        let file = files::beside(&path, &mechanism);
         place.also.push(file.display().to_string());
     }
-    match model::generate_file(&text, &model::stem(&path), &place, &input.options, load) {
+    match pipeline::generate_file(&text, &files::stem(&path), &place, &input.options, load) {
         Ok((tokens, _warnings)) => Ok(tokens),
         Err(Refusal::Spec(faults)) => {
             let mut message = faults.render(&written, &text).trim_end().to_string();

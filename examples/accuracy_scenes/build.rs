@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use bgdyn_accuracy::generate::variants;
-use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_codegen::files::{beside, stem};
+use bgdyn_codegen::read_scene;
 use bgdyn_codegen::system::System;
 
 /// The scenes, and when their runs end where that is not as the file says, s.

@@ -13,7 +13,8 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Options, function};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::function;
 use counted::{Counted, executed};
 use golden_values::equals_golden;
 

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use bgdyn_codegen::build_script::Build;
-use bgdyn_codegen::model::{Model, Options, stem};
+use bgdyn_codegen::files::stem;
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::Options;
 
 /// The model of a spec.
 pub fn model(path: &Path, derivatives: bool) -> Model {
@@ -15,7 +17,7 @@ pub fn model(path: &Path, derivatives: bool) -> Model {
         derivatives,
         ..Options::default()
     };
-    Model::new(mechanism, &options).expect("no name is asked for")
+    pipeline::model(mechanism, &options).expect("no name is asked for")
 }
 
 /// The text of its module.

@@ -6,7 +6,7 @@ use std::{env, fs};
 
 use bgdyn_codegen::Build;
 use bgdyn_codegen::emit::struct_ident;
-use bgdyn_codegen::model::stem;
+use bgdyn_codegen::files::stem;
 
 /// The scenes with a Jacobian and a canonical form.
 const FORMED: [&str; 5] = [

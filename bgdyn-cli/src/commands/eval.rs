@@ -78,7 +78,7 @@ impl Eval {
         let method = Method::named(&graph.sites, &self.method).map_err(Usage)?;
         let parameters = parameters(mechanism.parameters(), &self.parameters)?;
         let states = states(&self.states)?;
-        let function = bgdyn_codegen::model::function(&mechanism, method, &options)
+        let function = bgdyn_codegen::pipeline::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
         let value = |state: &Value| evaluate(&mechanism, &function, &parameters, state);
         self.report(vec![], &states, value)

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::emit::{Place, source_text};
-use bgdyn_codegen::model::generate_file;
+use bgdyn_codegen::pipeline::generate_file;
 use clap::Args;
 
 use crate::output::{print, tell};

@@ -8,7 +8,9 @@ use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::{Considered, Function};
 use bgdyn_codegen::loss::{Loss, loss};
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::model::{Model, Options, function, scene_functions};
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::{function, scene_functions};
 use bgdyn_codegen::system::System;
 use clap::Args;
 use serde::{Serialize, Serializer};
@@ -52,7 +54,7 @@ impl Ops {
             return Err(Usage(message.into()).into());
         }
         let mechanism = spec.mechanism()?;
-        let model = Model::new(mechanism.clone(), &options).map_err(unknown)?;
+        let model = pipeline::model(mechanism.clone(), &options).map_err(unknown)?;
         let explained = self.explain.then(|| explained(&mechanism, &model));
         self.report(&model.functions, explained)
     }

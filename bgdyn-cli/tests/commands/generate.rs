@@ -3,7 +3,8 @@
 use std::fs;
 
 use bgdyn_codegen::emit::Place;
-use bgdyn_codegen::model::{Options, generate};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::generate;
 
 use crate::{bgdyn, root, scratch};
 

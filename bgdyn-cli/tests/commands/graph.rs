@@ -5,8 +5,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use bgdyn_codegen::bond_graph;
+use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Value as MassValue};
-use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_codegen::read_scene;
 use bgdyn_runtime::Dd;
 
 use crate::{bgdyn, root, scratch};

@@ -1,7 +1,9 @@
 //! `bgdyn ops`.
 
+use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Model, Options, stem};
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::Options;
 use serde_json::Value;
 
 use crate::{bgdyn, root};
@@ -63,7 +65,7 @@ fn counts_of_every_spec_are_the_models() {
             derivatives: true,
             ..Options::default()
         };
-        let model = Model::new(mechanism.expect("no fault"), &options).expect("no names");
+        let model = pipeline::model(mechanism.expect("no fault"), &options).expect("no names");
         let shown = path.display().to_string();
         let json = bgdyn(&["ops", &shown, "--json", "--derivatives"]).good();
         let json: Value = serde_json::from_str(&json).expect("JSON");

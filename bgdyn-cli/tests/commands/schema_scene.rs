@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use bgdyn_codegen::fault::Faults;
-use bgdyn_codegen::model::{Refusal, read_scene};
+use bgdyn_codegen::read_scene;
+use bgdyn_codegen::refusal::Refusal;
 use jsonschema::Validator;
 use serde_json::Value;
 

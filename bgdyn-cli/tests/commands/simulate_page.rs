@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Options, formulation_named, function};
+use bgdyn_codegen::options::{Options, formulation_named};
+use bgdyn_codegen::pipeline::function;
 use serde_json::Value;
 
 use crate::{bgdyn, root, scratch};

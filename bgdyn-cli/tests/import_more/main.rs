@@ -6,7 +6,8 @@ mod table;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Options, function};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::function;
 
 /// The mechanism of a text that has no fault.
 fn mechanism(yaml: &str) -> Mechanism {

@@ -21,7 +21,8 @@ use bgdyn_codegen::formulation::{self, Search};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion, Value};
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{self, Options};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline;
 use bgdyn_runtime::{Dd, Scalar};
 use rng::Rng;
 
@@ -69,7 +70,7 @@ impl Robot {
             ..Options::default()
         };
         assert!(options.formulation.is_some(), "{formulation}?");
-        let made = model::function(&self.mechanism, method, &options);
+        let made = pipeline::function(&self.mechanism, method, &options);
         made.expect("every formulation knows every method")
     }
 

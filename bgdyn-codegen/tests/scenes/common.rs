@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::model::{Refusal, beside, read_scene, stem};
+use bgdyn_codegen::files::{beside, stem};
+use bgdyn_codegen::read_scene;
+use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::system::System;
 use bgdyn_runtime::Dd;
 

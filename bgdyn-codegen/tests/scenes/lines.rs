@@ -1,6 +1,6 @@
 //! Effects along a line need a line whose length can change.
 
-use bgdyn_codegen::model::Refusal;
+use bgdyn_codegen::refusal::Refusal;
 
 use super::common::try_scene;
 

@@ -1,6 +1,6 @@
 //! Mistakes in scenes: all of them at once, each with its place and a way out.
 
-use bgdyn_codegen::model::Refusal;
+use bgdyn_codegen::refusal::Refusal;
 
 use super::common::{scene, told, try_scene};
 
@@ -148,8 +148,8 @@ fn a_scene_is_told_by_its_first_key() {
 /// in, with each name once.
 #[test]
 fn every_refused_scene_has_a_stand_in() {
+    use bgdyn_codegen::files::{beside, mechanism_of, stem};
     use bgdyn_codegen::interface::SceneInterface;
-    use bgdyn_codegen::model::{beside, mechanism_of, stem};
     let spoiled = |text: &str| -> Vec<String> {
         let lines: Vec<&str> = text.lines().collect();
         let without = |i: usize| [&lines[..i], &lines[i + 1..]].concat().join("\n");

@@ -2,7 +2,8 @@
 //! from another.
 
 use bgdyn_codegen::fault::Faults;
-use bgdyn_codegen::model::{Refusal, read_scene};
+use bgdyn_codegen::read_scene;
+use bgdyn_codegen::refusal::Refusal;
 
 use super::common::try_scene;
 

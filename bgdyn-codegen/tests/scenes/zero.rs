@@ -3,7 +3,8 @@
 use bgdyn_codegen::effect::EFFECTS;
 use bgdyn_codegen::emit::{Place, scene_module};
 use bgdyn_codegen::method::Role;
-use bgdyn_codegen::model::{Options, scene_functions};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::system::System;
 
 use super::common::{Random, scene, state};

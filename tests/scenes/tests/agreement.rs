@@ -4,8 +4,9 @@
 use std::path::Path;
 
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::method::Role;
-use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_codegen::read_scene;
 use bgdyn_runtime::{Canonical, Slope, System};
 use nalgebra::SVector;
 

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use bgdyn_cli::simulate::{Evaluated, Form, Numbers};
-use bgdyn_codegen::model::{beside, read_scene, stem};
+use bgdyn_codegen::files::{beside, stem};
+use bgdyn_codegen::read_scene;
 use bgdyn_codegen::system::System;
 use bgdyn_sim::{CanonicalScene, Gauss2, Method, Moment, Rk4, Rodas4, Run, Scene, Space};
 use scenes::{hydraulic_cylinder, scara_everything, stick_slip, stiff_spring_pendulum};

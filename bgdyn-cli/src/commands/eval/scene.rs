@@ -7,8 +7,8 @@ use anyhow::Result;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
-use bgdyn_codegen::model::Options;
-use bgdyn_codegen::model::Preference;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::options::Preference;
 use bgdyn_codegen::system::System;
 use serde_json::{Value, json};
 

@@ -6,7 +6,8 @@ mod stops;
 
 use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{Options, function};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::system::System;
 use serde::Serialize;
 

@@ -6,8 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::emit::{Place, module, source_text, struct_ident};
+use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::{DYNAMICS, Model, Options, stem};
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::{DYNAMICS, Options};
 
 use crate::dependence;
 use crate::written::{Chain, cases, links_of, sliders_of};
@@ -162,7 +164,7 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
             methods: Some(vec![DYNAMICS.into()]),
             ..Options::default()
         };
-        let model = Model::new(mechanism, &options).expect("the methods of the trait");
+        let model = pipeline::model(mechanism, &options).expect("the methods of the trait");
         let place = Place::source_text(format!("{name}.yaml"));
         let place = place.with_module(&name).expect("a name");
         let (spec, source) = (

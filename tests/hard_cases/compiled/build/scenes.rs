@@ -6,9 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
+use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
-use bgdyn_codegen::model::{Options, beside, read_scene, scene_functions, stem};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::scene_functions;
+use bgdyn_codegen::read_scene;
 use bgdyn_codegen::system::System;
 
 use crate::arm::{ALL, TENSOR, mechanism};
