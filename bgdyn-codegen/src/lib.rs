@@ -24,6 +24,7 @@ pub mod formulation;
 pub mod function;
 pub mod interface;
 pub mod loss;
+pub mod machine;
 pub mod math;
 pub mod mechanism;
 pub mod method;
@@ -42,7 +43,7 @@ pub mod verify;
 
 #[cfg(feature = "source")]
 pub use build_script::{Build, build};
-pub use read::{read, read_scene};
+pub use read::{read, read_machine, read_scene};
 
 /// The examples of `docs/extending.md`, compiled by `cargo test --doc -p bgdyn-codegen`.
 #[cfg(doctest)]

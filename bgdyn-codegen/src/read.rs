@@ -6,7 +6,8 @@ use crate::bond_graph;
 use crate::fault::wording::no_inertia;
 use crate::fault::{Fault, Faults, Severity};
 use crate::files::stem;
-use crate::mechanism::{Mechanism, check};
+use crate::machine::{self, Machine};
+use crate::mechanism::Mechanism;
 use crate::method;
 use crate::refusal::Refusal;
 use crate::scene::{self, Verdict};
@@ -16,20 +17,26 @@ use crate::system::System;
 /// Reads and checks a spec. `stem` is the file's name without its ending, if there is a file; only
 /// what stands before its first dot counts.
 ///
-/// The mechanism is there exactly if nothing refuses the spec; warnings may come with it. The
-/// findings are in the order of the file.
-pub fn read(text: &str, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
+/// The machine is there exactly if nothing refuses the spec; warnings may come with it. The findings
+/// are in the order of the file.
+pub fn read_machine(text: &str, stem: Option<&str>) -> (Option<Machine>, Faults) {
     let (spec, mut faults) = parse(text);
     let Some(spec) = spec else {
         return (None, faults);
     };
-    let (mechanism, more) = check(&spec, stem, &method::names());
+    let (machine, more) = machine::check(&spec, stem, &method::names());
     faults.0.extend(more.0);
-    if let Some(mechanism) = &mechanism {
-        faults.0.extend(without_inertia(mechanism, &spec));
+    if let Some(machine) = &machine {
+        faults.0.extend(without_inertia(&machine.mechanism, &spec));
     }
     faults.sort();
-    (mechanism, faults)
+    (machine, faults)
+}
+
+/// The same without the effects that the file declares.
+pub fn read(text: &str, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
+    let (machine, faults) = read_machine(text, stem);
+    (machine.map(|machine| machine.mechanism), faults)
 }
 
 /// Warns of joints that carry no inertia, which forward dynamics could only refuse.
@@ -79,8 +86,8 @@ pub fn read_scene(
         }
     };
     let name = self::stem(Path::new(&path.value));
-    let (mechanism, found) = read(&loaded, Some(&name));
-    let Some(mechanism) = mechanism else {
+    let (machine, found) = read_machine(&loaded, Some(&name));
+    let Some(machine) = machine else {
         let path = path.value.clone();
         return Err(Refusal::Mechanism {
             path,
@@ -89,7 +96,7 @@ pub fn read_scene(
             scene: alone(faults),
         });
     };
-    let (verdict, more) = scene::check(&spec, Some(stem), &mechanism);
+    let (verdict, more) = scene::check(&spec, Some(stem), &machine);
     faults.0.extend(more.0);
     let system = match verdict {
         Verdict::Sound(scene) => System::new(*scene),

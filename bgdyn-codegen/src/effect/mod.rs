@@ -11,6 +11,7 @@ mod given;
 mod joints;
 mod once;
 mod refused;
+mod scope;
 mod slip;
 
 mod coulomb;
@@ -46,6 +47,7 @@ pub use given::Given;
 pub use joints::keys_declared;
 pub(crate) use once::once_per_joint;
 pub use refused::Refused;
+pub(crate) use scope::check_unique_names;
 
 /// A kind of effect.
 pub trait Effect: Sync {

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::bond_graph;
-use crate::mechanism::{CoordinateId, Mechanism, Parameter};
+use crate::machine::Machine;
+use crate::mechanism::{CoordinateId, Parameter};
 use crate::name::is_identifier;
 use crate::scene::{self, Coordinate, Initial, Layout, Part, Store};
 use crate::spec::{Dimension, Located, Raw, SceneSpec, parse_scene};
@@ -50,9 +51,9 @@ impl SceneInterface {
         }
         let (spec, _) = parse_scene(text);
         let (written, of) = mechanism.unwrap_or_default();
-        let mechanism = crate::read(written, Some(of)).0;
-        let mut guess = match (&spec, &mechanism) {
-            (Some(spec), Some(mechanism)) => sketched(spec, mechanism),
+        let machine = crate::read_machine(written, Some(of)).0;
+        let mut guess = match (&spec, &machine) {
+            (Some(spec), Some(machine)) => sketched(spec, machine),
             _ => joints(written),
         };
         guess.name = stem.to_owned();
@@ -143,9 +144,9 @@ impl SceneInterface {
 }
 
 /// What a scene that is not sound has all the same.
-fn sketched(spec: &SceneSpec, mechanism: &Mechanism) -> SceneInterface {
-    let (layout, asked) = scene::sketch(spec, mechanism);
-    let sites = bond_graph::build(mechanism).sites;
+fn sketched(spec: &SceneSpec, machine: &Machine) -> SceneInterface {
+    let (layout, asked) = scene::sketch(spec, machine);
+    let sites = bond_graph::build(&machine.mechanism).sites;
     let outputs = asked.iter().flat_map(|Located { value, .. }| {
         let place = sites.iter().any(|s| s.name == *value);
         let axes: &[&str] = if place { &["_x", "_y", "_z"] } else { &[""] };

@@ -1,7 +1,6 @@
 //! The one step that makes a [`Mechanism`]: a spec that obeys every rule, or all that breaks one.
 
 mod direction;
-mod effects;
 mod inertia;
 mod joint;
 mod names;
@@ -23,25 +22,12 @@ use parameters::Parameters;
 /// The only version of the format there is.
 const FORMAT: u32 = 1;
 
-/// Checks a spec against every rule. `stem` is the file's name without its ending, if there is a
-/// file; only what stands before its first dot counts. `methods` are the names of what is generated,
-/// which no run-time parameter may have.
+/// Checks the links, joints and frames of a spec against every rule. `stem` is the file's name without
+/// its ending, if there is a file; only what stands before its first dot counts. `methods` are names
+/// that no run-time parameter may have.
 ///
-/// The mechanism is there exactly if nothing refuses the spec.
-pub fn check(spec: &Spec, stem: Option<&str>, methods: &[String]) -> (Option<Mechanism>, Faults) {
-    let mut faults = Faults::default();
-    let mechanism = mechanism(spec, stem, methods, &mut faults);
-    let still = mechanism.as_ref().is_some_and(|m| m.nv() == 0) && !faults.any_fault();
-    if let Some(links) = spec.links.given().filter(|_| still) {
-        faults.push(wording::no_coordinates(&links.place));
-    }
-    faults.sort();
-    let sound = spec.complete && !faults.any_fault();
-    faults.forget_following();
-    (mechanism.filter(|_| sound), faults)
-}
-
-fn mechanism(
+/// The mechanism is there where one can be put together. It is sound where there is no fault.
+pub(crate) fn check(
     spec: &Spec,
     stem: Option<&str>,
     methods: &[String],
@@ -78,19 +64,10 @@ fn mechanism(
             frames: all(frames)?,
             parameters: parameters.into_all(),
             coordinates,
-            effects: Vec::new(),
             snapped: directions.into_snapped(),
         })
     };
-    let Some(mechanism) = whole() else {
-        effects::alone(spec, faults);
-        return None;
-    };
-    let effects = effects::effects(spec, &mechanism, faults);
-    Some(Mechanism {
-        effects,
-        ..mechanism
-    })
+    whole()
 }
 
 fn format(spec: &Spec, faults: &mut Faults) {

@@ -12,10 +12,9 @@ use std::fmt;
 
 use bgdyn_runtime::Dd;
 
-use crate::effect::Declared;
 use crate::fault::Place;
 use crate::math::{Mat3, Vec3};
-pub use check::check;
+pub(crate) use check::check;
 pub(crate) use check::check_tensor;
 pub use joint::{JointType, Motion};
 pub use lettered::{Letter, Lettered};
@@ -197,11 +196,16 @@ pub struct Mechanism {
     frames: Vec<Frame>,
     parameters: Vec<Parameter>,
     coordinates: Vec<LinkId>,
-    effects: Vec<Declared>,
     snapped: Option<Snapped>,
 }
 
 impl Mechanism {
+    /// Names of the joints that move, in the order of the coordinates.
+    pub fn joint_names(&self) -> Vec<&str> {
+        let of = |link: &LinkId| self.links[link.0].joint.name.as_str();
+        self.coordinates.iter().map(of).collect()
+    }
+
     /// Its name: a snake_case identifier, the module's name.
     pub fn name(&self) -> &str {
         &self.name
@@ -240,11 +244,6 @@ impl Mechanism {
     /// For each coordinate the link whose joint it moves.
     pub fn coordinates(&self) -> &[LinkId] {
         &self.coordinates
-    }
-
-    /// What acts in it beside its links, for scenes to call for.
-    pub fn effects(&self) -> &[Declared] {
-        &self.effects
     }
 
     /// What snapping changed of its directions; nothing where all were exact to 1e-15 or kept as written.

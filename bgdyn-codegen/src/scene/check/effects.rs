@@ -1,32 +1,14 @@
 //! The effects called for.
 
 use super::super::causality::{Chain, chains};
-use super::{given, joint_names};
-use crate::effect::{Beside, Context, Declared, Element, Refused, called, once_per_joint};
+use super::given;
+use crate::effect::{
+    Beside, Context, Declared, Element, Refused, called, check_unique_names, once_per_joint,
+};
 use crate::fault::{Fault, Faults};
-use crate::mechanism::{LinkId, Mechanism, Places};
+use crate::machine::Machine;
+use crate::mechanism::Mechanism;
 use crate::spec::{Raw, SceneSpec};
-
-/// The names that effects may refer to.
-pub(crate) fn context(mechanism: &Mechanism, locked: Vec<String>) -> Context {
-    let coordinate = |&link: &LinkId| {
-        let joint = &mechanism.links()[link.0].joint;
-        (joint.name.clone(), joint.kind.motion)
-    };
-    let limits = |&link: &LinkId| {
-        let joint = &mechanism.links()[link.0].joint;
-        (joint.name.clone(), joint.limits)
-    };
-    Context {
-        coordinates: mechanism.coordinates().iter().map(coordinate).collect(),
-        limits: mechanism.coordinates().iter().map(limits).collect(),
-        added: Vec::new(),
-        locked,
-        places: Places::new(mechanism),
-        nodes: Vec::new(),
-        refused: Refused::default(),
-    }
-}
 
 /// The effects called for.
 pub(super) struct Called {
@@ -41,7 +23,7 @@ pub(super) struct Called {
 /// The effects called for, checked.
 pub(super) fn elements(
     spec: &SceneSpec,
-    whole: &Mechanism,
+    whole: &Machine,
     reduced: &Mechanism,
     faults: &mut Faults,
 ) -> Called {
@@ -49,14 +31,14 @@ pub(super) fn elements(
     if !spec.effects_read {
         refused.unread();
     }
-    let free = joint_names(reduced);
+    let free = reduced.joint_names();
     let wanted = wanted(spec, (whole, &free), &mut refused, faults);
-    let all = joint_names(whole);
+    let all = whole.mechanism.joint_names();
     let locked = all.into_iter().filter(|name| !free.contains(name));
-    let mut context = context(reduced, locked.map(str::to_owned).collect());
+    let mut context = Context::of(reduced, locked.map(str::to_owned).collect());
     context.refused = refused.clone();
     let context = context.with(wanted.iter());
-    taken(&wanted, whole, faults);
+    check_unique_names(&wanted, &whole.mechanism, faults);
     let mut elements: Vec<Element> = Vec::new();
     for declared in &wanted {
         match declared.element(&context, faults) {
@@ -101,18 +83,18 @@ pub(super) fn alone(spec: &SceneSpec, faults: &mut Faults) {
 /// of several, of the `free` ones where it is of all.
 fn wanted(
     spec: &SceneSpec,
-    (whole, free): (&Mechanism, &[&str]),
+    (whole, free): (&Machine, &[&str]),
     refused: &mut Refused,
     faults: &mut Faults,
 ) -> Vec<Declared> {
     let mut wanted: Vec<Declared> = Vec::new();
     for raw in given(&spec.effects) {
         let before = faults.count();
-        let called = called(raw, whole.effects(), faults).into_iter();
+        let called = called(raw, &whole.effects, faults).into_iter();
         let each = called.flat_map(|declared| declared.of_each_joint(free, faults));
         let each: Vec<Declared> = each.collect();
         if each.is_empty() && faults.count() > before {
-            refused.call(raw, whole.effects());
+            refused.call(raw, &whole.effects);
         }
         for declared in each {
             let name = &declared.name.value;
@@ -134,39 +116,4 @@ pub(super) fn reduced(mut mechanism: Mechanism, elements: &[Element]) -> Mechani
         element.effect.reduce(element, &mut mechanism);
     }
     mechanism
-}
-
-/// The names of effects and of their nodes are parts of the state's, so they must be no joint's
-/// and each must be the only one.
-pub(crate) fn taken(all: &[Declared], mechanism: &Mechanism, faults: &mut Faults) {
-    let joints = mechanism.links().iter().map(|l| &l.joint.name);
-    let bodies = mechanism.links().iter().map(|l| &l.name);
-    let frames = mechanism.frames().iter().map(|f| &f.name);
-    let known: Vec<&String> = joints.chain(bodies).chain(frames).collect();
-    let own = |declared: &Declared| {
-        let mut own = declared.nodes();
-        own.push(declared.name.value.clone());
-        own.sort();
-        own.dedup();
-        own
-    };
-    for (i, declared) in all.iter().enumerate() {
-        let place = &declared.name.place;
-        for name in own(declared) {
-            if known.contains(&&name) {
-                let message = format!("`{name}` is a joint, a link or a frame already");
-                let fault = Fault::new(place, "repeated-name", message);
-                faults.push(fault.with_help("give the effect a name of its own: `elbow_friction`"));
-            }
-            let other = all[..i].iter().find(|other| own(other).contains(&name));
-            if let Some(other) = other.filter(|other| other.name.value != declared.name.value) {
-                let other = &other.name.value;
-                let message = format!("`{name}` is a name of the effect `{other}` already");
-                let fault = Fault::new(place, "repeated-name", message);
-                faults.push(fault.with_help(
-                    "the sides of a cylinder `boom` are called `boom_a` and `boom_b`: name one of the two otherwise",
-                ));
-            }
-        }
-    }
 }

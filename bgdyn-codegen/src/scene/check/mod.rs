@@ -14,10 +14,10 @@ use super::reduce::held;
 use super::{Initial, Scene, Written};
 use crate::effect::Refused;
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
+use crate::machine::Machine;
 use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
 use crate::name::is_identifier;
 use crate::spec::{Dimension, Field, Located, Raw, SceneSpec};
-pub(crate) use effects::{context, taken};
 
 /// The only version of the format there is.
 const VERSION: f64 = 1.0;
@@ -32,10 +32,10 @@ pub enum Verdict {
     Refused,
 }
 
-/// Checks a scene against every rule. `stem` is the file's stem, `mechanism` what it names.
-pub fn check(spec: &SceneSpec, stem: Option<&str>, mechanism: &Mechanism) -> (Verdict, Faults) {
+/// Checks a scene against every rule. `stem` is the file's stem, `machine` what it names.
+pub fn check(spec: &SceneSpec, stem: Option<&str>, machine: &Machine) -> (Verdict, Faults) {
     let mut faults = Faults::default();
-    let (scene, drawn) = scene(spec, stem, mechanism, &mut faults);
+    let (scene, drawn) = scene(spec, stem, machine, &mut faults);
     let sound = spec.complete && !faults.any_fault();
     faults.forget_following();
     faults.sort();
@@ -60,8 +60,8 @@ pub fn check_alone(spec: &SceneSpec, stem: Option<&str>) -> Faults {
 }
 
 /// The state and the outputs that a scene seems to have, whether it is sound or not.
-pub(crate) fn sketch(spec: &SceneSpec, mechanism: &Mechanism) -> (Layout, Vec<Located<String>>) {
-    let (scene, _) = scene(spec, None, mechanism, &mut Faults::default());
+pub(crate) fn sketch(spec: &SceneSpec, machine: &Machine) -> (Layout, Vec<Located<String>>) {
+    let (scene, _) = scene(spec, None, machine, &mut Faults::default());
     (scene.layout, scene.outputs)
 }
 
@@ -69,13 +69,13 @@ pub(crate) fn sketch(spec: &SceneSpec, mechanism: &Mechanism) -> (Layout, Vec<Lo
 fn scene(
     spec: &SceneSpec,
     stem: Option<&str>,
-    whole: &Mechanism,
+    whole: &Machine,
     faults: &mut Faults,
 ) -> (Scene, bool) {
     version(spec, faults);
     let name = name(spec, stem, faults);
-    let locked = locks(spec, whole, faults);
-    let mechanism = whole.welded(&locked);
+    let locked = locks(spec, &whole.mechanism, faults);
+    let mechanism = whole.mechanism.welded(&locked);
     let before = faults.count();
     let effects::Called {
         elements,
@@ -194,7 +194,7 @@ fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(L
             .copied()
             .find(|l| mechanism.links()[l.0].joint.name == *name);
         let Some(link) = found else {
-            let known: Vec<&str> = joint_names(mechanism);
+            let known: Vec<&str> = mechanism.joint_names();
             let message = unknown_name("moving joint", name, &known, &known.join(", "));
             let fault = Fault::new(&raw.name.place, "unknown-name", message);
             faults
@@ -208,12 +208,6 @@ fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(L
         }
     }
     locked
-}
-
-/// Names of the moving joints.
-pub(crate) fn joint_names(mechanism: &Mechanism) -> Vec<&str> {
-    let of = |link: &LinkId| mechanism.links()[link.0].joint.name.as_str();
-    mechanism.coordinates().iter().map(of).collect()
 }
 
 /// What position, velocity and effort of a joint measure.
