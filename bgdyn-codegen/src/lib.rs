@@ -23,6 +23,7 @@ pub mod files;
 pub mod formulation;
 pub mod function;
 pub mod interface;
+pub mod layout;
 pub mod loss;
 pub mod machine;
 pub mod math;

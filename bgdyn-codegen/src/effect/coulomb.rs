@@ -3,7 +3,7 @@
 
 use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, Element, Given};
-use crate::scene::{Layout, Level};
+use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::{Hold, Laws};
 

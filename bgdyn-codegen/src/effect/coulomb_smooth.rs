@@ -7,7 +7,7 @@
 use super::coulomb::EFFORT;
 use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, Element, Given, slip};
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 

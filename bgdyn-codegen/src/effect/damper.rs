@@ -3,7 +3,7 @@
 use super::spring::{BETWEEN, MAYBE_JOINT};
 use super::viscous::{DAMPING, REFERENCE};
 use super::{Effect, Element, Given, slip};
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::Key;
 use crate::system::Laws;
 

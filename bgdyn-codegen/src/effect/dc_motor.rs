@@ -14,7 +14,8 @@ use bgdyn_runtime::Dd;
 use super::viscous::JOINT;
 use super::{Effect, Element, Given};
 use crate::expr::Ex;
-use crate::scene::{Layout, algebraic_loop};
+use crate::fault::wording::algebraic_loop;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::{Hold, Laws, behind_gear};
 
@@ -131,7 +132,7 @@ impl Effect for DcMotor {
         let about = format!("voltage of `{name}`");
         if element.quantity("inductance").is_some() {
             let dimensions = [Dimension::One, Dimension::Current, Dimension::Voltage];
-            layout.coordinate(element, format!("{name}_current"), false, dimensions);
+            layout.coordinate(&element.name, format!("{name}_current"), false, dimensions);
             layout.drive(name.clone(), name, joint, about);
         } else {
             layout.control(name.clone(), Dimension::Voltage, joint, about);

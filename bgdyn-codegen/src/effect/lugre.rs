@@ -13,7 +13,7 @@ use super::coulomb_smooth::SPEED;
 use super::stribeck::{KINETIC, curve};
 use super::viscous::{DAMPING, JOINT, REFERENCE};
 use super::{Effect, Element, Given, slip};
-use crate::scene::{Layout, Level};
+use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 

@@ -12,6 +12,7 @@ mod joints;
 mod once;
 mod refused;
 mod scope;
+mod series;
 mod slip;
 
 mod coulomb;
@@ -37,8 +38,8 @@ mod wrench;
 use crate::bond_graph::BondGraph;
 use crate::expr::Ex;
 use crate::fault::Faults;
+use crate::layout::Layout;
 use crate::mechanism::{Limits, Mechanism};
-use crate::scene::Layout;
 use crate::spec::Key;
 use crate::system::Laws;
 pub use check::{Context, Declared, called, declared};
@@ -48,6 +49,7 @@ pub use joints::keys_declared;
 pub(crate) use once::once_per_joint;
 pub use refused::Refused;
 pub(crate) use scope::check_unique_names;
+pub use series::Chain;
 
 /// A kind of effect.
 pub trait Effect: Sync {

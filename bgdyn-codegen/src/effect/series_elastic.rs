@@ -10,7 +10,7 @@ use bgdyn_runtime::Dd;
 
 use super::viscous::{DAMPING, JOINT};
 use super::{Effect, Element, Given};
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 
@@ -81,7 +81,7 @@ impl Effect for SeriesElastic {
 
     fn declare(&self, element: &Element, layout: &mut Layout) {
         let joint = element.name("joint").unwrap_or_default();
-        layout.coordinate_beside(element, joint);
+        layout.coordinate_beside(&element.name, joint);
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {

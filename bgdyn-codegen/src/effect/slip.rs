@@ -3,7 +3,7 @@
 
 use super::Element;
 use crate::expr::Ex;
-use crate::scene::{Layout, Level};
+use crate::layout::{Layout, Level};
 use crate::spec::Dimension;
 use crate::system::Laws;
 

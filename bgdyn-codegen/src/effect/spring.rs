@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::viscous::REFERENCE;
 use super::{Effect, Element, Given};
-use crate::scene::{Layout, Level};
+use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 

@@ -15,8 +15,8 @@ use super::coulomb_smooth::SPEED;
 use super::viscous::JOINT;
 use super::{Effect, Element, Given};
 use crate::expr::Ex;
+use crate::layout::Layout;
 use crate::mechanism::Limits;
-use crate::scene::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::{Laws, Port};
 

@@ -11,7 +11,7 @@ use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
 use super::viscous::{DAMPING, JOINT, REFERENCE};
 use super::{Effect, Element, Given, slip};
 use crate::expr::Ex;
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::Key;
 use crate::system::Laws;
 

@@ -1,7 +1,7 @@
 //! Viscous friction of a joint: τ = −b (q̇ − ṙ).
 
 use super::{Effect, Element, Given, slip};
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 

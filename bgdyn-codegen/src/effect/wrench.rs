@@ -4,8 +4,8 @@
 use super::{Beside, Effect, Element, Given};
 use crate::expr::Ex;
 use crate::fault::{Fault, Faults};
+use crate::layout::Layout;
 use crate::math::Vec3;
-use crate::scene::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 

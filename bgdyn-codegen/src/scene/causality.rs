@@ -9,22 +9,9 @@
 //! may close and leave the pressure between two closed valves undetermined.
 
 use super::Scene;
-use crate::effect::Element;
-use crate::fault::{Fault, Faults, Place};
-
-/// Elements in series, joined by junctions without volume: one flow runs through all of them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Chain {
-    /// The node where it begins; its pressure is known.
-    pub from: String,
-    /// The node where it ends; its pressure is known.
-    pub to: String,
-    /// Elements by their place in the scene, and whether the flow runs from their `from` to their
-    /// `to`.
-    pub members: Vec<(usize, bool)>,
-    /// The junctions between them.
-    pub through: Vec<String>,
-}
+use crate::effect::{Chain, Element};
+use crate::fault::wording::algebraic_loop;
+use crate::fault::{Fault, Faults};
 
 /// Elements without a store between them, and how they were solved.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,11 +22,6 @@ pub struct Solved {
     pub nodes: Vec<String>,
     /// How.
     pub how: String,
-}
-
-/// The fault of a loop that has no solution, or none that is found.
-pub(crate) fn algebraic_loop(place: &Place, message: String, way_out: &str) -> Fault {
-    Fault::new(place, "algebraic-loop", message).with_help(way_out)
 }
 
 impl Scene {

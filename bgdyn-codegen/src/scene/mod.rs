@@ -6,7 +6,6 @@
 mod causality;
 mod check;
 mod integration;
-mod layout;
 mod reduce;
 mod signal;
 mod start;
@@ -14,16 +13,16 @@ mod subset;
 
 use bgdyn_runtime::Dd;
 
+pub use crate::effect::Chain;
 use crate::effect::Element;
 use crate::fault::Place;
+pub use crate::layout::{Coordinate, Entered, Layout, Level, Part, Store};
 use crate::mechanism::{Mechanism, Parameter};
 use crate::spec::{Located, Raw};
-pub(crate) use causality::algebraic_loop;
-pub use causality::{Chain, Solved};
+pub use causality::Solved;
 pub(crate) use check::sketch;
 pub use check::{Verdict, check, check_alone};
 pub use integration::{Integration, Integrator, Pace};
-pub use layout::{Coordinate, Entered, Layout, Level, Part, Store};
 pub use signal::{Drive, Signal};
 pub use start::{Settable, SettableKind};
 

@@ -8,7 +8,7 @@ use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
 use crate::effect::{Beside, Effect, Element, Given};
 use crate::expr::Ex;
 use crate::fault::Faults;
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key};
 use crate::system::Laws;
 

@@ -4,7 +4,7 @@
 use super::{Drop, FAMILY, LAMINAR, ORIFICE, joins_two, node, one_fluid, pressure, run};
 use crate::effect::{Beside, Effect, Element, Given};
 use crate::fault::Faults;
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 

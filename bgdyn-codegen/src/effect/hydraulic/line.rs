@@ -4,7 +4,7 @@ use super::{FAMILY, FLUID, VOLUME, declare_volume, fill, filled, has_fluid, numb
 use crate::effect::{Beside, Effect, Element, Given};
 use crate::expr::Ex;
 use crate::fault::Faults;
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key};
 use crate::system::Laws;
 

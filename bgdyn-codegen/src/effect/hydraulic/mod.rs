@@ -24,9 +24,10 @@ mod source;
 use bgdyn_runtime::Dd;
 
 use super::{Beside, Element, Given};
+use crate::effect::Chain;
 use crate::expr::{Builder, Ex};
 use crate::fault::{Fault, Faults};
-use crate::scene::{Chain, Entered, Layout};
+use crate::layout::{Entered, Layout};
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 pub(super) use cylinder::Cylinder;

@@ -5,7 +5,7 @@
 use super::{Drop, FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two, one_fluid, resist};
 use crate::effect::{Beside, Effect, Element, Given};
 use crate::fault::Faults;
-use crate::scene::Layout;
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 use crate::system::Laws;
 

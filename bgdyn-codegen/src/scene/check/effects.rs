@@ -1,9 +1,9 @@
 //! The effects called for.
 
-use super::super::causality::{Chain, chains};
+use super::super::causality::chains;
 use super::given;
 use crate::effect::{
-    Beside, Context, Declared, Element, Refused, called, check_unique_names, once_per_joint,
+    Beside, Chain, Context, Declared, Element, Refused, called, check_unique_names, once_per_joint,
 };
 use crate::fault::{Fault, Faults};
 use crate::machine::Machine;

@@ -1,9 +1,9 @@
 //! The inputs, and what drives them.
 
-use super::super::layout::{Coordinate, Layout};
 use super::super::signal::{self, Drive};
 use crate::effect::Refused;
 use crate::fault::{Fault, Faults, unknown_name};
+use crate::layout::{Coordinate, Layout};
 use crate::spec::Raw;
 
 /// Efforts of coordinates are inputs where the scene names them.

@@ -9,11 +9,11 @@ mod state;
 
 use bgdyn_runtime::Dd;
 
-use super::layout::Layout;
 use super::reduce::held;
 use super::{Initial, Scene, Written};
 use crate::effect::Refused;
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
+use crate::layout::Layout;
 use crate::machine::Machine;
 use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
 use crate::name::is_identifier;

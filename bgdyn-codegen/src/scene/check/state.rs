@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 
 use super::super::Initial;
-use super::super::layout::{Coordinate, Layout, Store};
 use super::dimensions;
 use crate::effect::{Element, Refused};
 use crate::fault::{Fault, Faults, unknown_name};
+use crate::layout::{Coordinate, Layout, Store};
 use crate::mechanism::{CoordinateId, Mechanism, Parameter};
 use crate::spec::{Dimension, Raw};
 

@@ -4,9 +4,8 @@ use std::collections::BTreeSet;
 
 use bgdyn_runtime::Dd;
 
-use crate::effect::Element;
 use crate::mechanism::CoordinateId;
-use crate::spec::Dimension;
+use crate::unit::Dimension;
 
 /// A coordinate: a joint's, or one that an effect adds.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,17 +113,17 @@ impl Level {
 }
 
 impl Layout {
-    /// Adds a coordinate that stores its own momentum.
+    /// Adds a coordinate with this name that stores its own momentum.
     pub fn coordinate(
         &mut self,
-        element: &Element,
+        name: &str,
         rate_name: String,
         stored: bool,
         dimensions: [Dimension; 3],
     ) {
         let coordinate = Coordinate {
-            name: element.name.clone(),
-            store: Store::Own(element.name.clone()),
+            name: name.to_owned(),
+            store: Store::Own(name.to_owned()),
             stored,
             dimensions,
             rate_name,
@@ -144,13 +143,13 @@ impl Layout {
     }
 
     /// Adds a coordinate at the scale of another one, with which it starts: a joint's drive.
-    pub fn coordinate_beside(&mut self, element: &Element, other: &str) {
+    pub fn coordinate_beside(&mut self, name: &str, other: &str) {
         let Some(k) = self.coordinate_named(other) else {
             return;
         };
         let dimensions = self.coordinates[k].dimensions;
-        self.coordinate(element, format!("{}_rate", element.name), true, dimensions);
-        if let Some(j) = self.coordinate_named(&element.name) {
+        self.coordinate(name, format!("{name}_rate"), true, dimensions);
+        if let Some(j) = self.coordinate_named(name) {
             self.coordinates[j].starts_with = Some(other.to_owned());
         }
     }
