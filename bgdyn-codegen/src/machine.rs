@@ -1,6 +1,6 @@
 //! A machine: a mechanism and the effects that its file declares for scenes to call for.
 
-use crate::effect::{Context, Declared, Refused, check_unique_names, declared};
+use crate::declaration::{Context, Declared, Kinds, Refused, check_unique_names, declared};
 use crate::fault::{Faults, wording};
 use crate::mechanism::{self, Mechanism};
 use crate::spec::Spec;
@@ -16,19 +16,24 @@ pub struct Machine {
 
 /// Checks a spec against every rule. `stem` is the file's name without its ending, if there is a
 /// file; only what stands before its first dot counts. `methods` are the names of what is generated,
-/// which no run-time parameter may have.
+/// which no run-time parameter may have, `kinds` the effects that there are.
 ///
 /// The machine is there exactly if nothing refuses the spec.
-pub fn check(spec: &Spec, stem: Option<&str>, methods: &[String]) -> (Option<Machine>, Faults) {
+pub fn check(
+    spec: &Spec,
+    stem: Option<&str>,
+    methods: &[String],
+    kinds: &Kinds,
+) -> (Option<Machine>, Faults) {
     let mut faults = Faults::default();
     let mechanism = mechanism::check(spec, stem, methods, &mut faults);
     let machine = match mechanism {
         None => {
-            alone(spec, &mut faults);
+            alone(spec, kinds, &mut faults);
             None
         }
         Some(mechanism) => Some(Machine {
-            effects: effects(spec, &mechanism, &mut faults),
+            effects: effects(spec, &mechanism, kinds, &mut faults),
             mechanism,
         }),
     };
@@ -43,23 +48,28 @@ pub fn check(spec: &Spec, stem: Option<&str>, methods: &[String]) -> (Option<Mac
 }
 
 /// What can be said of the effects without the mechanism.
-fn alone(spec: &Spec, faults: &mut Faults) {
+fn alone(spec: &Spec, kinds: &Kinds, faults: &mut Faults) {
     for raw in spec.effects.value().into_iter().flatten() {
-        declared(raw, faults);
+        declared(raw, kinds, faults);
     }
 }
 
 /// The effects, each sound by itself.
-fn effects(spec: &Spec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Declared> {
+fn effects(
+    spec: &Spec,
+    mechanism: &Mechanism,
+    kinds: &Kinds,
+    faults: &mut Faults,
+) -> Vec<Declared> {
     let raws = spec.effects.value().map_or(&[][..], Vec::as_slice);
     if raws.is_empty() {
         return Vec::new();
     }
     let (mut found, mut refused) = (Vec::new(), Refused::default());
     for raw in raws {
-        match declared(raw, faults) {
+        match declared(raw, kinds, faults) {
             Some(effect) => found.push(effect),
-            None => refused.call(raw, &[]),
+            None => refused.call(raw, &[], kinds),
         }
     }
     let all = mechanism.joint_names();

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::bond_graph;
+use crate::effect;
 use crate::fault::wording::no_inertia;
 use crate::fault::{Fault, Faults, Severity};
 use crate::files::stem;
@@ -24,7 +25,7 @@ pub fn read_machine(text: &str, stem: Option<&str>) -> (Option<Machine>, Faults)
     let Some(spec) = spec else {
         return (None, faults);
     };
-    let (machine, more) = machine::check(&spec, stem, &method::names());
+    let (machine, more) = machine::check(&spec, stem, &method::names(), &effect::kinds());
     faults.0.extend(more.0);
     if let Some(machine) = &machine {
         faults.0.extend(without_inertia(&machine.mechanism, &spec));
@@ -69,7 +70,9 @@ pub fn read_scene(
         return Err(Refusal::Spec(faults));
     };
     let alone = |mut faults: Faults| {
-        faults.0.extend(scene::check_alone(&spec, Some(stem)).0);
+        faults
+            .0
+            .extend(scene::check_alone(&spec, Some(stem), &effect::kinds()).0);
         faults.sort();
         faults
     };
@@ -96,7 +99,7 @@ pub fn read_scene(
             scene: alone(faults),
         });
     };
-    let (verdict, more) = scene::check(&spec, Some(stem), &machine);
+    let (verdict, more) = scene::check(&spec, Some(stem), &machine, &effect::kinds());
     faults.0.extend(more.0);
     let system = match verdict {
         Verdict::Sound(scene) => System::new(*scene),

@@ -1,11 +1,12 @@
 //! Coulomb friction that sticks and slips: holds its joint up to the static limit, lets it slide
 //! against the kinetic effort beyond. Which of the two is a mode of the state.
 
+use super::Effect;
 use super::viscous::{JOINT, REFERENCE};
-use super::{Effect, Element, Given};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::{Hold, Laws};
 use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::{Hold, Laws};
 
 pub(super) struct Coulomb;
 
@@ -15,7 +16,7 @@ pub(super) const EFFORT: Reads = Reads::Number(&[Dimension::Torque, Dimension::F
 /// What is said where `static` is less than `kinetic`.
 pub(super) const REST_HOLDS_MORE: &str = "rest holds at least what slipping resists";
 
-impl Effect for Coulomb {
+impl Declaration for Coulomb {
     fn keyword(&self) -> &'static str {
         "coulomb"
     }
@@ -71,7 +72,9 @@ impl Effect for Coulomb {
             layout.reference(reference, Level::Rate, Level::Acceleration, dimension);
         }
     }
+}
 
+impl Effect for Coulomb {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let reference = element.name("reference");

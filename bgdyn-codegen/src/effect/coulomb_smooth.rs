@@ -6,10 +6,11 @@
 
 use super::coulomb::EFFORT;
 use super::viscous::{JOINT, REFERENCE};
-use super::{Effect, Element, Given, slip};
+use super::{Effect, slip};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct CoulombSmooth;
 
@@ -28,7 +29,7 @@ pub(super) const WIDTH: Key = Key {
 pub(super) const NO_WIDTH: &str =
     "friction that jumps with the direction is `type: coulomb`, which sticks and slips";
 
-impl Effect for CoulombSmooth {
+impl Declaration for CoulombSmooth {
     fn keyword(&self) -> &'static str {
         "coulomb_smooth"
     }
@@ -67,7 +68,9 @@ impl Effect for CoulombSmooth {
     fn declare(&self, element: &Element, layout: &mut Layout) {
         slip::declare(element, layout);
     }
+}
 
+impl Effect for CoulombSmooth {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             let number = |key| laws.number(element, key);

@@ -2,14 +2,15 @@
 
 use super::spring::{BETWEEN, MAYBE_JOINT};
 use super::viscous::{DAMPING, REFERENCE};
-use super::{Effect, Element, Given, slip};
+use super::{Effect, slip};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::Key;
-use crate::system::Laws;
 
 pub(super) struct Damper;
 
-impl Effect for Damper {
+impl Declaration for Damper {
     fn keyword(&self) -> &'static str {
         "damper"
     }
@@ -48,7 +49,9 @@ impl Effect for Damper {
     fn declare(&self, element: &Element, layout: &mut Layout) {
         slip::declare(element, layout);
     }
+}
 
+impl Effect for Damper {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             -(laws.number(element, "damping") * s)

@@ -11,13 +11,14 @@
 
 use bgdyn_runtime::Dd;
 
+use super::Effect;
 use super::viscous::JOINT;
-use super::{Effect, Element, Given};
+use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::wording::algebraic_loop;
+use crate::laws::{Hold, Laws, behind_gear};
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::{Hold, Laws, behind_gear};
 
 pub(super) struct DcMotor;
 
@@ -81,7 +82,7 @@ static KEYS: [Key; 8] = [
     JOINT,
 ];
 
-impl Effect for DcMotor {
+impl Declaration for DcMotor {
     fn keyword(&self) -> &'static str {
         "dc_motor"
     }
@@ -139,7 +140,9 @@ impl Effect for DcMotor {
         }
         declare_limits(element, layout);
     }
+}
 
+impl Effect for DcMotor {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let joint = laws.port(element);
         let circuit = Circuit {

@@ -1,12 +1,13 @@
 //! Drag of a resting medium on a place of a link: f = −(c₁ + c₂ |v|) v against the velocity v of its
 //! origin, m = −c_ω ω against its angular velocity. c₁ is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
 
+use super::Effect;
 use super::wrench::{AT, act, moves, twist};
-use super::{Beside, Effect, Element, Given};
+use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::math::Vec3;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct Drag;
 
@@ -34,7 +35,7 @@ static KEYS: [Key; 4] = [
     ),
 ];
 
-impl Effect for Drag {
+impl Declaration for Drag {
     fn keyword(&self) -> &'static str {
         "drag"
     }
@@ -69,7 +70,9 @@ impl Effect for Drag {
     fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
         moves(element, beside, faults);
     }
+}
 
+impl Effect for Drag {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let site = laws.site(element.name(AT.name).unwrap_or_default());
         let jacobian = laws.jacobian(site);

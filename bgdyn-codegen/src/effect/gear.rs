@@ -5,14 +5,15 @@
 //! changes its sign, unless it passes through zero there. The loss is in proportion to the load: what a gear takes
 //! without load is friction of the joint.
 
+use super::Effect;
 use super::viscous::JOINT;
-use super::{Effect, Element, Given};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::Laws;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct Gear;
 
-impl Effect for Gear {
+impl Declaration for Gear {
     fn keyword(&self) -> &'static str {
         "gear"
     }
@@ -52,7 +53,9 @@ impl Effect for Gear {
         );
         given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
     }
+}
 
+impl Effect for Gear {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let joint = element.name("joint").unwrap_or_default();
         let efficiency = laws.number(element, "efficiency");

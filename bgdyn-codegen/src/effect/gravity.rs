@@ -1,15 +1,16 @@
 //! Gravity: the effort sources R_i = m_i g.
 
-use super::{Effect, Element};
+use super::Effect;
 use crate::bond_graph::BondGraph;
+use crate::declaration::{Declaration, Element};
+use crate::laws::Laws;
 use crate::math::Vec3;
 use crate::mechanism::Mechanism;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct Gravity;
 
-impl Effect for Gravity {
+impl Declaration for Gravity {
     fn keyword(&self) -> &'static str {
         "gravity"
     }
@@ -38,7 +39,9 @@ impl Effect for Gravity {
             about: "acceleration of free fall in world axes instead of the mechanism's",
         }]
     }
+}
 
+impl Effect for Gravity {
     fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
         let other = element.vector("acceleration").map(Vec3);
         graph.weigh(other.unwrap_or(mechanism.gravity()));

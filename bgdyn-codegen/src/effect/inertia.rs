@@ -1,14 +1,15 @@
 //! Link inertia, lumped or distributed: the second stage of a study adds its terms to the
 //! equations of the first (Kuzmin 2007, conclusion).
 
-use super::{Effect, Element};
+use super::Effect;
 use crate::bond_graph::BondGraph;
+use crate::declaration::{Declaration, Element};
 use crate::mechanism::Mechanism;
 use crate::spec::{Key, Reads};
 
 pub(super) struct LinkInertia;
 
-impl Effect for LinkInertia {
+impl Declaration for LinkInertia {
     fn keyword(&self) -> &'static str {
         "inertia"
     }
@@ -37,7 +38,9 @@ impl Effect for LinkInertia {
             about: "`distributed` (also where nothing is said) or `lumped`; scenes without this effect are lumped",
         }]
     }
+}
 
+impl Effect for LinkInertia {
     fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
         if element.name("stage") != Some("lumped") {
             graph.distribute(mechanism);

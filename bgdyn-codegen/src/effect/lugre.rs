@@ -12,14 +12,15 @@ use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::SPEED;
 use super::stribeck::{KINETIC, curve};
 use super::viscous::{DAMPING, JOINT, REFERENCE};
-use super::{Effect, Element, Given, slip};
+use super::{Effect, slip};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::Laws;
 use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct LuGre;
 
-impl Effect for LuGre {
+impl Declaration for LuGre {
     fn keyword(&self) -> &'static str {
         "lugre"
     }
@@ -114,7 +115,9 @@ impl Effect for LuGre {
         layout.event(element.name.clone(), kink);
         slip::declare(element, layout);
     }
+}
 
+impl Effect for LuGre {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let counterpart = laws.reference(element.name("reference"), Level::Rate);

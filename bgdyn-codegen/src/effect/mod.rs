@@ -2,17 +2,9 @@
 //! [`EFFECTS`].
 //!
 //! An effect is an element of the bond graph. Its file says what its keys mean, what it adds to
-//! the state ([`Effect::declare`]), and its constitutive law ([`Effect::law`]): efforts on
+//! the state ([`Declaration::declare`]), and its constitutive law ([`Effect::law`]): efforts on
 //! junctions, rates of states, and what it supplies, stores and dissipates.
 
-mod check;
-mod element;
-mod given;
-mod joints;
-mod once;
-mod refused;
-mod scope;
-mod series;
 mod slip;
 
 mod coulomb;
@@ -36,104 +28,15 @@ mod viscous;
 mod wrench;
 
 use crate::bond_graph::BondGraph;
+use crate::declaration::{Declaration, Element, Kinds};
 use crate::expr::Ex;
-use crate::fault::Faults;
-use crate::layout::Layout;
-use crate::mechanism::{Limits, Mechanism};
-use crate::spec::Key;
-use crate::system::Laws;
-pub use check::{Context, Declared, called, declared};
-pub use element::{Checked, Element, Quantity};
-pub use given::Given;
-pub use joints::keys_declared;
-pub(crate) use once::once_per_joint;
-pub use refused::Refused;
-pub(crate) use scope::check_unique_names;
-pub use series::Chain;
+use crate::laws::Laws;
+use crate::mechanism::Mechanism;
 
-/// A kind of effect.
-pub trait Effect: Sync {
-    /// The word after `type`.
-    fn keyword(&self) -> &'static str;
-
-    /// The word by which a scene calls for all effects of like kind: `friction`.
-    fn family(&self) -> &'static str;
-
-    /// One line: what it is, with its equation.
-    fn summary(&self) -> &'static str;
-
-    /// The symbol of its element on the bond graph: `R`, `C`, `I`, `GY`, `TF`, `Se`, `MTF`.
-    fn symbol(&self) -> &'static str;
-
-    /// The keys it has. A value without keys is that of the first one.
-    fn keys(&self) -> &'static [Key];
-
-    /// Whether the spec has to say nothing of it: gravity, say. A scene calls it by its keyword.
-    fn built_in(&self) -> bool {
-        false
-    }
-
-    /// Whether its name is that of a coordinate, on which other effects may act.
-    fn adds_coordinate(&self) -> bool {
-        false
-    }
-
-    /// The hydraulic nodes it has where `given` tells which keys are there: the empty name for one
-    /// that is called as the effect is, `a` for one with `_a` behind it.
-    fn nodes(&self, _given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
-        &[]
-    }
-
-    /// Whether its node has no volume, so that the flows into it must be nothing at every instant.
-    fn is_junction(&self) -> bool {
-        false
-    }
-
-    /// Whether its pressure drop is the same function of its flow at all times, so that it can
-    /// stand in series with others like it.
-    fn in_series(&self, _: &Element) -> bool {
-        false
-    }
-
-    /// How its law was solved where it has no store that it could wait for.
-    fn algebraic(&self, _: &Element) -> Option<&'static str> {
-        None
-    }
-
-    /// Whether a joint has one of them at most.
-    fn once_per_joint(&self) -> bool {
-        false
-    }
-
-    /// What stands for a missing key where its joint has these limits.
-    fn limit_for(&self, _key: &str, _: &Limits) -> Option<f64> {
-        None
-    }
-
-    /// When its law runs: those with smaller numbers first. Nodes stand before what joins them.
-    fn order(&self) -> u8 {
-        1
-    }
-
-    /// What its numbers must obey.
-    fn rules(&self, _: &mut Given<'_>) {}
-
-    /// What it must obey beside the scene's other effects.
-    fn fits(&self, _: &Element, _: &Beside<'_>, _: &mut Faults) {}
-
-    /// What it changes in the mechanism, before there is a graph.
-    fn reduce(&self, _: &Element, _: &mut Mechanism) {}
-
+/// What an effect does: its constitutive law, and what it changes in the graph.
+pub trait Effect: Declaration {
     /// What it changes in the graph of links and joints.
     fn alter(&self, _: &Element, _: &Mechanism, _: &mut BondGraph) {}
-
-    /// Coordinates, states, modes, inputs and events that it adds.
-    fn declare(&self, _: &Element, _: &mut Layout) {}
-
-    /// Whether a first-order state is its own.
-    fn keeps(&self, element: &Element, state: &str) -> bool {
-        element.name == state
-    }
 
     /// What its state stores where the scene gives `given` for it: a volume for a pressure.
     fn start<'g>(&self, _: &Element, _: &Laws<'g, '_>, _: &str, given: Ex<'g>) -> Ex<'g> {
@@ -142,26 +45,6 @@ pub trait Effect: Sync {
 
     /// Its constitutive law.
     fn law(&self, _: &Element, _: &mut Laws<'_, '_>) {}
-}
-
-/// What an effect finds beside it in its scene.
-pub struct Beside<'a> {
-    /// The scene's effects, itself among them.
-    pub elements: &'a [Element],
-    /// The mechanism, locked joints welded.
-    pub mechanism: &'a Mechanism,
-}
-
-impl std::fmt::Debug for dyn Effect {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.keyword())
-    }
-}
-
-impl PartialEq for dyn Effect {
-    fn eq(&self, other: &Self) -> bool {
-        self.keyword() == other.keyword()
-    }
 }
 
 /// Every effect there is.
@@ -195,7 +78,14 @@ pub static EFFECTS: [&dyn Effect; 27] = [
     &payload::Payload,
 ];
 
-/// The effect with this keyword.
-pub fn by_keyword(keyword: &str) -> Option<&'static dyn Effect> {
-    EFFECTS.into_iter().find(|e| e.keyword() == keyword)
+/// Their declarations.
+pub fn kinds() -> Kinds {
+    Kinds::new(EFFECTS.into_iter().map(|effect| effect as &dyn Declaration))
+}
+
+/// The effect that an element is of.
+pub fn of(element: &Element) -> &'static dyn Effect {
+    let keyword = element.effect.keyword();
+    let found = EFFECTS.into_iter().find(|e| e.keyword() == keyword);
+    found.expect("elements are of the list's kinds")
 }

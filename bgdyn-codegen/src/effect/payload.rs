@@ -4,8 +4,9 @@
 
 use bgdyn_runtime::Dd;
 
+use super::Effect;
 use super::wrench::{AT, moves};
-use super::{Beside, Effect, Element, Given};
+use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::fault::Faults;
 use crate::math::Vec3;
 use crate::mechanism::{Inertial, Mechanism, Pose, Tensor, Value, check_tensor};
@@ -23,7 +24,7 @@ const INERTIA: [&str; 6] = [
     "inertia.yz",
 ];
 
-impl Effect for Payload {
+impl Declaration for Payload {
     fn keyword(&self) -> &'static str {
         "payload"
     }
@@ -104,3 +105,5 @@ impl Effect for Payload {
         );
     }
 }
+
+impl Effect for Payload {}

@@ -3,15 +3,16 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Effect, Element, Given};
+use super::Effect;
 use crate::bond_graph::{BondGraph, Gyrostat, Rotor as RotorStore};
+use crate::declaration::{Declaration, Element, Given};
 use crate::math::Vec3;
 use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
 use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Rotor;
 
-impl Effect for Rotor {
+impl Declaration for Rotor {
     fn keyword(&self) -> &'static str {
         "rotor"
     }
@@ -85,7 +86,9 @@ impl Effect for Rotor {
             }
         }
     }
+}
 
+impl Effect for Rotor {
     fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
         let value = |key: &str, usual: f64| {
             let Some(quantity) = element.quantity(key) else {

@@ -8,15 +8,16 @@
 
 use bgdyn_runtime::Dd;
 
+use super::Effect;
 use super::viscous::{DAMPING, JOINT};
-use super::{Effect, Element, Given};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct SeriesElastic;
 
-impl Effect for SeriesElastic {
+impl Declaration for SeriesElastic {
     fn keyword(&self) -> &'static str {
         "series_elastic"
     }
@@ -83,7 +84,9 @@ impl Effect for SeriesElastic {
         let joint = element.name("joint").unwrap_or_default();
         layout.coordinate_beside(&element.name, joint);
     }
+}
 
+impl Effect for SeriesElastic {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let (joint, drive) = (laws.port(element), laws.coordinate(&element.name));
         let (stretch, rate) = (drive.place - joint.place, drive.rate - joint.rate);

@@ -1,11 +1,11 @@
 //! What dampers and smooth friction share: an effort that depends on the slip of a port against
 //! its counterpart, and takes from it all the power it is given.
 
-use super::Element;
+use crate::declaration::Element;
 use crate::expr::Ex;
+use crate::laws::Laws;
 use crate::layout::{Layout, Level};
 use crate::spec::Dimension;
-use crate::system::Laws;
 
 /// The counterpart's speed is an input, where there is one.
 pub(super) fn declare(element: &Element, layout: &mut Layout) {

@@ -2,11 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
+use super::Effect;
 use super::viscous::REFERENCE;
-use super::{Effect, Element, Given};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::Laws;
 use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct Spring;
 
@@ -26,7 +27,7 @@ pub(super) const BETWEEN: Key = Key {
     about: "two links or frames: it acts along the line between their origins",
 };
 
-impl Effect for Spring {
+impl Declaration for Spring {
     fn keyword(&self) -> &'static str {
         "spring"
     }
@@ -83,7 +84,9 @@ impl Effect for Spring {
             layout.reference(reference, Level::Position, Level::Rate, dimension);
         }
     }
+}
 
+impl Effect for Spring {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let reference = element.name("reference");

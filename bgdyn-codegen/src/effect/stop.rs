@@ -11,20 +11,21 @@
 
 use bgdyn_runtime::Dd;
 
+use super::Effect;
 use super::coulomb_smooth::SPEED;
 use super::viscous::JOINT;
-use super::{Effect, Element, Given};
+use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
+use crate::laws::{Laws, Port};
 use crate::layout::Layout;
 use crate::mechanism::Limits;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::{Laws, Port};
 
 pub(super) struct Stop;
 
 const PLACE: Reads = Reads::Number(&[Dimension::Angle, Dimension::Length]);
 
-impl Effect for Stop {
+impl Declaration for Stop {
     fn keyword(&self) -> &'static str {
         "stop"
     }
@@ -115,7 +116,9 @@ impl Effect for Stop {
         layout.event(begins(name), format!("`{joint}` meets a stop"));
         layout.event(ends(name), format!("`{joint}` leaves a stop"));
     }
+}
 
+impl Effect for Stop {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let zero = laws.b.zero();

@@ -9,11 +9,12 @@
 use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
 use super::viscous::{DAMPING, JOINT, REFERENCE};
-use super::{Effect, Element, Given, slip};
+use super::{Effect, slip};
+use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::Key;
-use crate::system::Laws;
 
 pub(super) struct Stribeck;
 
@@ -41,7 +42,7 @@ const STRIBECK_SPEED: Key = Key {
     about: "v_s, speed of the Stribeck curve",
 };
 
-impl Effect for Stribeck {
+impl Declaration for Stribeck {
     fn keyword(&self) -> &'static str {
         "stribeck"
     }
@@ -99,7 +100,9 @@ impl Effect for Stribeck {
     fn declare(&self, element: &Element, layout: &mut Layout) {
         slip::declare(element, layout);
     }
+}
 
+impl Effect for Stribeck {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             let number = |key| laws.number(element, key);

@@ -1,14 +1,15 @@
 //! Velocity products: the rates of the transformers, d/dt ∂r_i/∂q_j and ρ̇_j, with the gyroscopic
 //! term ω × J ω. Quasi-static scenes do without.
 
-use super::{Effect, Element};
+use super::Effect;
 use crate::bond_graph::BondGraph;
+use crate::declaration::{Declaration, Element};
 use crate::mechanism::Mechanism;
 use crate::spec::Key;
 
 pub(super) struct VelocityProducts;
 
-impl Effect for VelocityProducts {
+impl Declaration for VelocityProducts {
     fn keyword(&self) -> &'static str {
         "velocity_products"
     }
@@ -32,7 +33,9 @@ impl Effect for VelocityProducts {
     fn keys(&self) -> &'static [Key] {
         &[]
     }
+}
 
+impl Effect for VelocityProducts {
     fn alter(&self, _: &Element, _: &Mechanism, graph: &mut BondGraph) {
         graph.velocity_products = true;
     }

@@ -1,9 +1,10 @@
 //! Viscous friction of a joint: τ = −b (q̇ − ṙ).
 
-use super::{Effect, Element, Given, slip};
+use super::{Effect, slip};
+use crate::declaration::{Declaration, Element, Given};
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct Viscous;
 
@@ -26,7 +27,7 @@ pub(super) const JOINT: Key = Key {
 /// The dimensions of an effort per rate.
 pub(super) const DAMPING: Reads = Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]);
 
-impl Effect for Viscous {
+impl Declaration for Viscous {
     fn keyword(&self) -> &'static str {
         "viscous"
     }
@@ -63,7 +64,9 @@ impl Effect for Viscous {
     fn declare(&self, element: &Element, layout: &mut Layout) {
         slip::declare(element, layout);
     }
+}
 
+impl Effect for Viscous {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             -(laws.number(element, "damping") * s)

@@ -1,13 +1,14 @@
 //! An external wrench on a link or at a frame: six inputs, or those asked for. A source of effort on
 //! the flow V = [ω; v] of the place: τ_j += J_jᵀ w.
 
-use super::{Beside, Effect, Element, Given};
+use super::Effect;
+use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::{Fault, Faults};
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::math::Vec3;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(super) struct Wrench;
 
@@ -65,7 +66,7 @@ pub(super) fn act<'g>(jacobian: &[[Ex<'g>; 6]], wrench: &[Ex<'g>; 6], laws: &mut
     }
 }
 
-impl Effect for Wrench {
+impl Declaration for Wrench {
     fn keyword(&self) -> &'static str {
         "wrench"
     }
@@ -134,7 +135,9 @@ impl Effect for Wrench {
             layout.input(format!("{name}_{component}"), dimension, about);
         }
     }
+}
 
+impl Effect for Wrench {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let site = laws.site(element.name(AT.name).unwrap_or_default());
         let given = COMPONENTS.map(|c| laws.input(&format!("{}_{c}", element.name)));

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::bond_graph;
+use crate::effect;
 use crate::machine::Machine;
 use crate::mechanism::{CoordinateId, Parameter};
 use crate::name::is_identifier;
@@ -145,7 +146,7 @@ impl SceneInterface {
 
 /// What a scene that is not sound has all the same.
 fn sketched(spec: &SceneSpec, machine: &Machine) -> SceneInterface {
-    let (layout, asked) = scene::sketch(spec, machine);
+    let (layout, asked) = scene::sketch(spec, machine, &effect::kinds());
     let sites = bond_graph::build(&machine.mechanism).sites;
     let outputs = asked.iter().flat_map(|Located { value, .. }| {
         let place = sites.iter().any(|s| s.name == *value);

@@ -9,7 +9,7 @@
 //! may close and leave the pressure between two closed valves undetermined.
 
 use super::Scene;
-use crate::effect::{Chain, Element};
+use crate::declaration::{Chain, Element};
 use crate::fault::wording::algebraic_loop;
 use crate::fault::{Fault, Faults};
 

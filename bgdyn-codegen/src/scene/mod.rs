@@ -13,8 +13,8 @@ mod subset;
 
 use bgdyn_runtime::Dd;
 
-pub use crate::effect::Chain;
-use crate::effect::Element;
+pub use crate::declaration::Chain;
+use crate::declaration::Element;
 use crate::fault::Place;
 pub use crate::layout::{Coordinate, Entered, Layout, Level, Part, Store};
 use crate::mechanism::{Mechanism, Parameter};

@@ -3,7 +3,7 @@
 use super::Scene;
 use super::causality::{chains, is_solvable};
 use super::check::assembled;
-use crate::effect::{Beside, Checked, Element, Refused};
+use crate::declaration::{Beside, Checked, Element, Refused};
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 

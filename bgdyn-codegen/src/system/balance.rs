@@ -4,6 +4,7 @@
 
 use super::dynamics::rates;
 use super::holds::held;
+use super::summed::summed;
 use super::{Balance, Contact, Hold, Laws, Named, Own, System};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent};
@@ -77,7 +78,7 @@ enum Source {
 
 /// Energy stored by each entry.
 pub(super) fn energy<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
     let all = all(&system.scene, &system.graph, &laws);
     let stored = |(_, source): (Named, Source)| match source {
         Source::Element(i) => laws.balances()[i].stored,
@@ -89,7 +90,7 @@ pub(super) fn energy<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
 
 /// For each entry: power supplied, rate of the energy stored, power dissipated.
 pub(super) fn power<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let mut laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let mut laws = summed(b, &system.scene, &system.graph, Own::Inputs);
     let rates = rates(system, &laws, b);
     // Friction that holds a joint against a moving counterpart takes its power from there. What holds
     // a coordinate at the limit of its rate has it in the element's law.

@@ -10,12 +10,12 @@ use bgdyn_runtime::Dd;
 use super::dynamics::own_inertia;
 use super::holds::{Holds, held};
 use super::jacobian::{Response, expressions};
-use super::laws::copied;
 use super::{Laws, System};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::formulation::Search;
 use crate::function::Function;
+use crate::laws::copied;
 use crate::math::Vec3;
 use crate::method::{Method, Role};
 

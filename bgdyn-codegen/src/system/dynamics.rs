@@ -1,11 +1,12 @@
 //! Accelerations and rates, and the efforts behind given accelerations.
 
 use super::holds::{Holding, held, own_accelerations};
-use super::laws::copied;
+use super::summed::summed;
 use super::{Laws, Own, System};
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, copy_into};
 use crate::formulation::{Formulation, Search};
 use crate::function::Function;
+use crate::laws::copied;
 use crate::method::{Method, Role};
 
 /// The ways to v̇ and ẋ.
@@ -35,7 +36,7 @@ pub(super) fn derivative_by(
 /// v̇ and ẋ where joints may be held.
 fn with_modes(system: &System, asked: Option<&'static dyn Formulation>) -> Function {
     system.one(Role::Derivative, |system, b| {
-        let mut laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+        let mut laws = summed(b, &system.scene, &system.graph, Own::Inputs);
         laws.asked = asked;
         rates(system, &laws, b)
     })
@@ -45,7 +46,7 @@ fn with_modes(system: &System, asked: Option<&'static dyn Formulation>) -> Funct
 fn without_modes(system: &System, forward: &Function) -> Function {
     let b = Builder::new();
     let outputs: Vec<Expr> = {
-        let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+        let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
         let joints = driven(&b, forward, &laws, system);
         let all = joined(system, &laws, joints).into_iter();
         all.map(Ex::expr).collect()
@@ -98,7 +99,7 @@ pub(super) fn rates<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) ->
 
 /// The own effort of each coordinate behind given accelerations.
 pub(super) fn inverse<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let laws = Laws::new(b, &system.scene, &system.graph, Own::Sought);
+    let laws = summed(b, &system.scene, &system.graph, Own::Sought);
     let nv = system.scene.layout.nv();
     let given: Vec<Ex<'g>> = (0..nv).map(|j| b.leaf(Leaf::Acceleration(j))).collect();
     efforts(system, &laws, &given)

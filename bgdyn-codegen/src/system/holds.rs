@@ -1,6 +1,7 @@
 //! Coordinates that are held: by dry friction, or at the limit of their rate.
 
 use super::dynamics::{driven, own_inertia};
+use super::summed::summed;
 use super::{Laws, Own, System};
 use crate::expr::{Builder, Ex};
 use crate::formulation::{self, Search};
@@ -170,7 +171,7 @@ impl<'g> Holds<'g> {
 /// Values whose fall through zero is an event. A contact's: its slip in the direction it slips in,
 /// or how much more it would hold.
 pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
     let of_contacts = if laws.contacts().is_empty() {
         vec![]
     } else {
@@ -202,7 +203,7 @@ pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
 /// For each mode: its slip, the acceleration of its slip, the effort it holds or would have to hold
 /// to keep its present acceleration, and what is left until it gives way.
 pub(super) fn contacts<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+    let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
     contacts_under(system, &laws)
         .into_iter()
         .flatten()

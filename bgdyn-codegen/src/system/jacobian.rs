@@ -4,15 +4,16 @@
 //! M ∂v̇ = ∂E − ∂P at fixed v̇, with ∂P as the recursion makes it. Held joints have ∂v̇ = ∂r̈ in place
 //! of their row. The cheaper way is taken.
 
+use super::summed::summed_under;
 use bgdyn_runtime::Dd;
 
 use super::dynamics::{driven, joined, own_inertia, rates};
 use super::holds::Holds;
-use super::laws::copied;
 use super::{Laws, Own, System, signals};
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::formulation::Search;
 use crate::function::Function;
+use crate::laws::copied;
 use crate::method::{Method, Role};
 
 /// Coordinates up to which ẏ's own graph is differentiated to see whether that costs less: beyond
@@ -197,6 +198,6 @@ impl System {
     /// The laws under those inputs.
     pub(super) fn laws_under_driven_inputs<'g, 'a>(&'a self, b: &'g Builder) -> Laws<'g, 'a> {
         let inputs = || self.driven_inputs(b);
-        Laws::under(b, &self.scene, (&self.graph, None), Own::Inputs, inputs)
+        summed_under(b, &self.scene, (&self.graph, None), Own::Inputs, inputs)
     }
 }

@@ -9,24 +9,26 @@ mod canonical;
 mod dynamics;
 mod holds;
 mod jacobian;
-mod laws;
 mod range;
 mod reference;
 mod signals;
 mod slope;
 mod start;
+mod summed;
 
 use bgdyn_runtime::Dd;
+use summed::summed;
 
 use crate::bond_graph::{self, BondGraph};
+use crate::effect;
 use crate::expr::{Builder, Ex, Expr};
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::formulation::Formulation;
 use crate::function::Function;
+pub use crate::laws::{Balance, Contact, Hold, Laws, Own, Port, Reading, behind_gear};
 use crate::method::{Method, Role};
 use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
-pub use laws::{Balance, Contact, Hold, Laws, Own, Port, Reading, behind_gear};
 
 /// The equations of a scene.
 #[derive(Clone, Debug)]
@@ -63,7 +65,7 @@ impl System {
     pub fn new(scene: Scene) -> Result<Self, Faults> {
         let mut graph = bond_graph::build(&scene.mechanism).bare();
         for element in &scene.elements {
-            element.effect.alter(element, &scene.mechanism, &mut graph);
+            effect::of(element).alter(element, &scene.mechanism, &mut graph);
         }
         let mut system = System {
             initial: scene.initial.clone(),
@@ -74,7 +76,7 @@ impl System {
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
-        let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+        let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
         let entries = balance::entries(&system.scene, &system.graph, &laws);
         let outputs = outputs(&system, &laws, &mut faults);
         let outputs = outputs.into_iter().map(|(named, _)| named).collect();
@@ -98,7 +100,7 @@ impl System {
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
-        let laws = Laws::new(&b, &system.scene, &system.graph, Own::Inputs);
+        let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
         range::check(&system.scene, &laws, &mut faults);
         drop(laws);
         system.initial = system.scene.initial.clone();
@@ -108,7 +110,7 @@ impl System {
     /// Joints that nothing in the scene gives inertia, in any position.
     pub fn without_inertia(&self) -> Vec<&str> {
         let b = Builder::silent();
-        let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
+        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
         let mass = laws.method(Method::MassMatrix);
         let coordinates = self.graph.coordinates.iter().enumerate();
         let diagonal = |j: usize| mass[j * (j + 1) / 2 + j];
@@ -129,7 +131,7 @@ impl System {
     /// The coordinate that each mode may hold.
     pub fn mode_coordinates(&self) -> Vec<usize> {
         let b = Builder::silent();
-        let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
+        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
         let mut found = vec![0; self.scene.layout.modes.len()];
         for contact in laws.contacts() {
             found[contact.mode] = contact.coordinate;
@@ -188,7 +190,7 @@ impl System {
             Role::Power => vec![self.one(role, balance::power)],
             Role::Energy => vec![self.one(role, balance::energy)],
             Role::Outputs => vec![self.one(role, |system, b| {
-                let laws = Laws::new(b, &system.scene, &system.graph, Own::Inputs);
+                let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
                 let found = outputs(system, &laws, &mut Faults::default());
                 found.into_iter().map(|(_, e)| e).collect()
             })],
@@ -210,7 +212,7 @@ impl System {
     /// among the leaves: undoes [`Role::Inverse`].
     pub fn driven(&self) -> Function {
         self.one(Role::Derivative, |system, b| {
-            let laws = Laws::new(b, &system.scene, &system.graph, Own::Everywhere);
+            let laws = summed(b, &system.scene, &system.graph, Own::Everywhere);
             dynamics::rates(system, &laws, b)
         })
     }

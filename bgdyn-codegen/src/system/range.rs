@@ -5,8 +5,8 @@
 use bgdyn_runtime::Dd;
 
 use super::Laws;
-use super::laws::Condition;
 use crate::fault::{Fault, Faults};
+use crate::laws::Condition;
 use crate::scene::{Initial, Scene, Store};
 
 /// Points between a joint's limits.

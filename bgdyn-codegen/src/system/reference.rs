@@ -2,11 +2,12 @@
 //! with.
 
 use super::dynamics::{efforts, own_inertia};
-use super::laws::copied;
+use super::summed::summed_by;
 use super::{Laws, Own, System};
 use crate::expr::{Builder, Ex, Leaf};
 use crate::formulation;
 use crate::function::Function;
+use crate::laws::copied;
 use crate::method::{Method, Role};
 
 impl System {
@@ -42,5 +43,5 @@ impl System {
 
 fn literal_laws<'g, 'a>(system: &'a System, b: &'g Builder, own: Own) -> Laws<'g, 'a> {
     let literal = Some(formulation::specification());
-    Laws::by(b, &system.scene, &system.graph, own, literal)
+    summed_by(b, &system.scene, &system.graph, own, literal)
 }

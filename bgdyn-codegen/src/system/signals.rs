@@ -1,5 +1,6 @@
 //! What drives the inputs: courses in time and controllers, as expressions.
 
+use super::summed::summed;
 use bgdyn_runtime::Dd;
 
 use super::dynamics::efforts;
@@ -10,7 +11,7 @@ use crate::scene::{Drive, Signal};
 /// Every input: built in, or as the caller gives it.
 pub(super) fn inputs<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
     let layout = &system.scene.layout;
-    let laws = Laws::new(b, &system.scene, &system.graph, Own::Sought);
+    let laws = summed(b, &system.scene, &system.graph, Own::Sought);
     let followed = |i: usize| {
         let name = layout.inputs[i].follows.as_deref();
         name.and_then(|name| layout.coordinate_named(name))

@@ -1,12 +1,15 @@
 //! Where a scene begins: first-order states as its effects store them, and modes that agree with the
 //! rest of the state.
 
+use super::summed::summed;
 use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, settle_by};
 use nalgebra::DVector;
 
 use super::holds::contacts_under;
 use super::{Laws, Own, System};
-use crate::expr::{Builder, Expr, Inputs, Leaf, Node, NodeId, evaluate, reachable};
+use crate::declaration::Element;
+use crate::effect;
+use crate::expr::{Builder, Ex, Expr, Inputs, Leaf, Node, NodeId, evaluate, reachable};
 use crate::fault::{Fault, Faults};
 use crate::scene::{Scene, mode_name};
 
@@ -20,7 +23,7 @@ impl System {
     /// The `faults` so far, and stated modes that contradict the rest of the state.
     pub(super) fn started(mut self, mut faults: Faults) -> Result<System, Faults> {
         let b = Builder::silent();
-        let laws = Laws::new(&b, &self.scene, &self.graph, Own::Inputs);
+        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
         let states = states(&self.scene, &laws);
         drop(laws);
         self.initial.x = states;
@@ -39,10 +42,20 @@ fn states(scene: &Scene, laws: &Laws<'_, '_>) -> Vec<Dd> {
     let given = &scene.initial;
     let parts = scene.layout.states.iter().zip(&given.x);
     let value = |(part, &x): (&crate::scene::Part, &Dd)| {
-        let stored = laws.stored_as(&part.name, x);
+        let stored = stored(scene, laws, &part.name, x);
         laws.at_start(stored, given)
     };
     parts.map(value).collect()
+}
+
+/// What a first-order state stores where the scene gives `x` for it.
+fn stored<'g>(scene: &Scene, laws: &Laws<'g, '_>, state: &str, x: Dd) -> Ex<'g> {
+    let given = laws.b.constant(x);
+    let owner = |e: &&Element| e.effect.keeps(e, state);
+    match scene.elements.iter().find(owner) {
+        Some(element) => effect::of(element).start(element, laws, state, given),
+        None => given,
+    }
 }
 
 /// The modes at the start: what moves slips the way it moves, what is at rest holds where it can. A

@@ -4,13 +4,14 @@
 //! vane actuator: areas are volumes per angle, the force is a torque.
 
 use super::{FAMILY, FLUID, declare_volume, fill, filled, has_fluid, number};
+use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::effect::Effect;
 use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
-use crate::effect::{Beside, Effect, Element, Given};
 use crate::expr::Ex;
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key};
-use crate::system::Laws;
 
 pub(in crate::effect) struct Cylinder;
 
@@ -61,7 +62,7 @@ static KEYS: [Key; 9] = [
     FLUID,
 ];
 
-impl Effect for Cylinder {
+impl Declaration for Cylinder {
     fn keyword(&self) -> &'static str {
         "cylinder"
     }
@@ -124,7 +125,9 @@ impl Effect for Cylinder {
     fn keeps(&self, element: &Element, state: &str) -> bool {
         element.nodes().iter().any(|node| node == state)
     }
+}
 
+impl Effect for Cylinder {
     fn start<'g>(
         &self,
         element: &Element,

@@ -1,7 +1,8 @@
 //! The fluid of a circuit: its bulk modulus.
 
 use super::{FAMILY, number};
-use crate::effect::{Effect, Given};
+use crate::declaration::{Declaration, Given};
+use crate::effect::Effect;
 use crate::spec::{Dimension, Key};
 
 pub(in crate::effect) struct Fluid;
@@ -15,7 +16,7 @@ pub(super) const BULK_MODULUS: Key = number(
     "β = ρ dp/dρ, constant",
 );
 
-impl Effect for Fluid {
+impl Declaration for Fluid {
     fn keyword(&self) -> &'static str {
         KEYWORD
     }
@@ -41,3 +42,5 @@ impl Effect for Fluid {
         given.positive(&[BULK_MODULUS.name], why);
     }
 }
+
+impl Effect for Fluid {}

@@ -2,11 +2,12 @@
 //! supply to one side and the other side to the tank, through orifices that open with |x|.
 
 use super::{Drop, FAMILY, LAMINAR, ORIFICE, joins_two, node, one_fluid, pressure, run};
-use crate::effect::{Beside, Effect, Element, Given};
+use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::effect::Effect;
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(in crate::effect) struct FourWayValve;
 
@@ -26,7 +27,7 @@ fn spool(element: &Element) -> &str {
     element.name(SPOOL.name).unwrap_or(&element.name)
 }
 
-impl Effect for FourWayValve {
+impl Declaration for FourWayValve {
     fn keyword(&self) -> &'static str {
         "four_way_valve"
     }
@@ -71,7 +72,9 @@ impl Effect for FourWayValve {
         let about = format!("shift of the spool of `{}`, −1 … 1", element.name);
         layout.shared_input(spool(element), Dimension::One, about);
     }
+}
 
+impl Effect for FourWayValve {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let [supply, tank, a, b] =
             [SUPPLY, TANK, A, B].map(|key| element.name(key.name).unwrap_or_default());

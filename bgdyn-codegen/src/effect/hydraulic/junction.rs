@@ -1,14 +1,15 @@
 //! A node without a volume between two resistors: its pressure is solved for at generation time.
 
 use super::{FAMILY, FLUID, has_fluid, pressure, read_pressure, solve};
-use crate::effect::{Beside, Effect, Element};
+use crate::declaration::{Beside, Declaration, Element};
+use crate::effect::Effect;
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::spec::Key;
-use crate::system::Laws;
 
 pub(in crate::effect) struct Junction;
 
-impl Effect for Junction {
+impl Declaration for Junction {
     fn keyword(&self) -> &'static str {
         "junction"
     }
@@ -38,6 +39,7 @@ impl Effect for Junction {
     }
 
     // After the nodes of known pressure, before the resistors.
+
     fn order(&self) -> u8 {
         1
     }
@@ -45,7 +47,9 @@ impl Effect for Junction {
     fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
+}
 
+impl Effect for Junction {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         solve(element, laws);
         let found = pressure(&element.name, laws);

@@ -1,10 +1,11 @@
 //! Leakage through a gap: laminar flow, q = c Δp (Merritt 1967, chapter 3).
 
 use super::{FAMILY, FROM, TO, joins_two, number, one_fluid, resist};
-use crate::effect::{Beside, Effect, Element, Given};
+use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::effect::Effect;
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::spec::{Dimension, Key};
-use crate::system::Laws;
 
 pub(in crate::effect) struct Leakage;
 
@@ -15,7 +16,7 @@ pub(super) const CONDUCTANCE: Key = number(
     "c, flow per pressure drop",
 );
 
-impl Effect for Leakage {
+impl Declaration for Leakage {
     fn keyword(&self) -> &'static str {
         "leakage"
     }
@@ -53,7 +54,9 @@ impl Effect for Leakage {
     fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
         one_fluid(element, beside, faults);
     }
+}
 
+impl Effect for Leakage {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         resist(element, laws, |laws, drop| {
             laws.number(element, CONDUCTANCE.name) * drop

@@ -1,18 +1,19 @@
 //! The volume of a line or a hose: a hydraulic compliance.
 
 use super::{FAMILY, FLUID, VOLUME, declare_volume, fill, filled, has_fluid, number};
-use crate::effect::{Beside, Effect, Element, Given};
+use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::effect::Effect;
 use crate::expr::Ex;
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key};
-use crate::system::Laws;
 
 pub(in crate::effect) struct Line;
 
 static KEYS: [Key; 2] = [number(VOLUME, &[Dimension::Volume], true, "V"), FLUID];
 
-impl Effect for Line {
+impl Declaration for Line {
     fn keyword(&self) -> &'static str {
         "line"
     }
@@ -53,7 +54,9 @@ impl Effect for Line {
     fn declare(&self, element: &Element, layout: &mut Layout) {
         declare_volume(&element.name, layout);
     }
+}
 
+impl Effect for Line {
     fn start<'g>(
         &self,
         element: &Element,

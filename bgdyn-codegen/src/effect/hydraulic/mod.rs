@@ -23,13 +23,13 @@ mod source;
 
 use bgdyn_runtime::Dd;
 
-use super::{Beside, Element, Given};
-use crate::effect::Chain;
+use crate::declaration::Chain;
+use crate::declaration::{Beside, Element, Given};
 use crate::expr::{Builder, Ex};
 use crate::fault::{Fault, Faults};
+use crate::laws::Laws;
 use crate::layout::{Entered, Layout};
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 pub(super) use cylinder::Cylinder;
 pub(super) use fluid::Fluid;
 pub(super) use four_way_valve::FourWayValve;

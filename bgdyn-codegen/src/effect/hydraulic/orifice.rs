@@ -3,11 +3,12 @@
 //! for the flow it is q = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
 
 use super::{Drop, FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two, one_fluid, resist};
-use crate::effect::{Beside, Effect, Element, Given};
+use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::effect::Effect;
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::Laws;
 
 pub(in crate::effect) struct Orifice;
 
@@ -18,7 +19,7 @@ const OPENING: Key = Key {
     about: "u, name of an input, held to 0 … 1; always open without it",
 };
 
-impl Effect for Orifice {
+impl Declaration for Orifice {
     fn keyword(&self) -> &'static str {
         "orifice"
     }
@@ -64,7 +65,9 @@ impl Effect for Orifice {
             layout.shared_input(opening, Dimension::One, about);
         }
     }
+}
 
+impl Effect for Orifice {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         resist(element, laws, |laws, drop| {
             let open = Drop::of(element, laws).flow(drop, laws.b);

@@ -1,10 +1,11 @@
 //! Sources of pressure: a supply (an ideal pressure-controlled pump) and a tank.
 
 use super::{FAMILY, FLUID, PRESSURE, SOURCE, enthalpy, has_fluid, no_less_than_vacuum, number};
-use crate::effect::{Beside, Effect, Element, Given};
+use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::effect::Effect;
 use crate::fault::Faults;
+use crate::laws::Laws;
 use crate::spec::{Dimension, Key};
-use crate::system::Laws;
 
 /// Holds its pressure whatever runs.
 pub(in crate::effect) struct Supply;
@@ -33,7 +34,7 @@ fn hold(element: &Element, laws: &mut Laws<'_, '_>) {
     laws.share(node, SOURCE, one);
 }
 
-impl Effect for Supply {
+impl Declaration for Supply {
     fn keyword(&self) -> &'static str {
         "supply"
     }
@@ -69,13 +70,15 @@ impl Effect for Supply {
     fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
+}
 
+impl Effect for Supply {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         hold(element, laws);
     }
 }
 
-impl Effect for Tank {
+impl Declaration for Tank {
     fn keyword(&self) -> &'static str {
         "tank"
     }
@@ -111,7 +114,9 @@ impl Effect for Tank {
     fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
+}
 
+impl Effect for Tank {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         hold(element, laws);
     }

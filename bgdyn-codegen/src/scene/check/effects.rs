@@ -2,8 +2,9 @@
 
 use super::super::causality::chains;
 use super::given;
-use crate::effect::{
-    Beside, Chain, Context, Declared, Element, Refused, called, check_unique_names, once_per_joint,
+use crate::declaration::{
+    Beside, Chain, Context, Declared, Element, Kinds, Refused, called, check_unique_names,
+    once_per_joint,
 };
 use crate::fault::{Fault, Faults};
 use crate::machine::Machine;
@@ -23,7 +24,7 @@ pub(super) struct Called {
 /// The effects called for, checked.
 pub(super) fn elements(
     spec: &SceneSpec,
-    whole: &Machine,
+    (whole, kinds): (&Machine, &Kinds),
     reduced: &Mechanism,
     faults: &mut Faults,
 ) -> Called {
@@ -32,7 +33,7 @@ pub(super) fn elements(
         refused.unread();
     }
     let free = reduced.joint_names();
-    let wanted = wanted(spec, (whole, &free), &mut refused, faults);
+    let wanted = wanted(spec, (whole, kinds, &free), &mut refused, faults);
     let all = whole.mechanism.joint_names();
     let locked = all.into_iter().filter(|name| !free.contains(name));
     let mut context = Context::of(reduced, locked.map(str::to_owned).collect());
@@ -72,10 +73,10 @@ pub(super) fn elements(
 }
 
 /// What can be said of the effects that a scene gives with their types, without its mechanism.
-pub(super) fn alone(spec: &SceneSpec, faults: &mut Faults) {
+pub(super) fn alone(spec: &SceneSpec, kinds: &Kinds, faults: &mut Faults) {
     let typed = |raw: &&Raw| raw.is_mapping() && raw.peek("type").is_some();
     for raw in given(&spec.effects).iter().filter(typed) {
-        crate::effect::declared(raw, faults);
+        crate::declaration::declared(raw, kinds, faults);
     }
 }
 
@@ -83,18 +84,18 @@ pub(super) fn alone(spec: &SceneSpec, faults: &mut Faults) {
 /// of several, of the `free` ones where it is of all.
 fn wanted(
     spec: &SceneSpec,
-    (whole, free): (&Machine, &[&str]),
+    (whole, kinds, free): (&Machine, &Kinds, &[&str]),
     refused: &mut Refused,
     faults: &mut Faults,
 ) -> Vec<Declared> {
     let mut wanted: Vec<Declared> = Vec::new();
     for raw in given(&spec.effects) {
         let before = faults.count();
-        let called = called(raw, &whole.effects, faults).into_iter();
+        let called = called(raw, &whole.effects, kinds, faults).into_iter();
         let each = called.flat_map(|declared| declared.of_each_joint(free, faults));
         let each: Vec<Declared> = each.collect();
         if each.is_empty() && faults.count() > before {
-            refused.call(raw, &whole.effects);
+            refused.call(raw, &whole.effects, kinds);
         }
         for declared in each {
             let name = &declared.name.value;

@@ -1,7 +1,7 @@
 //! The inputs, and what drives them.
 
 use super::super::signal::{self, Drive};
-use crate::effect::Refused;
+use crate::declaration::Refused;
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::layout::{Coordinate, Layout};
 use crate::spec::Raw;

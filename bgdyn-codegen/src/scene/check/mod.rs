@@ -11,7 +11,7 @@ use bgdyn_runtime::Dd;
 
 use super::reduce::held;
 use super::{Initial, Scene, Written};
-use crate::effect::Refused;
+use crate::declaration::{Kinds, Refused};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::layout::Layout;
 use crate::machine::Machine;
@@ -32,10 +32,15 @@ pub enum Verdict {
     Refused,
 }
 
-/// Checks a scene against every rule. `stem` is the file's stem, `machine` what it names.
-pub fn check(spec: &SceneSpec, stem: Option<&str>, machine: &Machine) -> (Verdict, Faults) {
+/// Checks a scene against every rule. `stem` is the file's stem, `machine` what it names, `kinds` the effects that there are.
+pub fn check(
+    spec: &SceneSpec,
+    stem: Option<&str>,
+    machine: &Machine,
+    kinds: &Kinds,
+) -> (Verdict, Faults) {
     let mut faults = Faults::default();
-    let (scene, drawn) = scene(spec, stem, machine, &mut faults);
+    let (scene, drawn) = scene(spec, stem, (machine, kinds), &mut faults);
     let sound = spec.complete && !faults.any_fault();
     faults.forget_following();
     faults.sort();
@@ -49,19 +54,23 @@ pub fn check(spec: &SceneSpec, stem: Option<&str>, machine: &Machine) -> (Verdic
 }
 
 /// What can be said of a scene without its mechanism.
-pub fn check_alone(spec: &SceneSpec, stem: Option<&str>) -> Faults {
+pub fn check_alone(spec: &SceneSpec, stem: Option<&str>, kinds: &Kinds) -> Faults {
     let mut faults = Faults::default();
     version(spec, &mut faults);
     name(spec, stem, &mut faults);
     run::integration(&spec.integration, &mut faults);
-    effects::alone(spec, &mut faults);
+    effects::alone(spec, kinds, &mut faults);
     faults.sort();
     faults
 }
 
 /// The state and the outputs that a scene seems to have, whether it is sound or not.
-pub(crate) fn sketch(spec: &SceneSpec, machine: &Machine) -> (Layout, Vec<Located<String>>) {
-    let (scene, _) = scene(spec, None, machine, &mut Faults::default());
+pub(crate) fn sketch(
+    spec: &SceneSpec,
+    machine: &Machine,
+    kinds: &Kinds,
+) -> (Layout, Vec<Located<String>>) {
+    let (scene, _) = scene(spec, None, (machine, kinds), &mut Faults::default());
     (scene.layout, scene.outputs)
 }
 
@@ -69,7 +78,7 @@ pub(crate) fn sketch(spec: &SceneSpec, machine: &Machine) -> (Layout, Vec<Locate
 fn scene(
     spec: &SceneSpec,
     stem: Option<&str>,
-    whole: &Machine,
+    (whole, kinds): (&Machine, &Kinds),
     faults: &mut Faults,
 ) -> (Scene, bool) {
     version(spec, faults);
@@ -81,7 +90,7 @@ fn scene(
         elements,
         chains,
         refused,
-    } = effects::elements(spec, whole, &mechanism, faults);
+    } = effects::elements(spec, (whole, kinds), &mechanism, faults);
     let sound = faults.count() == before && refused.is_empty();
     let integration = run::integration(&spec.integration, faults);
     let unloaded = mechanism.clone();

@@ -1,7 +1,7 @@
 //! The names of outputs, where the effects are not sound: what they report is not known then.
 
 use super::super::Scene;
-use crate::effect::Refused;
+use crate::declaration::Refused;
 use crate::fault::{Fault, Faults, unknown_name};
 
 /// Notes the outputs that are no parts of the state, no places, and nothing that an effect may report.

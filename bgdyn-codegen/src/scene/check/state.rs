@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::super::Initial;
 use super::dimensions;
-use crate::effect::{Element, Refused};
+use crate::declaration::{Element, Refused};
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::layout::{Coordinate, Layout, Store};
 use crate::mechanism::{CoordinateId, Mechanism, Parameter};

@@ -4,11 +4,12 @@ use bgdyn_runtime::Dd;
 
 use super::{Laws, Own, Port, copied};
 use crate::bond_graph::SiteId;
-use crate::effect::{Element, Quantity};
+use crate::declaration::Chain;
+use crate::declaration::{Element, Quantity};
 use crate::expr::{Ex, Graph, Leaf, Tangent};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
-use crate::scene::{Chain, Level};
+use crate::scene::Level;
 use crate::spec::Dimension;
 
 impl<'g, 'a> Laws<'g, 'a> {
@@ -132,7 +133,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// ∂x/∂q_j
-    pub(in crate::system) fn slope(&self, x: Ex<'g>, j: usize) -> Ex<'g> {
+    pub(crate) fn slope(&self, x: Ex<'g>, j: usize) -> Ex<'g> {
         let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| g.constant(Dd::ONE));
         let x = x.expr();
         let slope = self.b.with_graph(|g| Tangent::new(seed).of(g, x));
@@ -168,7 +169,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// A method of the mechanism, its expressions copied into this graph.
-    pub(in crate::system) fn method(&self, method: Method) -> Vec<Ex<'g>> {
+    pub(crate) fn method(&self, method: Method) -> Vec<Ex<'g>> {
         copied(self.b, (self.graph, self.asked), method, |_, _| None)
     }
 

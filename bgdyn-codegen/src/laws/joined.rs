@@ -3,22 +3,11 @@
 use bgdyn_runtime::Dd;
 
 use super::{Balance, Condition, Contact, Laws, Own, Reading, behind_gear};
-use crate::effect::Element;
 use crate::expr::{Ex, Leaf};
 
 impl<'g> Laws<'g, '_> {
-    /// What a first-order state stores where the scene gives `x` for it.
-    pub(in crate::system) fn stored_as(&self, state: &str, x: Dd) -> Ex<'g> {
-        let given = self.b.constant(x);
-        let owner = |e: &&Element| e.effect.keeps(e, state);
-        match self.scene.elements.iter().find(owner) {
-            Some(element) => element.effect.start(element, self, state, given),
-            None => given,
-        }
-    }
-
     /// An expression's value at the start, run-time parameters at their defaults.
-    pub(in crate::system) fn at_start(&self, x: Ex<'g>, initial: &crate::scene::Initial) -> Dd {
+    pub(crate) fn at_start(&self, x: Ex<'g>, initial: &crate::scene::Initial) -> Dd {
         use bgdyn_runtime::Scalar as _;
         let inputs = crate::expr::Inputs {
             q: initial.q.clone(),
@@ -40,14 +29,14 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// Own efforts of the coordinates that are inputs.
-    pub(in crate::system) fn own_effort(&self, j: usize) -> Ex<'g> {
+    pub(crate) fn own_effort(&self, j: usize) -> Ex<'g> {
         let parts = self.scene.layout.inputs.iter().zip(&self.u);
         let own = parts.filter(|(part, _)| part.drives == Some(j));
         own.fold(self.b.zero(), |sum, (_, &u)| sum + u)
     }
 
     /// Own effort of a coordinate behind its gear. A voltage goes through its motor's law.
-    pub(in crate::system) fn drive(&self, j: usize) -> Ex<'g> {
+    pub(crate) fn drive(&self, j: usize) -> Ex<'g> {
         let (stored, everywhere) = (
             self.scene.layout.coordinates[j].stored,
             self.own == Own::Everywhere,
@@ -64,7 +53,7 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// The own effort that gives `effort` behind the coordinate's gear.
-    pub(in crate::system) fn before_gear(&self, j: usize, effort: Ex<'g>) -> Ex<'g> {
+    pub(crate) fn before_gear(&self, j: usize, effort: Ex<'g>) -> Ex<'g> {
         match self.gears.get(&j) {
             Some(&efficiency) => {
                 let one = self.b.number(1.0);
@@ -75,17 +64,17 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// Effort on a coordinate by everything but its store, its own input included.
-    pub(in crate::system) fn effort(&self, j: usize) -> Ex<'g> {
+    pub(crate) fn effort(&self, j: usize) -> Ex<'g> {
         self.efforts[j] + self.drive(j)
     }
 
     /// Whether an expression depends on any position.
-    pub(in crate::system) fn reads_positions(&self, x: Ex<'g>) -> bool {
+    pub(crate) fn reads_positions(&self, x: Ex<'g>) -> bool {
         !self.positions_of(x).is_empty()
     }
 
     /// The positions that an expression depends on.
-    pub(in crate::system) fn positions_of(&self, x: Ex<'g>) -> Vec<usize> {
+    pub(crate) fn positions_of(&self, x: Ex<'g>) -> Vec<usize> {
         let x = x.expr();
         self.b.with_graph(|g| {
             let needed = crate::expr::reachable(g, &[x]);
@@ -99,47 +88,47 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// Inertia of a coordinate with a store of its own.
-    pub(in crate::system) fn inertia_of(&self, j: usize) -> Option<Ex<'g>> {
+    pub(crate) fn inertia_of(&self, j: usize) -> Option<Ex<'g>> {
         self.inertias.get(&j).copied()
     }
 
-    pub(in crate::system) fn rates(&self) -> &[Ex<'g>] {
+    pub(crate) fn rates(&self) -> &[Ex<'g>] {
         &self.rates
     }
 
-    pub(in crate::system) fn states(&self) -> &[Ex<'g>] {
+    pub(crate) fn states(&self) -> &[Ex<'g>] {
         &self.x
     }
 
-    pub(in crate::system) fn mode_at(&self, k: usize) -> Ex<'g> {
+    pub(crate) fn mode_at(&self, k: usize) -> Ex<'g> {
         self.modes[k]
     }
 
-    pub(in crate::system) fn inputs(&self) -> &[Ex<'g>] {
+    pub(crate) fn inputs(&self) -> &[Ex<'g>] {
         &self.u
     }
 
-    pub(in crate::system) fn contacts(&self) -> &[Contact<'g>] {
+    pub(crate) fn contacts(&self) -> &[Contact<'g>] {
         &self.contacts
     }
 
-    pub(in crate::system) fn balance_of(&mut self, element: usize) -> &mut Balance<'g> {
+    pub(crate) fn balance_of(&mut self, element: usize) -> &mut Balance<'g> {
         &mut self.balances[element]
     }
 
-    pub(in crate::system) fn balances(&self) -> &[Balance<'g>] {
+    pub(crate) fn balances(&self) -> &[Balance<'g>] {
         &self.balances
     }
 
-    pub(in crate::system) fn event_named(&self, name: &str) -> Option<Ex<'g>> {
+    pub(crate) fn event_named(&self, name: &str) -> Option<Ex<'g>> {
         self.events.get(name).copied()
     }
 
-    pub(in crate::system) fn conditions(&self) -> &[Condition<'g>] {
+    pub(crate) fn conditions(&self) -> &[Condition<'g>] {
         &self.conditions
     }
 
-    pub(in crate::system) fn readings(&self) -> &[Reading<'g>] {
+    pub(crate) fn readings(&self) -> &[Reading<'g>] {
         &self.readings
     }
 }

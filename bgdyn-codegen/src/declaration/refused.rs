@@ -1,8 +1,8 @@
 //! Effects that were refused, and what they may have brought into the scene: whoever names a part of it is
 //! not at fault as well.
 
-use super::{Declared, EFFECTS, by_keyword};
-use crate::spec::{Entry, Raw, Reads};
+use super::{Declared, Kinds};
+use crate::spec::{Entry, Key, Raw, Reads};
 
 /// What effects that were refused may have brought.
 #[derive(Clone, Debug, Default)]
@@ -22,15 +22,16 @@ impl Refused {
     }
 
     /// An entry of a scene's list from which there is no effect; the mechanism declares `known`.
-    pub(crate) fn call(&mut self, raw: &Raw, known: &[Declared]) {
+    pub(crate) fn call(&mut self, raw: &Raw, known: &[Declared], kinds: &Kinds) {
         let name = &raw.name.value;
         let own = known.iter().find(|d| d.name.value == *name);
         let word = raw.peek("type").map_or(name.clone(), |word| word.value);
         let family = match own {
             Some(own) => Some(own.effect.family()),
-            None => by_keyword(&word).map(|effect| effect.family()),
+            None => kinds.named(&word).map(|effect| effect.family()),
         };
-        let inputs = inputs().filter_map(|key| raw.peek(key));
+        let keys = kinds.iter().flat_map(|kind| inputs(kind.keys()));
+        let inputs = keys.filter_map(|key| raw.peek(key));
         self.words.extend(inputs.map(|input| input.value));
         self.words.push(name.clone());
         // A word that is none may be meant for any of the mechanism's.
@@ -51,7 +52,7 @@ impl Refused {
 
     fn words_of(&mut self, declared: &Declared) {
         self.words.push(declared.name.value.clone());
-        for key in inputs() {
+        for key in inputs(declared.effect.keys()) {
             if let Some(Entry::Text(input)) = declared.fields.get(key).map(|e| &e.value) {
                 self.words.push(input.clone());
             }
@@ -76,9 +77,8 @@ impl Refused {
     }
 }
 
-/// The keys behind which effects name inputs.
-fn inputs() -> impl Iterator<Item = &'static str> {
-    let keys = EFFECTS.iter().flat_map(|effect| effect.keys());
-    keys.filter(|key| key.reads == Reads::Input)
-        .map(|key| key.name)
+/// The keys behind which an effect names inputs.
+fn inputs(keys: &'static [Key]) -> impl Iterator<Item = &'static str> {
+    let inputs = keys.iter().filter(|key| key.reads == Reads::Input);
+    inputs.map(|key| key.name)
 }

@@ -5,7 +5,7 @@ use super::joints::keys_declared;
 use super::refused::Refused;
 use bgdyn_runtime::Dd;
 
-use super::{Checked, EFFECTS, Effect, Element, Given, Quantity, by_keyword};
+use super::{Checked, Declaration, Element, Given, Kinds, Quantity};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::mechanism::{Limits, Motion, Places};
 use crate::name::is_identifier;
@@ -25,7 +25,7 @@ pub struct Declared {
     /// Its name.
     pub name: Located<String>,
     /// What it is.
-    pub effect: &'static dyn Effect,
+    pub effect: &'static dyn Declaration,
     /// Its values.
     pub fields: Fields,
 }
@@ -67,7 +67,7 @@ impl Context {
     }
 
     /// What an effect on a joint takes from the joint's limits for a key that it lacks.
-    fn limit_for(&self, effect: &dyn Effect, joint: Option<&str>, key: &Key) -> Option<f64> {
+    fn limit_for(&self, effect: &dyn Declaration, joint: Option<&str>, key: &Key) -> Option<f64> {
         let (_, limits) = self
             .limits
             .iter()
@@ -82,17 +82,17 @@ impl Context {
 }
 
 /// The effect that a file declares under a name.
-pub fn declared(raw: &Raw, faults: &mut Faults) -> Option<Declared> {
+pub fn declared(raw: &Raw, kinds: &Kinds, faults: &mut Faults) -> Option<Declared> {
     identifier(&raw.name, faults);
     let Some(word) = raw.peek(TYPE.name) else {
         let message = format!("the effect `{}` has no type", raw.name.value);
-        let known: Vec<&str> = types().map(Effect::keyword).collect();
+        let known: Vec<&str> = types(kinds).map(Declaration::keyword).collect();
         let help = format!("add `type: …`: one of {}", known.join(", "));
         let fault = Fault::new(&raw.place, "effect-type", message);
         faults.push(fault.with_help(help));
         return None;
     };
-    let effect = of_type(&word, faults)?;
+    let effect = of_type(&word, kinds, faults)?;
     fields_of(raw, effect, faults).map(|fields| Declared {
         name: raw.name.clone(),
         effect,
@@ -101,13 +101,13 @@ pub fn declared(raw: &Raw, faults: &mut Faults) -> Option<Declared> {
 }
 
 /// The effects that a scene calls for by one entry of its list; the mechanism declares `known`.
-pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declared> {
+pub fn called(raw: &Raw, known: &[Declared], kinds: &Kinds, faults: &mut Faults) -> Vec<Declared> {
     let name = &raw.name.value;
     let own = known.iter().find(|d| d.name.value == *name);
     if let Some(own) = own {
         return varied(raw, own, faults).into_iter().collect();
     }
-    if let Some(effect) = by_keyword(name).filter(|e| e.built_in()) {
+    if let Some(effect) = kinds.named(name).filter(|e| e.built_in()) {
         let fields = fields_of(raw, effect, faults);
         let one = |fields| Declared {
             name: raw.name.clone(),
@@ -117,7 +117,7 @@ pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declare
         return fields.map(one).into_iter().collect();
     }
     if raw.is_mapping() {
-        return declared(raw, faults).into_iter().collect();
+        return declared(raw, kinds, faults).into_iter().collect();
     }
     let of_kind = |d: &&Declared| d.effect.family() == name || d.effect.keyword() == name;
     let kin: Vec<Declared> = known
@@ -126,7 +126,7 @@ pub fn called(raw: &Raw, known: &[Declared], faults: &mut Faults) -> Vec<Declare
         .map(|d| d.clone().called_at(&raw.name.place))
         .collect();
     if kin.is_empty() || !raw.is_bare() {
-        faults.push(unknown_call(raw, known));
+        faults.push(unknown_call(raw, known, kinds));
         return vec![];
     }
     kin
@@ -159,9 +159,9 @@ fn varied(raw: &Raw, own: &Declared, faults: &mut Faults) -> Option<Declared> {
     })
 }
 
-fn unknown_call(raw: &Raw, known: &[Declared]) -> Fault {
+fn unknown_call(raw: &Raw, known: &[Declared], kinds: &Kinds) -> Fault {
     let mut words: Vec<&str> = known.iter().map(|d| d.name.value.as_str()).collect();
-    words.extend(EFFECTS.iter().filter(|e| e.built_in()).map(|e| e.keyword()));
+    words.extend(kinds.iter().filter(|e| e.built_in()).map(|e| e.keyword()));
     let families: Vec<&str> = known.iter().map(|d| d.effect.family()).collect();
     words.extend(families);
     words.dedup();
@@ -170,14 +170,18 @@ fn unknown_call(raw: &Raw, known: &[Declared]) -> Fault {
     Fault::new(&raw.name.place, "unknown-effect", message).with_help(new)
 }
 
-fn types() -> impl Iterator<Item = &'static dyn Effect> {
-    EFFECTS.into_iter().filter(|e| !e.built_in())
+fn types(kinds: &Kinds) -> impl Iterator<Item = &'static dyn Declaration> {
+    kinds.iter().filter(|e| !e.built_in())
 }
 
-fn of_type(word: &Located<String>, faults: &mut Faults) -> Option<&'static dyn Effect> {
-    let found = by_keyword(&word.value).filter(|e| !e.built_in());
+fn of_type(
+    word: &Located<String>,
+    kinds: &Kinds,
+    faults: &mut Faults,
+) -> Option<&'static dyn Declaration> {
+    let found = kinds.named(&word.value).filter(|e| !e.built_in());
     if found.is_none() {
-        let known: Vec<&str> = types().map(Effect::keyword).collect();
+        let known: Vec<&str> = types(kinds).map(Declaration::keyword).collect();
         let message = unknown_name("type of effect", &word.value, &known, &known.join(", "));
         let fault = Fault::new(&word.place, "effect-type", message);
         faults.push(fault.with_help(format!("the types are {}", known.join(", "))));
@@ -185,7 +189,7 @@ fn of_type(word: &Located<String>, faults: &mut Faults) -> Option<&'static dyn E
     found
 }
 
-fn fields_of(raw: &Raw, effect: &'static dyn Effect, faults: &mut Faults) -> Option<Fields> {
+fn fields_of(raw: &Raw, effect: &'static dyn Declaration, faults: &mut Faults) -> Option<Fields> {
     let mut keys = keys_declared(effect);
     if !effect.built_in() {
         keys.push(TYPE);
@@ -195,7 +199,7 @@ fn fields_of(raw: &Raw, effect: &'static dyn Effect, faults: &mut Faults) -> Opt
 }
 
 /// How the effect is written.
-pub(crate) fn example(effect: &dyn Effect) -> String {
+pub(crate) fn example(effect: &dyn Declaration) -> String {
     let needed = effect.keys().iter().filter(|k| k.needed);
     let keys: Vec<String> = needed.map(|k| format!("{}: …", k.name)).collect();
     match (effect.built_in(), keys.is_empty()) {

@@ -2,7 +2,7 @@
 //!
 //! It stands for one effect per joint, called NAME_JOINT, with the same values.
 
-use super::{Declared, Effect};
+use super::{Declaration, Declared};
 use crate::fault::{Fault, Faults};
 use crate::spec::{Entry, Fields, Key, Located, Reads};
 
@@ -19,7 +19,7 @@ const JOINT: &str = "joint";
 
 /// The keys that an effect is declared with: its own, and that of several joints where it acts on
 /// one.
-pub fn keys_declared(effect: &dyn Effect) -> Vec<Key> {
+pub fn keys_declared(effect: &dyn Declaration) -> Vec<Key> {
     let mut keys = effect.keys().to_vec();
     if let Some(at) = keys.iter().position(|key| key.name == JOINT) {
         keys.insert(at + 1, JOINTS);

@@ -89,7 +89,7 @@ pub struct Reading<'g> {
 
 /// A value that must be positive.
 #[derive(Clone, Debug)]
-pub(super) struct Condition<'g> {
+pub(crate) struct Condition<'g> {
     /// The element that asks for it, by its place in the scene.
     pub element: usize,
     /// The value.
@@ -124,7 +124,7 @@ pub struct Laws<'g, 'a> {
     pub t: Ex<'g>,
     own: Own,
     /// The formulation asked for; the cheapest of each method where `None`.
-    pub(super) asked: Option<&'static dyn Formulation>,
+    pub(crate) asked: Option<&'static dyn Formulation>,
     scene: &'a Scene,
     graph: &'a BondGraph,
     x: Vec<Ex<'g>>,
@@ -150,29 +150,8 @@ pub struct Laws<'g, 'a> {
 }
 
 impl<'g, 'a> Laws<'g, 'a> {
-    /// Every law of the scene, summed.
-    pub(super) fn new(b: &'g Builder, scene: &'a Scene, graph: &'a BondGraph, own: Own) -> Self {
-        Laws::by(b, scene, graph, own, None)
-    }
-
-    /// The same, with the mechanism's own methods by this formulation.
-    pub(super) fn by(
-        b: &'g Builder,
-        scene: &'a Scene,
-        graph: &'a BondGraph,
-        own: Own,
-        asked: Option<&'static dyn Formulation>,
-    ) -> Self {
-        let input = |(i, part): (usize, &crate::scene::Part)| match part.drives {
-            Some(_) if own != Own::Inputs => b.zero(),
-            _ => b.leaf(Leaf::Input(i)),
-        };
-        let inputs = || scene.layout.inputs.iter().enumerate().map(input).collect();
-        Laws::under(b, scene, (graph, asked), own, inputs)
-    }
-
-    /// The same under these inputs.
-    pub(super) fn under(
+    /// No law yet, under these inputs, with the mechanism's own methods by the formulation `asked`.
+    pub(crate) fn empty(
         b: &'g Builder,
         scene: &'a Scene,
         (graph, asked): (&'a BondGraph, Option<&'static dyn Formulation>),
@@ -189,7 +168,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             stored: b.zero(),
             dissipated: b.zero(),
         };
-        let mut laws = Laws {
+        Laws {
             b,
             q: leaves(layout.nq(), Leaf::Position),
             v: leaves(layout.nv(), Leaf::Velocity),
@@ -213,13 +192,12 @@ impl<'g, 'a> Laws<'g, 'a> {
             conditions: Vec::new(),
             shared: BTreeMap::new(),
             poses: BTreeMap::new(),
-        };
-        for (at, element) in scene.elements.iter().enumerate() {
-            laws.at = at;
-            b.section(|| format!("{}: {}", element.name, element.effect.summary()));
-            element.effect.law(element, &mut laws);
         }
-        laws
+    }
+
+    /// That the law of the element at this place is at work.
+    pub(crate) fn begin(&mut self, at: usize) {
+        self.at = at;
     }
 }
 
@@ -230,7 +208,7 @@ pub fn behind_gear<'g>(b: &'g Builder, effort: Ex<'g>, rate: Ex<'g>, efficiency:
 
 /// A method of the mechanism by the formulation asked for, its expressions copied; `leaf` may replace
 /// leaves.
-pub(super) fn copied<'g>(
+pub(crate) fn copied<'g>(
     b: &'g Builder,
     (graph, asked): (&BondGraph, Option<&'static dyn Formulation>),
     method: Method,

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::{Condition, Contact, Hold, Laws, Port, Reading};
-use crate::effect::Element;
+use crate::declaration::Element;
 use crate::expr::Ex;
 
 impl<'g> Laws<'g, '_> {

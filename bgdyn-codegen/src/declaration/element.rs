@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
+use super::Declaration;
 use crate::fault::Place;
 use crate::spec::{Dimension, Reads};
 
@@ -42,7 +42,7 @@ pub struct Element {
     /// Its name.
     pub name: String,
     /// What it is.
-    pub effect: &'static dyn Effect,
+    pub effect: &'static dyn Declaration,
     /// Where it stands in the file.
     pub place: Place,
     /// Its values by key.
