@@ -26,7 +26,6 @@ pub mod function;
 pub mod interface;
 pub mod laws;
 pub mod layout;
-pub mod loss;
 pub mod machine;
 pub mod math;
 pub mod mechanism;

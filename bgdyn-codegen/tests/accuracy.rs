@@ -3,9 +3,9 @@
 
 mod common;
 
+use bgdyn_codegen::formulation::loss::{Loss, loss};
 use bgdyn_codegen::formulation::{FORMULATIONS, Formulation};
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::loss::{Loss, loss};
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::{Options, Preference, preference_named};
 use bgdyn_codegen::pipeline;

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use bgdyn_codegen::bond_graph::BondGraph;
-use bgdyn_codegen::effect::Element;
+use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId};
 use bgdyn_codegen::system::System;
 

@@ -8,7 +8,7 @@
 
 use std::collections::HashSet;
 
-use bgdyn_codegen::effect::Element;
+use bgdyn_codegen::declaration::Element;
 
 use super::chart::Port;
 use super::scene::value;

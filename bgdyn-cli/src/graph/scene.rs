@@ -3,7 +3,7 @@
 //!
 //! What acts neither on one joint nor along one line (wrenches, drag) is not drawn but named.
 
-use bgdyn_codegen::effect::{Checked, Element};
+use bgdyn_codegen::declaration::{Checked, Element};
 use bgdyn_codegen::system::System;
 
 use super::between;

@@ -1,6 +1,7 @@
 //! Effects, from the generator's own table.
 
-use bgdyn_codegen::effect::{EFFECTS, Effect, keys_declared};
+use bgdyn_codegen::declaration::keys_declared;
+use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::spec::{Dimension, Reads};
 use serde_json::{Value, json};
 

@@ -1,7 +1,8 @@
 //! A scene's file. What an input, a coordinate or a part of the state measures is the mechanism's to say, so their
 //! numbers may have any unit here.
 
-use bgdyn_codegen::effect::{EFFECTS, Effect, keys_declared};
+use bgdyn_codegen::declaration::keys_declared;
+use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::scene::Integrator;
 use bgdyn_codegen::spec::Dimension;
 use serde_json::{Map, Value, json};

@@ -2,8 +2,8 @@
 
 use super::{FORMULATIONS, Formulation, Search, derived, literal};
 use crate::bond_graph::BondGraph;
+use crate::formulation::loss::{answers, loss_at};
 use crate::function::Function;
-use crate::loss::{answers, loss_at};
 use crate::method::Method;
 
 /// Joints up to which the literal sum is tried: its graph grows with the cube of their number.

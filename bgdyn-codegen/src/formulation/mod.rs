@@ -8,6 +8,7 @@ mod accurate;
 mod derived;
 mod drives;
 mod literal;
+pub mod loss;
 mod placement;
 mod recursion;
 mod sample;

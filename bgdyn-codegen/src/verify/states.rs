@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::formulation::generic_states;
-use crate::loss::in_double_double;
+use crate::formulation::loss::in_double_double;
 use crate::system::System;
 
 /// Coordinates up to which every state is tried.

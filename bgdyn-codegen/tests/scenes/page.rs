@@ -5,7 +5,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use bgdyn_accuracy::dark::with_dark_mode;
-use bgdyn_codegen::effect::{EFFECTS, Effect, keys_declared};
+use bgdyn_codegen::declaration::keys_declared;
+use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;

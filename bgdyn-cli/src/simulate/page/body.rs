@@ -1,6 +1,6 @@
 //! What of a mechanism is drawn: its moving bodies with the places on them.
 
-use bgdyn_codegen::effect::Element;
+use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::math::{Mat3, Vec3};
 use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
 use bgdyn_codegen::scene::Scene;

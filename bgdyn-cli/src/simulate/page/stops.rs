@@ -1,6 +1,6 @@
 //! Where the stops of joints are.
 
-use bgdyn_codegen::effect::Element;
+use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::scene::Scene;
 use serde::Serialize;

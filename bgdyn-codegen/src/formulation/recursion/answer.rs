@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::expr::Inputs;
-use crate::loss::in_double_double;
+use crate::formulation::loss::in_double_double;
 
 /// A pivot this much smaller than its diagonal entry is nothing but rounding error of
 /// double-double.

@@ -3,9 +3,9 @@
 
 use bgdyn_runtime::Dd;
 
+use super::{aligned_states, generic_states};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::formulation::{aligned_states, generic_states};
 use crate::function::Function;
 
 /// Digits lost at the states tried. To refuse a state that has an answer is worse than any error.
