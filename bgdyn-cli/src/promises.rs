@@ -2,8 +2,8 @@
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::interface::Interface;
+use bgdyn_codegen::read;
 use bgdyn_codegen::spec::is_scene;
-use bgdyn_codegen::{model, read};
 
 use crate::import;
 
@@ -39,7 +39,7 @@ effects:
 
 fn scene(text: &str) {
     let read = bgdyn_codegen::read_scene(text, "arm", |_| Ok(ARM.to_owned()));
-    if let Err(refusal::Refusal::Spec(faults)) = read {
+    if let Err(bgdyn_codegen::refusal::Refusal::Spec(faults)) = read {
         well_said(&faults, text);
     }
 }

@@ -27,7 +27,8 @@ fn everything_is_generated() {
     let (tokens, _) = generate(TEXT, "still", &place, &options).expect("no fault");
     assert!(tokens.to_string().contains("forward_dynamics_derivatives"));
     let (mechanism, _) = read(TEXT, Some("still"));
-    let model = pipeline::model(mechanism.expect("no fault"), &options).expect("nothing unknown");
+    let model = bgdyn_codegen::pipeline::model(mechanism.expect("no fault"), &options)
+        .expect("nothing unknown");
     let energy = model.function(Method::PotentialEnergy).expect("a method");
     let (value, _) = energy.evaluate::<f64>(Default::default());
     assert!((value[0] - 3.0 * 9.81 * 2.0).abs() < 1e-12);

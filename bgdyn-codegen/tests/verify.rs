@@ -74,7 +74,7 @@ fn every_spec_passes() {
             derivatives: mechanism.nv() <= 10,
             ..Options::default()
         };
-        let model = pipeline::model(mechanism, &options).expect("a model");
+        let model = bgdyn_codegen::pipeline::model(mechanism, &options).expect("a model");
         let found = check_functions("spec", &model.bond_graph, &model.functions);
         assert!(found.is_empty(), "{}: {}", path.display(), explain(&found));
     }
@@ -293,7 +293,7 @@ fn a_turned_sign_is_found_in_every_function_of_a_scene() {
 /// Each method alone, with the sign of one of its outputs turned.
 #[test]
 fn a_turned_sign_is_found_in_every_method() {
-    let model = pipeline::model(mechanism(ARM, "arm"), &all()).expect("a model");
+    let model = bgdyn_codegen::pipeline::model(mechanism(ARM, "arm"), &all()).expect("a model");
     let state = |n: usize, from: f64| {
         (0..n)
             .map(|k| Dd::from_f64(from + 0.4 * k as f64))
@@ -354,7 +354,7 @@ fn a_difference_names_all_that_is_needed_to_see_it() {
 fn a_mechanism_without_coordinates_passes() {
     let text = "format: 1\nlinks:\n  - name: post\n    joint: { type: fixed, origin: { xyz: [1, 2, 3] } }\n    \
                 mass: 2\n    com: [0.1, 0, 0.3]\n";
-    let model = pipeline::model(mechanism(text, "post"), &all()).expect("a model");
+    let model = bgdyn_codegen::pipeline::model(mechanism(text, "post"), &all()).expect("a model");
     let found = check_functions("post", &model.bond_graph, &model.functions);
     assert!(found.is_empty(), "{}", explain(&found));
 }

@@ -83,10 +83,16 @@ fn module(
     let found = find::find(&written, input.path.span());
     let load = |mechanism: &str| {
         let path = found.clone()?;
-        std::fs::read_to_string(files::beside(&path, mechanism)).map_err(|e| e.to_string())
+        std::fs::read_to_string(bgdyn_codegen::files::beside(&path, mechanism))
+            .map_err(|e| e.to_string())
     };
     let stand_in = |text: &str, place: &Place| {
-        pipeline::fallback(text, &files::stem(Path::new(&place.source)), place, load)
+        pipeline::fallback(
+            text,
+            &bgdyn_codegen::files::stem(Path::new(&place.source)),
+            place,
+            load,
+        )
     };
     let refused = |message: String, text: &str, place: &Place| Refused {
         errors: vec![syn::Error::new(input.path.span(), message)],
@@ -98,11 +104,17 @@ fn module(
         refused(message, "", &place)
     })?;
     place.rebuild = Some(path.display().to_string());
-    if let Some(mechanism) = files::mechanism_of(&text) {
-        let file = files::beside(&path, &mechanism);
+    if let Some(mechanism) = bgdyn_codegen::files::mechanism_of(&text) {
+        let file = bgdyn_codegen::files::beside(&path, &mechanism);
         place.also.push(file.display().to_string());
     }
-    match pipeline::generate_file(&text, &files::stem(&path), &place, &input.options, load) {
+    match pipeline::generate_file(
+        &text,
+        &bgdyn_codegen::files::stem(&path),
+        &place,
+        &input.options,
+        load,
+    ) {
         Ok((tokens, _warnings)) => Ok(tokens),
         Err(Refusal::Spec(faults)) => {
             let mut message = faults.render(&written, &text).trim_end().to_string();

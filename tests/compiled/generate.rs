@@ -17,7 +17,7 @@ pub fn model(path: &Path, derivatives: bool) -> Model {
         derivatives,
         ..Options::default()
     };
-    pipeline::model(mechanism, &options).expect("no name is asked for")
+    bgdyn_codegen::pipeline::model(mechanism, &options).expect("no name is asked for")
 }
 
 /// The text of its module.

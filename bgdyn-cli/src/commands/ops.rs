@@ -54,7 +54,7 @@ impl Ops {
             return Err(Usage(message.into()).into());
         }
         let mechanism = spec.mechanism()?;
-        let model = pipeline::model(mechanism.clone(), &options).map_err(unknown)?;
+        let model = bgdyn_codegen::pipeline::model(mechanism.clone(), &options).map_err(unknown)?;
         let explained = self.explain.then(|| explained(&mechanism, &model));
         self.report(&model.functions, explained)
     }

@@ -65,7 +65,8 @@ fn counts_of_every_spec_are_the_models() {
             derivatives: true,
             ..Options::default()
         };
-        let model = pipeline::model(mechanism.expect("no fault"), &options).expect("no names");
+        let model = bgdyn_codegen::pipeline::model(mechanism.expect("no fault"), &options)
+            .expect("no names");
         let shown = path.display().to_string();
         let json = bgdyn(&["ops", &shown, "--json", "--derivatives"]).good();
         let json: Value = serde_json::from_str(&json).expect("JSON");

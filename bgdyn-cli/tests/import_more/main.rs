@@ -15,6 +15,13 @@ fn mechanism(yaml: &str) -> Mechanism {
     mechanism.unwrap_or_else(|| panic!("{}\n{yaml}", faults.render("arm.yaml", yaml)))
 }
 
+/// How many effects a file declares.
+fn effects(yaml: &str) -> usize {
+    let (machine, faults) = bgdyn_codegen::read_machine(yaml, Some("arm"));
+    let machine = machine.unwrap_or_else(|| panic!("{}\n{yaml}", faults.render("arm.yaml", yaml)));
+    machine.effects.len()
+}
+
 /// A method's value at a state.
 fn value(mechanism: &Mechanism, method: Method, [q, v, a]: [&[f64]; 3]) -> Vec<f64> {
     let function = function(mechanism, method, &Options::default()).expect("the method");

@@ -1,6 +1,6 @@
 //! Joints locked, chains, frames, effects, `snap`, and what is said of all that.
 
-use super::{Numbers, mechanism, near, pose, value};
+use super::{Numbers, effects, mechanism, near, pose, value};
 use bgdyn_cli::import::{Import, Lock, Options, import_with};
 use bgdyn_codegen::method::Method;
 
@@ -255,7 +255,7 @@ fn damping_and_friction_are_declared_as_effects() {
         shoulder_friction: { type: coulomb, joint: shoulder, kinetic: 0.5 }\n  \
         slide_damping: { type: viscous, joint: slide, damping: 4 }\n";
     assert!(whole.yaml.ends_with(wanted), "{}", whole.yaml);
-    assert_eq!(mechanism(&whole.yaml).effects().len(), 3);
+    assert_eq!(effects(&whole.yaml), 3);
     assert!(whole.written.contains("3 effects"), "{}", whole.written);
     let without = made(Options {
         no_effects: true,
@@ -273,7 +273,7 @@ fn damping_and_friction_are_declared_as_effects() {
         lock: locks(&["Shoulder"]),
         ..Options::default()
     });
-    assert_eq!(mechanism(&locked.yaml).effects().len(), 1);
+    assert_eq!(effects(&locked.yaml), 1);
     let clash = ROBOT.replace("\"left\"", "\"slide_damping\"");
     let clash = import_with(&clash, &Options::default()).expect("an import");
     assert!(
@@ -281,7 +281,7 @@ fn damping_and_friction_are_declared_as_effects() {
         "{}",
         clash.yaml
     );
-    assert_eq!(mechanism(&clash.yaml).effects().len(), 3);
+    assert_eq!(effects(&clash.yaml), 3);
 }
 
 #[test]

@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 use bgdyn_codegen::emit::{Place, module, source_text, struct_ident};
 use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::{DYNAMICS, Options};
 
 use crate::dependence;
@@ -164,7 +163,8 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
             methods: Some(vec![DYNAMICS.into()]),
             ..Options::default()
         };
-        let model = pipeline::model(mechanism, &options).expect("the methods of the trait");
+        let model =
+            bgdyn_codegen::pipeline::model(mechanism, &options).expect("the methods of the trait");
         let place = Place::source_text(format!("{name}.yaml"));
         let place = place.with_module(&name).expect("a name");
         let (spec, source) = (
