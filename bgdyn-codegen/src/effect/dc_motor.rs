@@ -16,7 +16,7 @@ use super::{Effect, Element, Given};
 use crate::expr::Ex;
 use crate::scene::{Layout, algebraic_loop};
 use crate::spec::{Dimension, Key, Reads};
-use crate::system::{Hold, Laws, behind_gear};
+use crate::system::{Gear, Hold, Laws};
 
 pub(super) struct DcMotor;
 
@@ -137,6 +137,9 @@ impl Effect for DcMotor {
             layout.control(name.clone(), Dimension::Voltage, joint, about);
         }
         declare_limits(element, layout);
+        if element.quantity("efficiency").is_some() {
+            Gear::declare(element, &named(element, GEAR), layout);
+        }
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
@@ -152,8 +155,12 @@ impl Effect for DcMotor {
             None => circuit.at_once(laws),
         };
         let torque = gyrator(element, laws) * flowing.current;
-        let geared = match laws.optional(element, "efficiency") {
-            Some(efficiency) => behind_gear(laws.b, torque, joint.rate, efficiency),
+        let mode = named(element, GEAR);
+        let geared = match laws.gear(element, &mode) {
+            Some(gear) => {
+                laws.load((element, &mode), gear, &joint, torque);
+                gear.behind(laws.b, torque)
+            }
             None => torque,
         };
         laws.push(&joint, geared);
@@ -189,6 +196,8 @@ fn gyrator<'g>(element: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
 
 const VOLTAGE_LIMIT: &str = "voltage_limit";
 const CURRENT_LIMIT: &str = "current_limit";
+/// The part of the name of the gear's mode.
+const GEAR: &str = "gear";
 
 /// The name of an event, or of a mode with its event.
 fn named(element: &Element, part: &str) -> String {

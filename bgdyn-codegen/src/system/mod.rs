@@ -26,7 +26,7 @@ use crate::function::Function;
 use crate::method::{Method, Role};
 use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
-pub use laws::{Balance, Contact, Hold, Laws, Own, Port, Reading, behind_gear};
+pub use laws::{Balance, Contact, Gear, Hold, Laws, Own, Port, Reading};
 
 /// The equations of a scene.
 #[derive(Clone, Debug)]
