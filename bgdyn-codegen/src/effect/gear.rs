@@ -7,8 +7,8 @@
 
 use super::viscous::JOINT;
 use super::{Effect, Element, Given};
-use crate::spec::{Dimension, Key, Reads};
 use crate::scene::Layout;
+use crate::spec::{Dimension, Key, Reads};
 use crate::system::{Gear as GearLaw, Laws};
 
 pub(super) struct Gear;

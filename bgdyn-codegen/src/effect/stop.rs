@@ -114,7 +114,8 @@ impl Effect for Stop {
         let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
         layout.event(begins(name), format!("`{joint}` meets a stop"));
         layout.event(ends(name), format!("`{joint}` leaves a stop"));
-        let about = format!("`{joint}` is pulled off a stop faster than that springs back, or no more");
+        let about =
+            format!("`{joint}` is pulled off a stop faster than that springs back, or no more");
         layout.event(pulled(name), about);
     }
 

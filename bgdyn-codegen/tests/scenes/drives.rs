@@ -48,7 +48,13 @@ fn a_gear_holds_its_joint_against_less_than_its_losses() {
         let tried = Tried::new(with(effects, "inputs: { slide: given, push_fx: given }\n"));
         let contacts = tried.system.function(Role::Contacts);
         // u and the push against it.
-        for (u, push) in [(3.0, -3.0), (3.0, -2.0), (-3.0, 4.0), (3.0, -4.9), (0.0, 0.2)] {
+        for (u, push) in [
+            (3.0, -3.0),
+            (3.0, -2.0),
+            (-3.0, 4.0),
+            (3.0, -4.9),
+            (0.0, 0.2),
+        ] {
             let at = tried.at(&[0.0], &[0.0], &[], &[push, u]);
             assert_eq!(tried.rates(at.clone())[0], 0.0);
             let holding: f64 = -(u + push);
@@ -62,7 +68,10 @@ fn a_gear_holds_its_joint_against_less_than_its_losses() {
             }
         }
     }
-    laws::hold(&with(&[gear, push, friction], "inputs: { slide: given, push_fx: given }\n"));
+    laws::hold(&with(
+        &[gear, push, friction],
+        "inputs: { slide: given, push_fx: given }\n",
+    ));
 }
 
 #[test]

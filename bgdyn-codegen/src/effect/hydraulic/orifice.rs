@@ -62,7 +62,10 @@ impl Effect for Orifice {
         if let Some(opening) = element.name(OPENING.name) {
             let about = format!("opening of `{opening}`, 0 … 1");
             layout.shared_input(opening, Dimension::One, about);
-            let about = format!("the opening of `{}` reaches 0 or 1, or leaves it", element.name);
+            let about = format!(
+                "the opening of `{}` reaches 0 or 1, or leaves it",
+                element.name
+            );
             layout.event(limit(element), about);
         }
     }

@@ -23,8 +23,9 @@ impl<'g> Gear<'g> {
     /// is a kink of the law.
     pub fn declare(element: &Element, mode: &str, layout: &mut Layout) {
         let joint = element.name("joint").unwrap_or_default();
-        let about =
-            format!("whether `{joint}` moves (−1, 1: the sign of its rate) or its gear holds it (0)");
+        let about = format!(
+            "whether `{joint}` moves (−1, 1: the sign of its rate) or its gear holds it (0)"
+        );
         layout.mode(mode.to_owned(), about);
         let about = format!("`{joint}` comes to rest, or breaks away from its gear");
         layout.event(mode.to_owned(), about);

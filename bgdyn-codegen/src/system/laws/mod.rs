@@ -68,7 +68,6 @@ pub enum Hold<'g> {
     Raises,
 }
 
-
 impl<'g> Hold<'g> {
     /// The least and the largest effort of a friction; `None` of the limit of a rate.
     pub fn range(&self) -> Option<[Ex<'g>; 2]> {
