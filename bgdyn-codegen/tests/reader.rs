@@ -209,7 +209,7 @@ fn half_a_spec_is_marked() {
     let spec = spec.expect("a spec");
     assert!(!spec.complete);
     assert!(
-        bgdyn_codegen::mechanism::check(&spec, Some("arm"), &[])
+        bgdyn_codegen::machine::check(&spec, Some("arm"), &[], &bgdyn_codegen::effect::kinds())
             .0
             .is_none()
     );

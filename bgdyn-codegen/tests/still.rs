@@ -2,7 +2,6 @@
 
 use bgdyn_codegen::emit::Place;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate;
 use bgdyn_codegen::read;

@@ -10,7 +10,6 @@ use bgdyn_codegen::formulation::{FORMULATIONS, Search};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Value};
 use bgdyn_codegen::method::{Method, Role};
-use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::read_scene;

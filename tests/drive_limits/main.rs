@@ -1,11 +1,12 @@
-//! Limits of voltage and current: motions over them converge with the order of the method, and the
-//! limits are kept to round-off.
+//! Limits of voltage and current, and losses of gears: motions over them converge with the order of
+//! the method, and the limits are kept to round-off.
 
 use bgdyn::nalgebra::SVector;
 use bgdyn_sim::{Method, Moment, Plant, Rk4, Run, Scene, Tolerance, WithMethod, with_method};
 
 bgdyn::bgdyn!("winding.scene.yaml", jacobian = true);
 bgdyn::bgdyn!("at_once.scene.yaml", jacobian = true);
+bgdyn::bgdyn!("geared.scene.yaml", jacobian = true);
 
 /// Of the current, A.
 const LIMIT: f64 = 25.0;
@@ -44,6 +45,19 @@ impl WithMethod<SVector<f64, 2>> for AtOnce {
         let begin = Run::begin(&scene);
         let run = Run::by(method, Scene::with_slope(&scene), begin);
         ended(run, self.0, |_| 0.0)
+    }
+}
+
+struct Geared(usize);
+
+impl WithMethod<SVector<f64, 3>> for Geared {
+    type Output = Ended<3>;
+
+    fn with<M: Method<SVector<f64, 3>>>(self, method: M) -> Ended<3> {
+        let scene = geared::Geared::<f64>::default();
+        let begin = Run::begin(&scene);
+        let run = Run::by(method, Scene::with_slope(&scene), begin);
+        ended(run, self.0, |y| y[2])
     }
 }
 
@@ -141,6 +155,46 @@ fn a_limited_current_without_inductance_converges_with_the_order_of_the_method()
         let errors = runs.map(|run| (run.y - right).fixed_rows::<2>(0).norm());
         converges(name, &errors, wanted);
     }
+}
+
+/// Over a reversal under load, and where the losses hold the joint for a while.
+#[test]
+fn a_gear_with_losses_converges_with_the_order_of_the_method() {
+    let run = |name: &str, steps| with_method(name, Geared(steps)).expect("in the list");
+    let right = run("gauss3", 4800).y;
+    for (name, wanted) in FIXED {
+        let runs = [300, 600, 1200, 2400].map(|steps| run(name, steps));
+        // Held, let go, a reversal; the load changes its sign twice.
+        let seen: Vec<_> = runs.iter().map(|run| (run.events, run.kinks)).collect();
+        assert_eq!(seen, [(3, 2); 4], "{name}");
+        let errors = runs.map(|run| (run.y - right).fixed_rows::<2>(0).norm());
+        converges(name, &errors, wanted);
+    }
+}
+
+/// A gear that its load cannot turn back holds it without effort of the motor, and lets it go where
+/// the load is more than the losses: a weight G on a motor's τ stays between η τ and τ/η.
+#[test]
+fn a_gear_holds_what_its_losses_can_hold() {
+    let scene = geared::Geared::<f64>::default();
+    let mut run = Run::new(&scene);
+    let mut held = 0;
+    for _ in 0..3000 {
+        run.step(1e-4).expect("a step");
+        let (y, mode) = (run.y(), run.modes()[0]);
+        if mode == 0.0 {
+            let (load, effort) = (400.0 * y[0], 2.6 * y[2]);
+            let (less, more) = (effort * 0.6, effort / 0.6);
+            assert!(less.min(more) - 1e-9 < load && load < less.max(more) + 1e-9);
+            assert_eq!(y[1], 0.0);
+            held += 1;
+        } else {
+            assert!(mode * y[1] >= 0.0, "mode {mode}, rate {}", y[1]);
+        }
+    }
+    assert!((394..398).contains(&held), "held in {held} steps");
+    let audit = run.audit();
+    assert!(audit.drift().abs() < 1e-6, "{}", audit.drift());
 }
 
 /// With controlled steps the end does not depend on how the steps fell.

@@ -4,7 +4,6 @@ use bgdyn::nalgebra::SVector;
 use bgdyn::{Dynamics, Scalar, Singular};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::Model;
 
 use crate::counted::{Counted, executed};
 use crate::counting::counts_equal;

@@ -2,7 +2,6 @@
 
 use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use serde_json::Value;
 

@@ -16,7 +16,7 @@ use super::viscous::JOINT;
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::wording::algebraic_loop;
-use crate::laws::{Hold, Laws, behind_gear};
+use crate::laws::{Gear, Hold, Laws};
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 
@@ -139,6 +139,9 @@ impl Declaration for DcMotor {
             layout.control(name.clone(), Dimension::Voltage, joint, about);
         }
         declare_limits(element, layout);
+        if element.quantity("efficiency").is_some() {
+            Gear::declare(element, &named(element, GEAR), layout);
+        }
     }
 }
 
@@ -156,8 +159,12 @@ impl Effect for DcMotor {
             None => circuit.at_once(laws),
         };
         let torque = gyrator(element, laws) * flowing.current;
-        let geared = match laws.optional(element, "efficiency") {
-            Some(efficiency) => behind_gear(laws.b, torque, joint.rate, efficiency),
+        let mode = named(element, GEAR);
+        let geared = match laws.gear(element, &mode) {
+            Some(gear) => {
+                laws.load((element, &mode), gear, &joint, torque);
+                gear.behind(laws.b, torque)
+            }
             None => torque,
         };
         laws.push(&joint, geared);
@@ -193,6 +200,8 @@ fn gyrator<'g>(element: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
 
 const VOLTAGE_LIMIT: &str = "voltage_limit";
 const CURRENT_LIMIT: &str = "current_limit";
+/// The part of the name of the gear's mode.
+const GEAR: &str = "gear";
 
 /// The name of an event, or of a mode with its event.
 fn named(element: &Element, part: &str) -> String {

@@ -1,14 +1,15 @@
 //! A gear with losses between a joint's own effort and the joint: η τ arrives where the effort
 //! drives (τ q̇ ≥ 0), τ/η where the joint drives it.
 //!
-//! The usual efficiency of gear catalogues, both ways the same. The effort jumps where its power
-//! changes its sign, unless it passes through zero there. The loss is in proportion to the load: what a gear takes
-//! without load is friction of the joint.
+//! The usual efficiency of gear catalogues, both ways the same. At rest the gear holds the joint with
+//! any effort between the two. The loss is in proportion to the load: what a gear takes without load
+//! is friction of the joint.
 
 use super::Effect;
 use super::viscous::JOINT;
 use crate::declaration::{Declaration, Element, Given};
-use crate::laws::Laws;
+use crate::laws::{Gear as GearLaw, Laws};
+use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Gear;
@@ -53,12 +54,14 @@ impl Declaration for Gear {
         );
         given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
     }
+
+    fn declare(&self, element: &Element, layout: &mut Layout) {
+        GearLaw::declare(element, &element.name, layout);
+    }
 }
 
 impl Effect for Gear {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let joint = element.name("joint").unwrap_or_default();
-        let efficiency = laws.number(element, "efficiency");
-        laws.gear(joint, efficiency);
+        laws.gear_of_drive(element);
     }
 }

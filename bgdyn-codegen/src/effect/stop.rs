@@ -115,6 +115,9 @@ impl Declaration for Stop {
         let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
         layout.event(begins(name), format!("`{joint}` meets a stop"));
         layout.event(ends(name), format!("`{joint}` leaves a stop"));
+        let about =
+            format!("`{joint}` is pulled off a stop faster than that springs back, or no more");
+        layout.event(pulled(name), about);
     }
 }
 
@@ -123,19 +126,21 @@ impl Effect for Stop {
         let port = laws.port(element);
         let zero = laws.b.zero();
         // How far the stops are away; 0 within them.
-        let (mut pushed, mut gap) = (zero, None);
+        let (mut pushed, mut gap, mut follows) = (zero, None, zero);
         for (key, outwards) in [("lower", -1.0), ("upper", 1.0)] {
             let Some(at) = laws.optional(element, key) else {
                 continue;
             };
             let outwards = Dd::from_f64(outwards);
             let depth = (port.place - at) * outwards;
-            pushed = pushed + one_side(element, laws, &port, depth, outwards);
+            let side = one_side(element, laws, &port, depth, outwards);
+            (pushed, follows) = (pushed + side.effort, follows + side.follows);
             gap = Some(gap.map_or(-depth, |other: Ex<'_>| other.min(-depth)));
         }
         let gap = gap.unwrap_or(zero);
         laws.event(&begins(&element.name), gap);
         laws.event(&ends(&element.name), -gap);
+        laws.event(&pulled(&element.name), follows);
         laws.reading(
             format!("{}_effort", element.name),
             pushed,
@@ -153,14 +158,26 @@ fn ends(name: &str) -> String {
     format!("{name}_ends")
 }
 
-/// One stop; `depth` is negative before it is met. The effort it has on the joint.
+fn pulled(name: &str) -> String {
+    format!("{name}_pulled")
+}
+
+/// What one stop does.
+struct Side<'g> {
+    /// The effort it has on the joint.
+    effort: Ex<'g>,
+    /// The force its law has without the limit that it never pulls.
+    follows: Ex<'g>,
+}
+
+/// One stop; `depth` is negative before it is met.
 fn one_side<'g>(
     element: &Element,
     laws: &mut Laws<'g, '_>,
     port: &Port<'g>,
     depth: Ex<'g>,
     outwards: Dd,
-) -> Ex<'g> {
+) -> Side<'g> {
     let zero = laws.b.zero();
     let value = |key| element.quantity(key).map_or(Dd::ONE, |q| q.value);
     let damping = laws
@@ -168,12 +185,16 @@ fn one_side<'g>(
         .constant(damping(value("restitution"), value("impact_speed")));
     let (depth, rate) = (depth.max(zero), port.rate * outwards);
     let elastic = laws.number(element, "stiffness") * depth;
-    let force = elastic * (damping * rate + laws.b.number(1.0)).max(zero);
+    let follows = damping * rate + laws.b.number(1.0);
+    let force = elastic * follows.max(zero);
     let effort = force * -outwards;
     laws.push(port, effort);
     laws.store(elastic * depth * Dd::from_f64(0.5));
     laws.dissipate((force - elastic) * rate);
-    effort
+    Side {
+        effort,
+        follows: elastic * follows,
+    }
 }
 
 /// μ, s/m or s/rad: the damping with which an impact at `speed` has the restitution e, 0 < e ≤ 1.

@@ -26,15 +26,6 @@ impl<'g> Laws<'g, '_> {
         self.efforts[coordinate] = self.efforts[coordinate] + effort;
     }
 
-    /// A gear between a coordinate's own effort and the coordinate.
-    pub fn gear(&mut self, name: &str, efficiency: Ex<'g>) {
-        if let Some(j) = self.scene.layout.coordinate_named(name) {
-            self.gears.insert(j, efficiency);
-            let lost = (self.own_effort(j) - self.drive(j)) * self.v[j];
-            self.dissipate(lost);
-        }
-    }
-
     /// The inertia of the coordinate that the element adds, and the kinetic (magnetic) energy with
     /// it: ½ I v².
     pub fn inertia(&mut self, element: &Element, inertia: Ex<'g>) {

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Balance, Condition, Contact, Laws, Own, Reading, behind_gear};
+use super::{Balance, Condition, Contact, Hold, Laws, Own, Reading};
 use crate::expr::{Ex, Leaf};
 
 impl<'g> Laws<'g, '_> {
@@ -35,32 +35,30 @@ impl<'g> Laws<'g, '_> {
         own.fold(self.b.zero(), |sum, (_, &u)| sum + u)
     }
 
-    /// Own effort of a coordinate behind its gear. A voltage goes through its motor's law.
-    pub(crate) fn drive(&self, j: usize) -> Ex<'g> {
+    /// Own effort of a coordinate before its gear. A voltage goes through its motor's law.
+    pub(super) fn before_the_gear(&self, j: usize) -> Ex<'g> {
         let (stored, everywhere) = (
             self.scene.layout.coordinates[j].stored,
             self.own == Own::Everywhere,
         );
-        let own = match (everywhere, stored) {
+        match (everywhere, stored) {
             (true, _) => self.b.leaf(Leaf::Acceleration(j)),
             (false, true) => self.own_effort(j),
             (false, false) => self.b.zero(),
-        };
-        match self.gears.get(&j) {
-            Some(&efficiency) => behind_gear(self.b, own, self.v[j], efficiency),
-            None => own,
         }
+    }
+
+    /// Own effort of a coordinate behind its gear.
+    pub(crate) fn drive(&self, j: usize) -> Ex<'g> {
+        let own = self.before_the_gear(j);
+        let gear = self.gears.get(&j);
+        gear.map_or(own, |gear| gear.behind(self.b, own))
     }
 
     /// The own effort that gives `effort` behind the coordinate's gear.
     pub(crate) fn before_gear(&self, j: usize, effort: Ex<'g>) -> Ex<'g> {
-        match self.gears.get(&j) {
-            Some(&efficiency) => {
-                let one = self.b.number(1.0);
-                behind_gear(self.b, effort, self.v[j], one / efficiency)
-            }
-            None => effort,
-        }
+        let gear = self.gears.get(&j);
+        gear.map_or(effort, |gear| gear.before(self.b, effort))
     }
 
     /// Effort on a coordinate by everything but its store, its own input included.
@@ -110,6 +108,42 @@ impl<'g> Laws<'g, '_> {
 
     pub(crate) fn contacts(&self) -> &[Contact<'g>] {
         &self.contacts
+    }
+
+    /// What is left until a contact gives way, where its coordinate is held with this effort;
+    /// negative beyond. Frictions that hold the same coordinate share the effort: they give way
+    /// together, where it is more than the sum of their limits.
+    pub(crate) fn margin(&self, contact: &Contact<'g>, holding: Ex<'g>) -> Ex<'g> {
+        let ranges = match contact.hold {
+            Hold::Lowers => return -holding,
+            Hold::Raises => return holding,
+            Hold::Within(_) | Hold::Between(_) => self.ranges_with(contact),
+        };
+        if let (Hold::Within(limit), [_]) = (contact.hold, &ranges[..]) {
+            return limit - holding.abs();
+        }
+        let none = [self.b.zero(); 2];
+        let [least, most] = ranges
+            .into_iter()
+            .fold(none, |sum, range| [sum[0] + range[0], sum[1] + range[1]]);
+        (holding - least).min(most - holding)
+    }
+
+    /// The efforts that a friction and the others that hold its coordinate now can hold with.
+    fn ranges_with(&self, contact: &Contact<'g>) -> Vec<[Ex<'g>; 2]> {
+        let (half, zero) = (self.b.number(0.5), self.b.zero());
+        let beside = |c: &&Contact<'g>| c.coordinate == contact.coordinate;
+        let all = self.contacts.iter().filter(beside);
+        let range = |c: &Contact<'g>| {
+            let range = c.hold.range()?;
+            let mode = self.modes[c.mode];
+            let now = |effort| mode.abs().if_less(half, effort, zero);
+            Some(match c.mode == contact.mode {
+                true => range,
+                false => range.map(now),
+            })
+        };
+        all.filter_map(range).collect()
     }
 
     pub(crate) fn balance_of(&mut self, element: usize) -> &mut Balance<'g> {

@@ -1,6 +1,7 @@
 //! What the effects' laws see and what they add: the sums on the junctions of one scene.
 
 mod adds;
+mod gear;
 mod joined;
 mod reads;
 
@@ -12,6 +13,8 @@ use crate::formulation::{Formulation, Search};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Scene;
+
+pub use gear::Gear;
 
 /// Where an effort acts: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
 #[derive(Clone, Debug)]
@@ -57,19 +60,21 @@ pub struct Contact<'g> {
 pub enum Hold<'g> {
     /// As large as this in both directions: dry friction.
     Within(Ex<'g>),
+    /// From the first to the second, with 0 among them: the losses of a gear under load.
+    Between([Ex<'g>; 2]),
     /// Of any size that lowers the rate: an upper limit.
     Lowers,
     /// Of any size that raises the rate: a lower limit.
     Raises,
 }
 
-impl<'g> Contact<'g> {
-    /// What is left until it gives way, where it holds with this effort; negative beyond.
-    pub fn margin(&self, holding: Ex<'g>) -> Ex<'g> {
-        match self.hold {
-            Hold::Within(limit) => limit - holding.abs(),
-            Hold::Lowers => -holding,
-            Hold::Raises => holding,
+impl<'g> Hold<'g> {
+    /// The least and the largest effort of a friction; `None` of the limit of a rate.
+    pub fn range(&self) -> Option<[Ex<'g>; 2]> {
+        match *self {
+            Hold::Within(limit) => Some([-limit, limit]),
+            Hold::Between(range) => Some(range),
+            Hold::Lowers | Hold::Raises => None,
         }
     }
 }
@@ -134,8 +139,8 @@ pub struct Laws<'g, 'a> {
     at: usize,
     /// On each coordinate.
     efforts: Vec<Ex<'g>>,
-    /// Efficiency of the gear between a coordinate's own effort and the coordinate.
-    gears: BTreeMap<usize, Ex<'g>>,
+    /// The gear between a coordinate's own effort and the coordinate.
+    gears: BTreeMap<usize, Gear<'g>>,
     /// Inertia of the coordinates that store their own momentum.
     inertias: BTreeMap<usize, Ex<'g>>,
     /// ẋ
@@ -199,11 +204,6 @@ impl<'g, 'a> Laws<'g, 'a> {
     pub(crate) fn begin(&mut self, at: usize) {
         self.at = at;
     }
-}
-
-/// Effort behind a gear of efficiency η: ητ where τ drives (τ·v ≥ 0), τ/η where it is driven.
-pub fn behind_gear<'g>(b: &'g Builder, effort: Ex<'g>, rate: Ex<'g>, efficiency: Ex<'g>) -> Ex<'g> {
-    (effort * rate).if_less(b.zero(), effort / efficiency, effort * efficiency)
 }
 
 /// A method of the mechanism by the formulation asked for, its expressions copied; `leaf` may replace

@@ -5,7 +5,7 @@
 use super::dynamics::rates;
 use super::holds::held;
 use super::summed::summed;
-use super::{Balance, Contact, Hold, Laws, Named, Own, System};
+use super::{Balance, Contact, Laws, Named, Own, System};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent};
 use crate::method::Method;
@@ -98,7 +98,7 @@ pub(super) fn power<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
         let holding = held(system, &laws, b).holding;
         let half = b.number(0.5);
         let contacts = laws.contacts().to_vec();
-        let friction = |c: &&(Contact<'g>, Ex<'g>)| matches!(c.0.hold, Hold::Within(_));
+        let friction = |c: &&(Contact<'g>, Ex<'g>)| c.0.hold.range().is_some();
         for (c, holding) in contacts.into_iter().zip(holding).filter(|c| friction(&c)) {
             let mode = laws.mode_at(c.mode);
             let carried = holding * c.reference[0];

@@ -44,7 +44,7 @@ pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> 
     let holds = Holds::new(laws);
     let bias = laws.method(Method::Bias);
     let force: Vec<Ex<'g>> = (0..n).map(|j| laws.effort(j) - bias[j]).collect();
-    let mut accelerations = holds.solve(b, &force, &holds.at.counterpart);
+    let mut accelerations = holds.solve(b, &force, &holds.at.counterparts);
     accelerations.extend(own_accelerations(system, laws, &holds.at));
     let holding = laws.contacts().iter().map(|c| {
         let j = c.coordinate;
@@ -68,15 +68,16 @@ pub(super) fn own_accelerations<'g>(
 ) -> Vec<Ex<'g>> {
     let own = system.graph.coordinates.len()..system.scene.layout.nv();
     let free = |j| laws.effort(j) / own_inertia(laws, j);
-    own.map(|j| holding.known(j, free(j), &holding.counterpart))
+    own.map(|j| holding.known(j, free(j), &holding.counterparts[j]))
         .collect()
 }
 
 /// Which coordinates may be held, and how they move then.
 pub(super) struct Holding<'g> {
     half: Ex<'g>,
-    /// Of each coordinate that may be held, r̈.
-    pub counterpart: Vec<Option<Ex<'g>>>,
+    /// Of each coordinate, r̈ of what may hold it.
+    pub counterparts: Vec<Vec<Ex<'g>>>,
+    /// The modes of these.
     modes: Vec<Vec<Ex<'g>>>,
 }
 
@@ -85,11 +86,11 @@ impl<'g> Holding<'g> {
         let nv = laws.v.len();
         let mut holding = Holding {
             half: laws.b.number(0.5),
-            counterpart: vec![None; nv],
+            counterparts: vec![Vec::new(); nv],
             modes: vec![Vec::new(); nv],
         };
         for c in laws.contacts() {
-            holding.counterpart[c.coordinate] = Some(c.reference[1]);
+            holding.counterparts[c.coordinate].push(c.reference[1]);
             holding.modes[c.coordinate].push(laws.mode_at(c.mode));
         }
         holding
@@ -101,12 +102,12 @@ impl<'g> Holding<'g> {
         modes.fold(no, |no, mode| mode.abs().if_less(self.half, yes, no))
     }
 
-    /// The coordinate's counterpart's where it is held, else `free`.
-    pub(super) fn known(&self, j: usize, free: Ex<'g>, counterpart: &[Option<Ex<'g>>]) -> Ex<'g> {
-        match counterpart[j] {
-            Some(reference) => self.choose(j, reference, free),
-            None => free,
-        }
+    /// What holds the coordinate has of these where it is held, else `free`.
+    pub(super) fn known(&self, j: usize, free: Ex<'g>, counterparts: &[Ex<'g>]) -> Ex<'g> {
+        let all = self.modes[j].iter().zip(counterparts);
+        all.fold(free, |free, (mode, &reference)| {
+            mode.abs().if_less(self.half, reference, free)
+        })
     }
 }
 
@@ -144,7 +145,7 @@ impl<'g> Holds<'g> {
         &self,
         b: &'g Builder,
         force: &[Ex<'g>],
-        counterpart: &[Option<Ex<'g>>],
+        counterparts: &[Vec<Ex<'g>>],
     ) -> Vec<Ex<'g>> {
         let (zero, one) = (b.zero(), b.number(1.0));
         let mut mass: Vec<Vec<Ex<'g>>> = Vec::new();
@@ -157,13 +158,13 @@ impl<'g> Holds<'g> {
             });
             mass.push(row.collect());
             for j in (0..self.n).filter(|&j| j != i) {
-                if let Some(reference) = counterpart[j] {
-                    right[i] = right[i] - self.at.choose(j, self.entry(i, j) * reference, zero);
-                }
+                let moved = counterparts[j].iter().map(|&r| self.entry(i, j) * r);
+                let moved: Vec<Ex<'g>> = moved.collect();
+                right[i] = right[i] - self.at.known(j, zero, &moved);
             }
         }
         let right = right.into_iter().enumerate();
-        let right = right.map(|(j, f)| self.at.known(j, f, counterpart));
+        let right = right.map(|(j, f)| self.at.known(j, f, &counterparts[j]));
         formulation::solve_symmetric(b, mass, right.collect())
     }
 }
@@ -181,7 +182,7 @@ pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
         contacts
             .map(|(c, holding)| {
                 let mode = laws.mode_at(c.mode);
-                let margin = c.margin(holding);
+                let margin = laws.margin(c, holding);
                 let name = &system.scene.layout.modes[c.mode].name;
                 (
                     name.clone(),
@@ -216,7 +217,7 @@ pub(super) fn contacts_under<'g>(system: &System, laws: &Laws<'g, '_>) -> Vec<[E
     let mut rows = vec![[laws.b.zero(); 4]; system.scene.layout.modes.len()];
     for (c, holding) in laws.contacts().iter().zip(held.holding) {
         let relative = held.accelerations[c.coordinate] - c.reference[1];
-        rows[c.mode] = [c.slip, relative, holding, c.margin(holding)];
+        rows[c.mode] = [c.slip, relative, holding, laws.margin(c, holding)];
     }
     rows
 }

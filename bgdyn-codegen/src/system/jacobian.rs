@@ -138,15 +138,15 @@ fn columns<'g>(
         let own = (n..nv).map(|j| laws.effort(j) / own_inertia(laws, j));
         let states = laws.rates().iter().copied();
         let driven = slopes(b, leaf, efforts.chain(own).chain(states));
-        let counterpart: Vec<Option<Ex<'g>>> = (holds.at.counterpart.iter())
-            .map(|r| r.map(|r| slopes(b, leaf, [r].into_iter())[0]))
+        let counterparts: Vec<Vec<Ex<'g>>> = (holds.at.counterparts.iter())
+            .map(|all| slopes(b, leaf, all.iter().copied()))
             .collect();
         let force: Vec<Ex<'g>> = (0..n).map(|i| driven[i] - of_links(i, leaf)).collect();
         all.extend(match response {
             Some(response) => response.solve(b, &force),
-            None => holds.solve(b, &force, &counterpart),
+            None => holds.solve(b, &force, &counterparts),
         });
-        all.extend((n..nv).map(|j| holds.at.known(j, driven[j], &counterpart)));
+        all.extend((n..nv).map(|j| holds.at.known(j, driven[j], &counterparts[j])));
         all.extend_from_slice(&driven[nv..]);
     }
     expressions(&all)

@@ -25,7 +25,7 @@ use crate::expr::{Builder, Ex, Expr};
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::formulation::Formulation;
 use crate::function::Function;
-pub use crate::laws::{Balance, Contact, Hold, Laws, Own, Port, Reading, behind_gear};
+pub use crate::laws::{Balance, Contact, Gear, Hold, Laws, Own, Port, Reading};
 use crate::method::{Method, Role};
 use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;

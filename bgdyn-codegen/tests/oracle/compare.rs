@@ -9,7 +9,7 @@ use bgdyn_codegen::verify::{check_scene, explain};
 use bgdyn_runtime::Dd;
 
 use super::draft::Written;
-use super::laws::Effect;
+use super::laws::{Effect, sign};
 use super::rng::Rng;
 use super::scene::Scene;
 use super::state::{Named, State};
@@ -151,6 +151,7 @@ impl Pair {
             let slip = dd(mode) * dd(0.1 + rng.unit());
             state.v.insert(e.text("joint").into(), belt + slip);
         }
+        self.gears(&mut state, rng);
         for e in self.oracle.effects.iter().filter(|e| limits_a_winding(e)) {
             // Free, held at either limit, beyond either.
             let (current, upper, lower) = match rng.below(5) {
@@ -171,13 +172,31 @@ impl Pair {
         state
     }
 
+    /// Joints with gears move or rest, with modes of the gears that say so.
+    fn gears(&self, state: &mut State, rng: &mut Rng) {
+        let mut chosen: Vec<&str> = Vec::new();
+        for e in &self.oracle.effects {
+            let Some(name) = e.gear_mode() else { continue };
+            let joint = e.text("joint");
+            let rubs = |e: &Effect| e.kind() == "coulomb" && e.text("joint") == joint;
+            if !chosen.contains(&joint) && !self.oracle.effects.iter().any(rubs) {
+                let direction = f64::from(rng.below(3) as u32) - 1.0;
+                let rate = dd(direction) * dd(0.1 + rng.unit());
+                state.v.insert(joint.into(), rate);
+                chosen.push(joint);
+            }
+            state.modes.insert(name, sign(state.v[joint]));
+        }
+    }
+
     /// A direction in the state, along which held joints do not slip.
     fn direction(&self, rng: &mut Rng) -> State {
         let layout = &self.system.scene.layout;
         let held = |name: &str| {
             let on = |e: &&Effect| {
                 let friction = e.kind() == "coulomb" && e.text("joint") == name;
-                friction || limits_a_winding(e) && e.name == name
+                let geared = e.gear_mode().is_some() && e.text("joint") == name;
+                friction || geared || limits_a_winding(e) && e.name == name
             };
             self.oracle.effects.iter().find(on).is_some()
         };

@@ -37,6 +37,15 @@ impl Effect {
         number_or(&self.keys, key, otherwise)
     }
 
+    /// The name of the mode of its gear, where it has one with losses.
+    pub fn gear_mode(&self) -> Option<String> {
+        match self.kind() {
+            "gear" => Some(self.name.clone()),
+            "dc_motor" if self.has("efficiency") => Some(format!("{}_gear", self.name)),
+            _ => None,
+        }
+    }
+
     fn joint(&self) -> &str {
         self.text("joint")
     }
@@ -75,7 +84,7 @@ pub fn law(e: &Effect, at: &At<'_>, sums: &mut Sums) {
 }
 
 /// −1, 0 or 1.
-fn sign(x: Dd) -> Dd {
+pub fn sign(x: Dd) -> Dd {
     let one = |yes: bool| if yes { Dd::ONE } else { Dd::ZERO };
     one(x > Dd::ZERO) - one(x < Dd::ZERO)
 }
@@ -215,12 +224,19 @@ fn series_elastic(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     sums.stored += e.number("stiffness") * twist * twist * dd(0.5);
 }
 
-/// What arrives behind a gear: η τ where the effort drives, τ/η where the joint drives it.
-pub fn geared(effort: Dd, rate: Dd, efficiency: Dd) -> Dd {
-    if effort * rate >= Dd::ZERO {
-        efficiency * effort
+/// What arrives behind a gear: η τ where the effort drives, τ/η where the joint drives it, τ at rest.
+pub fn geared(e: &Effect, effort: Dd, at: &At<'_>, sums: &mut Sums) -> Dd {
+    let Some(mode) = e.gear_mode().map(|name| at.state.modes[&name]) else {
+        return effort;
+    };
+    if mode == Dd::ZERO {
+        let still = sums.held.entry(e.joint().into());
+        still.or_insert(Dd::ZERO);
+        effort
+    } else if effort * mode >= Dd::ZERO {
+        e.number("efficiency") * effort
     } else {
-        effort / efficiency
+        effort / e.number("efficiency")
     }
 }
 
@@ -260,10 +276,8 @@ fn dc_motor(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     } else {
         within(left / resistance, e, "current_limit")
     };
-    sums.push(
-        e.joint(),
-        geared(constant * current, rate, e.or("efficiency", 1.0)),
-    );
+    let arrives = geared(e, constant * current, at, sums);
+    sums.push(e.joint(), arrives);
 }
 
 /// A moment and a force at a place, in its axes or the world's.

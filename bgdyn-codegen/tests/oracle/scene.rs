@@ -180,7 +180,7 @@ impl Scene {
         }
         hydraulics::in_series(&self.effects, &mut sums);
         hydraulics::volumes(&self.effects, &at, &mut sums);
-        for (name, &v) in &state.v {
+        for name in state.v.keys() {
             let Some(&effort) = state.u.get(name) else {
                 continue;
             };
@@ -193,10 +193,11 @@ impl Scene {
             }
             let at_it = |e: &&Effect| e.kind() == "gear" && e.text("joint") == name;
             let gear = self.effects.iter().find(at_it);
-            sums.push(
-                name,
-                gear.map_or(effort, |g| geared(effort, v, g.number("efficiency"))),
-            );
+            let arrives = gear.map_or(effort, |g| geared(g, effort, &at, &mut sums));
+            sums.push(name, arrives);
+        }
+        for e in self.effects.iter().filter(|e| e.kind() == "gear") {
+            geared(e, Dd::ZERO, &at, &mut sums);
         }
         sums
     }

@@ -120,7 +120,8 @@ pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd>
     let a = random.many(layout.nv(), 3.0);
     let mut modes = Vec::new();
     let upper = u.first().is_none_or(|u| *u > Dd::ZERO);
-    for part in &layout.modes {
+    let (coordinates, mut seen) = (system.mode_coordinates(), Vec::new());
+    for (k, part) in layout.modes.iter().enumerate() {
         let sign = if random.unit() < 0.0 { -1.0 } else { 1.0 };
         if let Some((motor, side, limit)) = current_limit(system, &part.name) {
             // At one of its limits at a time.
@@ -135,20 +136,25 @@ pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd>
             }
             continue;
         }
+        let j = coordinates[k];
+        if seen.contains(&j) {
+            // Another friction or gear has said how this joint moves.
+            let moves = if v[j] < Dd::ZERO { -1.0 } else { 1.0 };
+            let mode = if v[j] == Dd::ZERO { 0.0 } else { moves };
+            modes.push(Dd::from_f64(mode));
+            continue;
+        }
+        seen.push(j);
         modes.push(Dd::from_f64(if slipping { sign } else { 0.0 }));
         // A held joint moves as its counterpart does.
         let element = system.scene.elements.iter().find(|e| e.name == part.name);
-        let joint = element.and_then(|e| e.name("joint"));
-        let Some(j) = joint.and_then(|joint| layout.coordinate_named(joint)) else {
-            continue;
-        };
         let reference = element.and_then(|e| e.name("reference"));
         let rate = reference.map(|r| format!("{r}_rate"));
         let speed = layout
             .inputs
             .iter()
             .position(|i| Some(&i.name) == rate.as_ref());
-        let speed = speed.map_or(Dd::ZERO, |k| u[k]);
+        let speed = speed.map_or(Dd::ZERO, |i| u[i]);
         v[j] = if slipping {
             speed + Dd::from_f64(sign * (0.2 + random.unit().abs()))
         } else {

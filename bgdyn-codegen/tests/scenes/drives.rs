@@ -25,14 +25,53 @@ fn a_gear_loses_on_both_ways() {
         (-1.0, 3.0, 3.75),
         (1.0, -3.0, -3.75),
     ] {
-        close(tried.effort(0.0, v, &[u]), wanted);
+        let mut at = tried.at(&[0.0], &[v], &[], &[u]);
+        at.modes[0] = v;
+        close(MASS * tried.rates(at.clone())[0], wanted);
         // What is lost: (u − τ) v, which is never less than nothing.
         let power = tried.system.function(Role::Power);
-        let (values, _) = power.evaluate(tried.at(&[0.0], &[v], &[], &[u]));
+        let (values, _) = power.evaluate(at);
         close(values[2], (u - wanted) * v);
         assert!(values[2] > 0.0);
     }
     laws::hold(&tried.system);
+}
+
+/// At rest a gear holds as long as neither η τ nor τ/η would move the joint: with the friction of its
+/// joint, where there is some.
+#[test]
+fn a_gear_holds_its_joint_against_less_than_its_losses() {
+    let gear = "it: { type: gear, joint: slide, efficiency: 0.8 }";
+    let push = "push: { type: wrench, at: hook, components: [fx] }";
+    let friction = "dry: { type: coulomb, joint: slide, kinetic: 0.5, static: 1 }";
+    for (effects, own) in [(&[gear, push][..], 0.0), (&[gear, push, friction][..], 1.0)] {
+        let tried = Tried::new(with(effects, "inputs: { slide: given, push_fx: given }\n"));
+        let contacts = tried.system.function(Role::Contacts);
+        // u and the push against it.
+        for (u, push) in [
+            (3.0, -3.0),
+            (3.0, -2.0),
+            (-3.0, 4.0),
+            (3.0, -4.9),
+            (0.0, 0.2),
+        ] {
+            let at = tried.at(&[0.0], &[0.0], &[], &[push, u]);
+            assert_eq!(tried.rates(at.clone())[0], 0.0);
+            let holding: f64 = -(u + push);
+            let (less, more) = (0.8_f64 * u - u, u / 0.8 - u);
+            let least = less.min(more) - own;
+            let most = less.max(more) + own;
+            let (rows, _) = contacts.evaluate(at);
+            for row in rows.chunks(4) {
+                close(row[2], holding);
+                close(row[3], (holding - least).min(most - holding));
+            }
+        }
+    }
+    laws::hold(&with(
+        &[gear, push, friction],
+        "inputs: { slide: given, push_fx: given }\n",
+    ));
 }
 
 #[test]

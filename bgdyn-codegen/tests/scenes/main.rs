@@ -14,6 +14,7 @@ mod friction;
 mod hard_cases;
 mod hydraulics;
 mod joints;
+mod kinks;
 mod laws;
 mod lines;
 mod motors;

@@ -71,6 +71,11 @@ impl Declaration for FourWayValve {
     fn declare(&self, element: &Element, layout: &mut Layout) {
         let about = format!("shift of the spool of `{}`, −1 … 1", element.name);
         layout.shared_input(spool(element), Dimension::One, about);
+        let name = &element.name;
+        let about = format!("the spool of `{name}` passes its centre");
+        layout.event(format!("{name}_centre"), about);
+        let about = format!("the spool of `{name}` reaches one of its ends, or leaves it");
+        layout.event(format!("{name}_limit"), about);
     }
 }
 
@@ -80,7 +85,10 @@ impl Effect for FourWayValve {
             [SUPPLY, TANK, A, B].map(|key| element.name(key.name).unwrap_or_default());
         let [p_supply, p_tank, p_a, p_b] = [supply, tank, a, b].map(|n| pressure(n, laws));
         let (zero, one) = (laws.b.zero(), laws.b.number(1.0));
-        let x = laws.input(spool(element)).max(-one).min(one);
+        let shift = laws.input(spool(element));
+        laws.event(&format!("{}_centre", element.name), shift);
+        laws.event(&format!("{}_limit", element.name), one - shift.abs());
+        let x = shift.max(-one).min(one);
         let (back, opening) = (|yes, no| x.if_less(zero, yes, no), x.abs());
         // Two orifices are open at a time: to the side that is fed, from the side that returns.
         let (fed, returning) = (back(p_b, p_a), back(p_a, p_b));

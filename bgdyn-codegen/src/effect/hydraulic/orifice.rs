@@ -63,12 +63,21 @@ impl Declaration for Orifice {
         if let Some(opening) = element.name(OPENING.name) {
             let about = format!("opening of `{opening}`, 0 … 1");
             layout.shared_input(opening, Dimension::One, about);
+            let about = format!(
+                "the opening of `{}` reaches 0 or 1, or leaves it",
+                element.name
+            );
+            layout.event(limit(element), about);
         }
     }
 }
 
 impl Effect for Orifice {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+        if let Some(opening) = element.name(OPENING.name) {
+            let x = laws.input(opening);
+            laws.event(&limit(element), x.min(laws.b.number(1.0) - x));
+        }
         resist(element, laws, |laws, drop| {
             let open = Drop::of(element, laws).flow(drop, laws.b);
             match element.name(OPENING.name) {
@@ -80,4 +89,9 @@ impl Effect for Orifice {
             }
         });
     }
+}
+
+/// The name of the event at the ends of the opening, which are kinks of the law.
+fn limit(element: &Element) -> String {
+    format!("{}_limit", element.name)
 }
