@@ -12,11 +12,12 @@
 use bgdyn_runtime::Dd;
 
 use super::Effect;
+use super::gear::declare_mode;
 use super::viscous::JOINT;
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::wording::algebraic_loop;
-use crate::laws::{Gear, Hold, Laws};
+use crate::laws::{Hold, Laws};
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 
@@ -140,7 +141,7 @@ impl Declaration for DcMotor {
         }
         declare_limits(element, layout);
         if element.quantity("efficiency").is_some() {
-            Gear::declare(element, &named(element, GEAR), layout);
+            declare_mode(element, &named(element, GEAR), layout);
         }
     }
 }

@@ -8,7 +8,7 @@
 use super::Effect;
 use super::viscous::JOINT;
 use crate::declaration::{Declaration, Element, Given};
-use crate::laws::{Gear as GearLaw, Laws};
+use crate::laws::{Laws, load_event};
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 
@@ -56,7 +56,7 @@ impl Declaration for Gear {
     }
 
     fn declare(&self, element: &Element, layout: &mut Layout) {
-        GearLaw::declare(element, &element.name, layout);
+        declare_mode(element, &element.name, layout);
     }
 }
 
@@ -64,4 +64,17 @@ impl Effect for Gear {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         laws.gear_of_drive(element);
     }
+}
+
+/// Declares the mode of a gear with losses, with its event, and the event of its load's change of
+/// sign, which is a kink of the law.
+pub(super) fn declare_mode(element: &Element, mode: &str, layout: &mut Layout) {
+    let joint = element.name("joint").unwrap_or_default();
+    let about =
+        format!("whether `{joint}` moves (−1, 1: the sign of its rate) or its gear holds it (0)");
+    layout.mode(mode.to_owned(), about);
+    let about = format!("`{joint}` comes to rest, or breaks away from its gear");
+    layout.event(mode.to_owned(), about);
+    let about = format!("the load of the gear of `{joint}` changes its sign");
+    layout.event(load_event(element), about);
 }

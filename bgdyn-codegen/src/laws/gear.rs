@@ -7,7 +7,6 @@
 use super::{Hold, Laws, Port};
 use crate::declaration::Element;
 use crate::expr::{Builder, Ex};
-use crate::layout::Layout;
 
 /// A gear with losses.
 #[derive(Clone, Copy, Debug)]
@@ -19,20 +18,6 @@ pub struct Gear<'g> {
 }
 
 impl<'g> Gear<'g> {
-    /// Declares the mode of a gear, with its event, and the event of its load's change of sign, which
-    /// is a kink of the law.
-    pub fn declare(element: &Element, mode: &str, layout: &mut Layout) {
-        let joint = element.name("joint").unwrap_or_default();
-        let about = format!(
-            "whether `{joint}` moves (−1, 1: the sign of its rate) or its gear holds it (0)"
-        );
-        layout.mode(mode.to_owned(), about);
-        let about = format!("`{joint}` comes to rest, or breaks away from its gear");
-        layout.event(mode.to_owned(), about);
-        let about = format!("the load of the gear of `{joint}` changes its sign");
-        layout.event(load(element), about);
-    }
-
     /// What arrives of an effort at the joint: all of it at rest.
     pub fn behind(self, b: &'g Builder, effort: Ex<'g>) -> Ex<'g> {
         let driving = self.choose(b, effort, effort * self.efficiency);
@@ -58,7 +43,7 @@ impl<'g> Gear<'g> {
 }
 
 /// The name of the event of the load's change of sign.
-fn load(element: &Element) -> String {
+pub fn load_event(element: &Element) -> String {
     format!("{}_load", element.name)
 }
 
@@ -79,7 +64,7 @@ impl<'g> Laws<'g, '_> {
         effort: Ex<'g>,
     ) {
         let zero = self.b.zero();
-        self.event(&load(element), effort);
+        self.event(&load_event(element), effort);
         self.contact(mode, port, [zero, zero], gear.hold(effort));
     }
 

@@ -14,7 +14,7 @@ use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Scene;
 
-pub use gear::Gear;
+pub use gear::{Gear, load_event};
 
 /// Where an effort acts: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
 #[derive(Clone, Debug)]
