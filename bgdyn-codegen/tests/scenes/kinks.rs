@@ -138,7 +138,7 @@ fn far(system: &System, random: &mut Random) -> Inputs<Dd> {
     }
     for parts in [&mut at.q, &mut at.v, &mut at.u] {
         for x in parts {
-            *x = *x * Dd::from_f64(4.0 * (1.0 + random.unit()).powi(3));
+            *x *= Dd::from_f64(4.0 * (1.0 + random.unit()).powi(3));
         }
     }
     at

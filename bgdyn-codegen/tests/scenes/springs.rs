@@ -194,7 +194,7 @@ fn contact_begins_and_ends_at_events() {
         .iter()
         .map(|e| e.name.as_str())
         .collect();
-    assert_eq!(names, ["it_begins", "it_ends"]);
+    assert_eq!(names, ["it_begins", "it_ends", "it_pulled"]);
     let events = tried.system.function(Role::Events);
     for (q, gap) in [(0.0, 0.1), (0.19, 0.01), (0.21, -0.01), (-0.13, -0.03)] {
         let (values, _) = events.evaluate(tried.at(&[q], &[0.3], &[], &[]));
@@ -202,7 +202,16 @@ fn contact_begins_and_ends_at_events() {
             (values[0] - gap).abs() < 1e-15 && values[1] == -values[0],
             "{values:?}"
         );
+        // At this speed the stops push wherever they are met.
+        assert_eq!(values[2] > 0.0, gap < 0.0);
     }
+    // Out of the upper stop the law without its limit would pull from 1/μ on.
+    let pulled = |speed: f64| {
+        let at = tried.at(&[0.21], &[speed], &[], &[]);
+        events.evaluate(at).0[2]
+    };
+    assert!(pulled(-1.0) > 0.0 && pulled(-40.0) < 0.0);
+    assert_eq!(pulled(0.0), 1e4 * (0.21 - 0.2));
 }
 
 #[test]
