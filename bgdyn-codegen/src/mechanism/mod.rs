@@ -1,6 +1,6 @@
 //! The checked mechanism: always valid, links in an order where parents stand before children.
 //!
-//! Only [`check`] can construct a [`Mechanism`]; nothing later checks again or fails on what a
+//! Only [`crate::machine::check`] can construct a [`Mechanism`]; nothing later checks again or fails on what a
 //! user wrote. Numbers are double-double, as the spec's decimals were read.
 
 mod check;

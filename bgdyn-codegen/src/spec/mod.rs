@@ -1,7 +1,7 @@
 //! The spec as it was written: typed values with their places, nothing concluded from them.
 //!
 //! [`parse`] reports what the format cannot say (syntax, unknown keys, wrong types, units);
-//! whether it makes a mechanism is for [`crate::mechanism::check`] to tell.
+//! whether it makes a mechanism is for [`crate::machine::check`] to tell.
 
 mod field;
 mod index;
