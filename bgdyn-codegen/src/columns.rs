@@ -1,10 +1,12 @@
-//! Results that are the same expressions of other values, column by column.
+//! Columns of a result that are the same expressions of different values: one loop computes them.
 //!
-//! Forward dynamics is linear in the efforts: each column of its derivatives is the same chain of
-//! operations on other numbers. Written out, an arm's columns are the longest part of its code and
-//! outgrow the instruction cache; as a loop they are a few dozen lines, whose columns run in the lanes
-//! of a register. What all columns read, and what each reads of its own, are results of the straight
-//! line before, the stage.
+//! Forward dynamics is linear in the efforts, so each column of its derivatives is the same chain of
+//! operations, M⁻¹ dτ, for another dτ. Written out, the columns of an arm are the longest part of its code
+//! and outgrow the instruction cache. As a loop they run in the lanes of a register.
+//!
+//! What all columns read, and what each column reads of its own, are results of the straight-line code
+//! before the loop, the stage. Factoring and cutting see the stage alone. The count is that of the columns
+//! written out; where a loop would take one operation more, they stay written out.
 
 use bgdyn_runtime::Scalar;
 

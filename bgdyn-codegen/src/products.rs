@@ -1,10 +1,16 @@
-//! Finds the entries of a matrix that are inner products of two tables' vectors.
+//! Finds the entries of a matrix that are inner products of two tables' vectors, so that a loop computes
+//! them.
 //!
-//! M of a long chain has half as many entries as its square, and most of them are sums of six
-//! products: a vector that belongs to the column times one that belongs to the row. Written out
-//! they are the longest part of the code; as a loop over rows they are a few lines that run in the
-//! lanes of a register. What belongs together is found on the graph alone: two entries of a row
-//! share the row's vector, so the nodes that both read are that vector.
+//! The mass matrix of 64 links has 2,016 entries, most of them sums of six products: a vector of the
+//! column times a vector of the row. Written out, they outgrow the instruction cache.
+//!
+//! The search knows no names and no physics. An entry takes part if it is a sum of products that nothing
+//! else reads. Two entries of a row share the row's vector: the nodes that both read. The other factors are
+//! the column's vector. Such entries form the last block (`Block::products`), each summed in the order of
+//! the vectors, so that the evaluator and the loop round alike. Other entries (the diagonal, the first
+//! columns with their zeros) are values of the earlier blocks. Generated code fills the tables and calls
+//! `inner_products` of the runtime, whose inner loop runs in the lanes of a register. It executes the
+//! operations that are counted, no more.
 
 use std::collections::VecDeque;
 use std::ops::Range;

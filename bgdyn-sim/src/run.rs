@@ -1,4 +1,9 @@
 //! Runs of plants: from step to step and from event to event, with an account of the energy.
+//!
+//! An event is looked for at the end of a step; in long steps also at points of the dense output. It is
+//! located by shorter steps of the method itself, so that the state there has the method's order,
+//! whatever the order of the dense output. The step ends just behind the event. Events that change a mode
+//! count when they fall, kinks in either direction. All that fall together are settled together.
 
 mod events;
 

@@ -1,9 +1,16 @@
-//! P_j of small mechanisms in closed form, as a textbook prints them.
+//! P_j of small mechanisms in closed form, as a textbook prints them. Nothing generated goes through it.
 //!
-//! One way: the expression graph of equation (6) as it stands, made for the mechanism with letters for
-//! its numbers ([`Mechanism::lettered`]) → polynomials in normal form (`polynomial.rs`, `expand.rs`)
-//! → coefficients of q̈_k, q̇_k q̇_l and the rest, factored ([`ClosedForm`]) → text or LaTeX
-//! ([`text`](text()), [`latex`](latex())). It refuses what is too long to be read.
+//! 1. The expression graph of the literal sum (6), made for the mechanism with letters for its numbers
+//!    ([`Mechanism::lettered`]). The letters are run-time parameters, and prismatic joints of massless
+//!    links that never move.
+//! 2. Polynomials in normal form (`polynomial.rs`, `expand.rs`). For each group of parallel axes a term
+//!    holds at most one sine or cosine, of a sum of multiples of their angles. So every trigonometric
+//!    identity holds by itself, and terms cancel as soon as they meet.
+//! 3. Coefficients of q̈_k, q̇_k q̇_l and the rest, factored ([`ClosedForm`]).
+//! 4. Text or LaTeX ([`text`](text()), [`latex`](latex())).
+//!
+//! The number of terms and of products of terms is limited, so that a mechanism whose equations are too
+//! long to read is refused early.
 
 mod collect;
 mod definition;

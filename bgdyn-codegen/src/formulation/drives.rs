@@ -1,4 +1,7 @@
-//! The derivatives of forward dynamics: accelerations that efforts dτ drive, column by column.
+//! The derivatives of forward dynamics, column by column: dq̈ = M⁻¹ dτ.
+//!
+//! Forward dynamics is differentiated along efforts dτ that are leaves of the graph, once for each pattern
+//! of zeros in the columns. Columns with one pattern go into a loop ([`crate::columns`]) where that pays.
 
 use std::collections::BTreeMap;
 

@@ -1,15 +1,21 @@
 //! Algebraic factoring: a function with fewer operations and the same value.
 //!
-//! The graph is read as sums of products, Σ k·Π factors ([`network`]): single uses are written
-//! out, so that constants and equal terms meet across nesting, and cancel; a sum that others read
-//! too is written out where so much cancels that it gets cheaper. Then common products
-//! and common two-term sums are taken out, the one that saves most first ([`extract`]; the two-cube
-//! divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
-//! Kastner 2006), and the graph is built again ([`rebuild`]). Whichever of before and after costs
-//! less is kept.
+//! 1. [`network`] reads the graph as sums of products, Σ k·Π factors. Values with a single user are
+//!    written out, so that constants and equal terms meet across nesting, and cancel. A sum with several
+//!    users is written out where the cancellation pays for it.
+//! 2. [`extract`] takes out common products and common two-term sums, the largest saving first (the
+//!    two-cube divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
+//!    Kastner 2006). A last round writes every product out again, so that the first choices do not block
+//!    better ones.
+//! 3. [`rebuild`] makes the graph again, in the old order, with the old names and sections.
+//! 4. In small functions, shared values are then written out one by one wherever another round becomes
+//!    cheaper.
 //!
-//! Only sums are regrouped; no product of sums is multiplied out but by a number, so that no term
-//! is larger than one that was there before, and rounding errors keep their size.
+//! The cheaper function of before and after is kept, so a count never rises. A sum is multiplied by
+//! numbers only, never by another sum: no term grows, and rounding errors keep their size. A pivot's
+//! magnitude stays a value of its own, and so does a product with a quotient. Functions with a fixed order
+//! of operations (`Function::ordered`: the literal sum, articulated bodies with own inertia) are not
+//! factored. At the end `quotient.rs` divides directly where a reciprocal has a single user.
 
 mod divisor;
 mod extract;

@@ -12,7 +12,8 @@
 //! body. In an arm with axes parallel or across the joint-by-joint way is the cheaper one.
 //!
 //! The axes are those of the first body and not the world's, so that its joint's axis is (0, 0, 1)
-//! and its angle is not read.
+//! and its angle is not read. Both ways are counted before factoring and the cheaper one is made: this one
+//! from about 13 links in general position on.
 
 use super::frames::{Frame, Frames, Plan};
 use super::geometry::Geometry;

@@ -1,8 +1,22 @@
-//! The recursion in link axes with base parameters, the common-axis trick, sliding origins and
-//! groups of parallel axes: equation (6) summed over the bodies beyond each joint.
+//! The recursion in link axes with base parameters, the common-axis trick, sliding origins and groups of
+//! parallel axes: equation (6) summed over the bodies beyond each joint.
 //!
-//! Its free choices are a [`Plan`]; the plan is searched for by counting, in a bounded number of
-//! steps, method by method.
+//! | file | computes |
+//! |---|---|
+//! | `geometry.rs` | a frame for every moving body: z along its joint's axis, x along the common normal with the next axis |
+//! | `frames.rs` | these frames as expressions, for one [`Plan`] |
+//! | `base.rs` | base parameters: inertia moved inwards, known parts always, run-time parameters as the plan says |
+//! | `motion.rs` | velocities and accelerations, outwards |
+//! | `inverse.rs` | forces, moments and efforts, inwards |
+//! | `mass.rs` | the mass matrix, from the momenta of composite bodies |
+//! | `slopes.rs` | first derivatives and the Coriolis matrix, from composite bodies (`composite.rs`: inertia, flow of mass and force of all bodies beyond a joint; `unit.rs`, `beyond.rs`: what one joint contributes, carried inwards; `view.rs`: the body and axes in which it is expressed, chosen by counting) |
+//! | `kinematics.rs` | poses, velocities and Jacobians of sites |
+//! | `plan.rs` | the cheapest plan, by counting: one choice at a time, in a bounded number of steps |
+//!
+//! A plan says where origins slide, which length is the unit, which parallel joints share a basis, whose
+//! inertia is turned instead of the vectors, how far run-time parameters move inwards, and which point
+//! masses keep a force of their own. In small mechanisms the four cheapest plans are factored before one is
+//! chosen.
 
 mod aligned;
 mod answer;

@@ -6,6 +6,13 @@
 //! that large terms do not cancel in the carrier's pivot. That holds while each body keeps its own
 //! inertia. Over base parameters, which give part of it to the carrier beforehand, there are fewer
 //! operations and the digits of an elimination of M.
+//!
+//! Accelerations are relative to the motion with q̈ = 0, whose wrenches the bias already gives, so that no
+//! velocity enters these sweeps. A rotor behind a gear adds N²J to its joint's pivot, and of the row and
+//! column along the joint the part N²J/pivot is passed on.
+//!
+//! Where a body's own share is next to nothing, only rounding errors may be left of a pivot.
+//! `expr/error.rs` bounds its error operation by operation, and the pivot must exceed the bound.
 
 mod inertia;
 mod sweep;
