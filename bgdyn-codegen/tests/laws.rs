@@ -52,6 +52,12 @@ fn larger_mechanisms() {
     assert!(check(1000..1060, |_| 7, false).regular > 20);
 }
 
+/// A pivot of 1e-28 between two axes that differ by 1e-14: articulated bodies solve it rightly.
+#[test]
+fn almost_parallel_axes() {
+    assert_eq!(check(10_230..10_231, |_| 3, false).regular, 0);
+}
+
 #[test]
 fn with_run_time_parameters() {
     assert!(check(2000..2060, |_| 3, true).regular > 30);
