@@ -37,7 +37,7 @@ pub(crate) fn draw(
     let mut d = Drawing::new(size.0, size.1);
     d.text((16.0, 25.0), 18, INK, Anchor::Start, title);
     if marked {
-        let events = "orange, upright: events, where friction takes hold or breaks away";
+        let events = "orange, upright: events, where a contact holds or is released";
         d.text((16.0, 46.0), 12, INK, Anchor::Start, events);
     }
     for (i, column) in columns.iter().enumerate() {

@@ -67,7 +67,7 @@ pub(crate) fn changes(system: &System, event: &Event) -> String {
     let told: Vec<String> = changed
         .map(|(i, mode)| match event.after[i] {
             0.0 => format!("`{}` is held", mode.name),
-            way if event.before[i] == 0.0 => format!("`{}` breaks away, {way:+}", mode.name),
+            way if event.before[i] == 0.0 => format!("`{}` is released, {way:+}", mode.name),
             way => format!("`{}` slips the other way, {way:+}", mode.name),
         })
         .collect();

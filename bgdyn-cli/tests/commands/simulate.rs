@@ -119,7 +119,7 @@ fn events_are_told_when_they_are() {
         assert!(t.len() <= "0.400000".len(), "{line}");
         let off = times.iter().map(|t| (t - wanted).abs()).fold(1.0, f64::min);
         assert!(off < 1e-9, "no row at {wanted}");
-        let expected = ["`belt` breaks away, -1", "`belt` is held"][i % 2];
+        let expected = ["`belt` is released, -1", "`belt` is held"][i % 2];
         assert_eq!(what, expected);
         wanted += [3.0 * PI / 20.0, 0.2][i % 2];
         count += 1;
