@@ -15,7 +15,8 @@ pub(super) struct Passed<V> {
     behind: V,
 }
 
-/// How far behind an event a step ends, in multiples of what instants are told apart by.
+/// How far behind a kink a step ends, in multiples of what instants are told apart by. A mode changes at
+/// once: every moment longer in the old one is an error of first order.
 const BEHIND: f64 = 4.0;
 
 /// How far an event's value is from passing through zero, negative or 0 once it has; `passed` whether
@@ -122,12 +123,29 @@ where
         };
         let width = self.resolution(whole);
         let at = first_passage(value, ends, guess.map(|(_, at)| at), width)?;
+        let found = self.passed_at(whole, at, &before)?;
+        let fell = |e| self.fell(e, &found.1);
+        if (0..before.entries().len()).any(fell) {
+            return Ok(Some(found));
+        }
         // On the kink itself rounding would choose the side whose slope is taken: a little behind it
-        // every function sees the side that comes.
+        // every function sees the side that comes. A law is continuous there, so nothing is lost.
         let at = one.min(at + width * Time::<P>::from_f64(BEHIND));
+        self.passed_at(whole, at, &before).map(Some)
+    }
+
+    /// The shorter step of this part of a proposed one's length, and the events' values at its ends.
+    #[expect(clippy::type_complexity, reason = "a step and what it passes")]
+    fn passed_at(
+        &self,
+        whole: &Proposed<P, M>,
+        at: Time<P>,
+        before: &P::Values,
+    ) -> Result<(Proposed<P, M>, Passed<P::Values>), Refused<P>> {
         let there = self.shorter(whole, at)?;
         let behind = self.values(there.t.0, &there.y.0)?;
-        Ok(Some((there, Passed { before, behind })))
+        let before = before.clone();
+        Ok((there, Passed { before, behind }))
     }
 
     /// To which part of a step instants are told apart: a few roundings of the time.
