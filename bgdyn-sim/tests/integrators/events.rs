@@ -82,6 +82,25 @@ fn every_method_meets_the_wall_in_time() {
     }
 }
 
+/// A mode changes where instants are just told apart: each moment longer in the old mode is an error of
+/// first order, which shows in `f32`.
+#[test]
+fn modes_change_at_once() {
+    let law = Law::Walls {
+        at: [0.5, -9.0],
+        returns: 1.0,
+    };
+    let wall = Oscillator { law };
+    let start = wall.start();
+    let mut run = Run::by(Dop853, wall, start);
+    while run.events == 0 {
+        run.step(0.01).expect("it swings");
+    }
+    let late = (run.last_event - PI / 3.0) / f64::EPSILON;
+    println!("{late} roundings late");
+    assert!((0.0..8.0).contains(&late), "{late} roundings late");
+}
+
 /// Long steps over a wall that is passed and left again within one: the ends show nothing.
 #[test]
 fn events_inside_a_long_step_are_seen() {
