@@ -196,9 +196,7 @@ impl<'a> Cutter<'a> {
         let copied = node.map_operands(|e| self.copy_signed(e));
         self.made.reopen_section(self.graph, id, self.titles);
         let copy = Expr::plus(self.made.intern(copied));
-        if let Some(name) = self.graph.name(id) {
-            self.made.set_name(copy.node, || name.to_string());
-        }
+        self.made.copy_name(copy, self.graph, id);
         self.copies.insert(id, copy);
         copy
     }

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::code::{Binding, atom};
 use super::entries::{Entries, NAME};
-use super::tokens::number;
+use super::tokens::{COMMENT, number};
 use super::writer::Writer;
 use crate::expr::{Expr, Node, NodeId};
 
@@ -62,7 +62,9 @@ impl Writer<'_> {
         {
             self.use_constants();
         }
-        self.push_untitled(quote! { let mut #name = #whole; });
+        let title =
+            format!("{COMMENT} placeholders but for constants: every other entry is stored below");
+        self.push_untitled(quote! { #[doc = #title] let mut #name = #whole; });
     }
 
     /// The code of a constant.

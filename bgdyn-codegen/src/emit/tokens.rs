@@ -74,9 +74,10 @@ pub(super) fn fields<'a>(
     quote! { #(#[doc = #docs] pub #names: T,)* }
 }
 
-/// A number without a type.
+/// A finite number without a type, in its shortest form: `2.2e-17`, not `0.000000000000000022`.
 pub(super) fn number(x: f64) -> Literal {
-    Literal::f64_unsuffixed(x)
+    let text = format!("{x:?}");
+    text.parse().expect("a finite number is a literal")
 }
 
 /// The type of an argument.

@@ -112,7 +112,7 @@ impl<'a> Writer<'a> {
     /// A `let` for the node.
     pub(super) fn bind(&mut self, id: NodeId, code: Code) -> Code {
         let variable = match self.graph.name(id) {
-            Some(name) => self.names.named(name),
+            Some(name) => self.names.named(&name.identifier()),
             None => self.names.numbered(),
         };
         let tokens = code.tokens;

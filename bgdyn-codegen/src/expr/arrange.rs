@@ -21,9 +21,7 @@ pub fn arranged(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
             Node::Add(..) => sums.sum(id),
             node => sums.copied(node),
         };
-        if let Some(name) = from.name(id) {
-            sums.to.set_name(copy.node, || name.to_string());
-        }
+        sums.to.copy_name(copy, from, id);
         sums.copies.insert(id, copy);
     }
     let outputs = outputs.iter().map(|&e| sums.at(e)).collect();

@@ -161,7 +161,7 @@ impl<'g> Ex<'g> {
     pub fn named(self, name: impl FnOnce() -> String) -> Self {
         if let (Value::Node(expr), false) = (self.value, self.builder.silent) {
             let mut graph = self.builder.graph.borrow_mut();
-            graph.set_name(expr.node, name);
+            graph.set_name(expr, name);
         }
         self
     }

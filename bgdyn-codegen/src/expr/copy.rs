@@ -34,9 +34,7 @@ pub(super) fn remade(
     for id in nodes.map(NodeId::at) {
         to.reopen_section(from, id, titles);
         let copy = make(to, id, &|e| copies[&e.node].flipped(e.negative));
-        if let Some(name) = from.name(id) {
-            to.set_name(copy.node, || name.to_string());
-        }
+        to.copy_name(copy, from, id);
         copies.insert(id, copy);
     }
     let outputs = outputs.iter();

@@ -295,13 +295,30 @@ impl Hasher for QuickHasher {
 
 pub(crate) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<QuickHasher>>;
 
+/// A name for a value. The node may hold the value with the opposite sign.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The name of the value.
+    pub text: String,
+    /// Whether the node is the value times −1.
+    pub negative: bool,
+}
+
+impl Name {
+    /// An identifier for the node: `neg_m_elbow_turn` for −m_elbow_turn.
+    pub fn identifier(&self) -> String {
+        let prefix = if self.negative { "neg_" } else { "" };
+        format!("{prefix}{}", self.text)
+    }
+}
+
 /// The nodes, operands before users.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
     /// The nodes by their hash.
     index: Index,
-    names: std::collections::BTreeMap<NodeId, String>,
+    names: std::collections::BTreeMap<NodeId, Name>,
     /// Titles of the sections, and for each node the one in which it was made.
     titles: Vec<String>,
     sections: Vec<Section>,
@@ -329,14 +346,25 @@ impl Graph {
     }
 
     /// The name that a formulation gave to a node, for readers of the output.
-    pub fn name(&self, id: NodeId) -> Option<&str> {
-        self.names.get(&id).map(String::as_str)
+    pub fn name(&self, id: NodeId) -> Option<&Name> {
+        self.names.get(&id)
     }
 
-    /// Names a node; the first name stays.
-    pub(crate) fn set_name(&mut self, id: NodeId, name: impl FnOnce() -> String) {
-        if !matches!(self.node(id), Node::Constant(_) | Node::Leaf(_)) {
-            self.names.entry(id).or_insert_with(name);
+    /// Names an expression; the first name of its node stays.
+    pub(crate) fn set_name(&mut self, e: Expr, text: impl FnOnce() -> String) {
+        if !matches!(self.node(e.node), Node::Constant(_) | Node::Leaf(_)) {
+            let named = || Name {
+                text: text(),
+                negative: e.negative,
+            };
+            self.names.entry(e.node).or_insert_with(named);
+        }
+    }
+
+    /// Names `copy` as the node `id` of another graph, of which it is a copy.
+    pub(crate) fn copy_name(&mut self, copy: Expr, from: &Graph, id: NodeId) {
+        if let Some(name) = from.name(id) {
+            self.set_name(copy.flipped(name.negative), || name.text.clone());
         }
     }
 

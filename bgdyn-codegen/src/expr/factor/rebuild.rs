@@ -91,10 +91,8 @@ impl Rebuild<'_> {
                 self.graph.rebuilt(&node, at)
             }
         };
-        if (i as usize) < from.len()
-            && let Some(name) = from.name(NodeId(i))
-        {
-            self.graph.set_name(made.node, || name.to_string());
+        if (i as usize) < from.len() {
+            self.graph.copy_name(made, from, NodeId(i));
         }
         self.made[i as usize] = Some(made);
     }
