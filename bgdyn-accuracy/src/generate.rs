@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
+use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
 use bgdyn_codegen::fault::Place as Where;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
@@ -257,6 +257,6 @@ fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
 
 /// One variant's module.
 fn module(system: &System, functions: &[Function], name: &str) -> Result<String, String> {
-    let place = Place::source_text(system.scene.name.clone()).with_module(name)?;
+    let place = OutputOptions::source_text(system.scene.name.clone()).with_module(name)?;
     Ok(source_text(scene_module(system, functions, &place)))
 }

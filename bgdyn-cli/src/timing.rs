@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
+use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
@@ -70,7 +70,7 @@ pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
     let scratch = Scratch::new("times", bgdyn, &[])?;
     let (mut modules, mut calls) = (String::new(), String::new());
     for (i, system) in systems.iter().enumerate() {
-        let place = Place::source_text("a scene".into());
+        let place = OutputOptions::source_text("a scene".into());
         let place = place
             .with_module(&format!("v{i}"))
             .map_err(|e| anyhow!(e))?;

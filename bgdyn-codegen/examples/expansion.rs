@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use bgdyn_codegen::emit::Place;
+use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::files::stem;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate;
@@ -17,8 +17,13 @@ fn expansion(text: &str, name: &str, options: &Options) -> Result<Duration, Stri
     let mut least = Duration::MAX;
     for _ in 0..PASSES {
         let start = Instant::now();
-        generate(text, name, &Place::source_text(String::new()), options)
-            .map_err(|faults| format!("{faults:?}"))?;
+        generate(
+            text,
+            name,
+            &OutputOptions::source_text(String::new()),
+            options,
+        )
+        .map_err(|faults| format!("{faults:?}"))?;
         least = least.min(start.elapsed());
     }
     Ok(least)

@@ -23,7 +23,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::emit::{Place, source_text};
+use crate::emit::{OutputOptions, source_text};
 use crate::fault::{Faults, Severity};
 use crate::files::{beside, stem};
 use crate::options::Options;
@@ -222,9 +222,9 @@ impl Build {
         })
     }
 
-    fn place(&self) -> Result<Place, Error> {
+    fn place(&self) -> Result<OutputOptions, Error> {
         let name = self.spec.file_name().map(|n| n.to_string_lossy());
-        let place = Place::source_text(name.unwrap_or_default().into_owned());
+        let place = OutputOptions::source_text(name.unwrap_or_default().into_owned());
         let place = place.with_crate(&self.bgdyn).map_err(Error)?;
         let place = place.with_visibility(&self.visibility).map_err(Error)?;
         match &self.module {

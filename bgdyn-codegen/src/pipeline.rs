@@ -31,7 +31,7 @@ use crate::verify::{Difference, check_functions, check_scene};
 pub fn generate(
     text: &str,
     stem: &str,
-    place: &emit::Place,
+    place: &emit::OutputOptions,
     options: &Options,
 ) -> Result<(TokenStream, Faults), Refusal> {
     let (mechanism, findings) = read(text, Some(stem));
@@ -54,7 +54,7 @@ pub fn generate(
 pub fn generate_file(
     text: &str,
     stem: &str,
-    place: &emit::Place,
+    place: &emit::OutputOptions,
     options: &Options,
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<(TokenStream, Faults), Refusal> {
@@ -86,7 +86,7 @@ fn equal(differences: Vec<Difference>) -> Result<(), Refusal> {
 pub fn fallback(
     text: &str,
     stem: &str,
-    place: &emit::Place,
+    place: &emit::OutputOptions,
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Option<TokenStream> {
     if is_scene(text) {

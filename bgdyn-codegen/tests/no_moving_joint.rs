@@ -1,6 +1,6 @@
 //! A mechanism without a moving joint is accepted, and everything of it can be generated.
 
-use bgdyn_codegen::emit::Place;
+use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate;
@@ -22,7 +22,7 @@ fn everything_is_generated() {
         derivatives: true,
         ..Options::default()
     };
-    let place = Place::source_text("still.yaml".into());
+    let place = OutputOptions::source_text("still.yaml".into());
     let (tokens, _) = generate(TEXT, "still", &place, &options).expect("no fault");
     assert!(tokens.to_string().contains("forward_dynamics_derivatives"));
     let (mechanism, _) = read(TEXT, Some("still"));

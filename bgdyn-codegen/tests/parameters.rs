@@ -3,7 +3,7 @@
 
 mod common;
 
-use bgdyn_codegen::emit::Place;
+use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::interface::Interface;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::pipeline::generate;
@@ -107,7 +107,7 @@ fn blocks_read_parameters_as_fields() {
     s.parameters = vec![1.5, 0.1, -0.2, 0.05];
     let (x, y): (Vec<f64>, Vec<f64>) = (s.value(&cut), s.value(&robot.chosen(method)));
     assert_eq!(x, y);
-    let place = Place::source_text("chain32.yaml".into());
+    let place = OutputOptions::source_text("chain32.yaml".into());
     let module = generate(&text, "chain32", &place, &Default::default()).expect("a sound spec");
     let module = module.0.to_string();
     let mut functions = module.split("fn ");
@@ -118,7 +118,7 @@ fn blocks_read_parameters_as_fields() {
 #[test]
 fn what_a_method_does_not_read_is_said() {
     let (_, text) = with("specs/scara.yaml", &part("flange", false));
-    let place = Place::source_text("scara.yaml".into());
+    let place = OutputOptions::source_text("scara.yaml".into());
     let module = generate(&text, "scara", &place, &Default::default()).expect("a sound spec");
     let module = module.0.to_string();
     let field = "Run-time parameter: mass of link `part`, kg. Default 0.0.";

@@ -9,7 +9,7 @@ mod input;
 
 use std::path::Path;
 
-use bgdyn_codegen::emit::Place;
+use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::pipeline;
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::verify::explain;
@@ -72,7 +72,7 @@ fn module(
     bgdyn: proc_macro2::TokenStream,
 ) -> Result<proc_macro2::TokenStream, Refused> {
     let written = input.path.value();
-    let mut place = Place {
+    let mut place = OutputOptions {
         bgdyn,
         visibility: input.visibility.clone(),
         module: input.module.clone(),
@@ -86,7 +86,7 @@ fn module(
         std::fs::read_to_string(bgdyn_codegen::files::beside(&path, mechanism))
             .map_err(|e| e.to_string())
     };
-    let stand_in = |text: &str, place: &Place| {
+    let stand_in = |text: &str, place: &OutputOptions| {
         pipeline::fallback(
             text,
             &bgdyn_codegen::files::stem(Path::new(&place.source)),
@@ -94,7 +94,7 @@ fn module(
             load,
         )
     };
-    let refused = |message: String, text: &str, place: &Place| Refused {
+    let refused = |message: String, text: &str, place: &OutputOptions| Refused {
         errors: vec![syn::Error::new(input.path.span(), message)],
         stand_in: stand_in(text, place),
     };

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::emit::{Place, source_text};
+use bgdyn_codegen::emit::{OutputOptions, source_text};
 use bgdyn_codegen::pipeline::generate_file;
 use clap::Args;
 
@@ -59,12 +59,12 @@ impl Generate {
         }
     }
 
-    fn place(&self) -> std::result::Result<Place, String> {
+    fn place(&self) -> std::result::Result<OutputOptions, String> {
         let source = match is_stdin(&self.file) {
             true => "standard input".into(),
             false => self.file.file_name().unwrap_or_default().to_string_lossy(),
         };
-        let place = Place::source_text(source.into_owned());
+        let place = OutputOptions::source_text(source.into_owned());
         let place = place
             .with_crate(&self.bgdyn)?
             .with_visibility(&self.visibility)?;

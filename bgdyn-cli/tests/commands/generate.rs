@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use bgdyn_codegen::emit::Place;
+use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate;
 
@@ -26,7 +26,7 @@ fn the_source_is_the_same_in_every_run_and_in_every_place() {
 #[test]
 fn the_source_is_what_the_macro_gets() {
     let text = fs::read_to_string(root().join(SCARA)).expect("the spec");
-    let place = Place::source_text("scara4.yaml".into());
+    let place = OutputOptions::source_text("scara4.yaml".into());
     let (tokens, _) = generate(&text, "scara4", &place, &Options::default()).expect("a good spec");
     let source = bgdyn(&["generate", SCARA]).good();
     let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");

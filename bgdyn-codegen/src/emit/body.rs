@@ -8,8 +8,8 @@ use quote::{ToTokens, format_ident, quote};
 use super::code::{Naming, is_part, leaves};
 use super::columns::columns;
 use super::entries::{Entries, Places};
-use super::ident;
 use super::loops;
+use super::tokens::{argument_type, ident};
 use super::writer::Writer;
 use crate::expr::Leaf;
 use crate::function::{Block, Function};
@@ -123,7 +123,7 @@ fn separate_block(
         let mut components = naming.components(argument).into_iter();
         let part = |leaf: &Leaf| is_part(argument, *leaf);
         if components.any(|(leaf, _)| read.contains(&leaf)) || read.iter().any(part) {
-            let (name, ty) = (ident(argument.name()), super::argument_type(argument));
+            let (name, ty) = (ident(argument.name()), argument_type(argument));
             parameters.push(quote! { #name: #ty });
             arguments.push(quote! { #name });
         }

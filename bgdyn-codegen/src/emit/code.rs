@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::ident;
+use super::tokens::ident;
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, reachable};
 use crate::interface::SceneInterface;
 use crate::method::Argument;
@@ -35,6 +35,13 @@ pub(super) fn atom(tokens: TokenStream) -> Code {
         binding: Binding::Atom,
         operations: 0,
     }
+}
+
+/// The variables that hold the sine and cosine of an angle.
+#[derive(Clone)]
+pub(super) struct SinePair {
+    pub(super) sine: Ident,
+    pub(super) cosine: Ident,
 }
 
 /// Whether a leaf is part of an argument with named parts.

@@ -1,40 +1,15 @@
 //! Columns that are alike: a loop over them, with what each reads of its own in arrays, row by row.
 
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 
 use super::code::{Naming, atom};
-use super::writer::{COMMENT, Writer};
+use super::names::LoopArrays;
+use super::tokens::COMMENT;
+use super::writer::Writer;
 use crate::columns::{Columns, Loops, OWN, Part, SHARED};
 use crate::expr::{Leaf, Node, NodeId};
 use crate::function::Function;
-
-/// The arrays of a loop.
-struct Arrays {
-    shared: Ident,
-    own: Ident,
-    found: Ident,
-}
-
-impl Arrays {
-    fn of(group: usize) -> Self {
-        Arrays {
-            shared: format_ident!("shared{group}"),
-            own: format_ident!("own{group}"),
-            found: format_ident!("found{group}"),
-        }
-    }
-}
-
-/// Names that loops take in the code around them.
-pub(super) fn names(function: &Function) -> Vec<String> {
-    let groups = 0..function.columns().len();
-    let of = |group| {
-        let Arrays { shared, own, found } = Arrays::of(group);
-        [shared, own, found].map(|name| name.to_string())
-    };
-    groups.flat_map(of).collect()
-}
 
 /// The loops, and the function's results with theirs among them; `stage` is the code of the results
 /// that the blocks give.
@@ -45,12 +20,12 @@ pub(super) fn columns(
     stage: &[TokenStream],
 ) -> (TokenStream, Vec<TokenStream>) {
     let groups = loops.groups.iter().enumerate();
-    let code = groups.map(|(k, group)| one(function, group, &Arrays::of(k), naming, stage));
+    let code = groups.map(|(k, group)| one(function, group, &LoopArrays::of(k), naming, stage));
     let code = code.collect();
     let value = |part: &Part| match *part {
         Part::Stage(k) => stage[k].clone(),
         Part::Column { group, column, row } => {
-            let Arrays { found, .. } = Arrays::of(group);
+            let LoopArrays { found, .. } = LoopArrays::of(group);
             let (row, column) = (place(row), place(column));
             quote! { #found[#row][#column] }
         }
@@ -61,11 +36,11 @@ pub(super) fn columns(
 fn one(
     function: &Function,
     group: &Columns,
-    arrays: &Arrays,
+    arrays: &LoopArrays,
     naming: &Naming<'_>,
     stage: &[TokenStream],
 ) -> TokenStream {
-    let Arrays { shared, own, found } = arrays;
+    let LoopArrays { shared, own, found } = arrays;
     let column = function.of_column(group);
     let mut writer = Writer::new(&column, naming, &group.outputs);
     for i in 0..group.graph.len() {

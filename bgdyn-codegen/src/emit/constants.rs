@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::{ident, number};
+use super::tokens::{ident, number};
 use crate::expr::Operations;
 use crate::function::Function;
 use crate::mechanism::{CoordinateId, Limits, Motion};

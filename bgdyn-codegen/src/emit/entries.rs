@@ -1,18 +1,15 @@
-//! Results of many entries, each written as soon as it is known.
+//! Which entries of a result each node is, so that an entry is stored as soon as it is known.
 //!
-//! A result that is put together at the end is stored there as well, one entry after the other with
-//! nothing left to compute meanwhile: so the mass matrix of a PUMA takes 5 % longer, in lanes 9 %
-//! (`docs/order.md`). The code begins with a whole result and writes over its entries as it gets to know them. What stands in
-//! them until then is the first entry: a value that is there, for compilers to drop as never read. (Of
-//! zeros they make a call that fills memory, and do not drop that.)
+//! A result that is put together at the end is stored there as well, entry after entry, with nothing left to
+//! compute meanwhile: that costs the mass matrix of a PUMA 5 %, in lanes 9 % (`docs/order.md`). The code
+//! therefore begins with a whole result and overwrites its entries. Entries that are not yet known are
+//! initialised with the first known one: compilers remove those stores, but not a call that fills memory
+//! with zeros.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::code::{Binding, atom};
-use super::number;
-use super::writer::Writer;
-use crate::expr::{Expr, Node, NodeId, QuickMap};
+use crate::expr::{Expr, NodeId, QuickMap};
 use crate::method::Shape;
 
 /// Results with fewer entries are put together at the end: there is nothing to be gained.
@@ -26,15 +23,15 @@ pub(super) type Places = Vec<Vec<TokenStream>>;
 
 /// A result that is written entry by entry.
 pub(super) struct Entries<'a> {
-    outputs: &'a [Expr],
+    pub(super) outputs: &'a [Expr],
     /// Which outputs a node is.
-    of: QuickMap<NodeId, Vec<usize>>,
+    pub(super) of: QuickMap<NodeId, Vec<usize>>,
     /// Where each output stands in the result.
-    places: Places,
+    pub(super) places: Places,
     /// The whole result from its outputs.
-    whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
+    pub(super) whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
     /// Whether any entry has been written.
-    begun: bool,
+    pub(super) begun: bool,
 }
 
 impl<'a> Entries<'a> {
@@ -105,72 +102,4 @@ pub(super) fn places(shape: Shape, nv: usize) -> Option<Places> {
 
 fn index(k: usize) -> Literal {
     Literal::usize_unsuffixed(k)
-}
-
-impl Writer<'_> {
-    /// The result, if it was written entry by entry; if not although it was to be, all are constants.
-    pub(super) fn written(&self) -> Option<Ident> {
-        let begun = self.entries.as_ref().is_some_and(|entries| entries.begun);
-        begun.then(|| format_ident!("{NAME}"))
-    }
-
-    /// Writes a node that is known into the entries that it is.
-    pub(super) fn store(&mut self, id: NodeId) {
-        let Some(mut entries) = self.entries.take() else {
-            return;
-        };
-        if let Some(found) = entries.of.get(&id)
-            && self.constant(id).is_none()
-        {
-            if !entries.begun {
-                self.begin(id, &entries);
-            }
-            entries.begun = true;
-            for &k in found {
-                let value = self.operand(entries.outputs[k], Binding::Sum);
-                for place in &entries.places[k] {
-                    self.push_untitled(quote! { #place = #value; });
-                }
-            }
-        }
-        self.entries = Some(entries);
-    }
-
-    /// The whole result: constants where they belong, elsewhere the first entry.
-    fn begin(&mut self, first: NodeId, entries: &Entries<'_>) {
-        if let Some(code) = &self.code[first.0 as usize]
-            && code.binding != Binding::Atom
-        {
-            let (variable, tokens) = (self.names.numbered(), code.tokens.clone());
-            self.push(first, quote! { let #variable = #tokens; });
-            self.code[first.0 as usize] = Some(atom(quote! { #variable }));
-        }
-        let first_value = self.operand(Expr::plus(first), Binding::Sum);
-        let value = |e: &Expr| match self.constant(e.node) {
-            Some(value) if e.negative => quote! { -#value },
-            Some(value) => value,
-            None => first_value.clone(),
-        };
-        let values: Vec<TokenStream> = entries.outputs.iter().map(value).collect();
-        let (name, whole) = (format_ident!("{NAME}"), (entries.whole)(&values));
-        if entries
-            .outputs
-            .iter()
-            .any(|e| self.constant(e.node).is_some())
-        {
-            self.use_constants();
-        }
-        self.push_untitled(quote! { let mut #name = #whole; });
-    }
-
-    /// The code of a constant.
-    fn constant(&self, id: NodeId) -> Option<TokenStream> {
-        match self.graph.node(id) {
-            Node::Constant(c) => {
-                let value = number(c.value().to_f64());
-                Some(quote! { k(#value) })
-            }
-            _ => None,
-        }
-    }
 }

@@ -8,8 +8,9 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constants::{operations, size};
+use super::output_options::{OutputOptions, rebuild};
+use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
 use super::traits::Traits;
-use super::{Place, argument_type, fields, ident, rebuild, return_type, struct_ident};
 use crate::bond_graph::Site;
 use crate::expr::Operations;
 use crate::interface::Interface;
@@ -18,7 +19,7 @@ use crate::method::{Argument, Method};
 use crate::name::is_identifier;
 
 /// The module with bodies that never run.
-pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
+pub fn fallback(interface: &Interface, place: &OutputOptions) -> TokenStream {
     let name = place.module_ident(&interface.name);
     let model = ident(&struct_ident(&interface.name));
     let (bgdyn, visibility) = (&place.bgdyn, &place.visibility);
@@ -44,7 +45,7 @@ pub fn fallback(interface: &Interface, place: &Place) -> TokenStream {
         nv: interface.certain.then_some(interface.joints.len()),
     };
     let traits = traits.tokens();
-    let serde = super::serde(&model, interface.parameters.iter().map(String::as_str));
+    let serde = serde(&model, interface.parameters.iter().map(String::as_str));
     quote! {
         #[doc = #doc]
         #[allow(unused, unreachable_pub, clippy::all, reason = "stands in for a refused spec")]

@@ -3,6 +3,9 @@
 use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
+use quote::format_ident;
+
+use crate::function::Function;
 
 /// Hands out names, each once.
 #[derive(Default)]
@@ -38,4 +41,31 @@ impl Names {
             }
         }
     }
+}
+
+/// The arrays of a loop.
+pub(super) struct LoopArrays {
+    pub(super) shared: Ident,
+    pub(super) own: Ident,
+    pub(super) found: Ident,
+}
+
+impl LoopArrays {
+    pub(super) fn of(group: usize) -> Self {
+        LoopArrays {
+            shared: format_ident!("shared{group}"),
+            own: format_ident!("own{group}"),
+            found: format_ident!("found{group}"),
+        }
+    }
+}
+
+/// Names that loops take in the code around them.
+pub(super) fn loop_names(function: &Function) -> Vec<String> {
+    let groups = 0..function.columns().len();
+    let of = |group| {
+        let LoopArrays { shared, own, found } = LoopArrays::of(group);
+        [shared, own, found].map(|name| name.to_string())
+    };
+    groups.flat_map(of).collect()
 }

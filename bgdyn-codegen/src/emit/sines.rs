@@ -1,27 +1,20 @@
 //! Sines and cosines: a pair for each angle, several angles in one call.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::code::Binding;
-use super::number;
+use super::code::{Binding, SinePair};
+use super::tokens::number;
 use super::writer::Writer;
 use crate::expr::{Expr, Leaf, Node, NodeId};
 
 /// Angles of one call at the most: the lanes of the widest register.
 const AT_ONCE: usize = 8;
 
-/// The variables that hold the sine and cosine of an angle.
-#[derive(Clone)]
-pub(super) struct Pair {
-    pub(super) sine: Ident,
-    pub(super) cosine: Ident,
-}
-
 impl Writer<'_> {
     /// Sine and cosine of an angle, computed once as a pair. An angle that needs nothing but arguments
     /// is computed together with the next ones of its kind.
-    pub(super) fn sine_cosine(&mut self, angle: NodeId) -> Pair {
+    pub(super) fn sine_cosine(&mut self, angle: NodeId) -> SinePair {
         if let Some(pair) = self.sines.get(&angle) {
             return pair.clone();
         }
@@ -29,7 +22,7 @@ impl Writer<'_> {
             true => self.next_given(angle),
             false => vec![angle],
         };
-        let pairs: Vec<Pair> = together.iter().map(|&a| self.pair(a)).collect();
+        let pairs: Vec<SinePair> = together.iter().map(|&a| self.pair(a)).collect();
         let parts: Vec<TokenStream> = (together.iter().zip(&pairs))
             .map(|(&a, pair)| self.used(a, pair))
             .collect();
@@ -90,24 +83,20 @@ impl Writer<'_> {
     fn bound(&mut self, angle: NodeId) {
         let mut read = vec![angle];
         self.graph.node(angle).for_each_operand(|a| read.push(a));
-        for id in read {
-            if matches!(self.graph.node(id), Node::Leaf(_)) && self.code[id.0 as usize].is_none() {
-                self.node(id);
-            }
-        }
+        read.into_iter().for_each(|id| self.bind_leaf(id));
     }
 
     /// Variables for sine and cosine of an angle.
-    fn pair(&mut self, angle: NodeId) -> Pair {
+    fn pair(&mut self, angle: NodeId) -> SinePair {
         let name = self.angle_name(angle);
-        Pair {
+        SinePair {
             sine: self.names.named(&format!("sin_{name}")),
             cosine: self.names.named(&format!("cos_{name}")),
         }
     }
 
     /// The pattern that binds what is used of a pair.
-    fn used(&self, angle: NodeId, Pair { sine, cosine }: &Pair) -> TokenStream {
+    fn used(&self, angle: NodeId, SinePair { sine, cosine }: &SinePair) -> TokenStream {
         let used = |node: &Node| {
             let id = self.graph.find(node);
             id.is_some_and(|id| self.uses[id.0 as usize] > 0)

@@ -4,7 +4,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{argument_type, ident, return_type};
+use super::tokens::{argument_type, ident, return_type};
 use crate::bond_graph::{Site, SiteId};
 use crate::method::Method;
 

@@ -1,26 +1,17 @@
-//! Statements of one block: one `let` per value that is used more than once; what is used once
-//! stands where it is used.
+//! The state of writing one block: the code of each node, names, statements; and the code of one operation.
 
 use std::collections::BTreeSet;
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::code::{Binding, Code, Naming, atom, leaves};
-use super::columns;
+use super::code::{Binding, Code, Naming, SinePair, atom};
 use super::entries::{self, Entries};
-use super::names::Names;
-use super::sines::Pair;
-use super::{ident, number};
+use super::names::{Names, loop_names};
+use super::tokens::{COMMENT, ident};
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
 use crate::function::Function;
 use crate::method::Shape;
-
-/// Operations in one statement at the most: what a reader takes in at a glance.
-const STATEMENT: usize = 6;
-
-/// How the text of a doc attribute begins that is a comment.
-pub(super) const COMMENT: &str = "//";
 
 /// Writes the statements of a function.
 pub(super) struct Writer<'a> {
@@ -30,16 +21,16 @@ pub(super) struct Writer<'a> {
     /// Code to write where a node is used: a variable's name, or the whole operation.
     pub(super) code: Vec<Option<Code>>,
     /// Sine and cosine of a node.
-    pub(super) sines: QuickMap<NodeId, Pair>,
+    pub(super) sines: QuickMap<NodeId, SinePair>,
     /// How often a node is used in the block.
     pub(super) uses: Vec<usize>,
-    statements: Vec<TokenStream>,
+    pub(super) statements: Vec<TokenStream>,
     /// The section of the last statement.
     section: Option<&'a str>,
     pub(super) needed: Vec<bool>,
     /// Whether the block is a function of its own.
     separate: bool,
-    constants: bool,
+    pub(super) constants: bool,
     pub(super) pivots: bool,
     /// The result, where it is written entry by entry.
     pub(super) entries: Option<Entries<'a>>,
@@ -57,8 +48,9 @@ impl<'a> Writer<'a> {
             names.reserve(reserved);
         }
         (0..function.blocks.len()).for_each(|b| drop(names.named(&format!("p{b}"))));
-        let of_loops = columns::names(function);
-        of_loops.iter().for_each(|name| names.reserve(name));
+        loop_names(function)
+            .iter()
+            .for_each(|name| names.reserve(name));
         let mut writer = Writer {
             graph,
             naming,
@@ -91,36 +83,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Statements that compute a block.
-    pub(super) fn block(&mut self, outputs: &[Expr], function: &Function) -> TokenStream {
-        let arguments = self.arguments(function, &leaves(self.graph, outputs));
-        for i in 0..self.needed.len() {
-            if !self.needed[i] {
-                continue;
-            }
-            let id = NodeId(i as u32);
-            if self.code[i].is_none() {
-                self.node(id);
-            }
-            self.store(id);
-        }
-        let constants = self
-            .constants
-            .then(|| quote! { let k = <T as __Scalar>::from_f64; });
-        let statements = std::mem::take(&mut self.statements);
-        quote! { #arguments #constants #(#statements)* }
-    }
-
-    /// Code of the block's results.
-    pub(super) fn results(&mut self, outputs: &[Expr]) -> Vec<TokenStream> {
-        outputs
-            .iter()
-            .map(|&e| self.operand(e, Binding::Sum))
-            .collect()
-    }
-
     /// Binds the components of the arguments that are read.
-    fn arguments(&mut self, function: &Function, read: &BTreeSet<Leaf>) -> TokenStream {
+    pub(super) fn arguments(&mut self, function: &Function, read: &BTreeSet<Leaf>) -> TokenStream {
         let mut bindings = TokenStream::new();
         for &argument in function.method.arguments() {
             let components = self.naming.components(argument);
@@ -145,56 +109,8 @@ impl<'a> Writer<'a> {
         bindings
     }
 
-    pub(super) fn node(&mut self, id: NodeId) {
-        let i = id.0 as usize;
-        let code = match self.graph.node(id) {
-            Node::Leaf(leaf) => match self.leaf(*leaf) {
-                Some(code) => code,
-                None => return,
-            },
-            Node::Constant(c) => {
-                self.use_constants();
-                let value = number(c.value().to_f64());
-                atom(quote! { k(#value) })
-            }
-            Node::Less(a, b) => {
-                let (a, b) = (
-                    self.operand(*a, Binding::Sum),
-                    self.operand(*b, Binding::Sum),
-                );
-                let mask = self.names.numbered();
-                self.push(id, quote! { let #mask = T::less(#a, #b); });
-                atom(quote! { #mask })
-            }
-            // Written with the sine.
-            Node::Angle(..) => return,
-            Node::Sin(a) => {
-                let sine = self.sine_cosine(*a).sine;
-                atom(quote! { #sine })
-            }
-            Node::Cos(a) => {
-                let cosine = self.sine_cosine(*a).cosine;
-                atom(quote! { #cosine })
-            }
-            node => self.operation(&node.clone()),
-        };
-        let is_operation = !matches!(
-            self.graph.node(id),
-            Node::Leaf(_) | Node::Constant(_) | Node::Less(..) | Node::Sin(_) | Node::Cos(_)
-        );
-        let inline = self.uses[i] <= 1
-            && code.binding != Binding::Atom
-            && code.operations < STATEMENT
-            && self.graph.name(id).is_none();
-        self.code[i] = Some(if is_operation && !inline {
-            self.bind(id, code)
-        } else {
-            code
-        });
-    }
-
     /// A `let` for the node.
-    fn bind(&mut self, id: NodeId, code: Code) -> Code {
+    pub(super) fn bind(&mut self, id: NodeId, code: Code) -> Code {
         let variable = match self.graph.name(id) {
             Some(name) => self.names.named(name),
             None => self.names.numbered(),
@@ -227,7 +143,7 @@ impl<'a> Writer<'a> {
         self.constants = true;
     }
 
-    fn leaf(&self, leaf: Leaf) -> Option<Code> {
+    pub(super) fn leaf(&self, leaf: Leaf) -> Option<Code> {
         match leaf {
             Leaf::Parameter(p) => {
                 let field = ident(self.naming.parameters[p]);
@@ -245,7 +161,16 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn operation(&mut self, node: &Node) -> Code {
+    /// The code of an argument or a parameter, if it has no variable yet.
+    pub(super) fn bind_leaf(&mut self, id: NodeId) {
+        if let Node::Leaf(leaf) = *self.graph.node(id)
+            && self.code[id.0 as usize].is_none()
+        {
+            self.code[id.0 as usize] = self.leaf(leaf);
+        }
+    }
+
+    pub(super) fn operation(&mut self, node: &Node) -> Code {
         let plus = Expr::plus;
         match node {
             Node::Add(a, b) => {

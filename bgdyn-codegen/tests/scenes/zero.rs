@@ -1,7 +1,7 @@
 //! What a scene leaves out costs nothing: its module is that of a mechanism that never had it.
 
 use bgdyn_codegen::effect::EFFECTS;
-use bgdyn_codegen::emit::{Place, scene_module};
+use bgdyn_codegen::emit::{OutputOptions, scene_module};
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
@@ -11,7 +11,7 @@ use super::common::{Random, scene, state};
 use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 
 fn text(system: &System) -> String {
-    let place = Place::source_text("scene.yaml".into());
+    let place = OutputOptions::source_text("scene.yaml".into());
     let functions = scene_functions(system, &Options::default());
     scene_module(system, &functions, &place).to_string()
 }
@@ -159,7 +159,7 @@ fn what_no_method_needs_is_not_there() {
         canonical: true,
         ..Options::default()
     };
-    let place = Place::source_text("scene.yaml".into());
+    let place = OutputOptions::source_text("scene.yaml".into());
     let asked = scene_module(&system, &scene_functions(&system, &options), &place).to_string();
     assert!(asked.contains("Slope") && asked.contains("Canonical"));
 }

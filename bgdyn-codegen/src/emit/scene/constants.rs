@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::constants::size;
-use super::super::ident;
+use super::super::tokens::ident;
 use super::parts::{Field, moving_parts, of_named};
 use crate::interface::SceneInterface;
 

@@ -5,14 +5,15 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::constants::operations;
-use super::super::{Place, ident, rebuild, struct_ident, structure};
+use super::super::output_options::{OutputOptions, rebuild};
+use super::super::tokens::{ident, struct_ident, structure};
 use super::{constants, method, system, types};
 use crate::expr::Operations;
 use crate::interface::SceneInterface;
 use crate::method::Role;
 
 /// The module with bodies that never run.
-pub fn scene_fallback(scene: &SceneInterface, place: &Place) -> TokenStream {
+pub fn scene_fallback(scene: &SceneInterface, place: &OutputOptions) -> TokenStream {
     let name = place.module_ident(&scene.name);
     let model = ident(&struct_ident(&scene.name));
     let (bgdyn, visibility) = (&place.bgdyn, &place.visibility);

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::super::body::{self, vector};
 use super::super::code::Naming;
-use super::super::{argument_type, ident, number};
+use super::super::tokens::{argument_type, ident, number};
 use super::parts::{
     Field, coordinate_parts, input_parts, literal, mode_parts, moving_parts, of_named,
 };

@@ -12,14 +12,15 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constants::counted;
-use super::{Place, ident, rebuild, struct_ident, structure};
+use super::output_options::{OutputOptions, rebuild};
+use super::tokens::{ident, struct_ident, structure};
 use crate::function::Function;
 use crate::interface::SceneInterface;
 use crate::method::{Method, Role};
 use crate::system::System;
 
 /// The module of a scene with its functions.
-pub fn scene_module(system: &System, functions: &[Function], place: &Place) -> TokenStream {
+pub fn scene_module(system: &System, functions: &[Function], place: &OutputOptions) -> TokenStream {
     let scene = &system.scene;
     let name = place.module_ident(&scene.name);
     let (bgdyn, visibility) = (&place.bgdyn, &place.visibility);
@@ -67,7 +68,7 @@ pub fn scene_module(system: &System, functions: &[Function], place: &Place) -> T
     }
 }
 
-fn docs(system: &System, functions: &[Function], place: &Place) -> Vec<String> {
+fn docs(system: &System, functions: &[Function], place: &OutputOptions) -> Vec<String> {
     let scene = &system.scene;
     let mut docs = vec![
         format!(" The scene `{}`.", scene.name),

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::super::{ident, number};
+use super::super::tokens::{ident, number};
 use crate::scene::Layout;
 use crate::system::Named;
 

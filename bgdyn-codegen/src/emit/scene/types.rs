@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::{ident, serde};
+use super::super::tokens::{ident, serde};
 use super::parts::{
     Field, coordinate_parts, field, input_parts, literal, mode_parts, moving_parts, named_type,
     names_of, numbered, of_named, signed,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use bgdyn_codegen::emit::{Place, module, source_text, struct_ident};
+use bgdyn_codegen::emit::{OutputOptions, module, source_text, struct_ident};
 use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::{DYNAMICS, Options};
@@ -165,7 +165,7 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         };
         let model =
             bgdyn_codegen::pipeline::model(mechanism, &options).expect("the methods of the trait");
-        let place = Place::source_text(format!("{name}.yaml"));
+        let place = OutputOptions::source_text(format!("{name}.yaml"));
         let place = place.with_module(&name).expect("a name");
         let (spec, source) = (
             out.join(format!("{name}.yaml")),

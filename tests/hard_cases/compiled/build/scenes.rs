@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use bgdyn_codegen::emit::{Place, scene_module, source_text, struct_ident};
+use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
@@ -66,7 +66,7 @@ fn of_no_strength() -> Vec<(String, String, String)> {
 
 /// Writes the module of a scene; the line that includes it.
 fn module_of(out: &Path, name: &str, system: &System, functions: &[Function]) -> String {
-    let place = Place::source_text(format!("{name}.scene.yaml"));
+    let place = OutputOptions::source_text(format!("{name}.scene.yaml"));
     let place = place.with_module(name).expect("a name");
     let source = out.join(format!("scene_{name}.rs"));
     fs::write(

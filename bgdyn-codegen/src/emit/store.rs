@@ -1,0 +1,78 @@
+//! Stores the entries of a result as soon as they are known.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::code::{Binding, atom};
+use super::entries::{Entries, NAME};
+use super::tokens::number;
+use super::writer::Writer;
+use crate::expr::{Expr, Node, NodeId};
+
+impl Writer<'_> {
+    /// The result, if it was written entry by entry; if not although it was to be, all are constants.
+    pub(super) fn written(&self) -> Option<Ident> {
+        let begun = self.entries.as_ref().is_some_and(|entries| entries.begun);
+        begun.then(|| format_ident!("{NAME}"))
+    }
+
+    /// Writes a node that is known into the entries that it is.
+    pub(super) fn store(&mut self, id: NodeId) {
+        let Some(mut entries) = self.entries.take() else {
+            return;
+        };
+        if let Some(found) = entries.of.get(&id)
+            && self.constant(id).is_none()
+        {
+            if !entries.begun {
+                self.begin(id, &entries);
+            }
+            entries.begun = true;
+            for &k in found {
+                let value = self.operand(entries.outputs[k], Binding::Sum);
+                for place in &entries.places[k] {
+                    self.push_untitled(quote! { #place = #value; });
+                }
+            }
+        }
+        self.entries = Some(entries);
+    }
+
+    /// The whole result: constants where they belong, elsewhere the first entry.
+    fn begin(&mut self, first: NodeId, entries: &Entries<'_>) {
+        if let Some(code) = &self.code[first.0 as usize]
+            && code.binding != Binding::Atom
+        {
+            let (variable, tokens) = (self.names.numbered(), code.tokens.clone());
+            self.push(first, quote! { let #variable = #tokens; });
+            self.code[first.0 as usize] = Some(atom(quote! { #variable }));
+        }
+        let first_value = self.operand(Expr::plus(first), Binding::Sum);
+        let value = |e: &Expr| match self.constant(e.node) {
+            Some(value) if e.negative => quote! { -#value },
+            Some(value) => value,
+            None => first_value.clone(),
+        };
+        let values: Vec<TokenStream> = entries.outputs.iter().map(value).collect();
+        let (name, whole) = (format_ident!("{NAME}"), (entries.whole)(&values));
+        if entries
+            .outputs
+            .iter()
+            .any(|e| self.constant(e.node).is_some())
+        {
+            self.use_constants();
+        }
+        self.push_untitled(quote! { let mut #name = #whole; });
+    }
+
+    /// The code of a constant.
+    fn constant(&self, id: NodeId) -> Option<TokenStream> {
+        match self.graph.node(id) {
+            Node::Constant(c) => {
+                let value = number(c.value().to_f64());
+                Some(quote! { k(#value) })
+            }
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Tokens that all parts of a module share: identifiers, numbers, types, structs.
+
+use heck::ToUpperCamelCase;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+use crate::mechanism::Parameter;
+use crate::method::{Argument, Shape};
+
+/// How the text of a doc attribute begins that becomes a comment: tokens cannot hold comments.
+pub(super) const COMMENT: &str = "//";
+
+/// An identifier; the name must be one.
+pub(super) fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// UpperCamelCase of the module's name.
+pub fn struct_ident(name: &str) -> String {
+    name.to_upper_camel_case()
+}
+
+/// The struct: one public field per run-time parameter, otherwise zero-sized.
+pub(super) fn structure(name: &Ident, about: &str, parameters: &[Parameter]) -> TokenStream {
+    let mut docs = vec![about.to_owned()];
+    if !parameters.is_empty() {
+        docs.push(String::new());
+        docs.push(" Its fields are run-time parameters; `default()` has the spec's values.".into());
+    }
+    let names = parameters.iter().map(|p| p.name.as_str());
+    let field_docs = parameters.iter().map(|p| {
+        let default = p.default.to_f64();
+        format!(" Run-time parameter: {p}. Default {default:?}.")
+    });
+    let fields = fields(names, field_docs);
+    let defaults = parameters.iter().map(|p| {
+        let (name, size) = (ident(&p.name), number(p.default.to_f64().abs()));
+        let sign = (p.default.to_f64() < 0.0).then(|| quote! { - });
+        quote! { #name: T::from_f64(#sign #size) }
+    });
+    let scalar = parameters
+        .is_empty()
+        .then(|| quote! { scalar: ::core::marker::PhantomData });
+    let serde = serde(name, parameters.iter().map(|p| p.name.as_str()));
+    quote! {
+        #(#[doc = #docs])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct #name<T = f64> { #fields }
+        impl<T: __Scalar> ::core::default::Default for #name<T> {
+            fn default() -> Self {
+                Self { #(#defaults,)* #scalar }
+            }
+        }
+        #serde
+    }
+}
+
+/// What reads and writes a struct of these fields, where the runtime has its feature `serde`.
+pub(super) fn serde<'a>(name: &Ident, fields: impl Iterator<Item = &'a str>) -> TokenStream {
+    let fields = fields.map(ident);
+    quote! { __rt::__serde! { #name { #(#fields),* } } }
+}
+
+/// Public fields, so that a struct literal can set them; without any, one that takes no space and
+/// uses the scalar type.
+pub(super) fn fields<'a>(
+    names: impl ExactSizeIterator<Item = &'a str>,
+    docs: impl Iterator<Item = String>,
+) -> TokenStream {
+    if names.len() == 0 {
+        return quote! { scalar: ::core::marker::PhantomData<T>, };
+    }
+    let names = names.map(ident);
+    quote! { #(#[doc = #docs] pub #names: T,)* }
+}
+
+/// A number without a type.
+pub(super) fn number(x: f64) -> Literal {
+    Literal::f64_unsuffixed(x)
+}
+
+/// The type of an argument.
+pub(super) fn argument_type(argument: Argument) -> TokenStream {
+    match argument {
+        Argument::Q => quote! { &__na::SVector<T, NQ> },
+        Argument::V | Argument::A | Argument::Tau => quote! { &__na::SVector<T, NV> },
+        Argument::State => quote! { &State<T> },
+        Argument::Input => quote! { &Input<T> },
+        Argument::Accelerations => quote! { &Coordinates<T> },
+        Argument::Canonical => quote! { &__na::SVector<T, N> },
+        Argument::Modes => quote! { &__na::SVector<T, NM> },
+        Argument::Time => quote! { T },
+    }
+}
+
+/// The type of a result.
+pub(super) fn return_type(shape: Shape) -> TokenStream {
+    match shape {
+        Shape::Scalar => quote! { T },
+        Shape::Vector => quote! { __na::SVector<T, NV> },
+        Shape::CheckedVector => {
+            quote! { ::core::result::Result<__na::SVector<T, NV>, T::Singular<NV>> }
+        }
+        Shape::Symmetric | Shape::Square => quote! { __na::SMatrix<T, NV, NV> },
+        Shape::SquarePair => quote! { [__na::SMatrix<T, NV, NV>; 2] },
+        Shape::CheckedSquares => {
+            quote! { ::core::result::Result<[__na::SMatrix<T, NV, NV>; 3], T::Singular<NV>> }
+        }
+        Shape::Pose => quote! { __rt::Pose<T> },
+        Shape::Spatial => quote! { __na::SVector<T, 6> },
+        Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },
+        Shape::Parts | Shape::CheckedParts => unreachable!("a scene names its own results"),
+    }
+}
