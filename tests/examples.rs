@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 fn example(name: &str, arguments: &[&str]) -> Output {
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(env!("CARGO_MANIFEST_DIR"));
-    cargo.args(["run", "--quiet", "--example", name]);
+    cargo.args(["run", "--quiet", "-p", "controllers", "--example", name]);
     if !cfg!(debug_assertions) {
         cargo.arg("--release");
     }
@@ -74,13 +74,13 @@ fn loaded_arms_are_the_models_and_a_part() {
             std::fs::read_to_string(file).expect("the spec is there")
         };
         let model = read("specs", name);
-        let loaded = read("examples/plants", &format!("{name}_loaded"));
+        let loaded = read("examples/controllers/plants", &format!("{name}_loaded"));
         let from_links = |text: &str| text[text.find("\nlinks:").expect("links")..].to_string();
         let model = from_links(&model);
         let links = &model[..model.find("\nframes:").expect("frames")];
         assert!(
             from_links(&loaded).starts_with(links),
-            "the links of examples/plants/{name}_loaded.yaml are not those of specs/{name}.yaml"
+            "the links of examples/controllers/plants/{name}_loaded.yaml are not those of specs/{name}.yaml"
         );
     }
 }

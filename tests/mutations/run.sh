@@ -85,7 +85,7 @@ mutate "golden values" $src/expr/eval.rs \
     "${codegen[@]}" golden
 mutate "golden values of places" $src/formulation/site.rs \
     'angular = angular + column.angular.scale(rate)' 'angular = angular - column.angular.scale(rate)' \
-    "${codegen[@]}" golden_places
+    "${codegen[@]}" golden_poses
 mutate "oracle of scenes: rotors" $recursion/rotors.rs \
     'efforts[s.joint] + carried' 'efforts[s.joint] - carried' "${codegen[@]}" oracle
 mutate "oracle of scenes: a law" $src/effect/lugre.rs \
@@ -94,10 +94,10 @@ mutate "laws: formulations equal" $recursion/mass.rs \
     'linear: Vec3([-y, x, b.zero()])' 'linear: Vec3([y, x, b.zero()])' "${codegen[@]}" laws
 mutate "laws: forward undoes inverse" $src/formulation/solve.rs \
     'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" laws
-mutate "long: momenta meet axes" $recursion/common_axes.rs \
-    'sum + w * l' 'sum - w * l' "${codegen[@]}" long
-mutate "long: signs in tables" $src/products.rs \
-    'negative: negative ^ minus' 'negative' "${codegen[@]}" long
+mutate "long chains: momenta meet axes" $recursion/common_axes.rs \
+    'sum + w * l' 'sum - w * l' "${codegen[@]}" long_chains
+mutate "long chains: signs in tables" $src/products.rs \
+    'negative: negative ^ minus' 'negative' "${codegen[@]}" long_chains
 mutate "laws: gravity = dV/dq" $recursion/mass.rs \
     'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" laws
 mutate "properties: T" $recursion/mass.rs \

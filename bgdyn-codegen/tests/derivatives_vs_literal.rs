@@ -3,7 +3,7 @@
 //! run:
 //!
 //! ```sh
-//! cargo test --release -p bgdyn-codegen --test slopes -- --ignored
+//! cargo test --release -p bgdyn-codegen --test derivatives_vs_literal -- --ignored
 //! ```
 
 mod common;

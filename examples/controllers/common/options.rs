@@ -13,7 +13,7 @@ pub fn usage(name: &str) -> String {
     format!(
         "Pick and place under computed torque with a generated model
 
-Usage: cargo run --release --example {name} [-- --out DIR]
+Usage: cargo run --release -p controllers --example {name} [-- --out DIR]
 
 Options:
       --out DIR  Where to write the plot [default: target/{name}/]

@@ -1,7 +1,7 @@
 //! A SCARA puts a part from one place to another: computed torque at 1 kHz with a model generated
 //! from `specs/scara.yaml`, against a simulated arm that carries 2 kg the model knows nothing of.
 //!
-//! `cargo run --release --example scara` prints a report and draws `target/scara/scara.svg`.
+//! `cargo run --release -p controllers --example scara` prints a report and draws `target/scara/scara.svg`.
 
 mod common;
 
@@ -14,7 +14,7 @@ use common::machine::{Machine, machine};
 use common::{Cell, Joints};
 
 // The controller's model, and the arm with an open gripper.
-bgdyn::bgdyn!("scara.yaml");
+bgdyn::bgdyn!("../../specs/scara.yaml");
 // The arm with the part.
 bgdyn::bgdyn!("plants/scara_loaded.yaml");
 

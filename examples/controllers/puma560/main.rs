@@ -2,7 +2,7 @@
 //! generated from `specs/puma560.yaml`, against a simulated arm that carries 2 kg the model knows
 //! nothing of.
 //!
-//! `cargo run --release --example puma560` prints a report and draws `target/puma560/puma560.svg`.
+//! `cargo run --release -p controllers --example puma560` prints a report and draws `target/puma560/puma560.svg`.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -17,7 +17,7 @@ use common::{Cell, Joints};
 use geared::Geared;
 
 // The controller's model, and the arm with an open gripper.
-bgdyn::bgdyn!("puma560.yaml");
+bgdyn::bgdyn!("../../../specs/puma560.yaml");
 // The arm with the part.
 bgdyn::bgdyn!("../plants/puma560_loaded.yaml");
 

@@ -2,7 +2,7 @@
 //! plain recursion in link axes with base parameters, which `common/baseline.rs` makes by itself.
 //!
 //! `docs/outside.md` holds the counts. After a wanted change:
-//! `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test outside`.
+//! `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test untuned_arms`.
 
 mod common;
 
@@ -151,7 +151,7 @@ fn arms_outside_the_table() {
         }
         writeln!(text, "{row}").unwrap();
     }
-    text += "\nTo write this page again: `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test outside`; \
+    text += "\nTo write this page again: `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test untuned_arms`; \
              without `BGDYN_WRITE` the test fails where the page is not up to date, or where less \
              than 15 % is saved against the baseline.\n";
     let page: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/outside.md");
