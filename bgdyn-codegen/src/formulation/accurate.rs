@@ -7,7 +7,7 @@
 
 use super::{FORMULATIONS, Formulation, Search, derived, literal};
 use crate::bond_graph::BondGraph;
-use crate::formulation::loss::{answers, loss_at};
+use crate::formulation::conditioning::rounding_error::{exact_results, rounding_error_at};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -33,10 +33,10 @@ pub fn most_accurate(
         None => f.knows(method) && affordable(graph, method, *f),
     });
     let ways: Vec<Function> = tried.flat_map(|f| variants(graph, method, f)).collect();
-    let answers = answers(&ways, graph);
+    let answers = exact_results(&ways, graph);
     ways.into_iter().min_by_key(|way| {
-        let lost = loss_at(way, &answers).unwrap_or_default();
-        (lost.harm(), way.cost().weighted())
+        let lost = rounding_error_at(way, &answers).unwrap_or_default();
+        (lost.rank(), way.cost().weighted())
     })
 }
 

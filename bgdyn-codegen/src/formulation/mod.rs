@@ -2,16 +2,15 @@
 //!
 //! One file or folder each, one line each in [`FORMULATIONS`]. The literal sum is the
 //! specification; the others must equal it, and the cheapest is found by counting, for each
-//! mechanism and each method.
+//! mechanism and each method. `conditioning/` measures their errors.
 
 mod accurate;
+pub mod conditioning;
 mod derived;
 mod drives;
 mod literal;
-pub mod loss;
 mod placement;
 mod recursion;
-mod sample;
 mod search;
 mod site;
 mod solve;
@@ -24,7 +23,6 @@ use crate::function::Function;
 use crate::mechanism::{ParameterId, Value};
 use crate::method::{Argument, Method};
 pub use accurate::most_accurate;
-pub(crate) use sample::{aligned as aligned_states, generic as generic_states};
 
 /// A way to compute methods from the bond graph.
 pub trait Formulation: Sync {

@@ -18,17 +18,14 @@
 //! masses keep a force of their own. In small mechanisms the four cheapest plans are factored before one is
 //! chosen.
 
-mod aligned;
-mod answer;
 mod articulated;
-mod bars;
 mod base;
 mod beyond;
 mod common_axes;
 mod composite;
 mod forward;
 mod frames;
-mod geometry;
+pub(super) mod geometry;
 mod inertia;
 mod inverse;
 mod kinematics;
@@ -38,7 +35,6 @@ mod own;
 mod plan;
 mod regrouped;
 mod rotors;
-mod share;
 mod slopes;
 mod unit;
 mod view;
@@ -51,7 +47,6 @@ use crate::bond_graph::BondGraph;
 use crate::expr::{self, Builder, Cost, Expr, Graph, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
-pub(super) use aligned::in_line;
 pub(super) use articulated::Articulated;
 pub(super) use common_axes::CommonAxes;
 pub(super) use forward::{Way, Ways, forward_dynamics};
@@ -231,6 +226,19 @@ fn outputs(
             other => unreachable!("{other:?} is no method of the recursion"),
         };
         outputs.into_iter().map(|e| e.expr()).collect()
+    };
+    (b.into_graph(), outputs)
+}
+
+/// The lower triangle of M, row by row, and h, in one graph.
+pub(super) fn mass_and_bias(graph: &BondGraph, geometry: &Geometry) -> (Graph, Vec<Expr>) {
+    let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
+    let outputs: Vec<Expr> = {
+        let x = Arguments::new(&b, graph, Method::ForwardDynamics);
+        let frames = Frames::new(&b, graph, geometry, plan, &x);
+        let rows = mass::mass_matrix(&b, &frames).into_iter().flatten();
+        let bias = inverse::efforts(&b, &frames, plan, x.active);
+        rows.chain(bias).map(|e| e.expr()).collect()
     };
     (b.into_graph(), outputs)
 }
