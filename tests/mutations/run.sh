@@ -106,7 +106,7 @@ mutate "properties: rates" $recursion/kinematics.rs \
     '(y.scale(c) - x.scale(s))' '(y.scale(c) + x.scale(s))' "${codegen[@]}" properties rates
 mutate "derivatives" $src/expr/diff.rs \
     'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
-mutate "derivatives, solved" $src/formulation/drives.rs \
+mutate "derivatives, solved" $src/formulation/derivatives/forward_dynamics.rs \
     '(-builder.ex(e)).expr()' 'builder.ex(e).expr()' "${codegen[@]}" motions derivatives
 mutate "generated text" $src/emit/writer.rs \
     'quote! { #left - #right }' 'quote! { #left + #right }' "${codegen[@]}" text
@@ -131,9 +131,9 @@ once "a rotor its own joint carries" $recursion/mass.rs \
     'Ordering::Equal => share + share' 'Ordering::Equal => *entry' scenes rotors::
 once "a rotor beyond its joint" $recursion/mass.rs \
     'Ordering::Less => *entry + share' 'Ordering::Less => *entry' scenes rotors::
-once "rotors in derivatives" $recursion/slopes.rs \
+once "rotors in derivatives" $recursion/derivatives/inverse_dynamics.rs \
     'frames.rotors.add_flow(b, j, factor, &mut own[j].whole);' '' scenes rotors::
-once "rotors' joints in derivatives" $recursion/slopes.rs \
+once "rotors' joints in derivatives" $recursion/derivatives/inverse_dynamics.rs \
     '.extend(frames.rotors.seen(b, frames, j, &axis));' '.extend(frames.rotors.seen(b, frames, j, &axis).take(0));' \
     scenes rotors::
 once "axes that are almost z" $recursion/geometry.rs \

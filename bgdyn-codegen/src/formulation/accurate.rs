@@ -5,7 +5,8 @@
 //! where another way has one is worse than any error. The literal sum takes part for up to 8 joints, its
 //! derivatives for up to 4.
 
-use super::{FORMULATIONS, Formulation, Search, derived, literal};
+use super::derivatives::by_differentiation;
+use super::{FORMULATIONS, Formulation, Search, literal};
 use crate::bond_graph::BondGraph;
 use crate::formulation::conditioning::rounding_error::{exact_results, rounding_error_at};
 use crate::function::Function;
@@ -57,7 +58,7 @@ fn variants(
     formulation: &'static dyn Formulation,
 ) -> Vec<Function> {
     let search = Search::new(graph, Some(formulation));
-    let derived = derived::function(&search, method);
+    let derived = by_differentiation::function(&search, method);
     let Some(plain) = derived.or_else(|| formulation.function(&search, method)) else {
         return Vec::new();
     };

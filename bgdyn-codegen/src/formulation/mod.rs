@@ -6,8 +6,7 @@
 
 mod accurate;
 pub mod conditioning;
-mod derived;
-mod drives;
+mod derivatives;
 mod literal;
 mod placement;
 mod recursion;

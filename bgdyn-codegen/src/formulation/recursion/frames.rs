@@ -37,24 +37,24 @@ pub(super) struct Plan {
     /// N_z = J_zz ω̇_z + (D_xx − D_yy) ω_x ω_y + … instead of the skew part of U·D.
     pub short_moment: bool,
     /// For derivatives: how each joint's share of them is put together.
-    pub views: Vec<View>,
+    pub views: Vec<PartialsPlan>,
 }
 
 /// How the derivatives by a joint's coordinate are put together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct View {
+pub(super) struct PartialsPlan {
     /// Where all that it moves is seen from.
-    pub seen: Seen,
+    pub seen_from: SeenFrom,
     /// Whether what the next rotation of its group moves is taken over from that one.
-    pub taken: bool,
+    pub reuse_neighbour: bool,
     /// Whether changes of forces on what its body carries stay in the body's axes for the rotations
     /// before it in the group.
-    pub met: bool,
+    pub keep_body_axes: bool,
 }
 
 /// The body whose motion counts as that of the carrier, and the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Seen {
+pub(super) enum SeenFrom {
     /// The body before the joint or the one after it, in the axes of the basis: the one with more
     /// zeros.
     #[default]
@@ -81,7 +81,7 @@ impl Plan {
             apart: vec![false; n],
             base_parameters: true,
             short_moment: false,
-            views: vec![View::default(); n],
+            views: vec![PartialsPlan::default(); n],
         }
     }
 

@@ -9,7 +9,7 @@
 //! | `motion.rs` | velocities and accelerations, outwards |
 //! | `inverse.rs` | forces, moments and efforts, inwards |
 //! | `mass.rs` | the mass matrix, from the momenta of composite bodies |
-//! | `slopes.rs` | first derivatives and the Coriolis matrix, from composite bodies (`composite.rs`: inertia, flow of mass and force of all bodies beyond a joint; `unit.rs`, `beyond.rs`: what one joint contributes, carried inwards; `view.rs`: the body and axes in which it is expressed, chosen by counting) |
+//! | `derivatives/` | first derivatives and the Coriolis matrix, from composite bodies |
 //! | `kinematics.rs` | poses, velocities and Jacobians of sites |
 //! | `plan.rs` | the cheapest plan, by counting: one choice at a time, in a bounded number of steps |
 //!
@@ -20,9 +20,8 @@
 
 mod articulated;
 mod base;
-mod beyond;
 mod common_axes;
-mod composite;
+mod derivatives;
 mod forward;
 mod frames;
 pub(super) mod geometry;
@@ -35,9 +34,6 @@ mod own;
 mod plan;
 mod regrouped;
 mod rotors;
-mod slopes;
-mod unit;
-mod view;
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -130,8 +126,8 @@ fn viewed_from(search: &Search<'_>, other: Method, method: Method) -> Best {
     let cost = |plan: &Plan| cost(graph, geometry, method, plan);
     let after = |plan: &Plan| factored(graph, geometry, method, plan);
     let mut best = plan::refined(geometry, start.taken(), cost);
-    let plan = view::chosen(geometry, best.taken().clone(), cost);
-    let plan = view::measured(geometry, plan, cost, after);
+    let plan = derivatives::choose_partials(geometry, best.taken().clone(), cost);
+    let plan = derivatives::choose_length_unit(geometry, plan, cost, after);
     let found = cost(&plan);
     best.take(plan, found);
     best
@@ -213,12 +209,16 @@ fn outputs(
                 solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
             }
             Method::InverseDynamicsDerivatives => {
-                let slopes = slopes::slopes(&b, &frames, &plan.views, x.active);
-                let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
+                let derivatives =
+                    derivatives::effort_derivatives(&b, &frames, &plan.views, x.active);
+                let rows = derivatives
+                    .by_position
+                    .into_iter()
+                    .chain(derivatives.by_rate);
                 rows.flatten().collect()
             }
             Method::CoriolisMatrix => {
-                let rows = slopes::coriolis_matrix(&b, &frames, &plan.views);
+                let rows = derivatives::coriolis_matrix(&b, &frames, &plan.views);
                 rows.into_iter().flatten().collect()
             }
             Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],

@@ -3,7 +3,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Plan, View};
+use super::frames::{PartialsPlan, Plan};
 use super::geometry::Geometry;
 use crate::expr::Cost;
 use crate::function::Considered;
@@ -160,7 +160,7 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         apart: vec![false; n],
         base_parameters: true,
         short_moment: false,
-        views: vec![View::default(); n],
+        views: vec![PartialsPlan::default(); n],
     };
     let groups = geometry.bodies.iter().any(|b| b.parallel());
     if groups {
