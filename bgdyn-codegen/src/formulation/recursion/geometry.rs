@@ -7,7 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::regrouped::Regrouped;
+use super::base_parameter_cache::BaseParameterCache;
 use crate::bond_graph::BondGraph;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
@@ -83,7 +83,7 @@ pub(in crate::formulation) struct Geometry {
     /// Links that never move, with their place in the world.
     pub fixed: Vec<(LinkId, Pose)>,
     /// Inertia regrouped before.
-    pub(super) regrouped: Regrouped,
+    pub(super) regrouped: BaseParameterCache,
 }
 
 impl Geometry {
@@ -98,7 +98,7 @@ pub(in crate::formulation) fn geometry(graph: &BondGraph) -> Geometry {
     let mut made = Geometry {
         bodies: Vec::new(),
         fixed: Vec::new(),
-        regrouped: Regrouped::default(),
+        regrouped: BaseParameterCache::default(),
     };
     // Which body a link belongs to, and its place in the axes of the link that carries the body.
     let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();

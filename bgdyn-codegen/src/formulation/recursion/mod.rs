@@ -4,14 +4,14 @@
 //! | file | computes |
 //! |---|---|
 //! | `geometry.rs` | a frame for every moving body: z along its joint's axis, x along the common normal with the next axis |
-//! | `frames.rs` | these frames as expressions, for one [`Plan`] |
-//! | `base.rs` | base parameters: inertia moved inwards, known parts always, run-time parameters as the plan says |
+//! | `frames.rs` | these frames as expressions, for one [`Plan`] (`plan.rs`) |
+//! | `base_parameters.rs` | base parameters: inertia moved inwards, known parts always, run-time parameters as the plan says |
 //! | `motion.rs` | velocities and accelerations, outwards |
-//! | `inverse.rs` | forces, moments and efforts, inwards |
-//! | `mass.rs` | the mass matrix, from the momenta of composite bodies |
+//! | `inverse_dynamics.rs` | forces, moments and efforts, inwards |
+//! | `mass_matrix.rs` | the mass matrix, from the momenta of composite bodies |
 //! | `derivatives/` | first derivatives and the Coriolis matrix, from composite bodies |
 //! | `kinematics.rs` | poses, velocities and Jacobians of sites |
-//! | `plan.rs` | the cheapest plan, by counting: one choice at a time, in a bounded number of steps |
+//! | `plan_search.rs` | the cheapest plan, by counting: one choice at a time, in a bounded number of steps |
 //!
 //! A plan says where origins slide, which length is the unit, which parallel joints share a basis, whose
 //! inertia is turned instead of the vectors, how far run-time parameters move inwards, and which point
@@ -19,21 +19,22 @@
 //! chosen.
 
 mod articulated;
-mod base;
+mod base_parameter_cache;
+mod base_parameters;
+mod choose_forward_dynamics;
 mod common_axes;
 mod derivatives;
-mod forward;
 mod frames;
 pub(super) mod geometry;
 mod inertia;
-mod inverse;
+mod inverse_dynamics;
 mod kinematics;
-mod mass;
+mod mass_matrix;
 mod motion;
-mod own;
 mod plan;
-mod regrouped;
+mod plan_search;
 mod rotors;
+mod standard_parameters;
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -44,12 +45,13 @@ use crate::expr::{self, Builder, Cost, Expr, Graph, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
 pub(super) use articulated::Articulated;
+pub(super) use choose_forward_dynamics::{Way, Ways, forward_dynamics};
 pub(super) use common_axes::CommonAxes;
-pub(super) use forward::{Way, Ways, forward_dynamics};
-use frames::{Frames, Plan};
+use frames::Frames;
 use geometry::Geometry;
-pub(super) use own::OwnInertia;
-use plan::{Best, Tried};
+use plan::Plan;
+use plan_search::{Best, Tried};
+pub(super) use standard_parameters::OwnInertia;
 
 /// Bodies up to which a mechanism is small: the plans that its search keeps are factored before
 /// one is taken. For larger ones it would take more time than it saves operations: on arms of six
@@ -125,7 +127,7 @@ fn viewed_from(search: &Search<'_>, other: Method, method: Method) -> Best {
     let start = cheapest_plans(search, other);
     let cost = |plan: &Plan| cost(graph, geometry, method, plan);
     let after = |plan: &Plan| factored(graph, geometry, method, plan);
-    let mut best = plan::refined(geometry, start.taken(), cost);
+    let mut best = plan_search::refined(geometry, start.taken(), cost);
     let plan = derivatives::choose_partials(geometry, best.taken().clone(), cost);
     let plan = derivatives::choose_length_unit(geometry, plan, cost, after);
     let found = cost(&plan);
@@ -139,7 +141,7 @@ fn viewed_from(search: &Search<'_>, other: Method, method: Method) -> Best {
 fn searched(search: &Search<'_>, method: Method) -> Best {
     let graph = search.graph;
     let geometry = search.recursion.geometry(graph);
-    let mut best = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
+    let mut best = plan_search::search(geometry, |plan| cost(graph, geometry, method, plan));
     let small = geometry.bodies.len() <= SMALL;
     let kept = if small { best.plans.len() } else { 1 };
     let mut candidates: Vec<Tried> = best.plans.drain(..kept).collect();
@@ -173,7 +175,11 @@ fn factored(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan)
 fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, best: &Best) -> Function {
     let plan = best.taken();
     let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);
-    let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
+    let name = format!(
+        "{}: {}",
+        Recursion.name(),
+        plan_search::describe(geometry, plan)
+    );
     let plans = best.considered(geometry);
     Function {
         plans,
@@ -192,10 +198,10 @@ fn outputs(
     let outputs: Vec<Expr> = {
         let x = Arguments::new(&b, graph, method);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
-        let efforts = || inverse::efforts(&b, &frames, plan, x.active);
+        let efforts = || inverse_dynamics::efforts(&b, &frames, plan, x.active);
         let outputs = match method {
             Method::InverseDynamics | Method::Bias | Method::Gravity => efforts(),
-            Method::MassMatrix => mass::mass_matrix(&b, &frames)
+            Method::MassMatrix => mass_matrix::mass_matrix(&b, &frames)
                 .into_iter()
                 .flatten()
                 .collect(),
@@ -206,7 +212,7 @@ fn outputs(
                     .zip(efforts())
                     .map(|(&tau, h)| tau - h)
                     .collect();
-                solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
+                solve::ltdl(&b, mass_matrix::mass_matrix(&b, &frames), drive)
             }
             Method::InverseDynamicsDerivatives => {
                 let derivatives =
@@ -221,8 +227,8 @@ fn outputs(
                 let rows = derivatives::coriolis_matrix(&b, &frames, &plan.views);
                 rows.into_iter().flatten().collect()
             }
-            Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
-            Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],
+            Method::KineticEnergy => vec![mass_matrix::kinetic_energy(&b, &frames)],
+            Method::PotentialEnergy => vec![mass_matrix::potential_energy(&b, &frames)],
             other => unreachable!("{other:?} is no method of the recursion"),
         };
         outputs.into_iter().map(|e| e.expr()).collect()
@@ -236,8 +242,8 @@ pub(super) fn mass_and_bias(graph: &BondGraph, geometry: &Geometry) -> (Graph, V
     let outputs: Vec<Expr> = {
         let x = Arguments::new(&b, graph, Method::ForwardDynamics);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
-        let rows = mass::mass_matrix(&b, &frames).into_iter().flatten();
-        let bias = inverse::efforts(&b, &frames, plan, x.active);
+        let rows = mass_matrix::mass_matrix(&b, &frames).into_iter().flatten();
+        let bias = inverse_dynamics::efforts(&b, &frames, plan, x.active);
         rows.chain(bias).map(|e| e.expr()).collect()
     };
     (b.into_graph(), outputs)

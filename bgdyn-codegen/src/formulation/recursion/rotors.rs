@@ -13,7 +13,7 @@ use super::derivatives::outboard_joint::{Axis, OutboardJoint};
 use super::frames::Frames;
 use super::geometry::Geometry;
 use super::inertia::turn;
-use super::mass::{Momenta, Momentum};
+use super::mass_matrix::{Momenta, Momentum};
 use super::motion::Moving;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};

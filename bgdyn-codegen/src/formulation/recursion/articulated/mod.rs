@@ -17,9 +17,10 @@
 mod inertia;
 mod sweep;
 
-use super::frames::{Frames, Plan};
+use super::frames::Frames;
 use super::geometry::Geometry;
-use super::{inverse, plan};
+use super::plan::Plan;
+use super::{inverse_dynamics, plan_search};
 use crate::bond_graph::BondGraph;
 use crate::expr::{self, Builder, Cost, Expr, Graph};
 use crate::formulation::conditioning::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
@@ -64,7 +65,7 @@ impl Formulation for Articulated {
         let graph = search.graph;
         let geometry = search.recursion.geometry(graph);
         let cost = |plan: &Plan| self.cost(graph, geometry, plan);
-        let found = plan::search(geometry, cost);
+        let found = plan_search::search(geometry, cost);
         let best = found.taken();
         // A pivot is never less than the own inertia of its joint.
         let guarded: Vec<bool> = own_inertia_ratios(graph, geometry)
@@ -72,7 +73,7 @@ impl Formulation for Articulated {
             .map(|&ratio| ratio < MIN_INERTIA_RATIO)
             .collect();
         let (made, outputs) = self.outputs(Builder::new(), graph, geometry, best, &guarded);
-        let name = format!("{}: {}", self.name(), plan::describe(geometry, best));
+        let name = format!("{}: {}", self.name(), plan_search::describe(geometry, best));
         let function = Function {
             plans: found.considered(geometry),
             ..Function::flat(graph, method, name, made, outputs)
@@ -111,7 +112,7 @@ impl Articulated {
             let x = Arguments::new(&b, graph, Method::ForwardDynamics);
             let frames = Frames::new(&b, graph, geometry, plan, &x);
             let sweep = Sweep::new(&b, &frames, careful, guarded);
-            let loads = inverse::loads(&b, &frames, plan, x.active);
+            let loads = inverse_dynamics::loads(&b, &frames, plan, x.active);
             let found = sweep.accelerations(&loads, &x.tau);
             found.into_iter().map(|e| e.expr()).collect()
         };

@@ -6,8 +6,8 @@ use bgdyn_runtime::Dd;
 use crate::expr::{Builder, Ex};
 use crate::formulation::recursion::frames::Frame;
 use crate::formulation::recursion::inertia::{Inertia, turn};
-use crate::formulation::recursion::inverse::Wrench;
-use crate::formulation::recursion::mass::Momentum;
+use crate::formulation::recursion::inverse_dynamics::Wrench;
+use crate::formulation::recursion::mass_matrix::Momentum;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 

@@ -32,8 +32,9 @@ use bgdyn_runtime::Dd;
 use super::joint_partials::{JointContext, JointPartials, Subtree};
 use super::outboard_joint::{Entries, OutboardJoint};
 use crate::expr::{Builder, Ex};
-use crate::formulation::recursion::frames::{Frame, Frames, PartialsPlan};
+use crate::formulation::recursion::frames::{Frame, Frames};
 use crate::formulation::recursion::motion::{Moving, Spin, motions};
+use crate::formulation::recursion::plan::PartialsPlan;
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 

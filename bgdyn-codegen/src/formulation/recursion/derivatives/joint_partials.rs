@@ -10,10 +10,11 @@ use bgdyn_runtime::Dd;
 use super::composite_flow::CompositeFlow;
 use super::outboard_joint::{Axis, GroupNeighbour, OutboardJoint};
 use crate::expr::{Builder, Ex};
-use crate::formulation::recursion::frames::{Frame, PartialsPlan, SeenFrom};
+use crate::formulation::recursion::frames::Frame;
 use crate::formulation::recursion::inertia::turn;
-use crate::formulation::recursion::mass::{Momentum, unit_momentum};
+use crate::formulation::recursion::mass_matrix::{Momentum, unit_momentum};
 use crate::formulation::recursion::motion::{Moving, Spin};
+use crate::formulation::recursion::plan::{PartialsPlan, SeenFrom};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 

@@ -3,9 +3,9 @@
 use bgdyn_runtime::Dd;
 
 use crate::expr::Cost;
-use crate::formulation::recursion::frames::{PartialsPlan, Plan, SeenFrom, origin_offset};
 use crate::formulation::recursion::geometry::Geometry;
-use crate::formulation::recursion::plan::SEARCHED;
+use crate::formulation::recursion::plan::{PartialsPlan, Plan, SeenFrom, origin_offset};
+use crate::formulation::recursion::plan_search::SEARCHED;
 
 /// How often all choices are gone through.
 const ROUNDS: usize = 1;

@@ -24,7 +24,7 @@
 use std::cmp::Ordering;
 
 use super::articulated::Articulated;
-use super::plan::SEARCHED;
+use super::plan_search::SEARCHED;
 use super::{cheapest_plans, with_plan};
 use crate::formulation::conditioning::error_bounds::{BoundReport, ErrorBounds, PRICE, cost};
 use crate::formulation::conditioning::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
