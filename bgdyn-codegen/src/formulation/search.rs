@@ -19,7 +19,7 @@ pub struct Search<'a> {
     asked: Option<&'static dyn Formulation>,
     /// What the recursion has found.
     pub(super) recursion: recursion::Found,
-    forward: OnceCell<recursion::Ways>,
+    forward: OnceCell<recursion::ForwardCandidates>,
     effort_derivatives: OnceCell<Option<Function>>,
     chosen: RefCell<BTreeMap<Method, Option<Rc<Function>>>>,
 }
@@ -61,7 +61,7 @@ impl<'a> Search<'a> {
                 .into_iter()
                 .collect(),
             Method::ForwardDynamics => {
-                let ways = self.ways().kept.iter();
+                let ways = self.ways().accepted.iter();
                 return Function::cheapest(ways.map(|way| way.generated.clone()));
             }
             Method::MassMatrix => self.mass_matrix(),
@@ -92,25 +92,28 @@ impl<'a> Search<'a> {
     /// The ways to forward dynamics that keep their digits, the cheapest first, as their formulations
     /// write them.
     pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {
-        self.ways().kept.iter().map(|way| &way.plain)
+        self.ways().accepted.iter().map(|way| &way.plain)
     }
 
     /// The ways to forward dynamics that its derivatives may rest on.
     pub(super) fn differentiable(&self) -> impl Iterator<Item = &Function> {
         let ways = self.ways();
-        ways.kept.iter().chain(&ways.near).map(|way| &way.plain)
+        ways.accepted
+            .iter()
+            .chain(&ways.borderline)
+            .map(|way| &way.plain)
     }
 
-    fn ways(&self) -> &recursion::Ways {
+    fn ways(&self) -> &recursion::ForwardCandidates {
         let asked = || {
             let plain = self.asked?.function(self, Method::ForwardDynamics)?;
-            let way = recursion::Way {
+            let way = recursion::ForwardCandidate {
                 generated: plain.clone().factored(),
                 plain,
             };
-            Some(recursion::Ways {
-                kept: vec![way],
-                near: Vec::new(),
+            Some(recursion::ForwardCandidates {
+                accepted: vec![way],
+                borderline: Vec::new(),
             })
         };
         self.forward

@@ -45,7 +45,7 @@ use crate::expr::{self, Builder, Cost, Expr, Graph, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
 pub(super) use articulated::Articulated;
-pub(super) use choose_forward_dynamics::{Way, Ways, forward_dynamics};
+pub(super) use choose_forward_dynamics::{ForwardCandidate, ForwardCandidates, forward_dynamics};
 pub(super) use common_axes::CommonAxes;
 use frames::Frames;
 use geometry::Geometry;
