@@ -63,7 +63,7 @@ pub enum Preference {
     /// The fewest operations.
     #[default]
     Operations,
-    /// The fewest digits lost in `f64`, by [`crate::formulation::loss::loss`]; operations decide between equals.
+    /// The fewest digits lost in `f64`, by [`crate::formulation::conditioning::rounding_error::rounding_error`]; operations decide between equals.
     Accuracy,
 }
 

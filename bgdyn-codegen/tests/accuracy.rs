@@ -3,7 +3,7 @@
 
 mod common;
 
-use bgdyn_codegen::formulation::loss::{Loss, loss};
+use bgdyn_codegen::formulation::conditioning::rounding_error::{RoundingError, rounding_error};
 use bgdyn_codegen::formulation::{FORMULATIONS, Formulation};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
@@ -153,20 +153,20 @@ fn accuracy_is_better_at_other_states() {
 fn accuracy_is_the_best_of_all() {
     for name in ["scara4", "puma560", "dpend2"] {
         let robot = common::golden::robot(name);
-        let measured = |f: &Function| loss(f, &robot.graph).expect("regular states");
+        let measured = |f: &Function| rounding_error(f, &robot.graph).expect("regular states");
         let s = State::random(&mut Rng::new(3), &robot.motions());
         for method in Method::OF_TRAIT {
             let literal: Vec<Dd> = s.value(&robot.function("literal", method));
             let fine = accurate(&robot, method);
-            let Loss { refused, roundings } = measured(&fine);
-            assert_eq!(refused, 0);
+            let RoundingError { failures, ulps } = measured(&fine);
+            assert_eq!(failures, 0);
             for way in FORMULATIONS.into_iter().filter(|way| way.knows(method)) {
                 let function = accurate_by(&robot, method, Some(way));
                 let other = measured(&function);
                 let place = format!("{name}, {method:?}, {}", way.name());
                 common::assert_close::<Dd>(&s.value(&function), &literal, 1e-24, || place.clone());
                 // To a tenth of a rounding.
-                assert!(roundings <= other.roundings + 0.1, "{place}");
+                assert!(ulps <= other.ulps + 0.1, "{place}");
             }
             let x: Vec<Dd> = s.value(&fine);
             common::assert_close(&x, &literal, 1e-24, || format!("{name}, {method:?}"));

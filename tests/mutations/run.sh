@@ -75,7 +75,7 @@ codegen=(-p bgdyn-codegen --test)
 
 mutate "paper oracle" $src/formulation/literal/sum.rs \
     '+ omega.cross(tensor * omega)' '- omega.cross(tensor * omega)' "${codegen[@]}" paper_oracle
-mutate "Lagrange oracle" $recursion/inverse.rs \
+mutate "Lagrange oracle" $recursion/inverse_dynamics.rs \
     'self.moment + p.cross(self.force)' 'self.moment - p.cross(self.force)' \
     "${codegen[@]}" lagrange_oracle
 mutate "golden values" $recursion/motion.rs \
@@ -90,7 +90,7 @@ mutate "oracle of scenes: rotors" $recursion/rotors.rs \
     'efforts[s.joint] + carried' 'efforts[s.joint] - carried' "${codegen[@]}" oracle
 mutate "oracle of scenes: a law" $src/effect/lugre.rs \
     'stiffness * z + damping * rate' 'stiffness * z - damping * rate' "${codegen[@]}" oracle
-mutate "laws: formulations equal" $recursion/mass.rs \
+mutate "laws: formulations equal" $recursion/mass_matrix.rs \
     'linear: Vec3([-y, x, b.zero()])' 'linear: Vec3([y, x, b.zero()])' "${codegen[@]}" laws
 mutate "laws: forward undoes inverse" $src/formulation/solve.rs \
     'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" laws
@@ -98,15 +98,15 @@ mutate "long chains: momenta meet axes" $recursion/common_axes.rs \
     'sum + w * l' 'sum - w * l' "${codegen[@]}" long_chains
 mutate "long chains: signs in tables" $src/products.rs \
     'negative: negative ^ minus' 'negative' "${codegen[@]}" long_chains
-mutate "laws: gravity = dV/dq" $recursion/mass.rs \
+mutate "laws: gravity = dV/dq" $recursion/mass_matrix.rs \
     'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" laws
-mutate "properties: T" $recursion/mass.rs \
+mutate "properties: T" $recursion/mass_matrix.rs \
     '(squares - products)' '(squares + products)' "${codegen[@]}" properties
 mutate "properties: rates" $recursion/kinematics.rs \
     '(y.scale(c) - x.scale(s))' '(y.scale(c) + x.scale(s))' "${codegen[@]}" properties rates
 mutate "derivatives" $src/expr/diff.rs \
     'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
-mutate "derivatives, solved" $src/formulation/drives.rs \
+mutate "derivatives, solved" $src/formulation/derivatives/forward_dynamics.rs \
     '(-builder.ex(e)).expr()' 'builder.ex(e).expr()' "${codegen[@]}" motions derivatives
 mutate "generated text" $src/emit/writer.rs \
     'quote! { #left - #right }' 'quote! { #left + #right }' "${codegen[@]}" text
@@ -114,7 +114,7 @@ mutate "compiled = evaluator" $src/emit/writer.rs \
     'quote! { #left - #right }' 'quote! { #left + #right }' -p compiled -- agreement::
 mutate "compiled = evaluator, every scalar" $src/emit/writer.rs \
     'quote! { #left / #right }' 'quote! { #right / #left }' -p compiled -- scalars::
-mutate "compiled = equation (6)" $recursion/inverse.rs \
+mutate "compiled = equation (6)" $recursion/inverse_dynamics.rs \
     'force: spin.u * h + inertia' 'force: spin.u * h - inertia' -p compiled -- literal::
 mutate "executed = counted operations" $src/expr/count.rs \
     'Node::Add(..) => operations.add += 1' 'Node::Add(..) => operations.add += 2' \
@@ -127,13 +127,13 @@ once() {
     mutate "verify: $topic" "$file" "$old" "$new" "${codegen[@]}" verify
     mutate "$topic" "$file" "$old" "$new" "${codegen[@]}" "$@"
 }
-once "a rotor its own joint carries" $recursion/mass.rs \
+once "a rotor its own joint carries" $recursion/mass_matrix.rs \
     'Ordering::Equal => share + share' 'Ordering::Equal => *entry' scenes rotors::
-once "a rotor beyond its joint" $recursion/mass.rs \
+once "a rotor beyond its joint" $recursion/mass_matrix.rs \
     'Ordering::Less => *entry + share' 'Ordering::Less => *entry' scenes rotors::
-once "rotors in derivatives" $recursion/slopes.rs \
+once "rotors in derivatives" $recursion/derivatives/inverse_dynamics.rs \
     'frames.rotors.add_flow(b, j, factor, &mut own[j].whole);' '' scenes rotors::
-once "rotors' joints in derivatives" $recursion/slopes.rs \
+once "rotors' joints in derivatives" $recursion/derivatives/inverse_dynamics.rs \
     '.extend(frames.rotors.seen(b, frames, j, &axis));' '.extend(frames.rotors.seen(b, frames, j, &axis).take(0));' \
     scenes rotors::
 once "axes that are almost z" $recursion/geometry.rs \

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::formulation::FORMULATIONS;
-use bgdyn_codegen::formulation::loss::{Loss, loss};
+use bgdyn_codegen::formulation::conditioning::rounding_error::{RoundingError, rounding_error};
 use bgdyn_codegen::function::{Considered, Function};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::Model;
@@ -175,7 +175,7 @@ fn explained(mechanism: &Mechanism, model: &Model) -> Explained {
 }
 
 fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
-    let lost = told(loss(f, &model.bond_graph));
+    let lost = told(rounding_error(f, &model.bond_graph));
     let mut text = format!("{}: {}; {lost}\n", f.name(), f.formulation);
     text += &format!("  cost {}\n", f.cost());
     text += &list("plans before factoring, the first one taken", &f.plans);
@@ -191,7 +191,7 @@ fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
                 "    {:<16} {}; {}  ({})\n",
                 formulation.name(),
                 other.cost(),
-                told(loss(&other, &model.bond_graph)),
+                told(rounding_error(&other, &model.bond_graph)),
                 formulation.summary()
             );
         }
@@ -210,17 +210,14 @@ fn list(title: &str, all: &[Considered]) -> String {
     format!("  {title}\n{}", lines.collect::<String>())
 }
 
-/// A loss of digits in words.
-fn told(loss: Option<Loss>) -> String {
-    match loss {
-        Some(Loss {
-            refused: 0,
-            roundings,
-        }) => {
-            format!("error in f64 up to {roundings:.1} roundings of the largest component")
+/// A rounding error in words.
+fn told(error: Option<RoundingError>) -> String {
+    match error {
+        Some(RoundingError { failures: 0, ulps }) => {
+            format!("error in f64 up to {ulps:.1} roundings of the largest component")
         }
-        Some(Loss { refused, .. }) => {
-            format!("no answer in f64 in {refused} of the states tried that have one")
+        Some(RoundingError { failures, .. }) => {
+            format!("no answer in f64 in {failures} of the states tried that have one")
         }
         None => "refused in every state tried".into(),
     }

@@ -5,9 +5,10 @@
 //! where another way has one is worse than any error. The literal sum takes part for up to 8 joints, its
 //! derivatives for up to 4.
 
-use super::{FORMULATIONS, Formulation, Search, derived, literal};
+use super::derivatives::by_differentiation;
+use super::{FORMULATIONS, Formulation, Search, literal};
 use crate::bond_graph::BondGraph;
-use crate::formulation::loss::{answers, loss_at};
+use crate::formulation::conditioning::rounding_error::{exact_results, rounding_error_at};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -33,10 +34,10 @@ pub fn most_accurate(
         None => f.knows(method) && affordable(graph, method, *f),
     });
     let ways: Vec<Function> = tried.flat_map(|f| variants(graph, method, f)).collect();
-    let answers = answers(&ways, graph);
+    let answers = exact_results(&ways, graph);
     ways.into_iter().min_by_key(|way| {
-        let lost = loss_at(way, &answers).unwrap_or_default();
-        (lost.harm(), way.cost().weighted())
+        let lost = rounding_error_at(way, &answers).unwrap_or_default();
+        (lost.rank(), way.cost().weighted())
     })
 }
 
@@ -57,7 +58,7 @@ fn variants(
     formulation: &'static dyn Formulation,
 ) -> Vec<Function> {
     let search = Search::new(graph, Some(formulation));
-    let derived = derived::function(&search, method);
+    let derived = by_differentiation::function(&search, method);
     let Some(plain) = derived.or_else(|| formulation.function(&search, method)) else {
         return Vec::new();
     };

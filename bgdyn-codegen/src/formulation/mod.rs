@@ -2,16 +2,14 @@
 //!
 //! One file or folder each, one line each in [`FORMULATIONS`]. The literal sum is the
 //! specification; the others must equal it, and the cheapest is found by counting, for each
-//! mechanism and each method.
+//! mechanism and each method. `conditioning/` measures their errors.
 
 mod accurate;
-mod derived;
-mod drives;
+pub mod conditioning;
+mod derivatives;
 mod literal;
-pub mod loss;
 mod placement;
 mod recursion;
-mod sample;
 mod search;
 mod site;
 mod solve;
@@ -24,7 +22,6 @@ use crate::function::Function;
 use crate::mechanism::{ParameterId, Value};
 use crate::method::{Argument, Method};
 pub use accurate::most_accurate;
-pub(crate) use sample::{aligned as aligned_states, generic as generic_states};
 
 /// A way to compute methods from the bond graph.
 pub trait Formulation: Sync {

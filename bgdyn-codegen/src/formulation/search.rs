@@ -5,7 +5,8 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::{Formulation, derived, recursion};
+use super::derivatives::by_differentiation;
+use super::{Formulation, recursion};
 use crate::bond_graph::BondGraph;
 use crate::function::Function;
 use crate::method::Method;
@@ -18,8 +19,8 @@ pub struct Search<'a> {
     asked: Option<&'static dyn Formulation>,
     /// What the recursion has found.
     pub(super) recursion: recursion::Found,
-    forward: OnceCell<recursion::Ways>,
-    slopes: OnceCell<Option<Function>>,
+    forward: OnceCell<recursion::ForwardCandidates>,
+    effort_derivatives: OnceCell<Option<Function>>,
     chosen: RefCell<BTreeMap<Method, Option<Rc<Function>>>>,
 }
 
@@ -31,7 +32,7 @@ impl<'a> Search<'a> {
             asked,
             recursion: recursion::Found::default(),
             forward: OnceCell::new(),
-            slopes: OnceCell::new(),
+            effort_derivatives: OnceCell::new(),
             chosen: RefCell::default(),
         }
     }
@@ -54,13 +55,13 @@ impl<'a> Search<'a> {
     fn choose(&self, method: Method) -> Option<Function> {
         let ways = match method {
             // These are compared, and shared, as they are after factoring.
-            Method::InverseDynamicsDerivatives => return self.slopes().cloned(),
-            Method::CoriolisMatrix => return derived::function(self, method),
-            Method::ForwardDynamicsDerivatives => {
-                derived::function(self, method).into_iter().collect()
-            }
+            Method::InverseDynamicsDerivatives => return self.effort_derivatives().cloned(),
+            Method::CoriolisMatrix => return by_differentiation::function(self, method),
+            Method::ForwardDynamicsDerivatives => by_differentiation::function(self, method)
+                .into_iter()
+                .collect(),
             Method::ForwardDynamics => {
-                let ways = self.ways().kept.iter();
+                let ways = self.ways().accepted.iter();
                 return Function::cheapest(ways.map(|way| way.generated.clone()));
             }
             Method::MassMatrix => self.mass_matrix(),
@@ -91,25 +92,28 @@ impl<'a> Search<'a> {
     /// The ways to forward dynamics that keep their digits, the cheapest first, as their formulations
     /// write them.
     pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {
-        self.ways().kept.iter().map(|way| &way.plain)
+        self.ways().accepted.iter().map(|way| &way.plain)
     }
 
     /// The ways to forward dynamics that its derivatives may rest on.
     pub(super) fn differentiable(&self) -> impl Iterator<Item = &Function> {
         let ways = self.ways();
-        ways.kept.iter().chain(&ways.near).map(|way| &way.plain)
+        ways.accepted
+            .iter()
+            .chain(&ways.borderline)
+            .map(|way| &way.plain)
     }
 
-    fn ways(&self) -> &recursion::Ways {
+    fn ways(&self) -> &recursion::ForwardCandidates {
         let asked = || {
             let plain = self.asked?.function(self, Method::ForwardDynamics)?;
-            let way = recursion::Way {
+            let way = recursion::ForwardCandidate {
                 generated: plain.clone().factored(),
                 plain,
             };
-            Some(recursion::Ways {
-                kept: vec![way],
-                near: Vec::new(),
+            Some(recursion::ForwardCandidates {
+                accepted: vec![way],
+                borderline: Vec::new(),
             })
         };
         self.forward
@@ -117,9 +121,9 @@ impl<'a> Search<'a> {
     }
 
     /// The derivatives of inverse dynamics.
-    pub(super) fn slopes(&self) -> Option<&Function> {
-        let made = || derived::function(self, Method::InverseDynamicsDerivatives);
-        self.slopes.get_or_init(made).as_ref()
+    pub(super) fn effort_derivatives(&self) -> Option<&Function> {
+        let made = || by_differentiation::function(self, Method::InverseDynamicsDerivatives);
+        self.effort_derivatives.get_or_init(made).as_ref()
     }
 
     /// Whether the formulation of this name is asked for.

@@ -4,8 +4,8 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::formulation::generic_states;
-use crate::formulation::loss::in_double_double;
+use crate::formulation::conditioning::rounding_error::in_double_double;
+use crate::formulation::conditioning::sample_states::random;
 use crate::system::System;
 
 /// Coordinates up to which every state is tried.
@@ -45,7 +45,7 @@ pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
         0..=SMALL => GENERIC.len(),
         _ => 1,
     };
-    let generic = generic_states(graph);
+    let generic = random(graph);
     let mut random = Random(7);
     let chosen = GENERIC[..count].iter().enumerate().map(|(k, &i)| {
         let mut state = in_double_double(&generic[i]);

@@ -1,6 +1,6 @@
 //! Mass matrix with all momenta and all joint axes in the axes of the body next to the base.
 //!
-//! As in [`super::mass`] a unit rate of joint k gives the composite body beyond it a linear and an
+//! As in [`super::mass_matrix`] a unit rate of joint k gives the composite body beyond it a linear and an
 //! angular momentum (l_k, L_k). There they are carried to the base joint by joint, a turn and a
 //! shift for every entry of M. Here every joint's axis is placed once, as the axis z_j and the
 //! velocity w_j = o_j × z_j that it gives to the common origin, every momentum is brought there
@@ -15,11 +15,12 @@
 //! and its angle is not read. Both ways are counted before factoring and the cheaper one is made: this one
 //! from about 13 links in general position on.
 
-use super::frames::{Frame, Frames, Plan};
+use super::frames::{Frame, Frames};
 use super::geometry::Geometry;
 use super::inertia::turn_back;
-use super::mass::{Momentum, composites};
-use super::{cheapest_plans, plan};
+use super::mass_matrix::{Momentum, composites};
+use super::plan::Plan;
+use super::{cheapest_plans, plan_search};
 use crate::bond_graph::BondGraph;
 use crate::expr::{self, Builder, Cost, Ex, Expr, Graph};
 use crate::formulation::{Arguments, Formulation, Search};
@@ -79,7 +80,7 @@ impl CommonAxes {
         }
         let plan = best.taken();
         let (made, entries) = outputs(Builder::new(), graph, geometry, plan);
-        let name = format!("{}: {}", self.name(), plan::describe(geometry, plan));
+        let name = format!("{}: {}", self.name(), plan_search::describe(geometry, plan));
         Some(Function::flat(graph, METHOD, name, made, entries))
     }
 }

@@ -7,7 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::regrouped::Regrouped;
+use super::base_parameter_cache::BaseParameterCache;
 use crate::bond_graph::BondGraph;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
@@ -20,7 +20,7 @@ const FAR: f64 = 4.0;
 
 /// A rigid body: the links that one coordinate moves, and their frame.
 #[derive(Clone, Debug)]
-pub(super) struct Body {
+pub(in crate::formulation) struct Body {
     /// Name of the link that the joint carries.
     pub name: String,
     /// Name of the joint.
@@ -77,13 +77,13 @@ impl Body {
 }
 
 /// The bodies, parents before children, and the links welded to the world.
-pub(super) struct Geometry {
+pub(in crate::formulation) struct Geometry {
     /// In the order of the coordinates.
     pub bodies: Vec<Body>,
     /// Links that never move, with their place in the world.
     pub fixed: Vec<(LinkId, Pose)>,
     /// Inertia regrouped before.
-    pub regrouped: Regrouped,
+    pub(super) regrouped: BaseParameterCache,
 }
 
 impl Geometry {
@@ -94,11 +94,11 @@ impl Geometry {
 }
 
 /// The bodies of a bond graph.
-pub(super) fn geometry(graph: &BondGraph) -> Geometry {
+pub(in crate::formulation) fn geometry(graph: &BondGraph) -> Geometry {
     let mut made = Geometry {
         bodies: Vec::new(),
         fixed: Vec::new(),
-        regrouped: Regrouped::default(),
+        regrouped: BaseParameterCache::default(),
     };
     // Which body a link belongs to, and its place in the axes of the link that carries the body.
     let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();
@@ -261,7 +261,7 @@ fn basis_with_z(z: Vec3<Dd>) -> Mat3<Dd> {
     clean_matrix(columns(x, z.cross(x), z))
 }
 
-pub(super) fn identity() -> Mat3<Dd> {
+pub(in crate::formulation) fn identity() -> Mat3<Dd> {
     Mat3::from_fn(|i, j| if i == j { Dd::ONE } else { Dd::ZERO })
 }
 
@@ -335,7 +335,7 @@ fn compose(outer: &Pose, inner: &Pose) -> Pose {
 }
 
 /// The angle with this cosine and sine, to double-double accuracy.
-pub(super) fn angle_of((cos, sin): (Dd, Dd)) -> Dd {
+pub(in crate::formulation) fn angle_of((cos, sin): (Dd, Dd)) -> Dd {
     let near = Dd::from_f64(f64::atan2(sin.to_f64(), cos.to_f64()));
     let (s, c) = near.sin_cos();
     // sin(φ − near), so small that it is the angle.

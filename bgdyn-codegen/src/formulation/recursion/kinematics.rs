@@ -3,8 +3,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Frames, Plan};
+use super::frames::Frames;
 use super::geometry::Geometry;
+use super::plan::Plan;
 use crate::bond_graph::{BondGraph, SiteId};
 use crate::expr::{Builder, Ex, Expr, Graph, cost};
 use crate::formulation::Arguments;

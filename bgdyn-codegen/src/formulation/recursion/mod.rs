@@ -4,44 +4,37 @@
 //! | file | computes |
 //! |---|---|
 //! | `geometry.rs` | a frame for every moving body: z along its joint's axis, x along the common normal with the next axis |
-//! | `frames.rs` | these frames as expressions, for one [`Plan`] |
-//! | `base.rs` | base parameters: inertia moved inwards, known parts always, run-time parameters as the plan says |
+//! | `frames.rs` | these frames as expressions, for one [`Plan`] (`plan.rs`) |
+//! | `base_parameters.rs` | base parameters: inertia moved inwards, known parts always, run-time parameters as the plan says |
 //! | `motion.rs` | velocities and accelerations, outwards |
-//! | `inverse.rs` | forces, moments and efforts, inwards |
-//! | `mass.rs` | the mass matrix, from the momenta of composite bodies |
-//! | `slopes.rs` | first derivatives and the Coriolis matrix, from composite bodies (`composite.rs`: inertia, flow of mass and force of all bodies beyond a joint; `unit.rs`, `beyond.rs`: what one joint contributes, carried inwards; `view.rs`: the body and axes in which it is expressed, chosen by counting) |
+//! | `inverse_dynamics.rs` | forces, moments and efforts, inwards |
+//! | `mass_matrix.rs` | the mass matrix, from the momenta of composite bodies |
+//! | `derivatives/` | first derivatives and the Coriolis matrix, from composite bodies |
 //! | `kinematics.rs` | poses, velocities and Jacobians of sites |
-//! | `plan.rs` | the cheapest plan, by counting: one choice at a time, in a bounded number of steps |
+//! | `plan_search.rs` | the cheapest plan, by counting: one choice at a time, in a bounded number of steps |
 //!
 //! A plan says where origins slide, which length is the unit, which parallel joints share a basis, whose
 //! inertia is turned instead of the vectors, how far run-time parameters move inwards, and which point
 //! masses keep a force of their own. In small mechanisms the four cheapest plans are factored before one is
 //! chosen.
 
-mod aligned;
-mod answer;
 mod articulated;
-mod bars;
-mod base;
-mod beyond;
+mod base_parameter_cache;
+mod base_parameters;
+mod choose_forward_dynamics;
 mod common_axes;
-mod composite;
-mod forward;
+mod derivatives;
 mod frames;
-mod geometry;
+pub(super) mod geometry;
 mod inertia;
-mod inverse;
+mod inverse_dynamics;
 mod kinematics;
-mod mass;
+mod mass_matrix;
 mod motion;
-mod own;
 mod plan;
-mod regrouped;
+mod plan_search;
 mod rotors;
-mod share;
-mod slopes;
-mod unit;
-mod view;
+mod standard_parameters;
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -51,14 +44,14 @@ use crate::bond_graph::BondGraph;
 use crate::expr::{self, Builder, Cost, Expr, Graph, factored_cost};
 use crate::function::Function;
 use crate::method::Method;
-pub(super) use aligned::in_line;
 pub(super) use articulated::Articulated;
+pub(super) use choose_forward_dynamics::{ForwardCandidate, ForwardCandidates, forward_dynamics};
 pub(super) use common_axes::CommonAxes;
-pub(super) use forward::{Way, Ways, forward_dynamics};
-use frames::{Frames, Plan};
+use frames::Frames;
 use geometry::Geometry;
-pub(super) use own::OwnInertia;
-use plan::{Best, Tried};
+use plan::Plan;
+use plan_search::{Best, Tried};
+pub(super) use standard_parameters::OwnInertia;
 
 /// Bodies up to which a mechanism is small: the plans that its search keeps are factored before
 /// one is taken. For larger ones it would take more time than it saves operations: on arms of six
@@ -134,9 +127,9 @@ fn viewed_from(search: &Search<'_>, other: Method, method: Method) -> Best {
     let start = cheapest_plans(search, other);
     let cost = |plan: &Plan| cost(graph, geometry, method, plan);
     let after = |plan: &Plan| factored(graph, geometry, method, plan);
-    let mut best = plan::refined(geometry, start.taken(), cost);
-    let plan = view::chosen(geometry, best.taken().clone(), cost);
-    let plan = view::measured(geometry, plan, cost, after);
+    let mut best = plan_search::refined(geometry, start.taken(), cost);
+    let plan = derivatives::choose_partials(geometry, best.taken().clone(), cost);
+    let plan = derivatives::choose_length_unit(geometry, plan, cost, after);
     let found = cost(&plan);
     best.take(plan, found);
     best
@@ -148,7 +141,7 @@ fn viewed_from(search: &Search<'_>, other: Method, method: Method) -> Best {
 fn searched(search: &Search<'_>, method: Method) -> Best {
     let graph = search.graph;
     let geometry = search.recursion.geometry(graph);
-    let mut best = plan::search(geometry, |plan| cost(graph, geometry, method, plan));
+    let mut best = plan_search::search(geometry, |plan| cost(graph, geometry, method, plan));
     let small = geometry.bodies.len() <= SMALL;
     let kept = if small { best.plans.len() } else { 1 };
     let mut candidates: Vec<Tried> = best.plans.drain(..kept).collect();
@@ -182,7 +175,11 @@ fn factored(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan)
 fn with_plan(graph: &BondGraph, geometry: &Geometry, method: Method, best: &Best) -> Function {
     let plan = best.taken();
     let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);
-    let name = format!("{}: {}", Recursion.name(), plan::describe(geometry, plan));
+    let name = format!(
+        "{}: {}",
+        Recursion.name(),
+        plan_search::describe(geometry, plan)
+    );
     let plans = best.considered(geometry);
     Function {
         plans,
@@ -201,10 +198,10 @@ fn outputs(
     let outputs: Vec<Expr> = {
         let x = Arguments::new(&b, graph, method);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
-        let efforts = || inverse::efforts(&b, &frames, plan, x.active);
+        let efforts = || inverse_dynamics::efforts(&b, &frames, plan, x.active);
         let outputs = match method {
             Method::InverseDynamics | Method::Bias | Method::Gravity => efforts(),
-            Method::MassMatrix => mass::mass_matrix(&b, &frames)
+            Method::MassMatrix => mass_matrix::mass_matrix(&b, &frames)
                 .into_iter()
                 .flatten()
                 .collect(),
@@ -215,22 +212,39 @@ fn outputs(
                     .zip(efforts())
                     .map(|(&tau, h)| tau - h)
                     .collect();
-                solve::ltdl(&b, mass::mass_matrix(&b, &frames), drive)
+                solve::ltdl(&b, mass_matrix::mass_matrix(&b, &frames), drive)
             }
             Method::InverseDynamicsDerivatives => {
-                let slopes = slopes::slopes(&b, &frames, &plan.views, x.active);
-                let rows = slopes.by_position.into_iter().chain(slopes.by_rate);
+                let derivatives =
+                    derivatives::effort_derivatives(&b, &frames, &plan.views, x.active);
+                let rows = derivatives
+                    .by_position
+                    .into_iter()
+                    .chain(derivatives.by_rate);
                 rows.flatten().collect()
             }
             Method::CoriolisMatrix => {
-                let rows = slopes::coriolis_matrix(&b, &frames, &plan.views);
+                let rows = derivatives::coriolis_matrix(&b, &frames, &plan.views);
                 rows.into_iter().flatten().collect()
             }
-            Method::KineticEnergy => vec![mass::kinetic_energy(&b, &frames)],
-            Method::PotentialEnergy => vec![mass::potential_energy(&b, &frames)],
+            Method::KineticEnergy => vec![mass_matrix::kinetic_energy(&b, &frames)],
+            Method::PotentialEnergy => vec![mass_matrix::potential_energy(&b, &frames)],
             other => unreachable!("{other:?} is no method of the recursion"),
         };
         outputs.into_iter().map(|e| e.expr()).collect()
+    };
+    (b.into_graph(), outputs)
+}
+
+/// The lower triangle of M, row by row, and h, in one graph.
+pub(super) fn mass_and_bias(graph: &BondGraph, geometry: &Geometry) -> (Graph, Vec<Expr>) {
+    let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
+    let outputs: Vec<Expr> = {
+        let x = Arguments::new(&b, graph, Method::ForwardDynamics);
+        let frames = Frames::new(&b, graph, geometry, plan, &x);
+        let rows = mass_matrix::mass_matrix(&b, &frames).into_iter().flatten();
+        let bias = inverse_dynamics::efforts(&b, &frames, plan, x.active);
+        rows.chain(bias).map(|e| e.expr()).collect()
     };
     (b.into_graph(), outputs)
 }

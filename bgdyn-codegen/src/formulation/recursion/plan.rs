@@ -1,320 +1,112 @@
-//! Search for the cheapest plan, by weighted cost: one choice at a time, each tried and kept where it costs less,
-//! until a round changes nothing. Bounded, deterministic.
+//! The plan: the free choices of the recursion, and the origins that follow from it.
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Plan, View};
 use super::geometry::Geometry;
-use crate::expr::Cost;
-use crate::function::Considered;
+use crate::math::Vec3;
 
-/// Rounds over all choices at the most.
-const ROUNDS: usize = 2;
-
-/// Bodies beyond which the choices are not tried one by one: the cost of a search grows with the
-/// square of their number.
-pub(super) const SEARCHED: usize = 16;
-
-/// Plans kept of a search.
-const KEPT: usize = 4;
-
-/// A plan, and what it costs before factoring.
-#[derive(Clone)]
-pub(super) struct Tried {
-    pub plan: Plan,
-    pub cost: Cost,
+/// The free choices of the recursion: none changes the result, all change the count.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Plan {
+    /// How far each body's origin slides along its joint's axis, m.
+    pub slides: Vec<Dd>,
+    /// The unit of length, m.
+    pub unit: Dd,
+    /// Whether joints with parallel axes share one basis that does not turn with them.
+    pub grouped: bool,
+    /// Bodies whose own dynamics are computed in their basis: the inertia is turned, not the
+    /// vectors.
+    pub in_basis: Vec<bool>,
+    /// Bodies at the tips whose x axis points at their centre of mass.
+    pub aimed: Vec<bool>,
+    /// By how many joints inwards the base parameters of a body's run-time parameters move.
+    pub carried: Vec<usize>,
+    /// Bodies whose point masses with run-time parameters have a force of their own each, where
+    /// the others' are merged with the body.
+    pub apart: Vec<bool>,
+    /// Whether inertia is regrouped into base parameters; otherwise every body keeps its own.
+    pub base_parameters: bool,
+    /// N_z = J_zz ω̇_z + (D_xx − D_yy) ω_x ω_y + … instead of the skew part of U·D.
+    pub short_moment: bool,
+    /// For derivatives: how each joint's share of them is put together.
+    pub views: Vec<PartialsPlan>,
 }
 
-/// What a search has seen.
-#[derive(Clone, Default)]
-pub(super) struct Best {
-    /// The cheapest plans, the cheapest one first; many a choice changes no cost.
-    pub plans: Vec<Tried>,
-    /// For each of the least costs the first plan that has it.
-    steps: Vec<Tried>,
+/// How the derivatives by a joint's coordinate are put together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct PartialsPlan {
+    /// Where all that it moves is seen from.
+    pub seen_from: SeenFrom,
+    /// Whether what the next rotation of its group moves is taken over from that one.
+    pub reuse_neighbour: bool,
+    /// Whether changes of forces on what its body carries stay in the body's axes for the rotations
+    /// before it in the group.
+    pub keep_body_axes: bool,
 }
 
-impl Best {
-    fn see(&mut self, plan: &Plan, cost: Cost) {
-        let tried = || Tried {
-            plan: plan.clone(),
-            cost,
-        };
-        let weight = cost.weighted();
-        let above = |all: &[Tried]| all.partition_point(|t| t.cost.weighted() <= weight);
-        let place = above(&self.plans);
-        if place < KEPT && self.plans.iter().all(|t| t.plan != *plan) {
-            self.plans.insert(place, tried());
-            self.plans.truncate(KEPT);
-        }
-        let place = above(&self.steps);
-        let known = place > 0 && self.steps[place - 1].cost.weighted() == weight;
-        if place < KEPT && !known {
-            self.steps.insert(place, tried());
-            self.steps.truncate(KEPT);
-        }
-    }
-
-    /// Takes this plan before all others.
-    pub fn take(&mut self, plan: Plan, cost: Cost) {
-        self.plans.retain(|t| t.plan != plan);
-        self.plans.insert(0, Tried { plan, cost });
-    }
-
-    /// The plan that is taken.
-    pub fn taken(&self) -> &Plan {
-        &self.plans[0].plan
-    }
-
-    /// The plan that is taken, and the cheapest ones of other costs, for a function's reader: each
-    /// with all in which it differs from the one taken.
-    pub fn considered(&self, geometry: &Geometry) -> Vec<Considered> {
-        let taken = &self.plans[0];
-        let weight = taken.cost.weighted();
-        let others = self.steps.iter().filter(|t| t.cost.weighted() != weight);
-        let told = |t: &Tried| Considered {
-            what: describe(geometry, &t.plan) + &differences(geometry, &taken.plan, &t.plan),
-            cost: t.cost,
-        };
-        [taken].into_iter().chain(others).map(told).collect()
-    }
+/// The body whose motion counts as that of the carrier, and the axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum SeenFrom {
+    /// The body before the joint or the one after it, in the axes of the basis: the one with more
+    /// zeros.
+    #[default]
+    Sparser,
+    /// The body before the joint.
+    Before,
+    /// The body after it.
+    After,
+    /// The same in its own axes, but for what continues its basis.
+    Own,
 }
 
-/// The cheapest plans found.
-pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> Best {
-    let n = geometry.bodies.len();
-    let mut best = Best::default();
-    let mut weigh = |plan: &Plan| {
-        let cost = cost(plan);
-        best.see(plan, cost);
-        cost.weighted()
-    };
-    for start in starts(geometry) {
-        let mut plan = start;
-        let mut least = weigh(&plan);
-        let rounds = if n <= SEARCHED { ROUNDS } else { 0 };
-        let changes = changes(geometry);
-        // Once round without a gain, every choice was tried on the plan as it stands.
-        let mut in_vain = 0;
-        for change in std::iter::repeat_n(&changes, rounds).flatten() {
-            in_vain += 1;
-            if in_vain > changes.len() {
-                break;
-            }
-            let mut tried = plan.clone();
-            change(&mut tried);
-            if tried == plan {
-                continue;
-            }
-            let c = weigh(&tried);
-            if c < least {
-                (least, plan, in_vain) = (c, tried, 0);
-            }
+impl Plan {
+    /// Metres, origins where the spec has them: for poses.
+    pub(super) fn of_kinematics(geometry: &Geometry, grouped: bool) -> Self {
+        let n = geometry.bodies.len();
+        Plan {
+            slides: vec![Dd::ZERO; n],
+            unit: Dd::ONE,
+            grouped,
+            in_basis: vec![false; n],
+            aimed: vec![false; n],
+            carried: vec![0; n],
+            apart: vec![false; n],
+            base_parameters: true,
+            short_moment: false,
+            views: vec![PartialsPlan::default(); n],
         }
     }
-    best
-}
 
-/// The cheapest of the plans that come of trying each place of an origin and each unit of length
-/// once.
-pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> Best {
-    let mut plan = start.clone();
-    let mut best = Best::default();
-    let mut weigh = |plan: &Plan| {
-        let cost = cost(plan);
-        best.see(plan, cost);
-        cost.weighted()
-    };
-    let mut least = weigh(&plan);
-    let searched = geometry.bodies.len() <= SEARCHED;
-    let changes = if searched {
-        places(geometry)
-    } else {
-        Vec::new()
-    };
-    for change in changes {
-        let mut tried = plan.clone();
-        change(&mut tried);
-        if tried == plan {
-            continue;
-        }
-        let c = weigh(&tried);
-        if c < least {
-            (least, plan) = (c, tried);
+    /// The same with the axes of the tips as they are.
+    pub(super) fn unturned(&self) -> Self {
+        Plan {
+            aimed: vec![false; self.aimed.len()],
+            ..self.clone()
         }
     }
-    best
 }
 
-/// Plans to start from: with and without groups.
-fn starts(geometry: &Geometry) -> Vec<Plan> {
-    let n = geometry.bodies.len();
-    let tip = |j: usize| geometry.bodies.iter().all(|b| b.parent != Some(j));
-    let plan = |grouped| Plan {
-        slides: (0..n).map(|j| slides(geometry, j)[0]).collect(),
-        unit: Dd::ONE,
-        grouped,
-        in_basis: (0..n).map(tip).collect(),
-        aimed: (0..n).map(tip).collect(),
-        carried: vec![0; n],
-        apart: vec![false; n],
-        base_parameters: true,
-        short_moment: false,
-        views: vec![View::default(); n],
-    };
-    let groups = geometry.bodies.iter().any(|b| b.parallel());
-    if groups {
-        vec![plan(true), plan(false)]
-    } else {
-        vec![plan(false)]
-    }
-}
-
-type Change = Box<dyn Fn(&mut Plan)>;
-
-/// Every place for an origin and every unit of length, as a change of a plan.
-fn places(geometry: &Geometry) -> Vec<Change> {
-    let mut changes: Vec<Change> = Vec::new();
-    for j in 0..geometry.bodies.len() {
-        for h in slides(geometry, j) {
-            changes.push(Box::new(move |plan| plan.slides[j] = h));
-        }
-    }
-    for unit in units(geometry) {
-        changes.push(Box::new(move |plan| plan.unit = unit));
-    }
-    changes
-}
-
-/// Every single choice, as a change of a plan.
-fn changes(geometry: &Geometry) -> Vec<Change> {
-    let n = geometry.bodies.len();
-    let mut changes = places(geometry);
-    for j in 0..n {
-        changes.push(Box::new(move |plan| plan.in_basis[j] ^= true));
-    }
-    for j in (0..n).filter(|&j| geometry.bodies.iter().all(|b| b.parent != Some(j))) {
-        changes.push(Box::new(move |plan| plan.aimed[j] ^= true));
-    }
-    for j in (0..n).filter(|&j| geometry.bodies[j].varying) {
-        for joints in 0..=joints_to_base(geometry, j) {
-            for apart in [false, true] {
-                changes.push(Box::new(move |plan| {
-                    (plan.carried[j], plan.apart[j]) = (joints, apart);
-                }));
-            }
-        }
-    }
-    changes.push(Box::new(|plan| plan.short_moment ^= true));
-    changes
-}
-
-/// How many joints are between the body and the base.
-fn joints_to_base(geometry: &Geometry, mut j: usize) -> usize {
-    let mut joints = 1;
-    while let Some(p) = geometry.bodies[j].parent {
-        (j, joints) = (p, joints + 1);
-    }
-    joints
-}
-
-/// Where the origin of body j may go along its axis: the feet of the common normals with its
-/// children's axes, and with its parent's; where it was.
-fn slides(geometry: &Geometry, j: usize) -> Vec<Dd> {
+/// Where the origin of body j is from its parent's, in twisted axes, after the slides, m. The
+/// base's place enters nothing but the potential energy.
+pub(super) fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<Dd> {
     let body = &geometry.bodies[j];
-    let mut slides: Vec<Dd> = Vec::new();
-    for child in geometry.bodies.iter().filter(|b| b.parent == Some(j)) {
-        let (on_parent, own) = child.normal_feet();
-        slides.push(if child.parallel() { own } else { on_parent });
-    }
-    if body.parent.is_some() {
-        slides.push(-body.normal_feet().1);
-    }
-    slides.push(Dd::ZERO);
-    let mut distinct: Vec<Dd> = Vec::new();
-    for h in slides {
-        if !distinct.contains(&h) {
-            distinct.push(h);
-        }
-    }
-    distinct
-}
-
-/// Units of length: metres, and the distances between joints. Where the base stands is none.
-fn units(geometry: &Geometry) -> Vec<Dd> {
-    let mut units = vec![Dd::ONE];
-    for body in geometry.bodies.iter().filter(|b| b.parent.is_some()) {
-        let (on_parent, own) = body.normal_feet();
-        for length in [body.offset.0[0], on_parent, own] {
-            let length = length.abs();
-            if length > Dd::ZERO && !units.contains(&length) {
-                units.push(length);
-            }
-        }
-    }
-    units
-}
-
-/// Choices of `plan` that differ from those of another and that [`describe`] keeps to itself.
-fn differences(geometry: &Geometry, other: &Plan, plan: &Plan) -> String {
-    let mut words = String::new();
-    for (j, body) in geometry.bodies.iter().enumerate() {
-        let name = &body.name;
-        if plan.slides[j] != other.slides[j] {
-            let along = plan.slides[j].to_f64();
-            words += &format!("; origin of {name} moved {along} m along its axis");
-        }
-        if plan.aimed[j] != other.aimed[j] {
-            let where_to = if plan.aimed[j] { "at" } else { "away from" };
-            words += &format!("; x of {name} turned {where_to} its centre of mass");
-        }
-    }
-    if plan.short_moment != other.short_moment {
-        let which = if plan.short_moment {
-            "its component"
-        } else {
-            "U D"
-        };
-        words += &format!("; moment about an axis from {which}");
-    }
-    words
-}
-
-/// The plan in words.
-pub(super) fn describe(geometry: &Geometry, plan: &Plan) -> String {
-    let named = |flags: &[bool]| -> String {
-        let names = geometry.bodies.iter().zip(flags).filter(|(_, on)| **on);
-        names
-            .map(|(b, _)| b.name.as_str())
-            .collect::<Vec<_>>()
-            .join(", ")
+    let Some(p) = body.parent else {
+        return Vec3([Dd::ZERO; 3]);
     };
-    let mut words = Vec::new();
-    if plan.grouped {
-        words.push("parallel axes grouped".to_string());
-    }
-    if plan.unit != Dd::ONE {
-        words.push(format!("unit of length {} m", plan.unit.to_f64()));
-    }
-    if plan.in_basis.contains(&true) {
-        words.push(format!("inertia turned for {}", named(&plan.in_basis)));
-    }
-    let carried: Vec<String> = geometry
-        .bodies
+    let parent_z = body.twist.transpose().column(2);
+    let mut offset = body.offset - parent_z.scale(plan.slides[p]);
+    offset.0[2] += plan.slides[j];
+    // What two equal lengths leave of their difference is no length.
+    let size = body
+        .offset
+        .0
         .iter()
-        .zip(&plan.carried)
-        .filter(|(body, joints)| body.varying && **joints > 0)
-        .map(|(body, joints)| format!("{} by {joints}", body.name))
-        .collect();
-    if !carried.is_empty() {
-        words.push(format!("parameters moved inwards: {}", carried.join(", ")));
-    }
-    if plan.apart.contains(&true) {
-        words.push(format!("point masses apart on {}", named(&plan.apart)));
-    }
-    if words.is_empty() {
-        "plain".into()
-    } else {
-        words.join("; ")
-    }
+        .fold(0.0, |m: f64, x| m.max(x.hi().abs()));
+    offset.map(|x| {
+        if x.hi().abs() < 1e-26 * size {
+            Dd::ZERO
+        } else {
+            x
+        }
+    })
 }

@@ -8,12 +8,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::beyond::{Axis, Beyond};
-use super::composite::Composite;
+use super::derivatives::composite_flow::CompositeFlow;
+use super::derivatives::outboard_joint::{Axis, OutboardJoint};
 use super::frames::Frames;
 use super::geometry::Geometry;
 use super::inertia::turn;
-use super::mass::{Momenta, Momentum};
+use super::mass_matrix::{Momenta, Momentum};
 use super::motion::Moving;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
@@ -129,7 +129,7 @@ impl<'g> Rotors<'g> {
     /// Adds the rotors on a body to what that body carries, in its own axes. Seen from the body,
     /// the momentum H = h q̇_j is a flow of mass in place: its E is −[H]× (times `factor` / 2), as
     /// the moment ω × H must be E ω. What changes H takes h q̈_j.
-    pub fn add_flow(&self, b: &'g Builder, body: usize, factor: Dd, whole: &mut Composite<'g>) {
+    pub fn add_flow(&self, b: &'g Builder, body: usize, factor: Dd, whole: &mut CompositeFlow<'g>) {
         let half = factor * Dd::from_f64(0.5);
         for s in self.on(body) {
             let [x, y, z] = s.momentum.scale(self.rate[s.joint]).map(|x| x * half).0;
@@ -141,19 +141,19 @@ impl<'g> Rotors<'g> {
     }
 
     /// The rotors on a body as the joints before it see them, in its own axes: each with the joint
-    /// that turns it. See [`Beyond::of_rotor`].
+    /// that turns it. See [`OutboardJoint::of_rotor`].
     pub fn seen<'s>(
         &'s self,
         b: &'g Builder,
         frames: &'s Frames<'g>,
         body: usize,
         axis: &'s Axis<'g>,
-    ) -> impl Iterator<Item = Beyond<'g>> + 's
+    ) -> impl Iterator<Item = OutboardJoint<'g>> + 's
     where
         'g: 's,
     {
         self.on(body)
-            .map(move |s| Beyond::of_rotor(b, s.joint, s.per_unit(frames), axis))
+            .map(move |s| OutboardJoint::of_rotor(b, s.joint, s.per_unit(frames), axis))
     }
 
     fn on(&self, body: usize) -> impl Iterator<Item = &Spinning<'g>> {

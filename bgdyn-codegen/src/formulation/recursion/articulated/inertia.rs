@@ -8,7 +8,7 @@ use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Ex};
 use crate::formulation::recursion::inertia::Inertia;
-use crate::formulation::recursion::inverse::Wrench;
+use crate::formulation::recursion::inverse_dynamics::Wrench;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 

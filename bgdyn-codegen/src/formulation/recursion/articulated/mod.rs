@@ -11,18 +11,19 @@
 //! velocity enters these sweeps. A rotor behind a gear adds N²J to its joint's pivot, and of the row and
 //! column along the joint the part N²J/pivot is passed on.
 //!
-//! Where a body's own share is next to nothing, only rounding errors may be left of a pivot.
+//! Where a joint's own inertia ratio is next to zero, only rounding errors may be left of a pivot.
 //! `expr/error.rs` bounds its error operation by operation, and the pivot must exceed the bound.
 
 mod inertia;
 mod sweep;
 
-use super::frames::{Frames, Plan};
+use super::frames::Frames;
 use super::geometry::Geometry;
-use super::share::{FAIR, own_shares};
-use super::{inverse, plan};
+use super::plan::Plan;
+use super::{inverse_dynamics, plan_search};
 use crate::bond_graph::BondGraph;
 use crate::expr::{self, Builder, Cost, Expr, Graph};
+use crate::formulation::conditioning::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use crate::formulation::{Arguments, Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
@@ -64,15 +65,15 @@ impl Formulation for Articulated {
         let graph = search.graph;
         let geometry = search.recursion.geometry(graph);
         let cost = |plan: &Plan| self.cost(graph, geometry, plan);
-        let found = plan::search(geometry, cost);
+        let found = plan_search::search(geometry, cost);
         let best = found.taken();
-        // A pivot with a fair share of its own is never less than that.
-        let guarded: Vec<bool> = own_shares(graph, geometry)
+        // A pivot is never less than the own inertia of its joint.
+        let guarded: Vec<bool> = own_inertia_ratios(graph, geometry)
             .iter()
-            .map(|&share| share < FAIR)
+            .map(|&ratio| ratio < MIN_INERTIA_RATIO)
             .collect();
         let (made, outputs) = self.outputs(Builder::new(), graph, geometry, best, &guarded);
-        let name = format!("{}: {}", self.name(), plan::describe(geometry, best));
+        let name = format!("{}: {}", self.name(), plan_search::describe(geometry, best));
         let function = Function {
             plans: found.considered(geometry),
             ..Function::flat(graph, method, name, made, outputs)
@@ -111,7 +112,7 @@ impl Articulated {
             let x = Arguments::new(&b, graph, Method::ForwardDynamics);
             let frames = Frames::new(&b, graph, geometry, plan, &x);
             let sweep = Sweep::new(&b, &frames, careful, guarded);
-            let loads = inverse::loads(&b, &frames, plan, x.active);
+            let loads = inverse_dynamics::loads(&b, &frames, plan, x.active);
             let found = sweep.accelerations(&loads, &x.tau);
             found.into_iter().map(|e| e.expr()).collect()
         };

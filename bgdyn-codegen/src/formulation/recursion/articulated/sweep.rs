@@ -9,7 +9,7 @@ use super::inertia::{ArticulatedInertia, Column};
 use crate::expr::{Bound, Builder, ErrorBound, Ex};
 use crate::formulation::recursion::frames::{Frame, Frames};
 use crate::formulation::recursion::inertia::{turn, turn_back};
-use crate::formulation::recursion::inverse::{Load, Wrench};
+use crate::formulation::recursion::inverse_dynamics::{Load, Wrench};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
-use super::derived::{derivatives, finish, reopened};
+use super::differentiate::{derivatives, finish, reopened};
 use crate::bond_graph::BondGraph;
 use crate::columns::{self, Columns, Loops, Part};
 use crate::expr::{Builder, Expr, Graph, Leaf, Tangent, copy_into};
@@ -22,14 +22,14 @@ const OPERATIONS: usize = 800;
 
 /// Forward dynamics, and the efforts −∂τ/∂x that drive the columns of its derivatives.
 #[derive(Clone)]
-pub(super) struct Drives {
+pub(super) struct ForwardDerivatives {
     builder: Builder,
     accelerations: Vec<Expr>,
     /// By position, then by velocity; an effort for each coordinate.
     columns: Vec<Vec<Expr>>,
 }
 
-impl Drives {
+impl ForwardDerivatives {
     pub(super) fn new(graph: &BondGraph, slopes: &Function, forward: &Function) -> Self {
         let n = graph.coordinates.len();
         // The copy takes over the accelerations in place of their leaves.
@@ -45,7 +45,7 @@ impl Drives {
         let columns = slopes.chunks((n * n).max(1));
         let columns = columns.flat_map(|square| (0..n).map(move |j| column(square, j)));
         let columns = columns.collect();
-        Drives {
+        ForwardDerivatives {
             builder,
             accelerations,
             columns,

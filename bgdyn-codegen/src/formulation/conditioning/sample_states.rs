@@ -1,6 +1,6 @@
-//! States in which functions are tried: the same ones every time for one mechanism.
+//! The states in which functions are tried: the same ones in every run for one mechanism.
 //!
-//! Generic ones, and those near which mass matrices come closest to losing rank: common normals of
+//! Random ones, and those near which mass matrices come closest to losing rank: common normals of
 //! neighbouring axes in line or across, which is where axes become parallel and where an arm is
 //! stretched or folded, exactly and by a hair. Positions, velocities and efforts are numbers of
 //! `f64`.
@@ -9,16 +9,17 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bgdyn_runtime::Dd;
 
-use super::recursion::in_line;
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::mechanism::Motion;
+use crate::formulation::recursion::geometry::{Body, angle_of, geometry};
+use crate::math::Vec3;
+use crate::mechanism::{Motion, Value};
 
-/// Generic states.
-const GENERIC: u64 = 24;
+/// Number of random states.
+const RANDOM: u64 = 24;
 
 /// States near aligned axes at the most.
-const ALIGNED: usize = 36;
+const NEAR_SINGULAR: usize = 36;
 
 /// States in which all joints are aligned.
 const TOGETHER: u64 = 6;
@@ -32,22 +33,22 @@ const OFF: [f64; 3] = [0.0, 1e-8, 1e-4];
 /// States anywhere: positions within a turn, or a metre; velocities, accelerations and efforts of
 /// a few units; every fourth a thousand times as fast, every other fourth under a thousand times
 /// the effort. Run-time parameters as the spec has them.
-pub(crate) fn generic(graph: &BondGraph) -> Vec<Inputs<f64>> {
-    (0..GENERIC).map(|seed| anywhere(graph, seed)).collect()
+pub(crate) fn random(graph: &BondGraph) -> Vec<Inputs<f64>> {
+    (0..RANDOM).map(|seed| random_state(graph, seed)).collect()
 }
 
 /// States near aligned axes: joint by joint with the others anywhere, and all at once.
-pub(crate) fn aligned(graph: &BondGraph) -> Vec<Inputs<f64>> {
-    let in_line = in_line(graph);
-    let joints: Vec<usize> = (0..in_line.len())
-        .filter(|&j| in_line[j].is_some())
+pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
+    let aligned = aligned_positions(graph);
+    let joints: Vec<usize> = (0..aligned.len())
+        .filter(|&j| aligned[j].is_some())
         .collect();
     let at = |j: usize, turns: f64, off: f64| {
-        in_line[j].map_or(0.0, |q: Dd| q.to_f64()) + (turns * FRAC_PI_2 + off)
+        aligned[j].map_or(0.0, |q: Dd| q.to_f64()) + (turns * FRAC_PI_2 + off)
     };
     let mut states = Vec::new();
     for seed in 0..TOGETHER {
-        let mut state = anywhere(graph, GENERIC + seed);
+        let mut state = random_state(graph, RANDOM + seed);
         let mut random = Random(!seed);
         for &j in &joints {
             // The first ones all in line, then in line or folded, then any quarter turn.
@@ -64,8 +65,8 @@ pub(crate) fn aligned(graph: &BondGraph) -> Vec<Inputs<f64>> {
         .iter()
         .flat_map(|&(turns, off)| joints.iter().map(move |&j| (turns, off, j)))
         .collect();
-    for (turns, off, j) in spread(&each, ALIGNED - states.len()) {
-        let mut state = anywhere(graph, 1000 + states.len() as u64);
+    for (turns, off, j) in subsample(&each, NEAR_SINGULAR - states.len()) {
+        let mut state = random_state(graph, 1000 + states.len() as u64);
         state.q[j] = at(j, turns, off);
         states.push(state);
     }
@@ -75,22 +76,22 @@ pub(crate) fn aligned(graph: &BondGraph) -> Vec<Inputs<f64>> {
 /// For each joint the aligned states in which it moves least, exactly and by a hair: there its row of
 /// M is what is left of terms that cancel. At most so many of them, spread over the joints. `moved`
 /// gives the inertia that a joint moves, as a function of the state.
-pub(crate) fn folded<F: Fn(&Inputs<f64>) -> f64>(
+pub(crate) fn least_inertia<F: Fn(&Inputs<f64>) -> f64>(
     graph: &BondGraph,
     most: usize,
     moved: impl Fn(usize) -> F,
 ) -> Vec<Inputs<f64>> {
-    let in_line = in_line(graph);
-    let n = in_line.len();
+    let aligned = aligned_positions(graph);
+    let n = aligned.len();
     let every = (0..n).flat_map(|i| OFF.map(|off| (i, off)));
-    let kept = spread(&every.collect::<Vec<_>>(), most);
+    let kept = subsample(&every.collect::<Vec<_>>(), most);
     let mut states = Vec::new();
     for of_joint in kept.chunk_by(|(i, _), (k, _)| i == k) {
         let i = of_joint[0].0;
-        let least = moving_least(graph, &in_line, i, moved(i));
+        let least = least_inertia_pose(graph, &aligned, i, moved(i));
         for (_, off) in of_joint {
             let mut state = least.clone();
-            let joints = (0..n).filter(|&j| in_line[j].is_some());
+            let joints = (0..n).filter(|&j| aligned[j].is_some());
             joints.for_each(|j| state.q[j] += off);
             states.push(state);
         }
@@ -99,15 +100,15 @@ pub(crate) fn folded<F: Fn(&Inputs<f64>) -> f64>(
 }
 
 /// The state in which joint i moves least, found joint by joint from the tips inwards.
-fn moving_least(
+fn least_inertia_pose(
     graph: &BondGraph,
-    in_line: &[Option<Dd>],
+    aligned: &[Option<Dd>],
     i: usize,
     moved: impl Fn(&Inputs<f64>) -> f64,
 ) -> Inputs<f64> {
-    let mut state = anywhere(graph, 2000 + 4 * i as u64);
-    for j in (0..in_line.len()).rev() {
-        let Some(start) = in_line[j] else { continue };
+    let mut state = random_state(graph, 2000 + 4 * i as u64);
+    for j in (0..aligned.len()).rev() {
+        let Some(start) = aligned[j] else { continue };
         let mut least = (f64::INFINITY, state.q[j]);
         for turns in 0..4 {
             let q = start.to_f64() + f64::from(turns) * FRAC_PI_2;
@@ -123,14 +124,14 @@ fn moving_least(
 }
 
 /// At most so many items, spread over the list.
-pub(crate) fn spread<T: Clone>(all: &[T], most: usize) -> Vec<T> {
+pub(crate) fn subsample<T: Clone>(all: &[T], most: usize) -> Vec<T> {
     let kept = all.len().min(most);
     (0..kept)
         .map(|i| all[i * all.len() / kept].clone())
         .collect()
 }
 
-fn anywhere(graph: &BondGraph, seed: u64) -> Inputs<f64> {
+fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     let mut random = Random(seed);
     let mut all = |size: &dyn Fn(usize) -> f64| -> Vec<f64> {
         let n = graph.coordinates.len();
@@ -159,6 +160,44 @@ fn anywhere(graph: &BondGraph, seed: u64) -> Inputs<f64> {
             .collect(),
         ..Inputs::default()
     }
+}
+
+/// For each rotation that another joint carries, the position at which the common normals with the
+/// axes before and after it have one direction (θ = 0 of Denavit and Hartenberg). There, and every
+/// quarter turn from there, the neighbouring axes are as close to parallel as they come, and the
+/// arm is stretched or folded. At a tip the centre of mass takes the place of the next axis.
+/// `None` for joints on the base: M does not depend on their positions.
+fn aligned_positions(graph: &BondGraph) -> Vec<Option<Dd>> {
+    let geometry = geometry(graph);
+    let bodies = geometry.bodies.iter();
+    bodies
+        .map(|body| {
+            if body.motion != Motion::Rotation || body.parent.is_none() {
+                return None;
+            }
+            let mut start = angle_of(body.phase);
+            if body.free_x {
+                let [x, y, _] = first_moment(graph, body).0;
+                start += Dd::from_f64(f64::atan2(y.to_f64(), x.to_f64()));
+            }
+            Some(if body.opposite { start } else { -start })
+        })
+        .collect()
+}
+
+/// m r of a body in its axes, run-time parameters as the spec has them.
+fn first_moment(graph: &BondGraph, body: &Body) -> Vec3<Dd> {
+    let number = |x: Value| match x {
+        Value::Fixed(x) => x,
+        Value::Parameter(p) => graph.parameters[p.0].default,
+    };
+    let mut sum = Vec3([Dd::ZERO; 3]);
+    for (link, place) in &body.links {
+        let inertial = graph.inertial(*link);
+        let r = place.translation + place.rotation * inertial.com.map(number);
+        sum = sum + r.scale(number(inertial.mass));
+    }
+    body.axes.transpose() * sum
 }
 
 /// SplitMix64: the same numbers on every machine.

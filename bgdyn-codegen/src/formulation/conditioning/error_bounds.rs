@@ -1,4 +1,4 @@
-//! What a way to forward dynamics may lose, measured: its error in `f64` at sampled states.
+//! Bounds for the rounding error of a forward dynamics, and its errors in `f64` compared with them.
 //!
 //! With ε = 2⁻⁵², M and h = bias in double-double, q̈ the exact answer and q̈ + δ the one found:
 //! - backward: |M δ|_i ≤ 8 n ε (Σ_j |M_ij||q̈_j| + |τ_i| + |h_i|) for each joint i, or what the
@@ -20,16 +20,13 @@
 
 use bgdyn_runtime::Dd;
 
-use super::answer::{Answer, Rounding, Terms, norm, product};
-use super::frames::{Frames, Plan};
-use super::geometry::Geometry;
-use super::{inverse, mass};
+use super::reference_solution::{MassAndBias, ReferenceSolution, Rounding, norm, product};
+use super::sample_states::{least_inertia, near_singular, random, subsample};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Graph, Inputs, copy_into, evaluate};
-use crate::formulation::Arguments;
-use crate::formulation::sample::{aligned, folded, generic, spread};
+use crate::expr::{Expr, Graph, Inputs, copy_into, evaluate};
+use crate::formulation::recursion::geometry::Geometry;
+use crate::formulation::recursion::mass_and_bias;
 use crate::function::{Function, in_triangle};
-use crate::method::Method;
 
 const EPS: f64 = f64::EPSILON;
 
@@ -48,7 +45,7 @@ const LITTLE: f64 = 2.0;
 const SINGLE: usize = 20;
 
 /// What may be paid, in units of the cheapest function's cost, where that loses no digit.
-pub(super) const PRICE: f64 = 1.05;
+pub(in crate::formulation) const PRICE: f64 = 1.05;
 
 /// States tried: generic ones, near aligned axes, and those in which a joint moves least.
 const STATES: [usize; 3] = [8, 24, 12];
@@ -62,43 +59,43 @@ const ALL: usize = 8;
 
 /// How a function stands to the bars. The order is that of harm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-pub(super) struct Standing {
+pub(in crate::formulation) struct BoundReport {
     /// States that have an answer, and none in `f64`.
-    refused: usize,
+    failures: usize,
     /// The largest error over what is allowed.
-    excess: f64,
+    ratio: f64,
     /// The same by bars that round no argument.
-    strict: f64,
+    strict_ratio: f64,
     /// States in which an error is larger than what is allowed.
-    beyond: usize,
+    exceeded: usize,
     /// States tried.
-    tried: usize,
+    states: usize,
 }
 
-impl Standing {
+impl BoundReport {
     /// Whether every bar is met.
-    pub fn meets(&self) -> bool {
-        self.refused == 0 && self.excess <= 1.0
+    pub fn holds(&self) -> bool {
+        self.failures == 0 && self.ratio <= 1.0
     }
 
     /// Whether it loses no digit: hardly beyond them, and that in single states only.
-    pub fn keeps(&self) -> bool {
-        self.refused == 0 && self.excess <= LITTLE && self.beyond * SINGLE <= self.tried
+    pub fn almost_holds(&self) -> bool {
+        self.failures == 0 && self.ratio <= LITTLE && self.exceeded * SINGLE <= self.states
     }
 
     /// Whether it is at most a digit beyond them.
-    pub fn near(&self) -> bool {
-        self.refused == 0 && self.excess <= 10.0
+    pub fn within_a_digit(&self) -> bool {
+        self.failures == 0 && self.ratio <= 10.0
     }
 }
 
-impl std::fmt::Display for Standing {
+impl std::fmt::Display for BoundReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.refused {
+        match self.failures {
             0 => write!(
                 f,
                 "up to {:.1e} times the error allowed, in {} of {} states beyond it",
-                self.excess, self.beyond, self.tried
+                self.ratio, self.exceeded, self.states
             ),
             n => write!(f, "no answer in {n} states that have one"),
         }
@@ -106,33 +103,35 @@ impl std::fmt::Display for Standing {
 }
 
 /// The states of a mechanism with their answers.
-pub(super) struct Bars {
-    answers: Vec<Answer>,
+pub(in crate::formulation) struct ErrorBounds {
+    answers: Vec<ReferenceSolution>,
     /// The lower triangle of M, row by row, and h.
     made: Graph,
     outputs: Vec<Expr>,
 }
 
-impl Bars {
+impl ErrorBounds {
     /// States of the mechanism, with their answers.
     pub fn new(graph: &BondGraph, geometry: &Geometry) -> Self {
         let n = geometry.bodies.len();
         let (made, outputs) = mass_and_bias(graph, geometry);
         let few = |most: usize| (most * ALL * ALL / n.max(ALL).pow(2)).max(2);
-        let mut states = spread(&generic(graph), few(STATES[0]));
-        states.extend(spread(&aligned(graph), few(STATES[1])));
+        let mut states = subsample(&random(graph), few(STATES[0]));
+        states.extend(subsample(&near_singular(graph), few(STATES[1])));
         let moved = |i: usize| {
             let mut own = Graph::default();
             let diagonal = [outputs[in_triangle(i, i)]];
             let diagonal = copy_into(&mut own, &made, &diagonal, |_, _| None);
             move |state: &Inputs<f64>| evaluate(&own, &diagonal, state, &mut None)[0]
         };
-        states.extend(folded(graph, few(STATES[2]), moved));
+        states.extend(least_inertia(graph, few(STATES[2]), moved));
         let states = states.into_iter().enumerate();
-        let terms =
-            |inputs: &Inputs<Dd>| Terms::new(&evaluate(&made, &outputs, inputs, &mut None), n);
-        let answers = states.filter_map(|(i, state)| Answer::new(state, terms, i % 2 == 1));
-        Bars {
+        let terms = |inputs: &Inputs<Dd>| {
+            MassAndBias::new(&evaluate(&made, &outputs, inputs, &mut None), n)
+        };
+        let answers =
+            states.filter_map(|(i, state)| ReferenceSolution::new(state, terms, i % 2 == 1));
+        ErrorBounds {
             answers: answers.collect(),
             made,
             outputs,
@@ -142,22 +141,22 @@ impl Bars {
     /// The function as it is to be generated, and how that stands to them: factored, unless that
     /// brings it near the bars, or beyond, and nearer than it was. As factoring saves little, that is
     /// judged without rounding any argument; but where no digit is lost, no more is paid than [`PRICE`].
-    pub fn judged(&self, function: &Function) -> (Standing, Function) {
-        let own = self.standing(function);
+    pub fn check(&self, function: &Function) -> (BoundReport, Function) {
+        let own = self.measure(function);
         if function.ordered {
             return (own, function.clone());
         }
         let factored = function.clone().factored();
-        let found = self.standing(&factored);
-        let near = found.refused > 0 || found.strict > MARGIN;
-        let better = (found.refused, found.strict) <= (own.refused, own.strict);
+        let found = self.measure(&factored);
+        let near = found.failures > 0 || found.strict_ratio > MARGIN;
+        let better = (found.failures, found.strict_ratio) <= (own.failures, own.strict_ratio);
         let dear = cost(function) > PRICE * cost(&factored);
-        if better || !near || (dear && found.keeps()) {
+        if better || !near || (dear && found.almost_holds()) {
             return (found, factored);
         }
         let mut kept = function.clone();
-        let to = match found.refused {
-            0 => format!("up to {:.1e} times the error allowed", found.strict),
+        let to = match found.failures {
+            0 => format!("up to {:.1e} times the error allowed", found.strict_ratio),
             _ => found.to_string(),
         };
         kept.formulation += &format!("; not factored, which would take it {to}");
@@ -165,17 +164,17 @@ impl Bars {
     }
 
     /// How a function stands to them.
-    fn standing(&self, function: &Function) -> Standing {
-        let mut all = Standing::default();
+    fn measure(&self, function: &Function) -> BoundReport {
+        let mut all = BoundReport::default();
         for answer in &self.answers {
-            all.tried += 1;
+            all.states += 1;
             match function.evaluate(answer.inputs.clone()) {
-                (_, Some(_)) => all.refused += 1,
+                (_, Some(_)) => all.failures += 1,
                 (found, None) => {
-                    let (strict, excess) = self.excess(answer, &found);
-                    all.strict = all.strict.max(strict);
-                    all.excess = all.excess.max(excess);
-                    all.beyond += usize::from(excess > 1.0);
+                    let (strict, ratio) = self.error_ratio(answer, &found);
+                    all.strict_ratio = all.strict_ratio.max(strict);
+                    all.ratio = all.ratio.max(ratio);
+                    all.exceeded += usize::from(ratio > 1.0);
                 }
             }
         }
@@ -184,7 +183,7 @@ impl Bars {
 
     /// The largest error of what was found, over what is allowed: where no argument is rounded, and as it
     /// counts.
-    fn excess(&self, answer: &Answer, found: &[f64]) -> (f64, f64) {
+    fn error_ratio(&self, answer: &ReferenceSolution, found: &[f64]) -> (f64, f64) {
         if found.iter().any(|x| !x.is_finite()) {
             return (f64::INFINITY, f64::INFINITY);
         }
@@ -196,7 +195,7 @@ impl Bars {
             accelerations: 0.0,
         };
         // What rounding changes can only allow more: it is worked out where that decides.
-        let strict = excess(answer, &off, &found, &unrounded);
+        let strict = error_ratio(answer, &off, &found, &unrounded);
         let strict = strict.max(digits(answer, &off, 0.0));
         if strict <= MARGIN {
             return (strict, strict);
@@ -204,22 +203,22 @@ impl Bars {
         let n = off.len();
         let terms = |inputs: &Inputs<Dd>| {
             let values = evaluate(&self.made, &self.outputs, inputs, &mut None);
-            Terms::new(&values, n)
+            MassAndBias::new(&values, n)
         };
         let rounding = answer.rounding(terms);
         let lost = digits(answer, &off, rounding.accelerations);
-        let [strict, read] = [&unrounded, rounding].map(|r| excess(answer, &off, &found, r));
+        let [strict, read] = [&unrounded, rounding].map(|r| error_ratio(answer, &off, &found, r));
         (strict.max(lost), read.max(lost))
     }
 }
 
 /// What a function costs, as functions are compared.
-pub(super) fn cost(function: &Function) -> f64 {
+pub(in crate::formulation) fn cost(function: &Function) -> f64 {
     function.cost().weighted() as f64
 }
 
 /// The largest error of what was found, over what is allowed with this rounding; digits apart.
-fn excess(answer: &Answer, off: &[Dd], found: &[Dd], rounding: &Rounding) -> f64 {
+fn error_ratio(answer: &ReferenceSolution, off: &[Dd], found: &[Dd], rounding: &Rounding) -> f64 {
     let round_trip = if answer.round_trip {
         round_trip(answer, found)
     } else {
@@ -230,56 +229,43 @@ fn excess(answer: &Answer, off: &[Dd], found: &[Dd], rounding: &Rounding) -> f64
         .max(round_trip)
 }
 
-fn backward(answer: &Answer, off: &[Dd], rounding: &[f64]) -> f64 {
+fn backward(answer: &ReferenceSolution, off: &[Dd], rounding: &[f64]) -> f64 {
     let unmet = product(&answer.mass, off);
     let row = |i: usize| {
         let terms = answer.mass[i].iter().zip(&answer.exact);
         let terms: f64 = terms.map(|(m, x)| (m.to_f64() * x.to_f64()).abs()).sum();
         let size = terms + answer.inputs.u[i].abs() + answer.bias[i].abs();
         let allowed = 8.0 * off.len() as f64 * EPS * size;
-        ratio(unmet[i].to_f64().abs(), allowed.max(rounding[i]))
+        quotient(unmet[i].to_f64().abs(), allowed.max(rounding[i]))
     };
     (0..off.len()).map(row).fold(0.0, f64::max)
 }
 
-fn forward(answer: &Answer, off: &[Dd], rounding: f64) -> f64 {
+fn forward(answer: &ReferenceSolution, off: &[Dd], rounding: f64) -> f64 {
     let moving = norm(answer.exact.iter().map(|x| x.to_f64()));
     let cond = answer.most * answer.inverse;
     let held = norm(answer.bias.iter().copied());
     let allowed = EPS * ((16.0 + cond) * moving + answer.inverse * held);
-    ratio(
+    quotient(
         norm(off.iter().map(|x| x.to_f64())),
         allowed.max(BALANCED * rounding),
     )
 }
 
-fn digits(answer: &Answer, off: &[Dd], rounding: f64) -> f64 {
+fn digits(answer: &ReferenceSolution, off: &[Dd], rounding: f64) -> f64 {
     let moving = norm(answer.exact.iter().map(|x| x.to_f64()));
     let allowed = LOST * (EPS * moving + rounding);
-    ratio(norm(off.iter().map(|x| x.to_f64())), allowed)
+    quotient(norm(off.iter().map(|x| x.to_f64())), allowed)
 }
 
-fn round_trip(answer: &Answer, found: &[Dd]) -> f64 {
+fn round_trip(answer: &ReferenceSolution, found: &[Dd]) -> f64 {
     let chosen = &answer.inputs.a;
     let off = found.iter().zip(chosen);
     let off = norm(off.map(|(&x, &a)| (x - Dd::from_f64(a)).to_f64()));
     let moved = answer.most * norm(chosen.iter().copied()) + norm(answer.bias.iter().copied());
-    ratio(off, 8.0 * found.len() as f64 * EPS * answer.inverse * moved)
+    quotient(off, 8.0 * found.len() as f64 * EPS * answer.inverse * moved)
 }
 
-fn ratio(off: f64, allowed: f64) -> f64 {
+fn quotient(off: f64, allowed: f64) -> f64 {
     if off == 0.0 { 0.0 } else { off / allowed }
-}
-
-/// The lower triangle of M, row by row, and h, in one graph.
-fn mass_and_bias(graph: &BondGraph, geometry: &Geometry) -> (Graph, Vec<Expr>) {
-    let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
-    let outputs: Vec<Expr> = {
-        let x = Arguments::new(&b, graph, Method::ForwardDynamics);
-        let frames = Frames::new(&b, graph, geometry, plan, &x);
-        let rows = mass::mass_matrix(&b, &frames).into_iter().flatten();
-        let bias = inverse::efforts(&b, &frames, plan, x.active);
-        rows.chain(bias).map(|e| e.expr()).collect()
-    };
-    (b.into_graph(), outputs)
 }

@@ -1,14 +1,15 @@
-//! Which forward dynamics is generated: M = Lᵀ D L after the bias (`recursion`), articulated bodies over
+//! Chooses which forward dynamics is generated:
+//! M = Lᵀ D L after the bias (`recursion`), articulated bodies over
 //! base parameters (`articulated_base`), or articulated bodies with each body's own inertia
 //! (`articulated`).
 //!
 //! 1. A joint's pivot is no less than the inertia of its own body. Where that is less than 1e-7 of the
-//!    inertia it moves (a massless link, a heavy load on a light link; [`super::share`]), `articulated` is
+//!    inertia it moves (a massless link, a heavy load on a light link; [`crate::formulation::conditioning::inertia_ratio`]), `articulated` is
 //!    generated at any cost: no sample of states could show that another way keeps the pivot's digits.
-//! 2. Otherwise each way is tried in sampled states (`sample.rs`, `aligned.rs`): generic ones, fast ones,
-//!    large efforts, and states with neighbouring common normals in line or across. `answer.rs` solves
+//! 2. Otherwise each way is tried in sampled states (`conditioning/sample_states.rs`): generic ones, fast ones,
+//!    large efforts, and states with neighbouring common normals in line or across. `reference_solution.rs` solves
 //!    M q̈ = τ − h there in double-double.
-//! 3. `bars.rs` compares each way in `f64` with these answers: backward error joint by joint, forward error
+//! 3. `error_bounds.rs` compares each way in `f64` with these answers: backward error joint by joint, forward error
 //!    by the condition number, the round trip through the efforts, and at most three digits lost beyond what
 //!    rounding the arguments costs. The exact answer for arguments that round to the same numbers counts as
 //!    right.
@@ -24,18 +25,18 @@
 use std::cmp::Ordering;
 
 use super::articulated::Articulated;
-use super::bars::{Bars, PRICE, Standing, cost};
-use super::plan::SEARCHED;
-use super::share::{FAIR, own_shares};
+use super::plan_search::SEARCHED;
 use super::{cheapest_plans, with_plan};
+use crate::formulation::conditioning::error_bounds::{BoundReport, ErrorBounds, PRICE, cost};
+use crate::formulation::conditioning::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
 
 const METHOD: Method = Method::ForwardDynamics;
 
-/// A way to forward dynamics.
-pub(in crate::formulation) struct Way {
+/// A candidate for forward dynamics.
+pub(in crate::formulation) struct ForwardCandidate {
     /// As its formulation writes it: other functions are made of it.
     pub plain: Function,
     /// As it is generated.
@@ -43,43 +44,44 @@ pub(in crate::formulation) struct Way {
 }
 
 /// A way, and how it stands to the bars.
-type Judged = (Standing, Way);
+type CheckedCandidate = (BoundReport, ForwardCandidate);
 
-/// Ways to forward dynamics.
-pub(in crate::formulation) struct Ways {
+/// The candidates for forward dynamics.
+pub(in crate::formulation) struct ForwardCandidates {
     /// Those that keep their digits and are worth a look, the cheapest first; where none does, the
     /// one that loses least.
-    pub kept: Vec<Way>,
+    pub accepted: Vec<ForwardCandidate>,
     /// Those that miss the bars by a digit at most: derivatives may rest on them.
-    pub near: Vec<Way>,
+    pub borderline: Vec<ForwardCandidate>,
 }
 
 /// The ways to forward dynamics.
-pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Ways {
+pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> ForwardCandidates {
     let graph = search.graph;
     let geometry = search.recursion.geometry(graph);
-    let bars = Bars::new(graph, geometry);
+    let bounds = ErrorBounds::new(graph, geometry);
     let judged = |plain: Function| {
-        let (standing, generated) = bars.judged(&plain);
-        (standing, Way { plain, generated })
+        let (report, generated) = bounds.check(&plain);
+        (report, ForwardCandidate { plain, generated })
     };
     let bodies = |way: Articulated| way.function(search, METHOD).map(judged);
-    let shares = own_shares(graph, geometry);
-    if let Some(j) = shares.iter().position(|&share| share < FAIR) {
+    let ratios = own_inertia_ratios(graph, geometry);
+    if let Some(j) = ratios.iter().position(|&ratio| ratio < MIN_INERTIA_RATIO) {
         let mut found = best(bodies(Articulated::Own).into_iter().collect());
-        for way in &mut found.kept {
+        for way in &mut found.accepted {
             let link = &geometry.bodies[j].name;
             way.generated.formulation += &format!("; {link} has next to no inertia of its own");
         }
         // Articulated bodies know no rotors that turn with their carriers.
-        if !found.kept.is_empty() {
+        if !found.accepted.is_empty() {
             return found;
         }
     }
-    let mut tried: Vec<Judged> = cheap(search).into_iter().map(judged).collect();
+    let mut tried: Vec<CheckedCandidate> = cheap(search).into_iter().map(judged).collect();
     for way in [Articulated::Base, Articulated::Own] {
-        let known = |(_, f): &Judged| f.plain.formulation.split(':').next() == Some(way.name());
-        let done = |judged: &Judged| judged.0.meets() || known(judged);
+        let known =
+            |(_, f): &CheckedCandidate| f.plain.formulation.split(':').next() == Some(way.name());
+        let done = |judged: &CheckedCandidate| judged.0.holds() || known(judged);
         if !tried.iter().any(done) {
             tried.extend(bodies(way));
         }
@@ -90,46 +92,47 @@ pub(in crate::formulation) fn forward_dynamics(search: &Search<'_>) -> Ways {
 /// Those that meet the bars, the cheapest first; where there are none, the one that comes nearest. But
 /// where one that costs less loses no digit, and they cost more than [`PRICE`] times as much, that one.
 /// Each says what is wrong with those that do not meet them.
-fn best(mut tried: Vec<Judged>) -> Ways {
+fn best(mut tried: Vec<CheckedCandidate>) -> ForwardCandidates {
     tried.sort_by_key(|(_, way)| way.generated.cost().weighted());
     let wrong: String = tried
         .iter()
-        .filter(|(standing, _)| !standing.meets())
-        .map(|(standing, way)| {
+        .filter(|(report, _)| !report.holds())
+        .map(|(report, way)| {
             let name = way.plain.formulation.split(':').next();
-            format!("; {}: {standing}", name.unwrap_or_default())
+            format!("; {}: {report}", name.unwrap_or_default())
         })
         .collect();
-    let (mut kept, mut near): (Vec<Judged>, Vec<Judged>) = tried
-        .into_iter()
-        .partition(|(standing, _)| standing.meets());
-    if let Some(k) = spared(&kept, &near) {
-        let (standing, mut way) = near.remove(k);
+    let (mut accepted, mut borderline): (Vec<CheckedCandidate>, Vec<CheckedCandidate>) =
+        tried.into_iter().partition(|(report, _)| report.holds());
+    if let Some(k) = spared(&accepted, &borderline) {
+        let (report, mut way) = borderline.remove(k);
         way.generated.formulation += "; no digit is lost";
-        kept.insert(0, (standing, way));
+        accepted.insert(0, (report, way));
     }
-    if kept.is_empty() {
-        near.sort_by(|(x, _), (y, _)| x.partial_cmp(y).unwrap_or(Ordering::Equal));
-        kept.extend((!near.is_empty()).then(|| near.remove(0)));
+    if accepted.is_empty() {
+        borderline.sort_by(|(x, _), (y, _)| x.partial_cmp(y).unwrap_or(Ordering::Equal));
+        accepted.extend((!borderline.is_empty()).then(|| borderline.remove(0)));
     }
-    near.retain(|(standing, _)| standing.near());
-    let told = |(_, mut way): Judged| {
+    borderline.retain(|(report, _)| report.within_a_digit());
+    let explained = |(_, mut way): CheckedCandidate| {
         way.generated.formulation += &wrong;
         way
     };
-    Ways {
-        kept: kept.into_iter().map(told).collect(),
-        near: near.into_iter().map(|(_, way)| way).collect(),
+    ForwardCandidates {
+        accepted: accepted.into_iter().map(explained).collect(),
+        borderline: borderline.into_iter().map(|(_, way)| way).collect(),
     }
 }
 
 /// Of the ways that miss the bars and lose no digit the cheapest, where it is to be taken: those that
 /// meet them cost too much for what they keep, or there are none.
-fn spared(kept: &[Judged], near: &[Judged]) -> Option<usize> {
-    let of = |(_, way): &Judged| cost(&way.generated);
-    let k = near.iter().position(|(standing, _)| standing.keeps())?;
-    let least = kept.iter().map(of).fold(f64::INFINITY, f64::min);
-    (least > PRICE * of(&near[k])).then_some(k)
+fn spared(accepted: &[CheckedCandidate], borderline: &[CheckedCandidate]) -> Option<usize> {
+    let of = |(_, way): &CheckedCandidate| cost(&way.generated);
+    let k = borderline
+        .iter()
+        .position(|(report, _)| report.almost_holds())?;
+    let least = accepted.iter().map(of).fold(f64::INFINITY, f64::min);
+    (least > PRICE * of(&borderline[k])).then_some(k)
 }
 
 /// The ways that cost least, as far as they are worth a search.

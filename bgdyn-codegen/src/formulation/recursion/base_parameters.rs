@@ -7,10 +7,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Plan, origin_offset};
+use super::base_parameter_cache::Numbers;
 use super::geometry::{Body, Geometry};
 use super::inertia::{Inertia, Point};
-use super::regrouped::Numbers;
+use super::plan::{Plan, origin_offset};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
 use crate::formulation::value;

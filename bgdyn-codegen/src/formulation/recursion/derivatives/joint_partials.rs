@@ -1,4 +1,4 @@
-//! What a joint itself hands on to the joints before it, for the derivatives of [`super::slopes`].
+//! What one joint contributes to the derivatives of the joint efforts.
 //!
 //! It follows from all that the joint moves as one body, and is linear in it. So the parts of that
 //! body may be seen from different places: what the body's own axes hold in those axes, where its
@@ -7,18 +7,19 @@
 
 use bgdyn_runtime::Dd;
 
-use super::beyond::{Axis, Beyond, Next};
-use super::composite::Composite;
-use super::frames::{Frame, Seen, View};
-use super::inertia::turn;
-use super::mass::{Momentum, unit_momentum};
-use super::motion::{Moving, Spin};
+use super::composite_flow::CompositeFlow;
+use super::outboard_joint::{Axis, GroupNeighbour, OutboardJoint};
 use crate::expr::{Builder, Ex};
+use crate::formulation::recursion::frames::Frame;
+use crate::formulation::recursion::inertia::turn;
+use crate::formulation::recursion::mass_matrix::{Momentum, unit_momentum};
+use crate::formulation::recursion::motion::{Moving, Spin};
+use crate::formulation::recursion::plan::{PartialsPlan, SeenFrom};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 
 /// A joint, and how it moves.
-pub(super) struct Place<'a, 'g> {
+pub(super) struct JointContext<'a, 'g> {
     pub b: &'g Builder,
     /// Its place in the order of the coordinates.
     pub index: usize,
@@ -29,48 +30,48 @@ pub(super) struct Place<'a, 'g> {
     pub before: &'a Spin<'g>,
     /// That of [`Axis`].
     pub factor: Dd,
-    pub view: View,
+    pub view: PartialsPlan,
 }
 
 /// What a body has gathered from those beyond it, in one set of axes.
 #[derive(Clone)]
-pub(super) struct Gathered<'g> {
+pub(super) struct Subtree<'g> {
     /// All of them as one body.
-    pub whole: Composite<'g>,
+    pub whole: CompositeFlow<'g>,
     /// Their joints.
-    pub beyond: Vec<Beyond<'g>>,
+    pub beyond: Vec<OutboardJoint<'g>>,
     /// The rotations that continue the body's basis.
-    pub next: Vec<Next<'g>>,
+    pub next: Vec<GroupNeighbour<'g>>,
     /// As `whole`, without what those move.
-    pub others: Composite<'g>,
+    pub others: CompositeFlow<'g>,
 }
 
-impl<'g> Gathered<'g> {
+impl<'g> Subtree<'g> {
     /// Nothing.
     pub fn nothing(b: &'g Builder) -> Self {
-        Gathered {
-            whole: Composite::zero(b),
+        Subtree {
+            whole: CompositeFlow::zero(b),
             beyond: Vec::new(),
             next: Vec::new(),
-            others: Composite::zero(b),
+            others: CompositeFlow::zero(b),
         }
     }
 }
 
 /// A joint's own share of the derivatives.
-pub(super) struct Unit<'g> {
-    pub joint: Beyond<'g>,
+pub(super) struct JointPartials<'g> {
+    pub joint: OutboardJoint<'g>,
     /// All that it moves, relative to the body before it.
-    pub before: Composite<'g>,
+    pub before: CompositeFlow<'g>,
     /// The same for the rotation before it in its group.
-    pub next: Next<'g>,
+    pub next: GroupNeighbour<'g>,
 }
 
-impl<'g> Unit<'g> {
+impl<'g> JointPartials<'g> {
     /// From what the body has gathered in its own axes and in those of its basis.
-    pub fn new(place: &Place<'_, 'g>, own: &Gathered<'g>, basis: &Gathered<'g>) -> Self {
+    pub fn new(place: &JointContext<'_, 'g>, own: &Subtree<'g>, basis: &Subtree<'g>) -> Self {
         let (frame, axis) = (place.frame, place.axis_in_basis());
-        let carried = Composite {
+        let carried = CompositeFlow {
             inertia: frame.inertia.plus(&own.whole.inertia),
             ..own.whole
         };
@@ -80,23 +81,23 @@ impl<'g> Unit<'g> {
             + after.inertia.weigh(axis.a)
             + omega.cross(after.flow.linear)
             + after.rest.force;
-        let mut joint = if place.view.taken && frame.motion == Motion::Rotation {
+        let mut joint = if place.view.reuse_neighbour && frame.motion == Motion::Rotation {
             let share = place.share(&carried, &basis.others, force);
             let taken = basis.next.iter();
-            let taken = taken.map(|next| Beyond::of_next(place.b, next, &axis));
+            let taken = taken.map(|next| OutboardJoint::from_neighbour(place.b, next, &axis));
             taken.fold(share, |sum, part| sum.with(&part))
         } else {
             place.share(&carried, &basis.whole, force)
         };
         joint.momentum = momentum;
-        let next = Next {
+        let next = GroupNeighbour {
             joint,
             inertia: after.inertia,
             flow: after.flow.linear + omega.map(|x| x * place.factor).cross(h),
             force,
             offset: frame.position,
         };
-        Unit {
+        JointPartials {
             joint,
             before: place.before(&after, &momentum),
             next,
@@ -104,7 +105,7 @@ impl<'g> Unit<'g> {
     }
 }
 
-impl<'g> Place<'_, 'g> {
+impl<'g> JointContext<'_, 'g> {
     /// The body's axes.
     pub fn axis_of_body(&self) -> Axis<'g> {
         Axis {
@@ -127,9 +128,9 @@ impl<'g> Place<'_, 'g> {
     /// the body after the joint, and the momentum that a unit rate gives to it.
     fn joined(
         &self,
-        carried: &Composite<'g>,
-        outer: &Composite<'g>,
-    ) -> (Composite<'g>, Momentum<'g>) {
+        carried: &CompositeFlow<'g>,
+        outer: &CompositeFlow<'g>,
+    ) -> (CompositeFlow<'g>, Momentum<'g>) {
         let after = carried.turned(self.frame.turn).plus(outer);
         // Turning about z leaves J_zz as it is.
         let j_zz = (carried.inertia.d(0, 0) + carried.inertia.d(1, 1))
@@ -139,37 +140,37 @@ impl<'g> Place<'_, 'g> {
     }
 
     /// The same relative to the body before it.
-    fn before(&self, after: &Composite<'g>, momentum: &Momentum<'g>) -> Composite<'g> {
+    fn before(&self, after: &CompositeFlow<'g>, momentum: &Momentum<'g>) -> CompositeFlow<'g> {
         after.before(self.b, self.frame, momentum, self.factor != Dd::ONE)
     }
 
     /// The joint's share from what is carried in own axes and `outer`.
     fn share(
         &self,
-        carried: &Composite<'g>,
-        outer: &Composite<'g>,
+        carried: &CompositeFlow<'g>,
+        outer: &CompositeFlow<'g>,
         force: Vec3<Ex<'g>>,
-    ) -> Beyond<'g> {
+    ) -> OutboardJoint<'g> {
         let (after, momentum) = self.joined(carried, outer);
         let before = self.before(&after, &momentum);
         let (motion, axis) = (self.frame.motion, self.axis_in_basis());
-        let seen = |axis: &Axis<'g>, spin: &Spin<'g>, whole: &Composite<'g>| {
-            Beyond::new(self.b, motion, momentum, axis, (spin, whole), force)
+        let seen = |axis: &Axis<'g>, spin: &Spin<'g>, whole: &CompositeFlow<'g>| {
+            OutboardJoint::new(self.b, motion, momentum, axis, (spin, whole), force)
         };
         let spin = &self.moving.in_basis;
         let sparser = || {
             let after = after.zeros() + spin.zeros();
             self.frame.continues || after > before.zeros() + self.before.zeros()
         };
-        match self.view.seen {
-            Seen::Own if motion == Motion::Rotation => {
+        match self.view.seen_from {
+            SeenFrom::Own if motion == Motion::Rotation => {
                 let body = self.axis_of_body();
                 let own = seen(&body, &body.spin, carried);
                 let turned = own.map(|v| turn(v, self.frame.turn));
                 turned.with(&seen(&axis, spin, outer))
             }
-            Seen::Before => seen(&axis, self.before, &before),
-            Seen::Sparser if !sparser() => seen(&axis, self.before, &before),
+            SeenFrom::Before => seen(&axis, self.before, &before),
+            SeenFrom::Sparser if !sparser() => seen(&axis, self.before, &before),
             _ => seen(&axis, spin, &after),
         }
     }

@@ -8,7 +8,7 @@ use bgdyn_runtime::Dd;
 
 /// What is known so far.
 #[derive(Default)]
-pub(super) struct Regrouped(RefCell<Vec<Rc<Numbers>>>);
+pub(super) struct BaseParameterCache(RefCell<Vec<Rc<Numbers>>>);
 
 /// The bodies' inertia for one choice of origins.
 pub(super) struct Numbers {
@@ -22,7 +22,7 @@ pub(super) struct Numbers {
     pub energy: Dd,
 }
 
-impl Regrouped {
+impl BaseParameterCache {
     /// For these origins, if it is known.
     pub fn find(&self, slides: &[Dd], base_parameters: bool) -> Option<Rc<Numbers>> {
         let all = self.0.borrow();

@@ -13,69 +13,70 @@
 //! derivatives from its diagonal upwards. Below it stand the efforts of joints i beyond k. Those
 //! change by the fields Z̈_k s + 2 Ż_k v and 2 (Ż_k s + Z_k v) of accelerations: with the axis's
 //! rates ω × z and U z they are dot products with the momentum of a unit rate of joint i, and with
-//! 2 ∫ v × δ_i dm of the same rate (see [`super::beyond`]).
+//! 2 ∫ v × δ_i dm of the same rate (see [`super::outboard_joint`]).
 //!
 //! Inside a group of parallel axes the fields of two joints differ by a translation, and so do
-//! their entries; what a joint hands on may be taken over from the next one ([`super::unit`]).
+//! their entries; what a joint hands on may be taken over from the next one ([`super::joint_partials`]).
 //!
 //! ∂τ/∂v = 2 C with Christoffel's C, and C + Cᵀ = Ṁ: two entries whose place in M holds a constant
 //! are each other's negative.
 //!
 //! A rotor with its axis fixed to a body is a flow of that body's mass in place, and to the joint
-//! that turns it a momentum of its own, wherever that joint is (see [`super::rotors`]).
+//! that turns it a momentum of its own, wherever that joint is (see [`crate::formulation::recursion::rotors`]).
 //!
 //! Carpentier and Mansard (2018), and Singh, Russell and Wensing (2022), order the derivatives of
 //! the Newton-Euler recursion by composites as well, in spatial vectors.
 
 use bgdyn_runtime::Dd;
 
-use super::beyond::{Beyond, Entries};
-use super::frames::{Frame, Frames, View};
-use super::motion::{Moving, Spin, motions};
-use super::unit::{Gathered, Place, Unit};
+use super::joint_partials::{JointContext, JointPartials, Subtree};
+use super::outboard_joint::{Entries, OutboardJoint};
 use crate::expr::{Builder, Ex};
+use crate::formulation::recursion::frames::{Frame, Frames};
+use crate::formulation::recursion::motion::{Moving, Spin, motions};
+use crate::formulation::recursion::plan::PartialsPlan;
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 
 /// (∂τ/∂q, ∂τ/∂v), row by row: entry (i, j) is the derivative of effort i by coordinate j.
-pub(super) struct Slopes<'g> {
+pub(in crate::formulation::recursion) struct EffortDerivatives<'g> {
     pub by_position: Vec<Vec<Ex<'g>>>,
     pub by_rate: Vec<Vec<Ex<'g>>>,
 }
 
 /// The matrix C of Christoffel's symbols, half of ∂bias/∂v as the bias is quadratic in v, row by
 /// row.
-pub(super) fn coriolis_matrix<'g>(
+pub(in crate::formulation::recursion) fn coriolis_matrix<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    views: &[View],
+    views: &[PartialsPlan],
 ) -> Vec<Vec<Ex<'g>>> {
     pass(b, frames, views, &motions(b, frames, false), Dd::ONE).by_rate
 }
 
 /// The derivatives with the rates and accelerations in `frames`; where `active`, against gravity.
-pub(super) fn slopes<'g>(
+pub(in crate::formulation::recursion) fn effort_derivatives<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    views: &[View],
+    views: &[PartialsPlan],
     active: bool,
-) -> Slopes<'g> {
+) -> EffortDerivatives<'g> {
     let moving = motions(b, frames, active);
     pass(b, frames, views, &moving, Dd::from_f64(2.0))
 }
 
-/// From the tips to the base; `factor` is that of [`super::beyond::Axis`].
+/// From the tips to the base; `factor` is that of [`super::outboard_joint::Axis`].
 fn pass<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    views: &[View],
+    views: &[PartialsPlan],
     moving: &[Moving<'g>],
     factor: Dd,
-) -> Slopes<'g> {
+) -> EffortDerivatives<'g> {
     let n = frames.bodies.len();
-    let mut own = vec![Gathered::nothing(b); n];
+    let mut own = vec![Subtree::nothing(b); n];
     let mut basis = own.clone();
-    let mut slopes = Slopes {
+    let mut derivatives = EffortDerivatives {
         by_position: vec![vec![b.zero(); n]; n],
         by_rate: vec![vec![b.zero(); n]; n],
     };
@@ -87,7 +88,7 @@ fn pass<'g>(
                 frame.name, frame.joint
             )
         });
-        let place = Place {
+        let place = JointContext {
             b,
             index: j,
             frame,
@@ -101,11 +102,11 @@ fn pass<'g>(
             .beyond
             .extend(frames.rotors.seen(b, frames, j, &axis));
         frames.rotors.add_flow(b, j, factor, &mut own[j].whole);
-        let mut beyond = slopes.enter_beyond(&place, frames, &own[j], &basis[j]);
-        let unit = Unit::new(&place, &own[j], &basis[j]);
-        let diagonal = unit.joint.diagonal(frame);
-        slopes.add(frames, (j, j), diagonal.own);
-        beyond.push(unit.joint.entered(b, frame.motion, diagonal));
+        let mut beyond = derivatives.enter_beyond(&place, frames, &own[j], &basis[j]);
+        let partials = JointPartials::new(&place, &own[j], &basis[j]);
+        let diagonal = partials.joint.diagonal(frame);
+        derivatives.add(frames, (j, j), diagonal.own);
+        beyond.push(partials.joint.entered(b, frame.motion, diagonal));
 
         let Some(p) = frame.parent else { continue };
         let home = if frame.continues {
@@ -113,10 +114,10 @@ fn pass<'g>(
         } else {
             &mut own[p]
         };
-        let handed = unit.before.handed_on(b, frame);
+        let handed = partials.before.handed_on(b, frame);
         home.whole = home.whole.plus(&handed);
         if frame.continues && frame.motion == Motion::Rotation {
-            home.next.push(unit.next);
+            home.next.push(partials.next);
         } else {
             home.others = home.others.plus(&handed);
         }
@@ -131,25 +132,25 @@ fn pass<'g>(
             }
         }));
     }
-    slopes
+    derivatives
 }
 
-impl<'g> Slopes<'g> {
+impl<'g> EffortDerivatives<'g> {
     /// Entries of a joint with all beyond it, and these in the axes of its basis.
     fn enter_beyond(
         &mut self,
-        place: &Place<'_, 'g>,
+        place: &JointContext<'_, 'g>,
         frames: &Frames<'g>,
-        inner: &Gathered<'g>,
-        outer: &Gathered<'g>,
-    ) -> Vec<Beyond<'g>> {
+        inner: &Subtree<'g>,
+        outer: &Subtree<'g>,
+    ) -> Vec<OutboardJoint<'g>> {
         let (b, j, frame) = (place.b, place.index, place.frame);
         let (own, basis) = (place.axis_of_body(), place.axis_in_basis());
         let mut beyond = Vec::new();
         for joint in &inner.beyond {
             let entries = joint.entries(b, frame, &own);
             self.enter(frames, j, joint, entries);
-            let turned = joint.turned(frame.turn, place.view.met);
+            let turned = joint.turned(frame.turn, place.view.keep_body_axes);
             beyond.push(turned.entered(b, frame.motion, entries));
         }
         for &joint in &outer.beyond {
@@ -170,7 +171,13 @@ impl<'g> Slopes<'g> {
 
     /// Adds the entries of joints j and `joint`: those of a rotor and those of the joint that turns
     /// it come one after the other.
-    fn enter(&mut self, frames: &Frames<'g>, j: usize, joint: &Beyond<'g>, entries: Entries<'g>) {
+    fn enter(
+        &mut self,
+        frames: &Frames<'g>,
+        j: usize,
+        joint: &OutboardJoint<'g>,
+        entries: Entries<'g>,
+    ) {
         let k = joint.momentum.joint;
         let Entries { own, mut beyond } = entries;
         if j != k && joint.mass(&frames.bodies[j]).as_constant().is_some() {

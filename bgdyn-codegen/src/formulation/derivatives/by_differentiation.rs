@@ -1,11 +1,12 @@
-//! Methods that follow from others by differentiating their expressions.
+//! Methods that are computed by differentiating the expressions of others.
 
 use bgdyn_runtime::Dd;
 
-use super::drives::Drives;
-use super::{Formulation, Search, literal, recursion};
+use super::differentiate::{derivatives, finish, reopened};
+use super::forward_dynamics::ForwardDerivatives;
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent};
+use crate::expr::{Ex, Expr, Leaf};
+use crate::formulation::{Formulation, Search, literal, recursion};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -14,7 +15,7 @@ use crate::method::Method;
 const SMALL: usize = 4;
 
 /// The method, if it is one of these; the others come from a formulation.
-pub(super) fn function(search: &Search<'_>, method: Method) -> Option<Function> {
+pub(in crate::formulation) fn function(search: &Search<'_>, method: Method) -> Option<Function> {
     let graph = search.graph;
     match method {
         Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
@@ -33,7 +34,7 @@ pub(super) fn function(search: &Search<'_>, method: Method) -> Option<Function> 
             Function::cheapest(ways.map(Function::factored))
         }
         Method::ForwardDynamicsDerivatives => {
-            let slopes = search.slopes()?;
+            let slopes = search.effort_derivatives()?;
             let ways = search
                 .differentiable()
                 .map(|forward| forward_derivatives(graph, method, slopes, forward));
@@ -74,42 +75,17 @@ fn forward_derivatives(
     slopes: &Function,
     forward: &Function,
 ) -> Function {
-    let drives = Drives::new(graph, slopes, forward);
-    let groups = drives.alike();
-    let written_out = drives.clone().function(graph, method, forward, &[]);
+    let columns = ForwardDerivatives::new(graph, slopes, forward);
+    let groups = columns.alike();
+    let written_out = columns.clone().function(graph, method, forward, &[]);
     if groups.is_empty() {
         return written_out;
     }
-    let looped = drives.function(graph, method, forward, &groups);
+    let looped = columns.function(graph, method, forward, &groups);
     match looped.operations().total() <= written_out.operations().total() {
         true => looped,
         false => written_out,
     }
-}
-
-/// A function's graph, open for more, and its results.
-pub(super) fn reopened(function: &Function) -> (Builder, Vec<Expr>) {
-    (
-        Builder::from(function.graph.clone()),
-        function.blocks[0].outputs.clone(),
-    )
-}
-
-/// ∂x/∂leaf_j: a column per coordinate j.
-pub(super) fn derivatives(
-    b: &Builder,
-    x: &[Expr],
-    n: usize,
-    leaf: fn(usize) -> Leaf,
-) -> Vec<Vec<Expr>> {
-    let column = |j: usize| {
-        let mut tangent =
-            Tangent::new(|g: &mut Graph, l| (l == leaf(j)).then(|| g.constant(Dd::ONE)));
-        x.iter()
-            .map(|&e| b.with_graph(|g| tangent.of(g, e)))
-            .collect()
-    };
-    (0..n).map(column).collect()
 }
 
 /// Columns as one matrix, row by row.
@@ -117,19 +93,4 @@ fn rows(columns: &[Vec<Expr>]) -> Vec<Expr> {
     (0..columns.len())
         .flat_map(|i| columns.iter().map(move |c| c[i]))
         .collect()
-}
-
-pub(super) fn finish(
-    graph: &BondGraph,
-    method: Method,
-    from: &Function,
-    b: Builder,
-    outputs: Vec<Expr>,
-) -> Function {
-    let formulation = format!("{}; differentiated", from.formulation);
-    let made = Function::flat(graph, method, formulation, b.into_graph(), outputs);
-    Function {
-        ordered: from.ordered,
-        ..made
-    }
 }

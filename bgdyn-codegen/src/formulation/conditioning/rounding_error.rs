@@ -1,28 +1,27 @@
-//! How many digits a function loses: its value in `f64` against its value in double-double, at
-//! sampled states.
+//! The rounding error of a function: its value in `f64` against double-double, at sampled states.
 
 use bgdyn_runtime::Dd;
 
-use super::{aligned_states, generic_states};
+use super::sample_states::{near_singular, random};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::function::Function;
 
-/// Digits lost at the states tried. To refuse a state that has an answer is worse than any error.
+/// The error at the sampled states. A failure where a result exists is worse than any error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Loss {
+pub struct RoundingError {
     /// States that have an answer in double-double and none in `f64`.
-    pub refused: usize,
+    pub failures: usize,
     /// The worst error in the others, in units of the rounding (2⁻⁵²) of the largest component of
     /// the result: 1 is as good as rounding the exact result, 1,000 is three digits lost.
-    pub roundings: f64,
+    pub ulps: f64,
 }
 
-impl Loss {
-    /// The order of harm, where errors that agree to a tenth of a rounding are equal.
-    pub(crate) fn harm(self) -> (usize, u64) {
+impl RoundingError {
+    /// A key to sort by, the best first; errors that agree to a tenth of an ulp are equal.
+    pub(crate) fn rank(self) -> (usize, u64) {
         // Beyond the range of u64 the cast gives its largest number.
-        (self.refused, (10.0 * self.roundings).ceil() as u64)
+        (self.failures, (10.0 * self.ulps).ceil() as u64)
     }
 }
 
@@ -31,18 +30,21 @@ impl Loss {
 /// functions that invert the mass matrix also states near aligned axes. Run-time parameters as the
 /// spec has them. States without an answer in double-double do not count; nothing where that is
 /// every one.
-pub fn loss(function: &Function, graph: &BondGraph) -> Option<Loss> {
-    loss_at(function, &answers(std::slice::from_ref(function), graph))
+pub fn rounding_error(function: &Function, graph: &BondGraph) -> Option<RoundingError> {
+    rounding_error_at(
+        function,
+        &exact_results(std::slice::from_ref(function), graph),
+    )
 }
 
 /// A state, and a method's result there in double-double.
-pub(crate) type Answer = (Inputs<f64>, Vec<Dd>);
+pub(crate) type ExactResult = (Inputs<f64>, Vec<Dd>);
 
 /// The states in which any of these ways to one method has an answer in double-double.
-pub(crate) fn answers(ways: &[Function], graph: &BondGraph) -> Vec<Answer> {
-    let mut states = generic_states(graph);
+pub(crate) fn exact_results(ways: &[Function], graph: &BondGraph) -> Vec<ExactResult> {
+    let mut states = random(graph);
     if ways.iter().any(|way| way.shape().checked()) {
-        states.extend(aligned_states(graph));
+        states.extend(near_singular(graph));
     }
     let answered = states.into_iter().filter_map(|state| {
         let exact = ways.iter().find_map(|way| {
@@ -55,19 +57,22 @@ pub(crate) fn answers(ways: &[Function], graph: &BondGraph) -> Vec<Answer> {
 }
 
 /// The digits that a function loses at these states; nothing where there are none.
-pub(crate) fn loss_at(function: &Function, answers: &[Answer]) -> Option<Loss> {
-    let mut worst = Loss::default();
+pub(crate) fn rounding_error_at(
+    function: &Function,
+    answers: &[ExactResult],
+) -> Option<RoundingError> {
+    let mut worst = RoundingError::default();
     for (state, exact) in answers {
         match function.evaluate(state.clone()) {
-            (_, Some(_)) => worst.refused += 1,
-            (found, None) => worst.roundings = worst.roundings.max(roundings(&found, exact)),
+            (_, Some(_)) => worst.failures += 1,
+            (found, None) => worst.ulps = worst.ulps.max(error_in_ulps(&found, exact)),
         }
     }
     (!answers.is_empty()).then_some(worst)
 }
 
 /// The largest error over the largest component, in units of 2⁻⁵².
-fn roundings(found: &[f64], exact: &[Dd]) -> f64 {
+fn error_in_ulps(found: &[f64], exact: &[Dd]) -> f64 {
     let size = exact.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
     let off = exact.iter().zip(found);
     let off = off.map(|(x, &y)| (*x - Dd::from_f64(y)).to_f64().abs());

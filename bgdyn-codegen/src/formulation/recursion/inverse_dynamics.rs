@@ -4,9 +4,10 @@
 //! about the origin N = h × a + the skew part of U·D, which is K̇ = J ω̇ + ω × J ω of equation (6),
 //! term for term.
 
-use super::frames::{Frame, Frames, Plan};
+use super::frames::{Frame, Frames};
 use super::inertia::{Inertia, Point, turn};
 use super::motion::{Moving, Spin, motions, zero};
+use super::plan::Plan;
 use crate::expr::{Builder, Ex};
 use crate::math::Vec3;
 use crate::mechanism::Motion;

@@ -4,7 +4,7 @@
 //! Base parameters move inertia inwards and leave a rest behind; where the two meet again in an
 //! effort, they may be larger than what is left of them.
 
-use super::{best_plans, cost, plan, with_plan};
+use super::{best_plans, cost, plan_search, with_plan};
 use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
@@ -34,7 +34,7 @@ impl Formulation for OwnInertia {
             tried.cost = cost(graph, geometry, method, &tried.plan);
         }
         let mut function = with_plan(graph, geometry, method, &best);
-        let described = plan::describe(geometry, best.taken());
+        let described = plan_search::describe(geometry, best.taken());
         function.formulation = format!("{}: {described}", self.name());
         Some(function)
     }

@@ -1,23 +1,23 @@
-//! A joint as the joints before it see it: what differentiating needs of it.
+//! A joint as the joints inboard of it need it, to differentiate their efforts by its coordinate.
 //!
 //! Accelerations by velocities carry a factor of 2. The Coriolis matrix is half of ∂τ/∂v: for it the
 //! factor is 1 throughout, and ∂τ/∂q means nothing.
 
 use bgdyn_runtime::Dd;
 
-use super::composite::Composite;
-use super::frames::Frame;
-use super::inertia::{Inertia, turn, turn_back};
-use super::inverse::{Wrench, dynamics};
-use super::mass::Momentum;
-use super::motion::Spin;
+use super::composite_flow::CompositeFlow;
 use crate::expr::{Builder, Ex};
+use crate::formulation::recursion::frames::Frame;
+use crate::formulation::recursion::inertia::{Inertia, turn, turn_back};
+use crate::formulation::recursion::inverse_dynamics::{Wrench, dynamics};
+use crate::formulation::recursion::mass_matrix::Momentum;
+use crate::formulation::recursion::motion::Spin;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
 /// A joint, seen from a body before it.
 #[derive(Clone, Copy)]
-pub(super) struct Beyond<'g> {
+pub(in crate::formulation::recursion) struct OutboardJoint<'g> {
     /// Momentum that a unit rate gives to all beyond it.
     pub momentum: Momentum<'g>,
     /// Factor · ∫ v × δ dm, with δ the velocity of a unit rate and v the true one relative to the point
@@ -48,9 +48,9 @@ struct Met<'g> {
 
 /// A rotation of a group, and what moves with it, as the rotation before it in the group sees them.
 #[derive(Clone, Copy)]
-pub(super) struct Next<'g> {
+pub(in crate::formulation::recursion) struct GroupNeighbour<'g> {
     /// The rotation, about its own origin.
-    pub joint: Beyond<'g>,
+    pub joint: OutboardJoint<'g>,
     /// Of all that it moves, about the same origin.
     pub inertia: Inertia<'g>,
     /// Factor · ∫ v dm, with v the true velocity relative to that origin, in axes that do not turn.
@@ -63,7 +63,7 @@ pub(super) struct Next<'g> {
 
 /// The four derivatives that tie a joint to one beyond it.
 #[derive(Clone, Copy)]
-pub(super) struct Entries<'g> {
+pub(in crate::formulation::recursion) struct Entries<'g> {
     /// Of the joint's effort, by position and rate of the one beyond.
     pub own: (Ex<'g>, Ex<'g>),
     /// Of the effort of the one beyond, by the joint's position and rate.
@@ -71,7 +71,7 @@ pub(super) struct Entries<'g> {
 }
 
 /// How a joint's axis moves, in one set of axes.
-pub(super) struct Axis<'g> {
+pub(in crate::formulation::recursion) struct Axis<'g> {
     /// Motion of the body.
     pub spin: Spin<'g>,
     /// Acceleration of the origin.
@@ -93,7 +93,7 @@ impl<'g> Axis<'g> {
     }
 }
 
-impl<'g> Beyond<'g> {
+impl<'g> OutboardJoint<'g> {
     /// What the joint itself hands on: from all beyond it as one body, seen from a body with the
     /// motion `spin`, and from the force `force` on it.
     pub fn new(
@@ -101,7 +101,7 @@ impl<'g> Beyond<'g> {
         motion: Motion,
         momentum: Momentum<'g>,
         axis: &Axis<'g>,
-        (spin, whole): (&Spin<'g>, &Composite<'g>),
+        (spin, whole): (&Spin<'g>, &CompositeFlow<'g>),
         force: Vec3<Ex<'g>>,
     ) -> Self {
         let zero = Vec3([b.zero(); 3]);
@@ -113,7 +113,7 @@ impl<'g> Beyond<'g> {
             ),
             _ => translation(b, whole, axis, force),
         };
-        Beyond {
+        OutboardJoint {
             momentum,
             swirl,
             by_position,
@@ -127,13 +127,13 @@ impl<'g> Beyond<'g> {
 
     /// A rotor that `joint` turns, seen from the body it sits on, in that body's own axes: a unit
     /// rate gives it the momentum h alone, which the body's ω turns, so that it takes the moment
-    /// ω × h. By position it changes nothing. The dot products of [`Beyond::entries`] give the
+    /// ω × h. By position it changes nothing. The dot products of [`OutboardJoint::entries`] give the
     /// changes h · z̈ + ω × h · ż and 2 h · ż + ω × h · z of the effort h · ω̇ with its swirl ω × h.
     pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Ex<'g>>, axis: &Axis<'g>) -> Self {
         let zero = Vec3([b.zero(); 3]);
         let half = axis.factor * Dd::from_f64(0.5);
         let whirl = axis.spin.omega.cross(h).map(|x| x * half);
-        Beyond {
+        OutboardJoint {
             momentum: Momentum {
                 joint,
                 linear: zero,
@@ -154,7 +154,7 @@ impl<'g> Beyond<'g> {
 
     /// In other axes.
     pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
-        Beyond {
+        OutboardJoint {
             momentum: self.momentum.map(&f),
             swirl: f(self.swirl),
             by_position: self.by_position.map(&f),
@@ -166,7 +166,7 @@ impl<'g> Beyond<'g> {
     /// Turned by Rz; `meet` keeps the forces in the present axes as well.
     pub fn turned(self, angle: (Ex<'g>, Ex<'g>), meet: bool) -> Self {
         let forces = [self.by_position.force, self.by_rate.force];
-        Beyond {
+        OutboardJoint {
             met: meet.then_some(Met { forces, angle }),
             ..self.map(|v| turn(v, angle))
         }
@@ -174,7 +174,7 @@ impl<'g> Beyond<'g> {
 
     /// With what another part of the mass beyond adds; the momentum is that of all already.
     pub fn with(self, part: &Self) -> Self {
-        Beyond {
+        OutboardJoint {
             swirl: self.swirl + part.swirl,
             by_position: self.by_position.plus(part.by_position),
             by_rate: self.by_rate.plus(part.by_rate),
@@ -185,7 +185,7 @@ impl<'g> Beyond<'g> {
     /// The share in a rotation of what the next one of the group moves. The two fields differ by
     /// the translation d = z × r, which is fixed in the body with `axis` between them: it adds
     /// m d̈ to ∂F/∂q, h × d̈ + d × F to ∂M/∂q and, with ḋ, 2 m ḋ and 2 h × ḋ to those by the rate.
-    pub fn of_next(b: &'g Builder, next: &Next<'g>, axis: &Axis<'g>) -> Self {
+    pub fn from_neighbour(b: &'g Builder, next: &GroupNeighbour<'g>, axis: &Axis<'g>) -> Self {
         let twice = axis.spin.omega.map(|x| x * axis.factor);
         let d = across(b, next.offset);
         let h = next.inertia.first;
@@ -196,7 +196,7 @@ impl<'g> Beyond<'g> {
         let mut by_position = field(axis.spin.u * d);
         by_position.moment = by_position.moment + d.cross(next.force);
         let (joint, momentum) = (next.joint, field(d));
-        let translated = Beyond {
+        let translated = OutboardJoint {
             momentum: Momentum {
                 linear: joint.momentum.linear + momentum.force,
                 angular: joint.momentum.angular + momentum.moment,
@@ -212,10 +212,10 @@ impl<'g> Beyond<'g> {
             .settled(b)
     }
 
-    /// Seen from an origin from which the present one is displaced by r and relative to which it
-    /// moves, factor times, at `drift`; what follows from it is left for [`Beyond::settled`].
+    /// SeenFrom from an origin from which the present one is displaced by r and relative to which it
+    /// moves, factor times, at `drift`; what follows from it is left for [`OutboardJoint::settled`].
     pub fn moved(self, r: Vec3<Ex<'g>>, drift: Vec3<Ex<'g>>) -> Self {
-        Beyond {
+        OutboardJoint {
             offset: self.offset + r,
             drift: self.drift + drift,
             last: self.last.map(|(entries, since)| (entries, since + r)),
@@ -226,7 +226,7 @@ impl<'g> Beyond<'g> {
     /// About the body's origin.
     pub fn settled(self, b: &'g Builder) -> Self {
         let zero = Vec3([b.zero(); 3]);
-        Beyond {
+        OutboardJoint {
             momentum: self.momentum.carried(self.offset),
             swirl: self.swirl + self.drift.cross(self.momentum.linear),
             by_position: self.by_position.carried(self.offset),
@@ -245,7 +245,7 @@ impl<'g> Beyond<'g> {
             Motion::Rotation => Some((entries, here)),
             _ => self.last,
         };
-        Beyond { last, ..self }
+        OutboardJoint { last, ..self }
     }
 
     /// The entry of the mass matrix with a joint before it.
@@ -315,7 +315,7 @@ fn d_row<'g>(inertia: &Inertia<'g>, i: usize, v: Vec3<Ex<'g>>) -> Ex<'g> {
 }
 
 /// Factor · ∫ v × (z × s) dm = row z of E + factor · D (ω × z).
-fn rotation_swirl<'g>(b: &'g Builder, whole: &Composite<'g>, axis: &Axis<'g>) -> Vec3<Ex<'g>> {
+fn rotation_swirl<'g>(b: &'g Builder, whole: &CompositeFlow<'g>, axis: &Axis<'g>) -> Vec3<Ex<'g>> {
     let rate = axis.rate(b).map(|x| x * axis.factor);
     let turning = Vec3(std::array::from_fn(|i| d_row(&whole.inertia, i, rate)));
     whole.flow.moment.row(2) + turning
@@ -324,7 +324,7 @@ fn rotation_swirl<'g>(b: &'g Builder, whole: &Composite<'g>, axis: &Axis<'g>) ->
 /// Factor · ω × (z × h) + z × p, and about the origin factor · (D ω) × z + column z of E.
 fn rotation_by_rate<'g>(
     b: &'g Builder,
-    whole: &Composite<'g>,
+    whole: &CompositeFlow<'g>,
     spin: &Spin<'g>,
     factor: Dd,
 ) -> Wrench<'g> {
@@ -340,7 +340,7 @@ fn rotation_by_rate<'g>(
 /// Z Q + Q Zᵀ, and with them the force and moment; those of the relative accelerations turn along.
 fn rotation_by_position<'g>(
     b: &'g Builder,
-    whole: &Composite<'g>,
+    whole: &CompositeFlow<'g>,
     spin: &Spin<'g>,
     axis: &Axis<'g>,
 ) -> Wrench<'g> {
@@ -380,7 +380,7 @@ fn rotation_by_position<'g>(
 /// Swirl, ∂/∂q and ∂/∂v of a translation along z.
 fn translation<'g>(
     b: &'g Builder,
-    whole: &Composite<'g>,
+    whole: &CompositeFlow<'g>,
     axis: &Axis<'g>,
     force: Vec3<Ex<'g>>,
 ) -> (Vec3<Ex<'g>>, Wrench<'g>, Wrench<'g>) {

@@ -1,12 +1,11 @@
-//! The answer of forward dynamics at one state, in double-double, with the sizes that bound what a
-//! scalar with fewer digits can make of it.
+//! The solution of forward dynamics at one state, in double-double, with the norms that bound its error.
 
 use std::cell::OnceCell;
 
 use bgdyn_runtime::{Dd, Scalar};
 
+use super::rounding_error::in_double_double;
 use crate::expr::Inputs;
-use crate::formulation::loss::in_double_double;
 
 /// A pivot this much smaller than its diagonal entry is nothing but rounding error of
 /// double-double.
@@ -17,19 +16,19 @@ const SINGULAR: f64 = 1e-28;
 const STEPS: usize = 8;
 
 /// M and h of a state, in double-double.
-pub(super) struct Terms {
+pub(super) struct MassAndBias {
     /// M
     pub mass: Vec<Vec<Dd>>,
     /// h: the efforts that keep q̈ = 0.
     pub bias: Vec<Dd>,
 }
 
-impl Terms {
+impl MassAndBias {
     /// From the lower triangle of M, row by row, and h after it.
     pub fn new(values: &[Dd], n: usize) -> Self {
         let (triangle, bias) = values.split_at(values.len() - n);
         let at = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-        Terms {
+        MassAndBias {
             mass: (0..n).map(|i| (0..n).map(|j| at(i, j)).collect()).collect(),
             bias: bias.to_vec(),
         }
@@ -60,7 +59,7 @@ pub(super) struct Rounding {
 }
 
 /// A state and its answer.
-pub(super) struct Answer {
+pub(super) struct ReferenceSolution {
     /// The state.
     pub inputs: Inputs<f64>,
     /// M
@@ -79,12 +78,12 @@ pub(super) struct Answer {
     pub inverse: f64,
 }
 
-impl Answer {
+impl ReferenceSolution {
     /// The answer in a state; `terms` knows M and h at any arguments. For a `round_trip` the state
     /// gets the rounded efforts that its accelerations take. Nothing where M is singular.
     pub fn new(
         mut inputs: Inputs<f64>,
-        terms: impl Fn(&Inputs<Dd>) -> Terms,
+        terms: impl Fn(&Inputs<Dd>) -> MassAndBias,
         round_trip: bool,
     ) -> Option<Self> {
         let here = terms(&in_double_double(&inputs));
@@ -96,7 +95,7 @@ impl Answer {
         let rough: Vec<Vec<f64>> = rows(&here.mass, Dd::to_f64);
         let rough_factor = factor.rounded();
         let n = exact.len();
-        Some(Answer {
+        Some(ReferenceSolution {
             rounding: OnceCell::new(),
             bias: here.bias.iter().map(|h| h.to_f64()).collect(),
             most: spectral_norm(n, |x| product(&rough, &x)),
@@ -108,13 +107,13 @@ impl Answer {
         })
     }
 
-    /// What rounding the arguments changes; `terms` as for [`Answer::new`]. Worked out at the first
+    /// What rounding the arguments changes; `terms` as for [`ReferenceSolution::new`]. Worked out at the first
     /// call: it takes M and h twice a joint.
-    pub fn rounding(&self, terms: impl Fn(&Inputs<Dd>) -> Terms) -> &Rounding {
+    pub fn rounding(&self, terms: impl Fn(&Inputs<Dd>) -> MassAndBias) -> &Rounding {
         self.rounding.get_or_init(|| self.rounded(terms))
     }
 
-    fn rounded(&self, terms: impl Fn(&Inputs<Dd>) -> Terms) -> Rounding {
+    fn rounded(&self, terms: impl Fn(&Inputs<Dd>) -> MassAndBias) -> Rounding {
         let here = in_double_double(&self.inputs);
         let n = self.exact.len();
         let half = Dd::from_f64(f64::EPSILON / 2.0);

@@ -81,12 +81,12 @@ struct Gathered<'g> {
 }
 
 /// All that a joint moves as one body, in the axes of its basis, and what a unit rate gives it.
-struct Composite<'g> {
+struct CompositeInertia<'g> {
     whole: Inertia<'g>,
     unit: Momentum<'g>,
 }
 
-impl<'g> Composite<'g> {
+impl<'g> CompositeInertia<'g> {
     /// Of body j with `inner`, what it carries in its own axes, and `outer`, in those of its basis.
     fn new(
         b: &'g Builder,
@@ -105,7 +105,7 @@ impl<'g> Composite<'g> {
         // Turning about z leaves J_zz as it is.
         let j_zz = (composite.d(0, 0) + composite.d(1, 1)) + (outer.d(0, 0) + outer.d(1, 1));
         let unit = unit_momentum(b, j, frame, &whole, j_zz);
-        Composite { whole, unit }
+        CompositeInertia { whole, unit }
     }
 }
 
@@ -126,7 +126,7 @@ pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentu
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
         b.section(|| format!("{}: inertia with all it carries", frame.name));
-        let composite = Composite::new(b, j, frame, &own[j], &basis[j]);
+        let composite = CompositeInertia::new(b, j, frame, &own[j], &basis[j]);
         units.push(composite.unit);
         let Some(p) = frame.parent else { continue };
         let home = if frame.continues {
@@ -160,7 +160,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             )
         });
         let (inner, outer) = (&own[j], &basis[j]);
-        let composite = Composite::new(b, j, frame, &inner.inertia, &outer.inertia);
+        let composite = CompositeInertia::new(b, j, frame, &inner.inertia, &outer.inertia);
         let mut momenta = Momenta(Vec::new());
         momenta.extend(
             inner

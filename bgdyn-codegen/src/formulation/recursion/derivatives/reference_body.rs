@@ -1,11 +1,11 @@
-//! The choices that derivatives have beyond the plan, found by counting.
+//! The body and axes in which each joint's derivatives are expressed, chosen by counting operations.
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Plan, Seen, View, origin_offset};
-use super::geometry::Geometry;
-use super::plan::SEARCHED;
 use crate::expr::Cost;
+use crate::formulation::recursion::geometry::Geometry;
+use crate::formulation::recursion::plan::{PartialsPlan, Plan, SeenFrom, origin_offset};
+use crate::formulation::recursion::plan_search::SEARCHED;
 
 /// How often all choices are gone through.
 const ROUNDS: usize = 1;
@@ -23,7 +23,11 @@ const SMALL: f64 = 1e-4;
 
 /// The plan with the views that cost least: one choice at a time from the tips to the base, kept
 /// where it costs less.
-pub(super) fn chosen(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> Cost) -> Plan {
+pub(in crate::formulation::recursion) fn choose_partials(
+    geometry: &Geometry,
+    start: Plan,
+    cost: impl Fn(&Plan) -> Cost,
+) -> Plan {
     let (mut plan, n) = (start, geometry.bodies.len());
     if n > SEARCHED {
         return plan;
@@ -54,7 +58,7 @@ pub(super) fn chosen(geometry: &Geometry, start: Plan, cost: impl Fn(&Plan) -> C
 
 /// The plan with the unit of length that costs least `after` factoring, among those that cost about
 /// the same before it: units differ in which numbers become one, and in what meets then.
-pub(super) fn measured(
+pub(in crate::formulation::recursion) fn choose_length_unit(
     geometry: &Geometry,
     plan: Plan,
     cost: impl Fn(&Plan) -> Cost,
@@ -100,24 +104,24 @@ fn lengths(geometry: &Geometry, plan: &Plan) -> Vec<Dd> {
     lengths
 }
 
-type Change = fn(&mut View);
+type Change = fn(&mut PartialsPlan);
 
 /// What there is to choose for joint j.
 fn changes(geometry: &Geometry, plan: &Plan, j: usize) -> Vec<Change> {
     let mut changes: Vec<Change> = vec![
-        |view| view.seen = Seen::Sparser,
-        |view| view.seen = Seen::Before,
-        |view| view.seen = Seen::After,
-        |view| view.seen = Seen::Own,
+        |view| view.seen_from = SeenFrom::Sparser,
+        |view| view.seen_from = SeenFrom::Before,
+        |view| view.seen_from = SeenFrom::After,
+        |view| view.seen_from = SeenFrom::Own,
     ];
     let parallel = |k: usize| plan.grouped && geometry.bodies[k].parallel();
     let followed =
         (0..geometry.bodies.len()).any(|k| geometry.bodies[k].parent == Some(j) && parallel(k));
     if followed {
-        changes.push(|view| view.taken = true);
+        changes.push(|view| view.reuse_neighbour = true);
     }
     if parallel(j) {
-        changes.push(|view| view.met = true);
+        changes.push(|view| view.keep_body_axes = true);
     }
     changes
 }

@@ -1,14 +1,16 @@
-//! How much of what a joint moves is its own body's: where that is next to nothing, the joint's
-//! pivot in the forward dynamics is a small rest of large terms, or of nothing at all.
+//! For each joint, the inertia of its own body over the inertia of all that it moves.
+//!
+//! Where this ratio is next to zero, the joint's pivot in the forward dynamics is a small rest of
+//! large terms, or nothing but rounding error.
 
-use super::geometry::{Body, Geometry};
 use crate::bond_graph::BondGraph;
+use crate::formulation::recursion::geometry::{Body, Geometry};
 use crate::mechanism::{LinkId, Motion, Pose, Value};
 
-/// A share that is fair: with less, elimination could lose half the digits of `f64`, and all of
+/// The least ratio that is safe: with less, elimination could lose half the digits of `f64`, and all of
 /// those of `f32`, so that a pivot's check has to know how large its rounding error is. Chains of a
 /// hundred like links are above it, a load of a million times a link's mass below.
-pub(super) const FAIR: f64 = 1e-7;
+pub(in crate::formulation) const MIN_INERTIA_RATIO: f64 = 1e-7;
 
 /// Travel of a prismatic joint that its spec leaves open, m.
 const TRAVEL: f64 = 1.0;
@@ -16,9 +18,15 @@ const TRAVEL: f64 = 1.0;
 /// For each joint, its own body's inertia about the axis (its mass along it) over a bound for that
 /// of everything beyond the joint, in any position. A pivot lies between the two. Run-time
 /// parameters count with their default.
-pub(super) fn own_shares(graph: &BondGraph, geometry: &Geometry) -> Vec<f64> {
+pub(in crate::formulation) fn own_inertia_ratios(
+    graph: &BondGraph,
+    geometry: &Geometry,
+) -> Vec<f64> {
     let bodies = &geometry.bodies;
-    let lumps: Vec<Lump> = bodies.iter().map(|body| Lump::new(graph, body)).collect();
+    let lumps: Vec<LumpedBody> = bodies
+        .iter()
+        .map(|body| LumpedBody::new(graph, body))
+        .collect();
     (0..bodies.len())
         .map(|j| {
             let beyond: f64 = (j..bodies.len())
@@ -50,7 +58,7 @@ fn distance(bodies: &[Body], j: usize, i: usize) -> Option<f64> {
 
 /// A body's mass and its spread.
 #[derive(Default)]
-struct Lump {
+struct LumpedBody {
     /// kg
     mass: f64,
     /// Moment of inertia about the joint's axis, kg·m².
@@ -60,9 +68,9 @@ struct Lump {
     second: f64,
 }
 
-impl Lump {
+impl LumpedBody {
     fn new(graph: &BondGraph, body: &Body) -> Self {
-        let mut sum = Lump::default();
+        let mut sum = LumpedBody::default();
         for (link, place) in &body.links {
             sum.add(graph, body, *link, place);
         }

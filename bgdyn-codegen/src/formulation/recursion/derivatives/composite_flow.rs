@@ -3,18 +3,18 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::Frame;
-use super::inertia::{Inertia, turn};
-use super::inverse::Wrench;
-use super::mass::Momentum;
 use crate::expr::{Builder, Ex};
+use crate::formulation::recursion::frames::Frame;
+use crate::formulation::recursion::inertia::{Inertia, turn};
+use crate::formulation::recursion::inverse_dynamics::Wrench;
+use crate::formulation::recursion::mass_matrix::Momentum;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
 /// All that a body carries, about one point and in one set of axes; velocities and accelerations
 /// are relative to that body and its axes.
 #[derive(Clone, Copy)]
-pub(super) struct Composite<'g> {
+pub(in crate::formulation::recursion) struct CompositeFlow<'g> {
     pub inertia: Inertia<'g>,
     /// Twice the flow of its mass; once for the Coriolis matrix.
     pub flow: Flow<'g>,
@@ -22,10 +22,10 @@ pub(super) struct Composite<'g> {
     pub rest: Wrench<'g>,
 }
 
-impl<'g> Composite<'g> {
+impl<'g> CompositeFlow<'g> {
     /// Of nothing.
     pub fn zero(b: &'g Builder) -> Self {
-        Composite {
+        CompositeFlow {
             inertia: Inertia::zero(b),
             flow: Flow::zero(b),
             rest: Wrench::zero(b),
@@ -34,7 +34,7 @@ impl<'g> Composite<'g> {
 
     /// Of both.
     pub fn plus(&self, other: &Self) -> Self {
-        Composite {
+        CompositeFlow {
             inertia: self.inertia.plus(&other.inertia),
             flow: self.flow.plus(&other.flow),
             rest: self.rest.plus(other.rest),
@@ -44,7 +44,7 @@ impl<'g> Composite<'g> {
     /// Turned by Rz.
     pub fn turned(&self, angle: (Ex<'g>, Ex<'g>)) -> Self {
         let round = self.inertia.round();
-        Composite {
+        CompositeFlow {
             inertia: if round {
                 self.inertia
             } else {
@@ -79,7 +79,7 @@ impl<'g> Composite<'g> {
                 moment: mid.moment.column(2).scale(frame.rate),
             });
         }
-        Composite {
+        CompositeFlow {
             inertia: self.inertia,
             flow: if twice { mid.plus(&step) } else { mid },
             rest,
@@ -88,7 +88,7 @@ impl<'g> Composite<'g> {
 
     /// About the origin of the body before, in its axes or in the basis that continues.
     pub fn handed_on(&self, b: &'g Builder, frame: &Frame<'g>) -> Self {
-        let shifted = Composite {
+        let shifted = CompositeFlow {
             inertia: self.inertia.shifted(frame.position),
             flow: self.flow.shifted(frame.position),
             rest: self.rest.carried(frame.position),
@@ -97,7 +97,7 @@ impl<'g> Composite<'g> {
             return shifted;
         }
         let twist = frame.twist.map(|x| b.constant(x));
-        Composite {
+        CompositeFlow {
             inertia: shifted.inertia.rotated(b, frame.twist),
             flow: shifted.flow.rotated(b, frame.twist),
             rest: shifted.rest.map(|v| twist * v),
@@ -115,7 +115,7 @@ impl<'g> Composite<'g> {
 
 /// How mass moves: with Q = ∫ v sᵀ dm about a point, E = tr(Q)·1 − Q and p = ∫ v dm.
 #[derive(Clone, Copy)]
-pub(super) struct Flow<'g> {
+pub(in crate::formulation::recursion) struct Flow<'g> {
     /// E
     pub moment: Mat3<Ex<'g>>,
     /// p

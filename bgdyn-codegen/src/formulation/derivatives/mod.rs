@@ -1,0 +1,13 @@
+//! Methods that are derivatives of others, by differentiating expressions.
+//!
+//! | file | computes |
+//! |---|---|
+//! | `differentiate.rs` | derivatives of a function's results by the coordinates' leaves |
+//! | `forward_dynamics.rs` | derivatives of forward dynamics from those of inverse dynamics |
+//! | `by_differentiation.rs` | the functions, each the cheapest of those that are known |
+//!
+//! Those of inverse dynamics by composite bodies are in `recursion/derivatives/`.
+
+pub(super) mod by_differentiation;
+mod differentiate;
+mod forward_dynamics;
