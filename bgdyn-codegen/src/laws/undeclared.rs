@@ -2,7 +2,7 @@
 
 use super::Laws;
 use crate::declaration::Element;
-use crate::layout::Part;
+use crate::scene::Part;
 
 impl Laws<'_, '_> {
     /// The element whose law runs.
