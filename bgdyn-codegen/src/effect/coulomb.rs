@@ -16,6 +16,19 @@ pub(super) const EFFORT: Reads = Reads::Number(&[Dimension::Torque, Dimension::F
 /// What is said where `static` is less than `kinetic`.
 pub(super) const REST_HOLDS_MORE: &str = "rest holds at least what slipping resists";
 
+const KINETIC: Key = Key {
+    name: "kinetic",
+    reads: EFFORT,
+    needed: true,
+    about: "F_k, the effort while slipping",
+};
+const STATIC: Key = Key {
+    name: "static",
+    reads: EFFORT,
+    needed: false,
+    about: "F_s, the largest effort at rest; F_k without it",
+};
+
 impl Declaration for Coulomb {
     fn keyword(&self) -> &'static str {
         "coulomb"
@@ -34,22 +47,7 @@ impl Declaration for Coulomb {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "kinetic",
-                reads: EFFORT,
-                needed: true,
-                about: "F_k, the effort while slipping",
-            },
-            Key {
-                name: "static",
-                reads: EFFORT,
-                needed: false,
-                about: "F_s, the largest effort at rest; F_k without it",
-            },
-            JOINT,
-            REFERENCE,
-        ]
+        &[KINETIC, STATIC, JOINT, REFERENCE]
     }
 
     fn once_per_joint(&self) -> bool {
@@ -79,8 +77,8 @@ impl Effect for Coulomb {
         let port = laws.port(element);
         let reference = element.name("reference");
         let counterpart = [Level::Rate, Level::Acceleration].map(|l| laws.reference(reference, l));
-        let kinetic = laws.number(element, "kinetic");
-        let limit = laws.optional(element, "static").unwrap_or(kinetic);
+        let kinetic = laws.number(element, &KINETIC);
+        let limit = laws.optional(element, &STATIC).unwrap_or(kinetic);
         let mode = laws.mode(&element.name);
         let effort = -(mode * kinetic);
         laws.push(&port, effort);

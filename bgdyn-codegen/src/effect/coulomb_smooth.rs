@@ -29,6 +29,13 @@ pub(super) const WIDTH: Key = Key {
 pub(super) const NO_WIDTH: &str =
     "friction that jumps with the direction is `type: coulomb`, which sticks and slips";
 
+const KINETIC: Key = Key {
+    name: "kinetic",
+    reads: EFFORT,
+    needed: true,
+    about: "F, the effort far above the width",
+};
+
 impl Declaration for CoulombSmooth {
     fn keyword(&self) -> &'static str {
         "coulomb_smooth"
@@ -47,17 +54,7 @@ impl Declaration for CoulombSmooth {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "kinetic",
-                reads: EFFORT,
-                needed: true,
-                about: "F, the effort far above the width",
-            },
-            WIDTH,
-            JOINT,
-            REFERENCE,
-        ]
+        &[KINETIC, WIDTH, JOINT, REFERENCE]
     }
 
     fn rules(&self, given: &mut Given<'_>) {
@@ -74,7 +71,7 @@ impl Effect for CoulombSmooth {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             let number = |key| laws.number(element, key);
-            -(number("kinetic") * (s / number("width")).tanh())
+            -(number(&KINETIC) * (s / number(&WIDTH)).tanh())
         });
     }
 }

@@ -1,7 +1,7 @@
 //! A damper, at a joint or along the line between two places: f = −b (ṡ − ṙ).
 
 use super::spring::{BETWEEN, MAYBE_JOINT};
-use super::viscous::{DAMPING, REFERENCE};
+use super::viscous::{EFFORT_PER_RATE, REFERENCE};
 use super::{Effect, slip};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
@@ -9,6 +9,13 @@ use crate::layout::Layout;
 use crate::spec::Key;
 
 pub(super) struct Damper;
+
+const DAMPING: Key = Key {
+    name: "damping",
+    reads: EFFORT_PER_RATE,
+    needed: true,
+    about: "b, effort per rate",
+};
 
 impl Declaration for Damper {
     fn keyword(&self) -> &'static str {
@@ -28,17 +35,7 @@ impl Declaration for Damper {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "damping",
-                reads: DAMPING,
-                needed: true,
-                about: "b, effort per rate",
-            },
-            MAYBE_JOINT,
-            BETWEEN,
-            REFERENCE,
-        ]
+        &[DAMPING, MAYBE_JOINT, BETWEEN, REFERENCE]
     }
 
     fn rules(&self, given: &mut Given<'_>) {
@@ -54,7 +51,7 @@ impl Declaration for Damper {
 impl Effect for Damper {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
-            -(laws.number(element, "damping") * s)
+            -(laws.number(element, &DAMPING) * s)
         });
     }
 }

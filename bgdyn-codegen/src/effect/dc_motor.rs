@@ -37,49 +37,57 @@ const fn number(
     }
 }
 
+const RESISTANCE: Key = number(
+    "resistance",
+    &[Dimension::Resistance],
+    true,
+    "R, of the winding",
+);
+const INDUCTANCE: Key = number(
+    "inductance",
+    &[Dimension::Inductance],
+    false,
+    "L, of the winding; without it the current follows from the voltage at once",
+);
+const TORQUE_CONSTANT: Key = number(
+    "torque_constant",
+    &[Dimension::TorqueConstant],
+    true,
+    "k, torque per current, which is also voltage per speed",
+);
+const RATIO: Key = number(
+    "ratio",
+    &[Dimension::One],
+    false,
+    "N, turns of the motor per turn of the joint, or rad per m; 1 without it",
+);
+const EFFICIENCY: Key = number(
+    "efficiency",
+    &[Dimension::One],
+    false,
+    "η of the gear: ητ where the motor drives, τ/η where it is driven; 1 without it",
+);
+const VOLTAGE_LIMIT: Key = number(
+    "voltage_limit",
+    &[Dimension::Voltage],
+    false,
+    "the supply's voltage: |u| is held to it",
+);
+const CURRENT_LIMIT: Key = number(
+    "current_limit",
+    &[Dimension::Current],
+    false,
+    "the amplifier holds |i| to it",
+);
+
 static KEYS: [Key; 8] = [
-    number(
-        "resistance",
-        &[Dimension::Resistance],
-        true,
-        "R, of the winding",
-    ),
-    number(
-        "inductance",
-        &[Dimension::Inductance],
-        false,
-        "L, of the winding; without it the current follows from the voltage at once",
-    ),
-    number(
-        "torque_constant",
-        &[Dimension::TorqueConstant],
-        true,
-        "k, torque per current, which is also voltage per speed",
-    ),
-    number(
-        "ratio",
-        &[Dimension::One],
-        false,
-        "N, turns of the motor per turn of the joint, or rad per m; 1 without it",
-    ),
-    number(
-        "efficiency",
-        &[Dimension::One],
-        false,
-        "η of the gear: ητ where the motor drives, τ/η where it is driven; 1 without it",
-    ),
-    number(
-        "voltage_limit",
-        &[Dimension::Voltage],
-        false,
-        "the supply's voltage: |u| is held to it",
-    ),
-    number(
-        "current_limit",
-        &[Dimension::Current],
-        false,
-        "the amplifier holds |i| to it",
-    ),
+    RESISTANCE,
+    INDUCTANCE,
+    TORQUE_CONSTANT,
+    RATIO,
+    EFFICIENCY,
+    VOLTAGE_LIMIT,
+    CURRENT_LIMIT,
     JOINT,
 ];
 
@@ -152,16 +160,16 @@ impl Effect for DcMotor {
         let circuit = Circuit {
             element,
             induced: gyrator(element, laws) * joint.rate,
-            resistance: laws.number(element, "resistance"),
+            resistance: laws.number(element, &RESISTANCE),
             asked: supplied_voltage(element, laws),
         };
-        let flowing = match laws.optional(element, "inductance") {
+        let flowing = match laws.optional(element, &INDUCTANCE) {
             Some(inductance) => circuit.with_inductance(inductance, laws),
             None => circuit.at_once(laws),
         };
         let torque = gyrator(element, laws) * flowing.current;
         let mode = named(element, GEAR);
-        let geared = match laws.gear(element, &mode) {
+        let geared = match laws.gear(element, &EFFICIENCY, &mode) {
             Some(gear) => {
                 laws.load((element, &mode), gear, &joint, torque);
                 gear.behind(laws.b, torque)
@@ -195,12 +203,10 @@ impl Effect for DcMotor {
 /// k N, of the motor with its gear.
 fn gyrator<'g>(element: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
     let one = laws.b.number(1.0);
-    let ratio = laws.optional(element, "ratio").unwrap_or(one);
-    laws.number(element, "torque_constant") * ratio
+    let ratio = laws.optional(element, &RATIO).unwrap_or(one);
+    laws.number(element, &TORQUE_CONSTANT) * ratio
 }
 
-const VOLTAGE_LIMIT: &str = "voltage_limit";
-const CURRENT_LIMIT: &str = "current_limit";
 /// The part of the name of the gear's mode.
 const GEAR: &str = "gear";
 
@@ -215,16 +221,16 @@ const SIDES: [(&str, f64); 2] = [("upper_limit", 1.0), ("lower_limit", -1.0)];
 /// The kinks of the limits, and the modes of a current that is held.
 fn declare_limits(element: &Element, layout: &mut Layout) {
     let name = &element.name;
-    if element.quantity(VOLTAGE_LIMIT).is_some() {
+    if element.quantity(VOLTAGE_LIMIT.name).is_some() {
         let about = format!("the voltage of `{name}` reaches its limit, or leaves it");
-        layout.event(named(element, VOLTAGE_LIMIT), about);
+        layout.event(named(element, VOLTAGE_LIMIT.name), about);
     }
-    if element.quantity(CURRENT_LIMIT).is_none() {
+    if element.quantity(CURRENT_LIMIT.name).is_none() {
         return;
     }
     if element.quantity("inductance").is_none() {
         let about = format!("the current of `{name}` reaches its limit, or leaves it");
-        layout.event(named(element, CURRENT_LIMIT), about);
+        layout.event(named(element, CURRENT_LIMIT.name), about);
         return;
     }
     for ((side, _), which) in SIDES.into_iter().zip(["upper", "lower"]) {
@@ -240,9 +246,9 @@ fn declare_limits(element: &Element, layout: &mut Layout) {
 /// The voltage within the supply's limit.
 fn supplied_voltage<'g>(element: &Element, laws: &mut Laws<'g, '_>) -> Ex<'g> {
     let asked = laws.input(&element.name);
-    match laws.optional(element, VOLTAGE_LIMIT) {
+    match laws.optional(element, &VOLTAGE_LIMIT) {
         Some(limit) if laws.limited() => {
-            laws.event(&named(element, VOLTAGE_LIMIT), limit - asked.abs());
+            laws.event(&named(element, VOLTAGE_LIMIT.name), limit - asked.abs());
             asked.max(-limit).min(limit)
         }
         _ => asked,
@@ -272,7 +278,7 @@ struct Flowing<'g> {
 impl<'g> Circuit<'g, '_> {
     /// The limit of the current, where there is one.
     fn current_limit(&self, laws: &Laws<'g, '_>) -> Option<Ex<'g>> {
-        let limit = laws.optional(self.element, CURRENT_LIMIT);
+        let limit = laws.optional(self.element, &CURRENT_LIMIT);
         limit.filter(|_| laws.limited())
     }
 
@@ -286,7 +292,10 @@ impl<'g> Circuit<'g, '_> {
                 measured: self.asked,
             };
         };
-        laws.event(&named(self.element, CURRENT_LIMIT), limit - wanted.abs());
+        laws.event(
+            &named(self.element, CURRENT_LIMIT.name),
+            limit - wanted.abs(),
+        );
         let current = wanted.max(-limit).min(limit);
         let drop = self.resistance * limit;
         Flowing {

@@ -20,20 +20,19 @@ const fn number(name: &'static str, fit: &'static [Dimension], about: &'static s
     }
 }
 
-static KEYS: [Key; 4] = [
-    AT,
-    number("linear", &[Dimension::Damping], "c₁, force per speed"),
-    number(
-        "quadratic",
-        &[Dimension::QuadraticDamping],
-        "c₂, force per square of the speed: ½ ρ C_d A",
-    ),
-    number(
-        "angular",
-        &[Dimension::AngularDamping],
-        "c_ω, moment per angular speed",
-    ),
-];
+const QUADRATIC: Key = number(
+    "quadratic",
+    &[Dimension::QuadraticDamping],
+    "c₂, force per square of the speed: ½ ρ C_d A",
+);
+const ANGULAR: Key = number(
+    "angular",
+    &[Dimension::AngularDamping],
+    "c_ω, moment per angular speed",
+);
+const LINEAR: Key = number("linear", &[Dimension::Damping], "c₁, force per speed");
+
+static KEYS: [Key; 4] = [AT, LINEAR, QUADRATIC, ANGULAR];
 
 impl Declaration for Drag {
     fn keyword(&self) -> &'static str {
@@ -78,8 +77,8 @@ impl Effect for Drag {
         let jacobian = laws.jacobian(site);
         let [wx, wy, wz, vx, vy, vz] = twist(&jacobian, laws);
         let (omega, v) = (Vec3([wx, wy, wz]), Vec3([vx, vy, vz]));
-        let [linear, angular] = ["linear", "angular"].map(|key| laws.number(element, key));
-        let factor = match laws.optional(element, "quadratic") {
+        let [linear, angular] = [&LINEAR, &ANGULAR].map(|key| laws.number(element, key));
+        let factor = match laws.optional(element, &QUADRATIC) {
             Some(quadratic) => linear + quadratic * v.dot(v).sqrt(),
             None => linear,
         };

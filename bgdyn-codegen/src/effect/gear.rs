@@ -14,6 +14,13 @@ use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Gear;
 
+const EFFICIENCY: Key = Key {
+    name: "efficiency",
+    reads: Reads::Number(&[Dimension::One]),
+    needed: true,
+    about: "η, greater than 0, at most 1",
+};
+
 impl Declaration for Gear {
     fn keyword(&self) -> &'static str {
         "gear"
@@ -32,15 +39,7 @@ impl Declaration for Gear {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "efficiency",
-                reads: Reads::Number(&[Dimension::One]),
-                needed: true,
-                about: "η, greater than 0, at most 1",
-            },
-            JOINT,
-        ]
+        &[EFFICIENCY, JOINT]
     }
 
     fn once_per_joint(&self) -> bool {
@@ -62,7 +61,7 @@ impl Declaration for Gear {
 
 impl Effect for Gear {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        laws.gear_of_drive(element);
+        laws.gear_of_drive(element, &EFFICIENCY);
     }
 }
 

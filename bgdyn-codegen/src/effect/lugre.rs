@@ -11,7 +11,7 @@ use bgdyn_runtime::Dd;
 use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::SPEED;
 use super::stribeck::{KINETIC, curve};
-use super::viscous::{DAMPING, JOINT, REFERENCE};
+use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
 use super::{Effect, slip};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
@@ -19,6 +19,37 @@ use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct LuGre;
+
+const STIFFNESS: Key = Key {
+    name: "stiffness",
+    reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+    needed: true,
+    about: "σ₀, stiffness of the bristles",
+};
+const DAMPING: Key = Key {
+    name: "damping",
+    reads: EFFORT_PER_RATE,
+    needed: false,
+    about: "σ₁, damping of the bristles",
+};
+const VISCOUS: Key = Key {
+    name: "viscous",
+    reads: EFFORT_PER_RATE,
+    needed: false,
+    about: "σ₂, viscous friction",
+};
+const STATIC: Key = Key {
+    name: "static",
+    reads: EFFORT,
+    needed: false,
+    about: "F_s, friction at rest; F_c without it",
+};
+const STRIBECK_SPEED: Key = Key {
+    name: "stribeck_speed",
+    reads: SPEED,
+    needed: false,
+    about: "v_s, speed of the Stribeck curve; needed where F_s is given",
+};
 
 impl Declaration for LuGre {
     fn keyword(&self) -> &'static str {
@@ -39,37 +70,12 @@ impl Declaration for LuGre {
 
     fn keys(&self) -> &'static [Key] {
         &[
-            Key {
-                name: "stiffness",
-                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
-                needed: true,
-                about: "σ₀, stiffness of the bristles",
-            },
-            Key {
-                name: "damping",
-                reads: DAMPING,
-                needed: false,
-                about: "σ₁, damping of the bristles",
-            },
-            Key {
-                name: "viscous",
-                reads: DAMPING,
-                needed: false,
-                about: "σ₂, viscous friction",
-            },
+            STIFFNESS,
+            DAMPING,
+            VISCOUS,
             KINETIC,
-            Key {
-                name: "static",
-                reads: EFFORT,
-                needed: false,
-                about: "F_s, friction at rest; F_c without it",
-            },
-            Key {
-                name: "stribeck_speed",
-                reads: SPEED,
-                needed: false,
-                about: "v_s, speed of the Stribeck curve; needed where F_s is given",
-            },
+            STATIC,
+            STRIBECK_SPEED,
             JOINT,
             REFERENCE,
         ]
@@ -123,9 +129,9 @@ impl Effect for LuGre {
         let counterpart = laws.reference(element.name("reference"), Level::Rate);
         let slip = port.rate - counterpart;
         let z = laws.state(&element.name);
-        let number = |key: &str| laws.number(element, key);
+        let number = |key: &Key| laws.number(element, key);
         let (stiffness, damping, viscous) =
-            (number("stiffness"), number("damping"), number("viscous"));
+            (number(&STIFFNESS), number(&DAMPING), number(&VISCOUS));
         let rate = slip - stiffness * slip.abs() * z / curve(element, laws, slip);
         laws.flow(&element.name, rate);
         let effort = -(stiffness * z + damping * rate + viscous * slip);

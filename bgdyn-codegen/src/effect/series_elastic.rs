@@ -9,13 +9,38 @@
 use bgdyn_runtime::Dd;
 
 use super::Effect;
-use super::viscous::{DAMPING, JOINT};
+use super::viscous::{EFFORT_PER_RATE, JOINT};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct SeriesElastic;
+
+const STIFFNESS: Key = Key {
+    name: "stiffness",
+    reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+    needed: true,
+    about: "K, of the spring, at the joint's scale",
+};
+const DAMPING: Key = Key {
+    name: "damping",
+    reads: EFFORT_PER_RATE,
+    needed: false,
+    about: "D, of the damper beside it; 0 without it",
+};
+const INERTIA: Key = Key {
+    name: "inertia",
+    reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
+    needed: true,
+    about: "J, the rotor's moment of inertia about its axis",
+};
+const RATIO: Key = Key {
+    name: "ratio",
+    reads: Reads::Number(&[Dimension::One]),
+    needed: false,
+    about: "N, turns of the rotor per turn of the joint; 1 without it",
+};
 
 impl Declaration for SeriesElastic {
     fn keyword(&self) -> &'static str {
@@ -35,33 +60,7 @@ impl Declaration for SeriesElastic {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "stiffness",
-                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
-                needed: true,
-                about: "K, of the spring, at the joint's scale",
-            },
-            Key {
-                name: "damping",
-                reads: DAMPING,
-                needed: false,
-                about: "D, of the damper beside it; 0 without it",
-            },
-            Key {
-                name: "inertia",
-                reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
-                needed: true,
-                about: "J, the rotor's moment of inertia about its axis",
-            },
-            Key {
-                name: "ratio",
-                reads: Reads::Number(&[Dimension::One]),
-                needed: false,
-                about: "N, turns of the rotor per turn of the joint; 1 without it",
-            },
-            JOINT,
-        ]
+        &[STIFFNESS, DAMPING, INERTIA, RATIO, JOINT]
     }
 
     fn adds_coordinate(&self) -> bool {
@@ -91,8 +90,8 @@ impl Effect for SeriesElastic {
         let (joint, drive) = (laws.port(element), laws.coordinate(&element.name));
         let (stretch, rate) = (drive.place - joint.place, drive.rate - joint.rate);
         let (stiffness, damping) = (
-            laws.number(element, "stiffness"),
-            laws.number(element, "damping"),
+            laws.number(element, &STIFFNESS),
+            laws.number(element, &DAMPING),
         );
         let effort = stiffness * stretch + damping * rate;
         laws.push(&joint, effort);
@@ -100,8 +99,8 @@ impl Effect for SeriesElastic {
         laws.store(stiffness * stretch * stretch * Dd::from_f64(0.5));
         laws.dissipate(damping * rate * rate);
         let one = laws.b.number(1.0);
-        let ratio = laws.optional(element, "ratio").unwrap_or(one);
-        laws.inertia(element, ratio * ratio * laws.number(element, "inertia"));
+        let ratio = laws.optional(element, &RATIO).unwrap_or(one);
+        laws.inertia(element, ratio * ratio * laws.number(element, &INERTIA));
         laws.reading(
             format!("{}_effort", element.name),
             effort,

@@ -27,6 +27,25 @@ pub(super) const BETWEEN: Key = Key {
     about: "two links or frames: it acts along the line between their origins",
 };
 
+const STIFFNESS: Key = Key {
+    name: "stiffness",
+    reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+    needed: true,
+    about: "k",
+};
+const REST: Key = Key {
+    name: "rest",
+    reads: Reads::Number(&[Dimension::Angle, Dimension::Length]),
+    needed: false,
+    about: "s₀, coordinate or length at which only the preload acts; 0 without it",
+};
+const PRELOAD: Key = Key {
+    name: "preload",
+    reads: Reads::Number(&[Dimension::Torque, Dimension::Force]),
+    needed: false,
+    about: "f₀, effort at rest, towards smaller s where positive",
+};
+
 impl Declaration for Spring {
     fn keyword(&self) -> &'static str {
         "spring"
@@ -45,29 +64,7 @@ impl Declaration for Spring {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "stiffness",
-                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
-                needed: true,
-                about: "k",
-            },
-            Key {
-                name: "rest",
-                reads: Reads::Number(&[Dimension::Angle, Dimension::Length]),
-                needed: false,
-                about: "s₀, coordinate or length at which only the preload acts; 0 without it",
-            },
-            Key {
-                name: "preload",
-                reads: Reads::Number(&[Dimension::Torque, Dimension::Force]),
-                needed: false,
-                about: "f₀, effort at rest, towards smaller s where positive",
-            },
-            MAYBE_JOINT,
-            BETWEEN,
-            REFERENCE,
-        ]
+        &[STIFFNESS, REST, PRELOAD, MAYBE_JOINT, BETWEEN, REFERENCE]
     }
 
     fn rules(&self, given: &mut Given<'_>) {
@@ -91,10 +88,10 @@ impl Effect for Spring {
         let port = laws.port(element);
         let reference = element.name("reference");
         let [place, rate] = [Level::Position, Level::Rate].map(|l| laws.reference(reference, l));
-        let stretch = port.place - place - laws.number(element, "rest");
+        let stretch = port.place - place - laws.number(element, &REST);
         let (stiffness, preload) = (
-            laws.number(element, "stiffness"),
-            laws.number(element, "preload"),
+            laws.number(element, &STIFFNESS),
+            laws.number(element, &PRELOAD),
         );
         let effort = -(stiffness * stretch) - preload;
         laws.push(&port, effort);

@@ -25,6 +25,37 @@ pub(super) struct Stop;
 
 const PLACE: Reads = Reads::Number(&[Dimension::Angle, Dimension::Length]);
 
+const STIFFNESS: Key = Key {
+    name: "stiffness",
+    reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
+    needed: true,
+    about: "k",
+};
+const RESTITUTION: Key = Key {
+    name: "restitution",
+    reads: Reads::Number(&[Dimension::One]),
+    needed: true,
+    about: "e, speed after an impact to the speed before it",
+};
+const IMPACT_SPEED: Key = Key {
+    name: "impact_speed",
+    reads: SPEED,
+    needed: true,
+    about: "v, the speed of the impact that has this restitution",
+};
+const LOWER: Key = Key {
+    name: "lower",
+    reads: PLACE,
+    needed: false,
+    about: "where the lower stop begins; the joint's lower limit without it",
+};
+const UPPER: Key = Key {
+    name: "upper",
+    reads: PLACE,
+    needed: false,
+    about: "where the upper stop begins; the joint's upper limit without it",
+};
+
 impl Declaration for Stop {
     fn keyword(&self) -> &'static str {
         "stop"
@@ -43,39 +74,7 @@ impl Declaration for Stop {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "stiffness",
-                reads: Reads::Number(&[Dimension::AngularStiffness, Dimension::Stiffness]),
-                needed: true,
-                about: "k",
-            },
-            Key {
-                name: "restitution",
-                reads: Reads::Number(&[Dimension::One]),
-                needed: true,
-                about: "e, speed after an impact to the speed before it",
-            },
-            Key {
-                name: "impact_speed",
-                reads: SPEED,
-                needed: true,
-                about: "v, the speed of the impact that has this restitution",
-            },
-            Key {
-                name: "lower",
-                reads: PLACE,
-                needed: false,
-                about: "where the lower stop begins; the joint's lower limit without it",
-            },
-            Key {
-                name: "upper",
-                reads: PLACE,
-                needed: false,
-                about: "where the upper stop begins; the joint's upper limit without it",
-            },
-            JOINT,
-        ]
+        &[STIFFNESS, RESTITUTION, IMPACT_SPEED, LOWER, UPPER, JOINT]
     }
 
     fn limit_for(&self, key: &str, limits: &Limits) -> Option<f64> {
@@ -127,7 +126,7 @@ impl Effect for Stop {
         let zero = laws.b.zero();
         // How far the stops are away; 0 within them.
         let (mut pushed, mut gap, mut follows) = (zero, None, zero);
-        for (key, outwards) in [("lower", -1.0), ("upper", 1.0)] {
+        for (key, outwards) in [(&LOWER, -1.0), (&UPPER, 1.0)] {
             let Some(at) = laws.optional(element, key) else {
                 continue;
             };
@@ -184,7 +183,7 @@ fn one_side<'g>(
         .b
         .constant(damping(value("restitution"), value("impact_speed")));
     let (depth, rate) = (depth.max(zero), port.rate * outwards);
-    let elastic = laws.number(element, "stiffness") * depth;
+    let elastic = laws.number(element, &STIFFNESS) * depth;
     let follows = damping * rate + laws.b.number(1.0);
     let force = elastic * follows.max(zero);
     let effort = force * -outwards;

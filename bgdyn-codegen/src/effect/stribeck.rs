@@ -8,7 +8,7 @@
 
 use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
-use super::viscous::{DAMPING, JOINT, REFERENCE};
+use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
 use super::{Effect, slip};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
@@ -42,6 +42,13 @@ const STRIBECK_SPEED: Key = Key {
     about: "v_s, speed of the Stribeck curve",
 };
 
+const DAMPING: Key = Key {
+    name: "damping",
+    reads: EFFORT_PER_RATE,
+    needed: false,
+    about: "b, viscous friction; 0 without it",
+};
+
 impl Declaration for Stribeck {
     fn keyword(&self) -> &'static str {
         "stribeck"
@@ -65,12 +72,7 @@ impl Declaration for Stribeck {
             STATIC,
             STRIBECK_SPEED,
             WIDTH,
-            Key {
-                name: "damping",
-                reads: DAMPING,
-                needed: false,
-                about: "b, viscous friction; 0 without it",
-            },
+            DAMPING,
             JOINT,
             REFERENCE,
         ]
@@ -106,16 +108,16 @@ impl Effect for Stribeck {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             let number = |key| laws.number(element, key);
-            let friction = curve(element, laws, s) * (s / number("width")).tanh();
-            -(friction + number("damping") * s)
+            let friction = curve(element, laws, s) * (s / number(&WIDTH)).tanh();
+            -(friction + number(&DAMPING) * s)
         });
     }
 }
 
 /// F_c + (F_s − F_c) exp(−(s/v_s)²); F_c where no `static` is given.
 pub(super) fn curve<'g>(element: &Element, laws: &Laws<'g, '_>, slip: Ex<'g>) -> Ex<'g> {
-    let kinetic = laws.number(element, "kinetic");
-    let [rest, speed] = ["static", "stribeck_speed"].map(|key| laws.optional(element, key));
+    let kinetic = laws.number(element, &KINETIC);
+    let [rest, speed] = [&STATIC, &STRIBECK_SPEED].map(|key| laws.optional(element, key));
     match (rest, speed) {
         (Some(rest), Some(speed)) => {
             let ratio = slip / speed;

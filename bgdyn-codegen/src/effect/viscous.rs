@@ -25,7 +25,15 @@ pub(super) const JOINT: Key = Key {
 };
 
 /// The dimensions of an effort per rate.
-pub(super) const DAMPING: Reads = Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]);
+pub(super) const EFFORT_PER_RATE: Reads =
+    Reads::Number(&[Dimension::AngularDamping, Dimension::Damping]);
+
+const DAMPING: Key = Key {
+    name: "damping",
+    reads: EFFORT_PER_RATE,
+    needed: true,
+    about: "b, effort per rate",
+};
 
 impl Declaration for Viscous {
     fn keyword(&self) -> &'static str {
@@ -45,16 +53,7 @@ impl Declaration for Viscous {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "damping",
-                reads: DAMPING,
-                needed: true,
-                about: "b, effort per rate",
-            },
-            JOINT,
-            REFERENCE,
-        ]
+        &[DAMPING, JOINT, REFERENCE]
     }
 
     fn rules(&self, given: &mut Given<'_>) {
@@ -69,7 +68,7 @@ impl Declaration for Viscous {
 impl Effect for Viscous {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
-            -(laws.number(element, "damping") * s)
+            -(laws.number(element, &DAMPING) * s)
         });
     }
 }

@@ -140,7 +140,11 @@ impl Declaration for Wrench {
 impl Effect for Wrench {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let site = laws.site(element.name(AT.name).unwrap_or_default());
-        let given = COMPONENTS.map(|c| laws.input(&format!("{}_{c}", element.name)));
+        let inputs = components(element);
+        let given = COMPONENTS.map(|c| match inputs.contains(&c) {
+            true => laws.input(&format!("{}_{c}", element.name)),
+            false => laws.b.zero(),
+        });
         let [mx, my, mz, fx, fy, fz] = given;
         let wrench = if element.name("axes") == Some("link") {
             let axes = laws.pose(site).0;

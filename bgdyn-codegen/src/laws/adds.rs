@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::undeclared::undeclared;
 use super::{Condition, Contact, Hold, Laws, Port, Reading};
 use crate::declaration::Element;
 use crate::expr::Ex;
@@ -15,10 +16,12 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// An effort on the element's own coordinate.
+    ///
+    /// # Panics
+    /// Where the element adds no coordinate.
     pub fn push_own(&mut self, element: &Element, effort: Ex<'g>) {
-        if let Some(j) = self.scene.layout.coordinate_named(&element.name) {
-            self.efforts[j] = self.efforts[j] + effort;
-        }
+        let j = self.coordinate_index(&element.name);
+        self.efforts[j] = self.efforts[j] + effort;
     }
 
     /// An effort on one coordinate, by its number.
@@ -28,25 +31,23 @@ impl<'g> Laws<'g, '_> {
 
     /// The inertia of the coordinate that the element adds, and the kinetic (magnetic) energy with
     /// it: ½ I v².
+    ///
+    /// # Panics
+    /// Where the element adds no coordinate.
     pub fn inertia(&mut self, element: &Element, inertia: Ex<'g>) {
-        if let Some(j) = self.scene.layout.coordinate_named(&element.name) {
-            self.inertias.insert(j, inertia);
-            let rate = self.v[j];
-            self.store(inertia * rate * rate * Dd::from_f64(0.5));
-        }
+        let j = self.coordinate_index(&element.name);
+        self.inertias.insert(j, inertia);
+        let rate = self.v[j];
+        self.store(inertia * rate * rate * Dd::from_f64(0.5));
     }
 
     /// ẋ of a first-order state; several effects may add to it.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares the state.
     pub fn flow(&mut self, state: &str, rate: Ex<'g>) {
-        if let Some(i) = self
-            .scene
-            .layout
-            .states
-            .iter()
-            .position(|s| s.name == state)
-        {
-            self.rates[i] = self.rates[i] + rate;
-        }
+        let i = self.part("state", &self.scene.layout.states, state);
+        self.rates[i] = self.rates[i] + rate;
     }
 
     /// Power that the element takes from outside, W.
@@ -57,12 +58,14 @@ impl<'g> Laws<'g, '_> {
 
     /// Power that another element takes from outside, W: a source of pressure gives it to whatever
     /// lets fluid run.
+    ///
+    /// # Panics
+    /// Where the scene has no element with this name.
     pub fn supply_by(&mut self, element: &str, power: Ex<'g>) {
         let found = self.scene.elements.iter().position(|e| e.name == element);
-        if let Some(at) = found {
-            let balance = &mut self.balances[at];
-            balance.supplied = balance.supplied + power;
-        }
+        let at = found.unwrap_or_else(|| undeclared(self.element_at_work(), "element", element));
+        let balance = &mut self.balances[at];
+        balance.supplied = balance.supplied + power;
     }
 
     /// Energy that the element stores, J.
@@ -78,18 +81,22 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// A value whose fall through zero is the event with this name.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares the event.
     pub fn event(&mut self, name: &str, value: Ex<'g>) {
+        self.part("event", &self.scene.layout.events, name);
         self.events.insert(name.to_owned(), value);
     }
 
     /// What can hold its coordinate at the rate of a counterpart, whose rate and acceleration are
     /// the `reference`.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares the mode.
     pub fn contact(&mut self, mode: &str, port: &Port<'g>, reference: [Ex<'g>; 2], hold: Hold<'g>) {
-        let modes = &self.scene.layout.modes;
-        if let (Some(mode), Some(&(coordinate, _))) = (
-            modes.iter().position(|m| m.name == mode),
-            port.transformers.first(),
-        ) {
+        let mode = self.part("mode", &self.scene.layout.modes, mode);
+        if let Some(&(coordinate, _)) = port.transformers.first() {
             self.contacts.push(Contact {
                 element: self.at,
                 mode,

@@ -7,6 +7,7 @@
 use super::{Hold, Laws, Port};
 use crate::declaration::Element;
 use crate::expr::{Builder, Ex};
+use crate::spec::Key;
 
 /// A gear with losses.
 #[derive(Clone, Copy, Debug)]
@@ -48,9 +49,13 @@ pub fn load_event(element: &Element) -> String {
 }
 
 impl<'g> Laws<'g, '_> {
-    /// A gear with losses, whose mode has this name.
-    pub fn gear(&self, element: &Element, mode: &str) -> Option<Gear<'g>> {
-        let efficiency = self.optional(element, "efficiency")?;
+    /// A gear with losses, whose efficiency is the number behind this key and whose mode has this
+    /// name; `None` where no efficiency is given.
+    ///
+    /// # Panics
+    /// Where the effect declares no such key, or no effect such a mode.
+    pub fn gear(&self, element: &Element, efficiency: &Key, mode: &str) -> Option<Gear<'g>> {
+        let efficiency = self.optional(element, efficiency)?;
         let mode = self.mode(mode);
         Some(Gear { efficiency, mode })
     }
@@ -69,10 +74,10 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// A gear between a coordinate's own effort and the coordinate.
-    pub fn gear_of_drive(&mut self, element: &Element) {
+    pub fn gear_of_drive(&mut self, element: &Element, efficiency: &Key) {
         let joint = element.name("joint").unwrap_or_default();
         let found = self.scene.layout.coordinate_named(joint);
-        if let (Some(j), Some(gear)) = (found, self.gear(element, &element.name)) {
+        if let (Some(j), Some(gear)) = (found, self.gear(element, efficiency, &element.name)) {
             self.gears.insert(j, gear);
             let lost = (self.own_effort(j) - self.drive(j)) * self.v[j];
             self.dissipate(lost);

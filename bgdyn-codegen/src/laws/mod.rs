@@ -4,6 +4,7 @@ mod adds;
 mod gear;
 mod joined;
 mod reads;
+mod undeclared;
 
 use std::collections::BTreeMap;
 

@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::undeclared::undeclared;
 use super::{Laws, Own, Port, copied};
 use crate::bond_graph::SiteId;
 use crate::declaration::Chain;
@@ -10,7 +11,7 @@ use crate::expr::{Ex, Graph, Leaf, Tangent};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Level;
-use crate::spec::Dimension;
+use crate::spec::{Dimension, Key};
 
 impl<'g, 'a> Laws<'g, 'a> {
     /// Whether the limits of drives act: not where the coordinates' own efforts are sought.
@@ -18,14 +19,23 @@ impl<'g, 'a> Laws<'g, 'a> {
         self.own == Own::Inputs
     }
 
-    /// The number behind a key; 0 where it is not there.
-    pub fn number(&self, element: &Element, key: &str) -> Ex<'g> {
+    /// The number behind a key; 0 where the file does not give it.
+    ///
+    /// # Panics
+    /// Where the element's effect does not declare the key.
+    pub fn number(&self, element: &Element, key: &Key) -> Ex<'g> {
         self.optional(element, key).unwrap_or(self.b.zero())
     }
 
-    /// The number behind a key.
-    pub fn optional(&self, element: &Element, key: &str) -> Option<Ex<'g>> {
-        element.quantity(key).map(|q| self.quantity(q))
+    /// The number behind a key; `None` where the file does not give it.
+    ///
+    /// # Panics
+    /// Where the element's effect does not declare the key.
+    pub fn optional(&self, element: &Element, key: &Key) -> Option<Ex<'g>> {
+        if !element.effect.keys().iter().any(|k| k.name == key.name) {
+            undeclared(element, "key", key.name);
+        }
+        element.quantity(key.name).map(|q| self.quantity(q))
     }
 
     /// A number as an expression.
@@ -41,44 +51,54 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// The first-order state with this name.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares it.
     pub fn state(&self, name: &str) -> Ex<'g> {
-        let found = self.scene.layout.states.iter().position(|s| s.name == name);
-        found.map_or(self.b.zero(), |i| self.x[i])
+        self.x[self.part("state", &self.scene.layout.states, name)]
     }
 
     /// The mode with this name.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares it.
     pub fn mode(&self, name: &str) -> Ex<'g> {
-        let found = self.scene.layout.modes.iter().position(|m| m.name == name);
-        found.map_or(self.b.zero(), |i| self.modes[i])
+        self.modes[self.part("mode", &self.scene.layout.modes, name)]
     }
 
-    /// The input with this name; 0 where there is none.
+    /// The input with this name.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares it.
     pub fn input(&self, name: &str) -> Ex<'g> {
-        let found = self.scene.layout.inputs.iter().position(|m| m.name == name);
-        found.map_or(self.b.zero(), |i| self.u[i])
+        self.u[self.part("input", &self.scene.layout.inputs, name)]
     }
 
     /// A reference's place, rate or acceleration; 0 without one.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares the reference up to this level.
     pub fn reference(&self, name: Option<&str>, level: Level) -> Ex<'g> {
         name.map_or(self.b.zero(), |name| self.input(&level.name(name)))
     }
 
     /// The velocity of the coordinate that the element itself adds.
+    ///
+    /// # Panics
+    /// Where it adds none.
     pub fn own_velocity(&self, element: &Element) -> Ex<'g> {
-        let found = self.scene.layout.coordinate_named(&element.name);
-        found.map_or(self.b.zero(), |j| self.v[j])
+        self.v[self.coordinate_index(&element.name)]
     }
 
     /// Where the element acts: on its `joint`, or along the line between its two places.
+    ///
+    /// # Panics
+    /// Where it has neither, or one that the scene does not have.
     pub fn port(&mut self, element: &Element) -> Port<'g> {
         match (element.name("joint"), element.names("between")) {
             (Some(joint), _) => self.coordinate(joint),
             (None, Some([a, b])) => self.line(self.site(a), self.site(b)),
-            (None, None) => Port {
-                place: self.b.zero(),
-                rate: self.b.zero(),
-                transformers: vec![],
-            },
+            (None, None) => undeclared(element, "value of the keys", "joint, between"),
         }
     }
 
@@ -96,14 +116,20 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// The place with this name.
+    ///
+    /// # Panics
+    /// Where no link or frame has the name.
     pub fn site(&self, name: &str) -> SiteId {
         let found = self.graph.sites.iter().position(|s| s.name == name);
-        SiteId(found.unwrap_or(0))
+        SiteId(found.unwrap_or_else(|| undeclared(self.element_at_work(), "site", name)))
     }
 
     /// A coordinate as a port.
+    ///
+    /// # Panics
+    /// Where the scene has no coordinate with this name.
     pub fn coordinate(&self, name: &str) -> Port<'g> {
-        let j = self.scene.layout.coordinate_named(name).unwrap_or(0);
+        let j = self.coordinate_index(name);
         Port {
             place: self.q.get(j).copied().unwrap_or(self.b.zero()),
             rate: self.v[j],

@@ -50,3 +50,122 @@ pub(super) fn summed_under<'g, 'a>(
     }
     laws
 }
+
+#[cfg(test)]
+mod tests {
+    use super::summed;
+    use crate::declaration::{Declaration, Element};
+    use crate::effect::Effect;
+    use crate::expr::Builder;
+    use crate::laws::{Laws, Own};
+    use crate::spec::{Dimension, Key, Reads};
+
+    const MECHANISM: &str = "{ format: 1, name: one, links: [{ name: arm, joint: { name: hinge, type: revolute, axis: y }, mass: 1 }] }";
+    const SCENE: &str = "{ scene: 1, name: swing, mechanism: one.yaml, effects: [bearing: { type: viscous, joint: hinge, damping: 1 }] }";
+
+    const DECLARED: Key = Key {
+        name: "declared",
+        reads: Reads::Number(&[Dimension::One]),
+        needed: false,
+        about: "a key that the effect declares",
+    };
+    const UNDECLARED: Key = Key {
+        name: "undeclared",
+        ..DECLARED
+    };
+
+    /// An effect whose law reads what its tests say.
+    struct Probe(fn(&Element, &mut Laws<'_, '_>));
+
+    impl Declaration for Probe {
+        fn keyword(&self) -> &'static str {
+            "probe"
+        }
+        fn family(&self) -> &'static str {
+            "probes"
+        }
+        fn summary(&self) -> &'static str {
+            "reads names"
+        }
+        fn symbol(&self) -> &'static str {
+            "R"
+        }
+        fn keys(&self) -> &'static [Key] {
+            &[DECLARED]
+        }
+    }
+
+    impl Effect for Probe {
+        fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+            (self.0)(element, laws);
+        }
+    }
+
+    /// What the law of a probe called `needle` panics with, if it does.
+    fn panic_of(law: fn(&Element, &mut Laws<'_, '_>)) -> Option<String> {
+        let read = crate::read_scene(SCENE, "swing", |_| Ok(MECHANISM.to_owned()));
+        let (system, _) = read.expect("a sound scene");
+        let (b, probe) = (Builder::silent(), &*Box::leak(Box::new(Probe(law))));
+        let element = Element {
+            name: "needle".into(),
+            effect: probe,
+            ..system.scene.elements[0].clone()
+        };
+        let mut laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
+        let run = std::panic::AssertUnwindSafe(|| probe.law(&element, &mut laws));
+        let panic = std::panic::catch_unwind(run).err()?;
+        Some(*panic.downcast::<String>().expect("a message"))
+    }
+
+    #[test]
+    fn a_declared_key_without_a_value_is_zero() {
+        let law = |element: &Element, laws: &mut Laws<'_, '_>| {
+            assert!(laws.number(element, &DECLARED).is_zero());
+        };
+        assert_eq!(panic_of(law), None);
+    }
+
+    #[test]
+    fn an_undeclared_key_is_named_with_its_effect_and_element() {
+        let said = panic_of(|element, laws| {
+            laws.number(element, &UNDECLARED);
+        });
+        let expected = "the law of the effect `probe` (element `needle`) uses the key `undeclared`, which is not declared";
+        assert_eq!(said.as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn every_other_undeclared_name_is_refused() {
+        type Law = fn(&Element, &mut Laws<'_, '_>);
+        let lookups: [(&str, Law); 9] = [
+            ("state", |_, laws| {
+                let _ = laws.state("nowhere");
+            }),
+            ("mode", |_, laws| {
+                let _ = laws.mode("nowhere");
+            }),
+            ("input", |_, laws| {
+                let _ = laws.input("nowhere");
+            }),
+            ("coordinate", |_, laws| {
+                let _ = laws.coordinate("nowhere");
+            }),
+            ("site", |_, laws| {
+                let _ = laws.site("nowhere");
+            }),
+            ("event", |_, laws| laws.event("nowhere", laws.t)),
+            ("state", |_, laws| laws.flow("nowhere", laws.t)),
+            ("element", |_, laws| laws.supply_by("nowhere", laws.t)),
+            ("coordinate", |element, laws| {
+                laws.push_own(element, laws.t);
+            }),
+        ];
+        for (kind, law) in lookups {
+            let said = panic_of(law).unwrap_or_default();
+            assert!(
+                said.contains(&format!("uses the {kind} `")),
+                "{kind}: {said}"
+            );
+        }
+    }
+}

@@ -20,43 +20,50 @@ const AREA: &[Dimension] = &[Dimension::Volume, Dimension::Area];
 const PLACE: &[Dimension] = &[Dimension::Angle, Dimension::Length];
 const VOLUME: &[Dimension] = &[Dimension::Volume];
 
+const AREA_A: Key = number(
+    "area_a",
+    AREA,
+    true,
+    "A_a, of the side that pushes towards larger s",
+);
+const AREA_B: Key = number(
+    "area_b",
+    AREA,
+    false,
+    "A_b, of the other side; single-acting without it",
+);
+const DEAD_A: Key = number(
+    "dead_a",
+    VOLUME,
+    false,
+    "V_a0, volume of side a at s = s₀; 0 without it",
+);
+const DEAD_B: Key = number(
+    "dead_b",
+    VOLUME,
+    false,
+    "V_b0, volume of side b at s = s₀ + H; 0 without it",
+);
+const STROKE: Key = number(
+    "stroke",
+    PLACE,
+    false,
+    "H; 0 without it, and then V_b0 is the volume at s = s₀",
+);
+const OFFSET: Key = number(
+    "offset",
+    PLACE,
+    false,
+    "s₀, coordinate or length with side a closed; 0 without it",
+);
+
 static KEYS: [Key; 9] = [
-    number(
-        "area_a",
-        AREA,
-        true,
-        "A_a, of the side that pushes towards larger s",
-    ),
-    number(
-        "area_b",
-        AREA,
-        false,
-        "A_b, of the other side; single-acting without it",
-    ),
-    number(
-        "dead_a",
-        VOLUME,
-        false,
-        "V_a0, volume of side a at s = s₀; 0 without it",
-    ),
-    number(
-        "dead_b",
-        VOLUME,
-        false,
-        "V_b0, volume of side b at s = s₀ + H; 0 without it",
-    ),
-    number(
-        "stroke",
-        PLACE,
-        false,
-        "H; 0 without it, and then V_b0 is the volume at s = s₀",
-    ),
-    number(
-        "offset",
-        PLACE,
-        false,
-        "s₀, coordinate or length with side a closed; 0 without it",
-    ),
+    AREA_A,
+    AREA_B,
+    DEAD_A,
+    DEAD_B,
+    STROKE,
+    OFFSET,
     MAYBE_JOINT,
     BETWEEN,
     FLUID,
@@ -142,7 +149,7 @@ impl Effect for Cylinder {
         let port = laws.port(element);
         let name = &element.name;
         let [area_a, area_b, dead_a, dead_b, stroke, offset] =
-            ["area_a", "area_b", "dead_a", "dead_b", "stroke", "offset"]
+            [&AREA_A, &AREA_B, &DEAD_A, &DEAD_B, &STROKE, &OFFSET]
                 .map(|key| laws.number(element, key));
         let travelled = port.place - offset;
         let volumes = [

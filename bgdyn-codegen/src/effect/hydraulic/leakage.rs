@@ -59,7 +59,7 @@ impl Declaration for Leakage {
 impl Effect for Leakage {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         resist(element, laws, |laws, drop| {
-            laws.number(element, CONDUCTANCE.name) * drop
+            laws.number(element, &CONDUCTANCE) * drop
         });
     }
 }

@@ -11,7 +11,8 @@ use crate::spec::{Dimension, Key};
 
 pub(in crate::effect) struct Line;
 
-static KEYS: [Key; 2] = [number(VOLUME, &[Dimension::Volume], true, "V"), FLUID];
+const OWN_VOLUME: Key = number(VOLUME, &[Dimension::Volume], true, "V");
+static KEYS: [Key; 2] = [OWN_VOLUME, FLUID];
 
 impl Declaration for Line {
     fn keyword(&self) -> &'static str {
@@ -68,7 +69,7 @@ impl Effect for Line {
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let volume = laws.number(element, VOLUME);
+        let volume = laws.number(element, &OWN_VOLUME);
         fill(element, &element.name, volume, laws);
     }
 }

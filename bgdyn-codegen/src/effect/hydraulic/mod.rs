@@ -191,9 +191,7 @@ fn one_fluid(element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
 /// β of a node's fluid.
 fn bulk_modulus<'g>(node: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
     let fluid = fluid_of(node, laws.elements());
-    fluid.map_or(laws.b.number(1.0), |f| {
-        laws.number(f, fluid::BULK_MODULUS.name)
-    })
+    fluid.map_or(laws.b.number(1.0), |f| laws.number(f, &fluid::BULK_MODULUS))
 }
 
 // Nodes
@@ -276,14 +274,15 @@ struct Drop<'g> {
 impl<'g> Drop<'g> {
     /// Of an orifice or a leakage.
     fn of(element: &Element, laws: &Laws<'g, '_>) -> Self {
-        match laws.optional(element, leakage::CONDUCTANCE.name) {
-            Some(conductance) => Drop {
-                laminar: laws.b.number(1.0) / conductance,
+        let keys = element.effect.keys();
+        match keys.contains(&leakage::CONDUCTANCE) {
+            true => Drop {
+                laminar: laws.b.number(1.0) / laws.number(element, &leakage::CONDUCTANCE),
                 orifice: None,
             },
-            None => Drop {
-                laminar: laws.number(element, LAMINAR.name),
-                orifice: laws.optional(element, ORIFICE.name),
+            false => Drop {
+                laminar: laws.number(element, &LAMINAR),
+                orifice: laws.optional(element, &ORIFICE),
             },
         }
     }

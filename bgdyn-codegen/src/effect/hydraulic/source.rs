@@ -17,17 +17,16 @@ const fn held(needed: bool, about: &'static str) -> Key {
     number(PRESSURE, &[Dimension::Pressure], needed, about)
 }
 
-static SUPPLY: [Key; 2] = [held(true, "p, against the surroundings"), FLUID];
+const SUPPLY_PRESSURE: Key = held(true, "p, against the surroundings");
+const TANK_PRESSURE: Key = held(false, "p, against the surroundings; 0 without it");
 
-static TANK: [Key; 2] = [
-    held(false, "p, against the surroundings; 0 without it"),
-    FLUID,
-];
+static SUPPLY: [Key; 2] = [SUPPLY_PRESSURE, FLUID];
+static TANK: [Key; 2] = [TANK_PRESSURE, FLUID];
 
 /// A node that holds its pressure.
-fn hold(element: &Element, laws: &mut Laws<'_, '_>) {
+fn hold(element: &Element, key: &Key, laws: &mut Laws<'_, '_>) {
     let (node, one) = (&element.name, laws.b.number(1.0));
-    let pressure = laws.number(element, PRESSURE);
+    let pressure = laws.number(element, key);
     let carried = enthalpy(element, pressure, laws);
     laws.share(node, PRESSURE, pressure);
     laws.share(node, super::ENTHALPY, carried);
@@ -74,7 +73,7 @@ impl Declaration for Supply {
 
 impl Effect for Supply {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        hold(element, laws);
+        hold(element, &SUPPLY_PRESSURE, laws);
     }
 }
 
@@ -118,6 +117,6 @@ impl Declaration for Tank {
 
 impl Effect for Tank {
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        hold(element, laws);
+        hold(element, &TANK_PRESSURE, laws);
     }
 }
