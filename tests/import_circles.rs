@@ -306,7 +306,8 @@ fn tree(code: &[String], i: &mut usize, before: &[String], all: &mut Vec<(Vec<St
             "{" => {
                 while code.get(*i).is_some_and(|next| next != "}") {
                     tree(code, i, &path, all);
-                    if code.get(*i).is_some_and(|next| next == ",") {
+                    // Past the comma; or past a sign that no import has, in the body of a macro.
+                    if code.get(*i).is_some_and(|next| next != "}") {
                         *i += 1;
                     }
                 }
