@@ -1,7 +1,7 @@
 //! What an effect costs: operations and time of one call of `derivative`, with it and without, and the
 //! steps that a method with controlled steps takes.
 
-use std::fmt::{self, Write};
+use std::fmt::{Debug, Write};
 use std::hint::black_box;
 
 use bgdyn_runtime::System;
@@ -11,6 +11,7 @@ use crate::clock::calls;
 use crate::contender::Stop;
 use crate::integrate::in_short;
 use crate::ladder::Plan;
+use crate::priced::{Call, Priced};
 use crate::row::{fields, quoted};
 use crate::subject::Subject;
 
@@ -20,37 +21,6 @@ pub const METHOD: &str = "dopri5";
 pub const TOLERANCE: f64 = 1e-6;
 /// Runs of more steps are given up.
 const STEPS: usize = 1_000_000;
-
-/// What one call takes: measured, or known beforehand.
-pub enum Call {
-    /// Makes so many calls.
-    Compiled(Box<dyn Fn(usize)>),
-    /// ns, an estimate from the operations.
-    Estimated(f64),
-}
-
-/// A scene with all effects, or all but some, whose costs are asked for.
-pub struct Priced {
-    /// The effects of the scene: `all`, `all but friction`.
-    pub effects: String,
-    /// Multiplications, additions, divisions, roots, sines (a pair of sine and cosine is one) and
-    /// others of one call of `derivative`.
-    pub operations: usize,
-    /// One call of `derivative`.
-    pub call: Call,
-    /// Steps of [`METHOD`] from the start to this time, s.
-    pub steps: Box<dyn Fn(f64) -> Result<usize, Stop>>,
-}
-
-/// Without the closures.
-impl fmt::Debug for Priced {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Priced")
-            .field("effects", &self.effects)
-            .field("operations", &self.operations)
-            .finish_non_exhaustive()
-    }
-}
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +69,7 @@ pub struct CountSteps<P: Plant> {
 impl<P: Plant> WithMethod<P::State> for CountSteps<P>
 where
     Of<P::State>: Real,
-    P::Error: fmt::Debug,
+    P::Error: Debug,
 {
     type Output = Result<usize, Stop>;
 

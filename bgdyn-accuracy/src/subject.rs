@@ -5,7 +5,7 @@ use bgdyn_sim::{Method, WithMethod, with_method};
 use nalgebra::SVector;
 
 use crate::contender::{Contender, Grid, Pace, Stop};
-use crate::cost::Priced;
+use crate::priced::Priced;
 
 /// The measured output at each sample, in double-double, by a tolerance.
 pub type References = Box<dyn Fn(&Grid, f64) -> Result<Vec<Vec<Dd>>, Stop>>;

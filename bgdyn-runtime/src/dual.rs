@@ -7,9 +7,9 @@
 use nalgebra::{Const, SVector};
 use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
 
-use crate::float::exact_sum;
 use crate::sine;
 use crate::singular::finish;
+use crate::two_sum::exact_sum;
 use crate::{Scalar, Singular};
 
 /// What dual numbers may be made of: `f64`, `f32`, or dual numbers again (for derivatives of

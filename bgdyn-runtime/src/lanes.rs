@@ -10,9 +10,10 @@ use core::fmt;
 use nalgebra::SVector;
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
-use crate::float::{Float, Split};
+use crate::float::Float;
 use crate::sine;
 use crate::singular::{sum, zero_if_finite};
+use crate::two_sum::Split;
 use crate::{Scalar, Singular};
 
 /// The mass matrix is singular in at least one lane; the other lanes have their accelerations.

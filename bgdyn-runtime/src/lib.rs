@@ -50,6 +50,7 @@ mod sine;
 mod singular;
 mod storage;
 mod system;
+mod two_sum;
 
 pub use dd::{Dd, ParseDdError};
 pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};

@@ -11,7 +11,7 @@ use std::collections::HashSet;
 use bgdyn_codegen::declaration::Element;
 
 use super::chart::Port;
-use super::scene::value;
+use super::notation::value;
 
 /// The hydraulics of a scene, and how much of it is drawn by now.
 pub(super) struct Fluid<'a> {

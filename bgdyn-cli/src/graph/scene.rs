@@ -3,13 +3,13 @@
 //!
 //! What acts neither on one joint nor along one line (wrenches, drag) is not drawn but named.
 
-use bgdyn_codegen::declaration::{Checked, Element};
+use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::system::System;
 
 use super::between;
 use super::chart::{Chart, Port};
 use super::fluid::Fluid;
-use super::notation::subscript;
+use super::notation::{subscript, value};
 
 impl Chart {
     /// The drawing of a scene.
@@ -200,12 +200,4 @@ fn elastic(element: &Element, system: &System, fluid: &mut Fluid<'_>) -> Port {
 /// `R = 0.6 ohm`, as it stands in the file.
 fn number(element: &Element, symbol: &str, key: &str) -> String {
     format!("{symbol} = {}", value(element, key).unwrap_or_default())
-}
-
-/// A number as it stands in the file, or its run-time parameter.
-pub(super) fn value(element: &Element, key: &str) -> Option<String> {
-    let Some(Checked::Number(quantity)) = element.get(key) else {
-        return None;
-    };
-    Some(quantity.parameter.clone().unwrap_or(quantity.text.clone()))
 }

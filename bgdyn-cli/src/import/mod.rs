@@ -13,6 +13,7 @@ mod groups;
 mod inertia;
 mod naming;
 mod number;
+mod options;
 mod placement;
 mod reading;
 mod rework;
@@ -23,7 +24,6 @@ mod xml;
 
 use crate::commands::check::snapped_words;
 use anyhow::Result;
-use bgdyn_codegen::spec::Dimension;
 use naming::{identifiers, shown};
 use number::Num;
 use reading::Model;
@@ -32,6 +32,7 @@ use urdf_rs::JointType;
 
 pub use command::{ImportArgs, run};
 pub use dh::Convention;
+pub use options::{Lock, Options};
 
 /// A mechanism made from a URDF, and what there is to say about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,31 +48,6 @@ pub struct Import {
     pub warnings: Vec<String>,
     /// What was written, on one line: how many links, joints, frames and effects, and what is fixed to the world.
     pub written: String,
-}
-
-/// What a caller asks for beside the file.
-#[derive(Debug, Clone, Default)]
-pub struct Options {
-    /// Joints to fix, each where its coordinate has a value.
-    pub lock: Vec<Lock>,
-    /// The first and the last link of the chain to keep, with what is fixed to it.
-    pub chain: Option<[String; 2]>,
-    /// `snap` as the mechanism states it, rad; its reader's own if none.
-    pub snap: Option<f64>,
-    /// Links to make frames, by name; `all` for every link without inertia that is fixed and carries no body.
-    pub frames: Vec<String>,
-    /// Leave damping and friction out: otherwise they are declared as effects.
-    pub no_effects: bool,
-}
-
-/// A joint to fix where its coordinate has a value.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Lock {
-    joint: String,
-    /// rad or m.
-    value: Num,
-    /// What its unit measures, where it has one.
-    unit: Option<Dimension>,
 }
 
 /// Makes a mechanism from the text of a URDF.

@@ -3,10 +3,10 @@
 
 use super::naming::{identifier, shown};
 use super::number::Num;
+use super::options::{Lock, Options};
 use super::placement::{Placement, displaced, turned};
 use super::reading::{Frame, Joint, Limits, Model};
 use super::tree::{Tree, order};
-use super::{Lock, Options};
 use crate::quantity;
 use anyhow::{Result, bail};
 use bgdyn_codegen::math::Vec3;

@@ -4,8 +4,8 @@
 //! as many digits of 1/2π as matter (Payne and Hanek 1983). In that form angles of any size add
 //! without rounding, and the whole turns drop out by themselves.
 
-use super::Dd;
 use super::constants::{INVERSE_FACTORIAL, INVERSE_TAU, TAU};
+use super::number::Dd;
 
 /// Words of a fraction of a turn.
 const WORDS: usize = 5;

@@ -6,7 +6,7 @@
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use super::Dd;
+use super::number::Dd;
 
 /// 2^`n`, for −1022 ≤ `n` ≤ 1023.
 const fn power_of_two(n: i64) -> f64 {
@@ -20,6 +20,13 @@ const PRODUCT_MIN: f64 = power_of_two(-960);
 /// Between these a factor can be split, and a quotient or a square root needs no scaling.
 const LARGE: f64 = power_of_two(990);
 const SMALL: f64 = power_of_two(-900);
+
+impl Dd {
+    /// The sum `hi + lo`, of any two `f64`, exactly (where `lo` fits the exponents).
+    pub const fn new(hi: f64, lo: f64) -> Self {
+        two_sum(hi, lo)
+    }
+}
 
 /// `a + b` exactly, whichever is larger (Knuth's two-sum).
 pub(super) const fn two_sum(a: f64, b: f64) -> Dd {

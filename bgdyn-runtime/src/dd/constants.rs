@@ -2,7 +2,14 @@
 // The words are written as the shortest text that reads back as them.
 #![allow(clippy::approx_constant)]
 
-use super::Dd;
+use super::number::Dd;
+
+impl Dd {
+    /// π, half a turn in radians.
+    pub const PI: Self = PI;
+    /// π/2, a quarter turn in radians.
+    pub const FRAC_PI_2: Self = FRAC_PI_2;
+}
 
 /// π.
 pub(super) const PI: Dd = Dd {

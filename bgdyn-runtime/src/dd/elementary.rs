@@ -1,7 +1,7 @@
 //! Exponential, logarithm and hyperbolic tangent of double-doubles.
 
-use super::Dd;
 use super::constants::{INVERSE_FACTORIAL, LN_2_PARTS, LN_2_REST, LOG2_E};
+use super::number::Dd;
 
 /// Beyond these the exponential is infinite, or smaller than any `f64`.
 const EXP_MAX: f64 = 710.0;

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::Dd;
+use super::number::Dd;
 use crate::singular::{finish, note_refused};
 use crate::{Scalar, Singular};
 

@@ -6,7 +6,7 @@
 use core::fmt::{self, Write};
 use core::str::FromStr;
 
-use super::Dd;
+use super::number::Dd;
 
 /// Significant digits read, and taken of each word.
 const DIGITS: usize = 100;

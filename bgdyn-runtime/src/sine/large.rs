@@ -3,8 +3,8 @@
 //! A number is a whole number times a power of two. Multiplied by the digits of 1/2π that matter it
 //! is a fraction of a turn in fixed point, from which whole turns drop out by themselves.
 
-use super::Pack;
 use super::kernel::of_rest;
+use super::pack::Pack;
 use crate::dd::{Turn, inverse_tau_digits};
 
 /// Scalars with an exact reduction.

@@ -42,7 +42,7 @@ macro_rules! methods {
 
         #[inline(always)]
         fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
-            let (angle, tail) = $crate::float::exact_sum(angles.iter().copied(), offset);
+            let (angle, tail) = $crate::two_sum::exact_sum(angles.iter().copied(), offset);
             $crate::sine::one(angle, tail)
         }
 
@@ -57,23 +57,15 @@ macro_rules! methods {
 }
 pub(crate) use methods;
 
+mod any_size;
 mod kernel;
 mod large;
 mod pack;
 
-use crate::float::{Split, exact_sum};
-pub(crate) use kernel::sin_cos;
+use crate::two_sum::{Split, exact_sum};
+pub(crate) use any_size::{AnySize, one};
+use kernel::sin_cos;
 pub(crate) use pack::Pack;
-
-/// Sine and cosine of a + tail; `tail` is what the rounding of a sum a has left.
-#[inline(always)]
-pub(crate) fn one<T: Pack>(angle: T, tail: Option<T>) -> (T, T) {
-    if angle.within() {
-        sin_cos(angle, tail)
-    } else {
-        angle.beyond(tail.unwrap_or(T::splat(0.0)))
-    }
-}
 
 /// Sines and cosines of all angles of a call: each of the exact sum of its `angles` and its offset.
 #[inline(always)]
@@ -122,12 +114,12 @@ pub(crate) struct Sums<T, const K: usize> {
 /// they would be stored in each of those.
 #[cold]
 #[inline(never)]
-fn apart<T: Pack>(angle: T, tail: T) -> (T, T) {
+fn apart<T: AnySize>(angle: T, tail: T) -> (T, T) {
     one(angle, Some(tail))
 }
 
 /// Numbers whose sines can be taken several at once.
-pub(crate) trait AtOnce: Pack + Split {
+pub(crate) trait AtOnce: AnySize + Split {
     /// Sines and cosines of the sums; nothing where not all of them are within the limit.
     fn at_once<const K: usize>(sums: &Sums<Self, K>) -> Option<[(Self, Self); K]>;
 }

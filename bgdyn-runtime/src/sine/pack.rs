@@ -2,8 +2,6 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use super::large;
-
 /// k₀ + k₁x + k₂x² + …, of either length that there is: read in a loop, the numbers are no constants
 /// to a compiler that saves space, and `f32` would be converted from `f64` when running.
 #[derive(Clone, Copy)]
@@ -99,9 +97,6 @@ pub(crate) trait Pack:
     }
     /// Whether all angles are within the limit; NaN is not.
     fn within(self) -> bool;
-    /// Sine and cosine of `self` + `tail` where not all angles are within the limit: reduced exactly,
-    /// each by itself.
-    fn beyond(self, tail: Self) -> (Self, Self);
     /// Sine and cosine of r + n π/2 from those of r; the last two binary digits of n are the last two
     /// of `quarters`.
     fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self);
@@ -172,10 +167,6 @@ macro_rules! scalar_pack {
             fn within(self) -> bool {
                 self.abs() <= <Self as Pack>::LIMIT as $float
             }
-            #[cold]
-            fn beyond(self, tail: Self) -> (Self, Self) {
-                large::sin_cos(self, tail)
-            }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {
                 use core::num::Wrapping as W;
@@ -217,14 +208,6 @@ macro_rules! lane_pack {
             #[inline(always)]
             fn within(self) -> bool {
                 self.abs().simd_le(wide::$lanes::splat(<$float as Pack>::LIMIT as $float)).all()
-            }
-            #[cold]
-            fn beyond(self, tail: Self) -> (Self, Self) {
-                let (mut s, mut c) = (self.to_array(), tail.to_array());
-                for (s, c) in s.iter_mut().zip(&mut c) {
-                    (*s, *c) = super::one(*s, Some(*c));
-                }
-                (Self::new(s), Self::new(c))
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Scalar;
 
-use super::{Budget, EVENTS, Proposed, Refused, Run, Time};
+use super::state::{Budget, EVENTS, Proposed, Refused, Run, Time};
 use crate::failure::Reason;
 use crate::locate::first_passage;
 use crate::method::Method;

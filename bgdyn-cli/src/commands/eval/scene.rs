@@ -12,7 +12,8 @@ use bgdyn_codegen::options::Preference;
 use bgdyn_codegen::system::System;
 use serde_json::{Value, json};
 
-use super::{Eval, Failure, finite, parameters, plain, singular, states};
+use super::arguments::Eval;
+use super::states::{Failure, finite, parameters, plain, singular, states};
 use crate::usage::Usage;
 
 impl Eval {

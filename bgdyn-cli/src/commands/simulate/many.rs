@@ -8,9 +8,9 @@ use bgdyn_codegen::scene::Scene;
 use bgdyn_codegen::system::System;
 use clap::Args;
 
-use super::{number, quantity, short};
 use crate::output::print;
 use crate::simulate::progress::Progress;
+use crate::simulate::report::{number, quantity, short};
 use crate::simulate::varied::{self, Given, Varied};
 use crate::simulate::{Column, Evaluated, Way, batch, batch_plot};
 use crate::spec_file::read_text;

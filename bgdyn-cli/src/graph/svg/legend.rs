@@ -4,8 +4,8 @@ use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
 
 use super::super::chart::{Chart, Component, Port};
 use super::super::place::{MARGIN, text_width};
+use super::style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
 use super::symbols::{Bond, Point, bar, bond, junction};
-use super::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
 
 /// Where the words begin.
 const WORDS: f64 = 88.0;

@@ -1,6 +1,7 @@
 //! The drawing as SVG.
 
 mod legend;
+mod style;
 mod symbols;
 
 use bgdyn_accuracy::svg::{ALARM, Anchor, Drawing, FAINT, INK};
@@ -10,14 +11,9 @@ use super::place::{
     BOND, Band, Column, DROP, MARGIN, PITCH, Places, SYMBOL, VECTOR, place, text_width,
     vector_width, words_width,
 };
+use style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
 use symbols::{Bond, Point, bar, bond, clearing, junction};
 
-/// Colour of the velocities' bars and names.
-const VELOCITY: &str = "#1d4f91";
-const VELOCITY_BAR: &str = "#b9cde8";
-/// Colour of the bars across.
-const SUM: &str = "#8a5a12";
-const SUM_BAR: &str = "#ead3a8";
 /// Colour behind a link.
 const BAND: &str = "#f5f6f7";
 /// Said of a link without flows.
@@ -26,8 +22,6 @@ const NOTHING: &str = "moves, but has no store and no source";
 const NARROWEST: f64 = 860.0;
 /// No lines of the legend are wider.
 const WIDEST: f64 = 1100.0;
-/// From one line of words to the next.
-const LINE: f64 = 17.0;
 
 impl Chart {
     /// The drawing as the text of an SVG file.

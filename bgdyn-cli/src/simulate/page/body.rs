@@ -1,12 +1,7 @@
-//! What of a mechanism is drawn: its moving bodies with the places on them.
+//! A moving body as the page draws it: its joint, the joint's stops and the places on it.
 
-use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::math::{Mat3, Vec3};
-use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
-use bgdyn_codegen::scene::Scene;
 use serde::Serialize;
-
-use super::stops::{Stop, stops};
 
 /// The world, or a link with all that is welded to it, in that link's axes.
 #[derive(Serialize)]
@@ -30,46 +25,59 @@ pub(super) struct Body {
 /// The joint that carries a body.
 #[derive(Serialize)]
 pub(super) struct Joint {
-    name: String,
+    pub(super) name: String,
     #[serde(rename = "type")]
-    kind: &'static str,
+    pub(super) kind: &'static str,
     /// In the body's own axes.
-    axis: [f64; 3],
+    pub(super) axis: [f64; 3],
     /// The body that carries it.
-    on: usize,
+    pub(super) on: usize,
     /// In the axes of that body: the axis, and the joint's place at the ends of its travel.
-    along: [f64; 3],
-    from: [f64; 3],
-    to: [f64; 3],
+    pub(super) along: [f64; 3],
+    pub(super) from: [f64; 3],
+    pub(super) to: [f64; 3],
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    stops: Vec<Stop>,
+    pub(super) stops: Vec<Stop>,
     /// Where it is on that body.
     #[serde(skip)]
-    placed: Placed,
+    pub(super) placed: Placed,
+}
+
+/// An end of a joint's travel, in the axes of the body that carries the joint.
+#[derive(Serialize)]
+pub(super) struct Stop {
+    pub(super) name: String,
+    /// A slide: where the joint is when it meets the stop. Else the joint's place, m.
+    pub(super) at: [f64; 3],
+    /// A slide: the unit vector of its travel. Else the unit vector from the axis to that point of the
+    /// body which meets the stop, when it does.
+    pub(super) way: [f64; 3],
+    /// From which side the body comes: −1 at the lower end, +1 at the upper one.
+    pub(super) side: f64,
 }
 
 /// A place on a body.
 #[derive(Serialize)]
 pub(super) struct Point {
-    at: [f64; 3],
+    pub(super) at: [f64; 3],
     #[serde(skip_serializing_if = "String::is_empty")]
-    name: String,
+    pub(super) name: String,
     /// Whether a beam leads to it, from here.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
-    beam: bool,
-    from: [f64; 3],
+    pub(super) beam: bool,
+    pub(super) from: [f64; 3],
     /// Axes of a frame, column by column.
     #[serde(skip_serializing_if = "Option::is_none")]
-    axes: Option<[[f64; 3]; 3]>,
+    pub(super) axes: Option<[[f64; 3]; 3]>,
     /// Whether it leaves a trail.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
-    tip: bool,
+    pub(super) tip: bool,
     /// Mass of the link whose centre of mass it is, kg.
     #[serde(skip_serializing_if = "Option::is_none")]
-    mass: Option<f64>,
+    pub(super) mass: Option<f64>,
     /// Whether that is a payload, which has a name.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
-    load: bool,
+    pub(super) load: bool,
 }
 
 /// A place on a body, for what hangs between two of them.
@@ -82,17 +90,17 @@ pub(super) struct End {
 /// A frame in another: x ↦ R x + o.
 #[derive(Clone, Copy)]
 pub(super) struct Placed {
-    r: Mat3<f64>,
-    o: [f64; 3],
+    pub(super) r: Mat3<f64>,
+    pub(super) o: [f64; 3],
 }
 
 impl Placed {
-    const HERE: Placed = Placed {
+    pub(super) const HERE: Placed = Placed {
         r: Mat3([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
         o: [0.0; 3],
     };
 
-    fn of(pose: &bgdyn_codegen::mechanism::Pose) -> Self {
+    pub(super) fn of(pose: &bgdyn_codegen::mechanism::Pose) -> Self {
         Placed {
             r: pose.rotation.map(|x| x.to_f64()),
             o: pose.translation.map(|x| x.to_f64()).0,
@@ -108,184 +116,20 @@ impl Placed {
         std::array::from_fn(|i| turned[i] + self.o[i])
     }
 
-    fn then(&self, inner: &Placed) -> Self {
+    pub(super) fn then(&self, inner: &Placed) -> Self {
         Placed {
             r: Mat3::from_fn(|i, j| self.turned(inner.r.column(j).0)[i]),
             o: self.point(inner.o),
         }
     }
 
-    fn axes(&self) -> [[f64; 3]; 3] {
+    pub(super) fn axes(&self) -> [[f64; 3]; 3] {
         std::array::from_fn(|j| self.r.column(j).0)
     }
 }
 
-/// The bodies of a scene, and where its links stand on them.
-pub(super) struct Bodies {
-    pub(super) all: Vec<Body>,
-    on: Vec<(usize, Placed)>,
-}
-
-impl Bodies {
-    /// With the joints' travel by coordinate.
-    pub(super) fn new(scene: &Scene, travel: &[(f64, f64)]) -> Self {
-        let mechanism = &scene.mechanism;
-        let mut bodies = Bodies {
-            all: vec![Body::new("world", None)],
-            on: Vec::new(),
-        };
-        for (i, link) in mechanism.links().iter().enumerate() {
-            bodies.link(i, link, travel);
-        }
-        for (i, link) in mechanism.links().iter().enumerate() {
-            bodies.mass(i, link, scene);
-        }
-        bodies.frames(mechanism);
-        bodies.tips(mechanism);
-        bodies.stops(scene);
-        bodies
-    }
-
-    fn stops(&mut self, scene: &Scene) {
-        for body in &mut self.all {
-            let found = body.joint.as_ref().map(|joint| {
-                let slides = joint.kind == "prismatic";
-                stops(scene, &joint.name, &joint.placed, body, slides)
-            });
-            if let (Some(joint), Some(found)) = (&mut body.joint, found) {
-                joint.stops = found;
-            }
-        }
-    }
-
-    fn carrier(&self, link: Option<LinkId>) -> (usize, Placed) {
-        link.map_or((0, Placed::HERE), |l| self.on[l.0])
-    }
-
-    fn link(&mut self, i: usize, link: &Link, travel: &[(f64, f64)]) {
-        let (carrier, place) = self.carrier(link.parent);
-        let joint = place.then(&Placed::of(&link.joint.origin));
-        self.all[carrier].beam(place.o, joint.o);
-        let Some(coordinate) = link.joint.coordinate else {
-            self.on.push((carrier, joint));
-            return;
-        };
-        let axis = link.joint.axis.map(|x| x.to_f64()).0;
-        let along = joint.turned(axis);
-        let slides = link.joint.kind.motion == Motion::Translation;
-        let (low, high) = if slides {
-            travel[coordinate.0]
-        } else {
-            (0.0, 0.0)
-        };
-        let moved = |s: f64| std::array::from_fn(|k| joint.o[k] + s * along[k]);
-        let mut body = Body::new(&link.name, Some(i));
-        body.joint = Some(Joint {
-            name: link.joint.name.clone(),
-            kind: if slides { "prismatic" } else { "revolute" },
-            axis,
-            on: carrier,
-            along,
-            from: moved(low),
-            to: moved(high),
-            stops: Vec::new(),
-            placed: joint,
-        });
-        self.all.push(body);
-        self.on.push((self.all.len() - 1, Placed::HERE));
-    }
-
-    fn mass(&mut self, i: usize, link: &Link, scene: &Scene) {
-        let number = |value: &Value| match value {
-            Value::Fixed(x) => x.to_f64(),
-            Value::Parameter(p) => scene.parameters[p.0].default.to_f64(),
-        };
-        let (body, place) = self.on[i];
-        let mass = number(&link.inertial.mass);
-        if mass <= 0.0 || body == 0 {
-            return;
-        }
-        let at = place.point(link.inertial.com.0.each_ref().map(number));
-        let bare = !self.all[body].points.iter().any(|p| p.beam);
-        if bare {
-            self.all[body].beam(place.o, at);
-        }
-        let from = self.all[body].nearest(at);
-        let is_load = |e: &Element| e.effect.keyword() == "payload" && e.name == link.name;
-        let load = scene.elements.iter().any(is_load);
-        self.all[body].points.push(Point {
-            name: match load {
-                true => link.name.clone(),
-                false => String::new(),
-            },
-            mass: Some(mass),
-            load,
-            from,
-            ..Point::at(at)
-        });
-    }
-
-    fn frames(&mut self, mechanism: &Mechanism) {
-        for frame in mechanism.frames() {
-            let (body, place) = self.carrier(frame.link);
-            let placed = place.then(&Placed::of(&frame.origin));
-            let from = self.all[body].nearest(placed.o);
-            let moving = body != 0;
-            self.all[body].points.push(Point {
-                name: frame.name.clone(),
-                axes: Some(placed.axes()),
-                beam: moving && from != placed.o,
-                from,
-                ..Point::at(placed.o)
-            });
-        }
-    }
-
-    /// Of a body that carries no other the outermost frame leaves a trail; without one its own, or
-    /// its centre of mass.
-    fn tips(&mut self, mechanism: &Mechanism) {
-        let carries = |body: usize, all: &[Body]| {
-            let on = |b: &Body| b.joint.as_ref().is_some_and(|j| j.on == body);
-            all.iter().any(on)
-        };
-        for i in 1..self.all.len() {
-            if carries(i, &self.all) {
-                continue;
-            }
-            let name = self.all[i].link.map(|l| mechanism.links()[l].name.clone());
-            let points = &mut self.all[i].points;
-            let far = |p: &&mut Point| p.at.iter().map(|x| x * x).sum::<f64>();
-            let further = |a: &&mut Point, b: &&mut Point| far(a).total_cmp(&far(b));
-            let frames = points.iter_mut().filter(|p| p.axes.is_some());
-            if let Some(tip) = frames.max_by(further) {
-                tip.tip = true;
-                continue;
-            }
-            let at = points.iter_mut().max_by(further).map_or([0.0; 3], |p| p.at);
-            points.push(Point {
-                name: name.unwrap_or_default(),
-                axes: Some(Placed::HERE.axes()),
-                tip: true,
-                ..Point::at(at)
-            });
-        }
-    }
-
-    /// A link's or a frame's origin.
-    pub(super) fn end(&self, mechanism: &Mechanism, name: &str) -> Option<End> {
-        if let Some(frame) = mechanism.frames().iter().find(|f| f.name == name) {
-            let (body, place) = self.carrier(frame.link);
-            let at = place.point(Placed::of(&frame.origin).o);
-            return Some(End { body, at });
-        }
-        let link = mechanism.links().iter().position(|l| l.name == name)?;
-        let (body, place) = self.on[link];
-        Some(End { body, at: place.o })
-    }
-}
-
 impl Body {
-    fn new(name: &str, link: Option<usize>) -> Self {
+    pub(super) fn new(name: &str, link: Option<usize>) -> Self {
         Body {
             name: name.to_owned(),
             joint: None,
@@ -306,7 +150,7 @@ impl Body {
         self.points.iter().map(|p| p.at)
     }
 
-    fn beam(&mut self, from: [f64; 3], at: [f64; 3]) {
+    pub(super) fn beam(&mut self, from: [f64; 3], at: [f64; 3]) {
         if from != at {
             self.points.push(Point {
                 beam: true,
@@ -317,7 +161,7 @@ impl Body {
     }
 
     /// The point of its beams that is nearest to a place: where a bracket to it begins.
-    fn nearest(&self, place: [f64; 3]) -> [f64; 3] {
+    pub(super) fn nearest(&self, place: [f64; 3]) -> [f64; 3] {
         let sub = |a: [f64; 3], b: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| a[k] - b[k]);
         let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
         let of = |beam: &Point| {
@@ -334,7 +178,7 @@ impl Body {
 }
 
 impl Point {
-    fn at(at: [f64; 3]) -> Self {
+    pub(super) fn at(at: [f64; 3]) -> Self {
         Point {
             at,
             name: String::new(),

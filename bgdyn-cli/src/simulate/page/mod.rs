@@ -1,5 +1,6 @@
 //! The page that replays a run: one file with everything in it, for a browser without a network.
 
+mod bodies;
 mod body;
 mod curve;
 mod stops;
@@ -11,7 +12,8 @@ use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::system::System;
 use serde::Serialize;
 
-use self::body::{Bodies, Body, End};
+use self::bodies::Bodies;
+use self::body::{Body, End};
 use self::curve::{Curve, LEVELS};
 use super::difference::range;
 use super::record::{Column, Record, Row};

@@ -3,22 +3,8 @@
 use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::scene::Scene;
-use serde::Serialize;
 
-use super::body::{Body, Placed};
-
-/// An end of a joint's travel, in the axes of the body that carries the joint.
-#[derive(Serialize)]
-pub(super) struct Stop {
-    name: String,
-    /// A slide: where the joint is when it meets the stop. Else the joint's place, m.
-    at: [f64; 3],
-    /// A slide: the unit vector of its travel. Else the unit vector from the axis to that point of the
-    /// body which meets the stop, when it does.
-    way: [f64; 3],
-    /// From which side the body comes: −1 at the lower end, +1 at the upper one.
-    side: f64,
-}
+use super::body::{Body, Placed, Stop};
 
 /// The stops of a joint: `on` is its place on the body that carries it, `body` what it moves.
 pub(super) fn stops(

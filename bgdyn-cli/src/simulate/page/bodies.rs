@@ -1,0 +1,172 @@
+//! The moving bodies of a mechanism, with the places on them.
+
+use bgdyn_codegen::declaration::Element;
+use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
+use bgdyn_codegen::scene::Scene;
+
+use super::body::{Body, End, Joint, Placed, Point};
+use super::stops::stops;
+
+/// The bodies of a scene, and where its links stand on them.
+pub(super) struct Bodies {
+    pub(super) all: Vec<Body>,
+    on: Vec<(usize, Placed)>,
+}
+
+impl Bodies {
+    /// With the joints' travel by coordinate.
+    pub(super) fn new(scene: &Scene, travel: &[(f64, f64)]) -> Self {
+        let mechanism = &scene.mechanism;
+        let mut bodies = Bodies {
+            all: vec![Body::new("world", None)],
+            on: Vec::new(),
+        };
+        for (i, link) in mechanism.links().iter().enumerate() {
+            bodies.link(i, link, travel);
+        }
+        for (i, link) in mechanism.links().iter().enumerate() {
+            bodies.mass(i, link, scene);
+        }
+        bodies.frames(mechanism);
+        bodies.tips(mechanism);
+        bodies.stops(scene);
+        bodies
+    }
+
+    fn stops(&mut self, scene: &Scene) {
+        for body in &mut self.all {
+            let found = body.joint.as_ref().map(|joint| {
+                let slides = joint.kind == "prismatic";
+                stops(scene, &joint.name, &joint.placed, body, slides)
+            });
+            if let (Some(joint), Some(found)) = (&mut body.joint, found) {
+                joint.stops = found;
+            }
+        }
+    }
+
+    fn carrier(&self, link: Option<LinkId>) -> (usize, Placed) {
+        link.map_or((0, Placed::HERE), |l| self.on[l.0])
+    }
+
+    fn link(&mut self, i: usize, link: &Link, travel: &[(f64, f64)]) {
+        let (carrier, place) = self.carrier(link.parent);
+        let joint = place.then(&Placed::of(&link.joint.origin));
+        self.all[carrier].beam(place.o, joint.o);
+        let Some(coordinate) = link.joint.coordinate else {
+            self.on.push((carrier, joint));
+            return;
+        };
+        let axis = link.joint.axis.map(|x| x.to_f64()).0;
+        let along = joint.turned(axis);
+        let slides = link.joint.kind.motion == Motion::Translation;
+        let (low, high) = if slides {
+            travel[coordinate.0]
+        } else {
+            (0.0, 0.0)
+        };
+        let moved = |s: f64| std::array::from_fn(|k| joint.o[k] + s * along[k]);
+        let mut body = Body::new(&link.name, Some(i));
+        body.joint = Some(Joint {
+            name: link.joint.name.clone(),
+            kind: if slides { "prismatic" } else { "revolute" },
+            axis,
+            on: carrier,
+            along,
+            from: moved(low),
+            to: moved(high),
+            stops: Vec::new(),
+            placed: joint,
+        });
+        self.all.push(body);
+        self.on.push((self.all.len() - 1, Placed::HERE));
+    }
+
+    fn mass(&mut self, i: usize, link: &Link, scene: &Scene) {
+        let number = |value: &Value| match value {
+            Value::Fixed(x) => x.to_f64(),
+            Value::Parameter(p) => scene.parameters[p.0].default.to_f64(),
+        };
+        let (body, place) = self.on[i];
+        let mass = number(&link.inertial.mass);
+        if mass <= 0.0 || body == 0 {
+            return;
+        }
+        let at = place.point(link.inertial.com.0.each_ref().map(number));
+        let bare = !self.all[body].points.iter().any(|p| p.beam);
+        if bare {
+            self.all[body].beam(place.o, at);
+        }
+        let from = self.all[body].nearest(at);
+        let is_load = |e: &Element| e.effect.keyword() == "payload" && e.name == link.name;
+        let load = scene.elements.iter().any(is_load);
+        self.all[body].points.push(Point {
+            name: match load {
+                true => link.name.clone(),
+                false => String::new(),
+            },
+            mass: Some(mass),
+            load,
+            from,
+            ..Point::at(at)
+        });
+    }
+
+    fn frames(&mut self, mechanism: &Mechanism) {
+        for frame in mechanism.frames() {
+            let (body, place) = self.carrier(frame.link);
+            let placed = place.then(&Placed::of(&frame.origin));
+            let from = self.all[body].nearest(placed.o);
+            let moving = body != 0;
+            self.all[body].points.push(Point {
+                name: frame.name.clone(),
+                axes: Some(placed.axes()),
+                beam: moving && from != placed.o,
+                from,
+                ..Point::at(placed.o)
+            });
+        }
+    }
+
+    /// Of a body that carries no other the outermost frame leaves a trail; without one its own, or
+    /// its centre of mass.
+    fn tips(&mut self, mechanism: &Mechanism) {
+        let carries = |body: usize, all: &[Body]| {
+            let on = |b: &Body| b.joint.as_ref().is_some_and(|j| j.on == body);
+            all.iter().any(on)
+        };
+        for i in 1..self.all.len() {
+            if carries(i, &self.all) {
+                continue;
+            }
+            let name = self.all[i].link.map(|l| mechanism.links()[l].name.clone());
+            let points = &mut self.all[i].points;
+            let far = |p: &&mut Point| p.at.iter().map(|x| x * x).sum::<f64>();
+            let further = |a: &&mut Point, b: &&mut Point| far(a).total_cmp(&far(b));
+            let frames = points.iter_mut().filter(|p| p.axes.is_some());
+            if let Some(tip) = frames.max_by(further) {
+                tip.tip = true;
+                continue;
+            }
+            let at = points.iter_mut().max_by(further).map_or([0.0; 3], |p| p.at);
+            points.push(Point {
+                name: name.unwrap_or_default(),
+                axes: Some(Placed::HERE.axes()),
+                tip: true,
+                ..Point::at(at)
+            });
+        }
+    }
+
+    /// A link's or a frame's origin.
+    pub(super) fn end(&self, mechanism: &Mechanism, name: &str) -> Option<End> {
+        if let Some(frame) = mechanism.frames().iter().find(|f| f.name == name) {
+            let (body, place) = self.carrier(frame.link);
+            let at = place.point(Placed::of(&frame.origin).o);
+            return Some(End { body, at });
+        }
+        let link = mechanism.links().iter().position(|l| l.name == name)?;
+        let (body, place) = self.on[link];
+        Some(End { body, at: place.o })
+    }
+}

@@ -1,0 +1,52 @@
+//! Sine and cosine of an angle of any size: branch-free within the limit, by exact reduction beyond.
+
+use super::kernel::sin_cos;
+use super::large;
+use super::pack::Pack;
+
+/// Numbers whose sines are known for angles of any size.
+pub(crate) trait AnySize: Pack {
+    /// Sine and cosine of `self` + `tail` where not all angles are within the limit: reduced exactly,
+    /// each by itself.
+    fn beyond(self, tail: Self) -> (Self, Self);
+}
+
+/// Sine and cosine of a + tail; `tail` is what the rounding of a sum a has left.
+#[inline(always)]
+pub(crate) fn one<T: AnySize>(angle: T, tail: Option<T>) -> (T, T) {
+    if angle.within() {
+        sin_cos(angle, tail)
+    } else {
+        angle.beyond(tail.unwrap_or(T::splat(0.0)))
+    }
+}
+
+macro_rules! scalars {
+    ($($float:ident),+) => {$(
+        impl AnySize for $float {
+            #[cold]
+            fn beyond(self, tail: Self) -> (Self, Self) {
+                large::sin_cos(self, tail)
+            }
+        }
+    )+};
+}
+scalars!(f64, f32);
+
+#[cfg(any(feature = "wide", target_arch = "x86_64", target_arch = "aarch64"))]
+macro_rules! lanes {
+    ($($lanes:ident),+) => {$(
+        impl AnySize for wide::$lanes {
+            #[cold]
+            fn beyond(self, tail: Self) -> (Self, Self) {
+                let (mut s, mut c) = (self.to_array(), tail.to_array());
+                for (s, c) in s.iter_mut().zip(&mut c) {
+                    (*s, *c) = one(*s, Some(*c));
+                }
+                (Self::new(s), Self::new(c))
+            }
+        }
+    )+};
+}
+#[cfg(any(feature = "wide", target_arch = "x86_64", target_arch = "aarch64"))]
+lanes!(f64x2, f64x4, f64x8, f32x4, f32x8, f32x16);

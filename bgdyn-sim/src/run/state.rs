@@ -1,0 +1,235 @@
+//! A run as it is held between two steps: its plant, its modes, its solver and its account.
+
+use bgdyn_runtime::{Scalar, System};
+use nalgebra::SVector;
+
+use crate::audit::{Audit, Ledger};
+use crate::control::Tolerance;
+use crate::failure::{Failure, Reason};
+use crate::method::Method;
+use crate::plant::{Held, Plant};
+use crate::rk4::Rk4;
+use crate::scene::Scene;
+use crate::solver::{Proposal, Solver};
+use crate::space::{Of, Real, Space};
+
+/// A plant at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment<Y: Space, M> {
+    /// Time, s.
+    pub t: Of<Y>,
+    /// State: positions, velocities, first-order states.
+    pub y: Y,
+    /// Modes.
+    pub modes: M,
+}
+
+pub(super) type Time<P> = Of<<P as Plant>::State>;
+pub(super) type Failed<P> = Failure<<P as Plant>::State, <P as Plant>::Error>;
+pub(super) type Refused<P> = Reason<<P as Plant>::Error>;
+pub(super) type Proposed<P, M> =
+    Proposal<<P as Plant>::State, <M as Method<<P as Plant>::State>>::Stages>;
+
+/// Events within one call of [`Run::step`] at the most.
+pub(super) const EVENTS: usize = 64;
+
+/// A joint that is held while a run goes on drifts by the errors of the method: it counts as at rest
+/// up to this part of its velocity.
+const DRIFT: f64 = 1e-6;
+
+/// Whether modes agree with the state, the inputs and the parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Agreement {
+    /// Nothing has looked yet: a run that begins.
+    Unknown,
+    /// Inputs or parameters may have changed since.
+    Disturbed,
+    /// They do.
+    Settled,
+}
+
+/// A run of a plant by a method; [`Rk4`] where nothing else is said.
+///
+/// Modes are settled when the run begins and after [`Run::plant_mut`]: a joint that moves slips, one
+/// at rest holds where it can, whatever the modes it begins with say.
+///
+/// A step ends at an event and goes on from there: at a change of a mode with the state after it, at
+/// a kink so that the method keeps its order. Where a step fails the run stays at the last good
+/// state.
+#[derive(Debug)]
+pub struct Run<P: Plant, M: Method<P::State> = Rk4> {
+    pub(super) plant: P,
+    pub(super) modes: P::Modes,
+    pub(super) solver: Solver<P::State, M>,
+    /// Whether work is added up.
+    pub(super) audited: bool,
+    pub(super) ledger: Ledger<P::Entries>,
+    /// Events that changed a mode, so far.
+    pub events: usize,
+    /// When the last of them was, s.
+    pub last_event: Time<P>,
+    /// Kinks that were passed, so far.
+    pub kinks: usize,
+    /// Events that followed each other in next to no time.
+    pub(super) crowded: usize,
+    pub(super) agreement: Agreement,
+}
+
+/// How many events a call may still meet.
+pub(super) struct Budget {
+    pub(super) events: usize,
+    pub(super) kinks: usize,
+}
+
+impl Budget {
+    pub(super) fn new() -> Self {
+        Budget {
+            events: EVENTS,
+            kinks: EVENTS,
+        }
+    }
+}
+
+impl<
+    'a,
+    S,
+    T: Real,
+    const N: usize,
+    const NM: usize,
+    const NU: usize,
+    const NE: usize,
+    const NY: usize,
+    const NP: usize,
+> Run<Scene<'a, S, T, N, NM, NU, NE, NY, NP>, Rk4>
+where
+    S: System<T, N, NM, NU, NE, NY, NP>,
+{
+    /// From where the scene begins, by [`Rk4`].
+    pub fn new(scene: &'a S) -> Self {
+        Run::by(Rk4, Scene::new(scene), Self::begin(scene))
+    }
+
+    /// Where the scene begins, at t = 0.
+    pub fn begin(scene: &S) -> Moment<SVector<T, N>, SVector<T, NM>> {
+        let (y, modes) = scene.start();
+        let t = T::from_f64(0.0);
+        Moment { t, y, modes }
+    }
+}
+
+impl<P: Plant, M: Method<P::State>> Run<P, M>
+where
+    Time<P>: Real,
+{
+    /// From a moment, by a method.
+    pub fn by(method: M, plant: P, from: Moment<P::State, P::Modes>) -> Self {
+        Run {
+            ledger: Ledger::new(plant.nothing()),
+            plant,
+            modes: from.modes,
+            solver: Solver::new(method, from.t, from.y),
+            audited: true,
+            events: 0,
+            last_event: Time::<P>::from_f64(0.0),
+            kinks: 0,
+            crowded: 0,
+            agreement: Agreement::Unknown,
+        }
+    }
+
+    /// With compensated sums, as [`Solver::compensated`].
+    #[must_use]
+    pub fn compensated(mut self) -> Self {
+        self.solver = self.solver.compensated();
+        self
+    }
+
+    /// With controlled steps, where the method estimates its error.
+    #[must_use]
+    pub fn with_tolerance(mut self, tolerance: Tolerance<Time<P>>) -> Self {
+        self.solver = self.solver.with_tolerance(tolerance);
+        self
+    }
+
+    /// Without the account of work, which costs evaluations of the power in each step.
+    #[must_use]
+    pub fn unaudited(mut self) -> Self {
+        self.audited = false;
+        self
+    }
+
+    /// Time, s.
+    pub fn t(&self) -> Time<P> {
+        self.solver.t()
+    }
+
+    /// State.
+    pub fn y(&self) -> &P::State {
+        self.solver.y()
+    }
+
+    /// The state's second word, as [`Solver::low`].
+    pub fn low(&self) -> Option<&P::State> {
+        self.solver.low()
+    }
+
+    /// Modes.
+    pub fn modes(&self) -> &P::Modes {
+        &self.modes
+    }
+
+    /// The plant.
+    pub fn plant(&self) -> &P {
+        &self.plant
+    }
+
+    /// The plant, to change its given inputs or its parameters. Modes are settled before the next
+    /// step.
+    pub fn plant_mut(&mut self) -> &mut P {
+        self.solver.forget();
+        if self.agreement == Agreement::Settled {
+            self.agreement = Agreement::Disturbed;
+        }
+        &mut self.plant
+    }
+
+    /// Where the energy went since the start.
+    pub fn audit(&self) -> Audit<P::Entries> {
+        self.ledger.audit()
+    }
+
+    pub(super) fn held(&self) -> Held<'_, P> {
+        Held {
+            plant: &self.plant,
+            modes: &self.modes,
+        }
+    }
+
+    /// Settles the modes now, where the next step would: for those who look at them before.
+    ///
+    /// # Errors
+    /// Where the plant has no rates in this state.
+    pub fn settle(&mut self) -> Result<(), Failed<P>> {
+        let settled = self.settle_modes();
+        settled.map_err(|reason| self.solver.failure(reason))
+    }
+
+    pub(super) fn settle_modes(&mut self) -> Result<(), Refused<P>> {
+        let rest = match self.agreement {
+            Agreement::Settled => return Ok(()),
+            Agreement::Unknown => Time::<P>::from_f64(0.0),
+            Agreement::Disturbed => Time::<P>::from_f64(DRIFT),
+        };
+        let found = self.plant.settled(self.t(), self.y(), &self.modes, rest);
+        if let Some((y, modes)) = found.map_err(Reason::Singular)? {
+            self.modes = modes;
+            self.solver.restart(y);
+            if self.agreement == Agreement::Disturbed {
+                self.events += 1;
+                self.last_event = self.t();
+            }
+        }
+        self.agreement = Agreement::Settled;
+        Ok(())
+    }
+}
