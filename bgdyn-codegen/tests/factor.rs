@@ -10,6 +10,7 @@ use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline;
 use bgdyn_runtime::{Dd, Scalar};
+use common::laws::NOISY;
 use common::random::Draft;
 use common::rng::Rng;
 use common::{Robot, State, golden, largest, natural_effort};
@@ -119,14 +120,15 @@ proptest! {
 }
 
 /// What a function's values are compared against: its largest one and the natural effort. Solving
-/// with the mass matrix loses digits, `lost` of them in units of the last; its derivatives twice.
-fn tolerance(method: Method, values: &[Dd], effort: f64, lost: f64) -> f64 {
+/// with the mass matrix loses digits, `lost` of them in units of the last; its derivatives twice. Other
+/// methods agree to `exact`.
+fn tolerance(method: Method, values: &[Dd], effort: f64, (lost, exact): (f64, f64)) -> f64 {
     let values: Vec<f64> = values.iter().map(|x| x.to_f64()).collect();
     let size = largest(&values).max(effort).max(1.0);
     let relative = match method {
         Method::ForwardDynamics => (ROUNDING * lost).max(1e-20),
         Method::ForwardDynamicsDerivatives => (ROUNDING * lost * lost).max(1e-20),
-        _ => EXACT,
+        _ => exact,
     };
     relative * size
 }
@@ -151,12 +153,13 @@ fn growth(robot: &Robot, state: &State) -> f64 {
     grown
 }
 
-/// Two functions of one method at one state. `growth` is only asked for where it matters.
+/// Two functions of one method at one state, which agree to `exact`. `growth` is only asked for where it
+/// matters.
 fn compare(
     f: &Function,
     g: &Function,
     state: &State,
-    (effort, growth): (f64, &dyn Fn() -> f64),
+    (effort, exact, growth): (f64, f64, &dyn Fn() -> f64),
     what: &str,
 ) {
     // Pivots that are refused in `f64` may have no digits left in double-double either.
@@ -166,7 +169,7 @@ fn compare(
     }
     let (x, _): (Vec<Dd>, _) = f.evaluate(state.inputs());
     let (y, _): (Vec<Dd>, _) = g.evaluate(state.inputs());
-    let tolerance = |lost| tolerance(f.method, &y, effort, lost);
+    let tolerance = |lost| tolerance(f.method, &y, effort, (lost, exact));
     let off = |(x, y): (&Dd, &Dd)| (*x - *y).abs().to_f64();
     let worst = x.iter().zip(&y).map(off).fold(0.0, f64::max);
     let tolerance = match worst <= tolerance(1.0) {
@@ -192,6 +195,8 @@ fn mechanism(seed: u64, most: usize) {
     let state = State::random(&mut rng, &robot.motions());
     let effort = natural_effort(&robot, &state);
     let growth = || growth(&robot, &state);
+    // As in `common/laws.rs`: axes as they are written leave components that formulations round differently.
+    let formulations = if draft.exact { NOISY } else { EXACT };
     let literal = Options {
         formulation: by_name("literal"),
         ..Options::default()
@@ -213,7 +218,7 @@ fn mechanism(seed: u64, most: usize) {
                 &again,
                 &whole,
                 &state,
-                (effort, &growth),
+                (effort, EXACT, &growth),
                 &format!("{what}, against the unfactored one"),
             );
         }
@@ -223,7 +228,7 @@ fn mechanism(seed: u64, most: usize) {
             &chosen,
             &literal,
             &state,
-            (effort, &growth),
+            (effort, formulations, &growth),
             &format!("{what}, against the literal sum"),
         );
     }
@@ -236,6 +241,8 @@ fn functions_of_random_mechanisms_keep_their_values() {
     }
     // A massless link between two axes that are parallel but for 9e-8.
     mechanism(1298, 6);
+    // An axis off by 1e-13 and no snapping: potential energies differ by 1.3e-28 of the natural effort.
+    mechanism(2296, 6);
 }
 
 /// The long run: `cargo test --release -p bgdyn-codegen --test factor -- --ignored`.

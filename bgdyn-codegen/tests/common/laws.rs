@@ -24,7 +24,7 @@ const FORWARD: Method = Method::ForwardDynamics;
 pub const EXACT: f64 = 1e-28;
 /// The same with axes taken as they are: the generator takes a component of a direction below 1e-26 for
 /// rounding, and two angles of 1e-13 have such a product.
-const NOISY: f64 = 1e-26;
+pub const NOISY: f64 = 1e-26;
 /// Of `f64` results, relative to their natural size.
 pub const ROUNDED: f64 = 1e-15;
 
