@@ -88,8 +88,8 @@ pub mod head {
             let (sin_tilt, cos_tilt) = T::sin_cos(q_tilt);
             // cradle: F = m a + U h, N = h × a + skew(U D)
             let x2 = T::mul_add(sin_tilt, k(0.012), x1 * cos_tilt);
-            let tau_tilt = k(9.81) * x2;
-            __rt::vector([k(0.0), -tau_tilt])
+            let neg_tau_tilt = k(9.81) * x2;
+            __rt::vector([k(0.0), -neg_tau_tilt])
         }
     }
     impl<T: __Scalar> __rt::Description<NV> for Head<T> {
