@@ -282,7 +282,7 @@ fn paths_of(
         }
         i += 1;
     }
-    // A name that only stands for a module is used by what follows it, where anything does.
+    // The name of a module is no import of its own: the path after it is one, if there is any.
     let bare = |path: &Vec<String>| {
         let longer = used
             .iter()

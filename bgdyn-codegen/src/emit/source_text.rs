@@ -15,7 +15,7 @@ pub fn source_text(module: TokenStream) -> String {
     lines.collect()
 }
 
-/// The comment that this line stands for, if it is the attribute of a statement's title.
+/// The comment that replaces this line, if the line is the attribute of a statement's title.
 fn comment(line: &str) -> Option<String> {
     let (margin, attribute) = line.split_at(line.len() - line.trim_start().len());
     let literal = attribute.strip_prefix("#[doc = ")?.strip_suffix(']')?;
