@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::bond_graph;
 use crate::effect;
-use crate::fault::wording::no_inertia;
+use crate::fault::wording::{no_inertia, no_motion_there};
 use crate::fault::{Fault, Faults, Severity};
 use crate::files::stem;
 use crate::machine::{self, Machine};
@@ -118,6 +118,10 @@ pub fn read_scene(
             return Err(Refusal::Spec(faults));
         }
     };
+    for element in system.idle() {
+        let at = element.name("at").unwrap_or_default();
+        faults.push(no_motion_there(&element.place, &element.name, at));
+    }
     faults.sort();
     for joint in system.without_inertia() {
         let path = &path.place;

@@ -11,7 +11,8 @@
 //! no stroke: inverse dynamics takes q̇ and gives the effort, forward dynamics takes the effort. A store
 //! of its own on the junction of q̇, a rotor's, gives the flow.
 
-use super::network::{BondNetwork, GraphNodeId, NodeKind, NodePart};
+use super::network::BondNetwork;
+use super::node::{GraphNodeId, NodeKind, NodePart};
 
 /// The strokes of a network, and what is not the usual case.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,6 +10,7 @@ mod build;
 mod causality;
 mod inert;
 mod network;
+mod node;
 mod pattern;
 
 use bgdyn_runtime::Dd;
@@ -21,9 +22,8 @@ use crate::mechanism::{
 
 pub use build::build;
 pub use causality::Causality;
-pub use network::{
-    Bond, BondNetwork, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortPlace, PowerTerm,
-};
+pub use network::BondNetwork;
+pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortPlace, PowerTerm};
 pub use pattern::Modulus;
 
 /// A junction of [`BondGraph::junctions`].

@@ -10,6 +10,7 @@ mod coordinate_rows;
 mod dynamics;
 mod equations;
 mod holds;
+mod idle;
 mod jacobian;
 mod range;
 mod reference;
