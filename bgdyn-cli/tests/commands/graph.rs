@@ -284,7 +284,12 @@ fn every_effect_of_a_scene_is_named() {
     }
     let everywhere = svg("specs/scenes/ur5_contact.scene.yaml");
     assert!(!everywhere.contains("Not drawn: "));
-    for words in ["flange, rad/s and m/s", "V₂", "wall (wrench)", "elbow_water (drag)"] {
+    for words in [
+        "flange, rad/s and m/s",
+        "V₂",
+        "wall (wrench)",
+        "elbow_water (drag)",
+    ] {
         assert!(everywhere.contains(words), "{words}");
     }
     let crane = svg("specs/scenes/crane.scene.yaml");
