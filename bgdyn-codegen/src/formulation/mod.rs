@@ -5,6 +5,7 @@
 //! mechanism and each method. `conditioning/` measures their errors.
 
 mod accurate;
+mod arguments;
 pub mod conditioning;
 mod derivatives;
 mod literal;
@@ -16,11 +17,9 @@ mod solve;
 
 pub use search::Search;
 
-use crate::bond_graph::{BondGraph, Rotor};
-use crate::expr::{Builder, Ex, Leaf};
+use crate::expr::{Builder, Ex};
 use crate::function::Function;
-use crate::mechanism::{ParameterId, Value};
-use crate::method::{Argument, Method};
+use crate::method::Method;
 pub use accurate::most_accurate;
 
 /// A way to compute methods from the bond graph.
@@ -73,55 +72,4 @@ pub(crate) fn solve_symmetric<'g>(
     f: Vec<Ex<'g>>,
 ) -> Vec<Ex<'g>> {
     solve::ltdl(b, mass, f)
-}
-
-/// The arguments of a method as expressions; what it does not take is zero.
-struct Arguments<'g> {
-    q: Vec<Ex<'g>>,
-    v: Vec<Ex<'g>>,
-    a: Vec<Ex<'g>>,
-    /// Joint efforts.
-    tau: Vec<Ex<'g>>,
-    /// Whether the active efforts act.
-    active: bool,
-}
-
-impl<'g> Arguments<'g> {
-    fn new(b: &'g Builder, graph: &BondGraph, method: Method) -> Self {
-        let n = graph.coordinates.len();
-        let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
-            (0..n)
-                .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
-                .collect()
-        };
-        let takes = |argument| method.arguments().contains(&argument);
-        // Energies and the motion of places know no other velocities than the true ones.
-        let kinematic = method.site().is_some() || method == Method::KineticEnergy;
-        let turning = graph.velocity_products || kinematic;
-        Arguments {
-            q: read(true, Leaf::Position),
-            v: read(takes(Argument::V) && turning, Leaf::Velocity),
-            a: read(takes(Argument::A), Leaf::Acceleration),
-            tau: read(takes(Argument::Tau), Leaf::Input),
-            active: true,
-        }
-    }
-}
-
-/// What a rotor adds to a joint's inertia: N² J.
-fn reflected<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
-    spin(b, rotor) * value(b, rotor.ratio)
-}
-
-/// Momentum of a rotor about its axis per unit rate of the joint: N J.
-fn spin<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
-    value(b, rotor.inertia) * value(b, rotor.ratio)
-}
-
-/// A number of the spec as an expression.
-fn value<'g>(b: &'g Builder, value: Value) -> Ex<'g> {
-    match value {
-        Value::Fixed(x) => b.constant(x),
-        Value::Parameter(ParameterId(p)) => b.leaf(Leaf::Parameter(p)),
-    }
 }

@@ -8,7 +8,8 @@
 mod sites;
 mod sum;
 
-use super::{Arguments, Formulation, Search, solve};
+use super::arguments::Arguments;
+use super::{Formulation, Search, solve};
 use crate::expr::{Builder, Ex};
 use crate::function::Function;
 use crate::method::Method;

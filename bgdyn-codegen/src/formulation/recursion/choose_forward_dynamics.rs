@@ -4,7 +4,7 @@
 //! (`articulated`).
 //!
 //! 1. A joint's pivot is no less than the inertia of its own body. Where that is less than 1e-7 of the
-//!    inertia it moves (a massless link, a heavy load on a light link; [`crate::formulation::conditioning::inertia_ratio`]), `articulated` is
+//!    inertia it moves (a massless link, a heavy load on a light link; [`super::inertia_ratio`]), `articulated` is
 //!    generated at any cost: no sample of states could show that another way keeps the pivot's digits.
 //! 2. Otherwise each way is tried in sampled states (`conditioning/sample_states.rs`): generic ones, fast ones,
 //!    large efforts, and states with neighbouring common normals in line or across. `reference_solution.rs` solves
@@ -25,10 +25,10 @@
 use std::cmp::Ordering;
 
 use super::articulated::Articulated;
+use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use super::plan_search::SEARCHED;
 use super::{cheapest_plans, with_plan};
 use crate::formulation::conditioning::error_bounds::{BoundReport, ErrorBounds, PRICE, cost};
-use crate::formulation::conditioning::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;

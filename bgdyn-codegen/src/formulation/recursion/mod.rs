@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `geometry.rs` | a frame for every moving body: z along its joint's axis, x along the common normal with the next axis |
 //! | `frames.rs` | these frames as expressions, for one [`Plan`] (`plan.rs`) |
+//! | `inertia_ratio.rs` | each joint's own inertia over the inertia that it moves |
 //! | `base_parameters.rs` | base parameters: inertia moved inwards, known parts always, run-time parameters as the plan says |
 //! | `motion.rs` | velocities and accelerations, outwards |
 //! | `inverse_dynamics.rs` | forces, moments and efforts, inwards |
@@ -27,6 +28,7 @@ mod derivatives;
 mod frames;
 pub(super) mod geometry;
 mod inertia;
+mod inertia_ratio;
 mod inverse_dynamics;
 mod kinematics;
 mod mass_matrix;
@@ -39,7 +41,8 @@ mod standard_parameters;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
-use super::{Arguments, Formulation, Search, solve};
+use super::arguments::Arguments;
+use super::{Formulation, Search, solve};
 use crate::bond_graph::BondGraph;
 use crate::expr::{self, Builder, Cost, Expr, Graph, factored_cost};
 use crate::function::Function;

@@ -19,12 +19,13 @@ mod sweep;
 
 use super::frames::Frames;
 use super::geometry::Geometry;
+use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use super::plan::Plan;
 use super::{inverse_dynamics, plan_search};
 use crate::bond_graph::BondGraph;
 use crate::expr::{self, Builder, Cost, Expr, Graph};
-use crate::formulation::conditioning::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
-use crate::formulation::{Arguments, Formulation, Search};
+use crate::formulation::arguments::Arguments;
+use crate::formulation::{Formulation, Search};
 use crate::function::Function;
 use crate::method::Method;
 use sweep::Sweep;
