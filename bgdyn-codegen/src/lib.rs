@@ -33,6 +33,7 @@ pub mod method;
 pub mod model;
 pub mod name;
 pub mod options;
+pub mod passes;
 pub mod pipeline;
 mod products;
 mod read;

@@ -22,6 +22,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("function", &["bond_graph", "columns", "expr", "method"]),
     ("products", &["expr", "function"]),
     ("cut", &["expr", "function", "method", "products"]),
+    ("passes", &["cut", "expr", "function"]),
     (
         "formulation",
         &[
@@ -32,6 +33,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "math",
             "mechanism",
             "method",
+            "passes",
         ],
     ),
     (
@@ -87,7 +89,6 @@ const LAYERS: &[(&str, &[&str])] = &[
         "system",
         &[
             "bond_graph",
-            "cut",
             "declaration",
             "effect",
             "expr",
@@ -98,6 +99,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "layout",
             "math",
             "method",
+            "passes",
             "scene",
             "spec",
         ],
@@ -166,7 +168,6 @@ const LAYERS: &[(&str, &[&str])] = &[
         "pipeline",
         &[
             "bond_graph",
-            "cut",
             "emit",
             "fault",
             "files",
@@ -177,6 +178,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "method",
             "model",
             "options",
+            "passes",
             "read",
             "refusal",
             "spec",

@@ -11,6 +11,7 @@ use crate::bond_graph::BondGraph;
 use crate::formulation::conditioning::rounding_error::{exact_results, rounding_error_at};
 use crate::function::Function;
 use crate::method::Method;
+use crate::passes::factor;
 
 /// Joints up to which the literal sum is tried: its graph grows with the cube of their number.
 const LITERAL: usize = 8;
@@ -62,7 +63,7 @@ fn variants(
     let Some(plain) = derived.or_else(|| formulation.function(&search, method)) else {
         return Vec::new();
     };
-    let factored = plain.clone().factored();
+    let factored = factor(plain.clone());
     if factored.operations() == plain.operations() {
         return vec![factored];
     }

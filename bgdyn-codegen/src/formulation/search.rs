@@ -10,6 +10,7 @@ use super::{Formulation, recursion};
 use crate::bond_graph::BondGraph;
 use crate::function::Function;
 use crate::method::Method;
+use crate::passes::{cheapest, factor};
 
 /// What is searched for the functions of one mechanism, and what was found so far.
 pub struct Search<'a> {
@@ -62,12 +63,12 @@ impl<'a> Search<'a> {
                 .collect(),
             Method::ForwardDynamics => {
                 let ways = self.ways().accepted.iter();
-                return Function::cheapest(ways.map(|way| way.generated.clone()));
+                return cheapest(ways.map(|way| way.generated.clone()));
             }
             Method::MassMatrix => self.mass_matrix(),
             _ => self.own(method),
         };
-        Function::cheapest(ways.into_iter().map(Function::factored))
+        cheapest(ways.into_iter().map(factor))
     }
 
     /// The function of the formulation asked for, or of the recursion, before factoring.
@@ -108,7 +109,7 @@ impl<'a> Search<'a> {
         let asked = || {
             let plain = self.asked?.function(self, Method::ForwardDynamics)?;
             let way = recursion::ForwardCandidate {
-                generated: plain.clone().factored(),
+                generated: factor(plain.clone()),
                 plain,
             };
             Some(recursion::ForwardCandidates {

@@ -27,6 +27,7 @@ use crate::expr::{Expr, Graph, Inputs, copy_into, evaluate};
 use crate::formulation::recursion::geometry::Geometry;
 use crate::formulation::recursion::mass_and_bias;
 use crate::function::{Function, in_triangle};
+use crate::passes::factor;
 
 const EPS: f64 = f64::EPSILON;
 
@@ -146,7 +147,7 @@ impl ErrorBounds {
         if function.ordered {
             return (own, function.clone());
         }
-        let factored = function.clone().factored();
+        let factored = factor(function.clone());
         let found = self.measure(&factored);
         let near = found.failures > 0 || found.strict_ratio > MARGIN;
         let better = (found.failures, found.strict_ratio) <= (own.failures, own.strict_ratio);

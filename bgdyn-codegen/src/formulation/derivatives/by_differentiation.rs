@@ -9,6 +9,7 @@ use crate::expr::{Ex, Expr, Leaf};
 use crate::formulation::{Formulation, Search, literal, recursion};
 use crate::function::Function;
 use crate::method::Method;
+use crate::passes::{cheapest, factor};
 
 /// Velocities up to which expressions are differentiated to see whether that costs less than
 /// composite bodies.
@@ -31,14 +32,14 @@ pub(in crate::formulation) fn function(search: &Search<'_>, method: Method) -> O
             let small = graph.coordinates.len() <= SMALL;
             let differentiated = (literal || small).then(|| differentiated(search, method));
             let ways = regrouped.into_iter().chain(differentiated.flatten());
-            Function::cheapest(ways.map(Function::factored))
+            cheapest(ways.map(factor))
         }
         Method::ForwardDynamicsDerivatives => {
             let slopes = search.effort_derivatives()?;
             let ways = search
                 .differentiable()
                 .map(|forward| forward_derivatives(graph, method, slopes, forward));
-            Function::cheapest(ways)
+            cheapest(ways)
         }
         _ => None,
     }
