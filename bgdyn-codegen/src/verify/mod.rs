@@ -3,9 +3,10 @@
 //!
 //! The literal inverse dynamics P(q, v, a) is enough for almost every method, since the others
 //! follow from it: M x = P(q, 0, x) − P(q, 0, 0), P(q, v, q̈) = τ for the accelerations of forward
-//! dynamics, derivatives by central differences. States are the same in every run.
+//! dynamics, derivatives from P in dual numbers. States are the same in every run.
 
 mod compare;
+mod dual;
 mod mechanism;
 mod scene;
 mod states;
