@@ -12,8 +12,10 @@
 pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
+pub mod choice;
 pub mod closed_form;
 pub mod columns;
+pub mod conditioning;
 mod cut;
 pub mod declaration;
 pub mod effect;

@@ -37,6 +37,28 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "conditioning",
+        &[
+            "bond_graph",
+            "expr",
+            "formulation",
+            "function",
+            "math",
+            "mechanism",
+        ],
+    ),
+    (
+        "choice",
+        &[
+            "bond_graph",
+            "conditioning",
+            "formulation",
+            "function",
+            "method",
+            "passes",
+        ],
+    ),
+    (
         "closed_form",
         &["bond_graph", "expr", "formulation", "mechanism", "method"],
     ),
@@ -62,6 +84,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "laws",
         &[
             "bond_graph",
+            "choice",
             "declaration",
             "expr",
             "formulation",
@@ -89,6 +112,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "system",
         &[
             "bond_graph",
+            "choice",
             "declaration",
             "effect",
             "expr",
@@ -108,6 +132,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "verify",
         &[
             "bond_graph",
+            "conditioning",
             "expr",
             "formulation",
             "function",
@@ -115,7 +140,10 @@ const LAYERS: &[(&str, &[&str])] = &[
             "system",
         ],
     ),
-    ("options", &["bond_graph", "fault", "formulation", "method"]),
+    (
+        "options",
+        &["bond_graph", "choice", "fault", "formulation", "method"],
+    ),
     ("refusal", &["fault", "options", "verify"]),
     (
         "read",
@@ -168,17 +196,16 @@ const LAYERS: &[(&str, &[&str])] = &[
         "pipeline",
         &[
             "bond_graph",
+            "choice",
             "emit",
             "fault",
             "files",
-            "formulation",
             "function",
             "interface",
             "mechanism",
             "method",
             "model",
             "options",
-            "passes",
             "read",
             "refusal",
             "spec",

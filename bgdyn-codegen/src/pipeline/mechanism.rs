@@ -1,17 +1,14 @@
 //! A mechanism: its text to a model and to tokens, step by step.
 
-use std::rc::Rc;
-
 use proc_macro2::TokenStream;
 
+use crate::choice::{Choice, prefer};
 use crate::fault::Faults;
-use crate::formulation::{Search, most_accurate};
 use crate::function::Function;
 use crate::mechanism::Mechanism;
 use crate::method::Method;
 use crate::model::Model;
-use crate::options::{Options, Preference, Unknown};
-use crate::passes::{finish, finish_in_order};
+use crate::options::{Options, Unknown};
 use crate::read::read;
 use crate::refusal::Refusal;
 use crate::verify::check_functions;
@@ -46,12 +43,12 @@ pub fn generate(
 pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unknown>> {
     let bond_graph = bond_graph::build(&mechanism);
     let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
-    let search = Search::new(&bond_graph, options.formulation);
-    let functions = methods.into_iter();
-    let functions = functions
-        .filter_map(|m| chosen(&search, m, options))
-        .collect();
-    drop(search);
+    let choice = Choice::new(&bond_graph, options.formulation);
+    let chosen = methods
+        .into_iter()
+        .filter_map(|method| prefer(&choice, method, options.prefer));
+    let functions = chosen.collect();
+    drop(choice);
     Ok(Model {
         mechanism,
         bond_graph,
@@ -62,17 +59,9 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
 /// One function of a mechanism, without the others.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
     let graph = bond_graph::build(mechanism);
-    chosen(&Search::new(&graph, options.formulation), method, options)
-}
-
-/// The function of a method that these options mean.
-fn chosen(search: &Search<'_>, method: Method, options: &Options) -> Option<Function> {
-    match options.prefer {
-        Preference::Operations => search
-            .function(method)
-            .map(|f| finish(Rc::unwrap_or_clone(f))),
-        Preference::Accuracy => {
-            most_accurate(search.graph, method, options.formulation).map(finish_in_order)
-        }
-    }
+    prefer(
+        &Choice::new(&graph, options.formulation),
+        method,
+        options.prefer,
+    )
 }

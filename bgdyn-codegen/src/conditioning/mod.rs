@@ -7,7 +7,7 @@
 //! | `reference_solution.rs` | forward dynamics in double-double at one state, with norms of M |
 //! | `error_bounds.rs` | errors of forward dynamics compared with bounds |
 
-pub(super) mod error_bounds;
+pub(crate) mod error_bounds;
 mod reference_solution;
 pub mod rounding_error;
 pub(crate) mod sample_states;
