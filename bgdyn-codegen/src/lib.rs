@@ -12,8 +12,10 @@
 pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
+pub mod choice;
 pub mod closed_form;
 pub mod columns;
+pub mod conditioning;
 mod cut;
 pub mod declaration;
 pub mod effect;
@@ -33,6 +35,7 @@ pub mod method;
 pub mod model;
 pub mod name;
 pub mod options;
+pub mod passes;
 pub mod pipeline;
 mod products;
 mod read;

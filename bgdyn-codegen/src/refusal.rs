@@ -25,3 +25,13 @@ pub enum Refusal {
     /// Functions that do not equal equation (6): a fault of the generator.
     Unequal(Vec<Difference>),
 }
+
+impl Refusal {
+    /// An error where functions do not equal equation (6).
+    pub(crate) fn unless_equal(differences: Vec<Difference>) -> Result<(), Refusal> {
+        match differences.is_empty() {
+            true => Ok(()),
+            false => Err(Refusal::Unequal(differences)),
+        }
+    }
+}

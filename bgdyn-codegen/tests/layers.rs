@@ -22,6 +22,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("function", &["bond_graph", "columns", "expr", "method"]),
     ("products", &["expr", "function"]),
     ("cut", &["expr", "function", "method", "products"]),
+    ("passes", &["cut", "expr", "function"]),
     (
         "formulation",
         &[
@@ -32,6 +33,29 @@ const LAYERS: &[(&str, &[&str])] = &[
             "math",
             "mechanism",
             "method",
+            "passes",
+        ],
+    ),
+    (
+        "conditioning",
+        &[
+            "bond_graph",
+            "expr",
+            "formulation",
+            "function",
+            "math",
+            "mechanism",
+        ],
+    ),
+    (
+        "choice",
+        &[
+            "bond_graph",
+            "conditioning",
+            "formulation",
+            "function",
+            "method",
+            "passes",
         ],
     ),
     (
@@ -60,6 +84,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "laws",
         &[
             "bond_graph",
+            "choice",
             "declaration",
             "expr",
             "formulation",
@@ -87,7 +112,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "system",
         &[
             "bond_graph",
-            "cut",
+            "choice",
             "declaration",
             "effect",
             "expr",
@@ -98,6 +123,7 @@ const LAYERS: &[(&str, &[&str])] = &[
             "layout",
             "math",
             "method",
+            "passes",
             "scene",
             "spec",
         ],
@@ -106,6 +132,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         "verify",
         &[
             "bond_graph",
+            "conditioning",
             "expr",
             "formulation",
             "function",
@@ -113,7 +140,10 @@ const LAYERS: &[(&str, &[&str])] = &[
             "system",
         ],
     ),
-    ("options", &["bond_graph", "fault", "formulation", "method"]),
+    (
+        "options",
+        &["bond_graph", "choice", "fault", "formulation", "method"],
+    ),
     ("refusal", &["fault", "options", "verify"]),
     (
         "read",
@@ -166,11 +196,10 @@ const LAYERS: &[(&str, &[&str])] = &[
         "pipeline",
         &[
             "bond_graph",
-            "cut",
+            "choice",
             "emit",
             "fault",
             "files",
-            "formulation",
             "function",
             "interface",
             "mechanism",

@@ -27,7 +27,7 @@ use std::fmt;
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{self, BondGraph, Effort};
-use crate::formulation::{self, Search};
+use crate::formulation::{self, Prepared};
 use crate::mechanism::{Letter, Lettered, LinkId, Mechanism, Motion, ParameterId, Value};
 use crate::method::Method;
 use collect::Collected;
@@ -105,7 +105,7 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Re
         parameters: weigh(&mut graph, &lettered, &mut letters),
     };
     let literal = formulation::by_name("literal").expect("the specification is always there");
-    let function = literal.function(&Search::new(&graph, None), Method::InverseDynamics);
+    let function = literal.function(&Prepared::new(&graph), Method::InverseDynamics);
     let function = function.expect("it knows inverse dynamics");
     let outputs = &function.blocks[0].outputs[..mechanism.nv()];
     let budget = Budget {

@@ -6,7 +6,7 @@ use super::{Expr, Graph, Node, NodeId, QuickMap};
 
 /// Copies of `outputs` in a graph of their own, with the terms of every sum in the order in which
 /// they are there. Sums that something else reads as well, or that have a name, stay terms.
-pub fn arranged(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn reassociate(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let mut sums = Sums {
         from,
         reads: reads(from, outputs),

@@ -7,7 +7,7 @@ use super::{Expr, Graph, Node, NodeId, cost};
 /// Copies of `outputs` in a graph of their own, with every addition of a product that nothing else
 /// reads as a [`Node::MulAdd`]. The count of operations stays. Of two such products the one that is
 /// there later is joined: the other is done by then.
-pub fn fused(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn fuse(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let reads = cost::reads(from, outputs);
     let ready = cost::ready(from, &reads);
     let is_free = |id: NodeId| reads[id.0 as usize] == 1 && matches!(from.node(id), Node::Mul(..));

@@ -7,7 +7,7 @@ use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, reads};
 
 /// The same values without reciprocals that one product alone reads.
-pub fn divided(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn fold_reciprocals(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     let reads = reads(&from, &outputs);
     let is_one = |id: NodeId| matches!(from.node(id), Node::Constant(c) if c.value() == Dd::ONE);
     // y of a node 1/y that nothing else reads.

@@ -9,8 +9,9 @@ mod undeclared;
 use std::collections::BTreeMap;
 
 use crate::bond_graph::{BondGraph, SiteId};
+use crate::choice::Choice;
 use crate::expr::{Builder, Ex, Graph, Leaf, copy_into};
-use crate::formulation::{Formulation, Search};
+use crate::formulation::Formulation;
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Scene;
@@ -215,7 +216,7 @@ pub(crate) fn copied<'g>(
     method: Method,
     leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Expr>,
 ) -> Vec<Ex<'g>> {
-    let Some(function) = Search::new(graph, asked).function(method) else {
+    let Some(function) = Choice::new(graph, asked).function(method) else {
         return vec![];
     };
     let outputs = &function.blocks[0].outputs;

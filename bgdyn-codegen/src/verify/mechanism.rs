@@ -10,7 +10,7 @@ use super::dual::{Direction, along, rates, with_rates};
 use super::states::{Random, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::formulation::{Search, specification};
+use crate::formulation::{Prepared, specification};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
 
@@ -35,23 +35,23 @@ pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) ->
 
 /// The literal sum of a bond graph.
 struct Literal<'a> {
-    search: Search<'a>,
+    prepared: Prepared<'a>,
     inverse: Function,
 }
 
 impl<'a> Literal<'a> {
     fn new(graph: &'a BondGraph) -> Self {
-        let search = Search::new(graph, None);
-        let inverse = specification().function(&search, Method::InverseDynamics);
+        let prepared = Prepared::new(graph);
+        let inverse = specification().function(&prepared, Method::InverseDynamics);
         Literal {
             inverse: inverse.expect("the literal sum knows inverse dynamics"),
-            search,
+            prepared,
         }
     }
 
     /// The method as the literal sum writes it.
     fn form(&self, method: Method) -> Option<Function> {
-        specification().function(&self.search, method)
+        specification().function(&self.prepared, method)
     }
 
     /// P(q, v, a), the rest as in `at`.

@@ -72,7 +72,7 @@ fn equals_the_literal_sum(system: &System) {
     ] {
         let by = |name: &str| {
             let way = by_name(name).expect("a formulation");
-            bgdyn_codegen::formulation::Search::new(&system.graph, Some(way))
+            bgdyn_codegen::choice::Choice::new(&system.graph, Some(way))
         };
         let literal = by("literal").function(method).expect("the literal sum");
         for name in ["recursion", "recursion_own"] {

@@ -101,7 +101,7 @@ fn readers(graph: &Graph, outputs: &[Expr]) -> Vec<usize> {
 }
 
 /// The same values with fewer operations, where the pass finds a way.
-pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn factor(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     let best = rounds(graph, outputs, ROUNDS);
     (best.graph, best.outputs)
 }

@@ -11,7 +11,7 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::formulation::recursion::geometry::{Body, angle_of, geometry};
+use crate::formulation::geometry::{Body, angle_of, geometry};
 use crate::math::Vec3;
 use crate::mechanism::{Motion, Value};
 
