@@ -27,6 +27,11 @@ impl Num {
         }
     }
 
+    /// N zeros.
+    pub(super) fn zeros<const N: usize>() -> [Self; N] {
+        [(); N].map(|()| Num::zero())
+    }
+
     /// A computed value, in its shortest form that reads back the same.
     pub(super) fn computed(value: f64) -> Self {
         let text = match value.abs() {

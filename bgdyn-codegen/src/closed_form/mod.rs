@@ -19,10 +19,9 @@ mod form;
 mod latex;
 mod notation;
 mod polynomial;
+mod refused;
 mod text;
 mod tidy;
-
-use std::fmt;
 
 use bgdyn_runtime::Dd;
 
@@ -37,6 +36,7 @@ pub use form::{Atom, ClosedForm, Factor, NamedSum, Sum, Term};
 pub use latex::latex;
 pub use polynomial::Angle;
 use polynomial::{Polynomial, Symbol};
+pub use refused::Refused;
 pub use text::text;
 
 /// The usual limit: what can still be read.
@@ -46,51 +46,6 @@ pub const LIMIT: usize = 300;
 const ON_THE_WAY: usize = 15;
 /// Products of terms on the way, for each term allowed in the end.
 const PRODUCTS: usize = 250;
-
-/// Why there is no closed form.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Refused {
-    /// The equations have more terms than the limit.
-    TooLong {
-        /// Terms of all P_j.
-        terms: usize,
-    },
-    /// A sum on the way has too many terms for so much to cancel.
-    LongSum {
-        /// Its terms.
-        terms: usize,
-    },
-    /// The way there takes too many products of two terms.
-    ManyProducts {
-        /// As many as were asked for when it was given up.
-        products: usize,
-    },
-    /// The equations hold more than sines, cosines, products and sums.
-    NotTrigonometric,
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refused::TooLong { terms } => write!(f, "its equations have {terms} terms"),
-            Refused::LongSum { terms } => {
-                write!(f, "a sum on the way to its equations has {terms} terms")
-            }
-            Refused::ManyProducts { products } => write!(
-                f,
-                "the way to its equations takes {products} products of two terms and more"
-            ),
-            Refused::NotTrigonometric => {
-                write!(
-                    f,
-                    "its equations hold more than sines, cosines, products and sums"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for Refused {}
 
 /// P_j(q, q̇, q̈) of a mechanism without effects, from equation (6): `limit` terms at most.
 ///

@@ -1,11 +1,9 @@
 //! From what stands in a file to a checked element: its type, its keys, its names, its rules.
 
-use super::element::node_names;
 use super::joints::keys_declared;
-use super::refused::Refused;
 use bgdyn_runtime::Dd;
 
-use super::{Checked, Declaration, Element, Given, Kinds, Quantity};
+use super::{Checked, Declaration, Declared, Element, Given, Kinds, Quantity, Refused};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::mechanism::{Limits, Motion, Places};
 use crate::name::is_identifier;
@@ -18,17 +16,6 @@ const TYPE: Key = Key {
     needed: true,
     about: "what it is",
 };
-
-/// An effect as a mechanism's file declares it; a scene may use it, with other values if it likes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Declared {
-    /// Its name.
-    pub name: Located<String>,
-    /// What it is.
-    pub effect: &'static dyn Declaration,
-    /// Its values.
-    pub fields: Fields,
-}
 
 /// The names that an effect may refer to.
 #[derive(Clone, Debug, Default)]
@@ -221,12 +208,6 @@ impl Declared {
         self.name.place = place.clone();
         self.fields = self.fields.placed(place);
         self
-    }
-
-    /// Names of the hydraulic nodes that it has.
-    pub fn nodes(&self) -> Vec<String> {
-        let sides = self.effect.nodes(&|key| self.fields.get(key).is_some());
-        node_names(&self.name.value, sides)
     }
 
     /// The element, if its names are known and its numbers obey its rules.

@@ -2,6 +2,7 @@
 //! use, and what each adds to the state. Their equations are in [`crate::effect`].
 
 mod check;
+mod declared;
 mod element;
 mod given;
 mod joints;
@@ -15,7 +16,8 @@ use crate::fault::Faults;
 use crate::layout::Layout;
 use crate::mechanism::{Limits, Mechanism};
 use crate::spec::Key;
-pub use check::{Context, Declared, called, declared};
+pub use check::{Context, called, declared};
+pub use declared::Declared;
 pub use element::{Checked, Element, Quantity};
 pub use given::Given;
 pub use joints::keys_declared;

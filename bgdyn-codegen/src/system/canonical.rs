@@ -7,7 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::dynamics::own_inertia;
+use super::coordinate_rows::own_inertia;
 use super::holds::{Holds, held};
 use super::jacobian::{Response, expressions};
 use super::{Laws, System};

@@ -1,6 +1,6 @@
 //! Coordinates that are held: by dry friction, or at the limit of their rate.
 
-use super::dynamics::{driven, own_inertia};
+use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::summed::summed;
 use super::{Laws, Own, System};
 use crate::choice::Choice;
@@ -34,7 +34,7 @@ pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> 
         let choice = Choice::new(&system.graph, None);
         let mut ways = choice.forward_dynamics();
         let forward = ways.next().expect("there is a way");
-        let mut accelerations = driven(b, forward, laws, system);
+        let mut accelerations = link_accelerations(b, forward, laws, system);
         accelerations.extend(own_accelerations(system, laws, &Holding::new(laws)));
         let contacts = laws.contacts().iter().map(|c| c.coordinate);
         return Held {

@@ -7,7 +7,8 @@
 use super::summed::summed_under;
 use bgdyn_runtime::Dd;
 
-use super::dynamics::{driven, joined, own_inertia, rates};
+use super::coordinate_rows::{link_accelerations, own_inertia};
+use super::dynamics::{joined, rates};
 use super::holds::Holds;
 use super::{Laws, Own, System, signals};
 use crate::choice::Choice;
@@ -96,7 +97,7 @@ fn implicit(system: &System) -> Vec<Function> {
         let columns = {
             let laws = system.laws_under_driven_inputs(&b);
             let holds = Holds::new(&laws);
-            let joints = driven(&b, forward, &laws, system);
+            let joints = link_accelerations(&b, forward, &laws, system);
             let rates = joined(system, &laws, joints);
             let response = Response::new(forward);
             columns(system, &laws, &rates, &holds, Some(&response))

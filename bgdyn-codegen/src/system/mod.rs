@@ -6,7 +6,9 @@
 
 mod balance;
 mod canonical;
+mod coordinate_rows;
 mod dynamics;
+mod equations;
 mod holds;
 mod jacobian;
 mod range;
@@ -19,9 +21,9 @@ mod summed;
 use bgdyn_runtime::Dd;
 use summed::summed;
 
-use crate::bond_graph::{self, BondGraph};
+use crate::bond_graph;
 use crate::effect;
-use crate::expr::{Builder, Ex, Expr};
+use crate::expr::{Builder, Ex};
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::formulation::Formulation;
 use crate::function::Function;
@@ -30,32 +32,7 @@ use crate::method::{Method, Role};
 use crate::passes::{cheapest, factor, finish};
 use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
-
-/// The equations of a scene.
-#[derive(Clone, Debug)]
-pub struct System {
-    /// The scene.
-    pub scene: Scene,
-    /// The bond graph of its mechanism, with what its effects change in it.
-    pub graph: BondGraph,
-    /// Its initial state, of fluid volumes too.
-    pub initial: crate::scene::Initial,
-    /// The parts of its outputs.
-    pub outputs: Vec<Named>,
-    /// The entries of its balance of power.
-    pub entries: Vec<Named>,
-}
-
-/// A named number of a result.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Named {
-    /// Its name.
-    pub name: String,
-    /// Its SI unit; nothing for an entry of the balance of power, whose numbers have several.
-    pub unit: &'static str,
-    /// Unit and meaning.
-    pub about: String,
-}
+pub use equations::{Named, System};
 
 impl System {
     /// The equations of a scene.
@@ -127,17 +104,6 @@ impl System {
             .filter(|(j, _)| laws.at_start(diagonal(*j), &at).to_f64() <= 1e-24)
             .map(|(_, c)| c.name.as_str())
             .collect()
-    }
-
-    /// The coordinate that each mode may hold.
-    pub fn mode_coordinates(&self) -> Vec<usize> {
-        let b = Builder::silent();
-        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
-        let mut found = vec![0; self.scene.layout.modes.len()];
-        for contact in laws.contacts() {
-            found[contact.mode] = contact.coordinate;
-        }
-        found
     }
 
     /// The roles this scene has functions for, with those that its method of integration needs.
@@ -216,21 +182,6 @@ impl System {
             let laws = summed(b, &system.scene, &system.graph, Own::Everywhere);
             dynamics::rates(system, &laws, b)
         })
-    }
-
-    fn one(
-        &self,
-        role: Role,
-        made: impl for<'g> FnOnce(&System, &'g Builder) -> Vec<Ex<'g>>,
-    ) -> Function {
-        let b = Builder::new();
-        let outputs: Vec<Expr> = made(self, &b).into_iter().map(Ex::expr).collect();
-        self.flat(role, "scene".into(), b, outputs)
-    }
-
-    fn flat(&self, role: Role, formulation: String, b: Builder, outputs: Vec<Expr>) -> Function {
-        let method = Method::Scene(role);
-        Function::flat(&self.graph, method, formulation, b.into_graph(), outputs)
     }
 }
 

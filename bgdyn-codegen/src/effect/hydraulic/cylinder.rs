@@ -3,7 +3,8 @@
 //! changes, V_a = V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀)). At a joint that turns it is a
 //! vane actuator: areas are volumes per angle, the force is a torque.
 
-use super::{FAMILY, FLUID, declare_volume, fill, filled, has_fluid, number};
+use super::keys::{FAMILY, FLUID, number};
+use super::volume::{declare_volume, fill, filled, has_fluid};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::effect::spring::{BETWEEN, MAYBE_JOINT};

@@ -1,24 +1,15 @@
 //! The fluid of a circuit: its bulk modulus.
 
-use super::{FAMILY, number};
+use super::keys::{BULK_MODULUS, FAMILY, FLUID_KEYWORD};
 use crate::declaration::{Declaration, Given};
 use crate::effect::Effect;
-use crate::spec::{Dimension, Key};
+use crate::spec::Key;
 
 pub(in crate::effect) struct Fluid;
 
-pub(super) const KEYWORD: &str = "fluid";
-
-pub(super) const BULK_MODULUS: Key = number(
-    "bulk_modulus",
-    &[Dimension::Pressure],
-    true,
-    "β = ρ dp/dρ, constant",
-);
-
 impl Declaration for Fluid {
     fn keyword(&self) -> &'static str {
-        KEYWORD
+        FLUID_KEYWORD
     }
 
     fn family(&self) -> &'static str {

@@ -1,7 +1,9 @@
 //! A four-way valve, critically centred (Merritt 1967, chapter 5): a spool shifted by x joins the
 //! supply to one side and the other side to the tank, through orifices that open with |x|.
 
-use super::{Drop, FAMILY, LAMINAR, ORIFICE, joins_two, node, one_fluid, pressure, run};
+use super::flow::{Drop, run};
+use super::keys::{FAMILY, LAMINAR, ORIFICE, joins_two, node};
+use super::volume::{one_fluid, pressure};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::fault::Faults;

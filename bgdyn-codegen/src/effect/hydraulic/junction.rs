@@ -1,6 +1,8 @@
 //! A node without a volume between two resistors: its pressure is solved for at generation time.
 
-use super::{FAMILY, FLUID, has_fluid, pressure, read_pressure, solve};
+use super::flow::solve;
+use super::keys::{FAMILY, FLUID};
+use super::volume::{has_fluid, pressure, read_pressure};
 use crate::declaration::{Beside, Declaration, Element};
 use crate::effect::Effect;
 use crate::fault::Faults;

@@ -1,20 +1,15 @@
 //! Leakage through a gap: laminar flow, q = c Δp (Merritt 1967, chapter 3).
 
-use super::{FAMILY, FROM, TO, joins_two, number, one_fluid, resist};
+use super::flow::resist;
+use super::keys::{CONDUCTANCE, FAMILY, FROM, TO, joins_two};
+use super::volume::one_fluid;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::fault::Faults;
 use crate::laws::Laws;
-use crate::spec::{Dimension, Key};
+use crate::spec::Key;
 
 pub(in crate::effect) struct Leakage;
-
-pub(super) const CONDUCTANCE: Key = number(
-    "conductance",
-    &[Dimension::Leakage],
-    true,
-    "c, flow per pressure drop",
-);
 
 impl Declaration for Leakage {
     fn keyword(&self) -> &'static str {

@@ -1,6 +1,7 @@
 //! The volume of a line or a hose: a hydraulic compliance.
 
-use super::{FAMILY, FLUID, VOLUME, declare_volume, fill, filled, has_fluid, number};
+use super::keys::{FAMILY, FLUID, number};
+use super::volume::{VOLUME, declare_volume, fill, filled, has_fluid};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::expr::Ex;

@@ -2,7 +2,9 @@
 //! with a laminar part where it is given, Δp = R q + q|q|/k². That law is smooth at Δp = 0, solved
 //! for the flow it is q = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
 
-use super::{Drop, FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two, one_fluid, resist};
+use super::flow::{Drop, resist};
+use super::keys::{FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two};
+use super::volume::one_fluid;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::fault::Faults;

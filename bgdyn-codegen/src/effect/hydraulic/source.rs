@@ -1,6 +1,7 @@
 //! Sources of pressure: a supply (an ideal pressure-controlled pump) and a tank.
 
-use super::{FAMILY, FLUID, PRESSURE, SOURCE, enthalpy, has_fluid, no_less_than_vacuum, number};
+use super::keys::{FAMILY, FLUID, no_less_than_vacuum, number};
+use super::volume::{ENTHALPY, PRESSURE, SOURCE, enthalpy, has_fluid};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::fault::Faults;
@@ -29,7 +30,7 @@ fn hold(element: &Element, key: &Key, laws: &mut Laws<'_, '_>) {
     let pressure = laws.number(element, key);
     let carried = enthalpy(element, pressure, laws);
     laws.share(node, PRESSURE, pressure);
-    laws.share(node, super::ENTHALPY, carried);
+    laws.share(node, ENTHALPY, carried);
     laws.share(node, SOURCE, one);
 }
 

@@ -1,7 +1,6 @@
 //! The effects called for.
 
 use super::super::causality::chains;
-use super::given;
 use crate::declaration::{
     Beside, Chain, Context, Declared, Element, Kinds, Refused, called, check_unique_names,
     once_per_joint,
@@ -9,7 +8,7 @@ use crate::declaration::{
 use crate::fault::{Fault, Faults};
 use crate::machine::Machine;
 use crate::mechanism::Mechanism;
-use crate::spec::{Raw, SceneSpec};
+use crate::spec::{Field, Raw, SceneSpec};
 
 /// The effects called for.
 pub(super) struct Called {
@@ -117,4 +116,9 @@ pub(super) fn reduced(mut mechanism: Mechanism, elements: &[Element]) -> Mechani
         element.effect.reduce(element, &mut mechanism);
     }
     mechanism
+}
+
+/// The entries of a list; none where it is missing or broken.
+pub(super) fn given(field: &Field<Vec<Raw>>) -> &[Raw] {
+    field.value().map_or(&[], Vec::as_slice)
 }

@@ -15,9 +15,9 @@ use crate::declaration::{Kinds, Refused};
 use crate::fault::{Fault, Faults, Place, unknown_name, wording};
 use crate::layout::Layout;
 use crate::machine::Machine;
-use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
+use crate::mechanism::{LinkId, Mechanism, Pose};
 use crate::name::is_identifier;
-use crate::spec::{Dimension, Field, Located, Raw, SceneSpec};
+use crate::spec::{Field, Located, SceneSpec};
 
 /// The only version of the format there is.
 const VERSION: f64 = 1.0;
@@ -104,14 +104,14 @@ fn scene(
         parameters: Vec::new(),
         drives: Vec::new(),
         initial: Initial::default(),
-        outputs: given(&spec.outputs)
+        outputs: effects::given(&spec.outputs)
             .iter()
             .map(|o| o.name.clone())
             .collect(),
         integration,
         written: Written {
-            inputs: given(&spec.inputs).to_vec(),
-            initial: given(&spec.initial).to_vec(),
+            inputs: effects::given(&spec.inputs).to_vec(),
+            initial: effects::given(&spec.initial).to_vec(),
             unloaded,
             modes: None,
         },
@@ -150,10 +150,6 @@ pub(in crate::scene) fn assembled(scene: Scene, refused: &Refused, faults: &mut 
         layout,
         ..scene
     }
-}
-
-fn given(field: &Field<Vec<Raw>>) -> &[Raw] {
-    field.value().map_or(&[], Vec::as_slice)
 }
 
 fn version(spec: &SceneSpec, faults: &mut Faults) {
@@ -196,7 +192,7 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
 /// The joints that stand still, with the pose in which they hold their links.
 fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Pose)> {
     let mut locked = Vec::new();
-    for raw in given(&spec.lock) {
+    for raw in effects::given(&spec.lock) {
         let name = &raw.name.value;
         let joints = mechanism.coordinates().iter();
         let found = joints
@@ -211,18 +207,10 @@ fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(L
             continue;
         };
         let joint = &mechanism.links()[link.0].joint;
-        let [position, ..] = dimensions(joint.kind.motion);
+        let [position, ..] = state::dimensions(joint.kind.motion);
         if let Some(at) = raw.number(&[position], faults) {
             locked.push((link, held(joint, at.value.value)));
         }
     }
     locked
-}
-
-/// What position, velocity and effort of a joint measure.
-fn dimensions(motion: Motion) -> [Dimension; 3] {
-    match motion {
-        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
-        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
-    }
 }

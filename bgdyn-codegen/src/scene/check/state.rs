@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 
 use super::super::Initial;
-use super::dimensions;
 use crate::declaration::{Element, Refused};
 use crate::fault::{Fault, Faults, unknown_name};
 use crate::layout::{Coordinate, Layout, Store};
-use crate::mechanism::{CoordinateId, Mechanism, Parameter};
+use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
 use crate::spec::{Dimension, Raw};
 
 /// What the state is made of: the joints, then what the effects add.
@@ -150,4 +149,12 @@ pub(super) fn initial(
         }
     }
     initial
+}
+
+/// What position, velocity and effort of a joint measure.
+pub(super) fn dimensions(motion: Motion) -> [Dimension; 3] {
+    match motion {
+        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
+        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
+    }
 }
