@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates whose files are held to it, by their folders.
-const CRATES: &[&str] = &["bgdyn-accuracy", "bgdyn-cli", "bgdyn-runtime", "bgdyn-sim"];
+const CRATES: &[&str] = &["bgdyn-accuracy", "bgdyn-cli", "bgdyn-codegen", "bgdyn-runtime", "bgdyn-sim"];
 
 /// Where a name of a module leads: to its file, or to another path.
 type Names = BTreeMap<String, Vec<String>>;
