@@ -8,7 +8,7 @@ use nalgebra::{Const, SVector};
 use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
 
 use crate::sine;
-use crate::singular::finish;
+use crate::singular::{Look, explain, finish};
 use crate::two_sum::exact_sum;
 use crate::{Scalar, Singular};
 
@@ -181,6 +181,13 @@ macro_rules! dual_scalar {
                 names: &'static [&'static str; M],
             ) -> Result<SVector<Self, M>, Singular> {
                 finish(accelerations, refused, names)
+            }
+
+            fn explain<const M: usize>(
+                error: Singular,
+                arguments: impl FnOnce(&mut Look<'_, Self>),
+            ) -> Singular {
+                explain(error, arguments)
             }
         }
 

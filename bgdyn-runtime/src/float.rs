@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::root;
 use crate::sine::{self, Pack};
-use crate::singular::{finish, note_refused};
+use crate::singular::{Look, explain, finish, note_refused};
 use crate::two_sum::Split;
 use crate::{Scalar, Singular};
 
@@ -129,6 +129,14 @@ macro_rules! float_scalar {
                 names: &'static [&'static str; N],
             ) -> Result<SVector<Self, N>, Singular> {
                 finish(accelerations, refused, names)
+            }
+
+            #[inline]
+            fn explain<const N: usize>(
+                error: Singular,
+                arguments: impl FnOnce(&mut Look<'_, Self>),
+            ) -> Singular {
+                explain(error, arguments)
             }
         }
 

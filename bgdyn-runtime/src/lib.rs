@@ -72,7 +72,7 @@ pub use serde;
 #[doc(hidden)]
 pub use serial::{__read_fields, __write_fields};
 pub use settle::{mode_by_slip, settle, settle_by};
-pub use singular::Singular;
+pub use singular::{Cause, Look, Singular};
 pub use storage::{inner_products, matrix, mirror, vector};
 pub use system::{Balance, Canonical, Contact, Slope, System};
 #[cfg(feature = "wide")]

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::number::Dd;
-use crate::singular::{finish, note_refused};
+use crate::singular::{Look, explain, finish, note_refused};
 use crate::{Scalar, Singular};
 
 impl Scalar for Dd {
@@ -88,5 +88,12 @@ impl Scalar for Dd {
         names: &'static [&'static str; N],
     ) -> Result<SVector<Self, N>, Singular> {
         finish(accelerations, refused, names)
+    }
+
+    fn explain<const N: usize>(
+        error: Singular,
+        arguments: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Singular {
+        explain(error, arguments)
     }
 }
