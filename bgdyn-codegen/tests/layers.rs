@@ -294,6 +294,34 @@ fn folders_import_one_way() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// The folders of the formulations use what stands beside them in `formulation/`, and none of each other:
+/// a formulation can be read, and taken out, by itself.
+#[test]
+fn formulations_do_not_use_each_other() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/formulation");
+    let entries = fs::read_dir(&folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let own: Vec<PathBuf> = paths.filter(|path| path.is_dir()).collect();
+    assert!(own.len() >= 3, "{own:?}");
+    for formulation in &own {
+        let mut all = Vec::new();
+        files(formulation, &mut all);
+        for (path, other) in all
+            .iter()
+            .flat_map(|path| own.iter().map(move |o| (path, o)))
+        {
+            let name = other.file_name().expect("a name").to_string_lossy();
+            let text = fs::read_to_string(path).expect("text");
+            let uses = text.contains(&format!("crate::formulation::{name}"));
+            assert!(
+                other == formulation || !uses,
+                "{} uses `{name}`",
+                path.display()
+            );
+        }
+    }
+}
+
 /// The list itself has no circle: each line names lines before it only.
 #[test]
 fn the_list_has_no_circle() {
