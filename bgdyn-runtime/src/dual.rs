@@ -8,9 +8,9 @@ use nalgebra::{Const, SVector};
 use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
 
 use crate::sine;
-use crate::singular::{Look, explain, finish};
+use crate::singular::{explain, finish};
 use crate::two_sum::exact_sum;
-use crate::{Scalar, Singular};
+use crate::{Look, Scalar, Singular};
 
 /// What dual numbers may be made of: `f64`, `f32`, or dual numbers again (for derivatives of
 /// higher order).

@@ -58,6 +58,36 @@ fn folders_import_what_their_line_allows() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// A formulation can be read, and taken out, by itself: it imports what stands directly in
+/// `formulation/`, and nothing of the other formulations.
+#[test]
+fn formulations_do_not_import_each_other() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("bgdyn-codegen/src");
+    // The folder of a formulation that a file is in, if it is in one.
+    let folder = |file: &Path| {
+        let mut parts = file.iter().map(|part| part.to_string_lossy().into_owned());
+        let is_formulation = parts.next()? == "formulation";
+        let name = parts.next().filter(|_| is_formulation)?;
+        parts.next().map(|_| name)
+    };
+    let mut seen = BTreeSet::new();
+    for (file, others) in imports(&source) {
+        let Some(own) = folder(&file) else { continue };
+        for other in others.keys() {
+            let theirs = folder(other).unwrap_or_else(|| own.clone());
+            assert_eq!(
+                own,
+                theirs,
+                "{} imports {}",
+                file.display(),
+                other.display()
+            );
+        }
+        seen.insert(own);
+    }
+    assert!(seen.len() >= 3, "{seen:?}");
+}
+
 /// Writes a small crate to a folder and gives its circles, as names of files.
 fn circles_of(name: &str, files: &[(&str, &str)]) -> Vec<Vec<String>> {
     let folder = std::env::temp_dir().join(format!("import_circles_{name}_{}", std::process::id()));

@@ -10,7 +10,8 @@
 //!    exceeds them by less than a bit, in at most one state of twenty, loses no digit in this sense: it wins
 //!    unless another one costs at most 5 % more.
 //! 3. A function is measured again after factoring. If it then comes near the bounds or exceeds them, its
-//!    operations keep their order.
+//!    operations keep their order. Of 74 functions (`specs/`, `tests/outside`, eight arms with random bodies)
+//!    that costs seven up to 5.7 % (`crane`: 175 operations for 165), 0.25 % in all.
 //!
 //! The condition number is no bound where the efforts almost balance the bias: rounding one argument then
 //! moves q̈ by more. `tests/common/bars.rs` measures that before it allows anything.

@@ -12,7 +12,9 @@
 //! - what has an answer gets one.
 //!
 //! Arguments are rounded by half an ε each: what is the exact answer for arguments that round to the
-//! same numbers is right, and no digit is lost. `tests/hard_cases` reads its bars the same way.
+//! same numbers is right, and no digit is lost. `tests/hard_cases` reads its bars the same way. Without
+//! that, 37 of 74 forward dynamics (`specs/`, `tests/outside`, eight arms with random bodies) would take
+//! more operations, up to 49 % more, 13 % in all.
 //!
 //! In a state of many thousands every way there is goes beyond this by a factor of a few: where several
 //! joints are at quarter turns, sines lose what no rounding of an angle makes up for. Digits are lost

@@ -2,7 +2,9 @@
 
 use proc_macro2::TokenStream;
 
+use crate::bond_graph;
 use crate::choice::{Choice, prefer};
+use crate::emit;
 use crate::fault::Faults;
 use crate::function::Function;
 use crate::mechanism::Mechanism;
@@ -12,7 +14,6 @@ use crate::options::{Options, Unknown};
 use crate::read::read;
 use crate::refusal::Refusal;
 use crate::verify::check_functions;
-use crate::{bond_graph, emit};
 
 /// From a mechanism's text to the tokens of its module; see [`super::generate_file`].
 ///
