@@ -2,6 +2,7 @@
 //! use, and what each adds to the state. Their equations are in [`crate::effect`].
 
 mod check;
+mod declared;
 mod element;
 mod given;
 mod joints;
@@ -15,13 +16,14 @@ use crate::fault::Faults;
 use crate::layout::Layout;
 use crate::mechanism::{Limits, Mechanism};
 use crate::spec::Key;
-pub use check::{Context, Declared, called, declared};
+pub use declared::{Declared, called, declared};
 pub use element::{Checked, Element, Quantity};
 pub use given::Given;
 pub use joints::keys_declared;
 pub use kinds::Kinds;
 pub(crate) use once::once_per_joint;
 pub use refused::Refused;
+pub use scope::Context;
 pub(crate) use scope::check_unique_names;
 pub use series::Chain;
 
