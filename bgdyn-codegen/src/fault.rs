@@ -1,4 +1,4 @@
-//! Faults of a spec: where in the file, which rule, the numbers seen, the way out.
+//! Faults of a spec: position in the file, rule, message with the numbers seen, and help.
 //!
 //! This file holds the data, `render` their text. The messages themselves are in `wording`.
 

@@ -1,4 +1,4 @@
-//! YAML text → checked mechanism, or the equations of a scene: reading, then checking, all findings together.
+//! Reads YAML text into a checked machine or the equations of a scene, and reports all faults together.
 
 use std::path::Path;
 

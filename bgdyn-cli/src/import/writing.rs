@@ -1,4 +1,4 @@
-//! A read robot as the text of a mechanism.
+//! Writes a robot as the YAML text of a mechanism.
 
 use super::naming::shown;
 use super::number::{Num, all_zero};

@@ -1,4 +1,4 @@
-//! XML text to a small tree that remembers where each element stood.
+//! Reads XML text into a small tree with line numbers.
 
 use anyhow::{Result, anyhow};
 use xml::common::{Position, TextPosition};

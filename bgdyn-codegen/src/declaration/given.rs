@@ -1,4 +1,4 @@
-//! An element while its numbers are checked.
+//! Checks of an element's numbers: signs, order, missing keys.
 
 use bgdyn_runtime::Dd;
 

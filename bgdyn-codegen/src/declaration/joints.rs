@@ -1,4 +1,4 @@
-//! One declaration for several joints: `joints: all`, or a list, in place of `joint`.
+//! The key `joints`: one declaration of an effect for several joints.
 //!
 //! It stands for one effect per joint, called NAME_JOINT, with the same values.
 

@@ -1,5 +1,6 @@
-//! What files may say of effects: kinds with their keys and rules, checked elements, the names they may
-//! use, and what each adds to the state. Their equations are in [`crate::effect`].
+//! Declarations of effects: their kinds, keys, checks and names.
+//!
+//! Their equations are in [`crate::effect`].
 
 mod check;
 mod declared;

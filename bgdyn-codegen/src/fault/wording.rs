@@ -1,4 +1,4 @@
-//! Every message about a spec or a scene: the rule, the numbers seen, the way out.
+//! All messages about specs and scenes, one function for each fault.
 
 mod checking;
 mod effects;

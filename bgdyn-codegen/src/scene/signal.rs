@@ -1,4 +1,4 @@
-//! What drives an input: a course in time, a controller, or the caller.
+//! Sources of inputs: a signal, a controller, or the caller.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,4 @@
-//! What a run can begin with in place of what the scene's file gives: parts of the state and run-time
-//! parameters, by name.
+//! Overrides of a scene's start: state variables and run-time parameters, by name.
 
 use bgdyn_runtime::Dd;
 

@@ -146,7 +146,8 @@ fn a_joint_has_one_friction_that_holds() {
     let refusal = try_scene(&text, BLOCK).expect_err("two of them");
     let shown = super::common::told(&refusal, &text);
     assert!(shown.starts_with("scene.yaml:5:5: "), "{shown}");
-    let message = "`one` and `two` are both of type `coulomb` at the joint `slide` [repeated-effect]";
+    let message =
+        "`one` and `two` are both of type `coulomb` at the joint `slide` [repeated-effect]";
     assert!(shown.contains(message), "{shown}");
 }
 

@@ -1,4 +1,4 @@
-//! What the check finds: names, the tree, joints, masses, directions.
+//! Messages about a mechanism: names, the tree, joints, masses, directions.
 
 use super::{figure, listed, meant, quote};
 use crate::fault::{Fault, Place};

@@ -1,4 +1,4 @@
-//! What the check finds in tensors and solids.
+//! Messages about inertia tensors and solids.
 
 use super::{figure, figures, listed, meant, quote};
 use crate::fault::{Fault, Place};

@@ -1,4 +1,4 @@
-//! What the reader finds: syntax, keys, types, numbers.
+//! Messages about the text of a file: YAML syntax, keys, types, numbers, units.
 
 use super::{escape, listed, meant, quote};
 use crate::fault::{Fault, Place, Position};

@@ -1,4 +1,4 @@
-//! The effects called for.
+//! Checks the effects that a scene uses.
 
 use super::super::causality::chains;
 use super::given;

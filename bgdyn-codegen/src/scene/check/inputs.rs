@@ -1,4 +1,4 @@
-//! The inputs, and what drives them.
+//! Checks the inputs of a scene and what drives each of them.
 
 use super::super::signal::{self, Drive};
 use crate::declaration::Refused;

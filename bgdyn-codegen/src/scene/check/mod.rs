@@ -1,5 +1,4 @@
-//! The one step that makes a [`Scene`]: a scene's file that obeys every rule, or all that breaks
-//! one.
+//! The check of a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod effects;
 mod inputs;

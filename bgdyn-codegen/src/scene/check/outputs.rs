@@ -1,4 +1,4 @@
-//! The names of outputs, where the effects are not sound: what they report is not known then.
+//! Checks the names of outputs in a scene whose effects are refused.
 
 use super::super::Scene;
 use crate::declaration::Refused;

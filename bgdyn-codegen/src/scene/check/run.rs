@@ -1,4 +1,4 @@
-//! How the scene is run.
+//! Checks a scene's settings of integration: method, step or tolerance, end.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! What the state is made of, and where the run begins.
+//! Builds the layout of a scene's state, and checks its parameters and initial values.
 
 use std::collections::BTreeMap;
 
