@@ -1,4 +1,4 @@
-//! The report: one page that needs nothing but a browser, and the same in Markdown.
+//! The report of a study: one self-contained HTML page, and the same in Markdown.
 
 use std::fmt::Write;
 

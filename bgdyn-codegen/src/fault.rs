@@ -1,6 +1,6 @@
-//! Faults of a spec: where in the file, which rule, the numbers seen, the way out.
+//! Faults of a spec: position in the file, rule, message with the numbers seen, and help.
 //!
-//! Data and its rendering. Every sentence a user reads about a spec stands in `wording`.
+//! This file holds the data, `render` their text. The messages themselves are in `wording`.
 
 mod render;
 mod suggest;

@@ -1,4 +1,4 @@
-//! The generator behind bgdyn: a mechanism in YAML goes in, Rust tokens or source text come out.
+//! The generator behind bgdyn: it turns a mechanism in YAML into Rust tokens or source text.
 //!
 //! One path, one direction: [`spec`] (the file as written) → [`mechanism`] (checked) →
 //! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) →

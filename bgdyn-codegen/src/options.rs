@@ -1,4 +1,4 @@
-//! What a caller asks for: which methods, for which frames, by which formulation.
+//! Options of the generator: methods, frames, formulation.
 
 use std::collections::BTreeSet;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! Why a spec or a scene gives no module.
+//! The reasons for which a spec or a scene is refused.
 
 use crate::fault::Faults;
 use crate::options::Unknown;

@@ -1,4 +1,4 @@
-//! [`Scalar`] for dual numbers: derivatives of everything generated, exact but for rounding.
+//! Implementation of [`Scalar`] for dual numbers: derivatives that are exact but for rounding.
 //!
 //! Comparisons, minima, maxima, signs and pivots are decided by the real part, as `==` on these
 //! types is. Real parts are those of `f64` (or `f32`) bit for bit, but after a division:

@@ -1,4 +1,4 @@
-//! [`Scalar`] for `f64` and `f32`.
+//! Implementation of [`Scalar`] for `f64` and `f32`.
 
 use nalgebra::SVector;
 

@@ -1,4 +1,4 @@
-//! [`Scalar`] for lanes of a SIMD register: several states at once.
+//! Implementation of [`Scalar`] for the lanes of a SIMD register: several states at once.
 //!
 //! Lane k of every result equals, bit for bit, what `f64` (or `f32`) makes of lane k of the
 //! inputs. Sines and cosines are computed in the lanes, but for large angles (`sine/`); the ones of

@@ -1,4 +1,4 @@
-//! What generated code calls, and nothing else: `no_std`, no heap, no panic, no `unsafe` (on some Arm processors one instruction).
+//! The runtime of generated code: `no_std`, no heap, no panic, no `unsafe` (on some Arm processors one instruction).
 //!
 //! # Conventions, said once
 //! - SI units and radians; torques and rates are those of the joint.

@@ -1,4 +1,4 @@
-//! The scalar trait: the one bound of every generated function.
+//! The trait [`Scalar`], by which every generated function is generic.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,4 +1,4 @@
-//! `bgdyn ops`: operation counts of the generated functions.
+//! `bgdyn ops`: prints the operation counts of generated functions.
 
 use std::path::PathBuf;
 

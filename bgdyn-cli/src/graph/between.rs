@@ -1,6 +1,7 @@
-//! What acts along the line between two places: springs, dampers, cylinders. The rate ṡ of the line's
-//! length is a flow as a link's are: Σ_j ∂s/∂q_j q̇_j, over the joints on the way from one place to the
-//! other.
+//! Drawing of elements that act along the line between two points: springs, dampers, cylinders.
+//!
+//! The rate ṡ of the line's length is a flow as a link's are: Σ_j ∂s/∂q_j q̇_j, over the joints on the
+//! way from one place to the other.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! The hydraulics behind a joint: what its cylinders' sides are joined to, walked from the joint on.
+//! Drawing of the hydraulic circuit of a joint, followed from the sides of its cylinders.
 //!
 //! A side of a cylinder is a transformer between the joint's velocity and the flow into the side. The
 //! pressure of a volume is a 0-junction with the fluid's compliance. What lets fluid run between two

@@ -1,4 +1,4 @@
-//! The bond graph as a drawing.
+//! Drawings of bond graphs.
 //!
 //! ```text
 //! BondGraph ──order──▶ Chart ──place──▶ Places ──draw──▶ SVG

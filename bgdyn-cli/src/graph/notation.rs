@@ -1,4 +1,4 @@
-//! Numbers and symbols as they are written in the drawing.
+//! Numbers and symbols as drawings show them.
 
 use bgdyn_codegen::declaration::{Checked, Element};
 

@@ -1,5 +1,4 @@
-//! What a scene's effects add to the drawing: friction, springs, stops, rotors, gears, motors,
-//! elastic drives and hydraulics on the joints.
+//! Drawing of a scene's effects: friction, springs, stops, rotors, gears, motors, hydraulics.
 //!
 //! What acts neither on one joint nor along one line (wrenches, drag) is not drawn but named.
 

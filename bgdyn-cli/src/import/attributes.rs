@@ -1,4 +1,4 @@
-//! Values of attributes, with an error at the line of the element where one is missing or malformed.
+//! Reads attributes of XML elements, and reports the line of a missing or malformed one.
 
 use super::naming::shown;
 use super::number::Num;

@@ -1,4 +1,4 @@
-//! What URDFs leave out although the format asks for it.
+//! Values that are used where a URDF lacks a required element.
 
 use super::groups::Groups;
 use super::naming::shown;

@@ -1,4 +1,4 @@
-//! A table of Denavit–Hartenberg parameters as links and joints.
+//! Reads a table of Denavit–Hartenberg parameters into links and joints.
 //!
 //! A mechanism's link has its origin on its own joint's axis. A row of the modified convention places it
 //! there; of the standard one it says where the *next* axis is, so what stands behind the turn about z is

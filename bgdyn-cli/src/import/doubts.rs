@@ -1,4 +1,4 @@
-//! What looks wrong of a robot, or was decided for its maker.
+//! Warnings about suspicious data of a robot and about decisions of the importer.
 
 use super::inertia::{DUST, Verdict, is_dust, judge};
 use super::joint_type::JointType;

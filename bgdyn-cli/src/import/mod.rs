@@ -1,4 +1,4 @@
-//! `bgdyn import`: a mechanism from a URDF, or from a table of Denavit–Hartenberg parameters.
+//! `bgdyn import`: converts a URDF or a table of Denavit–Hartenberg parameters into a mechanism.
 //!
 //! Text → elements with their positions (`xml`) → the part a mechanism can hold, the rest counted (`select`) →
 //! links and joints (`reading`; of a table `dh`) → what the caller asks to change (`rework`) → their order (`tree`)

@@ -1,4 +1,4 @@
-//! Decimal numbers, kept as they were written.
+//! Decimal numbers with their text as it was written.
 
 use bgdyn_runtime::Dd;
 

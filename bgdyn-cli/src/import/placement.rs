@@ -1,4 +1,4 @@
-//! Poses computed from a robot's numbers, in double-double, and written as numbers again.
+//! Poses computed from a robot's numbers in double-double, and their decimal text.
 
 use super::number::{Num, all_zero};
 use bgdyn_codegen::math::{Mat3, Vec3};

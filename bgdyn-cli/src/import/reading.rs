@@ -1,4 +1,4 @@
-//! URDF text to links and joints, with the numbers as they were written.
+//! Reads URDF text into links and joints, with numbers as they were written.
 
 use super::attributes::{bound, end, finite, name, numbers, place, turn};
 use super::defaults::{INERTIAL, complete};

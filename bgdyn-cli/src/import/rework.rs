@@ -1,5 +1,4 @@
-//! What a caller asks to change of a robot before it is written: joints locked, a chain taken out, links
-//! made frames.
+//! Changes of a robot before it is written: locked joints, an extracted chain, links turned into frames.
 
 use super::joint_type::JointType;
 use super::naming::{identifier, shown};

@@ -1,4 +1,4 @@
-//! A read robot as the text of a mechanism.
+//! Writes a robot as the YAML text of a mechanism.
 
 use super::joint_type::JointType;
 use super::naming::shown;

@@ -1,4 +1,6 @@
-//! P_j of small mechanisms in closed form, as a textbook prints them. Nothing generated goes through it.
+//! Closed-form efforts P_j of small mechanisms, as a textbook prints them.
+//!
+//! No generated code is made from it.
 //!
 //! 1. The expression graph of the literal sum (6), made for the mechanism with letters for its numbers
 //!    ([`Mechanism::lettered`]). The letters are run-time parameters, and prismatic joints of massless

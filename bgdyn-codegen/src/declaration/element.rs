@@ -1,4 +1,4 @@
-//! An effect with its values, checked.
+//! An effect with its checked values.
 
 use bgdyn_runtime::Dd;
 

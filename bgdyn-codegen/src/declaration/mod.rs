@@ -1,6 +1,8 @@
-//! What files may say of effects: kinds with their keys and rules, checked elements, the names they may
-//! use, and what each adds to the state. Their equations are in [`crate::effect`].
+//! Declarations of effects: their kinds, keys, checks and names.
+//!
+//! Their equations are in [`crate::effect`].
 
+mod called;
 mod check;
 mod declared;
 mod element;
@@ -16,7 +18,7 @@ use crate::fault::Faults;
 use crate::layout::Layout;
 use crate::mechanism::{Limits, Mechanism};
 use crate::spec::Key;
-pub use check::{Context, called, declared};
+pub use called::{called, declared};
 pub use declared::Declared;
 pub use element::{Checked, Element, Quantity};
 pub use given::Given;
@@ -24,6 +26,7 @@ pub use joints::keys_declared;
 pub use kinds::Kinds;
 pub(crate) use once::once_per_joint;
 pub use refused::Refused;
+pub use scope::Context;
 pub(crate) use scope::check_unique_names;
 pub use series::Chain;
 

@@ -1,5 +1,6 @@
-//! Arranges sums: what is there first is added first, so that little is left to do when the last
-//! term arrives. The operations stay as they are; the critical path becomes shorter.
+//! Orders the terms of sums by the time at which they are known, which shortens the critical path.
+//!
+//! The operations stay as they are; the critical path becomes shorter.
 
 use super::cost::{latency, reads};
 use super::{Expr, Graph, Node, NodeId, QuickMap};

@@ -1,5 +1,6 @@
-//! Joins a product and the addition that alone reads it in one node, which a machine with fused
-//! multiply-adds executes as one instruction and rounds once.
+//! Fuses a product with the one addition that uses it into a multiply-add, which rounds once.
+//!
+//! A machine with fused multiply-adds executes it as one instruction.
 
 use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, cost};

@@ -1,4 +1,4 @@
-//! The expression graph: every value of a function once, shared and folded.
+//! The expression graph: each value of a function is one node, shared and folded.
 //!
 //! A node is made once ([`Graph`] is hash-consed); what refers to it is an [`Expr`], a node with a
 //! sign, so that negation is free and x − y, y − x are one node. Constants are double-double and

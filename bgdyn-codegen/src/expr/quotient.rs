@@ -1,5 +1,7 @@
-//! Divides at once where a reciprocal is multiplied by one value only: x · (1/y) becomes x/y, which
-//! saves the product and one rounding. The last pivot of a factored mass matrix is used so.
+//! Replaces a product with a reciprocal by a division where the reciprocal has no other use.
+//!
+//! x · (1/y) becomes x/y, which saves the product and one rounding. The last pivot of a factored mass
+//! matrix is used so.
 
 use bgdyn_runtime::Dd;
 

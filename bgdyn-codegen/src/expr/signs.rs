@@ -1,4 +1,4 @@
-//! Moves signs to where they cost nothing.
+//! Moves negations to places where they cost no operation.
 //!
 //! The graph keeps a sum in one of its two signs: −a·b − c is written −(a·b + c), so that equal sums
 //! meet. A machine takes an instruction for the sign in front, but none inside a fused multiply-add,

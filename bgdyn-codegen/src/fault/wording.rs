@@ -1,13 +1,21 @@
-//! Every sentence about a spec: rule by rule, with the numbers seen and the way out.
+//! All messages about specs and scenes, one function for each fault.
 
 mod checking;
+mod effects;
 mod inertia;
+mod inputs;
 mod reading;
+mod scene;
+mod values;
 
-use super::suggest::nearest;
+use super::suggest::{nearest, unknown_name};
 pub(crate) use checking::*;
+pub(crate) use effects::*;
 pub(crate) use inertia::*;
+pub(crate) use inputs::*;
 pub(crate) use reading::*;
+pub(crate) use scene::*;
+pub(crate) use values::*;
 
 /// How many characters of a user's text a message repeats.
 const QUOTE_WIDTH: usize = 60;

@@ -1,4 +1,4 @@
-//! The spec as it was written: typed values with their places, nothing concluded from them.
+//! The spec as it was written: typed values with their positions in the file, not yet checked.
 //!
 //! [`parse`] reports what the format cannot say (syntax, unknown keys, wrong types, units);
 //! whether it makes a mechanism is for [`crate::machine::check`] to tell.

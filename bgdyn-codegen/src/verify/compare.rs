@@ -1,4 +1,4 @@
-//! Comparing results, and writing down where they differ.
+//! Compares results and describes where they differ.
 
 use bgdyn_runtime::Dd;
 

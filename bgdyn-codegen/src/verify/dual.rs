@@ -1,4 +1,4 @@
-//! Dual numbers over double-double: the value of a function and its exact rate along a direction.
+//! Dual numbers over double-double: a value and its exact rate along a direction.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,4 +1,4 @@
-//! The functions of a mechanism against the literal sum.
+//! Checks the functions of a mechanism against the literal sum.
 
 use std::cell::OnceCell;
 

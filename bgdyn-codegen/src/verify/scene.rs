@@ -1,4 +1,4 @@
-//! The functions of a scene against its equations of motion, its balance of power, and each other.
+//! Checks the functions of a scene against its equations of motion and its balance of power.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! The states in which functions are compared.
+//! The states at which functions are compared.
 
 use bgdyn_runtime::Dd;
 

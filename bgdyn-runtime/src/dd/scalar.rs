@@ -1,4 +1,4 @@
-//! [`Scalar`] for double-doubles.
+//! Implementation of [`Scalar`] for double-doubles.
 
 use nalgebra::SVector;
 
