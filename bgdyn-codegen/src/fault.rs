@@ -2,14 +2,15 @@
 //!
 //! This file holds the data, `render` their text. The messages themselves are in `wording`.
 
+mod quote;
 mod render;
 mod suggest;
 pub(crate) mod wording;
 
 use std::fmt;
 
+use quote::one_line;
 pub(crate) use suggest::unknown_name;
-use wording::one_line;
 
 /// A place in the spec's text; lines and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

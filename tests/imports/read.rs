@@ -123,6 +123,8 @@ fn paths_of(
 ) -> (Names, BTreeSet<Vec<String>>) {
     let (mut passed_on, mut used) = (Names::new(), BTreeSet::new());
     let mut imported = Names::new();
+    // The words of the module's own code: all but its imports.
+    let mut words = BTreeSet::new();
     let mut i = 0;
     while i < code.len() {
         let starts = i == 0 || code[i - 1] != "::";
@@ -141,6 +143,12 @@ fn paths_of(
                 }
             }
             continue;
+        }
+        let before = i.checked_sub(1).map_or("", |i| code[i].as_str());
+        let after = code.get(i + 1).map_or("", String::as_str);
+        // No name of a module, a function or a field that is declared here, and no method.
+        if !matches!(before, "mod" | "fn" | "." | "::") && after != ":" {
+            words.insert(code[i].as_str());
         }
         let is_path = code.get(i + 1).is_some_and(|next| next == "::");
         if starts && is_path {
@@ -161,6 +169,12 @@ fn paths_of(
             }
         }
         i += 1;
+    }
+    // What a module passes on and uses itself, it imports as well.
+    for (name, path) in &passed_on {
+        if words.contains(name.as_str()) && !path.is_empty() {
+            used.insert(path.clone());
+        }
     }
     // The name of a module is no import of its own: the path after it is one, if there is any.
     let bare = |path: &Vec<String>| {

@@ -2,16 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Checked, Element, Quantity};
-use crate::fault::{Fault, Faults, Place, wording};
-
-/// What an effect's rules look at, and where they report.
-pub struct Given<'a> {
-    /// The element, its values of the right kind.
-    pub element: &'a Element,
-    /// What is wrong with it.
-    pub faults: &'a mut Faults,
-}
+use super::{Checked, Given, Quantity};
+use crate::fault::{Fault, Place, wording};
 
 impl Given<'_> {
     /// The number behind a key.

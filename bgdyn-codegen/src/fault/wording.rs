@@ -8,6 +8,7 @@ mod reading;
 mod scene;
 mod values;
 
+pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
 pub(crate) use checking::*;
 pub(crate) use effects::*;
@@ -16,34 +17,6 @@ pub(crate) use inputs::*;
 pub(crate) use reading::*;
 pub(crate) use scene::*;
 pub(crate) use values::*;
-
-/// How many characters of a user's text a message repeats.
-const QUOTE_WIDTH: usize = 60;
-
-/// A user's text between backticks, on one line and not too long.
-pub(crate) fn quote(text: &str) -> String {
-    let mut shown: String = text.chars().take(QUOTE_WIDTH).flat_map(escape).collect();
-    if text.chars().nth(QUOTE_WIDTH).is_some() {
-        shown.push('…');
-    }
-    format!("`{shown}`")
-}
-
-/// A message that may hold a user's text: what would break its line is escaped.
-pub(super) fn one_line(message: String) -> String {
-    match message.contains(char::is_control) {
-        true => message.chars().flat_map(escape).collect(),
-        false => message,
-    }
-}
-
-fn escape(c: char) -> Vec<char> {
-    if c.is_control() {
-        c.escape_default().collect()
-    } else {
-        vec![c]
-    }
-}
 
 /// A number with six digits, for what was computed.
 fn figure(x: f64) -> String {

@@ -1,6 +1,7 @@
 //! Messages about the text of a file: YAML syntax, keys, types, numbers, units.
 
-use super::{escape, listed, meant, quote};
+use super::{listed, meant, quote};
+use crate::fault::quote::escape;
 use crate::fault::{Fault, Place, Position};
 use crate::unit::{Dimension, Unit};
 
