@@ -116,6 +116,10 @@ pub fn read_scene(
             return Err(Refusal::Spec(faults));
         }
     };
+    for element in system.idle() {
+        let at = element.name("at").unwrap_or_default();
+        faults.push(wording::no_motion_there(&element.place, &element.name, at));
+    }
     faults.sort();
     for joint in system.without_inertia() {
         faults.push(wording::no_inertia_in_scene(&path.place, &joint));

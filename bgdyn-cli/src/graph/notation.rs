@@ -1,7 +1,5 @@
 //! Numbers and symbols as drawings show them.
 
-use bgdyn_codegen::declaration::{Checked, Element};
-
 /// A subscript: `₁₂`.
 pub(super) fn subscript(n: usize) -> String {
     digits(n, '₀'..='₉')
@@ -65,14 +63,6 @@ pub(super) fn coordinates(numbers: &[usize]) -> String {
         _ => format!("{}…{}", q(first), q(last)),
     };
     runs.iter().map(run).collect::<Vec<_>>().join(" ")
-}
-
-/// A number of an element as the file writes it, or the name of its run-time parameter.
-pub(super) fn value(element: &Element, key: &str) -> Option<String> {
-    let Some(Checked::Number(quantity)) = element.get(key) else {
-        return None;
-    };
-    Some(quantity.parameter.clone().unwrap_or(quantity.text.clone()))
 }
 
 #[cfg(test)]

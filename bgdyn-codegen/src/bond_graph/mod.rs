@@ -7,7 +7,10 @@
 //! of the placement of the link frames, which stand beside the graph.
 
 mod build;
+mod causality;
 mod inert;
+mod network;
+mod node;
 mod pattern;
 
 use bgdyn_runtime::Dd;
@@ -18,6 +21,9 @@ use crate::mechanism::{
 };
 
 pub use build::build;
+pub use causality::Causality;
+pub use network::BondNetwork;
+pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortPlace, PowerTerm};
 pub use pattern::Modulus;
 
 /// A junction of [`BondGraph::junctions`].

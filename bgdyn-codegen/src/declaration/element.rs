@@ -162,6 +162,12 @@ impl Element {
         }
     }
 
+    /// The number behind a key as the file writes it, or the name of its run-time parameter.
+    pub fn written(&self, key: &str) -> Option<String> {
+        let quantity = self.quantity(key)?;
+        Some(quantity.parameter.clone().unwrap_or(quantity.text.clone()))
+    }
+
     /// Its numbers by key.
     pub fn quantities(&self) -> impl Iterator<Item = (&'static str, &Quantity)> {
         self.values.iter().filter_map(|(key, value)| match value {

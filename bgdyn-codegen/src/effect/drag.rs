@@ -1,8 +1,9 @@
 //! Drag of a resting medium on a place of a link: f = −(c₁ + c₂ |v|) v against the velocity v of its
 //! origin, m = −c_ω ω against its angular velocity. c₁ is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
 
-use super::Effect;
 use super::wrench::{AT, act, moves, twist};
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::fault::Faults;
 use crate::laws::Laws;
@@ -72,6 +73,11 @@ impl Declaration for Drag {
 }
 
 impl Effect for Drag {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let site = nodes::site(element, network);
+        network.add_on(site, NodeKind::Resistor, nodes::label(element));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let site = laws.site(element.name(AT.name).unwrap_or_default());
         let jacobian = laws.jacobian(site);

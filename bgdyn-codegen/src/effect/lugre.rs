@@ -12,7 +12,8 @@ use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::SPEED;
 use super::stribeck::{KINETIC, curve};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
-use super::{Effect, slip};
+use super::{Effect, nodes, slip};
+use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
 use crate::layout::{Layout, Level};
@@ -124,6 +125,12 @@ impl Declaration for LuGre {
 }
 
 impl Effect for LuGre {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let friction = nodes::add_acting(element, NodeKind::Resistor, network);
+        // The bristles store energy.
+        network.set_powers(friction, &[PowerTerm::Stored, PowerTerm::Dissipated]);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let counterpart = laws.reference(element.name("reference"), Level::Rate);

@@ -6,6 +6,7 @@
 //! junctions, rates of states, and what it supplies, stores and dissipates.
 
 mod law;
+mod nodes;
 mod slip;
 
 mod coulomb;

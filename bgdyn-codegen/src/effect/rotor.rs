@@ -3,8 +3,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
-use crate::bond_graph::{BondGraph, Gyrostat, Rotor as RotorStore};
+use super::{Effect, nodes};
+use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
 use crate::declaration::{Declaration, Element, Given};
 use crate::math::Vec3;
 use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
@@ -118,5 +118,14 @@ impl Effect for Rotor {
             ratio: value("ratio", 1.0),
             carrier,
         });
+    }
+
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let joint = nodes::port(element, network);
+        let rotor = nodes::add_rotor(element, joint, network);
+        // Its energy is part of the links'.
+        network.set_powers(rotor, &[]);
+        let more = |link| format!("its spin also acts on {link}, which is not drawn");
+        network.set_more(rotor, element.name("on").map(more));
     }
 }

@@ -11,9 +11,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
 use super::coulomb_smooth::SPEED;
 use super::viscous::JOINT;
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::laws::{Laws, Port};
@@ -121,6 +122,11 @@ impl Declaration for Stop {
 }
 
 impl Effect for Stop {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let stop = nodes::add_acting(element, NodeKind::Compliance, network);
+        network.set_powers(stop, &[PowerTerm::Stored, PowerTerm::Dissipated]);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let zero = laws.b.zero();

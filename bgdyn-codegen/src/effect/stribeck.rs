@@ -9,7 +9,8 @@
 use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
-use super::{Effect, slip};
+use super::{Effect, nodes, slip};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::laws::Laws;
@@ -105,6 +106,10 @@ impl Declaration for Stribeck {
 }
 
 impl Effect for Stribeck {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        nodes::add_acting(element, NodeKind::Resistor, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             let number = |key| laws.number(element, key);

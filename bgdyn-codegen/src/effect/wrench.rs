@@ -1,7 +1,8 @@
 //! An external wrench on a link or at a frame: six inputs, or those asked for. A source of effort on
 //! the flow V = [ω; v] of the place: τ_j += J_jᵀ w.
 
-use super::Effect;
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::{Fault, Faults};
@@ -138,6 +139,11 @@ impl Declaration for Wrench {
 }
 
 impl Effect for Wrench {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let site = nodes::site(element, network);
+        network.add_on(site, NodeKind::EffortSource, nodes::label(element));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let site = laws.site(element.name(AT.name).unwrap_or_default());
         let inputs = components(element);

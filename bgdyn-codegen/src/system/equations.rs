@@ -1,7 +1,7 @@
 //! The equations of a scene as data: the scene, its bond graph, its start and its named results.
 
 use super::summed::summed;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::{BondGraph, BondNetwork};
 use crate::expr::{Builder, Ex, Expr};
 use crate::function::Function;
 use crate::laws::Own;
@@ -15,6 +15,8 @@ pub struct System {
     pub scene: Scene,
     /// The bond graph of its mechanism, with what its effects change in it.
     pub graph: BondGraph,
+    /// The nodes and bonds of the mechanism and of its effects.
+    pub network: BondNetwork,
     /// Its initial state, of fluid volumes too.
     pub initial: Initial,
     /// The parts of its outputs.

@@ -10,6 +10,7 @@ mod coordinate_rows;
 mod dynamics;
 mod equations;
 mod holds;
+mod idle;
 mod jacobian;
 mod range;
 mod reference;
@@ -21,7 +22,7 @@ mod summed;
 use bgdyn_runtime::Dd;
 use summed::summed;
 
-use crate::bond_graph;
+use crate::bond_graph::{self, BondGraph, BondNetwork};
 use crate::effect;
 use crate::expr::{Builder, Ex};
 use crate::fault::{Fault, Faults, unknown_name};
@@ -49,13 +50,14 @@ impl System {
             initial: scene.initial.clone(),
             outputs: Vec::new(),
             entries: Vec::new(),
+            network: network(&scene, &graph),
             scene,
             graph,
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
         let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
-        let entries = balance::entries(&system.scene, &system.graph, &laws);
+        let entries = balance::entries(&system, &laws);
         let outputs = outputs(&system, &laws, &mut faults);
         let outputs = outputs.into_iter().map(|(named, _)| named).collect();
         range::check(&system.scene, &laws, &mut faults);
@@ -183,6 +185,19 @@ impl System {
             dynamics::rates(system, &laws, b)
         })
     }
+}
+
+/// The bond graph of the mechanism and of the scene's effects.
+fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
+    let layout = &scene.layout;
+    let driven = layout.inputs.iter().filter_map(|input| input.drives);
+    let driven = driven.map(|j| layout.coordinates[j].name.clone()).collect();
+    let mut network = BondNetwork::of_mechanism(graph, driven);
+    for (at, element) in scene.elements.iter().enumerate() {
+        network.begin(at);
+        effect::of(element).elements(element, &scene.elements, &mut network);
+    }
+    network
 }
 
 /// The outputs asked for, with their expressions.

@@ -4,10 +4,11 @@
 //! vane actuator: areas are volumes per angle, the force is a torque.
 
 use super::keys::{FAMILY, FLUID, number};
-use super::volume::{declare_volume, fill, filled, has_fluid};
+use super::volume::{add_volume, declare_volume, fill, filled, has_fluid};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::effect::Effect;
 use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
+use crate::effect::{Effect, nodes};
 use crate::expr::Ex;
 use crate::fault::Faults;
 use crate::laws::Laws;
@@ -144,6 +145,20 @@ impl Effect for Cylinder {
         given: Ex<'g>,
     ) -> Ex<'g> {
         filled(element, laws, state, given)
+    }
+
+    fn elements(&self, element: &Element, scene: &[Element], network: &mut BondNetwork) {
+        let port = nodes::port(element, network);
+        let sides = [("", AREA_A, DEAD_A), ("−", AREA_B, DEAD_B)];
+        for (node, (sign, area, dead)) in element.nodes().into_iter().zip(sides) {
+            let area = element.written(area.name).unwrap_or_default();
+            let text = format!("{}, A = {sign}{area}", element.name);
+            let side = network.add(NodeKind::Transformer, text);
+            network.bond(side, port);
+            let dead = element.written(dead.name).map(|v| format!("V₀ = {v}"));
+            let pressure = add_volume(element, &node, dead, scene, network);
+            network.bond(pressure, side);
+        }
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {

@@ -1,7 +1,8 @@
 //! The fluid of a circuit: its bulk modulus.
 
 use super::keys::{BULK_MODULUS, FAMILY, FLUID_KEYWORD};
-use crate::declaration::{Declaration, Given};
+use crate::bond_graph::BondNetwork;
+use crate::declaration::{Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::spec::Key;
 
@@ -34,4 +35,8 @@ impl Declaration for Fluid {
     }
 }
 
-impl Effect for Fluid {}
+impl Effect for Fluid {
+    fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
+        // It is in the volumes, which have its compliance.
+    }
+}

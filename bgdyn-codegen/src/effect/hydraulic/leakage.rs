@@ -3,8 +3,9 @@
 use super::flow::resist;
 use super::keys::{CONDUCTANCE, FAMILY, FROM, TO, joins_two};
 use super::volume::one_fluid;
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::effect::Effect;
+use crate::effect::{Effect, nodes};
 use crate::fault::Faults;
 use crate::laws::Laws;
 use crate::spec::Key;
@@ -52,6 +53,11 @@ impl Declaration for Leakage {
 }
 
 impl Effect for Leakage {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        nodes::add_pipe(nodes::label(element), ends, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         resist(element, laws, |laws, drop| {
             laws.number(element, &CONDUCTANCE) * drop

@@ -5,8 +5,9 @@
 use super::flow::{Drop, resist};
 use super::keys::{FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two};
 use super::volume::one_fluid;
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::effect::Effect;
+use crate::effect::{Effect, nodes};
 use crate::fault::Faults;
 use crate::laws::Laws;
 use crate::layout::Layout;
@@ -75,6 +76,11 @@ impl Declaration for Orifice {
 }
 
 impl Effect for Orifice {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        nodes::add_pipe(nodes::label(element), ends, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         if let Some(opening) = element.name(OPENING.name) {
             let x = laws.input(opening);

@@ -2,6 +2,7 @@
 
 use super::keys::{FAMILY, FLUID, no_less_than_vacuum, number};
 use super::volume::{ENTHALPY, PRESSURE, SOURCE, enthalpy, has_fluid};
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::fault::Faults;
@@ -73,6 +74,11 @@ impl Declaration for Supply {
 }
 
 impl Effect for Supply {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let pressure = element.written(PRESSURE).unwrap_or("0".into());
+        network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         hold(element, &SUPPLY_PRESSURE, laws);
     }
@@ -117,6 +123,11 @@ impl Declaration for Tank {
 }
 
 impl Effect for Tank {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let pressure = element.written(PRESSURE).unwrap_or("0".into());
+        network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         hold(element, &TANK_PRESSURE, laws);
     }

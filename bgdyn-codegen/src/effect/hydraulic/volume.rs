@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::keys::{BULK_MODULUS, FLUID, FLUID_KEYWORD, VACUUM};
+use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind};
 use crate::declaration::{Beside, Element};
 use crate::expr::Ex;
 use crate::fault::{Fault, Faults};
@@ -86,6 +87,25 @@ pub(super) fn one_fluid(element: &Element, beside: &Beside<'_>, faults: &mut Fau
 pub(super) fn bulk_modulus<'g>(node: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
     let fluid = fluid_of(node, laws.elements());
     fluid.map_or(laws.b.number(1.0), |f| laws.number(f, &BULK_MODULUS))
+}
+
+/// The 0-junction of a volume's pressure with the compliance of its fluid; `volume` is its text.
+pub(super) fn add_volume(
+    element: &Element,
+    node: &str,
+    volume: Option<String>,
+    scene: &[Element],
+    network: &mut BondNetwork,
+) -> GraphNodeId {
+    let fluid = fluid_of(element, scene).map_or("fluid", |fluid| &fluid.name);
+    let volume = volume.map_or(String::new(), |v| format!(", {v}"));
+    let pressure = network.add_pressure(node);
+    network.add_on(
+        pressure,
+        NodeKind::Compliance,
+        format!("{fluid} in {node}{volume}"),
+    );
+    pressure
 }
 
 /// The state of a volume of fluid.

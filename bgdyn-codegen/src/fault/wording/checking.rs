@@ -327,6 +327,16 @@ pub(crate) fn constant_distance(
     )
 }
 
+/// A warning of an effect at a place where it does nothing.
+pub(crate) fn no_motion_there(place: &Place, effect: &str, at: &str) -> Fault {
+    let (effect, at) = (quote(effect), quote(at));
+    let message =
+        format!("{effect} does nothing: no joint moves {at} in a direction in which it acts");
+    let help = "name a link or a frame that a joint moves, or another direction";
+    let fault = Fault::new(place, "no-motion", message).with_help(help);
+    fault.into_warning()
+}
+
 // Directions
 
 pub(crate) fn snap_out_of_range(place: &Place, text: &str) -> Fault {
