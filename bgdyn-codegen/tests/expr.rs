@@ -1,8 +1,8 @@
 //! The expression graph: what folds, what is one node, what counts.
 
 use bgdyn_codegen::expr::{
-    Builder, Ex, Expr, Graph, Inputs, Leaf, Node, Operations, arranged, cost, count, divided,
-    evaluate, reachable, signed,
+    Builder, Ex, Expr, Graph, Inputs, Leaf, Node, Operations, absorb_negations, cost, count,
+    evaluate, fold_reciprocals, reachable, reassociate,
 };
 use bgdyn_runtime::Dd;
 
@@ -288,7 +288,7 @@ fn sums_are_arranged_by_arrival() {
     }
     let total = g.mul(minus(sum), z);
     let before = cost(&g, &[total]);
-    let (h, outputs) = arranged(&g, &[total]);
+    let (h, outputs) = reassociate(&g, &[total]);
     let after = cost(&h, &outputs);
     assert_eq!(after.operations, before.operations);
     // √(x/y), one addition, one multiplication.
@@ -315,7 +315,7 @@ fn signs_move_into_sums() {
     let bound = g.mul_add(x, y, y);
     let root = g.sqrt(bound);
     let outputs = [minus(free), reads, minus(difference), minus(bound), root];
-    let (moved, found) = signed(&g, &outputs);
+    let (moved, found) = absorb_negations(&g, &outputs);
     let negative: Vec<bool> = found.iter().map(|e| e.negative).collect();
     assert_eq!(negative, [false, false, false, true, false]);
     assert_eq!(count(&moved, &found), count(&g, &outputs));
@@ -341,7 +341,7 @@ fn a_reciprocal_of_one_product_is_divided_by() {
         g.mul(twice, x),
         g.div(z, x),
     ];
-    let (quotients, found) = divided(g.clone(), outputs[..3].to_vec());
+    let (quotients, found) = fold_reciprocals(g.clone(), outputs[..3].to_vec());
     let [before, after] = [count(&g, &outputs[..3]), count(&quotients, &found)];
     assert_eq!((before.mul, before.div), (3, 2));
     assert_eq!((after.mul, after.div), (2, 2));
@@ -354,5 +354,5 @@ fn a_reciprocal_of_one_product_is_divided_by() {
     assert_eq!(values[0], -expected[3]);
     assert_eq!(values[1..], expected[1..3]);
     // Nothing is left to do.
-    assert_eq!(divided(quotients, found.clone()).1, found);
+    assert_eq!(fold_reciprocals(quotients, found.clone()).1, found);
 }

@@ -1,12 +1,12 @@
-//! [`Scalar`] for `f64` and `f32`.
+//! Implementation of [`Scalar`] for `f64` and `f32`.
 
 use nalgebra::SVector;
 
 use crate::root;
 use crate::sine::{self, Pack};
-use crate::singular::{finish, note_refused};
+use crate::singular::{explain, finish, note_refused};
 use crate::two_sum::Split;
-use crate::{Scalar, Singular};
+use crate::{Look, Scalar, Singular};
 
 /// How many units in the last place of the subtracted terms a pivot must exceed.
 const PIVOT_ULPS: f64 = 64.0;
@@ -129,6 +129,14 @@ macro_rules! float_scalar {
                 names: &'static [&'static str; N],
             ) -> Result<SVector<Self, N>, Singular> {
                 finish(accelerations, refused, names)
+            }
+
+            #[inline]
+            fn explain<const N: usize>(
+                error: Singular,
+                arguments: impl FnOnce(&mut Look<'_, Self>),
+            ) -> Singular {
+                explain(error, arguments)
             }
         }
 

@@ -1,4 +1,4 @@
-//! [`Scalar`] for lanes of a SIMD register: several states at once.
+//! Implementation of [`Scalar`] for the lanes of a SIMD register: several states at once.
 //!
 //! Lane k of every result equals, bit for bit, what `f64` (or `f32`) makes of lane k of the
 //! inputs. Sines and cosines are computed in the lanes, but for large angles (`sine/`); the ones of
@@ -12,18 +12,21 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 use crate::float::Float;
 use crate::sine;
-use crate::singular::{sum, zero_if_finite};
+use crate::singular::{Cause, cause, sum, zero_if_finite};
 use crate::two_sum::Split;
-use crate::{Scalar, Singular};
+use crate::{Look, Scalar, Singular};
 
-/// The mass matrix is singular in at least one lane; the other lanes have their accelerations.
+/// There are no accelerations in at least one lane; the other lanes have theirs.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LaneSingular<T: nalgebra::Scalar, const LANES: usize, const N: usize> {
     /// The accelerations; 0 in lanes that failed.
     pub accelerations: SVector<T, N>,
     /// For each lane the joint whose pivot vanishes, in the order of `JOINT_NAMES`; `None` where
     /// the mass matrix is regular.
     pub joint: [Option<usize>; LANES],
+    /// Why, for each lane that failed.
+    pub cause: [Cause; LANES],
     /// Names of the model's joints.
     pub names: &'static [&'static str; N],
 }
@@ -35,6 +38,7 @@ impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> LaneSingular<T, LA
         Some(Singular {
             joint,
             name: self.names.get(joint).copied().unwrap_or(""),
+            cause: self.cause.get(lane).copied().unwrap_or(Cause::Pivot),
         })
     }
 
@@ -170,6 +174,14 @@ macro_rules! lane_scalar {
                     _ => Err(found),
                 }
             }
+
+            #[inline]
+            fn explain<const N: usize>(
+                error: LaneSingular<Self, $n, N>,
+                arguments: impl FnOnce(&mut Look<'_, Self>),
+            ) -> LaneSingular<Self, $n, N> {
+                error.explained(arguments)
+            }
         }
 
         impl<const N: usize> LaneSingular<$lanes, $n, N> {
@@ -181,6 +193,7 @@ macro_rules! lane_scalar {
                 names: &'static [&'static str; N],
             ) -> Self {
                 let zero = $lanes::splat(0.0);
+                let pivots = refused.to_array();
                 for (j, &a) in accelerations.iter().enumerate() {
                     let finite = zero_if_finite(a).simd_eq(zero);
                     let noted = refused.simd_lt(zero).select($lanes::splat(j as $float), refused);
@@ -190,8 +203,28 @@ macro_rules! lane_scalar {
                 LaneSingular {
                     accelerations: accelerations.map(|a| regular.select(a, zero)),
                     joint: refused.to_array().map(|j| (j >= 0.0).then_some(j as usize)),
+                    cause: pivots.map(|j| if j >= 0.0 { Cause::Pivot } else { Cause::NotFinite }),
                     names,
                 }
+            }
+
+            /// The same with the argument that is not finite, lane by lane.
+            #[cold]
+            #[inline(never)]
+            fn explained(mut self, arguments: impl FnOnce(&mut Look<'_, $lanes>)) -> Self {
+                arguments(&mut |argument, components, values| {
+                    for (lane, of_lane) in self.cause.iter_mut().enumerate() {
+                        if matches!(of_lane, Cause::Argument { .. }) {
+                            continue;
+                        }
+                        let wild = |x: &$lanes| {
+                            x.to_array().get(lane).is_some_and(|x| !x.is_finite())
+                        };
+                        let index = values.iter().position(wild);
+                        *of_lane = cause(argument, components, index, *of_lane);
+                    }
+                });
+                self
             }
         }
 

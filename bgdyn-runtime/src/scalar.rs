@@ -1,9 +1,13 @@
-//! The scalar trait: the one bound of every generated function.
+//! The trait [`Scalar`], by which every generated function is generic.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use nalgebra::SVector;
+
+/// What a generated function shows its arguments to, one after the other, after it has failed: the
+/// argument's name, the names of its components, their values.
+pub type Look<'a, T> = dyn FnMut(&'static str, &'static [&'static str], &[T]) + 'a;
 
 /// A number that generated dynamics can be computed with: `f64`, `f32`, double-double
 /// ([`crate::Dd`]), lanes of a SIMD register, dual numbers, or a type of your own (one that
@@ -99,10 +103,22 @@ pub trait Scalar:
     fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self::Refused) -> Self;
 
     /// The accelerations, or the error that names the joint; `names` are those of the model's
-    /// joints.
+    /// joints. An acceleration that is not finite is an error as well.
     fn finish<const N: usize>(
         accelerations: SVector<Self, N>,
         refused: Self::Refused,
         names: &'static [&'static str; N],
     ) -> Result<SVector<Self, N>, Self::Singular<N>>;
+
+    /// The error of [`Scalar::finish`] with its cause: `arguments` shows it the arguments of the
+    /// function that failed, and the first one that is NaN or infinite is named. Nothing is computed
+    /// for this where the function succeeds. As it is, the error stays what it was.
+    #[inline]
+    fn explain<const N: usize>(
+        error: Self::Singular<N>,
+        arguments: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Self::Singular<N> {
+        let _ = arguments;
+        error
+    }
 }

@@ -4,7 +4,7 @@ mod random;
 
 use bgdyn_runtime::nalgebra::{SVector, Vector2};
 use bgdyn_runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
-use bgdyn_runtime::{Scalar, Singular};
+use bgdyn_runtime::{Cause, Scalar, Singular};
 use random::Random;
 
 /// Numbers to try.
@@ -179,20 +179,8 @@ fn an_error_says_which_lanes_failed_and_where() {
     assert_eq!(
         failed,
         [
-            (
-                1,
-                Singular {
-                    joint: 1,
-                    name: "elbow"
-                }
-            ),
-            (
-                2,
-                Singular {
-                    joint: 0,
-                    name: "shoulder"
-                }
-            ),
+            (1, Singular::new(1, "elbow")),
+            (2, Singular::new(0, "shoulder")),
         ]
     );
     let text = error.to_string();
@@ -225,4 +213,29 @@ fn accelerations_are_refused_one_by_one() {
         error.accelerations[0].to_array(),
         [f64::MAX, 0.0, 0.0, f64::MAX]
     );
+}
+
+/// Each lane has its own cause.
+#[test]
+fn arguments_that_are_no_numbers_are_named_lane_by_lane() {
+    static NAMES: [&str; 2] = ["shoulder", "elbow"];
+    let one = f64x4::splat(1.0);
+    let mut refused = f64x4::none_refused();
+    let _ = f64x4::new([1.0, 0.0, f64::NAN, 3.0]).checked_pivot(one, 1, &mut refused);
+    let accelerations = Vector2::new(one, f64x4::new([1.0, 1.0, 1.0, f64::INFINITY]));
+    let error = f64x4::finish(accelerations, refused, &NAMES).unwrap_err();
+    let (wild, large) = (f64x4::new([1.0, 1.0, f64::NAN, 1.0]), f64x4::splat(1e300));
+    let error = f64x4::explain(error, |look| {
+        look("q", &NAMES, &[large, wild]);
+        look("tau", &NAMES, &[wild, large]);
+    });
+    assert_eq!(error.lane(0), None);
+    assert_eq!(error.lane(1), Some(Singular::new(1, "elbow")));
+    let causes = [2, 3].map(|lane| error.lane(lane).map(|alone| alone.cause));
+    let q = Cause::Argument {
+        argument: "q",
+        index: 1,
+        component: "elbow",
+    };
+    assert_eq!(causes, [Some(q), Some(Cause::NotFinite)]);
 }

@@ -1,8 +1,8 @@
 //! Models in lanes equal the scalar model lane by lane, bit for bit, failures included.
 
 use bgdyn::nalgebra::SVector;
-use bgdyn::runtime::LaneSingular;
 use bgdyn::runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
+use bgdyn::runtime::{Cause, LaneSingular};
 use bgdyn::{Dynamics, Scalar, Singular};
 
 use crate::models::massless_tip::MasslessTip;
@@ -175,10 +175,7 @@ fn a_singular_lane_leaves_the_others_alone() {
                 let [q, v, tau] = packed::<$float, $lanes, $n, 2>(&states);
                 let error = model.forward_dynamics(&q, &v, &tau).unwrap_err();
                 let failed: Vec<_> = error.failed().collect();
-                let azimuth = Singular {
-                    joint: 0,
-                    name: "azimuth",
-                };
+                let azimuth = Singular::new(0, "azimuth");
                 assert_eq!(failed, [(singular, azimuth)]);
                 assert_eq!(error.names, &spherical_pendulum::JOINT_NAMES);
             }
@@ -197,11 +194,20 @@ fn a_lane_without_a_number_leaves_the_others_alone() {
     let error = result.unwrap_err();
     let lanes: Vec<usize> = error.failed().map(|(lane, _)| lane).collect();
     assert_eq!(lanes, [1]);
+    let j3 = Cause::Argument {
+        argument: "q",
+        index: 2,
+        component: "j3",
+    };
+    assert_eq!(error.cause[1], j3);
     for (k, [q, v, tau]) in states.iter().enumerate() {
         let found = error.accelerations.map(|a| a.to_array()[k]);
         match Puma560::<f64>::default().forward_dynamics(q, v, tau) {
             Ok(wanted) => assert_eq!(found, wanted),
-            Err(alone) => assert_eq!(Some(alone), error.lane(k)),
+            Err(alone) => {
+                assert_eq!(alone.cause, j3);
+                assert_eq!(Some(alone), error.lane(k));
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What is drawn: junctions, transformers and one-ports, in the order of the tree, as plain data.
+//! The data of a drawing: junctions, transformers and one-ports, in the order of the tree.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! The bond graph as a drawing.
+//! Drawings of bond graphs.
 //!
 //! ```text
 //! BondGraph, BondNetwork ──order, unfold, scene──▶ Chart ──place──▶ Places ──draw──▶ SVG

@@ -1,4 +1,4 @@
-//! Numbers and symbols as they are written in the drawing.
+//! Numbers and symbols as drawings show them.
 
 /// A subscript: `₁₂`.
 pub(super) fn subscript(n: usize) -> String {

@@ -1,4 +1,4 @@
-//! From the bond graph to what is drawn of it, in the order of the tree.
+//! Builds the drawing of a bond graph, in the order of the tree.
 
 use bgdyn_codegen::bond_graph::{
     self, BondGraph, BondNetwork, Effort, Inertia, JunctionId, LinkFrame, Modulus, NodePart,

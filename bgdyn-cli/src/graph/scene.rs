@@ -1,5 +1,4 @@
-//! What a scene's effects add to the drawing: on the joints, and as flows of their own along lines
-//! between two places and at places of links.
+//! What a scene's effects add to the drawing: nodes at joints, and flows along lines and at places of links.
 
 use bgdyn_codegen::bond_graph::{BondGraph, GraphNode, NodePart, PlacePort, PortPlace};
 use bgdyn_codegen::system::System;

@@ -1,4 +1,6 @@
-//! P_j of small mechanisms in closed form, as a textbook prints them. Nothing generated goes through it.
+//! Closed-form efforts P_j of small mechanisms, as a textbook prints them.
+//!
+//! No generated code is made from it.
 //!
 //! 1. The expression graph of the literal sum (6), made for the mechanism with letters for its numbers
 //!    ([`Mechanism::lettered`]). The letters are run-time parameters, and prismatic joints of massless
@@ -26,7 +28,7 @@ mod tidy;
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{self, BondGraph, Effort};
-use crate::formulation::{self, Search};
+use crate::formulation::{self, Prepared};
 use crate::mechanism::{Letter, Lettered, LinkId, Mechanism, Motion, ParameterId, Value};
 use crate::method::Method;
 use collect::Collected;
@@ -60,7 +62,7 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Re
         parameters: weigh(&mut graph, &lettered, &mut letters),
     };
     let literal = formulation::by_name("literal").expect("the specification is always there");
-    let function = literal.function(&Search::new(&graph, None), Method::InverseDynamics);
+    let function = literal.function(&Prepared::new(&graph), Method::InverseDynamics);
     let function = function.expect("it knows inverse dynamics");
     let outputs = &function.blocks[0].outputs[..mechanism.nv()];
     let budget = Budget {

@@ -8,12 +8,13 @@ use quote::{ToTokens, format_ident, quote};
 use super::code::{Naming, is_part, leaves};
 use super::columns::columns;
 use super::entries::{Entries, Places};
+use super::explain::explain;
 use super::loops;
 use super::tokens::{argument_type, ident};
 use super::writer::Writer;
 use crate::expr::Leaf;
 use crate::function::{Block, Function};
-use crate::method::Shape;
+use crate::method::{Method, Shape};
 use crate::model::Model;
 
 /// What a method consists of: its body, and the private functions of its blocks if it has
@@ -179,19 +180,20 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     unread
 }
 
-/// The result from its components.
-pub(super) fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenStream {
+/// The result of a method from its components.
+pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> TokenStream {
     let square = |values: &[TokenStream]| matrix(nv, values);
     let squares = |values: &[TokenStream], count: usize| -> Vec<TokenStream> {
         let one = |k: usize| square(&values[k * nv * nv..(k + 1) * nv * nv]);
         (0..count).map(one).collect()
     };
-    match shape {
+    match method.shape() {
         Shape::Scalar => quote! { #(#values)* },
         Shape::Vector => vector(values),
         Shape::CheckedVector => {
             let accelerations = vector(values);
-            quote! { T::finish(#accelerations, refused, &JOINT_NAMES) }
+            let explain = explain(method);
+            quote! { T::finish(#accelerations, refused, &JOINT_NAMES).map_err(#explain) }
         }
         Shape::Symmetric => {
             let entry = |k: usize| {
@@ -209,8 +211,9 @@ pub(super) fn result(shape: Shape, nv: usize, values: &[TokenStream]) -> TokenSt
             let (accelerations, rest) = values.split_at(nv);
             let accelerations = vector(accelerations);
             let squares = squares(rest, 3);
+            let explain = explain(method);
             quote! {
-                T::finish(#accelerations, refused, &JOINT_NAMES)?;
+                T::finish(#accelerations, refused, &JOINT_NAMES).map_err(#explain)?;
                 ::core::result::Result::Ok([#(#squares),*])
             }
         }

@@ -5,6 +5,7 @@ mod code;
 mod columns;
 mod constants;
 mod entries;
+mod explain;
 mod fallback;
 mod loops;
 mod module;

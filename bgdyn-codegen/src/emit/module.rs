@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{body, code, constants, entries, traits};
+use super::{body, code, constants, entries, explain, traits};
 use crate::function::Function;
 use crate::method::Method;
 use crate::model::Model;
@@ -21,6 +21,8 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let about = format!(" The mechanism `{}`.", model.mechanism.name());
     let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
     let methods = model.functions.iter().map(|f| method(f, model));
+    let naming = code::Naming::of_model(model);
+    let explainers = explain::explainers(&model.functions, &naming, &quote! { T::Singular<NV> });
     let struct_name = struct_name(model);
     let present: Vec<Method> = model.functions.iter().map(|f| f.method).collect();
     let traits = traits::Traits {
@@ -50,6 +52,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
             #structure
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
+                #explainers
             }
             #traits
             #operations
@@ -107,7 +110,7 @@ fn method(function: &Function, model: &Model) -> TokenStream {
     let result = return_type(function.shape());
     let docs = method_docs(function, model);
     let finish =
-        |values: &[TokenStream]| body::result(function.shape(), model.mechanism.nv(), values);
+        |values: &[TokenStream]| body::result(function.method, model.mechanism.nv(), values);
     let naming = code::Naming::of_model(model);
     let places = entries::places(function.shape(), model.mechanism.nv());
     let body::Body { body, blocks } = body::body(function, &naming, places, finish);
@@ -144,7 +147,8 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
         docs.extend([
             String::new(),
             " # Errors".into(),
-            " Names the joint whose pivot vanishes where the mass matrix is singular.".into(),
+            " Names the joint whose pivot vanishes where the mass matrix is singular, or the argument".into(),
+            " that is NaN or infinite.".into(),
         ]);
     }
     docs

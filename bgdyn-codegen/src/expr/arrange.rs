@@ -1,12 +1,13 @@
-//! Arranges sums: what is there first is added first, so that little is left to do when the last
-//! term arrives. The operations stay as they are; the critical path becomes shorter.
+//! Orders the terms of sums by the time at which they are known, which shortens the critical path.
+//!
+//! The operations stay as they are; the critical path becomes shorter.
 
 use super::cost::{latency, reads};
 use super::{Expr, Graph, Node, NodeId, QuickMap};
 
 /// Copies of `outputs` in a graph of their own, with the terms of every sum in the order in which
 /// they are there. Sums that something else reads as well, or that have a name, stay terms.
-pub fn arranged(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn reassociate(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let mut sums = Sums {
         from,
         reads: reads(from, outputs),

@@ -1,5 +1,6 @@
-//! Joins a product and the addition that alone reads it in one node, which a machine with fused
-//! multiply-adds executes as one instruction and rounds once.
+//! Fuses a product with the one addition that uses it into a multiply-add, which rounds once.
+//!
+//! A machine with fused multiply-adds executes it as one instruction.
 
 use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, cost};
@@ -7,7 +8,7 @@ use super::{Expr, Graph, Node, NodeId, cost};
 /// Copies of `outputs` in a graph of their own, with every addition of a product that nothing else
 /// reads as a [`Node::MulAdd`]. The count of operations stays. Of two such products the one that is
 /// there later is joined: the other is done by then.
-pub fn fused(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn fuse(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let reads = cost::reads(from, outputs);
     let ready = cost::ready(from, &reads);
     let is_free = |id: NodeId| reads[id.0 as usize] == 1 && matches!(from.node(id), Node::Mul(..));

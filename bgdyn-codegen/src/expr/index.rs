@@ -1,5 +1,6 @@
-//! Interned values by their hash. The values stand in a list of their owner's, in the order in
-//! which they came; the index holds their places in it.
+//! A hash table of interned values.
+//!
+//! The owner keeps the values in a list, in the order of insertion; the table holds their indices.
 //!
 //! Nearly all that the generator does is to look for a node, and a macro runs as Cargo builds it
 //! for development, unoptimised: a plain table takes a tenth of the time of the library's there.

@@ -1,4 +1,4 @@
-//! The expression graph: every value of a function once, shared and folded.
+//! The expression graph: each value of a function is one node, shared and folded.
 //!
 //! A node is made once ([`Graph`] is hash-consed); what refers to it is an [`Expr`], a node with a
 //! sign, so that negation is free and x − y, y − x are one node. Constants are double-double and
@@ -25,7 +25,7 @@ use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use bgdyn_runtime::Dd;
 
-pub use arrange::arranged;
+pub use arrange::reassociate;
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Ex};
 pub use copy::copy_into;
@@ -35,11 +35,11 @@ pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
-pub use factor::{factored, factored_cost};
-pub use fuse::fused;
+pub use factor::{factor, factored_cost};
+pub use fuse::fuse;
 use index::{Index, mix};
-pub use quotient::divided;
-pub use signs::signed;
+pub use quotient::fold_reciprocals;
+pub use signs::absorb_negations;
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

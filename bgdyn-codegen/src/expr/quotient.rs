@@ -1,5 +1,7 @@
-//! Divides at once where a reciprocal is multiplied by one value only: x · (1/y) becomes x/y, which
-//! saves the product and one rounding. The last pivot of a factored mass matrix is used so.
+//! Replaces a product with a reciprocal by a division where the reciprocal has no other use.
+//!
+//! x · (1/y) becomes x/y, which saves the product and one rounding. The last pivot of a factored mass
+//! matrix is used so.
 
 use bgdyn_runtime::Dd;
 
@@ -7,7 +9,7 @@ use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, reads};
 
 /// The same values without reciprocals that one product alone reads.
-pub fn divided(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn fold_reciprocals(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     let reads = reads(&from, &outputs);
     let is_one = |id: NodeId| matches!(from.node(id), Node::Constant(c) if c.value() == Dd::ONE);
     // y of a node 1/y that nothing else reads.

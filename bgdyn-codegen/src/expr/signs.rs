@@ -1,4 +1,4 @@
-//! Moves signs to where they cost nothing.
+//! Moves negations to places where they cost no operation.
 //!
 //! The graph keeps a sum in one of its two signs: −a·b − c is written −(a·b + c), so that equal sums
 //! meet. A machine takes an instruction for the sign in front, but none inside a fused multiply-add,
@@ -9,7 +9,7 @@ use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, reachable};
 
 /// Copies of `outputs` in a graph of their own, without the signs that can be had for nothing.
-pub fn signed(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn absorb_negations(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let needed = reachable(from, outputs);
     let flips = flips(from, outputs, &needed);
     let mut to = Graph::default();

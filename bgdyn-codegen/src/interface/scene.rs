@@ -1,4 +1,4 @@
-//! What the parts of a scene's module are called: of a sound scene, and of a refused one.
+//! The names in a scene's module, for sound scenes and for refused ones.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! The one step that makes a [`Mechanism`]: a spec that obeys every rule, or all that breaks one.
+//! The check of a spec: the only code that constructs a [`Mechanism`], and the faults that prevent it.
 
 mod direction;
 mod inertia;

@@ -4,8 +4,9 @@ use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::holds::{Holding, held, own_accelerations};
 use super::summed::summed;
 use super::{Laws, Own, System};
+use crate::choice::Choice;
 use crate::expr::{Builder, Ex, Expr, Leaf};
-use crate::formulation::{Formulation, Search};
+use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::laws::copied;
 use crate::method::{Method, Role};
@@ -15,8 +16,8 @@ pub(super) fn derivatives(system: &System) -> Vec<Function> {
     if system.may_hold_joints() {
         return vec![with_modes(system, None)];
     }
-    let search = Search::new(&system.graph, None);
-    let ways = search.forward_dynamics();
+    let choice = Choice::new(&system.graph, None);
+    let ways = choice.forward_dynamics();
     ways.map(|forward| without_modes(system, forward)).collect()
 }
 
@@ -26,8 +27,8 @@ pub(super) fn derivative_by(
     formulation: &'static dyn Formulation,
 ) -> Option<Function> {
     if !system.may_hold_joints() {
-        let search = Search::new(&system.graph, Some(formulation));
-        let forward = formulation.function(&search, Method::ForwardDynamics)?;
+        let choice = Choice::new(&system.graph, Some(formulation));
+        let forward = choice.asked_plain(Method::ForwardDynamics)?;
         return Some(without_modes(system, &forward));
     }
     let known = [Method::MassMatrix, Method::Bias].map(|m| formulation.knows(m));

@@ -30,6 +30,7 @@ use crate::formulation::Formulation;
 use crate::function::Function;
 pub use crate::laws::{Balance, Contact, Gear, Hold, Laws, Own, Port, Reading};
 use crate::method::{Method, Role};
+use crate::passes::{cheapest, factor, finish};
 use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
 pub use equations::{Named, System};
@@ -132,15 +133,15 @@ impl System {
 
     /// The function of a role.
     pub fn function(&self, role: Role) -> Function {
-        crate::cut::cut(self.chosen(role).arranged().fused())
+        finish(self.chosen(role))
     }
 
     /// The same in one block.
     fn chosen(&self, role: Role) -> Function {
-        let factored = self.ways(role).into_iter().map(Function::factored);
+        let factored = self.ways(role).into_iter().map(factor);
         let best = match role {
             Role::Jacobian | Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
-                Function::cheapest(factored)
+                cheapest(factored)
             }
             _ => factored.min_by_key(|f| f.operations().total()),
         };
@@ -173,7 +174,7 @@ impl System {
     /// formulation does not know what the derivative rests on.
     pub fn derivative_by(&self, formulation: &'static dyn Formulation) -> Option<Function> {
         let way = dynamics::derivative_by(self, formulation)?;
-        Some(crate::cut::cut(way.factored().arranged().fused()))
+        Some(finish(factor(way)))
     }
 
     /// The derivative with one effort of its own at every coordinate, in place of the accelerations

@@ -342,7 +342,7 @@ fn names_that_stand_twice() {
         ),
         "repeated-name",
         "jack:",
-        &["`jack_b` is a joint, a link or a frame"],
+        &["`jack_b` is already the name of a joint, a link or a frame"],
     );
     refused(
         &oil("hose: { type: line, volume: 1 cm^3 }"),

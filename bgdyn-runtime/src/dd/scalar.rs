@@ -1,10 +1,10 @@
-//! [`Scalar`] for double-doubles.
+//! Implementation of [`Scalar`] for double-doubles.
 
 use nalgebra::SVector;
 
 use super::number::Dd;
-use crate::singular::{finish, note_refused};
-use crate::{Scalar, Singular};
+use crate::singular::{explain, finish, note_refused};
+use crate::{Look, Scalar, Singular};
 
 impl Scalar for Dd {
     type Mask = bool;
@@ -88,5 +88,12 @@ impl Scalar for Dd {
         names: &'static [&'static str; N],
     ) -> Result<SVector<Self, N>, Singular> {
         finish(accelerations, refused, names)
+    }
+
+    fn explain<const N: usize>(
+        error: Singular,
+        arguments: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Singular {
+        explain(error, arguments)
     }
 }

@@ -51,6 +51,8 @@ macro_rules! scalar {
                 checked_pivot(x: T, size: T, joint: usize, refused: &mut Refused) -> T =
                     x.checked_pivot(size, joint, refused);
                 finish(x: SVector<T, 4>, refused: Refused) -> Solved = T::finish(x, refused, NAMES);
+                explain(error: <T as Scalar>::Singular<4>, q: &SVector<T, 4>) -> <T as Scalar>::Singular<4> =
+                    T::explain::<4>(error, |look| look("q", NAMES, q.as_slice()));
                 about_x(x: T) -> Matrix3<T> = rotation::about_x(x);
                 about_y(x: T) -> Matrix3<T> = rotation::about_y(x);
                 about_z(x: T) -> Matrix3<T> = rotation::about_z(x);

@@ -65,6 +65,38 @@ fn nan_is_told<
     }
 }
 
+/// The error of the derivative names the part of the state, the input or the time that is NaN.
+#[test]
+fn what_is_nan_is_named() {
+    use scenes::hydraulic_cylinder::{HydraulicCylinder, INPUT_NAMES, Input, STATE_NAMES, State};
+    let scene = HydraulicCylinder::<f64>::default();
+    let (state, input) = (State::<f64>::default(), Input::<f64>::default());
+    let named = |y: &SVector<f64, _>, u: &SVector<f64, _>, t: f64| {
+        let state = State::from_vectors(y, &state.modes());
+        let result = scene.derivative(&state, &Input::from_vector(u), t);
+        result.err().map(|error| error.to_string())
+    };
+    let (y, u) = (state.vector(), input.vector());
+    assert_eq!(named(&y, &u, 0.0), None);
+    let message = |name: &str, i: usize, argument: &str| {
+        format!(
+            "no accelerations: component {i} (`{name}`) of argument `{argument}` is NaN or infinite"
+        )
+    };
+    for (i, name) in STATE_NAMES.into_iter().enumerate() {
+        let mut y = y;
+        y[i] = f64::NAN;
+        if let Some(found) = named(&y, &u, 0.0) {
+            assert_eq!(found, message(name, i, "state"));
+        }
+    }
+    for (i, name) in INPUT_NAMES.into_iter().enumerate() {
+        let mut u = u;
+        u[i] = f64::NAN;
+        assert_eq!(named(&y, &u, 0.0), Some(message(name, i, "input")));
+    }
+}
+
 macro_rules! nan {
     ($module:ident, $scene:ident, $path:literal) => {
         nan_is_told(&scenes::$module::$scene::<f64>::default());

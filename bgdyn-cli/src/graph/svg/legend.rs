@@ -1,4 +1,4 @@
-//! What the signs mean, below the drawing.
+//! The legend below a drawing.
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
 

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::super::body::{self, vector};
 use super::super::code::Naming;
+use super::super::explain::explain;
 use super::super::tokens::{argument_type, ident, number};
 use super::parts::{
     Field, coordinate_parts, input_parts, literal, mode_parts, moving_parts, of_named,
@@ -56,7 +57,9 @@ pub(super) fn method(function: &Function, scene: &SceneInterface) -> TokenStream
         docs.extend([
             String::new(),
             " # Errors".into(),
-            " Names the coordinate whose pivot vanishes where the mass matrix is singular.".into(),
+            " Names the coordinate whose pivot vanishes where the mass matrix is singular, or the"
+                .into(),
+            " argument that is NaN or infinite.".into(),
         ]);
     }
     quote! {
@@ -102,15 +105,19 @@ fn finish(
     values: &[TokenStream],
     checked: bool,
 ) -> TokenStream {
+    let explain = explain(Method::Scene(role));
     let refuse = checked.then(|| {
         quote! {
-            T::finish(__rt::vector([T::from_f64(0.0); NV + NX]), refused, &RATE_NAMES)?;
+            T::finish(__rt::vector([T::from_f64(0.0); NV + NX]), refused, &RATE_NAMES)
+                .map_err(#explain)?;
         }
     });
     let ok = |value: TokenStream| match checked {
         true => quote! { #refuse ::core::result::Result::Ok(#value) },
         false => value,
     };
+    // What checks several vectors names the closure.
+    let explained = |rest: TokenStream| quote! { let explain = #explain; #rest };
     match role {
         Role::Derivative => {
             let rates = vector(values);
@@ -124,7 +131,7 @@ fn finish(
                 .collect();
             let whole = literal("Rates", parts, &all);
             quote! {
-                let rates = T::finish(#rates, refused, &RATE_NAMES)?;
+                let rates = T::finish(#rates, refused, &RATE_NAMES).map_err(#explain)?;
                 let [[#(#names),*]] = rates.data.0;
                 ::core::result::Result::Ok(#whole)
             }
@@ -158,10 +165,10 @@ fn finish(
         Role::Inputs => ok(literal("Input", parts, values)),
         Role::Energy => ok(literal("Energy", parts, values)),
         Role::Outputs => ok(literal("Output", parts, values)),
-        Role::Jacobian => jacobian(layout, values),
+        Role::Jacobian => explained(jacobian(layout, values)),
         Role::ToCanonical => to_canonical(layout, values),
-        Role::FromCanonical => from_canonical(layout, values),
-        Role::CanonicalRates => canonical_rates(layout, values),
+        Role::FromCanonical => explained(from_canonical(layout, values)),
+        Role::CanonicalRates => explained(canonical_rates(layout, values)),
     }
 }
 
@@ -182,7 +189,7 @@ fn passed(layout: &Layout, prefix: &str, values: &[TokenStream]) -> (TokenStream
             false => quote! { _ },
         });
     let statement = quote! {
-        let [[#(#bound),*]] = T::finish(#padded, refused, &RATE_NAMES)?.data.0;
+        let [[#(#bound),*]] = T::finish(#padded, refused, &RATE_NAMES).map_err(explain)?.data.0;
     };
     (statement, names[..values.len()].to_vec())
 }

@@ -11,7 +11,9 @@ pub use fallback::scene_fallback;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::code::Naming;
 use super::constants::counted;
+use super::explain::explainers;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{ident, struct_ident, structure};
 use crate::function::Function;
@@ -32,6 +34,8 @@ pub fn scene_module(system: &System, functions: &[Function], place: &OutputOptio
     let types = types::types(&interface);
     let constants = constants::constants(&interface);
     let methods = functions.iter().map(|f| method::method(f, &interface));
+    let naming = Naming::of_scene(&interface);
+    let explainers = explainers(functions, &naming, &quote! { T::Singular<{ NV + NX }> });
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
     let slope = has(Role::Jacobian).then(|| system::slope_trait(&interface, &struct_name));
@@ -59,6 +63,7 @@ pub fn scene_module(system: &System, functions: &[Function], place: &OutputOptio
             #types
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
+                #explainers
             }
             #system_trait
             #slope

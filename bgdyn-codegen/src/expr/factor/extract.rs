@@ -1,4 +1,4 @@
-//! Taking common products and common two-term sums out of the sums of a network, greedily.
+//! Greedy extraction of common products and common two-term sums from the sums of a network.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -2,7 +2,7 @@
 
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
-use crate::formulation::Arguments;
+use crate::formulation::arguments::Arguments;
 use crate::formulation::placement::Placement;
 use crate::formulation::site::{Column, SiteMotion};
 use crate::math::Vec3;

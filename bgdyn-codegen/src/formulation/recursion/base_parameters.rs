@@ -13,7 +13,7 @@ use super::inertia::{Inertia, Point};
 use super::plan::{Plan, origin_offset};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
-use crate::formulation::value;
+use crate::formulation::arguments::value;
 use crate::math::Vec3;
 use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
 

@@ -10,7 +10,7 @@ use super::plan::{Plan, origin_offset};
 use super::rotors::Rotors;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Ex};
-use crate::formulation::Arguments;
+use crate::formulation::arguments::Arguments;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -125,11 +125,14 @@ impl<'g> Frames<'g> {
         let gravity = geometry.bodies.iter().map(|body| {
             b.vector((body.twist.transpose() * graph.gravity).scale(Dd::ONE / plan.unit))
         });
+        let gravity = gravity.collect();
+        let efforts: Vec<Dd> = bodies.iter().map(|frame| frame.effort).collect();
+        let rotors = Rotors::new(b, graph, geometry, (&aims, &efforts), x);
         Frames {
-            gravity: gravity.collect(),
+            gravity,
             bodies,
             constant_energy: energy,
-            rotors: Rotors::new(b, graph, geometry, &aims, x),
+            rotors,
         }
     }
 }

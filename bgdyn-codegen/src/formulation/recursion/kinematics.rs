@@ -8,7 +8,7 @@ use super::geometry::Geometry;
 use super::plan::Plan;
 use crate::bond_graph::{BondGraph, SiteId};
 use crate::expr::{Builder, Ex, Expr, Graph, cost};
-use crate::formulation::Arguments;
+use crate::formulation::arguments::Arguments;
 use crate::formulation::site::{Column, SiteMotion};
 use crate::function::Function;
 use crate::math::{Mat3, Vec3};

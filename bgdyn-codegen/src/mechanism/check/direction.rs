@@ -1,4 +1,4 @@
-//! Rotations and axes: quarter turns and axes are made exact, so that structural zeros are seen.
+//! Checks rotations and axes, and snaps them to exact quarter turns and axes.
 //!
 //! Exact means: sines and cosines that are 0 or ±1, components that are 0.
 

@@ -1,4 +1,4 @@
-//! Joint types: one file each, one line each in [`JOINT_TYPES`].
+//! Joint types: a file for each, and a line for each in [`JOINT_TYPES`].
 
 mod continuous;
 mod fixed;
