@@ -122,7 +122,7 @@ pub fn read_scene(
     }
     faults.sort();
     for joint in system.without_inertia() {
-        faults.push(wording::no_inertia_in_scene(&path.place, &joint));
+        faults.push(wording::no_inertia_in_scene(&path.place, joint));
     }
     Ok((system, faults))
 }

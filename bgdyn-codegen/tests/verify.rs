@@ -215,7 +215,10 @@ fn a_rotor_left_out_of_the_jacobian_is_found() {
     let differing = found(&right, left_out, &[Role::Jacobian]);
     assert_eq!(names(&differing), ["jacobian"], "{differing:?}");
     let elsewhere = |graph: &mut BondGraph| {
-        let carrier = graph.multibody.rotors[0].carrier.clone().expect("a full rotor");
+        let carrier = graph.multibody.rotors[0]
+            .carrier
+            .clone()
+            .expect("a full rotor");
         graph.multibody.rotors[0].carrier = Some(Gyrostat {
             link: LinkId(1),
             ..carrier
