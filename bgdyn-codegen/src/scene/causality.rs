@@ -11,7 +11,7 @@
 use super::Scene;
 use crate::declaration::{Chain, Element};
 use crate::fault::wording::algebraic_loop;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, wording};
 
 /// Elements without a store between them, and how they were solved.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,12 +99,8 @@ fn unsolvable(junction: &Element, elements: &[Element]) -> Option<Fault> {
     let all: Vec<String> = joined.iter().map(|e| format!("`{}`", e.name)).collect();
     let message = match joined.as_slice() {
         [] | [_] => {
-            let message = match all.first() {
-                None => format!("nothing is joined to `{name}`"),
-                Some(one) => format!("`{name}` is a dead end: {one} alone is joined to it"),
-            };
-            let fault = Fault::new(place, "joined-to-nothing", message);
-            return Some(fault.with_help("a junction stands between two elements"));
+            let one = joined.first().map(|one| one.name.as_str());
+            return Some(wording::dead_end(place, name, one));
         }
         [a, b] => {
             let varies = [a, b].into_iter().find(|e| !e.effect.in_series(e))?;

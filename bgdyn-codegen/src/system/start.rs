@@ -10,7 +10,7 @@ use super::{Laws, Own, System};
 use crate::declaration::Element;
 use crate::effect;
 use crate::expr::{Builder, Ex, Expr, Inputs, Leaf, Node, NodeId, evaluate, reachable};
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 use crate::scene::{Scene, mode_name};
 
 /// A slip that counts as none: what the rounding of two rates leaves, rad/s, m/s or A.
@@ -82,10 +82,7 @@ fn modes(system: &System, faults: &mut Faults) -> Vec<Dd> {
         if let Some(place) = place.filter(|_| stated[k] != settled[k]) {
             let message = start.contradiction(k, &stated, settled[k]);
             let name = mode_name(&system.scene.layout.modes[k]);
-            let help = format!(
-                "leave `{name}` out: modes are settled when a run begins; or mend the rate or the effort"
-            );
-            faults.push(Fault::new(&place, "initial-mode", message).with_help(help));
+            faults.push(wording::wrong_mode(&place, &name, message));
         }
     }
     settled.as_slice().to_vec()
