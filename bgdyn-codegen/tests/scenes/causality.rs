@@ -8,6 +8,7 @@ use bgdyn_runtime::Dd;
 
 use super::bench::{Bench, agree, dd};
 use super::common::{Random, read, scene, specs, told, try_scene};
+use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 
 const EXACT: f64 = 1e-24;
 
@@ -357,4 +358,28 @@ fn the_resistance_gives_the_current_where_there_is_no_inductance() {
     }
     let solved = system.scene.solved().into_iter().flat_map(|s| s.elements);
     assert_eq!(giving, solved.collect());
+}
+
+/// Every effect that a file declares has nodes of its symbol in the bond graph, joined without
+/// contradiction; but for those that are part of links or volumes.
+#[test]
+fn effects_are_on_the_bond_graph_what_their_symbols_say() {
+    for (keyword, written) in WRITTEN {
+        let declared = format!("effects:\n  extra: {written}\n");
+        let called = format!("velocity_products, {}]", names(written));
+        let text = ALL.replace("velocity_products]", &called);
+        let system = scene(&text, &mechanism("", TENSOR, &declared));
+        let causality = Causality::of(&system.network);
+        assert_eq!(causality.conflicts, [], "{keyword}");
+        let effect = |at: usize| system.scene.elements[at].effect;
+        let own = |at: Option<usize>| at.is_some_and(|at| effect(at).keyword() == *keyword);
+        let nodes = || system.network.nodes.iter().filter(|n| own(n.element));
+        let elements = system.scene.elements.iter();
+        let symbol = elements.map(|e| e.effect).find(|e| e.keyword() == *keyword);
+        let symbol = symbol.expect("the effect").symbol();
+        match *keyword {
+            "fluid" | "payload" => assert_eq!(nodes().count(), 0, "{keyword}"),
+            _ => assert!(nodes().any(|n| n.kind.symbol() == symbol), "{keyword}"),
+        }
+    }
 }
