@@ -1,5 +1,6 @@
 //! Messages about the rules of single kinds of effects, and of hydraulic nodes.
 
+use super::figure;
 use crate::fault::{Fault, Place};
 
 // Friction
@@ -114,6 +115,47 @@ pub(crate) fn dead_end(place: &Place, name: &str, joined: Option<&str>) -> Fault
     Fault::new(place, "joined-to-nothing", message).with_help("a junction is between two elements")
 }
 
+// Algebraic loops
+
+fn algebraic_loop(place: &Place, message: String, way_out: &str) -> Fault {
+    Fault::new(place, "algebraic-loop", message).with_help(way_out)
+}
+
+pub(crate) fn motor_without_impedance(place: &Place) -> Fault {
+    let message = "neither resistance nor inductance: the loop voltage → current → torque → speed → voltage has no solution";
+    algebraic_loop(place, message.to_owned(), "give one of them")
+}
+
+pub(crate) fn circle_without_volume(place: &Place, name: &str) -> Fault {
+    let message = format!(
+        "`{name}` lies in a circle of elements and junctions, none of which has a volume or a pressure of its own"
+    );
+    let way_out = "make one of the junctions a volume: `{ type: line, volume: … }`";
+    algebraic_loop(place, message, way_out)
+}
+
+/// `joined` are the elements at the junction; `varies` is one of two whose opening varies.
+pub(crate) fn junction_without_volume(
+    place: &Place,
+    name: &str,
+    joined: &[&str],
+    varies: Option<&str>,
+) -> Fault {
+    let quoted: Vec<String> = joined.iter().map(|one| format!("`{one}`")).collect();
+    let message = match varies {
+        Some(varies) => format!(
+            "{} meet in `{name}`, which has no volume, and `{varies}` has an opening that varies: where it closes, nothing determines the pressure between them",
+            quoted.join(" and ")
+        ),
+        None => format!(
+            "{} meet in `{name}`, which has no volume: each flow depends on a pressure that depends on all of them",
+            quoted.join(", ")
+        ),
+    };
+    let way_out = format!("give it a volume: `{name}: {{ type: line, volume: … }}`");
+    algebraic_loop(place, message, &way_out)
+}
+
 // Values of a scene's equations
 
 /// `what` is the quantity, `when` the part of the motion in which it has the value.
@@ -126,7 +168,53 @@ pub(crate) fn not_positive(
     Fault::new(place, "effect-range", message).with_help(way_out)
 }
 
-pub(crate) fn wrong_mode(place: &Place, name: &str, message: String) -> Fault {
+/// A mode that a scene states against the rest of its state, SI units.
+pub(crate) struct WrongMode<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The mode as stated, and the one that agrees with the state.
+    pub modes: [f64; 2],
+    /// Name of the rate that the mode may hold.
+    pub rate: &'a str,
+    /// Units of the rate and of the effort.
+    pub units: [&'static str; 2],
+    /// Why it does not agree.
+    pub why: WhyWrong,
+}
+
+/// Why a stated mode does not agree with the state.
+pub(crate) enum WhyWrong {
+    /// The rate against the counterpart is not zero.
+    Slips(f64),
+    /// At rest, this effort can hold it.
+    IsHeld(f64),
+    /// Holding takes an effort that is too large, and by how much.
+    CannotHold(f64, f64),
+}
+
+pub(crate) fn wrong_mode(place: &Place, mode: &WrongMode<'_>) -> Fault {
+    let WrongMode {
+        name,
+        modes: [stated, right],
+        rate,
+        units: [unit, effort],
+        why,
+    } = mode;
+    let why = match *why {
+        WhyWrong::Slips(slip) => {
+            let slip = figure(slip);
+            format!("`{rate}` begins with {slip} {unit} against its counterpart")
+        }
+        WhyWrong::IsHeld(holding) => {
+            let holding = figure(holding);
+            format!("at rest it is held: that takes {holding} {effort}")
+        }
+        WhyWrong::CannotHold(holding, beyond) => {
+            let [holding, beyond] = [holding, beyond].map(figure);
+            format!("holding takes {holding} {effort}, {beyond} {effort} more than it can hold")
+        }
+    };
+    let message = format!("`{name}` begins with {stated}, but {why}: its mode is {right}");
     Fault::new(place, "initial-mode", message).with_help(format!(
         "leave `{name}` out: modes are settled when a run begins; or correct the rate or the effort"
     ))
