@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use bgdyn_runtime::{Dd, Scalar};
 
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::columns::{Columns, Loops};
 use crate::expr::{Cost, Expr, Graph, Inputs, Operations, cost, count, evaluate};
 use crate::method::{Method, Shape};
@@ -82,7 +82,7 @@ pub struct Function {
 impl Function {
     /// A function of one block.
     pub fn flat(
-        bond_graph: &BondGraph,
+        bond_graph: &Multibody,
         method: Method,
         formulation: String,
         graph: Graph,

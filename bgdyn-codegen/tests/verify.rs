@@ -192,7 +192,7 @@ fn a_rotor_left_out_of_the_mass_matrix_is_found() {
     let right = with_rotor("hand");
     let missing = |graph: &mut BondGraph| {
         let own = graph.rotors[0].clone();
-        graph.rotors.push(Rotor {
+        graph.multibody.rotors.push(Rotor {
             carrier: None,
             ratio: Value::Fixed(Dd::from_f64(-0.01)),
             ..own
@@ -211,12 +211,12 @@ fn a_rotor_left_out_of_the_mass_matrix_is_found() {
 #[test]
 fn a_rotor_left_out_of_the_jacobian_is_found() {
     let right = with_rotor("upper");
-    let left_out = |graph: &mut BondGraph| graph.rotors[0].carrier = None;
+    let left_out = |graph: &mut BondGraph| graph.multibody.rotors[0].carrier = None;
     let differing = found(&right, left_out, &[Role::Jacobian]);
     assert_eq!(names(&differing), ["jacobian"], "{differing:?}");
     let elsewhere = |graph: &mut BondGraph| {
-        let carrier = graph.rotors[0].carrier.clone().expect("a full rotor");
-        graph.rotors[0].carrier = Some(Gyrostat {
+        let carrier = graph.multibody.rotors[0].carrier.clone().expect("a full rotor");
+        graph.multibody.rotors[0].carrier = Some(Gyrostat {
             link: LinkId(1),
             ..carrier
         });
@@ -231,7 +231,7 @@ fn wrong_axes_are_found_in_every_method() {
     let graph = bond_graph::build(&mechanism(ARM, "arm"));
     for sheared in [false, true] {
         let mut wrong = graph.clone();
-        let axes = &mut wrong.frames[1].origin.rotation.0;
+        let axes = &mut wrong.multibody.frames[1].origin.rotation.0;
         match sheared {
             // One part in 1e9 is below the digits of a printed value.
             true => axes[2][1] += Dd::from_f64(1e-9),

@@ -107,7 +107,7 @@ impl Effect for Rotor {
             let axis = site.place.rotation * axis.map(|x| x / length);
             site.link.map(|link| Gyrostat { link, axis })
         });
-        graph.rotors.push(RotorStore {
+        graph.multibody.rotors.push(RotorStore {
             coordinate,
             inertia: value("inertia", 0.0),
             ratio: value("ratio", 1.0),

@@ -37,7 +37,7 @@ impl Declaration for VelocityProducts {
 
 impl Effect for VelocityProducts {
     fn alter(&self, _: &Element, _: &Mechanism, graph: &mut BondGraph) {
-        graph.velocity_products = true;
+        graph.multibody.velocity_products = true;
     }
 
     fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {

@@ -1,6 +1,6 @@
 //! The arguments of a method, and the numbers of the spec, as expressions.
 
-use crate::bond_graph::{BondGraph, Rotor};
+use crate::bond_graph::{Multibody, Rotor};
 use crate::expr::{Builder, Ex, Leaf};
 use crate::mechanism::{ParameterId, Value};
 use crate::method::{Argument, Method};
@@ -21,7 +21,7 @@ pub(super) struct Arguments<'g> {
 
 impl<'g> Arguments<'g> {
     /// Those that the method takes.
-    pub fn new(b: &'g Builder, graph: &BondGraph, method: Method) -> Self {
+    pub fn new(b: &'g Builder, graph: &Multibody, method: Method) -> Self {
         let n = graph.coordinates.len();
         let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
             (0..n)

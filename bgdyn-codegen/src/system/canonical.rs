@@ -87,8 +87,8 @@ fn weightless(graph: &BondGraph) -> BondGraph {
     for source in &mut graph.sources {
         source.efforts.clear();
     }
-    graph.gravity = Vec3([Dd::ZERO; 3]);
-    graph.velocity_products = false;
+    graph.multibody.gravity = Vec3([Dd::ZERO; 3]);
+    graph.multibody.velocity_products = false;
     graph
 }
 

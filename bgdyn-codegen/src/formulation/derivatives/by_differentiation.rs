@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::differentiate::{derivatives, finish, reopened};
 use super::forward_dynamics::ForwardDerivatives;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Ex, Expr, Leaf};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
@@ -109,7 +109,7 @@ impl Formulation for ForwardDynamicsDerivatives {
 /// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by whichever formulation it is
 /// stable and cheap. Columns that are alike run in a loop, where that takes no operation more.
 fn forward_derivatives(
-    graph: &BondGraph,
+    graph: &Multibody,
     method: Method,
     efforts: &Function,
     forward: &Function,

@@ -22,7 +22,7 @@ use super::mass_matrix::{Momentum, composites};
 use super::plan::Plan;
 use super::plan_search::{self, Best};
 use super::plans::cheapest_plans;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Ex, Expr, Graph};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::{Formulation, Offer, Prepared};
@@ -90,7 +90,7 @@ fn plans(prepared: &Prepared<'_>, method: Method) -> Option<Best> {
 }
 
 /// Entries of the lower triangle under a plan, row by row.
-fn outputs(b: Builder, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> (Graph, Vec<Expr>) {
+fn outputs(b: Builder, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> (Graph, Vec<Expr>) {
     let entries: Vec<Expr> = {
         let x = Arguments::new(&b, graph, METHOD);
         let frames = Frames::new(&b, graph, geometry, plan, &x);

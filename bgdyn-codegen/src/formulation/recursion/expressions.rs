@@ -4,7 +4,7 @@ use super::frames::Frames;
 use super::geometry::Geometry;
 use super::plan::Plan;
 use super::{derivatives, inverse_dynamics, mass_matrix};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr, Graph};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::solve;
@@ -13,7 +13,7 @@ use crate::method::Method;
 /// The method's expressions under a plan.
 pub(super) fn outputs(
     b: Builder,
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     method: Method,
     plan: &Plan,
@@ -60,7 +60,7 @@ pub(super) fn outputs(
 }
 
 /// The lower triangle of M, row by row, and h, in one graph.
-pub(crate) fn mass_and_bias(graph: &BondGraph, geometry: &Geometry) -> (Graph, Vec<Expr>) {
+pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, Vec<Expr>) {
     let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
     let outputs: Vec<Expr> = {
         let x = Arguments::new(&b, graph, Method::ForwardDynamics);

@@ -5,7 +5,7 @@ use super::geometry::Geometry;
 use super::plan_search::Best;
 use super::plans::best_plans;
 use super::{kinematics, plan_search};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::Builder;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
@@ -40,7 +40,7 @@ impl Formulation for Recursion {
 
 /// The function under the plan that is taken.
 pub(super) fn with_plan(
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     method: Method,
     best: &Best,

@@ -8,7 +8,7 @@ use super::geometry::{Geometry, angle_of};
 use super::inertia::{Inertia, Point, turn};
 use super::plan::{Plan, origin_offset};
 use super::rotors::Rotors;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Ex};
 use crate::formulation::arguments::Arguments;
 use crate::math::{Mat3, Vec3};
@@ -64,7 +64,7 @@ impl<'g> Frames<'g> {
     /// Lays the bodies out for a plan.
     pub fn new(
         b: &'g Builder,
-        graph: &BondGraph,
+        graph: &Multibody,
         geometry: &Geometry,
         plan: &Plan,
         x: &Arguments<'g>,

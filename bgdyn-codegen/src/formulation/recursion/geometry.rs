@@ -8,7 +8,7 @@
 use bgdyn_runtime::Dd;
 
 use super::base_parameter_cache::BaseParameterCache;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
 
@@ -94,7 +94,7 @@ impl Geometry {
 }
 
 /// The bodies of a bond graph.
-pub(crate) fn geometry(graph: &BondGraph) -> Geometry {
+pub(crate) fn geometry(graph: &Multibody) -> Geometry {
     let mut made = Geometry {
         bodies: Vec::new(),
         fixed: Vec::new(),

@@ -5,7 +5,7 @@ use super::geometry::Geometry;
 use super::plan::Plan;
 use super::plan_search::{Best, Tried};
 use super::{derivatives, plan_search};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Cost, factored_cost};
 use crate::formulation::Prepared;
 use crate::method::Method;
@@ -83,14 +83,14 @@ fn search_plans(prepared: &Prepared<'_>, method: Method) -> Best {
 }
 
 /// What the method's expressions under a plan cost, before factoring.
-pub(super) fn cost(graph: &BondGraph, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
+pub(super) fn cost(graph: &Multibody, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
     let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
     expr::cost(&graph, &outputs).unfinished()
 }
 
 /// The same after factoring.
 fn cost_after_factoring(
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     method: Method,
     plan: &Plan,

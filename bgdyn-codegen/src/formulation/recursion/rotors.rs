@@ -11,7 +11,7 @@
 use bgdyn_runtime::Dd;
 
 use super::geometry::Geometry;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Ex};
 use crate::formulation::arguments::{Arguments, reflected, spin};
 use crate::math::Vec3;
@@ -61,7 +61,7 @@ impl<'g> Rotors<'g> {
     /// `efforts` the factor from a moment or force along each joint's z to its effort.
     pub fn new(
         b: &'g Builder,
-        graph: &BondGraph,
+        graph: &Multibody,
         geometry: &Geometry,
         (aims, efforts): (&[(Dd, Dd)], &[Dd]),
         x: &Arguments<'g>,

@@ -24,7 +24,7 @@ use super::plan::Plan;
 use super::plan_search::{self, Best, SEARCHED};
 use super::plans::cheapest_plans;
 use super::{expressions, inverse_dynamics};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Cost, Expr, Graph};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::{Formulation, Offer, Prepared};
@@ -114,7 +114,7 @@ impl Formulation for Articulated {
 
 /// Whether articulated bodies make the method. A rotor that turns with its carrier couples joints
 /// beside their bodies.
-fn makes(graph: &BondGraph, method: Method) -> bool {
+fn makes(graph: &Multibody, method: Method) -> bool {
     method == METHOD && graph.rotors.iter().all(|r| r.carrier.is_none())
 }
 
@@ -151,7 +151,7 @@ impl Articulated {
     }
 
     /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
-    fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> Cost {
+    fn cost(&self, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Cost {
         let unguarded = vec![false; geometry.bodies.len()];
         let (graph, outputs) = self.outputs(Builder::silent(), graph, geometry, plan, &unguarded);
         expr::cost(&graph, &outputs).unfinished()
@@ -161,7 +161,7 @@ impl Articulated {
     fn outputs(
         &self,
         b: Builder,
-        graph: &BondGraph,
+        graph: &Multibody,
         geometry: &Geometry,
         plan: &Plan,
         guarded: &[bool],
