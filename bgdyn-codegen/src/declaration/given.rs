@@ -95,18 +95,6 @@ impl Given<'_> {
         self.faults.push(fault);
     }
 
-    /// Notes a fault.
-    pub fn fault(&mut self, place: &Place, rule: &'static str, message: String, help: &str) {
-        self.faults
-            .push(Fault::new(place, rule, message).with_help(help));
-    }
-
-    /// Notes a warning.
-    pub fn warn(&mut self, place: &Place, rule: &'static str, message: String, help: &str) {
-        let fault = Fault::new(place, rule, message).with_help(help);
-        self.faults.push(fault.into_warning());
-    }
-
     /// Whether the key names this word.
     pub fn says(&self, key: &str, word: &str) -> bool {
         matches!(self.element.get(key), Some(Checked::Name(name)) if name == word)

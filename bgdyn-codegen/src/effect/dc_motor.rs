@@ -17,7 +17,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
-use crate::fault::wording::algebraic_loop;
+use crate::fault::wording;
 use crate::laws::{Hold, Laws};
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
@@ -126,9 +126,7 @@ impl Declaration for DcMotor {
         let no_resistance = given.value_or("resistance", 1.0) == 0.0;
         if no_resistance && given.number("inductance").is_none() {
             let place = given.place("resistance");
-            let message = "neither resistance nor inductance: the loop voltage → current → torque → speed → voltage has no solution";
-            let fault = algebraic_loop(&place, message.into(), "give one of them");
-            given.faults.push(fault);
+            given.report(wording::motor_without_impedance(&place));
         }
         given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
     }

@@ -5,7 +5,7 @@ use super::wrench::{AT, act, moves, twist};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::fault::Faults;
+use crate::fault::{Faults, wording};
 use crate::laws::Laws;
 use crate::math::Vec3;
 use crate::spec::{Dimension, Key, Reads};
@@ -60,10 +60,7 @@ impl Declaration for Drag {
         let numbers = ["linear", "quadratic", "angular"];
         given.not_negative(&numbers, "a negative drag would drive the link");
         if numbers.iter().all(|key| given.number(key).is_none()) {
-            let place = given.element.place.clone();
-            let message = format!("`{}` has no drag", given.element.name);
-            let help = "add `linear`, `quadratic` or `angular`";
-            given.fault(&place, "effect-missing", message, help);
+            given.report(wording::no_drag(&given.element.place, &given.element.name));
         }
     }
 

@@ -6,6 +6,7 @@ use bgdyn_runtime::Dd;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
 use crate::declaration::{Declaration, Element, Given};
+use crate::fault::wording;
 use crate::math::Vec3;
 use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
 use crate::spec::{Dimension, Key, Reads};
@@ -66,14 +67,8 @@ impl Declaration for Rotor {
 
     fn rules(&self, given: &mut Given<'_>) {
         given.not_negative(&["inertia"], "no body has it");
-        let place = given.element.place.clone();
         if given.element.vector("axis").is_some() && given.element.name("on").is_none() {
-            given.fault(
-                &place,
-                "effect-missing",
-                "`axis` says where the rotor points, but not what it sits on".into(),
-                "add `on: …`, or leave `axis` out: the reflected inertia has no direction",
-            );
+            given.report(wording::rotor_axis_without_link(&given.element.place));
         }
     }
 

@@ -17,6 +17,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
+use crate::fault::wording;
 use crate::laws::{Laws, Port};
 use crate::layout::Layout;
 use crate::mechanism::Limits;
@@ -99,15 +100,8 @@ impl Declaration for Stop {
         given.at_most_one("restitution", "an impact would give back more than it took");
         given.ordered("lower", "upper", "the joint moves between its stops");
         if given.number("lower").or(given.number("upper")).is_none() {
-            let place = given.element.place.clone();
             let joint = given.element.name("joint").unwrap_or_default();
-            let message = format!("where the stops are is missing, and `{joint}` has no limits");
-            given.fault(
-                &place,
-                "effect-missing",
-                message,
-                "write `lower`, `upper` or both",
-            );
+            given.report(wording::no_stops(&given.element.place, joint));
         }
     }
 

@@ -5,7 +5,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::expr::Ex;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::math::Vec3;
@@ -36,12 +36,11 @@ pub(super) fn moves(element: &Element, beside: &Beside<'_>, faults: &mut Faults)
     let mut frames = beside.mechanism.frames().iter();
     let at = element.name(AT.name).unwrap_or_default();
     if frames.any(|f| f.name == at && f.link.is_none()) {
-        let message = format!(
-            "`{at}` is fixed to the world: `{}` would do nothing",
-            element.name
-        );
-        let fault = Fault::new(&element.place, "effect-place", message);
-        faults.push(fault.with_help("name a link, or a frame on one"));
+        faults.push(wording::acts_on_the_world(
+            &element.place,
+            &element.name,
+            at,
+        ));
     }
 }
 
@@ -107,14 +106,13 @@ impl Declaration for Wrench {
             return;
         };
         let twice = (1..asked.len()).find(|&i| asked[..i].contains(&asked[i]));
-        let message = match twice {
-            Some(i) => format!("`components` names `{}` twice", asked[i]),
-            None if asked.is_empty() => "`components` names none".to_owned(),
+        let place = &given.element.place;
+        let fault = match twice {
+            Some(i) => wording::repeated_component(place, &asked[i]),
+            None if asked.is_empty() => wording::no_components(place),
             None => return,
         };
-        let place = given.element.place.clone();
-        let help = "write those that are inputs: `[fx, fz]`";
-        given.fault(&place, "effect-components", message, help);
+        given.report(fault);
     }
 
     fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {

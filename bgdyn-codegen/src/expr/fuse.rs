@@ -46,3 +46,45 @@ pub fn fuse(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     });
     (to, outputs)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Inputs, Leaf, count, evaluate};
+
+    fn xyz(g: &mut Graph) -> [Expr; 3] {
+        [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
+    }
+
+    fn minus(e: Expr) -> Expr {
+        e.flipped(true)
+    }
+
+    /// A product that one sum alone reads is joined to it; of two the later one; one that is read twice
+    /// stays. Neither counts nor values change.
+    #[test]
+    fn products_are_joined_to_the_sums_that_read_them() {
+        let mut g = Graph::default();
+        let [x, y, z] = xyz(&mut g);
+        let (early, root) = (g.mul(x, y), g.sqrt(z));
+        let late = g.mul(root, y);
+        let both = g.add(early, minus(late));
+        let shared = g.mul(x, z);
+        let outputs = [both, g.add(shared, y), shared];
+        let (joined, found) = fuse(&g, &outputs);
+        let sums = (0..joined.len()).map(|i| joined.node(NodeId::at(i)));
+        let sums: Vec<&Node> = sums.filter(|n| matches!(n, Node::MulAdd(..))).collect();
+        let [Node::MulAdd(a, b, ..)] = sums[..] else {
+            panic!("{sums:?}")
+        };
+        let is_root = |id: &NodeId| matches!(joined.node(*id), Node::Sqrt(_));
+        assert!(is_root(a) || is_root(b));
+        assert_eq!(count(&joined, &found), count(&g, &outputs));
+        let inputs = Inputs {
+            q: vec![3.0, 5.0, 2.25],
+            ..Inputs::default()
+        };
+        let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
+        assert_eq!(value(&joined, &found), value(&g, &outputs));
+    }
+}

@@ -1,6 +1,7 @@
 //! All messages about specs and scenes, one function for each fault.
 
 mod checking;
+mod effect_rules;
 mod effects;
 mod inertia;
 mod inputs;
@@ -11,6 +12,7 @@ mod values;
 pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
 pub(crate) use checking::*;
+pub(crate) use effect_rules::*;
 pub(crate) use effects::*;
 pub(crate) use inertia::*;
 pub(crate) use inputs::*;

@@ -25,7 +25,7 @@ use summed::summed;
 use crate::bond_graph::{self, BondGraph, BondNetwork};
 use crate::effect;
 use crate::expr::{Builder, Ex};
-use crate::fault::{Fault, Faults, unknown_name};
+use crate::fault::{Faults, wording};
 use crate::formulation::Formulation;
 use crate::function::Function;
 pub use crate::laws::{Balance, Contact, Gear, Hold, Laws, Own, Port, Reading};
@@ -248,11 +248,8 @@ fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec
         let names = known.iter().map(|(n, _)| n.name.as_str());
         let sites = system.graph.sites.iter().map(|s| s.name.as_str());
         let all: Vec<&str> = names.chain(sites).collect();
-        let message = unknown_name("output", &output.value, &all, &all.join(", "));
-        let fault = Fault::new(&output.place, "unknown-output", message);
-        faults.push(
-            fault.with_help("outputs are parts of the state, places and what effects report"),
-        );
+        let (place, name) = (&output.place, &output.value);
+        faults.push(wording::unknown_output(place, name, &all));
     }
     wanted
 }

@@ -131,7 +131,7 @@ fn what_friction_refuses() {
             "it: { type: lugre, joint: slide, stiffness: 1e5, kinetic: 1 N, static: 1.5 N }",
             "1.5 N",
             "effect-missing",
-            "`static` without `stribeck_speed`",
+            "`static` needs `stribeck_speed`",
         ),
     ]);
 }

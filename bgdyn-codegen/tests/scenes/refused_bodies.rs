@@ -314,7 +314,7 @@ fn names_that_join_nothing() {
         &plain("push: { type: wrench, at: lug, components: [] }"),
         "effect-components",
         "push",
-        &["none"],
+        &["empty"],
     );
 }
 

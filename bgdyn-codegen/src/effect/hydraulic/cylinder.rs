@@ -10,7 +10,7 @@ use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
 use crate::effect::{Effect, nodes};
 use crate::expr::Ex;
-use crate::fault::Faults;
+use crate::fault::{Faults, wording};
 use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key};
@@ -113,10 +113,7 @@ impl Declaration for Cylinder {
         given.not_negative(&["dead_a", "dead_b"], "there is no such volume");
         for key in ["dead_b", "stroke"] {
             if given.number(key).is_some() && given.number("area_b").is_none() {
-                let place = given.place(key);
-                let message = format!("`{key}` is of side b, which has no `area_b`");
-                let help = "add `area_b: …`, or leave it out: the cylinder is single-acting";
-                given.fault(&place, "effect-missing", message, help);
+                given.report(wording::side_without_area(&given.place(key), key));
             }
         }
     }

@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::declaration::Given;
+use crate::fault::wording;
 use crate::spec::{Dimension, Key, Reads};
 
 /// The word by which a scene calls for all of it.
@@ -66,9 +67,7 @@ pub(super) fn no_less_than_vacuum(given: &mut Given<'_>, key: &str) {
         .filter(|q| q.value < Dd::from_f64(VACUUM))
         .map(|q| (q.place.clone(), q.text.clone()));
     if let Some((place, text)) = too_small {
-        let message = format!("`{key}` is {text}, less than a vacuum: {VACUUM} Pa");
-        let help = "pressures are measured against the surroundings";
-        given.fault(&place, "effect-pressure", message, help);
+        given.report(wording::below_vacuum(&place, key, &text, VACUUM));
     }
 }
 
@@ -76,9 +75,8 @@ pub(super) fn no_less_than_vacuum(given: &mut Given<'_>, key: &str) {
 pub(super) fn joins_two(given: &mut Given<'_>, one: &str, other: &str) {
     let (a, b) = (given.element.name(one), given.element.name(other));
     if let Some(node) = a.filter(|_| a == b) {
-        let message = format!("`{one}` and `{other}` are the same node, `{node}`: nothing runs");
-        let place = given.element.place.clone();
-        given.fault(&place, "joined-to-nothing", message, "join two nodes");
+        let place = &given.element.place;
+        given.report(wording::joins_a_node_to_itself(place, [one, other], node));
     }
 }
 

@@ -6,7 +6,7 @@ use super::keys::{BULK_MODULUS, FLUID, FLUID_KEYWORD, VACUUM};
 use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind};
 use crate::declaration::{Beside, Element};
 use crate::expr::Ex;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 use crate::laws::Laws;
 use crate::layout::{Entered, Layout};
 use crate::spec::Dimension;
@@ -46,20 +46,9 @@ pub(super) fn has_fluid(node: &Element, beside: &Beside<'_>, faults: &mut Faults
     }
     let all = beside.elements.iter();
     let fluids = all.filter(|e| e.effect.keyword() == FLUID_KEYWORD);
-    let known: Vec<String> = fluids.map(|f| format!("`{}`", f.name)).collect();
-    let name = &node.name;
-    let message = match (node.name(FLUID.name), known.as_slice()) {
-        (_, []) => format!("`{name}` has no fluid: the scene calls for none"),
-        (Some(fluid), _) => format!("no fluid of this scene is called `{fluid}`"),
-        (None, several) => format!("which of the fluids {} is in `{name}`?", several.join(", ")),
-    };
-    let help = match known.as_slice() {
-        [] => {
-            "add `oil: { type: fluid, bulk_modulus: … }` and call for it: `- hydraulics` calls for all of it".to_owned()
-        }
-        known => format!("write `fluid: …`: one of {}", known.join(", ")),
-    };
-    faults.push(Fault::new(&node.place, "no-fluid", message).with_help(help));
+    let known: Vec<&str> = fluids.map(|fluid| fluid.name.as_str()).collect();
+    let asked = node.name(FLUID.name);
+    faults.push(wording::no_fluid(&node.place, &node.name, asked, &known));
 }
 
 /// Refuses an element between nodes of different fluids.
@@ -76,10 +65,8 @@ pub(super) fn one_fluid(element: &Element, beside: &Beside<'_>, faults: &mut Fau
         .collect();
     names.dedup();
     if let [one, other, ..] = names[..] {
-        let name = &element.name;
-        let message = format!("`{name}` joins `{one}` and `{other}`: two fluids");
-        let fault = Fault::new(&element.place, "two-fluids", message);
-        faults.push(fault.with_help("join nodes of one fluid"));
+        let (place, name) = (&element.place, &element.name);
+        faults.push(wording::two_fluids(place, name, [one, other]));
     }
 }
 

@@ -18,6 +18,7 @@
 //! factored. At the end `quotient.rs` divides directly where a reciprocal has a single user.
 
 mod divisor;
+mod divisors;
 mod extract;
 mod network;
 mod rebuild;

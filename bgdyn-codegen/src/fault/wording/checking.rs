@@ -385,8 +385,3 @@ fn nearly(place: &Place, message: String, way: &str) -> Fault {
         ))
         .into_warning()
 }
-
-/// The fault of a loop that has no solution, or none that is found.
-pub(crate) fn algebraic_loop(place: &Place, message: String, way_out: &str) -> Fault {
-    Fault::new(place, "algebraic-loop", message).with_help(way_out)
-}
