@@ -17,6 +17,8 @@ mod factor;
 mod fold;
 mod fuse;
 mod index;
+mod labels;
+mod naming;
 mod quotient;
 mod signs;
 
@@ -38,6 +40,8 @@ pub use eval::{Inputs, evaluate};
 pub use factor::{factored, factored_cost};
 pub use fuse::fused;
 use index::{Index, mix};
+pub use naming::Name;
+use naming::{Section, Title};
 pub use quotient::divided;
 pub use signs::signed;
 
@@ -84,7 +88,7 @@ impl Expr {
 }
 
 /// A constant as a key: the bits of its two words. Constants of nodes are never negative.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Constant {
     hi: u64,
     lo: u64,
@@ -295,23 +299,6 @@ impl Hasher for QuickHasher {
 
 pub(crate) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<QuickHasher>>;
 
-/// A name for a value. The node may hold the value with the opposite sign.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Name {
-    /// The name of the value.
-    pub text: String,
-    /// Whether the node is the value times −1.
-    pub negative: bool,
-}
-
-impl Name {
-    /// An identifier for the node: `neg_m_elbow_turn` for −m_elbow_turn.
-    pub fn identifier(&self) -> String {
-        let prefix = if self.negative { "neg_" } else { "" };
-        format!("{prefix}{}", self.text)
-    }
-}
-
 /// The nodes, operands before users.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
@@ -320,14 +307,15 @@ pub struct Graph {
     index: Index,
     names: std::collections::BTreeMap<NodeId, Name>,
     /// Titles of the sections, and for each node the one in which it was made.
-    titles: Vec<String>,
+    titles: Vec<Title>,
     sections: Vec<Section>,
     /// The section that is open.
     open: Section,
+    /// The unit of length of the sections that are begun.
+    unit: Option<Dd>,
+    /// Names of numbers without their sign; nothing where several quantities have the value.
+    constant_names: std::collections::BTreeMap<Constant, Option<Name>>,
 }
-
-/// A stretch of the algorithm that readers of the output find under one title; 0 has none.
-type Section = u32;
 
 impl Graph {
     /// The node with this id.
@@ -343,54 +331,6 @@ impl Graph {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
-    }
-
-    /// The name that a formulation gave to a node, for readers of the output.
-    pub fn name(&self, id: NodeId) -> Option<&Name> {
-        self.names.get(&id)
-    }
-
-    /// Names an expression; the first name of its node stays.
-    pub(crate) fn set_name(&mut self, e: Expr, text: impl FnOnce() -> String) {
-        if !matches!(self.node(e.node), Node::Constant(_) | Node::Leaf(_)) {
-            let named = || Name {
-                text: text(),
-                negative: e.negative,
-            };
-            self.names.entry(e.node).or_insert_with(named);
-        }
-    }
-
-    /// Names `copy` as the node `id` of another graph, of which it is a copy.
-    pub(crate) fn copy_name(&mut self, copy: Expr, from: &Graph, id: NodeId) {
-        if let Some(name) = from.name(id) {
-            self.set_name(copy.flipped(name.negative), || name.text.clone());
-        }
-    }
-
-    /// The title of the section in which a node was made.
-    pub fn section(&self, id: NodeId) -> Option<&str> {
-        let section = self.sections[id.0 as usize] as usize;
-        section.checked_sub(1).map(|i| self.titles[i].as_str())
-    }
-
-    /// What is made from now on belongs under this title.
-    pub(crate) fn begin_section(&mut self, title: String) {
-        self.titles.push(title);
-        self.open = self.titles.len() as Section;
-    }
-
-    /// Takes over another graph's titles. What it gives opens the section of a node of that graph.
-    pub(crate) fn adopt_sections(&mut self, from: &Graph) -> Section {
-        let offset = self.titles.len() as Section;
-        self.titles.extend(from.titles.iter().cloned());
-        offset
-    }
-
-    /// Opens the section that `id` of `from` was made in; `offset` is where its titles went.
-    pub(crate) fn reopen_section(&mut self, from: &Graph, id: NodeId, offset: Section) {
-        let section = from.sections[id.0 as usize];
-        self.open = if section == 0 { 0 } else { section + offset };
     }
 
     /// The one node equal to `node`.

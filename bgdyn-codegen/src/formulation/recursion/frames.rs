@@ -6,6 +6,7 @@ use bgdyn_runtime::Dd;
 use super::base_parameters::{Parts, regrouped};
 use super::geometry::{Geometry, angle_of};
 use super::inertia::{Inertia, Point, turn};
+use super::names::name_data;
 use super::plan::{Plan, origin_offset};
 use super::rotors::Rotors;
 use crate::bond_graph::BondGraph;
@@ -69,6 +70,7 @@ impl<'g> Frames<'g> {
         plan: &Plan,
         x: &Arguments<'g>,
     ) -> Self {
+        b.unit_of_length(plan.unit);
         let (parts, energy) = regrouped(b, graph, geometry, plan);
         let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<Frame<'g>> = Vec::new();
@@ -125,12 +127,14 @@ impl<'g> Frames<'g> {
         let gravity = geometry.bodies.iter().map(|body| {
             b.vector((body.twist.transpose() * graph.gravity).scale(Dd::ONE / plan.unit))
         });
-        Frames {
+        let frames = Frames {
             gravity: gravity.collect(),
             bodies,
             constant_energy: energy,
             rotors: Rotors::new(b, graph, geometry, &aims, x),
-        }
+        };
+        name_data(&frames);
+        frames
     }
 }
 

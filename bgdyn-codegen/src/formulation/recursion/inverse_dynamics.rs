@@ -7,6 +7,7 @@
 use super::frames::{Frame, Frames};
 use super::inertia::{Inertia, Point, turn};
 use super::motion::{Moving, Spin, motions, zero};
+use super::names::{effort_name, name_wrenches};
 use super::plan::Plan;
 use crate::expr::{Builder, Ex};
 use crate::math::Vec3;
@@ -207,6 +208,7 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
     let mut own = vec![Wrench::zero(b); n];
     let mut basis = own.clone();
     let mut efforts = vec![b.zero(); n];
+    let effort = effort_name(frames);
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
         b.section(|| {
@@ -217,7 +219,9 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
         });
         let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
         let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
-        efforts[j] = (whole.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint));
+        efforts[j] =
+            (whole.along(frame) * frame.effort).named(|| format!("{effort}_{}", frame.joint));
+        name_wrenches(["f", "n"], frame, &inner, &outer, &whole);
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {

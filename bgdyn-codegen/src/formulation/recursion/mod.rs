@@ -31,6 +31,7 @@ mod inverse_dynamics;
 mod kinematics;
 mod mass_matrix;
 mod motion;
+mod names;
 mod plan;
 mod plan_search;
 mod rotors;
