@@ -1,4 +1,4 @@
-//! Times, measured in turn.
+//! Measures the times of contenders in turn.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,4 +1,4 @@
-//! Compiled scenes as contenders.
+//! Compiled scenes as contenders of a study.
 
 use std::hint::black_box;
 use std::rc::Rc;

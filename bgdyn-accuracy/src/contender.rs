@@ -1,4 +1,4 @@
-//! What is compared: a way to run a scene, behind a plain closure.
+//! A contender: one way to run a scene, as a closure.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Whether methods converge as their order says.
+//! Checks that methods converge with their stated order.
 
 use std::collections::BTreeMap;
 

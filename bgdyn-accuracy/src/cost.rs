@@ -1,5 +1,4 @@
-//! What an effect costs: operations and time of one call of `derivative`, with it and without, and the
-//! steps that a method with controlled steps takes.
+//! The cost of an effect: operations and time of `derivative` with and without it, and steps of a run.
 
 use std::fmt::{Debug, Write};
 use std::hint::black_box;

@@ -1,4 +1,4 @@
-//! Drawings on a dark ground: a style sheet for readers who ask for one.
+//! A style sheet for drawings on a dark background.
 //!
 //! Lightness is that of Oklab (Ottosson 2020): equal steps of it look equal for every hue.
 

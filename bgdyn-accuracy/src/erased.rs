@@ -1,5 +1,6 @@
-//! Plants behind a pointer: one copy of an integrator serves all scenes and variants whose states,
-//! modes and events are as many. The rates stay compiled code; to call them takes a nanosecond more.
+//! Type-erased plants, so that one copy of an integrator serves all scenes of equal dimensions.
+//!
+//! The rates stay compiled code; to call them takes a nanosecond more.
 
 use std::rc::Rc;
 

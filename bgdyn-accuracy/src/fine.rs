@@ -1,4 +1,4 @@
-//! Drawings by a library that knows whole pixels only: drawn ten times as large, shown at their size.
+//! Sub-pixel drawing with a library of whole pixels: drawings are ten times as large, then scaled.
 
 /// Units of such a drawing per pixel.
 pub const FINE: u32 = 10;

@@ -1,5 +1,6 @@
-//! The variants of a scene as source text: what is compiled to be measured. Build scripts and the
-//! command `bgdyn accuracy` write the same.
+//! Generates the source text of a scene's variants, which is compiled and measured.
+//!
+//! Build scripts and the command `bgdyn accuracy` write the same.
 
 use std::fmt::Write;
 

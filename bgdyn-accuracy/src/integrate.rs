@@ -1,4 +1,4 @@
-//! One run of a plant by a method, sample by sample.
+//! One run of a plant by a method, sampled at given times.
 
 use bgdyn_sim::{Method, Moment, Plant, Reason, Run, Tolerance, WithMethod};
 use bgdyn_sim::{Of, Real};

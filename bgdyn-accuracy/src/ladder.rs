@@ -1,5 +1,6 @@
-//! Which steps and tolerances are tried. The choice goes by errors only, not by times: equal input
-//! gives the same rows everywhere.
+//! The sequence of steps and tolerances of a method, chosen by errors only, not by times.
+//!
+//! Equal input gives the same rows everywhere.
 
 use crate::contender::{Contender, Grid, Pace, Stop};
 use crate::integrate::distance;

@@ -1,5 +1,6 @@
-//! What accuracy costs in time: a scene's motion by many methods, steps, scalars, formulations and
-//! levels of effects, each with its error against a reference in double-double and with its time.
+//! Error against time: a scene's motion by many methods, steps, scalars, formulations and sets of effects.
+//!
+//! Each run has its error against a reference in double-double, and its time.
 //!
 //! One factor is varied at a time, from all effects in `f64` by the cheapest formulation. The path:
 //!

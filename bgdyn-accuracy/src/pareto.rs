@@ -1,4 +1,4 @@
-//! Which choices no other one beats in error and time at once.
+//! The Pareto front: rows that no other row beats in both error and time.
 
 use crate::row::Row;
 use crate::study::Study;

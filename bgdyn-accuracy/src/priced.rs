@@ -1,4 +1,4 @@
-//! A scene with all effects, or all but some, whose costs are to be measured.
+//! A scene with all or some of its effects, for measuring the cost of each.
 
 use std::fmt;
 

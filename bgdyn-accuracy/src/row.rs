@@ -1,4 +1,4 @@
-//! A row of `accuracy.csv`: data, written and read.
+//! A row of `accuracy.csv`, written and read.
 
 use std::fmt::Write;
 

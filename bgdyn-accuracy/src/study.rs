@@ -1,4 +1,4 @@
-//! The study of one scene: reference, runs, times.
+//! The study of one scene: reference solution, runs, times.
 
 use std::fmt;
 

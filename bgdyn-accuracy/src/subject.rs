@@ -1,4 +1,4 @@
-//! A scene as it is studied: its reference and everything that is held against it.
+//! The subject of a study: a scene with its reference and its contenders.
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Method, WithMethod, with_method};

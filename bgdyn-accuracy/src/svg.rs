@@ -1,5 +1,7 @@
-//! Drawings as SVG text: the few shapes that figures are made of. Colours are written as CSS has
-//! them (`#282828`); dashes as `stroke-dasharray` has them, empty for a line without gaps.
+//! SVG text of the few shapes that figures consist of.
+//!
+//! Colours are written as CSS has them (`#282828`); dashes as `stroke-dasharray` has them, empty for a
+//! line without gaps.
 
 use std::fmt::Write;
 

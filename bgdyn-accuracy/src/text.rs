@@ -1,4 +1,4 @@
-//! Numbers and words for people.
+//! Formats numbers and words for people.
 
 /// A number as short as it can be written without loss: `0.002`, `5e-6`.
 pub(crate) fn number(x: f64) -> String {

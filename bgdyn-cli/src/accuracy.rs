@@ -1,5 +1,4 @@
-//! A scene through the evaluator as the subject of an accuracy study: errors are its own, times are
-//! estimated from how often its functions are called.
+//! Accuracy studies by the evaluator: errors are measured, times are estimated from the number of calls.
 
 use std::cell::Cell;
 use std::rc::Rc;

@@ -1,4 +1,4 @@
-//! Colours of what is told on a terminal: line by line, so that the text without them stays as it is.
+//! Colours of messages on a terminal, line by line.
 
 use std::env::var_os;
 use std::io::{IsTerminal, stderr};

@@ -1,5 +1,6 @@
-//! What the commands write: stdout with errors, stderr without. A reader that goes away is neither
-//! a panic nor a failure.
+//! Standard output with errors, and standard error without.
+//!
+//! A reader that closes the pipe is neither a panic nor a failure.
 
 use std::io::{ErrorKind, Write};
 

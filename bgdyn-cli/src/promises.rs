@@ -1,4 +1,4 @@
-//! What reader, check and importer promise for any text at all. Property tests and the fuzzer in `fuzz/` call it.
+//! Invariants of reader, check and importer for any text, called by property tests and by the fuzzer.
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::interface::Interface;

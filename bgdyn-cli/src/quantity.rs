@@ -1,4 +1,4 @@
-//! Numbers of the command line: as in files, with units, read by the same reader.
+//! Reads numbers with units from the command line, as the reader of files does.
 
 use bgdyn_codegen::spec::{Dimension, Number, quantity};
 use bgdyn_runtime::Dd;

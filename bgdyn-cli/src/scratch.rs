@@ -1,5 +1,4 @@
-//! A scratch crate: the user's cargo builds it, and it is kept, so that the next call only compiles
-//! what is new.
+//! A scratch project: the user's cargo builds it, and it is kept, so that the next call compiles less.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! A spec as the commands read it.
+//! Loads a spec for the commands.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Times of generated code, measured in a scratch crate, or estimated.
+//! Times of generated code: measured in a scratch project, or estimated.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! The error of a command that was called wrongly: exit 2 instead of 1.
+//! The error of a wrong call, which exits with 2 instead of 1.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! For build scripts: a spec becomes a file of Rust source, `OUT_DIR/scara.rs`.
+//! Generation from a build script: a spec becomes a file of Rust source in `OUT_DIR`.
 //!
 //! In `Cargo.toml`, with `bgdyn` without its macro, which saves compiling the generator twice:
 //! ```toml

@@ -6,13 +6,21 @@
 //! make the last block, whose code is loops.
 
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
-use crate::function::{BLOCK, Block, Function, Products, in_triangle};
+use crate::function::{Block, Function, Products, in_triangle};
 use crate::method::Shape;
 use crate::products::products;
 
+/// Operations in a block at the most. Arms of seven axes stay in one piece.
+const MAX_BLOCK: usize = 3200;
+
+/// Whether the function is cut: its straight line is longer than one block.
+pub fn is_cut(function: &Function) -> bool {
+    function.straight().total() > MAX_BLOCK
+}
+
 /// The same function in blocks of bounded length.
 pub fn cut(function: Function) -> Function {
-    if function.straight().total() <= BLOCK || function.blocks.len() != 1 {
+    if !is_cut(&function) || function.blocks.len() != 1 {
         return function;
     }
     let outputs = &function.blocks[0].outputs;
@@ -43,19 +51,19 @@ fn homes(graph: &Graph, outputs: &[Expr], products: &[Products]) -> Vec<Option<u
     for i in (0..graph.len()).filter(|&i| needed[i] && !in_loops[i]) {
         homes[i] = match graph.node(NodeId(i as u32)) {
             Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) | Node::Less(..) => None,
-            Node::Sin(a) | Node::Cos(a) => Some(*angles.entry(*a).or_insert(done / BLOCK)),
+            Node::Sin(a) | Node::Cos(a) => Some(*angles.entry(*a).or_insert(done / MAX_BLOCK)),
             Node::MulAdd(..) => {
                 done += 2;
-                Some(done / BLOCK)
+                Some(done / MAX_BLOCK)
             }
             _ => {
                 done += 1;
-                Some(done / BLOCK)
+                Some(done / MAX_BLOCK)
             }
         };
     }
     for i in (0..graph.len()).filter(|&i| in_loops[i]) {
-        homes[i] = Some(done / BLOCK + 1);
+        homes[i] = Some(done / MAX_BLOCK + 1);
     }
     homes
 }

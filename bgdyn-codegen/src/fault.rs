@@ -1,15 +1,16 @@
-//! Faults of a spec: where in the file, which rule, the numbers seen, the way out.
+//! Faults of a spec: position in the file, rule, message with the numbers seen, and help.
 //!
-//! Data and its rendering. Every sentence a user reads about a spec stands in `wording`.
+//! This file holds the data, `render` their text. The messages themselves are in `wording`.
 
+mod quote;
 mod render;
 mod suggest;
 pub(crate) mod wording;
 
 use std::fmt;
 
+use quote::one_line;
 pub(crate) use suggest::unknown_name;
-use wording::one_line;
 
 /// A place in the spec's text; lines and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,4 +1,4 @@
-//! Files of specs and scenes: the names of their modules, and the files that they name.
+//! Paths of specs and scenes: the names of their modules, and the files that they refer to.
 
 use std::path::Path;
 

@@ -5,16 +5,10 @@ use std::ops::Range;
 
 use bgdyn_runtime::{Dd, Scalar};
 
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::columns::{Columns, Loops};
-use crate::expr::{
-    Cost, Expr, Graph, Inputs, Operations, arranged, cost, count, divided, evaluate, factored,
-    fused, signed,
-};
+use crate::expr::{Cost, Expr, Graph, Inputs, Operations, cost, count, evaluate};
 use crate::method::{Method, Shape};
-
-/// Operations in a block at the most. Arms of seven axes stay in one piece.
-pub(crate) const BLOCK: usize = 3200;
 
 /// A straight line of code: what it computes. Later blocks read its results as
 /// [`crate::expr::Leaf::Passed`].
@@ -88,7 +82,7 @@ pub struct Function {
 impl Function {
     /// A function of one block.
     pub fn flat(
-        bond_graph: &BondGraph,
+        bond_graph: &Multibody,
         method: Method,
         formulation: String,
         graph: Graph,
@@ -124,44 +118,6 @@ impl Function {
         }
     }
 
-    /// The same function with fewer operations, where factoring finds a way. A function that is cut
-    /// into blocks stays as it is.
-    pub fn factored(mut self) -> Self {
-        if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
-            let graph = std::mem::take(&mut self.graph);
-            let (graph, found) = factored(graph, std::mem::take(outputs));
-            (self.graph, *outputs) = divided(graph, found);
-        }
-        self
-    }
-
-    /// The same function with the terms of its sums in the order in which they are there, unless it is
-    /// going to be cut, or the order of its operations is what it is made for.
-    pub(crate) fn arranged(mut self) -> Self {
-        let short = self.straight().total() <= BLOCK;
-        if let ([Block { outputs, .. }], false, true) = (&mut self.blocks[..], self.ordered, short)
-        {
-            (self.graph, *outputs) = arranged(&self.graph, outputs);
-        }
-        self
-    }
-
-    /// The same function with its products joined to the sums that read them, and with signs moved into
-    /// these, unless the order of its operations is what it is made for.
-    pub(crate) fn fused(mut self) -> Self {
-        let joined = |graph: &Graph, outputs: &[Expr]| {
-            let (graph, outputs) = fused(graph, outputs);
-            signed(&graph, &outputs)
-        };
-        if let ([Block { outputs, .. }], false) = (&mut self.blocks[..], self.ordered) {
-            (self.graph, *outputs) = joined(&self.graph, outputs);
-            for one in self.columns_mut() {
-                (one.graph, one.outputs) = joined(&one.graph, &one.outputs);
-            }
-        }
-        self
-    }
-
     /// The loops over columns.
     pub(crate) fn columns(&self) -> &[Columns] {
         self.loops.as_ref().map_or(&[], |loops| &loops.groups)
@@ -183,25 +139,6 @@ impl Function {
             }],
             loops: None,
         }
-    }
-
-    fn columns_mut(&mut self) -> &mut [Columns] {
-        self.loops
-            .as_mut()
-            .map_or(&mut [], |loops| &mut loops.groups)
-    }
-
-    /// The cheapest of several ways, with the others noted in it; the first one of equals.
-    pub(crate) fn cheapest(ways: impl Iterator<Item = Function>) -> Option<Function> {
-        let mut ways: Vec<(Cost, Function)> = ways.map(|f| (f.cost(), f)).collect();
-        ways.sort_by_key(|(cost, _)| cost.weighted());
-        let mut ways = ways.into_iter();
-        let (_, mut best) = ways.next()?;
-        best.passed_over.extend(ways.map(|(cost, f)| Considered {
-            what: f.formulation,
-            cost,
-        }));
-        Some(best)
     }
 
     /// Its name.

@@ -1,4 +1,4 @@
-//! What the numbers of a scene's state are: coordinates, first-order states, modes, inputs.
+//! The layout of a scene's state vector: coordinates, first-order states, modes, inputs.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! The generator behind bgdyn: a mechanism in YAML goes in, Rust tokens or source text come out.
+//! The generator behind bgdyn: it turns a mechanism in YAML into Rust tokens or source text.
 //!
 //! One path, one direction: [`spec`] (the file as written) → [`mechanism`] (checked) →
 //! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) →
@@ -12,8 +12,10 @@
 pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
+pub mod choice;
 pub mod closed_form;
 pub mod columns;
+pub mod conditioning;
 mod cut;
 pub mod declaration;
 pub mod effect;
@@ -34,6 +36,7 @@ pub mod method;
 pub mod model;
 pub mod name;
 pub mod options;
+pub mod passes;
 pub mod pipeline;
 mod products;
 mod read;

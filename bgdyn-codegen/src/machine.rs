@@ -1,4 +1,4 @@
-//! A machine: a mechanism and the effects that its file declares for scenes to call for.
+//! A machine: a mechanism and the effects that its file declares for scenes.
 
 use crate::declaration::{Context, Declared, Kinds, Refused, check_unique_names, declared};
 use crate::fault::{Faults, wording};

@@ -1,5 +1,6 @@
-//! 3-vectors and 3×3 matrices over any ring: constants in double-double, expressions, patterns of
-//! structural zeros. Only what the equations need.
+//! 3-vectors and 3×3 matrices over any ring: double-doubles, expressions, patterns of zeros.
+//!
+//! Only what the equations need.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

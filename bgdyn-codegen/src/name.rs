@@ -1,4 +1,4 @@
-//! Names: snake_case identifiers of Rust.
+//! Rules for names: snake_case identifiers of Rust that are no keywords.
 
 use heck::ToSnakeCase;
 

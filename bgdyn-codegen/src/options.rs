@@ -1,9 +1,10 @@
-//! What a caller asks for: which methods, for which frames, by which formulation.
+//! Options of the generator: methods, frames, formulation.
 
 use std::collections::BTreeSet;
 use std::fmt;
 
 use crate::bond_graph::{Site, SiteId};
+pub use crate::choice::Preference;
 use crate::fault::unknown_name;
 use crate::formulation::{self, FORMULATIONS, Formulation};
 use crate::method::Method;
@@ -53,29 +54,6 @@ impl Default for Options {
             methods: None,
             frames: None,
             verify: true,
-        }
-    }
-}
-
-/// What the choice among several ways to a method goes by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Preference {
-    /// The fewest operations.
-    #[default]
-    Operations,
-    /// The fewest digits lost in `f64`, by [`crate::formulation::conditioning::rounding_error::rounding_error`]; operations decide between equals.
-    Accuracy,
-}
-
-impl Preference {
-    /// Every preference there is.
-    pub const ALL: [Preference; 2] = [Preference::Operations, Preference::Accuracy];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Preference::Operations => "operations",
-            Preference::Accuracy => "accuracy",
         }
     }
 }

@@ -1,11 +1,10 @@
-//! YAML text → checked mechanism, or the equations of a scene: reading, then checking, all findings together.
+//! Reads YAML text into a checked machine or the equations of a scene, and reports all faults together.
 
 use std::path::Path;
 
 use crate::bond_graph;
 use crate::effect;
-use crate::fault::wording::no_inertia;
-use crate::fault::{Fault, Faults, Severity};
+use crate::fault::{Fault, Faults, Severity, wording};
 use crate::files::stem;
 use crate::machine::{self, Machine};
 use crate::mechanism::Mechanism;
@@ -50,7 +49,7 @@ fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
         let joint = joints
             .iter()
             .find(|joint| joint.name.value() == Some(name))?;
-        Some(no_inertia(&joint.place, name))
+        Some(wording::no_inertia(&joint.place, name))
     });
     found.collect()
 }
@@ -82,9 +81,8 @@ pub fn read_scene(
     let loaded = match load(&path.value) {
         Ok(loaded) => loaded,
         Err(why) => {
-            let message = format!("the mechanism `{}` cannot be read: {why}", path.value);
-            let fault = Fault::new(&path.place, "no-mechanism", message);
-            faults.push(fault.with_help("write its path from the scene's own folder"));
+            let fault = wording::mechanism_unreadable(&path.place, &path.value, &why);
+            faults.push(fault);
             return Err(Refusal::Spec(alone(faults)));
         }
     };
@@ -118,16 +116,13 @@ pub fn read_scene(
             return Err(Refusal::Spec(faults));
         }
     };
+    for element in system.idle() {
+        let at = element.name("at").unwrap_or_default();
+        faults.push(wording::no_motion_there(&element.place, &element.name, at));
+    }
     faults.sort();
     for joint in system.without_inertia() {
-        let path = &path.place;
-        let message = format!(
-            "in this scene nothing gives the joint `{joint}` inertia: it has no acceleration of its own"
-        );
-        let fault = Fault::new(path, "no-inertia", message).with_help(
-            "call for `inertia` or for a rotor, or lock the joint; `inverse` is sound as it is",
-        );
-        faults.push(fault.into_warning());
+        faults.push(wording::no_inertia_in_scene(&path.place, &joint));
     }
     Ok((system, faults))
 }

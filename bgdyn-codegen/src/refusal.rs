@@ -1,4 +1,4 @@
-//! Why a spec or a scene gives no module.
+//! The reasons for which a spec or a scene is refused.
 
 use crate::fault::Faults;
 use crate::options::Unknown;
@@ -24,4 +24,14 @@ pub enum Refusal {
     Options(Vec<Unknown>),
     /// Functions that do not equal equation (6): a fault of the generator.
     Unequal(Vec<Difference>),
+}
+
+impl Refusal {
+    /// An error where functions do not equal equation (6).
+    pub(crate) fn unless_equal(differences: Vec<Difference>) -> Result<(), Refusal> {
+        match differences.is_empty() {
+            true => Ok(()),
+            false => Err(Refusal::Unequal(differences)),
+        }
+    }
 }

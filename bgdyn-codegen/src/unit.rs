@@ -1,4 +1,4 @@
-//! Units that may stand behind a number, and what they measure.
+//! Units that a number may have, and the physical dimension of each.
 
 use std::fmt;
 

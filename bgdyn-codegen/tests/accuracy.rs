@@ -3,7 +3,7 @@
 
 mod common;
 
-use bgdyn_codegen::formulation::conditioning::rounding_error::{RoundingError, rounding_error};
+use bgdyn_codegen::conditioning::rounding_error::{RoundingError, rounding_error};
 use bgdyn_codegen::formulation::{FORMULATIONS, Formulation};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;

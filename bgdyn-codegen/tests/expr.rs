@@ -1,9 +1,6 @@
 //! The expression graph: what folds, what is one node, what counts.
 
-use bgdyn_codegen::expr::{
-    Builder, Ex, Expr, Graph, Inputs, Leaf, Node, Operations, arranged, cost, count, divided,
-    evaluate, reachable, signed,
-};
+use bgdyn_codegen::expr::{Builder, Ex, Expr, Graph, Leaf, Node, Operations, count, reachable};
 use bgdyn_runtime::Dd;
 
 /// Three arguments of a graph.
@@ -271,88 +268,4 @@ fn operands_stand_before_their_users() {
             ids.push(operand);
         });
     }
-}
-
-/// A late term is added last, whatever the order in which the sum was written; products that go in
-/// with their sum count as there one multiplication earlier.
-#[test]
-fn sums_are_arranged_by_arrival() {
-    let mut g = Graph::default();
-    let [x, y, z] = xyz(&mut g);
-    let late = g.div(x, y);
-    let late = g.sqrt(late);
-    let (xy, yz, xz) = (g.mul(x, y), g.mul(y, z), g.mul(x, z));
-    let mut sum = g.add(late, minus(xy));
-    for term in [yz, minus(xz), z] {
-        sum = g.add(sum, term);
-    }
-    let total = g.mul(minus(sum), z);
-    let before = cost(&g, &[total]);
-    let (h, outputs) = arranged(&g, &[total]);
-    let after = cost(&h, &outputs);
-    assert_eq!(after.operations, before.operations);
-    // √(x/y), one addition, one multiplication.
-    assert_eq!((before.depth, after.depth), (14, 11));
-    let inputs = || Inputs::<Dd> {
-        q: [0.3, 0.7, -1.9].map(Dd::from_f64).to_vec(),
-        ..Inputs::default()
-    };
-    let at = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs(), &mut None)[0];
-    let off = at(&h, &outputs) - at(&g, &[total]);
-    assert!(off.abs() < Dd::from_f64(1e-30), "{off}");
-}
-
-/// A sum that is read with the opposite sign is computed with it, where nothing else but fused sums
-/// read it.
-#[test]
-fn signs_move_into_sums() {
-    let mut g = Graph::default();
-    let [x, y, z] = xyz(&mut g);
-    // −(xy + z), also in a fused sum; −(y − z); −(xy + y), of which a root is taken.
-    let free = g.mul_add(x, y, z);
-    let reads = g.mul_add(free, x, y);
-    let difference = g.add(y, minus(z));
-    let bound = g.mul_add(x, y, y);
-    let root = g.sqrt(bound);
-    let outputs = [minus(free), reads, minus(difference), minus(bound), root];
-    let (moved, found) = signed(&g, &outputs);
-    let negative: Vec<bool> = found.iter().map(|e| e.negative).collect();
-    assert_eq!(negative, [false, false, false, true, false]);
-    assert_eq!(count(&moved, &found), count(&g, &outputs));
-    let inputs = Inputs {
-        q: vec![3.0, 5.0, -2.5],
-        ..Inputs::default()
-    };
-    let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
-    assert_eq!(value(&moved, &found), value(&g, &outputs));
-}
-
-/// A reciprocal that one product alone reads goes into a division; one that is read twice stays.
-#[test]
-fn a_reciprocal_of_one_product_is_divided_by() {
-    let mut g = Graph::default();
-    let [x, y, z] = xyz(&mut g);
-    let one = number(&mut g, 1.0);
-    let once = g.div(one, x);
-    let twice = g.div(one, y);
-    let outputs = [
-        g.mul(minus(once), z),
-        g.mul(twice, z),
-        g.mul(twice, x),
-        g.div(z, x),
-    ];
-    let (quotients, found) = divided(g.clone(), outputs[..3].to_vec());
-    let [before, after] = [count(&g, &outputs[..3]), count(&quotients, &found)];
-    assert_eq!((before.mul, before.div), (3, 2));
-    assert_eq!((after.mul, after.div), (2, 2));
-    let inputs = Inputs {
-        q: vec![3.0, 5.0, -2.5],
-        ..Inputs::default()
-    };
-    let values = evaluate(&quotients, &found, &inputs, &mut None);
-    let expected = evaluate(&g, &outputs, &inputs, &mut None);
-    assert_eq!(values[0], -expected[3]);
-    assert_eq!(values[1..], expected[1..3]);
-    // Nothing is left to do.
-    assert_eq!(divided(quotients, found.clone()).1, found);
 }

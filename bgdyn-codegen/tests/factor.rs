@@ -3,7 +3,7 @@
 
 mod common;
 
-use bgdyn_codegen::expr::{Expr, Graph, Inputs, Leaf, Node, Operations, count, evaluate, factored};
+use bgdyn_codegen::expr::{Expr, Graph, Inputs, Leaf, Node, Operations, count, evaluate, factor};
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
@@ -106,7 +106,7 @@ proptest! {
         let program = Program::random(&mut Rng::new(seed), steps);
         let before = count(&program.graph, &program.outputs);
         let expected = program.values(&program.graph, &program.outputs);
-        let (graph, outputs) = factored(program.graph.clone(), program.outputs.clone());
+        let (graph, outputs) = factor(program.graph.clone(), program.outputs.clone());
         let after = count(&graph, &outputs);
         prop_assert!(never_more(before, after), "{before:?} became {after:?}");
         let values = program.values(&graph, &outputs);
@@ -114,7 +114,7 @@ proptest! {
             let off = (*x - *y).abs().to_f64();
             prop_assert!(off <= EXACT * size, "{x:?} for {y:?}, of size {size:e}");
         }
-        let again = factored(program.graph.clone(), program.outputs.clone());
+        let again = factor(program.graph.clone(), program.outputs.clone());
         prop_assert_eq!(again.1, outputs, "the same every time");
     }
 }
@@ -208,7 +208,7 @@ fn mechanism(seed: u64, most: usize) {
             let whole = robot.whole("recursion", method);
             let outputs = whole.blocks[0].outputs.clone();
             let before = whole.operations();
-            let (graph, outputs) = factored(whole.graph.clone(), outputs);
+            let (graph, outputs) = factor(whole.graph.clone(), outputs);
             assert!(never_more(before, count(&graph, &outputs)), "{what}");
             let title = String::new();
             let again = Function::flat(&robot.graph, method, title, graph, outputs);
@@ -355,7 +355,7 @@ fn pivots_keep_what_they_compare() {
     let product = g.mul(difference, sum);
     let value = g.add(magnitude, minus(product, true));
     let pivot = g.pivot(value, magnitude, 0);
-    let (graph, outputs) = factored(g, vec![pivot]);
+    let (graph, outputs) = factor(g, vec![pivot]);
     let Node::Pivot(value, magnitude, 0) = *graph.node(outputs[0].node) else {
         panic!("no pivot");
     };

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
+use bgdyn_codegen::passes::factor;
 use common::Robot;
 use common::bars::{Generated, Hard, driven, near_aligned, part};
 use common::rng::Rng;
@@ -96,7 +97,7 @@ fn arm(name: &str, seed: u64) -> Robot {
 /// The formulations' functions, factored where that is theirs, the one with the fewest operations first.
 fn formulations(robot: &Robot) -> Vec<Function> {
     let names = ["recursion", "articulated_base", "articulated"];
-    let mut all = names.map(|f| robot.whole(f, METHOD).factored()).to_vec();
+    let mut all = names.map(|f| factor(robot.whole(f, METHOD))).to_vec();
     all.sort_by_key(|f| f.operations().total());
     all
 }

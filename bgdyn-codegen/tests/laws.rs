@@ -8,6 +8,7 @@
 mod common;
 
 use std::ops::Range;
+use std::panic::{self, RefUnwindSafe};
 
 use common::laws::{self, Case};
 use common::rng::Rng;
@@ -25,11 +26,16 @@ struct Seen {
 
 /// All laws on a range of seeds; `most` says how many joints a seed may have, `parameters` whether
 /// some numbers are run-time parameters.
-fn check(seeds: Range<u64>, most: impl Fn(u64) -> usize, parameters: bool) -> Seen {
+fn check(seeds: Range<u64>, most: impl Fn(u64) -> usize + RefUnwindSafe, parameters: bool) -> Seen {
     let mut seen = Seen::default();
+    let mut failed = Vec::new();
     for seed in seeds {
-        let case = Case::of_seed(seed, most(seed), parameters);
-        let (formulations, forward) = laws::all(&case, &mut Rng::new(seed ^ 0xfeed));
+        // A seed that fails does not hide the seeds after it.
+        let result = panic::catch_unwind(|| one(seed, &most, parameters));
+        let Ok((formulations, forward)) = result else {
+            failed.push(seed);
+            continue;
+        };
         seen.regular += usize::from(forward.is_some());
         seen.formulations = seen.formulations.max(formulations);
         seen.forward = seen.forward.max(forward.unwrap_or_default());
@@ -39,7 +45,14 @@ fn check(seeds: Range<u64>, most: impl Fn(u64) -> usize, parameters: bool) -> Se
          most {:.1e} of its bar",
         seen.regular, seen.formulations, seen.forward
     );
+    assert!(failed.is_empty(), "seeds that fail: {failed:?}");
     seen
+}
+
+/// All laws on one seed.
+fn one(seed: u64, most: impl Fn(u64) -> usize, parameters: bool) -> (f64, Option<f64>) {
+    let case = Case::of_seed(seed, most(seed), parameters);
+    laws::all(&case, &mut Rng::new(seed ^ 0xfeed))
 }
 
 #[test]
@@ -52,11 +65,11 @@ fn larger_mechanisms() {
     assert!(check(1000..1060, |_| 7, false).regular > 20);
 }
 
-/// Pivots of 1e-28 and 1e-26 between axes that differ by 1e-14 and 1e-13: articulated bodies solve them
-/// rightly.
+/// Pivots of 1e-28, 1e-26 and 1e-30 between axes that differ by 1e-14, 1e-13 and 1e-15: articulated
+/// bodies solve them rightly.
 #[test]
 fn almost_parallel_axes() {
-    for seed in [10_230, 12_205] {
+    for seed in [10_230, 12_205, 12_236] {
         assert_eq!(check(seed..seed + 1, |_| 3, false).regular, 0);
     }
 }

@@ -7,9 +7,9 @@ mod common;
 use std::fs;
 use std::path::Path;
 
+use bgdyn_codegen::choice::Choice;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::files::stem;
-use bgdyn_codegen::formulation::Search;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Argument, Method};
 use common::Robot;
@@ -150,9 +150,9 @@ fn run(states: usize, usual: usize) {
     for path in &paths {
         let text = fs::read_to_string(path).expect("a spec");
         let robot = Robot::read(&text, Some(&stem(path)));
-        let search = Search::new(&robot.graph, None);
+        let choice = Choice::new(&robot.graph, None);
         for method in Method::possible(&robot.graph.sites) {
-            let f = search.function(method).expect("every method is known");
+            let f = choice.function(method).expect("every method is known");
             let mut rng = Rng::new(1300 + methods as u64);
             stays_finite::<f64>(&robot, &f, &mut rng, states);
             stays_finite::<f32>(&robot, &f, &mut rng, states);

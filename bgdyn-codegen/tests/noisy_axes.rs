@@ -4,7 +4,7 @@
 
 mod common;
 
-use bgdyn_codegen::formulation::{Search, by_name};
+use bgdyn_codegen::formulation::{Prepared, by_name};
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 use common::random::Draft;
@@ -59,7 +59,7 @@ fn equals_the_literal_sum(text: &str) {
     let robot = Robot::read(text, None);
     let by = |name: &str, method: Method| {
         let way = by_name(name).expect("a formulation");
-        way.function(&Search::new(&robot.graph, Some(way)), method)
+        way.function(&Prepared::new(&robot.graph), method)
     };
     let mut rng = Rng::new(11);
     let states: Vec<State> = (0..3)

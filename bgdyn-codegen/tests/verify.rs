@@ -4,9 +4,10 @@
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::bond_graph::{self, BondGraph, Gyrostat, Rotor};
+use bgdyn_codegen::choice::Choice;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::files::{beside, stem};
-use bgdyn_codegen::formulation::{FORMULATIONS, Search};
+use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Value};
 use bgdyn_codegen::method::{Method, Role};
@@ -93,9 +94,9 @@ fn every_scene_passes() {
 fn every_formulation_passes() {
     let graph = bond_graph::build(&mechanism(ARM, "arm"));
     for formulation in FORMULATIONS {
-        let search = Search::new(&graph, Some(formulation));
+        let choice = Choice::new(&graph, Some(formulation));
         let methods = Method::possible(&graph.sites).into_iter();
-        let made = methods.filter_map(|m| search.function(m));
+        let made = methods.filter_map(|m| choice.function(m));
         let made: Vec<Function> = made.map(|f| (*f).clone()).collect();
         let found = check_functions("arm", &graph, &made);
         assert!(found.is_empty(), "{}", explain(&found));
@@ -152,10 +153,10 @@ fn noisy_axes_pass() {
             .replace("axis: z", &format!("axis: [{off:e}, 0, 1]"))
             .replace("axis: [0, 0.8, 0.6]", &format!("axis: [{:e}, 0, -1]", -off));
         let graph = bond_graph::build(&mechanism(&text, "arm"));
-        let search = Search::new(&graph, None);
+        let choice = Choice::new(&graph, None);
         let methods = Method::possible(&graph.sites).into_iter();
         let made: Vec<Function> = methods
-            .filter_map(|m| search.function(m).map(|f| (*f).clone()))
+            .filter_map(|m| choice.function(m).map(|f| (*f).clone()))
             .collect();
         let found = check_functions("arm", &graph, &made);
         assert!(found.is_empty(), "off by {off:e}: {}", explain(&found));
@@ -191,7 +192,7 @@ fn a_rotor_left_out_of_the_mass_matrix_is_found() {
     let right = with_rotor("hand");
     let missing = |graph: &mut BondGraph| {
         let own = graph.rotors[0].clone();
-        graph.rotors.push(Rotor {
+        graph.multibody.rotors.push(Rotor {
             carrier: None,
             ratio: Value::Fixed(Dd::from_f64(-0.01)),
             ..own
@@ -210,12 +211,15 @@ fn a_rotor_left_out_of_the_mass_matrix_is_found() {
 #[test]
 fn a_rotor_left_out_of_the_jacobian_is_found() {
     let right = with_rotor("upper");
-    let left_out = |graph: &mut BondGraph| graph.rotors[0].carrier = None;
+    let left_out = |graph: &mut BondGraph| graph.multibody.rotors[0].carrier = None;
     let differing = found(&right, left_out, &[Role::Jacobian]);
     assert_eq!(names(&differing), ["jacobian"], "{differing:?}");
     let elsewhere = |graph: &mut BondGraph| {
-        let carrier = graph.rotors[0].carrier.clone().expect("a full rotor");
-        graph.rotors[0].carrier = Some(Gyrostat {
+        let carrier = graph.multibody.rotors[0]
+            .carrier
+            .clone()
+            .expect("a full rotor");
+        graph.multibody.rotors[0].carrier = Some(Gyrostat {
             link: LinkId(1),
             ..carrier
         });
@@ -230,15 +234,15 @@ fn wrong_axes_are_found_in_every_method() {
     let graph = bond_graph::build(&mechanism(ARM, "arm"));
     for sheared in [false, true] {
         let mut wrong = graph.clone();
-        let axes = &mut wrong.frames[1].origin.rotation.0;
+        let axes = &mut wrong.multibody.frames[1].origin.rotation.0;
         match sheared {
             // One part in 1e9 is below the digits of a printed value.
             true => axes[2][1] += Dd::from_f64(1e-9),
             false => axes.iter_mut().for_each(|row| row[2] = -row[2]),
         }
-        let search = Search::new(&wrong, None);
+        let choice = Choice::new(&wrong, None);
         let methods = Options::select(&all(), &wrong.sites, 3).expect("methods");
-        let made = methods.into_iter().filter_map(|m| search.function(m));
+        let made = methods.into_iter().filter_map(|m| choice.function(m));
         let made: Vec<Function> = made.map(|f| (*f).clone()).collect();
         let differing = check_functions("arm", &graph, &made);
         let differing = names(&differing);
@@ -331,7 +335,7 @@ fn a_turned_sign_is_found_in_every_method() {
 #[test]
 fn a_difference_names_all_that_is_needed_to_see_it() {
     let graph = bond_graph::build(&mechanism(ARM, "arm"));
-    let mut function = (*Search::new(&graph, None)
+    let mut function = (*Choice::new(&graph, None)
         .function(Method::Gravity)
         .expect("one"))
     .clone();

@@ -1,4 +1,4 @@
-//! Where the spec is.
+//! Finds the spec's file.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! What the user writes between the parentheses.
+//! Parses the arguments of the macro.
 
 use bgdyn_codegen::name::is_identifier;
 use bgdyn_codegen::options::{Asked, Options, Unknown, formulation_named, preference_named};

@@ -1,4 +1,4 @@
-//! The procedural macro [`bgdyn!`]: finds the spec, asks bgdyn-codegen for the code, reports.
+//! The procedural macro [`bgdyn!`]: finds the spec, calls bgdyn-codegen, reports errors.
 //!
 //! Units, frames, the order of spatial vectors and the sign of gravity of what it generates are said
 //! in the documentation of the crate `bgdyn-runtime`, which is `bgdyn::runtime`.

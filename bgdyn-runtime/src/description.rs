@@ -1,5 +1,6 @@
-//! What a generated module says of its joints and frames, and the methods beyond [`crate::Dynamics`]:
-//! as traits, so that code written once runs with any model.
+//! Traits of generated modules beyond [`crate::Dynamics`]: descriptions of joints and frames, more methods.
+//!
+//! Code that uses these traits runs with any model.
 
 use nalgebra::{SMatrix, SVector};
 

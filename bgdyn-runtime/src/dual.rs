@@ -1,4 +1,4 @@
-//! [`Scalar`] for dual numbers: derivatives of everything generated, exact but for rounding.
+//! Implementation of [`Scalar`] for dual numbers: derivatives that are exact but for rounding.
 //!
 //! Comparisons, minima, maxima, signs and pivots are decided by the real part, as `==` on these
 //! types is. Real parts are those of `f64` (or `f32`) bit for bit, but after a division:
@@ -8,9 +8,9 @@ use nalgebra::{Const, SVector};
 use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
 
 use crate::sine;
-use crate::singular::{Look, explain, finish};
+use crate::singular::{explain, finish};
 use crate::two_sum::exact_sum;
-use crate::{Scalar, Singular};
+use crate::{Look, Scalar, Singular};
 
 /// What dual numbers may be made of: `f64`, `f32`, or dual numbers again (for derivatives of
 /// higher order).

@@ -1,4 +1,4 @@
-//! The trait every generated model implements.
+//! The trait that every generated model implements.
 
 use nalgebra::{SMatrix, SVector};
 

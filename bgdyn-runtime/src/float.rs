@@ -1,12 +1,12 @@
-//! [`Scalar`] for `f64` and `f32`.
+//! Implementation of [`Scalar`] for `f64` and `f32`.
 
 use nalgebra::SVector;
 
 use crate::root;
 use crate::sine::{self, Pack};
-use crate::singular::{Look, explain, finish, note_refused};
+use crate::singular::{explain, finish, note_refused};
 use crate::two_sum::Split;
-use crate::{Scalar, Singular};
+use crate::{Look, Scalar, Singular};
 
 /// How many units in the last place of the subtracted terms a pivot must exceed.
 const PIVOT_ULPS: f64 = 64.0;

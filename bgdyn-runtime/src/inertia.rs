@@ -1,4 +1,4 @@
-//! Inertia tensors: moving them to another point, turning them to other axes.
+//! Inertia tensors about another point and in other axes.
 //!
 //! Masses in kg, lengths in m, inertias in kg·m². A tensor's off-diagonal entries are *minus* the
 //! products of inertia (Kuzmin 2007, eq. 1), as in URDF. Tensors are symmetric; every result is so

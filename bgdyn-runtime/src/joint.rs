@@ -1,4 +1,4 @@
-//! What a generated module says of its joints.
+//! Motions and limits of joints, as generated modules state them.
 
 /// The motion that a joint allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

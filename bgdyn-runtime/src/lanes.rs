@@ -1,4 +1,4 @@
-//! [`Scalar`] for lanes of a SIMD register: several states at once.
+//! Implementation of [`Scalar`] for the lanes of a SIMD register: several states at once.
 //!
 //! Lane k of every result equals, bit for bit, what `f64` (or `f32`) makes of lane k of the
 //! inputs. Sines and cosines are computed in the lanes, but for large angles (`sine/`); the ones of
@@ -12,9 +12,9 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 use crate::float::Float;
 use crate::sine;
-use crate::singular::{Cause, Look, cause, sum, zero_if_finite};
+use crate::singular::{Cause, cause, sum, zero_if_finite};
 use crate::two_sum::Split;
-use crate::{Scalar, Singular};
+use crate::{Look, Scalar, Singular};
 
 /// There are no accelerations in at least one lane; the other lanes have theirs.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! What generated code calls, and nothing else: `no_std`, no heap, no panic, no `unsafe` (on some Arm processors one instruction).
+//! The runtime of generated code: `no_std`, no heap, no panic, no `unsafe` (on some Arm processors one instruction).
 //!
 //! # Conventions, said once
 //! - SI units and radians; torques and rates are those of the joint.
@@ -65,14 +65,14 @@ pub use nalgebra;
 pub use num_dual;
 pub use operations::Operations;
 pub use pose::Pose;
-pub use scalar::Scalar;
+pub use scalar::{Look, Scalar};
 #[cfg(feature = "serde")]
 pub use serde;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub use serial::{__read_fields, __write_fields};
 pub use settle::{mode_by_slip, settle, settle_by};
-pub use singular::{Cause, Look, Singular};
+pub use singular::{Cause, Singular};
 pub use storage::{inner_products, matrix, mirror, vector};
 pub use system::{Balance, Canonical, Contact, Slope, System};
 #[cfg(feature = "wide")]

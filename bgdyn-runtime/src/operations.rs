@@ -1,4 +1,4 @@
-//! Operation counts, as the generator states them beside the code.
+//! Operation counts, as generated modules state them.
 
 use core::fmt;
 use core::ops::AddAssign;

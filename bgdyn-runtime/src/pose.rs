@@ -1,4 +1,4 @@
-//! Where a frame is.
+//! The pose of a frame: position and orientation in the world.
 
 use core::ops::Mul;
 

@@ -1,4 +1,4 @@
-//! Rotation matrices, and the cross product as a matrix.
+//! Rotation matrices, and the matrix of a cross product.
 //!
 //! A matrix R turns the coordinates of a vector in the turned frame into those in the frame it was
 //! turned from: `x_parent = R · x_child`. Angles are in radians and right-handed, for every scalar.

@@ -1,11 +1,13 @@
-//! The scalar trait: the one bound of every generated function.
+//! The trait [`Scalar`], by which every generated function is generic.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use nalgebra::SVector;
 
-use crate::singular::Look;
+/// What a generated function shows its arguments to, one after the other, after it has failed: the
+/// argument's name, the names of its components, their values.
+pub type Look<'a, T> = dyn FnMut(&'static str, &'static [&'static str], &[T]) + 'a;
 
 /// A number that generated dynamics can be computed with: `f64`, `f32`, double-double
 /// ([`crate::Dd`]), lanes of a SIMD register, dual numbers, or a type of your own (one that

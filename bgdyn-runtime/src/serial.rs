@@ -1,5 +1,4 @@
-//! Reading and writing by serde: structs of generated modules, whose fields are of one type, joint
-//! limits, double-double numbers.
+//! Serialisation by serde: generated structs, joint limits, double-doubles.
 //!
 //! Reading is strict: an unknown, missing or repeated field is an error of serde's.
 

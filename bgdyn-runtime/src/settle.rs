@@ -1,4 +1,4 @@
-//! What holds and what slips, decided for all joints at rest together.
+//! Decides which contacts hold and which slip, for all joints at rest together.
 
 use nalgebra::allocator::Allocator;
 use nalgebra::{DefaultAllocator, Dim, OVector, SVector};

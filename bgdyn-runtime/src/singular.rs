@@ -4,7 +4,7 @@ use core::fmt;
 
 use nalgebra::SVector;
 
-use crate::Scalar;
+use crate::scalar::{Look, Scalar};
 
 /// The accelerations do not exist. [`Singular::cause`] says why: an argument is NaN or infinite, or
 /// the pivot of `joint` in the mass matrix is no larger than the rounding error of the terms that
@@ -103,10 +103,6 @@ impl fmt::Debug for Singular {
 }
 
 impl core::error::Error for Singular {}
-
-/// What a generated function shows its arguments to, one after the other, after it has failed: the
-/// argument's name, the names of its components, their values.
-pub type Look<'a, T> = dyn FnMut(&'static str, &'static [&'static str], &[T]) + 'a;
 
 /// [`crate::Scalar::checked_pivot`] for scalars that are one number.
 #[inline]

@@ -1,4 +1,4 @@
-//! Vectors and matrices from their entries, as generated code writes them.
+//! Constructors of vectors and matrices from their entries, for generated code.
 
 use nalgebra::{ArrayStorage, SMatrix, SVector};
 

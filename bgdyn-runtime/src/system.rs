@@ -1,4 +1,4 @@
-//! The traits of generated scenes: what integrators and simulators call.
+//! The traits of generated scenes, for integrators and simulators.
 
 use core::fmt::Debug;
 

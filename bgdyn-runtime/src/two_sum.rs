@@ -1,4 +1,4 @@
-//! Exact sums of numbers, in two words (Knuth's two-sum).
+//! Exact sums of two numbers in two words (Knuth's two-sum).
 
 use crate::Scalar;
 

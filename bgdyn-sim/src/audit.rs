@@ -1,4 +1,4 @@
-//! An account of the energy of a run.
+//! The energy account of a run.
 
 use bgdyn_runtime::Scalar;
 

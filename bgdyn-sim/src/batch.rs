@@ -1,4 +1,4 @@
-//! Many runs of one plant, over all cores, with results that do not depend on how many there are.
+//! Runs many copies of one plant on all cores, with results that do not depend on their number.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! Coefficients of methods, in two words so that they are as exact as double-double needs them.
+//! Coefficients of integration methods in two words, exact enough for double-double.
 //!
 //! They are written as in the literature, as quotients of whole numbers or as decimals, and turned
 //! into words when compiling.

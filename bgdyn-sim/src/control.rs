@@ -1,4 +1,4 @@
-//! Step control: steps as long as the tolerance allows.
+//! Step control: chooses the longest steps that the tolerance allows.
 
 use bgdyn_runtime::Scalar;
 

@@ -1,4 +1,4 @@
-//! Dense output: the states within a step.
+//! Dense output: interpolation of the states within a step.
 
 use bgdyn_runtime::Scalar;
 

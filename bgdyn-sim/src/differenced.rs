@@ -1,4 +1,4 @@
-//! Slopes of the rates by differences.
+//! Jacobians of the rates by finite differences.
 
 use bgdyn_runtime::Scalar;
 

@@ -1,4 +1,4 @@
-//! The pair of order 5 by Dormand and Prince (1980), dense output by Shampine and Hairer.
+//! The integrator DOPRI5 by Dormand and Prince (1980), with dense output by Shampine and Hairer.
 
 use crate::coefficient::{Words, ZERO, ratio};
 use crate::dense::Dense;

@@ -1,4 +1,4 @@
-//! Why an integration cannot go on.
+//! The reasons for which an integration cannot continue.
 
 use core::fmt;
 

@@ -1,4 +1,4 @@
-//! Several runs at once, one per lane of a SIMD register, by fixed steps of an explicit method.
+//! Several runs at once, one in each lane of a SIMD register, by an explicit method with fixed steps.
 //!
 //! Every lane does what a [`crate::Solver`] with fixed steps does, operation by operation, so that its
 //! states are those of that run bit for bit; where the target has fused multiply-add, if both are

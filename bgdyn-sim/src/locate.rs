@@ -1,4 +1,4 @@
-//! The instant at which something first happens within a step.
+//! Locates the first instant of an event within a step.
 
 use crate::space::Real;
 

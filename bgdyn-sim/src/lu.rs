@@ -1,4 +1,4 @@
-//! Linear equations: LU factors with partial pivoting, in any scalar that is one number.
+//! LU factorisation with partial pivoting, in any scalar that is one number.
 
 use crate::space::{Of, Real, Space};
 

@@ -1,5 +1,6 @@
-//! The classical Runge–Kutta method of order 4 (Kutta 1901) on a mechanism: positions move by its
-//! own `integrate`.
+//! The classical Runge–Kutta method of order 4 on a mechanism (Kutta 1901).
+//!
+//! Positions advance by the mechanism's own `integrate`.
 
 use bgdyn_runtime::{Dynamics, Scalar};
 use nalgebra::SVector;

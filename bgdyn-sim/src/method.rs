@@ -1,4 +1,4 @@
-//! What every integrator is: a one-step method.
+//! The trait of integrators: one-step methods.
 
 use core::fmt::Debug;
 

@@ -1,4 +1,4 @@
-//! The list of methods: what a scene or a command may call for by name.
+//! The list of integrators that a scene or a command can name.
 
 use crate::dop853::Dop853;
 use crate::dopri5::Dopri5;

@@ -1,4 +1,4 @@
-//! What integrators integrate.
+//! The trait of ordinary differential equations.
 
 use core::fmt::Debug;
 

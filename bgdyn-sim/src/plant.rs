@@ -1,4 +1,4 @@
-//! What a run drives: an equation with modes, events and an account of its power.
+//! The trait of plants: differential equations with modes, events and an energy account.
 
 use core::fmt::Debug;
 

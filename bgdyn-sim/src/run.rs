@@ -1,4 +1,4 @@
-//! Runs of plants: from step to step and from event to event, with an account of the energy.
+//! Runs of plants, from step to step and from event to event, with an energy account.
 //!
 //! An event is looked for at the end of a step; in long steps also at points of the dense output. It is
 //! located by shorter steps of the method itself, so that the state there has the method's order,

@@ -1,4 +1,4 @@
-//! Which joints a run takes to be at rest.
+//! The slip below which a coordinate counts as at rest.
 
 use crate::space::Real;
 

@@ -1,4 +1,4 @@
-//! From step to step: fixed or controlled steps, plain or compensated sums.
+//! Advances a state step by step: fixed or controlled steps, plain or compensated sums.
 
 use bgdyn_runtime::Scalar;
 

@@ -1,4 +1,4 @@
-//! States as vectors: what an integrator may do with one.
+//! The vector operations on states that integrators need.
 
 use core::fmt::Debug;
 

@@ -87,7 +87,7 @@ mutate "golden values of places" $src/formulation/site.rs \
     'angular = angular + column.angular.scale(rate)' 'angular = angular - column.angular.scale(rate)' \
     "${codegen[@]}" golden_poses
 mutate "oracle of scenes: rotors" $recursion/rotors.rs \
-    'efforts[s.joint] + carried' 'efforts[s.joint] - carried' "${codegen[@]}" oracle
+    'efforts[rotor.joint] + carried' 'efforts[rotor.joint] - carried' "${codegen[@]}" oracle
 mutate "oracle of scenes: a law" $src/effect/lugre.rs \
     'stiffness * z + damping * rate' 'stiffness * z - damping * rate' "${codegen[@]}" oracle
 mutate "laws: formulations equal" $recursion/mass_matrix.rs \
@@ -132,10 +132,9 @@ once "a rotor its own joint carries" $recursion/mass_matrix.rs \
 once "a rotor beyond its joint" $recursion/mass_matrix.rs \
     'Ordering::Less => *entry + share' 'Ordering::Less => *entry' scenes rotors::
 once "rotors in derivatives" $recursion/derivatives/inverse_dynamics.rs \
-    'frames.rotors.add_flow(b, j, factor, &mut own[j].whole);' '' scenes rotors::
+    'own[j].whole.add_rotor(b, rotor, factor);' 'let _ = rotor;' scenes rotors::
 once "rotors' joints in derivatives" $recursion/derivatives/inverse_dynamics.rs \
-    '.extend(frames.rotors.seen(b, frames, j, &axis));' '.extend(frames.rotors.seen(b, frames, j, &axis).take(0));' \
-    scenes rotors::
+    'own[j].beyond.push(seen);' 'let _ = seen;' scenes rotors::
 once "axes that are almost z" $recursion/geometry.rs \
     'let third = (0..3).find(|&k| exact(k));' \
     'let third = (0..3).find(|&k| exact(k) || z.0[k].abs() == Dd::ONE);' noisy_axes

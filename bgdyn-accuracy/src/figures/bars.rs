@@ -1,5 +1,6 @@
-//! Lines with a number in each column: bars from zero, or dots on a logarithmic axis, where a bar's
-//! length would mean nothing.
+//! Figures of rows with numbers: bars from zero, or dots on a logarithmic axis.
+//!
+//! Dots are used where the length of a bar would mean nothing.
 
 use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
 use crate::text::short;

@@ -1,4 +1,4 @@
-//! Error against time, both on logarithmic axes.
+//! The diagram of error against time, both on logarithmic axes.
 
 use crate::contender::Pace;
 use crate::row::Row;

@@ -1,4 +1,4 @@
-//! `bgdyn accuracy`: what accuracy costs in time, on one scene.
+//! `bgdyn accuracy`: error against time of a scene's variants.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! `bgdyn check`: whether a spec is sound, and if not, everything that is wrong with it.
+//! `bgdyn check`: reports all faults of a spec, or that there are none.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! `bgdyn equations`: the driving efforts of a small mechanism in closed form.
+//! `bgdyn equations`: prints the efforts of a small mechanism in closed form.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `bgdyn eval`: a method's value at given states, through the evaluator.
+//! `bgdyn eval`: evaluates a method at given states.
 
 mod arguments;
 mod scene;

@@ -1,4 +1,4 @@
-//! `bgdyn generate`: the module's source text.
+//! `bgdyn generate`: prints the source text of a module.
 
 use std::path::{Path, PathBuf};
 

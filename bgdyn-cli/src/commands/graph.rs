@@ -1,4 +1,4 @@
-//! `bgdyn graph`: the bond graph as a drawing.
+//! `bgdyn graph`: draws the bond graph.
 
 use std::path::{Path, PathBuf};
 

@@ -1,11 +1,11 @@
-//! `bgdyn ops`: operation counts of the generated functions.
+//! `bgdyn ops`: prints the operation counts of generated functions.
 
 use std::path::PathBuf;
 
 use anyhow::Result;
+use bgdyn_codegen::conditioning::rounding_error::{RoundingError, rounding_error};
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::formulation::FORMULATIONS;
-use bgdyn_codegen::formulation::conditioning::rounding_error::{RoundingError, rounding_error};
 use bgdyn_codegen::function::{Considered, Function};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::Model;

@@ -1,4 +1,4 @@
-//! `bgdyn ops SCENE --per-effect`: what each effect costs.
+//! `bgdyn ops SCENE --per-effect`: prints the cost of each effect.
 
 use anyhow::Result;
 use bgdyn_codegen::function::Function;

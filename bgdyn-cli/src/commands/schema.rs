@@ -1,4 +1,4 @@
-//! `bgdyn schema`: what editors need to help with a spec.
+//! `bgdyn schema`: prints the JSON Schemas of the formats.
 
 use anyhow::Result;
 use clap::Args;

@@ -1,4 +1,4 @@
-//! `bgdyn simulate`: a scene's run through the evaluator, to a table, plots and a page; or many runs.
+//! `bgdyn simulate`: runs a scene in the evaluator and writes a table, plots and a page.
 
 mod many;
 

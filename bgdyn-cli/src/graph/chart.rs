@@ -1,4 +1,4 @@
-//! What is drawn: junctions, transformers and one-ports, in the order of the tree, as plain data.
+//! The data of a drawing: junctions, transformers and one-ports, in the order of the tree.
 
 use std::fmt;
 
@@ -15,6 +15,8 @@ pub(crate) struct Chart {
     pub links: Vec<Link>,
     /// Lines between two places, along which something acts: as links without a joint.
     pub lines: Vec<Link>,
+    /// Places of links at which something acts: their flow is [ω; v].
+    pub sites: Vec<Link>,
     /// Names of links that no coordinate moves: none of their junctions is there.
     pub still: Vec<String>,
     /// Names of links that move and carry others, but have no store and no source: none of their
@@ -25,9 +27,9 @@ pub(crate) struct Chart {
 }
 
 impl Chart {
-    /// Links, then lines.
+    /// Links, then lines, then sites.
     pub fn bands(&self) -> impl Iterator<Item = &Link> {
-        self.links.iter().chain(&self.lines)
+        self.links.iter().chain(&self.lines).chain(&self.sites)
     }
 
     /// Every flow, link by link.
@@ -222,61 +224,6 @@ pub(crate) struct Port {
 }
 
 impl Port {
-    /// A drive P: given or asked for, so that no causality is its own.
-    pub fn drive(text: String) -> Self {
-        Port {
-            on_junction: None,
-            ..Port::source(text)
-        }
-    }
-
-    /// A source of effort.
-    pub fn source(text: String) -> Self {
-        Port {
-            symbol: "Se",
-            text,
-            more: None,
-            feeds: true,
-            on_junction: Some(true),
-            ports: Vec::new(),
-        }
-    }
-
-    /// An inertial store whose flow follows from others: derivative causality.
-    pub fn dependent_store(text: String, more: Option<String>) -> Self {
-        Port {
-            symbol: "I",
-            more,
-            feeds: false,
-            ..Port::source(text)
-        }
-    }
-
-    /// A store whose own state gives the flow: integral causality.
-    pub fn store(text: String) -> Self {
-        Port {
-            on_junction: Some(false),
-            ..Port::dependent_store(text, None)
-        }
-    }
-
-    /// An element that takes power and answers a flow by its effort.
-    pub fn taking(symbol: &'static str, text: String) -> Self {
-        Port {
-            symbol,
-            ..Port::dependent_store(text, None)
-        }
-    }
-
-    /// A junction of its own.
-    pub fn junction(symbol: &'static str, text: String, feeds: bool) -> Self {
-        Port {
-            symbol,
-            feeds,
-            ..Port::source(text)
-        }
-    }
-
     /// Whether it is a junction.
     pub fn is_junction(&self) -> bool {
         matches!(self.symbol, "0" | "1")

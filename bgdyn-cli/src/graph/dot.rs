@@ -1,4 +1,4 @@
-//! The drawing in the language of Graphviz: `dot -Tsvg` lays it out anew.
+//! Prints a drawing in the language of Graphviz.
 //!
 //! Half arrows are half heads, causal strokes bars at a bond's end; a bond of three components is
 //! a double line.

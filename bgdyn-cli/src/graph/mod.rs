@@ -1,8 +1,8 @@
-//! The bond graph as a drawing.
+//! Drawings of bond graphs.
 //!
 //! ```text
-//! BondGraph ──order──▶ Chart ──place──▶ Places ──draw──▶ SVG
-//! System ────scene────▶ ─┘ └────────────────────write──▶ DOT
+//! BondGraph, BondNetwork ──order, unfold, scene──▶ Chart ──place──▶ Places ──draw──▶ SVG
+//!                                                   └──────────────────────write──▶ DOT
 //! ```
 //!
 //! [`Chart`] says what is drawn and in which order, with every word of it; it knows no place.
@@ -10,14 +10,13 @@
 //! no transformer that the structure makes zero, no flow that no transformer feeds, no source
 //! without effort.
 
-mod between;
 mod chart;
 mod dot;
-mod fluid;
 mod notation;
 mod order;
 mod place;
 mod scene;
 mod svg;
+mod unfold;
 
 pub(crate) use chart::Chart;

@@ -1,6 +1,4 @@
-//! Numbers and symbols as they are written in the drawing.
-
-use bgdyn_codegen::declaration::{Checked, Element};
+//! Numbers and symbols as drawings show them.
 
 /// A subscript: `₁₂`.
 pub(super) fn subscript(n: usize) -> String {
@@ -65,14 +63,6 @@ pub(super) fn coordinates(numbers: &[usize]) -> String {
         _ => format!("{}…{}", q(first), q(last)),
     };
     runs.iter().map(run).collect::<Vec<_>>().join(" ")
-}
-
-/// A number of an element as the file writes it, or the name of its run-time parameter.
-pub(super) fn value(element: &Element, key: &str) -> Option<String> {
-    let Some(Checked::Number(quantity)) = element.get(key) else {
-        return None;
-    };
-    Some(quantity.parameter.clone().unwrap_or(quantity.text.clone()))
 }
 
 #[cfg(test)]

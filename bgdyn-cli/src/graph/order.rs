@@ -1,7 +1,8 @@
-//! From the bond graph to what is drawn of it, in the order of the tree.
+//! Builds the drawing of a bond graph, in the order of the tree.
 
 use bgdyn_codegen::bond_graph::{
-    self, BondGraph, Effort, Inertia, JunctionId, LinkFrame, Modulus, Source, Store,
+    self, BondGraph, BondNetwork, Effort, Inertia, JunctionId, LinkFrame, Modulus, NodePart,
+    Source, Store,
 };
 use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose, Value};
@@ -9,20 +10,27 @@ use bgdyn_runtime::Dd;
 
 use super::chart::{Chart, Component, Flow, Link, Port, Transformer, Velocity};
 use super::notation::{coordinates, number, subscript, superscript};
+use super::unfold::Unfolding;
 
 impl Chart {
     /// The drawing of a mechanism's bond graph.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let title = mechanism.label().unwrap_or(mechanism.name());
-        Chart::of_graph(
-            &bond_graph::build(mechanism),
-            title,
-            mechanism.description(),
-        )
+        let graph = bond_graph::build(mechanism);
+        let driven = graph.coordinates.iter().map(|c| c.name.clone()).collect();
+        let network = BondNetwork::of_mechanism(&graph, driven);
+        let drive = |part: &NodePart| drive(&graph, part);
+        let mut unfolding = Unfolding::new(&network, &drive);
+        Chart::of_graph(&graph, &mut unfolding, title, mechanism.description())
     }
 
     /// The drawing of a bond graph. A flow on which nothing acts is left out.
-    pub(super) fn of_graph(graph: &BondGraph, title: &str, description: Option<&str>) -> Self {
+    pub(super) fn of_graph(
+        graph: &BondGraph,
+        unfolding: &mut Unfolding<'_>,
+        title: &str,
+        description: Option<&str>,
+    ) -> Self {
         let links = depth_first(&graph.frames);
         let of_link = |i: &LinkId| graph.frames[i.0].coordinate;
         let order: Vec<CoordinateId> = links.iter().filter_map(of_link).collect();
@@ -32,14 +40,20 @@ impl Chart {
         };
         let (moving, still): (Vec<_>, Vec<_>) = links.into_iter().partition(moved);
         let name = |i: LinkId| graph.frames[i.0].name.clone();
-        let moving = moving.into_iter().map(|i| (i, link(graph, &order, i)));
+        let moving = moving
+            .into_iter()
+            .map(|i| (i, link(graph, unfolding, &order, i)));
         let (links, folded) = folded(graph, moving.collect());
         Chart {
             title: title.to_owned(),
             description: description.map(str::to_owned),
-            velocities: order.iter().map(|&j| velocity(graph, j)).collect(),
+            velocities: order
+                .iter()
+                .map(|&j| velocity(graph, unfolding, j))
+                .collect(),
             links,
             lines: Vec::new(),
+            sites: Vec::new(),
             still: still.into_iter().map(name).collect(),
             folded,
             notes: Vec::new(),
@@ -88,30 +102,41 @@ fn depth_first(frames: &[LinkFrame]) -> Vec<LinkId> {
     order
 }
 
-fn velocity(graph: &BondGraph, j: CoordinateId) -> Velocity {
-    let coordinate = &graph.coordinates[j.0];
-    let (n, turns) = (subscript(j.0 + 1), coordinate.motion == Motion::Rotation);
-    let (unit, effort) = if turns {
-        ("rad/s", "N·m")
-    } else {
-        ("m/s", "N")
+/// What is written beside the drive of a joint.
+pub(super) fn drive(graph: &BondGraph, part: &NodePart) -> Option<String> {
+    let NodePart::Drive(Some(j)) = part else {
+        return None;
     };
-    Velocity {
-        symbol: format!("q̇{n}"),
-        name: coordinate.name.clone(),
-        unit,
-        effort,
-        ports: vec![Port::drive(format!("P{n}, {effort}"))],
+    let [_, effort] = units(graph, *j);
+    Some(format!("P{}, {effort}", subscript(j.0 + 1)))
+}
+
+/// Units of the velocity of a joint and of its effort.
+fn units(graph: &BondGraph, j: CoordinateId) -> [&'static str; 2] {
+    match graph.coordinates[j.0].motion {
+        Motion::Rotation => ["rad/s", "N·m"],
+        _ => ["m/s", "N"],
     }
 }
 
-fn link(graph: &BondGraph, order: &[CoordinateId], i: LinkId) -> Link {
+fn velocity(graph: &BondGraph, unfolding: &mut Unfolding<'_>, j: CoordinateId) -> Velocity {
+    let [unit, effort] = units(graph, j);
+    Velocity {
+        symbol: format!("q̇{}", subscript(j.0 + 1)),
+        name: graph.coordinates[j.0].name.clone(),
+        unit,
+        effort,
+        ports: unfolding.ports_at(NodePart::Velocity(j)),
+    }
+}
+
+fn link(graph: &BondGraph, unfolding: &Unfolding<'_>, order: &[CoordinateId], i: LinkId) -> Link {
     let frame = &graph.frames[i.0];
     let flows = [('ṙ', graph.translation(i)), ('ω', graph.rotation(i))];
     let flows = flows.map(|(letter, junction)| Flow {
         symbol: format!("{letter}{}", subscript(i.0 + 1)),
         transformers: transformers(graph, order, i, junction),
-        ports: ports(graph, i, junction),
+        ports: ports(graph, unfolding, i, junction),
     });
     let massless = massless(graph, i);
     let acts = |f: &Flow| !massless && !f.transformers.is_empty() && !f.ports.is_empty();
@@ -182,21 +207,31 @@ fn component(modulus: Modulus, nv: usize) -> Component {
 }
 
 /// The store and the source on a link's junction. A source without effort is left out.
-fn ports(graph: &BondGraph, i: LinkId, junction: JunctionId) -> Vec<Port> {
-    let stores = graph.stores.iter().filter(|s| s.junction == junction);
-    let sources = graph.sources.iter().filter(|s| s.junction == junction);
-    let acting = sources.filter(|s| !s.efforts.is_empty());
-    let stores = stores.map(|s| store(graph, i, s));
-    stores.chain(acting.map(|s| source(graph, i, s))).collect()
+fn ports(
+    graph: &BondGraph,
+    unfolding: &Unfolding<'_>,
+    i: LinkId,
+    junction: JunctionId,
+) -> Vec<Port> {
+    let stores = graph.stores.iter().enumerate();
+    let stores = stores.filter(|(_, s)| s.junction == junction);
+    let stores = stores.filter_map(|(k, s)| {
+        let (text, more) = store(graph, i, s);
+        unfolding.part(NodePart::Store(k), text, more)
+    });
+    let sources = graph.sources.iter().enumerate();
+    let sources = sources.filter(|(_, s)| s.junction == junction);
+    let sources =
+        sources.filter_map(|(k, s)| unfolding.part(NodePart::Source(k), source(graph, i, s), None));
+    stores.chain(sources).collect()
 }
 
-fn store(graph: &BondGraph, i: LinkId, store: &Store) -> Port {
+fn store(graph: &BondGraph, i: LinkId, store: &Store) -> (String, Option<String>) {
     let n = subscript(i.0 + 1);
-    let (text, more) = match store.inertia {
+    match store.inertia {
         Inertia::Mass(mass) => (format!("m{n} = {} kg", value(graph, mass)), None),
         Inertia::Tensor(entries) => tensor(graph, i, entries),
-    };
-    Port::dependent_store(text, more)
+    }
 }
 
 /// The diagonal, and behind it what else is not zero.
@@ -222,7 +257,7 @@ fn tensor(graph: &BondGraph, i: LinkId, entries: [Value; 6]) -> (String, Option<
     (format!("J{n} = {diagonal} kg·m²"), more)
 }
 
-fn source(graph: &BondGraph, i: LinkId, source: &Source) -> Port {
+fn source(graph: &BondGraph, i: LinkId, source: &Source) -> String {
     let efforts = source
         .efforts
         .iter()
@@ -231,7 +266,7 @@ fn source(graph: &BondGraph, i: LinkId, source: &Source) -> Port {
             Value::Parameter(_) => format!("{}·{}", value(graph, *mass), vector(*gravity)),
         });
     let sum = efforts.collect::<Vec<_>>().join(" + ");
-    Port::source(format!("R{} = {sum} N", subscript(i.0 + 1)))
+    format!("R{} = {sum} N", subscript(i.0 + 1))
 }
 
 fn vector(v: Vec3<Dd>) -> String {

@@ -1,4 +1,4 @@
-//! Where everything stands: a staircase.
+//! Layout of a drawing: the coordinates of its nodes, in the form of a staircase.
 //!
 //! ```text
 //! 1 q̇₁ ↽ Se

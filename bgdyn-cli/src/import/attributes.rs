@@ -1,7 +1,8 @@
-//! Values of attributes, with an error at the line of the element where one is missing or malformed.
+//! Reads attributes of XML elements, and reports the line of a missing or malformed one.
 
 use super::naming::shown;
 use super::number::Num;
+use super::placement::turned_by_quaternion;
 use super::xml::{EXPAND, Element, fault};
 use anyhow::Result;
 
@@ -28,16 +29,11 @@ pub(super) fn end<'a>(joint: &'a Element, part: &str) -> Result<&'a str> {
     })
 }
 
-/// Three zeros.
-pub(super) fn zeros() -> [Num; 3] {
-    [(); 3].map(|()| Num::zero())
-}
-
 /// The translation of an origin, zero where there is none.
 pub(super) fn place(origin: Option<&Element>) -> Result<[Num; 3]> {
     match origin {
         Some(origin) if origin.get("xyz").is_some() => numbers(origin, "xyz"),
-        _ => Ok(zeros()),
+        _ => Ok(Num::zeros()),
     }
 }
 
@@ -49,30 +45,16 @@ pub(super) fn turn(origin: &Element) -> Result<[Num; 3]> {
             "`rpy` and `quat_xyzw` both give a rotation: leave one",
         )),
         (Some(_), None) => numbers(origin, "rpy"),
-        (None, None) => Ok(zeros()),
+        (None, None) => Ok(Num::zeros()),
         (None, Some(_)) => {
             let quaternion = numbers::<4>(origin, "quat_xyzw")?;
             if quaternion.iter().all(Num::is_zero) {
                 return Err(fault(origin.at, "the quaternion is zero"));
             }
-            rpy_of_quaternion(origin)
+            let turn = turned_by_quaternion(quaternion.each_ref().map(Num::exact));
+            Ok(turn.placement().rpy)
         }
     }
-}
-
-/// Roll, pitch, yaw of the origin's quaternion, by urdf-rs.
-fn rpy_of_quaternion(origin: &Element) -> Result<[Num; 3]> {
-    let mut text =
-        String::from(r#"<robot name="r" version="1.1"><link name="a"/><link name="b"/>"#);
-    text.push_str(r#"<joint name="j" type="fixed"><parent link="a"/><child link="b"/>"#);
-    origin.write(&mut text);
-    text.push_str("</joint></robot>");
-    let robot = urdf_rs::read_from_string(&text).map_err(|error| fault(origin.at, error))?;
-    Ok(robot
-        .joints
-        .first()
-        .map_or([0.0; 3], |joint| joint.origin.rpy.0)
-        .map(Num::computed))
 }
 
 fn not_a_number(element: &Element, attribute: &str, wanted: &str) -> anyhow::Error {

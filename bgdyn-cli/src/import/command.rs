@@ -1,4 +1,4 @@
-//! The command: its arguments, the file it reads, what it writes and says.
+//! `bgdyn import` on the command line: arguments, files, messages.
 
 use super::{Convention, Lock, Options, import_table, import_with, naming};
 use crate::output::{print, tell};

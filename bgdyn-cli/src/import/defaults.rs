@@ -1,4 +1,4 @@
-//! What URDFs leave out although the format asks for it.
+//! Values that are used where a URDF lacks a required element.
 
 use super::groups::Groups;
 use super::naming::shown;
@@ -11,7 +11,7 @@ pub(super) const INERTIAL: [(&str, &[&str]); 2] = [
     ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
 ];
 
-/// Adds what the URDF's rules ask for and its writer left out, so that urdf-rs reads on.
+/// Adds what the URDF's rules ask for and its writer left out, and notes it.
 pub(super) fn complete(root: &mut Element, groups: &mut Groups) {
     let velocity_needed = version(root) < (1, 2);
     for element in &mut root.children {
@@ -34,9 +34,6 @@ pub(super) fn complete(root: &mut Element, groups: &mut Groups) {
                         "joints whose `<limit>` lacks what a URDF must give, none written",
                         item,
                     );
-                }
-                if missing.contains(&"velocity") {
-                    child.attributes.push(("velocity".into(), "inf".into()));
                 }
             }
         }

@@ -1,10 +1,10 @@
-//! A table of Denavit–Hartenberg parameters as links and joints.
+//! Reads a table of Denavit–Hartenberg parameters into links and joints.
 //!
 //! A mechanism's link has its origin on its own joint's axis. A row of the modified convention places it
 //! there; of the standard one it says where the *next* axis is, so what stands behind the turn about z is
 //! carried over to the next row, and the last of it is a frame.
 
-use super::attributes::zeros;
+use super::joint_type::JointType;
 use super::naming::shown;
 use super::number::Num;
 use super::placement::{Pose, about, displaced};
@@ -13,7 +13,6 @@ use super::xml::{At, fault};
 use anyhow::{Result, bail};
 use bgdyn_codegen::math::Vec3;
 use bgdyn_runtime::Dd;
-use urdf_rs::JointType;
 
 /// What the four numbers of a row mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -54,9 +53,9 @@ const COLUMNS: [&str; 24] = [
 
 /// One row: its cells by the names of their columns.
 struct Row<'a> {
-    line: u64,
+    line: u32,
     /// Name, column of the text, text; only cells with something in them.
-    cells: Vec<(&'a str, u64, &'a str)>,
+    cells: Vec<(&'a str, u32, &'a str)>,
 }
 
 /// Reads a table. `name` is the robot's, `convention` that of rows that do not say theirs.
@@ -122,7 +121,7 @@ fn rows(text: &str) -> Result<Vec<Row<'_>>> {
     let Some((line, head)) = lines.next() else {
         bail!("1:1: the table is empty: its first line names the columns, `a, alpha, d, theta`");
     };
-    let columns: Vec<(u64, &str)> = cells(head).collect();
+    let columns: Vec<(u32, &str)> = cells(head).collect();
     for (i, (at, column)) in columns.iter().enumerate() {
         if !COLUMNS.contains(column) {
             let (column, known) = (shown(column), COLUMNS.join(", "));
@@ -145,7 +144,7 @@ fn rows(text: &str) -> Result<Vec<Row<'_>>> {
     }
     let rows: Result<Vec<Row<'_>>> = lines
         .map(|(line, text)| {
-            let given: Vec<(u64, &str)> = cells(text).collect();
+            let given: Vec<(u32, &str)> = cells(text).collect();
             if given.len() > columns.len() {
                 let message = format!("{} cells below {} columns", given.len(), columns.len());
                 return Err(fault((line, given[columns.len()].0), message));
@@ -169,12 +168,12 @@ fn rows(text: &str) -> Result<Vec<Row<'_>>> {
 }
 
 /// The cells of a line with the columns of the text where they begin, without quotes and spaces.
-fn cells(line: &str) -> impl Iterator<Item = (u64, &str)> {
+fn cells(line: &str) -> impl Iterator<Item = (u32, &str)> {
     let mut at = 1;
     line.split(',').map(move |cell| {
-        let begin = cell.chars().take_while(|c| c.is_whitespace()).count() as u64;
+        let begin = cell.chars().take_while(|c| c.is_whitespace()).count() as u32;
         let place = at + begin;
-        at += cell.chars().count() as u64 + 1;
+        at += cell.chars().count() as u32 + 1;
         (place, cell.trim().trim_matches('"').trim())
     })
 }
@@ -222,18 +221,15 @@ impl<'a> Row<'a> {
     }
 
     fn kind(&self) -> Result<JointType> {
-        match self.cell("type") {
-            None | Some((_, "revolute")) => Ok(JointType::Revolute),
-            Some((_, "continuous")) => Ok(JointType::Continuous),
-            Some((_, "prismatic")) => Ok(JointType::Prismatic),
-            Some((_, "fixed")) => Ok(JointType::Fixed),
-            Some((at, word)) => {
-                let word = shown(word);
-                let message =
-                    format!("the type is revolute, continuous, prismatic or fixed, not `{word}`");
-                Err(fault(at, message))
-            }
-        }
+        let Some((at, word)) = self.cell("type") else {
+            return Ok(JointType::Revolute);
+        };
+        JointType::parse(word).ok_or_else(|| {
+            let word = shown(word);
+            let message =
+                format!("the type is revolute, continuous, prismatic or fixed, not `{word}`");
+            fault(at, message)
+        })
     }
 
     /// The link's place in the axes in which the row begins, and the row's own frame in the link's axes.
@@ -319,7 +315,7 @@ impl<'a> Row<'a> {
         };
         let plain = frame.placement();
         let place = plain.then(&com.placement());
-        let mut tensor = zeros6();
+        let mut tensor = Num::zeros();
         for (entry, name) in tensor
             .iter_mut()
             .zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"])
@@ -335,11 +331,6 @@ impl<'a> Row<'a> {
             tensor,
         }))
     }
-}
-
-fn zeros6() -> [Num; 6] {
-    let ([a, b, c], [d, e, f]) = (zeros(), zeros());
-    [a, b, c, d, e, f]
 }
 
 /// What a column's numbers measure.

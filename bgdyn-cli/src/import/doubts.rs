@@ -1,13 +1,13 @@
-//! What looks wrong of a robot, or was decided for its maker.
+//! Warnings about suspicious data of a robot and about decisions of the importer.
 
 use super::inertia::{DUST, Verdict, is_dust, judge};
+use super::joint_type::JointType;
 use super::naming::shown;
 use super::number::Num;
 use super::reading::{Inertial, Model};
 use super::tree::Tree;
 use bgdyn_codegen::name::WORLD;
 use std::collections::HashMap;
-use urdf_rs::JointType;
 
 /// Warnings about the robot as a whole.
 pub(super) fn doubtful(model: &Model, tree: &Tree) -> Vec<String> {

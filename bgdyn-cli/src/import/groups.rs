@@ -1,4 +1,4 @@
-//! Warnings put together by kind.
+//! Groups warnings by kind.
 
 /// Warnings of one kind, told in one line with the names they are about.
 #[derive(Default)]

@@ -1,4 +1,4 @@
-//! Principal moments of a tensor and what they break.
+//! Principal moments of an inertia tensor, and the rules that they break.
 
 /// Relative to the largest principal moment.
 const TOLERANCE: f64 = 1e-9;

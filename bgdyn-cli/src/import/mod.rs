@@ -1,6 +1,6 @@
-//! `bgdyn import`: a mechanism from a URDF, or from a table of Denavit–Hartenberg parameters.
+//! `bgdyn import`: converts a URDF or a table of Denavit–Hartenberg parameters into a mechanism.
 //!
-//! Text → elements with their places (`xml`) → the part a mechanism can hold, the rest counted (`select`) →
+//! Text → elements with their positions (`xml`) → the part a mechanism can hold, the rest counted (`select`) →
 //! links and joints (`reading`; of a table `dh`) → what the caller asks to change (`rework`) → their order (`tree`)
 //! and names (`naming`) → YAML (`writing`). `doubts` says what looks wrong, `placement` computes poses.
 
@@ -11,6 +11,7 @@ mod dh;
 mod doubts;
 mod groups;
 mod inertia;
+mod joint_type;
 mod naming;
 mod number;
 mod options;
@@ -24,11 +25,11 @@ mod xml;
 
 use crate::commands::check::snapped_words;
 use anyhow::Result;
+use joint_type::JointType;
 use naming::{identifiers, shown};
 use number::Num;
 use reading::Model;
 use std::collections::HashSet;
-use urdf_rs::JointType;
 
 pub use command::{ImportArgs, run};
 pub use dh::Convention;

@@ -1,4 +1,4 @@
-//! Names of a URDF made identifiers.
+//! Converts names of a URDF into identifiers.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,4 @@
-//! Decimal numbers, kept as they were written.
+//! Decimal numbers with their text as it was written.
 
 use bgdyn_runtime::Dd;
 
@@ -25,6 +25,11 @@ impl Num {
             text: "0".into(),
             value: 0.0,
         }
+    }
+
+    /// N zeros.
+    pub(super) fn zeros<const N: usize>() -> [Self; N] {
+        [(); N].map(|()| Num::zero())
     }
 
     /// A computed value, in its shortest form that reads back the same.

@@ -1,4 +1,4 @@
-//! What a caller of the import may ask for.
+//! Options of the import.
 
 use bgdyn_codegen::spec::Dimension;
 

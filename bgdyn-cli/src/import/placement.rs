@@ -1,6 +1,5 @@
-//! Poses computed from a robot's numbers, in double-double, and written as numbers again.
+//! Poses computed from a robot's numbers in double-double, and their decimal text.
 
-use super::attributes::zeros;
 use super::number::{Num, all_zero};
 use bgdyn_codegen::math::{Mat3, Vec3};
 use bgdyn_runtime::Dd;
@@ -19,8 +18,8 @@ impl Placement {
     /// No displacement, no turn.
     pub(super) fn identity() -> Self {
         Placement {
-            xyz: zeros(),
-            rpy: zeros(),
+            xyz: Num::zeros(),
+            rpy: Num::zeros(),
         }
     }
 
@@ -114,6 +113,28 @@ pub(super) fn turned(axis: Vec3<Dd>, angle: Dd) -> Pose {
     }
 }
 
+/// The turn of a quaternion x, y, z, w of any length but zero.
+pub(super) fn turned_by_quaternion(quaternion: [Dd; 4]) -> Pose {
+    // Scaled, so that no square leaves the range.
+    let largest = quaternion.iter().map(|x| x.to_f64().abs());
+    let largest = Dd::from_f64(largest.fold(0.0, f64::max));
+    let [x, y, z, w] = quaternion.map(|part| part / largest);
+    let scale = Dd::from_f64(2.0) / (x * x + y * y + z * z + w * w);
+    let rows = [
+        [y * y + z * z, x * y - z * w, x * z + y * w],
+        [x * y + z * w, x * x + z * z, y * z - x * w],
+        [x * z - y * w, y * z + x * w, x * x + y * y],
+    ];
+    let entry = |i: usize, j: usize| match i == j {
+        true => Dd::ONE - rows[i][j] * scale,
+        false => rows[i][j] * scale,
+    };
+    Pose {
+        rotation: Mat3::from_fn(entry),
+        translation: Vec3([Dd::ZERO; 3]),
+    }
+}
+
 /// The vector at length 1.
 pub(super) fn unit(v: Vec3<Dd>) -> Vec3<Dd> {
     let length = v.dot(v).sqrt();
@@ -162,5 +183,43 @@ fn radians(angle: Dd) -> Num {
         Some(0) => Num::zero(),
         Some(count) => Num::degrees(&format!("{}", 90 * count)).unwrap_or(Num::zero()),
         None => Num::computed(angle.to_f64()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Num, Placement, turned_by_quaternion};
+    use bgdyn_runtime::Dd;
+
+    /// The quaternion of half angles, multiplied together, gives the same turn; also at a pitch near and of 90°.
+    #[test]
+    fn quaternions_are_turns() {
+        let half = |text: &str| (Num::parse(text).unwrap().exact() / Dd::from_f64(2.0)).sin_cos();
+        for rpy in [
+            ["0.3", "-0.7", "2.1"],
+            ["-3.0", "1.5707", "0.4"],
+            ["1.2", "-1.570796", "-0.4"],
+            ["0", "0", "3.0"],
+        ] {
+            let [(sr, cr), (sp, cp), (sy, cy)] = rpy.map(half);
+            let quaternion = [
+                sr * cp * cy - cr * sp * sy,
+                cr * sp * cy + sr * cp * sy,
+                cr * cp * sy - sr * sp * cy,
+                cr * cp * cy + sr * sp * sy,
+            ];
+            for size in [1.0, -3.0, 1e-200] {
+                let turn = turned_by_quaternion(quaternion.map(|x| x * Dd::from_f64(size)));
+                let rpy = rpy.map(|text| Num::parse(text).unwrap());
+                let xyz = Num::zeros();
+                let same = Placement { xyz, rpy }.pose();
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let off = turn.rotation.0[i][j] - same.rotation.0[i][j];
+                        assert!(off.to_f64().abs() < 1e-29, "{i} {j}: {off:?}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -1,15 +1,15 @@
-//! URDF text to links and joints, with the numbers as they were written.
+//! Reads URDF text into links and joints, with numbers as they were written.
 
-use super::attributes::{bound, end, finite, name, numbers, place, turn, zeros};
+use super::attributes::{bound, end, finite, name, numbers, place, turn};
 use super::defaults::{INERTIAL, complete};
 use super::groups::Groups;
+use super::joint_type::JointType;
 use super::naming::shown;
 use super::number::Num;
 use super::placement::Placement;
-use super::select::select;
+use super::select::{select, version};
 use super::xml::{At, Element, fault, parse};
 use anyhow::Result;
-use urdf_rs::JointType;
 
 /// A robot as far as a mechanism can hold it.
 pub(super) struct Model {
@@ -79,18 +79,17 @@ pub(super) struct Limits {
     pub(super) effort: Option<Num>,
 }
 
-/// Reads a URDF. urdf-rs says what the elements mean (types, defaults, the rules of the file's version); the numbers
-/// come from the text.
+/// Reads a URDF, by the rules of the version that the file states.
 pub(super) fn read(text: &str) -> Result<Model> {
     let (mut root, ignored) = select(&parse(text)?)?;
     refuse_types(&root)?;
     let mut groups = Groups::default();
     complete(&mut root, &mut groups);
     let links = root.all("link").map(link).collect::<Result<_>>()?;
-    let meaning = meaning(&root)?;
-    let joints = root.all("joint").zip(&meaning.joints);
+    let strict = version(&root) >= (1, 2);
+    let joints = root.all("joint");
     let joints = joints
-        .map(|(element, meaning)| joint(element, meaning, &mut groups))
+        .map(|element| joint(element, strict, &mut groups))
         .collect::<Result<_>>()?;
     Ok(Model {
         name: root.get("name").unwrap_or_default().to_string(),
@@ -109,7 +108,7 @@ fn refuse_types(root: &Element) -> Result<()> {
     for joint in root.all("joint") {
         let name = shown(name(joint)?);
         match joint.get("type") {
-            Some("revolute" | "continuous" | "prismatic" | "fixed") => continue,
+            Some(kind) if JointType::parse(kind).is_some() => continue,
             Some(kind) => wrong.push(format!("joint `{name}` is `{}`", shown(kind))),
             None => wrong.push(format!("joint `{name}` has no type")),
         }
@@ -126,36 +125,6 @@ fn refuse_types(root: &Element) -> Result<()> {
     ))
 }
 
-/// The robot as urdf-rs understands it; joints in the order of the elements.
-fn meaning(root: &Element) -> Result<urdf_rs::Robot> {
-    let mut plain = root.clone();
-    for joint in plain
-        .children
-        .iter_mut()
-        .filter(|child| child.name == "joint")
-    {
-        joint
-            .children
-            .retain(|child| child.name != "mimic" && child.name != "dynamics");
-        // Faults that urdf-rs would find without a line.
-        end(joint, "parent")?;
-        end(joint, "child")?;
-        joint.child("origin").map(turn).transpose()?;
-        place(joint.child("origin"))?;
-        if let Some(limit) = joint.child("limit") {
-            for (attribute, _) in &limit.attributes {
-                bound(limit, attribute)?;
-            }
-        }
-        if let Some(axis) = joint.child("axis") {
-            numbers::<3>(axis, "xyz")?;
-        }
-    }
-    let mut text = String::new();
-    plain.write(&mut text);
-    urdf_rs::read_from_string(&text).map_err(|error| fault(root.at, error))
-}
-
 fn link(element: &Element) -> Result<Link> {
     let inertial = element
         .child("inertial")
@@ -167,7 +136,7 @@ fn link(element: &Element) -> Result<Link> {
             Ok(Inertial {
                 mass: finite(mass, "value")?,
                 com: place(origin)?,
-                rpy: origin.map_or(Ok(zeros()), turn)?,
+                rpy: origin.map_or(Ok(Num::zeros()), turn)?,
                 tensor: [
                     entry("ixx")?,
                     entry("iyy")?,
@@ -186,12 +155,29 @@ fn link(element: &Element) -> Result<Link> {
     })
 }
 
-fn joint(element: &Element, meaning: &urdf_rs::Joint, groups: &mut Groups) -> Result<Joint> {
+/// The axis of a joint that has no `<axis>`: x.
+const DEFAULT_AXIS: [f64; 3] = [1.0, 0.0, 0.0];
+
+/// One joint. `strict`: the file's version is 1.2 or later.
+fn joint(element: &Element, strict: bool, groups: &mut Groups) -> Result<Joint> {
     let joint_name = name(element)?;
     let label = format!("`{}`", shown(joint_name));
-    let kind = meaning.joint_type.clone();
+    let kind = element.get("type").and_then(JointType::parse);
+    // Other types were refused.
+    let kind = kind.unwrap_or(JointType::Fixed);
+    let (parent, child) = (end(element, "parent")?, end(element, "child")?);
     let origin = element.child("origin");
-    let mut axis = zeros();
+    let origin = Placement {
+        rpy: origin.map_or(Ok(Num::zeros()), turn)?,
+        xyz: place(origin)?,
+    };
+    if let Some(limit) = element.child("limit") {
+        check_limit(limit, strict, &label)?;
+    }
+    let axis = match element.child("axis") {
+        Some(axis) => numbers(axis, "xyz")?,
+        None => DEFAULT_AXIS.map(Num::computed),
+    };
     let mut limits = Limits::default();
     if kind == JointType::Fixed {
         for part in ["axis", "limit"]
@@ -204,27 +190,20 @@ fn joint(element: &Element, meaning: &urdf_rs::Joint, groups: &mut Groups) -> Re
             );
         }
     } else {
-        axis = match element.child("axis") {
-            Some(axis) => numbers(axis, "xyz")?,
-            None => meaning.axis.xyz.map(Num::computed),
-        };
         if axis.iter().all(Num::is_zero) {
             let at = element.child("axis").map_or(element.at, |axis| axis.at);
             return Err(fault(at, format_args!("the axis of joint {label} is zero")));
         }
-        limits = self::limits(element, meaning, &label, groups)?;
+        limits = self::limits(element, kind, strict, &label, groups)?;
     }
-    let [damping, friction] = dynamics(element, &kind, &label, groups);
+    let [damping, friction] = dynamics(element, kind, &label, groups);
     Ok(Joint {
         name: joint_name.to_string(),
         at: element.at,
         kind,
-        parent: end(element, "parent")?.to_string(),
-        child: end(element, "child")?.to_string(),
-        origin: Placement {
-            xyz: place(origin)?,
-            rpy: origin.map_or(Ok(zeros()), turn)?,
-        },
+        parent: parent.to_string(),
+        child: child.to_string(),
+        origin,
         axis,
         limits,
         damping,
@@ -232,13 +211,46 @@ fn joint(element: &Element, meaning: &urdf_rs::Joint, groups: &mut Groups) -> Re
     })
 }
 
+/// Every limit must be a number. Since version 1.2 no range may be empty, and no velocity or effort negative.
+fn check_limit(limit: &Element, strict: bool, label: &str) -> Result<()> {
+    let bounds = ["lower", "upper", "velocity", "effort"].map(|attribute| bound(limit, attribute));
+    let [lower, upper, velocity, effort] = bounds;
+    let (lower, upper) = (lower?, upper?);
+    let at_least_zero = [("velocity", velocity?), ("effort", effort?)];
+    if !strict {
+        return Ok(());
+    }
+    if let (Some(lower), Some(upper)) = (lower, upper)
+        && upper.value < lower.value
+    {
+        let (lower, upper) = (lower.text, upper.text);
+        let message = format_args!(
+            "the upper limit {upper} of joint {label} is below the lower one, {lower}"
+        );
+        return Err(fault(limit.at, message));
+    }
+    for (attribute, value) in at_least_zero {
+        if let Some(value) = value.filter(|value| value.value < 0.0) {
+            let message = format!(
+                "the {attribute} limit {} of joint {label} is negative",
+                value.text
+            );
+            return Err(fault(limit.at, message));
+        }
+    }
+    Ok(())
+}
+
+/// The limits of a joint that moves. Before version 1.2 a position limit that is missing is 0, since then there is
+/// none.
 fn limits(
     element: &Element,
-    meaning: &urdf_rs::Joint,
+    kind: JointType,
+    strict: bool,
     label: &str,
     groups: &mut Groups,
 ) -> Result<Limits> {
-    let continuous = meaning.joint_type == JointType::Continuous;
+    let continuous = kind == JointType::Continuous;
     let Some(limit) = element.child("limit") else {
         if !continuous {
             groups.add(
@@ -249,10 +261,7 @@ fn limits(
         return Ok(Limits::default());
     };
     let mut limits = Limits::default();
-    for (attribute, default) in [
-        ("lower", meaning.limit.lower),
-        ("upper", meaning.limit.upper),
-    ] {
+    for attribute in ["lower", "upper"] {
         let given = bound(limit, attribute)?;
         if continuous {
             if given.is_some() {
@@ -261,20 +270,20 @@ fn limits(
             }
             continue;
         }
-        if given.is_none() && default.is_finite() {
+        if given.is_none() && !strict {
             let item = format!("{attribute} of {label}");
             groups.add(
                 "position limits that the URDF leaves out, which it defines to be 0",
                 item,
             );
         }
-        let value = given.unwrap_or_else(|| Num::computed(default));
+        let value = given.or_else(|| (!strict).then(Num::zero));
         let slot = if attribute == "lower" {
             &mut limits.lower
         } else {
             &mut limits.upper
         };
-        *slot = Some(value).filter(|value| value.value.is_finite());
+        *slot = value.filter(|value| value.value.is_finite());
     }
     for attribute in ["velocity", "effort"] {
         let value =
@@ -306,7 +315,7 @@ fn limits(
 /// A joint's damping and friction; tells of what a mechanism cannot hold, with the values.
 fn dynamics(
     element: &Element,
-    kind: &JointType,
+    kind: JointType,
     label: &str,
     groups: &mut Groups,
 ) -> [Option<Num>; 2] {
@@ -332,7 +341,7 @@ fn dynamics(
             .iter()
             .position(|known| known == name);
         match (slot, sound) {
-            (Some(slot), Some(sound)) if *kind != JointType::Fixed => taken[slot] = Some(sound),
+            (Some(slot), Some(sound)) if kind != JointType::Fixed => taken[slot] = Some(sound),
             _ => left.push((name.clone(), value.clone())),
         }
     }

@@ -1,6 +1,6 @@
-//! What a caller asks to change of a robot before it is written: joints locked, a chain taken out, links
-//! made frames.
+//! Changes of a robot before it is written: locked joints, an extracted chain, links turned into frames.
 
+use super::joint_type::JointType;
 use super::naming::{identifier, shown};
 use super::number::Num;
 use super::options::{Lock, Options};
@@ -11,7 +11,6 @@ use crate::quantity;
 use anyhow::{Result, bail};
 use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::spec::Dimension;
-use urdf_rs::JointType;
 
 /// The word that means every link that may be a frame.
 const ALL: &str = "all";

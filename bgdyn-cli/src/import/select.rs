@@ -1,4 +1,4 @@
-//! What of a URDF a mechanism can hold. Everything else is counted by name, so that it can be told.
+//! Selects the elements of a URDF that a mechanism can hold, and counts all others by name.
 
 use super::xml::{Element, fault};
 use anyhow::Result;

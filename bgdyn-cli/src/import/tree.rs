@@ -1,4 +1,4 @@
-//! Which link carries which: the joints must make trees that grow from links without a joint.
+//! The trees that joints form from links, with links without a joint as roots.
 
 use super::naming::shown;
 use super::reading::Model;

@@ -1,10 +1,10 @@
-//! A read robot as the text of a mechanism.
+//! Writes a robot as the YAML text of a mechanism.
 
+use super::joint_type::JointType;
 use super::naming::shown;
 use super::number::{Num, all_zero};
 use super::placement::Placement;
 use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
-use urdf_rs::JointType;
 
 /// Longer lines are broken up.
 const WIDTH: usize = 100;
@@ -117,7 +117,7 @@ fn write_joint(joint: &Joint, name: &str, lines: &mut Vec<String>) {
     if name != joint.name {
         keys.push(format!("label: {}", scalar(&joint.name)));
     }
-    keys.push(format!("type: {}", kind(&joint.kind)));
+    keys.push(format!("type: {}", joint.kind.keyword()));
     if joint.kind != JointType::Fixed {
         keys.extend(axis(&joint.axis));
     }
@@ -129,18 +129,6 @@ fn write_joint(joint: &Joint, name: &str, lines: &mut Vec<String>) {
     } else {
         lines.push("joint:".into());
         lines.extend(keys.into_iter().map(|key| format!("  {key}")));
-    }
-}
-
-fn kind(kind: &JointType) -> &'static str {
-    match kind {
-        JointType::Revolute => "revolute",
-        JointType::Continuous => "continuous",
-        JointType::Prismatic => "prismatic",
-        // Other types were refused when they were read.
-        JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => {
-            "fixed"
-        }
     }
 }
 

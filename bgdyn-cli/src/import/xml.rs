@@ -1,15 +1,16 @@
-//! XML text to a small tree that remembers where each element stood.
+//! XML text to a small tree that remembers the position of each element.
 
 use anyhow::{Result, anyhow};
-use xml::common::{Position, TextPosition};
-use xml::name::OwnedName;
-use xml::reader::{EventReader, ParserConfig2, XmlEvent};
+use roxmltree::{Document, Error, Node, ParsingOptions};
 
 /// Deeper nesting than this is refused: no URDF comes near, and it bounds every recursion.
 const MAX_DEPTH: usize = 64;
 
+/// Elements, texts and comments of a file, at most: only a document that expands its own entities has more.
+const MAX_NODES: u32 = 1 << 22;
+
 /// Line and column, both from 1.
-pub(super) type At = (u64, u64);
+pub(super) type At = (u32, u32);
 
 /// An element: attributes in the order of the file, children likewise.
 #[derive(Debug, Clone)]
@@ -57,23 +58,9 @@ impl Element {
         let below: usize = self.children.iter().map(|child| child.count(name)).sum();
         below + usize::from(self.name == name)
     }
-
-    /// The element as XML text.
-    pub(super) fn write(&self, out: &mut String) {
-        out.push('<');
-        out.push_str(&self.name);
-        for (name, value) in &self.attributes {
-            out.push_str(&format!(" {name}=\"{}\"", escaped(value)));
-        }
-        out.push('>');
-        for child in &self.children {
-            child.write(out);
-        }
-        out.push_str(&format!("</{}>", self.name));
-    }
 }
 
-/// An error at a place of the file: `LINE:COLUMN: message`.
+/// An error at a position of the file: `LINE:COLUMN: message`.
 pub(super) fn fault((line, column): At, message: impl std::fmt::Display) -> anyhow::Error {
     anyhow!("{line}:{column}: {message}")
 }
@@ -81,135 +68,102 @@ pub(super) fn fault((line, column): At, message: impl std::fmt::Display) -> anyh
 /// Reads the one root element.
 pub(super) fn parse(text: &str) -> Result<Element> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    // The text is UTF-8 already, whatever its declaration says.
-    let config = ParserConfig2::new()
-        .override_encoding(Some(xml::Encoding::Utf8))
-        .ignore_invalid_encoding_declarations(true)
-        .allow_multiple_root_elements(false)
-        .max_entity_expansion_length(1 << 16)
-        .ignore_comments(true)
-        .cdata_to_characters(true);
-    let mut reader = EventReader::new_with_config(text.as_bytes(), config);
     let lines = Lines::new(text);
-    let mut open: Vec<Element> = Vec::new();
-    let mut root = None;
-    loop {
-        let event = reader.next().map_err(|error| {
-            let at = error.position();
-            let hint = match text.contains("<xacro:") {
-                true => EXPAND,
-                false => "",
-            };
-            let message = error.msg().trim();
-            fault(
-                (at.row + 1, at.column + 1),
-                format_args!("this is not well-formed XML: {message}{hint}"),
-            )
-        })?;
-        let at = lines.start_of_tag(reader.position());
-        match event {
-            XmlEvent::StartElement {
-                name, attributes, ..
-            } => {
-                if name
-                    .namespace
-                    .as_deref()
-                    .is_some_and(|uri| uri.trim_end_matches('/').ends_with("xacro"))
-                {
-                    let name = written(&name);
-                    return Err(fault(
-                        at,
-                        format_args!("`<{name}>` is an instruction to xacro{EXPAND}"),
-                    ));
-                }
-                if open.len() == MAX_DEPTH {
-                    return Err(fault(
-                        at,
-                        format_args!("elements are nested more than {MAX_DEPTH} deep"),
-                    ));
-                }
-                open.push(Element {
-                    name: written(&name),
-                    attributes: attributes
-                        .into_iter()
-                        .map(|a| (written(&a.name), a.value))
-                        .collect(),
-                    children: Vec::new(),
-                    text: false,
-                    at,
-                });
-            }
-            XmlEvent::EndElement { .. } => {
-                if let Some(done) = open.pop() {
-                    match open.last_mut() {
-                        Some(parent) => parent.children.push(done),
-                        None => root = Some(done),
-                    }
-                }
-            }
-            XmlEvent::Characters(text) => {
-                if let Some(element) = open.last_mut() {
-                    element.text |= !text.trim().is_empty();
-                }
-            }
-            XmlEvent::EndDocument => break,
-            _ => {}
-        }
-    }
-    root.ok_or_else(|| fault((1, 1), "the file holds no element"))
+    let options = ParsingOptions {
+        allow_dtd: true,
+        nodes_limit: MAX_NODES,
+        entity_resolver: None,
+    };
+    let document =
+        Document::parse_with_options(text, options).map_err(|e| malformed(&lines, &e))?;
+    element(document.root_element(), &lines, 1)
 }
 
-/// The lines of a text.
-struct Lines<'a>(Vec<&'a str>);
+/// The error of a text that is not XML.
+fn malformed(lines: &Lines<'_>, error: &Error) -> anyhow::Error {
+    let at = match error {
+        // The parser gives no position for what ends too early.
+        Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
+            lines.at(lines.text.len())
+        }
+        other => (other.pos().row, other.pos().col),
+    };
+    let hint = match lines.text.contains("<xacro:") {
+        true => EXPAND,
+        false => "",
+    };
+    // The message repeats the position.
+    let message = error
+        .to_string()
+        .replace(&format!(" at {}", error.pos()), "");
+    fault(
+        at,
+        format_args!("this is not well-formed XML: {message}{hint}"),
+    )
+}
+
+/// The element, and what stands in it, `depth` levels from the top.
+fn element(node: Node<'_, '_>, lines: &Lines<'_>, depth: usize) -> Result<Element> {
+    let start = node.range().start;
+    let (at, name) = (lines.at(start), lines.name(start + 1));
+    let namespace = node.tag_name().namespace().unwrap_or_default();
+    if namespace.trim_end_matches('/').ends_with("xacro") {
+        return Err(fault(
+            at,
+            format_args!("`<{name}>` is an instruction to xacro{EXPAND}"),
+        ));
+    }
+    if depth > MAX_DEPTH {
+        return Err(fault(
+            at,
+            format_args!("elements are nested more than {MAX_DEPTH} deep"),
+        ));
+    }
+    let mut read = Element::empty(name, at);
+    for attribute in node.attributes() {
+        let name = lines.name(attribute.range().start);
+        let value = attribute.value().to_owned();
+        read.attributes.push((name.to_owned(), value));
+    }
+    for child in node.children() {
+        if child.is_element() {
+            read.children.push(element(child, lines, depth + 1)?);
+        } else if child.is_text() {
+            read.text |= child.text().is_some_and(|text| !text.trim().is_empty());
+        }
+    }
+    Ok(read)
+}
+
+/// A text and where its lines start.
+struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
 
 impl<'a> Lines<'a> {
     fn new(text: &'a str) -> Self {
-        Lines(text.split('\n').collect())
+        let ends = text.match_indices('\n').map(|(end, _)| end + 1);
+        let starts = std::iter::once(0).chain(ends).collect();
+        Lines { text, starts }
     }
 
-    /// Where the tag opens that the reader is in or has just left: a `<` cannot stand inside one.
-    fn start_of_tag(&self, inside: TextPosition) -> At {
-        let last = usize::try_from(inside.row)
-            .unwrap_or(usize::MAX)
-            .min(self.0.len() - 1);
-        let column = usize::try_from(inside.column).unwrap_or(usize::MAX);
-        let before = |row: usize, line: &str| match row == last {
-            true => line.chars().take(column.saturating_add(1)).collect(),
-            false => line.to_string(),
-        };
-        for row in (0..=last).rev() {
-            let part = before(row, self.0[row]);
-            if let Some(byte) = part.rfind('<') {
-                return (row as u64 + 1, part[..byte].chars().count() as u64 + 1);
-            }
-        }
-        (inside.row + 1, inside.column + 1)
+    /// Line and column of a byte.
+    fn at(&self, byte: usize) -> At {
+        let line = self.starts.partition_point(|start| *start <= byte);
+        let before = &self.text[self.starts[line - 1]..byte];
+        let number = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        (number(line), number(before.chars().count() + 1))
+    }
+
+    /// The name that starts at a byte, as written, with its prefix.
+    fn name(&self, byte: usize) -> &'a str {
+        let rest = &self.text[byte..];
+        let ends = |c: char| c.is_whitespace() || matches!(c, '/' | '>' | '=');
+        &rest[..rest.find(ends).unwrap_or(rest.len())]
     }
 }
 
 /// What to do with a file that was not expanded.
 pub(super) const EXPAND: &str =
     ": expand the file first (`xacro robot.urdf.xacro > robot.urdf`) and import the result";
-
-fn written(name: &OwnedName) -> String {
-    match &name.prefix {
-        Some(prefix) => format!("{prefix}:{}", name.local_name),
-        None => name.local_name.clone(),
-    }
-}
-
-fn escaped(value: &str) -> String {
-    let mut out = String::with_capacity(value.len());
-    for c in value.chars() {
-        match c {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '&' => out.push_str("&amp;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&apos;"),
-            c if c.is_control() => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
-}

@@ -1,4 +1,4 @@
-//! Effects, from the generator's own table.
+//! The JSON Schema of effects, from the generator's own list.
 
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};

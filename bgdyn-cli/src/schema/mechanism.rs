@@ -1,4 +1,4 @@
-//! A mechanism's file.
+//! The JSON Schema of a mechanism's file.
 
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
 use bgdyn_codegen::spec::{Dimension, LENGTHS};

@@ -1,4 +1,4 @@
-//! The JSON Schemas of mechanisms' and scenes' files, for editors: completion, hints and red lines while typing.
+//! The JSON Schemas of mechanisms and scenes, for completion and checks in editors.
 //!
 //! They say what the readers say about keys, words, types and units; what a check finds by computing (a tensor
 //! that no body has, a circle of parents) is for `bgdyn check`.

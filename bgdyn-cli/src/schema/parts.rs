@@ -1,4 +1,4 @@
-//! What schemas are made of.
+//! Building blocks of JSON Schemas.
 
 use bgdyn_codegen::spec::Dimension;
 use serde_json::{Map, Value, json};

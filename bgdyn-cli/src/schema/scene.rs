@@ -1,5 +1,7 @@
-//! A scene's file. What an input, a coordinate or a part of the state measures is the mechanism's to say, so their
-//! numbers may have any unit here.
+//! The JSON Schema of a scene's file.
+//!
+//! The mechanism determines the dimensions of inputs, coordinates and state variables, so their numbers
+//! may have any unit here.
 
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};

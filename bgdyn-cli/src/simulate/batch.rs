@@ -1,4 +1,4 @@
-//! Many runs of a scene, each told by one row.
+//! Many runs of a scene, with a row of results for each.
 
 use std::fmt::Write;
 use std::num::NonZeroUsize;

@@ -1,4 +1,4 @@
-//! The plot of a batch: where each output ends against each quantity that was varied.
+//! The plot of a batch: the final value of each output against each varied quantity.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! How far two runs of a scene are apart.
+//! The distance between two runs of a scene.
 
 use super::record::Record;
 

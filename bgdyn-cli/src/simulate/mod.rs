@@ -1,4 +1,4 @@
-//! Runs of scenes through the evaluator, and what is told of them.
+//! Simulation of scenes in the evaluator, and its reports.
 
 mod axis;
 pub(crate) mod batch;

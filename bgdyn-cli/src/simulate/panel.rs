@@ -1,4 +1,4 @@
-//! A panel of a plot: frame, numbers, words; and where a value is in it.
+//! A panel of a plot: its frame, numbers and labels, and the positions of values in it.
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, FAINT, GRID, INK};
 

@@ -1,4 +1,4 @@
-//! A scene through the evaluator, as a plant: what [`bgdyn_sim::Run`] integrates without a compiler.
+//! A scene in the evaluator as a plant, which [`bgdyn_sim::Run`] integrates without a compiler.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! The plot: one panel per column, over time.
+//! The plot of a run: a panel for each column, over time.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What is kept of a run, and how one is made: data.
+//! The record of a run: its points, and how they were computed.
 
 use bgdyn_codegen::scene::{Integration, Pace};
 use bgdyn_codegen::system::System;

@@ -1,4 +1,4 @@
-//! A run from its start to its end.
+//! Records a run from its start to its end.
 
 use bgdyn_codegen::scene::{Integration, Integrator, Pace};
 use bgdyn_codegen::system::System;

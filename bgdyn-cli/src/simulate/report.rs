@@ -1,4 +1,4 @@
-//! What is told of a run: the table of its points, and a report for people.
+//! Prints a run: the table of its points, and a summary.
 
 use std::fmt::Write;
 

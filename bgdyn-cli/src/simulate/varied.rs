@@ -1,5 +1,4 @@
-//! What runs are given in place of what the scene says: by name on the command line, in a file, over a
-//! grid, by chance.
+//! Values that override a scene's: from the command line, a file, a grid, or at random.
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::scene::{Scene, Settable, SettableKind};

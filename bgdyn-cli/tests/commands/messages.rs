@@ -350,7 +350,7 @@ fn numbers_that_are_none_are_refused() {
         (["--step", "1 sec"], "`--step 1 sec`: "),
         (
             ["--step", "fast"],
-            "`--step fast`: `fast` is no number: write ",
+            "`--step fast`: `fast` is not a number: write ",
         ),
         (["--step", "nan"], "`--step nan`: "),
         (["--step", "0 s"], "write a number greater than 0"),

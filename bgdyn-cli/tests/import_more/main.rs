@@ -36,7 +36,7 @@ fn value(mechanism: &Mechanism, method: Method, [q, v, a]: [&[f64]; 3]) -> Vec<f
 
 /// The pose of a place: rotation row by row or column by column as the method has it, and origin.
 fn pose(mechanism: &Mechanism, place: &str, q: &[f64]) -> Vec<f64> {
-    let sites = bgdyn_codegen::bond_graph::build(mechanism).sites;
+    let sites = bgdyn_codegen::bond_graph::build(mechanism).multibody.sites;
     let method = Method::named(&sites, &format!("pose_{place}")).expect("the place");
     value(mechanism, method, [q, &[], &[]])
 }

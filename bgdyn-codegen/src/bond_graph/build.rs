@@ -4,26 +4,30 @@ use bgdyn_runtime::Dd;
 
 use super::pattern::{Coordinates, Modulus};
 use super::{
-    BondGraph, Coordinate, Effort, Inertia, Junction, JunctionId, LinkFrame, Site, Source, Store,
-    Transformer,
+    BondGraph, Coordinate, Effort, Inertia, Junction, JunctionId, LinkFrame, Multibody, Site,
+    Source, Store, Transformer,
 };
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
 /// Builds the bond graph.
 pub fn build(mechanism: &Mechanism) -> BondGraph {
+    let links = mechanism.links();
     let mut graph = BondGraph {
-        coordinates: coordinates(mechanism),
-        frames: mechanism.links().iter().map(frame).collect(),
+        multibody: Multibody {
+            coordinates: coordinates(mechanism),
+            frames: links.iter().map(frame).collect(),
+            inertials: links.iter().map(|link| link.inertial).collect(),
+            gravity: mechanism.gravity(),
+            rotors: Vec::new(),
+            velocity_products: true,
+            parameters: mechanism.parameters().to_vec(),
+            sites: sites(mechanism),
+        },
         junctions: Vec::new(),
         stores: Vec::new(),
         sources: Vec::new(),
         transformers: Vec::new(),
-        gravity: mechanism.gravity(),
-        rotors: Vec::new(),
-        velocity_products: true,
-        parameters: mechanism.parameters().to_vec(),
-        sites: sites(mechanism),
     };
     graph.junctions = (0..mechanism.nv())
         .map(|j| Junction::Velocity(CoordinateId(j)))

@@ -7,40 +7,30 @@
 //! of the placement of the link frames, which stand beside the graph.
 
 mod build;
+mod causality;
 mod inert;
+mod multibody;
+mod network;
+mod node;
 mod pattern;
+
+use std::ops::Deref;
 
 use bgdyn_runtime::Dd;
 
-use crate::math::{Mat3, Vec3};
-use crate::mechanism::{
-    CoordinateId, Inertial, LinkId, Mechanism, Motion, Parameter, Pose, Tensor, Value,
-};
+use crate::math::Vec3;
+use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 
 pub use build::build;
+pub use causality::Causality;
+pub use multibody::{Coordinate, Gyrostat, LinkFrame, Multibody, Rotor, Site, SiteId};
+pub use network::BondNetwork;
+pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortPlace, PowerTerm};
 pub use pattern::Modulus;
 
 /// A junction of [`BondGraph::junctions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JunctionId(pub usize);
-
-/// A place of [`BondGraph::sites`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct SiteId(pub usize);
-
-/// A named place whose motion can be asked for: a link's frame, or a frame named in the spec.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Site {
-    /// The link's or the frame's name.
-    pub name: String,
-    /// The link it is fixed to; `None` for the world.
-    pub link: Option<LinkId>,
-    /// Its axes and origin in the link's axes.
-    pub place: Pose,
-    /// Whether the spec names it as a frame, or no other link hangs on it: what a user asks for
-    /// who asks for nothing in particular.
-    pub prominent: bool,
-}
 
 /// What flow a 1-junction carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,67 +94,11 @@ pub struct Transformer {
     pub modulus: Vec3<Modulus>,
 }
 
-/// Placement of a link's frame: what the moduli are functions of.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinkFrame {
-    /// The link's name.
-    pub name: String,
-    /// The link that carries it.
-    pub parent: Option<LinkId>,
-    /// Link axes in the parent's at coordinate zero.
-    pub origin: Pose,
-    /// What the joint lets it do.
-    pub motion: Motion,
-    /// Unit vector of the joint's axis in link axes.
-    pub axis: Vec3<Dd>,
-    /// The coordinate that moves it.
-    pub coordinate: Option<CoordinateId>,
-    /// Centre of mass in link axes, m.
-    pub com: Vec3<Value>,
-    /// Columns: axes of the inertia tensor's entries in the link's.
-    pub tensor_axes: Mat3<Dd>,
-}
-
-/// A generalized coordinate.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Coordinate {
-    /// Its joint's name.
-    pub name: String,
-    /// The link that its joint carries.
-    pub link: LinkId,
-    /// Angle or displacement.
-    pub motion: Motion,
-}
-
-/// An inertial store on the junction of a generalized velocity: a rotor behind a gear.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rotor {
-    /// The velocity q̇_j.
-    pub coordinate: CoordinateId,
-    /// J, kg·m² (kg for a displacement).
-    pub inertia: Value,
-    /// N, turns of the rotor per unit of the joint.
-    pub ratio: Value,
-    /// What it turns with, if it is a full rotor.
-    pub carrier: Option<Gyrostat>,
-}
-
-/// How a rotor sits on a link: per unit rate of the joint it has the momentum N J e there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Gyrostat {
-    /// The link.
-    pub link: LinkId,
-    /// e, its axis in the link's axes.
-    pub axis: Vec3<Dd>,
-}
-
-/// The bond graph.
+/// The bond graph of a mechanism. What is read of the [`Multibody`] can be read of its graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BondGraph {
-    /// Generalized coordinates, in the order of q.
-    pub coordinates: Vec<Coordinate>,
-    /// Frames of the links, parents before children.
-    pub frames: Vec<LinkFrame>,
+    /// The bodies, joints and rotors that the graph is of.
+    pub multibody: Multibody,
     /// 1-junctions: velocities first, then a translational and a rotational one per link.
     pub junctions: Vec<Junction>,
     /// Inertial stores, two per link.
@@ -173,16 +107,14 @@ pub struct BondGraph {
     pub sources: Vec<Source>,
     /// Modulated transformers.
     pub transformers: Vec<Transformer>,
-    /// Gravity, m/s², fixed axes.
-    pub gravity: Vec3<Dd>,
-    /// Rotors behind gears.
-    pub rotors: Vec<Rotor>,
-    /// Whether the transformers' rates count: Coriolis, centrifugal and gyroscopic efforts.
-    pub velocity_products: bool,
-    /// Run-time parameters that values refer to.
-    pub parameters: Vec<Parameter>,
-    /// The links' frames, then the named ones.
-    pub sites: Vec<Site>,
+}
+
+impl Deref for BondGraph {
+    type Target = Multibody;
+
+    fn deref(&self) -> &Multibody {
+        &self.multibody
+    }
 }
 
 impl BondGraph {
@@ -194,14 +126,17 @@ impl BondGraph {
         for source in &mut self.sources {
             source.efforts.clear();
         }
-        self.gravity = Vec3([Dd::ZERO; 3]);
-        self.velocity_products = false;
+        self.multibody.gravity = Vec3([Dd::ZERO; 3]);
+        self.multibody.velocity_products = false;
+        for inertial in &mut self.multibody.inertials {
+            inertial.inertia.entries = [Value::Fixed(Dd::ZERO); 6];
+        }
         self
     }
 
     /// Gives every link its weight.
     pub fn weigh(&mut self, gravity: Vec3<Dd>) {
-        self.gravity = gravity;
+        self.multibody.gravity = gravity;
         for i in 0..self.frames.len() {
             let mass = self.inertial(LinkId(i)).mass;
             let junction = self.translation(LinkId(i));
@@ -215,17 +150,13 @@ impl BondGraph {
     /// Gives every link its tensor.
     pub fn distribute(&mut self, mechanism: &Mechanism) {
         for (i, link) in mechanism.links().iter().enumerate() {
+            let entries = link.inertial.inertia.entries;
+            self.multibody.inertials[i].inertia.entries = entries;
             self.stores.push(Store {
                 junction: self.rotation(LinkId(i)),
-                inertia: Inertia::Tensor(link.inertial.inertia.entries),
+                inertia: Inertia::Tensor(entries),
             });
         }
-    }
-
-    /// The coordinate of the joint with this name.
-    pub fn coordinate_named(&self, name: &str) -> Option<CoordinateId> {
-        let found = self.coordinates.iter().position(|c| c.name == name);
-        found.map(CoordinateId)
     }
 
     /// The junction of q̇_j.
@@ -241,27 +172,6 @@ impl BondGraph {
     /// The junction of ω_i.
     pub fn rotation(&self, i: LinkId) -> JunctionId {
         JunctionId(self.coordinates.len() + 2 * i.0 + 1)
-    }
-
-    /// Mass, centre of mass and tensor of a link, read off its two stores.
-    pub fn inertial(&self, i: LinkId) -> Inertial {
-        let at = |junction| self.stores.iter().filter(move |s| s.junction == junction);
-        let zero = Value::Fixed(Dd::ZERO);
-        let mut inertial = Inertial {
-            mass: zero,
-            com: self.frames[i.0].com,
-            inertia: Tensor {
-                entries: [zero; 6],
-                axes: self.frames[i.0].tensor_axes,
-            },
-        };
-        for store in at(self.translation(i)).chain(at(self.rotation(i))) {
-            match store.inertia {
-                Inertia::Mass(mass) => inertial.mass = mass,
-                Inertia::Tensor(entries) => inertial.inertia.entries = entries,
-            }
-        }
-        inertial
     }
 
     /// The transformers that feed a junction.

@@ -1,4 +1,4 @@
-//! From polynomials to equations as a book prints them.
+//! Collects the terms of polynomials into equations as a book prints them.
 
 use std::collections::BTreeMap;
 

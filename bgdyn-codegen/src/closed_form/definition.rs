@@ -1,4 +1,4 @@
-//! Sums of products of letters: what stands before a term's sines and motions.
+//! Coefficients of equations: sums of products of symbols.
 
 use std::collections::BTreeMap;
 

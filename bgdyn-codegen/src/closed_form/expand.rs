@@ -1,4 +1,4 @@
-//! From an expression graph to polynomials, node by node, within a budget.
+//! Expands an expression graph into polynomials, node by node, within a limit of terms.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! Equations as they are printed: sums of products, as data.
+//! The data of printed equations: sums of products.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! The equations in LaTeX, for the package amsmath.
+//! Prints equations in LaTeX, for the package amsmath.
 
 use std::fmt::Write as _;
 

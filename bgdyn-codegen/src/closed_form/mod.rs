@@ -1,4 +1,6 @@
-//! P_j of small mechanisms in closed form, as a textbook prints them. Nothing generated goes through it.
+//! Closed-form efforts P_j of small mechanisms, as a textbook prints them.
+//!
+//! No generated code is made from it.
 //!
 //! 1. The expression graph of the literal sum (6), made for the mechanism with letters for its numbers
 //!    ([`Mechanism::lettered`]). The letters are run-time parameters, and prismatic joints of massless
@@ -19,15 +21,14 @@ mod form;
 mod latex;
 mod notation;
 mod polynomial;
+mod refused;
 mod text;
 mod tidy;
-
-use std::fmt;
 
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{self, BondGraph, Effort};
-use crate::formulation::{self, Search};
+use crate::formulation::{self, Prepared};
 use crate::mechanism::{Letter, Lettered, LinkId, Mechanism, Motion, ParameterId, Value};
 use crate::method::Method;
 use collect::Collected;
@@ -37,6 +38,7 @@ pub use form::{Atom, ClosedForm, Factor, NamedSum, Sum, Term};
 pub use latex::latex;
 pub use polynomial::Angle;
 use polynomial::{Polynomial, Symbol};
+pub use refused::Refused;
 pub use text::text;
 
 /// The usual limit: what can still be read.
@@ -46,51 +48,6 @@ pub const LIMIT: usize = 300;
 const ON_THE_WAY: usize = 15;
 /// Products of terms on the way, for each term allowed in the end.
 const PRODUCTS: usize = 250;
-
-/// Why there is no closed form.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Refused {
-    /// The equations have more terms than the limit.
-    TooLong {
-        /// Terms of all P_j.
-        terms: usize,
-    },
-    /// A sum on the way has too many terms for so much to cancel.
-    LongSum {
-        /// Its terms.
-        terms: usize,
-    },
-    /// The way there takes too many products of two terms.
-    ManyProducts {
-        /// As many as were asked for when it was given up.
-        products: usize,
-    },
-    /// The equations hold more than sines, cosines, products and sums.
-    NotTrigonometric,
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refused::TooLong { terms } => write!(f, "its equations have {terms} terms"),
-            Refused::LongSum { terms } => {
-                write!(f, "a sum on the way to its equations has {terms} terms")
-            }
-            Refused::ManyProducts { products } => write!(
-                f,
-                "the way to its equations takes {products} products of two terms and more"
-            ),
-            Refused::NotTrigonometric => {
-                write!(
-                    f,
-                    "its equations hold more than sines, cosines, products and sums"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for Refused {}
 
 /// P_j(q, q̇, q̈) of a mechanism without effects, from equation (6): `limit` terms at most.
 ///
@@ -105,7 +62,7 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Re
         parameters: weigh(&mut graph, &lettered, &mut letters),
     };
     let literal = formulation::by_name("literal").expect("the specification is always there");
-    let function = literal.function(&Search::new(&graph, None), Method::InverseDynamics);
+    let function = literal.function(&Prepared::new(&graph), Method::InverseDynamics);
     let function = function.expect("it knows inverse dynamics");
     let outputs = &function.blocks[0].outputs[..mechanism.nv()];
     let budget = Budget {

@@ -1,4 +1,4 @@
-//! What text and LaTeX have in common: how sums of products become strings.
+//! Strings of sums and products, shared by plain text and LaTeX.
 
 use bgdyn_runtime::Dd;
 

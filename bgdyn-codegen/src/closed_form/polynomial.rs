@@ -1,4 +1,4 @@
-//! Polynomials in letters, coordinates, velocities, accelerations and in sines and cosines.
+//! Polynomials in symbols, coordinates, velocities, accelerations, sines and cosines.
 //!
 //! Normal form: of the angles about parallel axes, a *group*, a term holds at most one sine or cosine,
 //! of a sum of whole multiples of them. Products within a group become sums by

@@ -1,4 +1,4 @@
-//! The equations as text for a terminal.
+//! Prints equations as plain text for a terminal.
 
 use std::fmt::Write as _;
 

@@ -1,5 +1,4 @@
-//! From the normal form back to what books write: products and squares of sines and cosines where
-//! that makes a sum shorter.
+//! Rewrites sums of sines and cosines with products and squares, as books do, where that is shorter.
 
 use super::definition::{Definition, Letters};
 use super::form::Atom;

@@ -1,10 +1,11 @@
-//! An effect with its values, checked.
+//! A kind of effect as files declare it, and an effect with its checked values.
 
 use bgdyn_runtime::Dd;
 
-use super::Declaration;
-use crate::fault::Place;
-use crate::spec::{Dimension, Reads};
+use crate::fault::{Faults, Place};
+use crate::layout::Layout;
+use crate::mechanism::{Limits, Mechanism};
+use crate::spec::{Dimension, Key, Reads};
 
 /// A number of an effect: folded into the code, or a public field of the generated struct.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +50,104 @@ pub struct Element {
     pub values: Vec<(&'static str, Checked)>,
 }
 
+/// A kind of effect, as files declare it: all but its equations.
+pub trait Declaration: Sync {
+    /// The word after `type`.
+    fn keyword(&self) -> &'static str;
+
+    /// The word by which a scene calls for all effects of like kind: `friction`.
+    fn family(&self) -> &'static str;
+
+    /// One line: what it is, with its equation.
+    fn summary(&self) -> &'static str;
+
+    /// The symbol of its element on the bond graph: `R`, `C`, `I`, `GY`, `TF`, `Se`, `MTF`.
+    fn symbol(&self) -> &'static str;
+
+    /// The keys it has. A value without keys is that of the first one.
+    fn keys(&self) -> &'static [Key];
+
+    /// Whether the spec has to say nothing of it: gravity, say. A scene calls it by its keyword.
+    fn built_in(&self) -> bool {
+        false
+    }
+
+    /// Whether its name is that of a coordinate, on which other effects may act.
+    fn adds_coordinate(&self) -> bool {
+        false
+    }
+
+    /// The hydraulic nodes it has where `given` tells which keys are there: the empty name for one
+    /// that is called as the effect is, `a` for one with `_a` behind it.
+    fn nodes(&self, _given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Whether its node has no volume, so that the flows into it must be nothing at every instant.
+    fn is_junction(&self) -> bool {
+        false
+    }
+
+    /// Whether its pressure drop is the same function of its flow at all times, so that it can
+    /// stand in series with others like it.
+    fn in_series(&self, _: &Element) -> bool {
+        false
+    }
+
+    /// How its law was solved where it has no store that it could wait for.
+    fn algebraic(&self, _: &Element) -> Option<&'static str> {
+        None
+    }
+
+    /// Whether a joint has one of them at most.
+    fn once_per_joint(&self) -> bool {
+        false
+    }
+
+    /// What stands for a missing key where its joint has these limits.
+    fn limit_for(&self, _key: &str, _: &Limits) -> Option<f64> {
+        None
+    }
+
+    /// When its law runs: those with smaller numbers first. Nodes stand before what joins them.
+    fn order(&self) -> u8 {
+        1
+    }
+
+    /// What its numbers must obey.
+    fn rules(&self, _: &mut Given<'_>) {}
+
+    /// What it must obey beside the scene's other effects.
+    fn fits(&self, _: &Element, _: &Beside<'_>, _: &mut Faults) {}
+
+    /// What it changes in the mechanism, before there is a graph.
+    fn reduce(&self, _: &Element, _: &mut Mechanism) {}
+
+    /// Coordinates, states, modes, inputs and events that it adds.
+    fn declare(&self, _: &Element, _: &mut Layout) {}
+
+    /// Whether a first-order state is its own.
+    fn keeps(&self, element: &Element, state: &str) -> bool {
+        element.name == state
+    }
+}
+
+/// What an effect finds beside it in its scene.
+pub struct Beside<'a> {
+    /// The scene's effects, itself among them.
+    pub elements: &'a [Element],
+    /// The mechanism, locked joints welded.
+    pub mechanism: &'a Mechanism,
+}
+
+/// What an effect's rules look at, and where they report.
+pub struct Given<'a> {
+    /// The element, its values of the right kind.
+    pub element: &'a Element,
+    /// What is wrong with it.
+    pub faults: &'a mut Faults,
+}
+
 impl Element {
     /// What stands behind a key.
     pub fn get(&self, key: &str) -> Option<&Checked> {
@@ -61,6 +160,12 @@ impl Element {
             Some(Checked::Number(quantity)) => Some(quantity),
             _ => None,
         }
+    }
+
+    /// The number behind a key as the file writes it, or the name of its run-time parameter.
+    pub fn written(&self, key: &str) -> Option<String> {
+        let quantity = self.quantity(key)?;
+        Some(quantity.parameter.clone().unwrap_or(quantity.text.clone()))
     }
 
     /// Its numbers by key.
@@ -129,4 +234,16 @@ pub(super) fn node_names(name: &str, sides: &[&str]) -> Vec<String> {
         side => format!("{name}_{side}"),
     };
     sides.iter().map(of).collect()
+}
+
+impl std::fmt::Debug for dyn Declaration {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.keyword())
+    }
+}
+
+impl PartialEq for dyn Declaration {
+    fn eq(&self, other: &Self) -> bool {
+        self.keyword() == other.keyword()
+    }
 }

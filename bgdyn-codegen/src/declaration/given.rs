@@ -1,17 +1,9 @@
-//! An element while its numbers are checked.
+//! Checks of an element's numbers: signs, order, missing keys.
 
 use bgdyn_runtime::Dd;
 
-use super::{Checked, Element, Quantity};
-use crate::fault::{Fault, Faults, Place};
-
-/// What an effect's rules look at, and where they report.
-pub struct Given<'a> {
-    /// The element, its values of the right kind.
-    pub element: &'a Element,
-    /// What is wrong with it.
-    pub faults: &'a mut Faults,
-}
+use super::{Checked, Given, Quantity};
+use crate::fault::{Fault, Place, wording};
 
 impl Given<'_> {
     /// The number behind a key.
@@ -34,9 +26,8 @@ impl Given<'_> {
     pub fn not_negative(&mut self, keys: &[&str], why: &str) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value < Dd::ZERO) {
-                let message = format!("`{key}` is {}: it must not be negative", q.text);
-                let place = q.place.clone();
-                self.fault(&place, "effect-sign", message, why);
+                let fault = wording::negative_value(&q.place, key, &q.text, why);
+                self.report(fault);
             }
         }
     }
@@ -45,9 +36,8 @@ impl Given<'_> {
     pub fn positive(&mut self, keys: &[&str], why: &str) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value <= Dd::ZERO) {
-                let message = format!("`{key}` is {}: it must be greater than 0", q.text);
-                let place = q.place.clone();
-                self.fault(&place, "effect-sign", message, why);
+                let fault = wording::value_not_positive(&q.place, key, &q.text, why);
+                self.report(fault);
             }
         }
     }
@@ -55,9 +45,8 @@ impl Given<'_> {
     /// The number behind this key must not be greater than 1.
     pub fn at_most_one(&mut self, key: &str, why: &str) {
         if let Some(q) = self.number(key).filter(|q| q.value > Dd::ONE) {
-            let message = format!("`{key}` is {}: it must be at most 1", q.text);
-            let place = q.place.clone();
-            self.fault(&place, "effect-sign", message, why);
+            let fault = wording::value_above_one(&q.place, key, &q.text, why);
+            self.report(fault);
         }
     }
 
@@ -66,14 +55,8 @@ impl Given<'_> {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.parameter.is_some()) {
                 let kind = self.element.effect.keyword();
-                let message = format!("`{key}` of a `{kind}` cannot be a run-time parameter");
-                let place = q.place.clone();
-                self.fault(
-                    &place,
-                    "misplaced-parameter",
-                    message,
-                    "write the number alone",
-                );
+                let fault = wording::value_cannot_be_parameter(&q.place, key, kind);
+                self.report(fault);
             }
         }
     }
@@ -83,9 +66,9 @@ impl Given<'_> {
         if let (Some(a), Some(b)) = (self.number(small), self.number(large))
             && a.value > b.value
         {
-            let message = format!("`{large}` is {}, less than `{small}`, {}", b.text, a.text);
-            let place = b.place.clone();
-            self.fault(&place, "effect-order", message, why);
+            let (smaller, larger) = ((small, a.text.as_str()), (large, b.text.as_str()));
+            let fault = wording::values_out_of_order(&b.place, smaller, larger, why);
+            self.report(fault);
         }
     }
 
@@ -97,27 +80,19 @@ impl Given<'_> {
             .filter(|k| self.element.get(k).is_some())
             .collect();
         if given.len() != 1 {
-            let all = keys.join("`, `");
-            let message = match given.as_slice() {
-                [] => format!("where `{}` acts is missing", self.element.name),
-                several => format!("`{}` are one too many", several.join("`, `")),
-            };
-            let place = self.element.place.clone();
-            let help = format!("write one of `{all}`");
-            self.fault(&place, "effect-place", message, &help);
+            let element = self.element;
+            self.report(wording::not_one_port(
+                &element.place,
+                &element.name,
+                &given,
+                keys,
+            ));
         }
     }
 
-    /// Notes a fault.
-    pub fn fault(&mut self, place: &Place, rule: &'static str, message: String, help: &str) {
-        self.faults
-            .push(Fault::new(place, rule, message).with_help(help));
-    }
-
-    /// Notes a warning.
-    pub fn warn(&mut self, place: &Place, rule: &'static str, message: String, help: &str) {
-        let fault = Fault::new(place, rule, message).with_help(help);
-        self.faults.push(fault.into_warning());
+    /// Notes a finding.
+    pub fn report(&mut self, fault: Fault) {
+        self.faults.push(fault);
     }
 
     /// Whether the key names this word.

@@ -1,9 +1,9 @@
-//! One declaration for several joints: `joints: all`, or a list, in place of `joint`.
+//! The key `joints`: one declaration of an effect for several joints.
 //!
 //! It stands for one effect per joint, called NAME_JOINT, with the same values.
 
 use super::{Declaration, Declared};
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 use crate::spec::{Entry, Fields, Key, Located, Reads};
 
 /// The key of several joints.
@@ -40,9 +40,7 @@ impl Declared {
             return vec![self];
         };
         if let Some(joint) = self.fields.get(JOINT) {
-            let message = format!("`{}` has a `joint` and `joints`", self.name.value);
-            let fault = Fault::new(&joint.place, "effect-joints", message);
-            faults.push(fault.with_help("keep one of them"));
+            faults.push(wording::joint_and_joints(&joint.place, &self.name.value));
             return vec![];
         }
         let Some(names) = names(&joints, all, faults) else {
@@ -93,20 +91,14 @@ fn names(
         Entry::Words(words) => {
             for (i, word) in words.iter().enumerate() {
                 if words[..i].iter().any(|other| other.value == word.value) {
-                    let message = format!("`{}` is in the list twice", word.value);
-                    let fault = Fault::new(&word.place, "effect-joints", message);
-                    faults.push(fault.with_help("leave one of them out"));
+                    faults.push(wording::joint_listed_twice(&word.place, &word.value));
                     return None;
                 }
             }
             Some(words.clone())
         }
         _ => {
-            let message = "`joints` is neither `all` nor a list of joints".to_owned();
-            let fault = Fault::new(place, "effect-joints", message);
-            faults.push(fault.with_help(
-                "write `joints: all`, `joints: [shoulder, elbow]` or `joint: shoulder`",
-            ));
+            faults.push(wording::joints_of_wrong_kind(place));
             None
         }
     }

@@ -1,4 +1,4 @@
-//! The kinds of effects that there are, as whoever checks a file is given them.
+//! The list of all kinds of effects, which is passed to the checks.
 
 use super::Declaration;
 

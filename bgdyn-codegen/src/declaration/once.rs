@@ -1,24 +1,24 @@
-//! Effects of which a joint has one at most.
+//! The check that a joint has at most one effect of certain types.
 
 use super::Element;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 
-/// Of some effects a joint has no more than one: two frictions that hold would not know which of
-/// them does.
+/// Refuses a second effect of a type that a joint can have once: with two dry frictions at one joint,
+/// the share of each in the holding effort would be undetermined.
 pub(crate) fn once_per_joint(elements: &[Element], faults: &mut Faults) {
     let on = |e: &Element| (e.effect.keyword(), e.name("joint").map(str::to_owned));
     for (i, element) in elements.iter().enumerate() {
         let first = elements[..i].iter().find(|e| on(e) == on(element));
         if let Some(first) = first.filter(|e| e.effect.once_per_joint()) {
             let (kind, joint) = on(element);
-            let message = format!(
-                "`{}` and `{}` are both of type `{kind}` at `{}`",
-                first.name,
-                element.name,
-                joint.unwrap_or_default()
-            );
-            let fault = Fault::new(&element.place, "repeated-effect", message);
-            faults.push(fault.with_help("a joint has one of them: leave the other out"));
+            let names = [first.name.as_str(), &element.name];
+            let joint = joint.unwrap_or_default();
+            faults.push(wording::two_of_type_at_joint(
+                &element.place,
+                names,
+                kind,
+                &joint,
+            ));
         }
     }
 }

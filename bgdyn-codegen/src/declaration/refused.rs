@@ -1,5 +1,4 @@
-//! Effects that were refused, and what they may have brought into the scene: whoever names a part of it is
-//! not at fault as well.
+//! The names that refused effects may have defined, so that uses of them are not reported as well.
 
 use super::{Declared, Kinds};
 use crate::spec::{Entry, Key, Raw, Reads};

@@ -1,8 +1,29 @@
-//! Names: those that effects may refer to, and those that they take themselves.
+//! Names: the ones that effects may refer to, and the ones that effects take themselves.
 
-use super::{Context, Declared, Refused};
-use crate::fault::{Fault, Faults};
-use crate::mechanism::{LinkId, Mechanism, Places};
+use super::{Declaration, Declared, Refused};
+use crate::fault::{Faults, wording};
+use crate::mechanism::{Limits, LinkId, Mechanism, Motion, Places};
+use crate::spec::{Entry, Key};
+
+/// The names that an effect may refer to.
+#[derive(Clone, Debug, Default)]
+pub struct Context {
+    /// Moving joints and the coordinates that effects add, with the dimension pair's index: 0 for
+    /// a rotation, 1 for a translation.
+    pub coordinates: Vec<(String, Motion)>,
+    /// Limits of the joints that have any.
+    pub limits: Vec<(String, Limits)>,
+    /// Those of the coordinates that are no joints.
+    pub added: Vec<String>,
+    /// Joints that a scene locks.
+    pub locked: Vec<String>,
+    /// Links and frames.
+    pub(crate) places: Places,
+    /// Hydraulic nodes.
+    pub nodes: Vec<String>,
+    /// What effects that were refused may have brought.
+    pub refused: Refused,
+}
 
 impl Context {
     /// The names of a mechanism; `locked` are joints that a scene holds.
@@ -25,6 +46,40 @@ impl Context {
             refused: Refused::default(),
         }
     }
+
+    /// The same with what these effects add.
+    pub fn with<'a>(mut self, declared: impl Iterator<Item = &'a Declared> + Clone) -> Self {
+        for d in declared.clone().filter(|d| d.effect.adds_coordinate()) {
+            let on = match d.fields.get("joint").map(|j| &j.value) {
+                Some(Entry::Text(joint)) => self.motion_of(joint),
+                _ => None,
+            };
+            let motion = on.unwrap_or(Motion::Rotation);
+            self.coordinates.push((d.name.value.clone(), motion));
+            self.added.push(d.name.value.clone());
+        }
+        self.nodes.extend(declared.flat_map(Declared::nodes));
+        self
+    }
+
+    /// What an effect on a joint takes from the joint's limits for a key that it lacks.
+    pub(super) fn limit_for(
+        &self,
+        effect: &dyn Declaration,
+        joint: Option<&str>,
+        key: &Key,
+    ) -> Option<f64> {
+        let (_, limits) = self
+            .limits
+            .iter()
+            .find(|(name, _)| Some(name.as_str()) == joint)?;
+        effect.limit_for(key.name, limits)
+    }
+
+    pub(super) fn motion_of(&self, coordinate: &str) -> Option<Motion> {
+        let found = self.coordinates.iter().find(|(name, _)| name == coordinate);
+        found.map(|(_, motion)| *motion)
+    }
 }
 
 /// The names of effects and of their nodes are parts of the state's, so they must be no joint's
@@ -45,18 +100,12 @@ pub(crate) fn check_unique_names(all: &[Declared], mechanism: &Mechanism, faults
         let place = &declared.name.place;
         for name in own(declared) {
             if known.contains(&&name) {
-                let message = format!("`{name}` is a joint, a link or a frame already");
-                let fault = Fault::new(place, "repeated-name", message);
-                faults.push(fault.with_help("give the effect a name of its own: `elbow_friction`"));
+                faults.push(wording::effect_has_name_of_body(place, &name));
             }
             let other = all[..i].iter().find(|other| own(other).contains(&name));
             if let Some(other) = other.filter(|other| other.name.value != declared.name.value) {
                 let other = &other.name.value;
-                let message = format!("`{name}` is a name of the effect `{other}` already");
-                let fault = Fault::new(place, "repeated-name", message);
-                faults.push(fault.with_help(
-                    "the sides of a cylinder `boom` are called `boom_a` and `boom_b`: name one of the two otherwise",
-                ));
+                faults.push(wording::effect_has_name_of_effect(place, &name, other));
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Elements that one flow runs through.
+//! Hydraulic elements in series, which have one flow in common.
 
 /// Elements in series, joined by junctions without volume: one flow runs through all of them.
 #[derive(Clone, Debug, PartialEq)]

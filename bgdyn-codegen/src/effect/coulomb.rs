@@ -1,8 +1,9 @@
 //! Coulomb friction that sticks and slips: holds its joint up to the static limit, lets it slide
 //! against the kinetic effort beyond. Which of the two is a mode of the state.
 
-use super::Effect;
 use super::viscous::{JOINT, REFERENCE};
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::{Hold, Laws};
 use crate::layout::{Layout, Level};
@@ -73,6 +74,10 @@ impl Declaration for Coulomb {
 }
 
 impl Effect for Coulomb {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        nodes::add_acting(element, NodeKind::Resistor, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let reference = element.name("reference");

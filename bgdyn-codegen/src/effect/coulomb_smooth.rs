@@ -6,7 +6,8 @@
 
 use super::coulomb::EFFORT;
 use super::viscous::{JOINT, REFERENCE};
-use super::{Effect, slip};
+use super::{Effect, nodes, slip};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
 use crate::layout::Layout;
@@ -68,6 +69,10 @@ impl Declaration for CoulombSmooth {
 }
 
 impl Effect for CoulombSmooth {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        nodes::add_acting(element, NodeKind::Resistor, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             let number = |key| laws.number(element, key);

@@ -2,7 +2,8 @@
 
 use super::spring::{BETWEEN, MAYBE_JOINT};
 use super::viscous::{EFFORT_PER_RATE, REFERENCE};
-use super::{Effect, slip};
+use super::{Effect, nodes, slip};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
 use crate::layout::Layout;
@@ -49,6 +50,10 @@ impl Declaration for Damper {
 }
 
 impl Effect for Damper {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        nodes::add_acting(element, NodeKind::Resistor, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             -(laws.number(element, &DAMPING) * s)

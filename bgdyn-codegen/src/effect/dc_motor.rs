@@ -11,12 +11,13 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
 use super::gear::declare_mode;
 use super::viscous::JOINT;
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
-use crate::fault::wording::algebraic_loop;
+use crate::fault::wording;
 use crate::laws::{Hold, Laws};
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key, Reads};
@@ -125,9 +126,7 @@ impl Declaration for DcMotor {
         let no_resistance = given.value_or("resistance", 1.0) == 0.0;
         if no_resistance && given.number("inductance").is_none() {
             let place = given.place("resistance");
-            let message = "neither resistance nor inductance: the loop voltage → current → torque → speed → voltage has no solution";
-            let fault = algebraic_loop(&place, message.into(), "give one of them");
-            given.faults.push(fault);
+            given.report(wording::motor_without_impedance(&place));
         }
         given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
     }
@@ -155,6 +154,31 @@ impl Declaration for DcMotor {
 }
 
 impl Effect for DcMotor {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let joint = nodes::port(element, network);
+        let number = |symbol, key: &Key| nodes::number(element, symbol, key.name);
+        let mut text = format!("k N, {}", number("k", &TORQUE_CONSTANT));
+        for (symbol, key) in [("N", &RATIO), ("η", &EFFICIENCY)] {
+            if element.quantity(key.name).is_some() {
+                text += &format!(", {}", number(symbol, key));
+            }
+        }
+        let gyrator = network.add(NodeKind::Gyrator, text);
+        network.set_powers(gyrator, nodes::gear_losses(element));
+        network.bond(gyrator, joint);
+        let current = network.add(NodeKind::One, "i, A");
+        network.bond(current, gyrator);
+        network.add_on(
+            current,
+            NodeKind::EffortSource,
+            format!("u, {}", element.name),
+        );
+        network.add_on(current, NodeKind::Resistor, number("R", &RESISTANCE));
+        if element.quantity(INDUCTANCE.name).is_some() {
+            network.add_on(current, NodeKind::Inertia, number("L", &INDUCTANCE));
+        }
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let joint = laws.port(element);
         let circuit = Circuit {

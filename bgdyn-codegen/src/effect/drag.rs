@@ -1,10 +1,11 @@
 //! Drag of a resting medium on a place of a link: f = −(c₁ + c₂ |v|) v against the velocity v of its
 //! origin, m = −c_ω ω against its angular velocity. c₁ is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
 
-use super::Effect;
 use super::wrench::{AT, act, moves, twist};
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::fault::Faults;
+use crate::fault::{Faults, wording};
 use crate::laws::Laws;
 use crate::math::Vec3;
 use crate::spec::{Dimension, Key, Reads};
@@ -59,10 +60,7 @@ impl Declaration for Drag {
         let numbers = ["linear", "quadratic", "angular"];
         given.not_negative(&numbers, "a negative drag would drive the link");
         if numbers.iter().all(|key| given.number(key).is_none()) {
-            let place = given.element.place.clone();
-            let message = format!("`{}` has no drag", given.element.name);
-            let help = "add `linear`, `quadratic` or `angular`";
-            given.fault(&place, "effect-missing", message, help);
+            given.report(wording::no_drag(&given.element.place, &given.element.name));
         }
     }
 
@@ -72,6 +70,11 @@ impl Declaration for Drag {
 }
 
 impl Effect for Drag {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let site = nodes::site(element, network);
+        network.add_on(site, NodeKind::Resistor, nodes::label(element));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let site = laws.site(element.name(AT.name).unwrap_or_default());
         let jacobian = laws.jacobian(site);

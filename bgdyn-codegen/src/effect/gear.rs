@@ -5,8 +5,9 @@
 //! any effort between the two. The loss is in proportion to the load: what a gear takes without load
 //! is friction of the joint.
 
-use super::Effect;
 use super::viscous::JOINT;
+use super::{Effect, nodes};
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::{Laws, load_event};
 use crate::layout::Layout;
@@ -60,6 +61,13 @@ impl Declaration for Gear {
 }
 
 impl Effect for Gear {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let joint = element.name("joint").unwrap_or_default();
+        let efficiency = nodes::number(element, "η", EFFICIENCY.name);
+        let gear = network.add_to_drive(joint, format!("{}, {efficiency}", element.name));
+        network.set_powers(gear, nodes::gear_losses(element));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         laws.gear_of_drive(element, &EFFICIENCY);
     }

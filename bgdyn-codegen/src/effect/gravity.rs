@@ -1,7 +1,7 @@
 //! Gravity: the effort sources R_i = m_i g.
 
 use super::Effect;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::{BondGraph, BondNetwork};
 use crate::declaration::{Declaration, Element};
 use crate::laws::Laws;
 use crate::math::Vec3;
@@ -45,6 +45,10 @@ impl Effect for Gravity {
     fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
         let other = element.vector("acceleration").map(Vec3);
         graph.weigh(other.unwrap_or(mechanism.gravity()));
+    }
+
+    fn elements(&self, _: &Element, _: &[Element], network: &mut BondNetwork) {
+        network.claim_weights();
     }
 
     /// V = −Σ m_i g · r_i

@@ -2,7 +2,7 @@
 //! equations of the first (Kuzmin 2007, conclusion).
 
 use super::Effect;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::{BondGraph, BondNetwork};
 use crate::declaration::{Declaration, Element};
 use crate::mechanism::Mechanism;
 use crate::spec::{Key, Reads};
@@ -45,5 +45,9 @@ impl Effect for LinkInertia {
         if element.name("stage") != Some("lumped") {
             graph.distribute(mechanism);
         }
+    }
+
+    fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
+        // The stores are the links' own.
     }
 }

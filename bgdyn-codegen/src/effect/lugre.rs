@@ -12,8 +12,10 @@ use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::SPEED;
 use super::stribeck::{KINETIC, curve};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
-use super::{Effect, slip};
+use super::{Effect, nodes, slip};
+use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{Declaration, Element, Given};
+use crate::fault::wording;
 use crate::laws::Laws;
 use crate::layout::{Layout, Level};
 use crate::spec::{Dimension, Key, Reads};
@@ -90,12 +92,7 @@ impl Declaration for LuGre {
         given.ordered("kinetic", "static", REST_HOLDS_MORE);
         if given.number("static").is_some() && given.number("stribeck_speed").is_none() {
             let place = given.place("static");
-            given.fault(
-                &place,
-                "effect-missing",
-                "`static` without `stribeck_speed`: at which speed is the rest left behind?".into(),
-                "add `stribeck_speed: …`",
-            );
+            given.report(wording::no_stribeck_speed(&place));
         }
         let [damping, viscous] = ["damping", "viscous"].map(|key| given.value_or(key, 0.0));
         let kinetic = given.value_or("kinetic", 1.0);
@@ -103,12 +100,7 @@ impl Declaration for LuGre {
         if viscous < damping * excess {
             let place = given.place("damping");
             let least = damping * excess;
-            given.warn(
-                &place,
-                "effect-passivity",
-                format!("`viscous` is less than damping·(static − kinetic)/kinetic = {least:.6}: this friction can feed energy into the motion"),
-                "raise `viscous` or lower `damping`",
-            );
+            given.report(wording::friction_feeds_energy(&place, least));
         }
     }
 
@@ -124,6 +116,12 @@ impl Declaration for LuGre {
 }
 
 impl Effect for LuGre {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let friction = nodes::add_acting(element, NodeKind::Resistor, network);
+        // The bristles store energy.
+        network.set_powers(friction, &[PowerTerm::Stored, PowerTerm::Dissipated]);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let counterpart = laws.reference(element.name("reference"), Level::Rate);

@@ -5,6 +5,8 @@
 //! the state ([`Declaration::declare`]), and its constitutive law ([`Effect::law`]): efforts on
 //! junctions, rates of states, and what it supplies, stores and dissipates.
 
+mod law;
+mod nodes;
 mod slip;
 
 mod coulomb;
@@ -27,25 +29,8 @@ mod velocity_products;
 mod viscous;
 mod wrench;
 
-use crate::bond_graph::BondGraph;
 use crate::declaration::{Declaration, Element, Kinds};
-use crate::expr::Ex;
-use crate::laws::Laws;
-use crate::mechanism::Mechanism;
-
-/// What an effect does: its constitutive law, and what it changes in the graph.
-pub trait Effect: Declaration {
-    /// What it changes in the graph of links and joints.
-    fn alter(&self, _: &Element, _: &Mechanism, _: &mut BondGraph) {}
-
-    /// What its state stores where the scene gives `given` for it: a volume for a pressure.
-    fn start<'g>(&self, _: &Element, _: &Laws<'g, '_>, _: &str, given: Ex<'g>) -> Ex<'g> {
-        given
-    }
-
-    /// Its constitutive law.
-    fn law(&self, _: &Element, _: &mut Laws<'_, '_>) {}
-}
+pub use law::Effect;
 
 /// Every effect there is.
 pub static EFFECTS: [&dyn Effect; 27] = [

@@ -6,6 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::Effect;
 use super::wrench::{AT, moves};
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::fault::Faults;
 use crate::math::Vec3;
@@ -106,4 +107,8 @@ impl Declaration for Payload {
     }
 }
 
-impl Effect for Payload {}
+impl Effect for Payload {
+    fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
+        // It is a link of the mechanism.
+    }
+}

@@ -3,9 +3,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
-use crate::bond_graph::{BondGraph, Gyrostat, Rotor as RotorStore};
+use super::{Effect, nodes};
+use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
 use crate::declaration::{Declaration, Element, Given};
+use crate::fault::wording;
 use crate::math::Vec3;
 use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
 use crate::spec::{Dimension, Key, Reads};
@@ -66,14 +67,8 @@ impl Declaration for Rotor {
 
     fn rules(&self, given: &mut Given<'_>) {
         given.not_negative(&["inertia"], "no body has it");
-        let place = given.element.place.clone();
         if given.element.vector("axis").is_some() && given.element.name("on").is_none() {
-            given.fault(
-                &place,
-                "effect-missing",
-                "`axis` says where the rotor points, but not what it sits on".into(),
-                "add `on: …`, or leave `axis` out: the reflected inertia has no direction",
-            );
+            given.report(wording::rotor_axis_without_link(&given.element.place));
         }
     }
 
@@ -112,11 +107,20 @@ impl Effect for Rotor {
             let axis = site.place.rotation * axis.map(|x| x / length);
             site.link.map(|link| Gyrostat { link, axis })
         });
-        graph.rotors.push(RotorStore {
+        graph.multibody.rotors.push(RotorStore {
             coordinate,
             inertia: value("inertia", 0.0),
             ratio: value("ratio", 1.0),
             carrier,
         });
+    }
+
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let joint = nodes::port(element, network);
+        let rotor = nodes::add_rotor(element, joint, network);
+        // Its energy is part of the links'.
+        network.set_powers(rotor, &[]);
+        let more = |link| format!("its spin also acts on {link}, which is not drawn");
+        network.set_more(rotor, element.name("on").map(more));
     }
 }

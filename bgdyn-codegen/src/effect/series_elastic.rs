@@ -8,8 +8,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
 use super::viscous::{EFFORT_PER_RATE, JOINT};
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
 use crate::layout::Layout;
@@ -86,6 +87,26 @@ impl Declaration for SeriesElastic {
 }
 
 impl Effect for SeriesElastic {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let joint = nodes::port(element, network);
+        let effort = network.add(NodeKind::Zero, "τ");
+        network.bond(effort, joint);
+        let drive = network.velocity(&element.name);
+        network.bond(drive, effort);
+        let stretch = network.add(NodeKind::One, "θ̇ − q̇");
+        network.bond(effort, stretch);
+        let stiffness = nodes::number(element, "K", STIFFNESS.name);
+        network.add_on(stretch, NodeKind::Compliance, stiffness);
+        if element.quantity(DAMPING.name).is_some() {
+            let damping = nodes::number(element, "D", DAMPING.name);
+            network.add_on(stretch, NodeKind::Resistor, damping);
+        }
+        if network.is_driven(&element.name) {
+            network.drive(&element.name);
+        }
+        nodes::add_rotor(element, drive, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let (joint, drive) = (laws.port(element), laws.coordinate(&element.name));
         let (stretch, rate) = (drive.place - joint.place, drive.rate - joint.rate);

@@ -2,8 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
 use super::viscous::REFERENCE;
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
 use crate::layout::{Layout, Level};
@@ -84,6 +85,10 @@ impl Declaration for Spring {
 }
 
 impl Effect for Spring {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        nodes::add_acting(element, NodeKind::Compliance, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let reference = element.name("reference");

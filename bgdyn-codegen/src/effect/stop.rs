@@ -11,11 +11,13 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Effect;
 use super::coulomb_smooth::SPEED;
 use super::viscous::JOINT;
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
+use crate::fault::wording;
 use crate::laws::{Laws, Port};
 use crate::layout::Layout;
 use crate::mechanism::Limits;
@@ -98,15 +100,8 @@ impl Declaration for Stop {
         given.at_most_one("restitution", "an impact would give back more than it took");
         given.ordered("lower", "upper", "the joint moves between its stops");
         if given.number("lower").or(given.number("upper")).is_none() {
-            let place = given.element.place.clone();
             let joint = given.element.name("joint").unwrap_or_default();
-            let message = format!("where the stops are is missing, and `{joint}` has no limits");
-            given.fault(
-                &place,
-                "effect-missing",
-                message,
-                "write `lower`, `upper` or both",
-            );
+            given.report(wording::no_stops(&given.element.place, joint));
         }
     }
 
@@ -121,6 +116,11 @@ impl Declaration for Stop {
 }
 
 impl Effect for Stop {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let stop = nodes::add_acting(element, NodeKind::Compliance, network);
+        network.set_powers(stop, &[PowerTerm::Stored, PowerTerm::Dissipated]);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let port = laws.port(element);
         let zero = laws.b.zero();

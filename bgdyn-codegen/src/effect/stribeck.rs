@@ -9,9 +9,11 @@
 use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
-use super::{Effect, slip};
+use super::{Effect, nodes, slip};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
+use crate::fault::wording;
 use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::Key;
@@ -90,12 +92,8 @@ impl Declaration for Stribeck {
         if speed > 0.0 && width > speed {
             let place = given.place("width");
             let text = |key| given.number(key).map_or("", |q| q.text.as_str());
-            let message = format!(
-                "`width` is {}, more than `stribeck_speed`, {}: the curve has fallen before friction has risen, and `static` is hardly felt",
-                text("width"),
-                text("stribeck_speed")
-            );
-            given.warn(&place, "effect-width", message, "a tenth of it is usual");
+            let (width, speed) = (text("width"), text("stribeck_speed"));
+            given.report(wording::width_above_stribeck_speed(&place, width, speed));
         }
     }
 
@@ -105,6 +103,10 @@ impl Declaration for Stribeck {
 }
 
 impl Effect for Stribeck {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        nodes::add_acting(element, NodeKind::Resistor, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             let number = |key| laws.number(element, key);

@@ -2,7 +2,7 @@
 //! term ω × J ω. Quasi-static scenes do without.
 
 use super::Effect;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::{BondGraph, BondNetwork};
 use crate::declaration::{Declaration, Element};
 use crate::mechanism::Mechanism;
 use crate::spec::Key;
@@ -37,6 +37,10 @@ impl Declaration for VelocityProducts {
 
 impl Effect for VelocityProducts {
     fn alter(&self, _: &Element, _: &Mechanism, graph: &mut BondGraph) {
-        graph.velocity_products = true;
+        graph.multibody.velocity_products = true;
+    }
+
+    fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
+        // The rates of the transformers add no node.
     }
 }

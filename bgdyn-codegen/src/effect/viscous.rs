@@ -1,6 +1,7 @@
 //! Viscous friction of a joint: τ = −b (q̇ − ṙ).
 
-use super::{Effect, slip};
+use super::{Effect, nodes, slip};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::laws::Laws;
 use crate::layout::Layout;
@@ -66,6 +67,10 @@ impl Declaration for Viscous {
 }
 
 impl Effect for Viscous {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        nodes::add_acting(element, NodeKind::Resistor, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         slip::resist(element, laws, |laws, s| {
             -(laws.number(element, &DAMPING) * s)

@@ -1,10 +1,11 @@
 //! An external wrench on a link or at a frame: six inputs, or those asked for. A source of effort on
 //! the flow V = [ω; v] of the place: τ_j += J_jᵀ w.
 
-use super::Effect;
+use super::{Effect, nodes};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::expr::Ex;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::math::Vec3;
@@ -35,12 +36,11 @@ pub(super) fn moves(element: &Element, beside: &Beside<'_>, faults: &mut Faults)
     let mut frames = beside.mechanism.frames().iter();
     let at = element.name(AT.name).unwrap_or_default();
     if frames.any(|f| f.name == at && f.link.is_none()) {
-        let message = format!(
-            "`{at}` is fixed to the world: `{}` would do nothing",
-            element.name
-        );
-        let fault = Fault::new(&element.place, "effect-place", message);
-        faults.push(fault.with_help("name a link, or a frame on one"));
+        faults.push(wording::acts_on_the_world(
+            &element.place,
+            &element.name,
+            at,
+        ));
     }
 }
 
@@ -106,14 +106,13 @@ impl Declaration for Wrench {
             return;
         };
         let twice = (1..asked.len()).find(|&i| asked[..i].contains(&asked[i]));
-        let message = match twice {
-            Some(i) => format!("`components` names `{}` twice", asked[i]),
-            None if asked.is_empty() => "`components` names none".to_owned(),
+        let place = &given.element.place;
+        let fault = match twice {
+            Some(i) => wording::repeated_component(place, &asked[i]),
+            None if asked.is_empty() => wording::no_components(place),
             None => return,
         };
-        let place = given.element.place.clone();
-        let help = "write those that are inputs: `[fx, fz]`";
-        given.fault(&place, "effect-components", message, help);
+        given.report(fault);
     }
 
     fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
@@ -138,6 +137,11 @@ impl Declaration for Wrench {
 }
 
 impl Effect for Wrench {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let site = nodes::site(element, network);
+        network.add_on(site, NodeKind::EffortSource, nodes::label(element));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let site = laws.site(element.name(AT.name).unwrap_or_default());
         let inputs = components(element);

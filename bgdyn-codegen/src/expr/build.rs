@@ -1,4 +1,4 @@
-//! Operators on expressions, so that a formulation reads like its equations.
+//! Arithmetic operators on expressions, so that a formulation reads like its equations.
 //!
 //! Arithmetic on numbers stays outside the graph: a number becomes a node where it meets something
 //! that is none.

@@ -1,4 +1,4 @@
-//! Copying expressions from one graph to another, with leaves replaced on the way.
+//! Copies expressions from one graph to another and replaces leaves.
 
 use super::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
 

@@ -1,5 +1,6 @@
-//! What a function costs: a weighted sum of what its compiled code executes. Candidates are
-//! compared by it: plans, formulations, a function before and after factoring.
+//! The cost of a function: a weighted sum of the operations that its compiled code executes.
+//!
+//! Candidates are compared by it: plans, formulations, a function before and after factoring.
 //!
 //! The unit is a multiplication or an addition. All weights are whole hundredths of it, so that
 //! the comparison is exact. Where a weight was measured, it was on one core of a Xeon at 2.8 GHz

@@ -1,4 +1,4 @@
-//! Operation counts, exact.
+//! Exact operation counts of functions.
 //!
 //! Each distinct reachable product is one multiplication (± 1 × x is free), each + or − one
 //! addition; negation and arithmetic on constants are free; sines and cosines count as pairs;

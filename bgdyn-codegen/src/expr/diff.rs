@@ -1,4 +1,4 @@
-//! Differentiation: the tangent of every node, for given tangents of the leaves.
+//! Forward differentiation: the tangent of every node for given tangents of the leaves.
 //!
 //! With q̇ as the tangent of q it gives a time derivative, with a unit vector a partial one.
 

@@ -1,5 +1,6 @@
-//! Running error analysis (Wilkinson 1963): a bound for the rounding error of every node, as an
-//! expression beside it.
+//! Running error analysis (Wilkinson 1963): a bound for the rounding error of every node.
+//!
+//! The bound of a node is an expression too.
 //!
 //! Each operation adds half a unit in the last place of its result to what its operands brought
 //! along, to first order. Bounds are in units of that half, eps/2, so that one expression serves

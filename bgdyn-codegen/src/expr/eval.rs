@@ -1,4 +1,4 @@
-//! The evaluator: a function's value in any scalar type, without a compiler.
+//! The evaluator: the value of a function in any scalar type, without a compiler.
 
 use bgdyn_runtime::Scalar;
 

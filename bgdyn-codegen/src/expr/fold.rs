@@ -1,4 +1,4 @@
-//! Constructors that fold and normalise: every node of a graph is made here.
+//! Constructors of nodes, which fold constants and normalise signs: the only way to add a node.
 
 use bgdyn_runtime::{Dd, Scalar};
 

@@ -1,5 +1,6 @@
-//! Joins a product and the addition that alone reads it in one node, which a machine with fused
-//! multiply-adds executes as one instruction and rounds once.
+//! Fuses a product with the one addition that uses it into a multiply-add, which rounds once.
+//!
+//! A machine with fused multiply-adds executes it as one instruction.
 
 use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, cost};
@@ -7,7 +8,7 @@ use super::{Expr, Graph, Node, NodeId, cost};
 /// Copies of `outputs` in a graph of their own, with every addition of a product that nothing else
 /// reads as a [`Node::MulAdd`]. The count of operations stays. Of two such products the one that is
 /// there later is joined: the other is done by then.
-pub fn fused(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn fuse(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let reads = cost::reads(from, outputs);
     let ready = cost::ready(from, &reads);
     let is_free = |id: NodeId| reads[id.0 as usize] == 1 && matches!(from.node(id), Node::Mul(..));
@@ -44,4 +45,46 @@ pub fn fused(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
         to.mul_add(x, at(Expr::plus(*y)), at(rest))
     });
     (to, outputs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Inputs, Leaf, count, evaluate};
+
+    fn xyz(g: &mut Graph) -> [Expr; 3] {
+        [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
+    }
+
+    fn minus(e: Expr) -> Expr {
+        e.flipped(true)
+    }
+
+    /// A product that one sum alone reads is joined to it; of two the later one; one that is read twice
+    /// stays. Neither counts nor values change.
+    #[test]
+    fn products_are_joined_to_the_sums_that_read_them() {
+        let mut g = Graph::default();
+        let [x, y, z] = xyz(&mut g);
+        let (early, root) = (g.mul(x, y), g.sqrt(z));
+        let late = g.mul(root, y);
+        let both = g.add(early, minus(late));
+        let shared = g.mul(x, z);
+        let outputs = [both, g.add(shared, y), shared];
+        let (joined, found) = fuse(&g, &outputs);
+        let sums = (0..joined.len()).map(|i| joined.node(NodeId::at(i)));
+        let sums: Vec<&Node> = sums.filter(|n| matches!(n, Node::MulAdd(..))).collect();
+        let [Node::MulAdd(a, b, ..)] = sums[..] else {
+            panic!("{sums:?}")
+        };
+        let is_root = |id: &NodeId| matches!(joined.node(*id), Node::Sqrt(_));
+        assert!(is_root(a) || is_root(b));
+        assert_eq!(count(&joined, &found), count(&g, &outputs));
+        let inputs = Inputs {
+            q: vec![3.0, 5.0, 2.25],
+            ..Inputs::default()
+        };
+        let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
+        assert_eq!(value(&joined, &found), value(&g, &outputs));
+    }
 }

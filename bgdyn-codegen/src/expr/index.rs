@@ -1,8 +1,12 @@
-//! Interned values by their hash. The values stand in a list of their owner's, in the order in
-//! which they came; the index holds their places in it.
+//! A hash table of interned values.
+//!
+//! The owner keeps the values in a list, in the order of insertion; the table holds their indices.
 //!
 //! Nearly all that the generator does is to look for a node, and a macro runs as Cargo builds it
 //! for development, unoptimised: a plain table takes a tenth of the time of the library's there.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// Open addressing, a power of two of slots.
 #[derive(Clone, Debug, Default)]
@@ -66,3 +70,35 @@ impl Index {
 pub(super) fn mix(hash: u64, word: u64) -> u64 {
     (hash.rotate_left(26) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
+
+/// A quick hash for small keys: multiply and rotate. The order it gives is never seen.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct QuickHasher(u64);
+
+impl Hasher for QuickHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        for &b in bytes {
+            self.write_u64(u64::from(b));
+        }
+    }
+    fn write_u8(&mut self, x: u8) {
+        self.write_u64(u64::from(x));
+    }
+    fn write_u32(&mut self, x: u32) {
+        self.write_u64(u64::from(x));
+    }
+    fn write_u64(&mut self, x: u64) {
+        self.0 = mix(self.0, x);
+    }
+    fn write_usize(&mut self, x: usize) {
+        self.write_u64(x as u64);
+    }
+    fn write_isize(&mut self, x: isize) {
+        self.write_u64(x as u64);
+    }
+    fn finish(&self) -> u64 {
+        self.0 ^ (self.0 >> 32)
+    }
+}
+
+pub(crate) type QuickMap<K, V> = HashMap<K, V, BuildHasherDefault<QuickHasher>>;

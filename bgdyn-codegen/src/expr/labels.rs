@@ -4,8 +4,9 @@ use std::collections::btree_map::Entry;
 
 use bgdyn_runtime::Dd;
 
+use super::graph::Graph;
 use super::naming::{Name, Section, Title};
-use super::{Constant, Expr, Graph, Node, NodeId};
+use super::node::{Constant, Expr, Node, NodeId};
 
 impl Graph {
     /// The name that a formulation gave to a node, for readers of the output.

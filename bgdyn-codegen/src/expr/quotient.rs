@@ -1,5 +1,7 @@
-//! Divides at once where a reciprocal is multiplied by one value only: x · (1/y) becomes x/y, which
-//! saves the product and one rounding. The last pivot of a factored mass matrix is used so.
+//! Replaces a product with a reciprocal by a division where the reciprocal has no other use.
+//!
+//! x · (1/y) becomes x/y, which saves the product and one rounding. The last pivot of a factored mass
+//! matrix is used so.
 
 use bgdyn_runtime::Dd;
 
@@ -7,7 +9,7 @@ use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, reads};
 
 /// The same values without reciprocals that one product alone reads.
-pub fn divided(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn fold_reciprocals(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     let reads = reads(&from, &outputs);
     let is_one = |id: NodeId| matches!(from.node(id), Node::Constant(c) if c.value() == Dd::ONE);
     // y of a node 1/y that nothing else reads.
@@ -49,4 +51,50 @@ pub fn divided(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
         },
     );
     (to, outputs)
+}
+
+#[cfg(test)]
+mod tests {
+    use bgdyn_runtime::Dd;
+
+    use super::*;
+    use crate::expr::{Inputs, Leaf, count, evaluate};
+
+    fn xyz(g: &mut Graph) -> [Expr; 3] {
+        [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
+    }
+
+    fn minus(e: Expr) -> Expr {
+        e.flipped(true)
+    }
+
+    /// A reciprocal that one product alone reads goes into a division; one that is read twice stays.
+    #[test]
+    fn a_reciprocal_of_one_product_is_divided_by() {
+        let mut g = Graph::default();
+        let [x, y, z] = xyz(&mut g);
+        let one = g.constant(Dd::ONE);
+        let once = g.div(one, x);
+        let twice = g.div(one, y);
+        let outputs = [
+            g.mul(minus(once), z),
+            g.mul(twice, z),
+            g.mul(twice, x),
+            g.div(z, x),
+        ];
+        let (quotients, found) = fold_reciprocals(g.clone(), outputs[..3].to_vec());
+        let [before, after] = [count(&g, &outputs[..3]), count(&quotients, &found)];
+        assert_eq!((before.mul, before.div), (3, 2));
+        assert_eq!((after.mul, after.div), (2, 2));
+        let inputs = Inputs {
+            q: vec![3.0, 5.0, -2.5],
+            ..Inputs::default()
+        };
+        let values = evaluate(&quotients, &found, &inputs, &mut None);
+        let expected = evaluate(&g, &outputs, &inputs, &mut None);
+        assert_eq!(values[0], -expected[3]);
+        assert_eq!(values[1..], expected[1..3]);
+        // Nothing is left to do.
+        assert_eq!(fold_reciprocals(quotients, found.clone()).1, found);
+    }
 }

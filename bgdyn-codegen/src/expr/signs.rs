@@ -1,4 +1,4 @@
-//! Moves signs to where they cost nothing.
+//! Moves negations to places where they cost no operation.
 //!
 //! The graph keeps a sum in one of its two signs: −a·b − c is written −(a·b + c), so that equal sums
 //! meet. A machine takes an instruction for the sign in front, but none inside a fused multiply-add,
@@ -9,7 +9,7 @@ use super::copy::remade;
 use super::{Expr, Graph, Node, NodeId, reachable};
 
 /// Copies of `outputs` in a graph of their own, without the signs that can be had for nothing.
-pub fn signed(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn absorb_negations(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
     let needed = reachable(from, outputs);
     let flips = flips(from, outputs, &needed);
     let mut to = Graph::default();
@@ -52,4 +52,43 @@ fn flips(graph: &Graph, outputs: &[Expr], needed: &[bool]) -> Vec<bool> {
     (0..graph.len())
         .map(|i| needed[i] && !bound[i] && gain[i] > 0 && flippable(i))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Inputs, Leaf, count, evaluate};
+
+    fn xyz(g: &mut Graph) -> [Expr; 3] {
+        [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
+    }
+
+    fn minus(e: Expr) -> Expr {
+        e.flipped(true)
+    }
+
+    /// A sum that is read with the opposite sign is computed with it, where nothing else but fused sums
+    /// read it.
+    #[test]
+    fn signs_move_into_sums() {
+        let mut g = Graph::default();
+        let [x, y, z] = xyz(&mut g);
+        // −(xy + z), also in a fused sum; −(y − z); −(xy + y), of which a root is taken.
+        let free = g.mul_add(x, y, z);
+        let reads = g.mul_add(free, x, y);
+        let difference = g.add(y, minus(z));
+        let bound = g.mul_add(x, y, y);
+        let root = g.sqrt(bound);
+        let outputs = [minus(free), reads, minus(difference), minus(bound), root];
+        let (moved, found) = absorb_negations(&g, &outputs);
+        let negative: Vec<bool> = found.iter().map(|e| e.negative).collect();
+        assert_eq!(negative, [false, false, false, true, false]);
+        assert_eq!(count(&moved, &found), count(&g, &outputs));
+        let inputs = Inputs {
+            q: vec![3.0, 5.0, -2.5],
+            ..Inputs::default()
+        };
+        let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
+        assert_eq!(value(&moved, &found), value(&g, &outputs));
+    }
 }

@@ -1,4 +1,4 @@
-//! Faults as text: one headline each, and an excerpt of the source with a caret.
+//! Prints faults: a headline for each, and an excerpt of the source with a caret.
 
 use super::{Fault, Faults, Severity};
 

@@ -1,4 +1,4 @@
-//! "Did you mean …?": the known word nearest to the one written.
+//! Suggestions for misspelt names: the nearest known word.
 
 use strsim::osa_distance;
 

@@ -1,41 +1,24 @@
-//! Every sentence about a spec: rule by rule, with the numbers seen and the way out.
+//! All messages about specs and scenes, one function for each fault.
 
 mod checking;
+mod effect_rules;
+mod effects;
 mod inertia;
+mod inputs;
 mod reading;
+mod scene;
+mod values;
 
-use super::suggest::nearest;
+pub(crate) use super::quote::quote;
+use super::suggest::{nearest, unknown_name};
 pub(crate) use checking::*;
+pub(crate) use effect_rules::*;
+pub(crate) use effects::*;
 pub(crate) use inertia::*;
+pub(crate) use inputs::*;
 pub(crate) use reading::*;
-
-/// How many characters of a user's text a message repeats.
-const QUOTE_WIDTH: usize = 60;
-
-/// A user's text between backticks, on one line and not too long.
-pub(crate) fn quote(text: &str) -> String {
-    let mut shown: String = text.chars().take(QUOTE_WIDTH).flat_map(escape).collect();
-    if text.chars().nth(QUOTE_WIDTH).is_some() {
-        shown.push('…');
-    }
-    format!("`{shown}`")
-}
-
-/// A message that may hold a user's text: what would break its line is escaped.
-pub(super) fn one_line(message: String) -> String {
-    match message.contains(char::is_control) {
-        true => message.chars().flat_map(escape).collect(),
-        false => message,
-    }
-}
-
-fn escape(c: char) -> Vec<char> {
-    if c.is_control() {
-        c.escape_default().collect()
-    } else {
-        vec![c]
-    }
-}
+pub(crate) use scene::*;
+pub(crate) use values::*;
 
 /// A number with six digits, for what was computed.
 fn figure(x: f64) -> String {

@@ -1,52 +1,31 @@
 //! Formulations: equation (6) regrouped, each a way to compute the methods from the bond graph.
 //!
 //! One file or folder each, one line each in [`FORMULATIONS`]. The literal sum is the
-//! specification; the others must equal it, and the cheapest is found by counting, for each
-//! mechanism and each method. `conditioning/` measures their errors.
+//! specification; the others must equal it. A formulation gets the mechanism [`Prepared`], makes an
+//! [`Offer`] for each method, and writes the function. What is taken is decided in `choice/`, by cost
+//! and by the errors that `conditioning/` measures: nothing here knows either.
 
-mod accurate;
-pub mod conditioning;
+mod arguments;
+mod definition;
 mod derivatives;
 mod literal;
 mod placement;
+mod prepared;
 mod recursion;
-mod search;
 mod site;
 mod solve;
 
-pub use search::Search;
+pub use definition::{Formulation, Offer};
+pub use prepared::Prepared;
+pub(crate) use prepared::{Candidate, Candidates};
+pub(crate) use recursion::expressions::mass_and_bias;
+pub(crate) use recursion::geometry;
+pub(crate) use solve::ltdl as solve_symmetric;
 
-use crate::bond_graph::{BondGraph, Rotor};
-use crate::expr::{Builder, Ex, Leaf};
-use crate::function::Function;
-use crate::mechanism::{ParameterId, Value};
-use crate::method::{Argument, Method};
-pub use accurate::most_accurate;
+/// The name of the literal sum.
+pub(crate) const LITERAL: &str = literal::NAME;
 
-/// A way to compute methods from the bond graph.
-pub trait Formulation: Sync {
-    /// The name by which it is chosen.
-    fn name(&self) -> &'static str;
-
-    /// One line: how it groups equation (6).
-    fn summary(&self) -> &'static str;
-
-    /// Whether it knows the method, or what the method is derived from.
-    fn knows(&self, _: Method) -> bool {
-        true
-    }
-
-    /// The method's function; `None` where this formulation does not know the method.
-    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function>;
-}
-
-impl std::fmt::Debug for dyn Formulation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-/// Every formulation there is.
+/// Every formulation that can be asked for.
 pub static FORMULATIONS: [&dyn Formulation; 6] = [
     &literal::Literal,
     &recursion::Recursion,
@@ -54,6 +33,13 @@ pub static FORMULATIONS: [&dyn Formulation; 6] = [
     &recursion::CommonAxes,
     &recursion::Articulated::Own,
     &recursion::Articulated::Base,
+];
+
+/// Formulations that differentiate the functions chosen for other methods. They offer themselves
+/// whichever formulation is asked for, as those functions are that one's.
+pub(crate) static DERIVED: [&dyn Formulation; 2] = [
+    &derivatives::Differentiated,
+    &derivatives::ForwardDynamicsDerivatives,
 ];
 
 /// The literal sum of equation (6), which every other formulation must equal.
@@ -64,64 +50,4 @@ pub fn specification() -> &'static dyn Formulation {
 /// The formulation with this name.
 pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
     FORMULATIONS.into_iter().find(|f| f.name() == name)
-}
-
-/// Solves M x = f for a symmetric M, given by its lower triangle; every pivot is checked.
-pub(crate) fn solve_symmetric<'g>(
-    b: &'g Builder,
-    mass: Vec<Vec<Ex<'g>>>,
-    f: Vec<Ex<'g>>,
-) -> Vec<Ex<'g>> {
-    solve::ltdl(b, mass, f)
-}
-
-/// The arguments of a method as expressions; what it does not take is zero.
-struct Arguments<'g> {
-    q: Vec<Ex<'g>>,
-    v: Vec<Ex<'g>>,
-    a: Vec<Ex<'g>>,
-    /// Joint efforts.
-    tau: Vec<Ex<'g>>,
-    /// Whether the active efforts act.
-    active: bool,
-}
-
-impl<'g> Arguments<'g> {
-    fn new(b: &'g Builder, graph: &BondGraph, method: Method) -> Self {
-        let n = graph.coordinates.len();
-        let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
-            (0..n)
-                .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
-                .collect()
-        };
-        let takes = |argument| method.arguments().contains(&argument);
-        // Energies and the motion of places know no other velocities than the true ones.
-        let kinematic = method.site().is_some() || method == Method::KineticEnergy;
-        let turning = graph.velocity_products || kinematic;
-        Arguments {
-            q: read(true, Leaf::Position),
-            v: read(takes(Argument::V) && turning, Leaf::Velocity),
-            a: read(takes(Argument::A), Leaf::Acceleration),
-            tau: read(takes(Argument::Tau), Leaf::Input),
-            active: true,
-        }
-    }
-}
-
-/// What a rotor adds to a joint's inertia: N² J.
-fn reflected<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
-    spin(b, rotor) * value(b, rotor.ratio)
-}
-
-/// Momentum of a rotor about its axis per unit rate of the joint: N J.
-fn spin<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
-    value(b, rotor.inertia) * value(b, rotor.ratio)
-}
-
-/// A number of the spec as an expression.
-fn value<'g>(b: &'g Builder, value: Value) -> Ex<'g> {
-    match value {
-        Value::Fixed(x) => b.constant(x),
-        Value::Parameter(ParameterId(p)) => b.leaf(Leaf::Parameter(p)),
-    }
 }

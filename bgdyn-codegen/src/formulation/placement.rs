@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Ex};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion};
@@ -19,7 +19,7 @@ pub(super) struct Placement<'g> {
 
 impl<'g> Placement<'g> {
     /// From the base outwards.
-    pub(super) fn new(b: &'g Builder, graph: &BondGraph, q: &[Ex<'g>]) -> Self {
+    pub(super) fn new(b: &'g Builder, graph: &Multibody, q: &[Ex<'g>]) -> Self {
         let mut placed = Placement {
             rotations: Vec::new(),
             origins: Vec::new(),

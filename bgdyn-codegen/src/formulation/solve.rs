@@ -76,6 +76,6 @@ impl<'g> Factor<'g> {
 }
 
 /// Solves M x = f for one f.
-pub(super) fn ltdl<'g>(b: &'g Builder, mass: Vec<Vec<Ex<'g>>>, f: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+pub(crate) fn ltdl<'g>(b: &'g Builder, mass: Vec<Vec<Ex<'g>>>, f: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
     Factor::new(b, mass).solve(f)
 }

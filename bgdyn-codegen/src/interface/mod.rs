@@ -1,4 +1,4 @@
-//! What a refused spec still tells of its module: how large it is and what its parts are called.
+//! The interface of a module whose spec is refused: its dimensions and the names of its parts.
 
 mod scene;
 

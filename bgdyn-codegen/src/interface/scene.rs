@@ -1,4 +1,4 @@
-//! What the parts of a scene's module are called: of a sound scene, and of a refused one.
+//! The names in a scene's module, for sound scenes and for refused ones.
 
 use std::collections::BTreeSet;
 
@@ -147,7 +147,7 @@ impl SceneInterface {
 /// What a scene that is not sound has all the same.
 fn sketched(spec: &SceneSpec, machine: &Machine) -> SceneInterface {
     let (layout, asked) = scene::sketch(spec, machine, &effect::kinds());
-    let sites = bond_graph::build(&machine.mechanism).sites;
+    let sites = bond_graph::build(&machine.mechanism).multibody.sites;
     let outputs = asked.iter().flat_map(|Located { value, .. }| {
         let place = sites.iter().any(|s| s.name == *value);
         let axes: &[&str] = if place { &["_x", "_y", "_z"] } else { &[""] };

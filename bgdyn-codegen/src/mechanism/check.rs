@@ -1,4 +1,4 @@
-//! The one step that makes a [`Mechanism`]: a spec that obeys every rule, or all that breaks one.
+//! The check of a spec: the only code that constructs a [`Mechanism`], and the faults that prevent it.
 
 mod direction;
 mod inertia;
@@ -13,7 +13,7 @@ use bgdyn_runtime::Dd;
 use super::{CoordinateId, Frame, Inertial, Joint, Link, LinkId, Mechanism, Motion, Value};
 use crate::fault::{Faults, wording};
 use crate::math::Vec3;
-use crate::spec::{self, Dimension, Field, Spec, Vector};
+use crate::spec::{self, Dimension, Field, Spec};
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
 use order::Tree;
@@ -52,7 +52,7 @@ pub(crate) fn check(
         .iter()
         .map(|f| frame(f, &tree, &directions, faults))
         .collect();
-    let gravity = vector_or(&spec.gravity, standard_gravity());
+    let gravity = direction::vector_or(&spec.gravity, standard_gravity());
     let whole = || {
         let (links, coordinates) = assemble(bodies, &tree)?;
         Some(Mechanism {
@@ -187,19 +187,6 @@ fn assemble(mut bodies: Vec<Option<Body>>, tree: &Tree<'_>) -> Option<(Vec<Link>
         });
     }
     Some((links, coordinates))
-}
-
-fn vector_or(field: &Field<Vector>, default: Vec3<Dd>) -> Option<Vec3<Dd>> {
-    match field {
-        Field::Absent => Some(default),
-        Field::Broken => None,
-        Field::Given(vector) => Some(fixed(&vector.value)),
-    }
-}
-
-/// Three numbers where no run-time parameter can stand.
-fn fixed(vector: &Vector) -> Vec3<Dd> {
-    Vec3(vector.each_ref().map(|number| number.value.value))
 }
 
 fn text(field: &Field<String>) -> Option<String> {

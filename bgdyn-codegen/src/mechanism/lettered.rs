@@ -1,4 +1,4 @@
-//! The mechanism with letters for its numbers, for equations that people read.
+//! A mechanism with symbols in place of its numbers, for equations that people read.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! The checked mechanism: always valid, links in an order where parents stand before children.
+//! The checked mechanism: always valid, with parent links before their children.
 //!
 //! Only [`crate::machine::check`] can construct a [`Mechanism`]; nothing later checks again or fails on what a
 //! user wrote. Numbers are double-double, as the spec's decimals were read.

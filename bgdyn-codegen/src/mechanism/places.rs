@@ -1,4 +1,4 @@
-//! Where links and frames are at a few sampled positions: whether two of them ever move apart.
+//! Positions of links and frames at a few sampled states, which show whether a distance can change.
 
 use bgdyn_runtime::Dd;
 

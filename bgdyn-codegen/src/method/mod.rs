@@ -1,5 +1,6 @@
-//! The methods a generated model has: names, arguments, shapes, units. Read by the formulations,
-//! the emitter and the command line.
+//! The methods of a generated model: names, arguments, shapes, units.
+//!
+//! The formulations, the emitter and the command line read them.
 
 mod role;
 

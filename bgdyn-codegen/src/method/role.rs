@@ -1,4 +1,4 @@
-//! What the functions of a scene are for.
+//! The functions of a scene: what each of them computes.
 
 /// What a function of a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

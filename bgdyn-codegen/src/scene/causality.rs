@@ -10,8 +10,7 @@
 
 use super::Scene;
 use crate::declaration::{Chain, Element};
-use crate::fault::wording::algebraic_loop;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, wording};
 
 /// Elements without a store between them, and how they were solved.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,16 +74,10 @@ pub(super) fn chains(elements: &[Element], faults: &mut Faults) -> Vec<Chain> {
     let reached = |j: &Element| chains.iter().any(|c| c.through.contains(&j.name));
     if let Some(junction) = junctions.iter().find(|j| !reached(j)) {
         let (name, place) = (&junction.name, &junction.place);
-        let message = format!(
-            "`{name}` lies in a circle of elements and junctions, none of which has a volume or a pressure of its own"
-        );
-        faults.push(algebraic_loop(place, message, VOLUME));
+        faults.push(wording::circle_without_volume(place, name));
     }
     chains
 }
-
-/// The way out of most loops.
-const VOLUME: &str = "make one of the junctions a volume: `{ type: line, volume: … }`";
 
 /// Whether an element is no junction, or one whose pressure can be solved for.
 pub(super) fn is_solvable(element: &Element, elements: &[Element]) -> bool {
@@ -96,31 +89,16 @@ fn unsolvable(junction: &Element, elements: &[Element]) -> Option<Fault> {
     let (name, place) = (junction.name.as_str(), &junction.place);
     let joined = elements.iter().filter(|e| e.joins().contains(&name));
     let joined: Vec<&Element> = joined.collect();
-    let all: Vec<String> = joined.iter().map(|e| format!("`{}`", e.name)).collect();
-    let message = match joined.as_slice() {
-        [] | [_] => {
-            let message = match all.first() {
-                None => format!("nothing is joined to `{name}`"),
-                Some(one) => format!("`{name}` is a dead end: {one} alone is joined to it"),
-            };
-            let fault = Fault::new(place, "joined-to-nothing", message);
-            return Some(fault.with_help("a junction stands between two elements"));
-        }
-        [a, b] => {
-            let varies = [a, b].into_iter().find(|e| !e.effect.in_series(e))?;
-            format!(
-                "{} meet in `{name}`, which has no volume, and `{}` has an opening that varies: where it closes, nothing tells the pressure between them",
-                all.join(" and "),
-                varies.name
-            )
-        }
-        _ => format!(
-            "{} meet in `{name}`, which has no volume: each flow depends on a pressure that depends on all of them",
-            all.join(", ")
-        ),
+    let names: Vec<&str> = joined.iter().map(|e| e.name.as_str()).collect();
+    let varies = match joined.as_slice() {
+        [] | [_] => return Some(wording::dead_end(place, name, names.first().copied())),
+        [a, b] => Some([a, b].into_iter().find(|e| !e.effect.in_series(e))?),
+        _ => None,
     };
-    let way_out = format!("give it a volume: `{name}: {{ type: line, volume: … }}`");
-    Some(algebraic_loop(place, message, &way_out))
+    let varies = varies.map(|e| e.name.as_str());
+    Some(wording::junction_without_volume(
+        place, name, &names, varies,
+    ))
 }
 
 /// The chain that begins with an element at a node of known pressure.

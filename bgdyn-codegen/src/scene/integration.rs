@@ -1,4 +1,4 @@
-//! How a scene asks to be run: data.
+//! The settings of a scene's integration: method, step or tolerance, end.
 
 /// How a scene asks to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]

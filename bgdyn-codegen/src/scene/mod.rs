@@ -1,4 +1,4 @@
-//! A scene: a mechanism, the effects that a run calls for, what drives its inputs, where it begins.
+//! The checked scene: a mechanism with the effects of a run, its inputs, start and integration.
 //!
 //! Only [`check`] can construct a [`Scene`]; nothing later checks again or fails on what a user
 //! wrote.

@@ -1,4 +1,4 @@
-//! The mechanism with joints locked: they weld their links where the scene says.
+//! Locks joints of a mechanism: their links are welded together at given positions.
 
 use bgdyn_runtime::Dd;
 

@@ -1,8 +1,8 @@
-//! What drives an input: a course in time, a controller, or the caller.
+//! Sources of inputs: a signal, a controller, or the caller.
 
 use bgdyn_runtime::Dd;
 
-use crate::fault::{Fault, Faults, Place};
+use crate::fault::{Faults, Place, wording};
 use crate::spec::{Dimension, Raw};
 
 /// A course in time.
@@ -63,7 +63,7 @@ pub enum Drive {
 
 /// The words that a drive may begin with.
 pub(super) const BUILT_IN: &str =
-    "constant, ramp, harmonic, table, pd, computed_torque; or `given` for what Rust code gives";
+    "constant, ramp, harmonic, table, pd, computed_torque, or `given` for values from Rust code";
 
 /// Reads what drives an input of this dimension; `follows` is the dimension of the coordinate that
 /// a controller would follow, `effort` whether the input is that coordinate's own effort.
@@ -82,7 +82,7 @@ pub(super) fn drive(
     }
     let entries = raw.entries(("what drives the input", "`{ constant: 2 }`"), faults);
     let [only] = entries.as_slice() else {
-        faults.push(not_one(&raw.place));
+        faults.push(wording::not_one_source(&raw.place, BUILT_IN));
         return None;
     };
     let word = only.name.value.as_str();
@@ -90,15 +90,11 @@ pub(super) fn drive(
         return signal(raw, dimension, faults).map(Drive::Course);
     }
     if word == "computed_torque" && follows.is_some() && !effort {
-        let message = "`computed_torque` gives the effort of a joint, and this input is none";
-        let fault = Fault::new(&only.name.place, "drive", message);
-        faults.push(fault.with_help("use `pd`, whose gains are in this input's unit, or `given`"));
+        faults.push(wording::computed_torque_without_effort(&only.name.place));
         return None;
     }
     let Some(position) = follows else {
-        let message = format!("no joint that `{word}` could follow moves with this input");
-        let fault = Fault::new(&only.name.place, "drive", message);
-        faults.push(fault.with_help("use `constant`, `harmonic`, `table` or `given`"));
+        faults.push(wording::controller_without_joint(&only.name.place, word));
         return None;
     };
     controller(only, word, position, faults)
@@ -121,16 +117,13 @@ fn controller(raw: &Raw, word: &str, position: Dimension, faults: &mut Faults) -
             "stiffness" => gains[0] = gain(faults)?.value.value,
             "damping" => gains[1] = gain(faults)?.value.value,
             other => {
-                let message = format!("a controller has no `{other}`");
-                let fault = Fault::new(&entry.name.place, "unknown-key", message);
-                faults.push(fault.with_help("it has `target`, `stiffness` and `damping`"));
-                return None;
+                let known = &["target", "stiffness", "damping"];
+                return unknown_key(&entry.name.place, other, known, faults);
             }
         }
     }
     if target.is_none() && !entries.iter().any(|e| e.name.value == "target") {
-        let fault = Fault::new(&raw.place, "missing-key", "the controller has no `target`");
-        faults.push(fault.with_help("add `target: …`, a number or a course in time"));
+        faults.push(wording::controller_without_target(&raw.place));
     }
     let (target, [stiffness, damping]) = (target?, gains);
     Some(match word {
@@ -156,7 +149,7 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
     }
     let entries = raw.entries(("a course in time", "`{ constant: 2 }`"), faults);
     let [only] = entries.as_slice() else {
-        faults.push(not_one(&raw.place));
+        faults.push(wording::not_one_source(&raw.place, BUILT_IN));
         return None;
     };
     match only.name.value.as_str() {
@@ -167,17 +160,10 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
         "harmonic" => harmonic(only, dimension, faults),
         "table" => table(only, dimension, faults),
         other => {
-            let message = format!("nothing built in is called `{other}`");
-            let fault = Fault::new(&only.name.place, "drive", message);
-            faults.push(fault.with_help(format!("there are {BUILT_IN}")));
+            faults.push(wording::unknown_source(&only.name.place, other, BUILT_IN));
             None
         }
     }
-}
-
-fn not_one(place: &Place) -> Fault {
-    Fault::new(place, "drive", "one thing drives an input")
-        .with_help(format!("write one of {BUILT_IN}"))
 }
 
 /// A ramp; its numbers are of the input's dimension.
@@ -194,7 +180,7 @@ fn ramp(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> 
                 };
                 found[1] = entry.number(&[fit], faults)?.value.value;
             }
-            other => return unknown(&entry.name.place, other, "from, rate", faults),
+            other => return unknown_key(&entry.name.place, other, &["from", "rate"], faults),
         }
     }
     let [from, rate] = found;
@@ -213,8 +199,8 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Sign
             "frequency" => time[0] = read(Dimension::Frequency)?,
             "phase" => time[1] = read(Dimension::Angle)?,
             other => {
-                let known = "amplitude, frequency, phase, offset";
-                return unknown(&entry.name.place, other, known, faults);
+                let known = &["amplitude", "frequency", "phase", "offset"];
+                return unknown_key(&entry.name.place, other, known, faults);
             }
         }
     }
@@ -227,9 +213,13 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Sign
     })
 }
 
-fn unknown<R>(place: &Place, key: &str, known: &str, faults: &mut Faults) -> Option<R> {
-    let fault = Fault::new(place, "unknown-key", format!("no key `{key}` here"));
-    faults.push(fault.with_help(format!("the keys are {known}")));
+fn unknown_key<R>(
+    place: &Place,
+    key: &str,
+    known: &[&'static str],
+    faults: &mut Faults,
+) -> Option<R> {
+    faults.push(wording::unknown_key(place, key, known));
     None
 }
 
@@ -239,23 +229,19 @@ fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal>
     for row in raw.items(example, faults)? {
         let pair = row.items(("a point", "`[0.5 s, 2]`"), faults)?;
         let [t, value] = pair.as_slice() else {
-            let fault = Fault::new(&row.place, "drive", "a point is a time and a value");
-            faults.push(fault.with_help("write `[0.5 s, 2]`"));
+            faults.push(wording::not_a_point(&row.place));
             return None;
         };
         let time = t.number(&[Dimension::Time], faults)?.value;
         let value = value.number(&[dimension], faults)?.value.value;
         if points.last().is_some_and(|last| last[0] >= time.value) {
-            let message = format!("the time {} does not come after the one before", time.text);
-            let fault = Fault::new(&t.place, "drive", message);
-            faults.push(fault.with_help("times grow from point to point"));
+            faults.push(wording::times_not_increasing(&t.place, &time.text));
             return None;
         }
         points.push([time.value, value]);
     }
     if points.is_empty() {
-        let fault = Fault::new(&raw.place, "drive", "the table has no points");
-        faults.push(fault.with_help("write `[[0 s, 0], [1 s, 2]]`"));
+        faults.push(wording::empty_table(&raw.place));
         return None;
     }
     Some(Signal::Table(points))

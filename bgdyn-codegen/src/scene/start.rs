@@ -1,10 +1,9 @@
-//! What a run can begin with in place of what the scene's file gives: parts of the state and run-time
-//! parameters, by name.
+//! Overrides of a scene's start: state variables and run-time parameters, by name.
 
 use bgdyn_runtime::Dd;
 
 use super::Scene;
-use crate::fault::{Fault, Faults, Place, unknown_name};
+use crate::fault::{Faults, Place, unknown_name, wording};
 
 /// Something that a run can be given.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,14 +125,13 @@ impl Scene {
                     scene.initial.x[i] = value;
                     let entered = scene.layout.states[i].entered;
                     if let Some(entered) = entered.filter(|e| value < e.least) {
-                        let (name, least) = (&settable.name, entered.least.to_f64());
-                        let message = format!(
-                            "`{name}` begins with {}, less than {least} {}",
-                            value.to_f64(),
-                            settable.unit
-                        );
-                        let fault = Fault::new(&Place::file(), "initial", message);
-                        faults.push(fault.with_help(entered.way_out));
+                        let with_unit = |x: Dd| format!("{} {}", x.to_f64(), settable.unit);
+                        faults.push(wording::initial_below_least(
+                            &Place::file(),
+                            &settable.name,
+                            (&with_unit(value), &with_unit(entered.least)),
+                            entered.way_out,
+                        ));
                     }
                 }
             }

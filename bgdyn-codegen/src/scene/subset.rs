@@ -1,4 +1,4 @@
-//! Scenes with fewer effects than the file calls for: to see what each one costs and changes.
+//! Scenes with a part of their effects, to measure what each effect costs and changes.
 
 use super::Scene;
 use super::causality::{chains, is_solvable};

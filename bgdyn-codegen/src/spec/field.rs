@@ -1,4 +1,4 @@
-//! A value with its place, and the three states of a key: absent, unreadable, given.
+//! A value with its position in the file, and the state of a key: absent, unreadable, given.
 
 use crate::fault::Place;
 

@@ -1,4 +1,4 @@
-//! YAML text → nodes with positions: strict syntax, one document, no cycles.
+//! Indexes YAML text as nodes with positions: strict syntax, one document, no cycles.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -1,170 +1,25 @@
-//! The spec as it was written: typed values with their places, nothing concluded from them.
+//! The spec as it was written: typed values with their positions in the file, not yet checked.
 //!
 //! [`parse`] reports what the format cannot say (syntax, unknown keys, wrong types, units);
 //! whether it makes a mechanism is for [`crate::machine::check`] to tell.
 
+mod document;
 mod field;
 mod index;
 mod number;
 mod parse;
 mod raw;
 mod scene;
+mod value;
 mod walk;
 mod yaml;
 
-use bgdyn_runtime::Dd;
-
-use crate::fault::Place;
 pub use crate::unit::{Dimension, Unit};
+pub use document::{Frame, Inertia, Joint, LENGTHS, Limits, Link, Origin, Spec};
 pub use field::{Field, Located};
 pub(crate) use number::misfit;
 pub use number::quantity;
 pub use parse::parse;
 pub use raw::{Entry, Fields, Key, Raw, Reads};
 pub use scene::{SceneSpec, is_scene, parse_scene};
-
-/// A number as written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Number {
-    /// Its value in SI units, read as a decimal.
-    pub value: Dd,
-    /// The unit written behind it.
-    pub unit: Option<&'static Unit>,
-    /// As it stands in the file.
-    pub text: String,
-    /// Name of the run-time parameter whose default it is, if it is written as one.
-    pub parameter: Option<Located<String>>,
-}
-
-/// Three numbers.
-pub type Vector = [Located<Number>; 3];
-
-/// A mechanism's file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Spec {
-    /// The file's mapping.
-    pub place: Place,
-    /// Whether everything in the file could be read; nothing is built from half a spec.
-    pub complete: bool,
-    /// Version of the format.
-    pub format: Field<Number>,
-    /// Name of the mechanism.
-    pub name: Field<String>,
-    /// Its name elsewhere.
-    pub label: Field<String>,
-    /// Text for the docs.
-    pub description: Field<String>,
-    /// Acceleration of free fall, world axes.
-    pub gravity: Field<Vector>,
-    /// Angle within which directions are taken as exact.
-    pub snap: Field<Number>,
-    /// The links; those that are no mapping are left out.
-    pub links: Field<Vec<Link>>,
-    /// The named frames; those that are no mapping are left out.
-    pub frames: Field<Vec<Frame>>,
-    /// What acts in it beside its links, by name, unread.
-    pub effects: Field<Vec<Raw>>,
-}
-
-/// An entry of `links`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Link {
-    /// The link's mapping.
-    pub place: Place,
-    /// Its name.
-    pub name: Field<String>,
-    /// Its name elsewhere.
-    pub label: Field<String>,
-    /// Name of the link that carries it.
-    pub parent: Field<String>,
-    /// How it is carried.
-    pub joint: Field<Joint>,
-    /// Mass.
-    pub mass: Field<Number>,
-    /// Centre of mass.
-    pub com: Field<Vector>,
-    /// Tensor, or the solid that it is of.
-    pub inertia: Field<Inertia>,
-    /// `allow`, or a slip.
-    pub nonphysical: Field<String>,
-}
-
-/// A link's `joint`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
-    /// The joint's mapping.
-    pub place: Place,
-    /// Its name.
-    pub name: Field<String>,
-    /// Its name elsewhere.
-    pub label: Field<String>,
-    /// The word after `type`.
-    pub kind: Field<String>,
-    /// Direction of its axis, of any length; a letter is read as the unit vector it stands for.
-    pub axis: Field<Vector>,
-    /// Place of the link in the parent.
-    pub origin: Field<Origin>,
-    /// Limits.
-    pub limits: Field<Limits>,
-}
-
-/// A placement: `xyz` and `rpy`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Origin {
-    /// Displacement.
-    pub xyz: Field<Vector>,
-    /// Roll, pitch, yaw about fixed axes.
-    pub rpy: Field<Vector>,
-}
-
-/// A joint's `limits`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limits {
-    /// Smallest coordinate.
-    pub lower: Field<Number>,
-    /// Largest coordinate.
-    pub upper: Field<Number>,
-    /// Largest speed.
-    pub velocity: Field<Number>,
-    /// Largest effort.
-    pub effort: Field<Number>,
-}
-
-/// A link's `inertia`: entries of a tensor, or a solid of even density.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Inertia {
-    /// xx, yy, zz, xy, xz, yz: entries of the tensor.
-    pub entries: [Field<Number>; 6],
-    /// xy, xz, yz: products of inertia, ∫xy dm, in place of the tensor's entries.
-    pub products: Field<[Field<Number>; 3]>,
-    /// `com` or `origin`: the point that the tensor is about.
-    pub about: Field<String>,
-    /// Axes of the entries, or of the solid, in the link's.
-    pub rpy: Field<Vector>,
-    /// What solid it is: `box`, …
-    pub solid: Field<String>,
-    /// Edges of a box.
-    pub size: Field<Vector>,
-    /// Lengths of a solid, in the order of [`LENGTHS`].
-    pub lengths: [Field<Number>; 3],
-    /// Axis of a round solid; a letter is read as the unit vector it stands for.
-    pub axis: Field<Vector>,
-}
-
-/// The keys of [`Inertia::lengths`].
-pub const LENGTHS: [&str; 3] = ["radius", "inner_radius", "length"];
-
-/// An entry of `frames`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
-    /// The frame's mapping.
-    pub place: Place,
-    /// Its name.
-    pub name: Field<String>,
-    /// Its name elsewhere.
-    pub label: Field<String>,
-    /// The link it is fixed to.
-    pub link: Field<String>,
-    /// Its place on the link.
-    pub origin: Field<Origin>,
-}
+pub use value::{Number, Vector};

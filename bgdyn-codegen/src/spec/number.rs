@@ -1,4 +1,4 @@
-//! Text → number: a decimal to 32 digits, with a unit that fits the place.
+//! Reads a number: a decimal with up to 32 digits, and a unit of the expected dimension.
 
 use bgdyn_runtime::Dd;
 

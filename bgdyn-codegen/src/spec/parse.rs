@@ -1,4 +1,4 @@
-//! The tree → the spec: one function per mapping of the format.
+//! Reads a spec from the tree of a file: one function for each mapping of the format.
 
 use super::walk::{At, Mapping, Reader};
 use super::yaml::{self, Data};

@@ -1,5 +1,6 @@
-//! Entries whose keys are known only to the step that reads them: effects, inputs, initial values.
-//! They keep what stands in the file, with places, until somebody says what belongs there.
+//! Unparsed entries, whose keys are known to a later step only: effects, inputs, initial values.
+//!
+//! They keep the values and positions of the file until that step says what it expects.
 
 use super::walk::{At, Reader};
 use super::yaml::{Data, Kind, Tree};

@@ -1,4 +1,4 @@
-//! A scene's file as written: what a run calls for.
+//! The file of a scene as it was written.
 
 use super::index::root_keys;
 use super::walk::{At, Reader};

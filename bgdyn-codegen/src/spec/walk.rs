@@ -1,5 +1,4 @@
-//! Steps of the typed reading: a mapping's keys, lists, texts, numbers. Every fault is noted and
-//! the reading goes on.
+//! Typed readers of mappings, lists, texts and numbers, which note every fault and continue.
 
 use super::number::number;
 use super::yaml::{Data, Entry, Kind, Tree};

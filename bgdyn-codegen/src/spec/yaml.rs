@@ -1,4 +1,4 @@
-//! YAML text → a tree of typed values with positions.
+//! Reads YAML text into a tree of typed values with positions.
 //!
 //! serde_yaml tells the type of every value (`1.5` a number, `x` a text, `~` nothing); the index
 //! tells where it stands and how it was written, so that numbers keep their decimals.

@@ -6,10 +6,10 @@ use super::dynamics::rates;
 use super::holds::held;
 use super::summed::summed;
 use super::{Balance, Contact, Laws, Named, Own, System};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::PowerTerm;
+use crate::declaration::Element;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent};
 use crate::method::Method;
-use crate::scene::Scene;
 
 /// The links' and rotors' own entry: kinetic energy.
 const LINKS: &str = "links";
@@ -19,9 +19,11 @@ const DRIVES: &str = "drives";
 const DROPPED: &str = "dropped_velocity_products";
 
 /// The entries of a scene's balance, in order.
-pub(super) fn entries(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<Named> {
-    let all = all(scene, graph, laws);
-    all.into_iter().map(|(named, _)| named).collect()
+pub(super) fn entries(system: &System, laws: &Laws<'_, '_>) -> Vec<Named> {
+    all(system, laws)
+        .into_iter()
+        .map(|(named, _)| named)
+        .collect()
 }
 
 /// Its power is in W, its energy in J.
@@ -30,17 +32,22 @@ fn entry(name: String, about: String) -> Named {
     Named { name, unit, about }
 }
 
-/// The elements' entries that are not nothing, then the scene's own.
-fn all(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<(Named, Source)> {
+/// The entries of the elements that have a term in the balance, by their nodes of the bond graph, and are
+/// not nothing; then the scene's own.
+fn all(system: &System, laws: &Laws<'_, '_>) -> Vec<(Named, Source)> {
+    let (scene, graph) = (&system.scene, &system.graph);
     let mut found = Vec::new();
     for (i, element) in scene.elements.iter().enumerate() {
+        let terms: Vec<PowerTerm> = system.network.powers_of(i).collect();
+        check_terms(element, &terms, laws.balances()[i]);
         let Balance {
             supplied,
             stored,
             dissipated,
         } = laws.balances()[i];
         let holds = laws.contacts().iter().any(|c| c.element == i);
-        if holds || [supplied, stored, dissipated].iter().any(|x| !x.is_zero()) {
+        let acts = holds || [supplied, stored, dissipated].iter().any(|x| !x.is_zero());
+        if acts && !terms.is_empty() {
             let about = element.effect.summary().to_owned();
             let name = element.name.clone();
             found.push((entry(name, about), Source::Element(i)));
@@ -67,6 +74,24 @@ fn all(scene: &Scene, graph: &BondGraph, laws: &Laws<'_, '_>) -> Vec<(Named, Sou
     found
 }
 
+/// Panics where the law of an element has a term in the balance that none of its nodes of the bond graph
+/// has: an error of the effect's author.
+fn check_terms(element: &Element, terms: &[PowerTerm], balance: Balance<'_>) {
+    let all = [
+        (PowerTerm::Supplied, balance.supplied, "supplies"),
+        (PowerTerm::Stored, balance.stored, "stores"),
+        (PowerTerm::Dissipated, balance.dissipated, "dissipates"),
+    ];
+    for (term, value, verb) in all {
+        assert!(
+            value.is_zero() || terms.contains(&term),
+            "the law of the effect `{}` (element `{}`) {verb} power, but none of its nodes of the bond graph does",
+            element.effect.keyword(),
+            element.name,
+        );
+    }
+}
+
 /// Where an entry comes from.
 #[derive(Clone, Copy)]
 enum Source {
@@ -79,7 +104,7 @@ enum Source {
 /// Energy stored by each entry.
 pub(super) fn energy<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
     let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
-    let all = all(&system.scene, &system.graph, &laws);
+    let all = all(system, &laws);
     let stored = |(_, source): (Named, Source)| match source {
         Source::Element(i) => laws.balances()[i].stored,
         Source::Links => laws.method(Method::KineticEnergy)[0],
@@ -111,7 +136,7 @@ pub(super) fn power<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
     let kinetic = laws.method(Method::KineticEnergy)[0];
     let kinetic_rate = along.rate(b, kinetic);
     let mut out = Vec::new();
-    for (_, source) in all(&system.scene, &system.graph, &laws) {
+    for (_, source) in all(system, &laws) {
         let zero = b.zero();
         out.extend(match source {
             Source::Element(i) => {

@@ -7,13 +7,13 @@
 
 use bgdyn_runtime::Dd;
 
-use super::dynamics::own_inertia;
+use super::coordinate_rows::own_inertia;
 use super::holds::{Holds, held};
 use super::jacobian::{Response, expressions};
 use super::{Laws, System};
 use crate::bond_graph::BondGraph;
+use crate::choice::Choice;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
-use crate::formulation::Search;
 use crate::function::Function;
 use crate::laws::copied;
 use crate::math::Vec3;
@@ -87,8 +87,8 @@ fn weightless(graph: &BondGraph) -> BondGraph {
     for source in &mut graph.sources {
         source.efforts.clear();
     }
-    graph.gravity = Vec3([Dd::ZERO; 3]);
-    graph.velocity_products = false;
+    graph.multibody.gravity = Vec3([Dd::ZERO; 3]);
+    graph.multibody.velocity_products = false;
     graph
 }
 
@@ -108,8 +108,8 @@ pub(super) fn momenta(system: &System) -> Vec<Function> {
 
 /// The ways to the velocities of momenta, which stand in their place among the leaves.
 pub(super) fn velocities(system: &System) -> Vec<Function> {
-    let search = Search::new(&system.graph, None);
-    let ways = search.forward_dynamics();
+    let choice = Choice::new(&system.graph, None);
+    let ways = choice.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let outputs = expressions(&solved(system, &b, forward));
@@ -141,8 +141,8 @@ pub(super) fn rates(system: &System) -> Vec<Function> {
         true => &[Drift::Momenta, Drift::Energy],
         false => &[Drift::Momenta],
     };
-    let search = Search::new(&system.graph, None);
-    let Some(forward) = search.forward_dynamics().next() else {
+    let choice = Choice::new(&system.graph, None);
+    let Some(forward) = choice.forward_dynamics().next() else {
         return vec![];
     };
     let with = |&drift: &Drift| {

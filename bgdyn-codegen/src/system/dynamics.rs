@@ -1,10 +1,12 @@
 //! Accelerations and rates, and the efforts behind given accelerations.
 
+use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::holds::{Holding, held, own_accelerations};
 use super::summed::summed;
 use super::{Laws, Own, System};
-use crate::expr::{Builder, Ex, Expr, Graph, Leaf, copy_into};
-use crate::formulation::{Formulation, Search};
+use crate::choice::Choice;
+use crate::expr::{Builder, Ex, Expr, Leaf};
+use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::laws::copied;
 use crate::method::{Method, Role};
@@ -14,8 +16,8 @@ pub(super) fn derivatives(system: &System) -> Vec<Function> {
     if system.may_hold_joints() {
         return vec![with_modes(system, None)];
     }
-    let search = Search::new(&system.graph, None);
-    let ways = search.forward_dynamics();
+    let choice = Choice::new(&system.graph, None);
+    let ways = choice.forward_dynamics();
     ways.map(|forward| without_modes(system, forward)).collect()
 }
 
@@ -25,8 +27,8 @@ pub(super) fn derivative_by(
     formulation: &'static dyn Formulation,
 ) -> Option<Function> {
     if !system.may_hold_joints() {
-        let search = Search::new(&system.graph, Some(formulation));
-        let forward = formulation.function(&search, Method::ForwardDynamics)?;
+        let choice = Choice::new(&system.graph, Some(formulation));
+        let forward = choice.asked_plain(Method::ForwardDynamics)?;
         return Some(without_modes(system, &forward));
     }
     let known = [Method::MassMatrix, Method::Bias].map(|m| formulation.knows(m));
@@ -47,7 +49,7 @@ fn without_modes(system: &System, forward: &Function) -> Function {
     let b = Builder::new();
     let outputs: Vec<Expr> = {
         let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
-        let joints = driven(&b, forward, &laws, system);
+        let joints = link_accelerations(&b, forward, &laws, system);
         let all = joined(system, &laws, joints).into_iter();
         all.map(Ex::expr).collect()
     };
@@ -58,36 +60,12 @@ fn without_modes(system: &System, forward: &Function) -> Function {
     }
 }
 
-/// Forward dynamics under the efforts of the laws.
-pub(super) fn driven<'g>(
-    b: &'g Builder,
-    forward: &Function,
-    laws: &Laws<'g, '_>,
-    system: &System,
-) -> Vec<Ex<'g>> {
-    let efforts: Vec<Expr> = (0..system.graph.coordinates.len())
-        .map(|j| laws.effort(j).expr())
-        .collect();
-    let placed = |_: &mut Graph, leaf| match leaf {
-        Leaf::Input(j) => Some(efforts[j]),
-        _ => None,
-    };
-    let outputs = &forward.blocks[0].outputs;
-    let copies = b.with_graph(|g| copy_into(g, &forward.graph, outputs, placed));
-    copies.into_iter().map(|e| b.ex(e)).collect()
-}
-
 /// The joints' accelerations with those of the other coordinates, and ẋ.
 pub(super) fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
     let mut all = joints;
     all.extend(own_accelerations(system, laws, &Holding::new(laws)));
     all.extend(laws.rates());
     all
-}
-
-/// Inertia of a coordinate that stores its own momentum.
-pub(super) fn own_inertia<'g>(laws: &Laws<'g, '_>, j: usize) -> Ex<'g> {
-    laws.inertia_of(j).unwrap_or(laws.b.number(1.0))
 }
 
 /// v̇ and ẋ, whatever the modes are.

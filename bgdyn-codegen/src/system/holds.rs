@@ -1,10 +1,11 @@
 //! Coordinates that are held: by dry friction, or at the limit of their rate.
 
-use super::dynamics::{driven, own_inertia};
+use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::summed::summed;
 use super::{Laws, Own, System};
+use crate::choice::Choice;
 use crate::expr::{Builder, Ex};
-use crate::formulation::{self, Search};
+use crate::formulation;
 use crate::method::Method;
 
 impl System {
@@ -30,10 +31,10 @@ pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> 
     let n = system.graph.coordinates.len();
     let own_holding = |j: usize, a: Ex<'g>| own_inertia(laws, j) * a - laws.effort(j);
     if laws.contacts().iter().all(|c| c.coordinate >= n) {
-        let search = Search::new(&system.graph, None);
-        let mut ways = search.forward_dynamics();
+        let choice = Choice::new(&system.graph, None);
+        let mut ways = choice.forward_dynamics();
         let forward = ways.next().expect("there is a way");
-        let mut accelerations = driven(b, forward, laws, system);
+        let mut accelerations = link_accelerations(b, forward, laws, system);
         accelerations.extend(own_accelerations(system, laws, &Holding::new(laws)));
         let contacts = laws.contacts().iter().map(|c| c.coordinate);
         return Held {

@@ -7,11 +7,12 @@
 use super::summed::summed_under;
 use bgdyn_runtime::Dd;
 
-use super::dynamics::{driven, joined, own_inertia, rates};
+use super::coordinate_rows::{link_accelerations, own_inertia};
+use super::dynamics::{joined, rates};
 use super::holds::Holds;
 use super::{Laws, Own, System, signals};
+use crate::choice::Choice;
 use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
-use crate::formulation::Search;
 use crate::function::Function;
 use crate::laws::copied;
 use crate::method::{Method, Role};
@@ -89,14 +90,14 @@ fn implicit(system: &System) -> Vec<Function> {
         let name = "M ∂v̇ = ∂E − ∂P, joints held or free".to_owned();
         return vec![system.flat(Role::Jacobian, name, b, columns)];
     }
-    let search = Search::new(&system.graph, None);
-    let ways = search.forward_dynamics();
+    let choice = Choice::new(&system.graph, None);
+    let ways = choice.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let columns = {
             let laws = system.laws_under_driven_inputs(&b);
             let holds = Holds::new(&laws);
-            let joints = driven(&b, forward, &laws, system);
+            let joints = link_accelerations(&b, forward, &laws, system);
             let rates = joined(system, &laws, joints);
             let response = Response::new(forward);
             columns(system, &laws, &rates, &holds, Some(&response))

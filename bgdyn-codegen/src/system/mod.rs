@@ -6,8 +6,11 @@
 
 mod balance;
 mod canonical;
+mod coordinate_rows;
 mod dynamics;
+mod equations;
 mod holds;
+mod idle;
 mod jacobian;
 mod range;
 mod reference;
@@ -19,42 +22,18 @@ mod summed;
 use bgdyn_runtime::Dd;
 use summed::summed;
 
-use crate::bond_graph::{self, BondGraph};
+use crate::bond_graph::{self, BondGraph, BondNetwork};
 use crate::effect;
-use crate::expr::{Builder, Ex, Expr};
-use crate::fault::{Fault, Faults, unknown_name};
+use crate::expr::{Builder, Ex};
+use crate::fault::{Faults, wording};
 use crate::formulation::Formulation;
 use crate::function::Function;
 pub use crate::laws::{Balance, Contact, Gear, Hold, Laws, Own, Port, Reading};
 use crate::method::{Method, Role};
+use crate::passes::{cheapest, factor, finish};
 use crate::scene::{Scene, Settable};
 use crate::spec::Dimension;
-
-/// The equations of a scene.
-#[derive(Clone, Debug)]
-pub struct System {
-    /// The scene.
-    pub scene: Scene,
-    /// The bond graph of its mechanism, with what its effects change in it.
-    pub graph: BondGraph,
-    /// Its initial state, of fluid volumes too.
-    pub initial: crate::scene::Initial,
-    /// The parts of its outputs.
-    pub outputs: Vec<Named>,
-    /// The entries of its balance of power.
-    pub entries: Vec<Named>,
-}
-
-/// A named number of a result.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Named {
-    /// Its name.
-    pub name: String,
-    /// Its SI unit; nothing for an entry of the balance of power, whose numbers have several.
-    pub unit: &'static str,
-    /// Unit and meaning.
-    pub about: String,
-}
+pub use equations::{Named, System};
 
 impl System {
     /// The equations of a scene.
@@ -71,13 +50,14 @@ impl System {
             initial: scene.initial.clone(),
             outputs: Vec::new(),
             entries: Vec::new(),
+            network: network(&scene, &graph),
             scene,
             graph,
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
         let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
-        let entries = balance::entries(&system.scene, &system.graph, &laws);
+        let entries = balance::entries(&system, &laws);
         let outputs = outputs(&system, &laws, &mut faults);
         let outputs = outputs.into_iter().map(|(named, _)| named).collect();
         range::check(&system.scene, &laws, &mut faults);
@@ -128,17 +108,6 @@ impl System {
             .collect()
     }
 
-    /// The coordinate that each mode may hold.
-    pub fn mode_coordinates(&self) -> Vec<usize> {
-        let b = Builder::silent();
-        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
-        let mut found = vec![0; self.scene.layout.modes.len()];
-        for contact in laws.contacts() {
-            found[contact.mode] = contact.coordinate;
-        }
-        found
-    }
-
     /// The roles this scene has functions for, with those that its method of integration needs.
     pub fn roles(&self) -> Vec<Role> {
         self.roles_with(false, false)
@@ -164,15 +133,15 @@ impl System {
 
     /// The function of a role.
     pub fn function(&self, role: Role) -> Function {
-        crate::cut::cut(self.chosen(role).arranged().fused())
+        finish(self.chosen(role))
     }
 
     /// The same in one block.
     fn chosen(&self, role: Role) -> Function {
-        let factored = self.ways(role).into_iter().map(Function::factored);
+        let factored = self.ways(role).into_iter().map(factor);
         let best = match role {
             Role::Jacobian | Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
-                Function::cheapest(factored)
+                cheapest(factored)
             }
             _ => factored.min_by_key(|f| f.operations().total()),
         };
@@ -205,7 +174,7 @@ impl System {
     /// formulation does not know what the derivative rests on.
     pub fn derivative_by(&self, formulation: &'static dyn Formulation) -> Option<Function> {
         let way = dynamics::derivative_by(self, formulation)?;
-        Some(crate::cut::cut(way.factored().arranged().fused()))
+        Some(finish(factor(way)))
     }
 
     /// The derivative with one effort of its own at every coordinate, in place of the accelerations
@@ -216,21 +185,19 @@ impl System {
             dynamics::rates(system, &laws, b)
         })
     }
+}
 
-    fn one(
-        &self,
-        role: Role,
-        made: impl for<'g> FnOnce(&System, &'g Builder) -> Vec<Ex<'g>>,
-    ) -> Function {
-        let b = Builder::new();
-        let outputs: Vec<Expr> = made(self, &b).into_iter().map(Ex::expr).collect();
-        self.flat(role, "scene".into(), b, outputs)
+/// The bond graph of the mechanism and of the scene's effects.
+fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
+    let layout = &scene.layout;
+    let driven = layout.inputs.iter().filter_map(|input| input.drives);
+    let driven = driven.map(|j| layout.coordinates[j].name.clone()).collect();
+    let mut network = BondNetwork::of_mechanism(graph, driven);
+    for (at, element) in scene.elements.iter().enumerate() {
+        network.begin(at);
+        effect::of(element).elements(element, &scene.elements, &mut network);
     }
-
-    fn flat(&self, role: Role, formulation: String, b: Builder, outputs: Vec<Expr>) -> Function {
-        let method = Method::Scene(role);
-        Function::flat(&self.graph, method, formulation, b.into_graph(), outputs)
-    }
+    network
 }
 
 /// The outputs asked for, with their expressions.
@@ -281,11 +248,8 @@ fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec
         let names = known.iter().map(|(n, _)| n.name.as_str());
         let sites = system.graph.sites.iter().map(|s| s.name.as_str());
         let all: Vec<&str> = names.chain(sites).collect();
-        let message = unknown_name("output", &output.value, &all, &all.join(", "));
-        let fault = Fault::new(&output.place, "unknown-output", message);
-        faults.push(
-            fault.with_help("outputs are parts of the state, places and what effects report"),
-        );
+        let (place, name) = (&output.place, &output.value);
+        faults.push(wording::unknown_output(place, name, &all));
     }
     wanted
 }

@@ -5,7 +5,7 @@
 use bgdyn_runtime::Dd;
 
 use super::Laws;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 use crate::laws::Condition;
 use crate::scene::{Initial, Scene, Store};
 
@@ -15,12 +15,15 @@ const POINTS: u32 = 64;
 /// Notes the values that do not stay positive.
 pub(super) fn check(scene: &Scene, laws: &Laws<'_, '_>, faults: &mut Faults) {
     for condition in laws.conditions() {
-        if let Some((value, place)) = violated(condition, scene, laws) {
+        if let Some((value, when)) = violated(condition, scene, laws) {
             let value = value.to_f64();
-            let message = format!("{} is {value:.3e} {place}", condition.what);
-            let place = &scene.elements[condition.element].place;
-            let fault = Fault::new(place, "effect-range", message);
-            faults.push(fault.with_help(condition.way_out));
+            let element = &scene.elements[condition.element];
+            let found = (condition.what.as_str(), value, when.as_str());
+            faults.push(wording::not_positive(
+                &element.place,
+                found,
+                condition.way_out,
+            ));
         }
     }
 }

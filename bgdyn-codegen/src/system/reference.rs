@@ -1,7 +1,8 @@
 //! A scene's equations with P by the literal sum of equation (6): what its functions are compared
 //! with.
 
-use super::dynamics::{efforts, own_inertia};
+use super::coordinate_rows::own_inertia;
+use super::dynamics::efforts;
 use super::summed::summed_by;
 use super::{Laws, Own, System};
 use crate::expr::{Builder, Ex, Leaf};

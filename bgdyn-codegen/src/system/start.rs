@@ -10,7 +10,8 @@ use super::{Laws, Own, System};
 use crate::declaration::Element;
 use crate::effect;
 use crate::expr::{Builder, Ex, Expr, Inputs, Leaf, Node, NodeId, evaluate, reachable};
-use crate::fault::{Fault, Faults};
+use crate::fault::wording::{self, WhyWrong, WrongMode};
+use crate::fault::{Fault, Faults, Place};
 use crate::scene::{Scene, mode_name};
 
 /// A slip that counts as none: what the rounding of two rates leaves, rad/s, m/s or A.
@@ -80,12 +81,7 @@ fn modes(system: &System, faults: &mut Faults) -> Vec<Dd> {
     for k in 0..stated.len() {
         let place = system.scene.stated_mode(k).filter(|_| !start.by_caller[k]);
         if let Some(place) = place.filter(|_| stated[k] != settled[k]) {
-            let message = start.contradiction(k, &stated, settled[k]);
-            let name = mode_name(&system.scene.layout.modes[k]);
-            let help = format!(
-                "leave `{name}` out: modes are settled when a run begins; or mend the rate or the effort"
-            );
-            faults.push(Fault::new(&place, "initial-mode", message).with_help(help));
+            faults.push(start.contradiction(&place, k, &stated, settled[k]));
         }
     }
     settled.as_slice().to_vec()
@@ -148,10 +144,9 @@ impl<'a> Start<'a> {
         values.chunks_exact(4).map(one).collect()
     }
 
-    /// What is wrong with the mode `k` that the scene states among `modes`; `right` is the one it has.
-    fn contradiction(&self, k: usize, modes: &DVector<Dd>, right: Dd) -> String {
+    /// The fault of the mode `k` that the scene states among `modes`; `right` is the one it has.
+    fn contradiction(&self, place: &Place, k: usize, modes: &DVector<Dd>, right: Dd) -> Fault {
         let layout = &self.system.scene.layout;
-        let name = mode_name(&layout.modes[k]);
         let coordinate = &layout.coordinates[self.system.mode_coordinates()[k]];
         let [_, rate, effort] = coordinate.dimensions.map(|d| d.si());
         let (stated, right) = (modes[k].to_f64(), right.to_f64());
@@ -159,24 +154,20 @@ impl<'a> Start<'a> {
         held[k] = Dd::ZERO;
         let contact = &self.contacts(&held)[k];
         let (slip, holding) = (contact.slip.to_f64(), contact.holding.to_f64());
-        let of = &coordinate.rate_name;
         let why = if slip.abs() > NO_SLIP {
-            format!(
-                "`{of}` begins with {} {rate} against its counterpart",
-                six(slip)
-            )
+            WhyWrong::Slips(slip)
         } else if right == 0.0 {
-            format!("at rest it is held: that takes {} {effort}", six(holding))
+            WhyWrong::IsHeld(holding)
         } else {
-            let beyond = six(-contact.margin.to_f64());
-            let holding = six(holding);
-            format!("holding takes {holding} {effort}, {beyond} {effort} more than it can hold")
+            WhyWrong::CannotHold(holding, -contact.margin.to_f64())
         };
-        format!("`{name}` begins with {stated}, but {why}: its mode is {right}")
+        let mode = WrongMode {
+            name: &mode_name(&layout.modes[k]),
+            modes: [stated, right],
+            rate: &coordinate.rate_name,
+            units: [rate, effort],
+            why,
+        };
+        wording::wrong_mode(place, &mode)
     }
-}
-
-/// A number to six digits.
-fn six(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
 }

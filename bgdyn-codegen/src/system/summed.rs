@@ -54,6 +54,7 @@ pub(super) fn summed_under<'g, 'a>(
 #[cfg(test)]
 mod tests {
     use super::summed;
+    use crate::bond_graph::BondNetwork;
     use crate::declaration::{Declaration, Element};
     use crate::effect::Effect;
     use crate::expr::Builder;
@@ -96,6 +97,8 @@ mod tests {
     }
 
     impl Effect for Probe {
+        fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {}
+
         fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
             (self.0)(element, laws);
         }

@@ -1,4 +1,4 @@
-//! Comparing results, and writing down where they differ.
+//! Compares results and describes where they differ.
 
 use bgdyn_runtime::Dd;
 
@@ -6,18 +6,11 @@ use super::Difference;
 use crate::expr::Inputs;
 use crate::function::Function;
 
-/// Half a step of a central difference: its error is h² ≈ 1e-18 of the function's third
-/// derivative, its rounding 1e-32 / h.
-const HALF_STEP: f64 = 1e-9;
-
 /// Allowed for values that both sides compute in double-double.
 pub(super) const EXACT: f64 = 1e-18;
 
-/// Allowed for what a central difference gives.
-pub(super) const DIFFERENCED: f64 = 1e-11;
-
-/// Allowed for accelerations put back into the equations of motion: the solution loses digits
-/// with the condition number of the mass matrix.
+/// Allowed for accelerations and their derivatives put back into the equations of motion: the
+/// solution loses digits with the condition number of the mass matrix.
 pub(super) const SOLVED: f64 = 1e-12;
 
 /// What a result must obey, and how closely.
@@ -91,20 +84,6 @@ pub(super) fn turned(x: &[Dd]) -> [Vec<Dd>; 3] {
         });
         signed.collect()
     })
-}
-
-/// x + h d and x − h d for the step of central differences.
-pub(super) fn beside(x: &[Dd], direction: &[Dd], side: f64) -> Vec<Dd> {
-    let h = Dd::from_f64(side * HALF_STEP);
-    let moved = x.iter().zip(direction);
-    moved.map(|(&x, &d)| x + h * d).collect()
-}
-
-/// The central difference of two results.
-pub(super) fn slope(above: &[Dd], below: &[Dd]) -> Vec<Dd> {
-    let step = Dd::from_f64(2.0 * HALF_STEP);
-    let pairs = above.iter().zip(below);
-    pairs.map(|(&a, &b)| (a - b) / step).collect()
 }
 
 /// x − y

@@ -1,16 +1,16 @@
-//! The functions of a mechanism against the literal sum.
+//! Checks the functions of a mechanism against the literal sum.
+
+use std::cell::OnceCell;
 
 use bgdyn_runtime::Dd;
 
 use super::Difference;
-use super::compare::{
-    DIFFERENCED, EXACT, Law, SOLVED, beside, differs, dot, largest, minus, plus, slope, times,
-    turned,
-};
+use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times, turned};
+use super::dual::{Direction, along, rates, with_rates};
 use super::states::{Random, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::formulation::{Search, specification};
+use crate::formulation::{Prepared, specification};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
 
@@ -18,15 +18,14 @@ use crate::method::Method;
 /// at one beyond ten coordinates. At most one difference for each function.
 pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) -> Vec<Difference> {
     let literal = Literal::new(graph);
-    let states: Vec<State> = of_mechanism(graph)
-        .into_iter()
-        .map(|at| (literal.size(&at), at))
-        .collect();
+    let states = of_mechanism(graph).into_iter();
+    let states: Vec<State> = states.map(|at| State::new(&literal, at)).collect();
     let found = functions.iter().filter_map(|function| {
         let subject = Subject {
             name,
             function,
             literal: &literal,
+            form: OnceCell::new(),
         };
         let refused = subject.refuses_all(&states);
         refused.or_else(|| states.iter().find_map(|state| subject.check(state)))
@@ -34,34 +33,30 @@ pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) ->
     found.collect()
 }
 
-/// A state, and the size of the efforts in it: [`Literal::size`].
-type State = (f64, Inputs<Dd>);
-
 /// The literal sum of a bond graph.
-pub(super) struct Literal<'a> {
-    search: Search<'a>,
+struct Literal<'a> {
+    prepared: Prepared<'a>,
     inverse: Function,
 }
 
 impl<'a> Literal<'a> {
-    pub fn new(graph: &'a BondGraph) -> Self {
-        let search = Search::new(graph, None);
-        let inverse = specification().function(&search, Method::InverseDynamics);
+    fn new(graph: &'a BondGraph) -> Self {
+        let prepared = Prepared::new(graph);
+        let inverse = specification().function(&prepared, Method::InverseDynamics);
         Literal {
             inverse: inverse.expect("the literal sum knows inverse dynamics"),
-            search,
+            prepared,
         }
     }
 
-    fn value(&self, method: Method, at: &Inputs<Dd>) -> Option<Vec<Dd>> {
-        let function = specification().function(&self.search, method)?;
-        Some(function.evaluate(at.clone()).0)
+    /// The method as the literal sum writes it.
+    fn form(&self, method: Method) -> Option<Function> {
+        specification().function(&self.prepared, method)
     }
 
     /// P(q, v, a), the rest as in `at`.
-    fn efforts(&self, at: &Inputs<Dd>, q: &[Dd], v: &[Dd], a: &[Dd]) -> Vec<Dd> {
+    fn efforts(&self, at: &Inputs<Dd>, v: &[Dd], a: &[Dd]) -> Vec<Dd> {
         let inputs = Inputs {
-            q: q.to_vec(),
             v: v.to_vec(),
             a: a.to_vec(),
             ..at.clone()
@@ -69,26 +64,62 @@ impl<'a> Literal<'a> {
         self.inverse.evaluate(inputs).0
     }
 
+    /// dP for q + ε dq, v + ε dv, a + ε da.
+    fn effort_rates(&self, at: &Inputs<Dd>, dq: &[Dd], dv: &[Dd], a: (&[Dd], &[Dd])) -> Vec<Dd> {
+        let direction = Direction {
+            q: dq.to_vec(),
+            v: dv.to_vec(),
+            x: vec![],
+            t: Dd::ZERO,
+        };
+        let mut inputs = along(at, &direction);
+        inputs.a = with_rates(a.0, a.1);
+        rates(&self.inverse.evaluate(inputs).0)
+    }
+}
+
+/// A state, and what several laws read in it.
+struct State {
+    at: Inputs<Dd>,
+    /// P(q, 0, 0)
+    at_rest: Vec<Dd>,
+    /// P(q, v, a)
+    efforts: Vec<Dd>,
     /// The size of the terms that add up to efforts: of P(q, v, a), and of M times the squares of the
     /// velocities, which is what centrifugal terms are like before they cancel.
-    fn size(&self, at: &Inputs<Dd>) -> f64 {
-        let squares: Vec<Dd> = at.v.iter().map(|&v| v * v).collect();
-        let whole = largest(&self.efforts(at, &at.q, &at.v, &at.a));
-        whole.max(largest(&self.inertial(at, &at.q, &squares)))
+    size: f64,
+}
+
+impl State {
+    fn new(literal: &Literal<'_>, at: Inputs<Dd>) -> Self {
+        let zero = vec![Dd::ZERO; at.q.len()];
+        let mut state = State {
+            at_rest: literal.efforts(&at, &zero, &zero),
+            efforts: literal.efforts(&at, &at.v, &at.a),
+            size: 0.0,
+            at,
+        };
+        let squares: Vec<Dd> = state.at.v.iter().map(|&v| v * v).collect();
+        let centrifugal = largest(&state.inertial(literal, &squares));
+        state.size = largest(&state.efforts).max(centrifugal);
+        state
+    }
+
+    fn zero(&self) -> Vec<Dd> {
+        vec![Dd::ZERO; self.at.q.len()]
+    }
+
+    /// M(q) x = P(q, 0, x) − P(q, 0, 0)
+    fn inertial(&self, literal: &Literal<'_>, x: &[Dd]) -> Vec<Dd> {
+        let moved = literal.efforts(&self.at, &self.zero(), x);
+        minus(&moved, &self.at_rest)
     }
 
     /// The size of the terms of M(q) x, which cancel where x is large and M nearly singular: the
     /// largest product with other signs of the components of x.
-    fn size_of_product(&self, at: &Inputs<Dd>, x: &[Dd]) -> f64 {
-        let products = turned(x).map(|x| largest(&self.inertial(at, &at.q, &x)));
+    fn size_of_product(&self, literal: &Literal<'_>, x: &[Dd]) -> f64 {
+        let products = turned(x).map(|x| largest(&self.inertial(literal, &x)));
         products.into_iter().fold(0.0, f64::max)
-    }
-
-    /// M(q) x = P(q, 0, x) − P(q, 0, 0)
-    fn inertial(&self, at: &Inputs<Dd>, q: &[Dd], x: &[Dd]) -> Vec<Dd> {
-        let zero = vec![Dd::ZERO; x.len()];
-        let moved = self.efforts(at, q, &zero, x);
-        minus(&moved, &self.efforts(at, q, &zero, &zero))
     }
 }
 
@@ -97,6 +128,8 @@ struct Subject<'a> {
     name: &'a str,
     function: &'a Function,
     literal: &'a Literal<'a>,
+    /// The function as the literal sum writes it, once a law has asked for it.
+    form: OnceCell<Option<Function>>,
 }
 
 /// What a law compares: what is found, what is expected, the size of the terms in them.
@@ -126,7 +159,8 @@ impl Sides {
 impl Subject<'_> {
     /// The first law that the function does not obey at this state. A state in which it refuses a
     /// pivot has nothing to compare.
-    fn check(&self, (efforts, at): &State) -> Option<Difference> {
+    fn check(&self, state: &State) -> Option<Difference> {
+        let at = &state.at;
         let (found, refused) = self.function.evaluate(at.clone());
         if refused.is_some() {
             return None;
@@ -136,9 +170,9 @@ impl Subject<'_> {
             Method::Pose(_) | Method::Jacobian(_) => 1.0,
             Method::Velocity(_) => speed,
             Method::JacobianDotV(_) => speed * speed,
-            _ => *efforts,
+            _ => state.size,
         };
-        let laws = self.laws(at, found).into_iter();
+        let laws = self.laws(state, found).into_iter();
         laws.filter_map(|sides| {
             let pair = (&sides.found[..], &sides.expected[..]);
             let size = sides.size.max(size);
@@ -150,126 +184,102 @@ impl Subject<'_> {
     /// A function that refuses every state though the literal sum refuses none of them.
     fn refuses_all(&self, states: &[State]) -> Option<Difference> {
         let refuses = |function: &Function| {
-            let refused = |(_, at): &State| function.evaluate(at.clone()).1.is_some();
+            let refused = |state: &State| function.evaluate(state.at.clone()).1.is_some();
             states.iter().all(refused)
         };
         if states.is_empty() || !self.function.shape().checked() || !refuses(self.function) {
             return None;
         }
-        let literal = specification().function(&self.literal.search, Method::ForwardDynamics)?;
-        let (_, answered) = states
+        let literal = self.literal.form(Method::ForwardDynamics)?;
+        let answered = states
             .iter()
-            .find(|(_, at)| literal.evaluate(at.clone()).1.is_none())?;
+            .find(|state| literal.evaluate(state.at.clone()).1.is_none())?;
         let text = "the literal sum, which accepts this mass matrix";
         let law = Law { text, allowed: 0.0 };
-        let sides = ([Dd::ONE], [Dd::ZERO]);
-        differs(
-            (self.name, self.function),
-            &law,
-            (&sides.0, &sides.1),
-            0.0,
-            answered,
-        )
+        let subject = (self.name, self.function);
+        let sides = (&[Dd::ONE][..], &[Dd::ZERO][..]);
+        differs(subject, &law, sides, 0.0, &answered.at)
     }
 
-    fn laws(&self, at: &Inputs<Dd>, found: Vec<Dd>) -> Vec<Sides> {
+    fn laws(&self, state: &State, found: Vec<Dd>) -> Vec<Sides> {
         let lit = self.literal;
-        let n = at.q.len();
-        let zero = vec![Dd::ZERO; n];
-        let efforts = |v: &[Dd], a: &[Dd]| lit.efforts(at, &at.q, v, a);
+        let at = &state.at;
+        let exact = |text, found, expected| vec![Sides::new(text, EXACT, found, expected)];
         match self.function.method {
-            Method::InverseDynamics => {
-                vec![Sides::new(
-                    "τ = P(q, v, a)",
-                    EXACT,
-                    found,
-                    efforts(&at.v, &at.a),
-                )]
+            Method::InverseDynamics => exact("τ = P(q, v, a)", found, state.efforts.clone()),
+            Method::Bias => {
+                let expected = lit.efforts(at, &at.v, &state.zero());
+                exact("bias = P(q, v, 0)", found, expected)
             }
-            Method::Bias => vec![Sides::new(
-                "bias = P(q, v, 0)",
-                EXACT,
-                found,
-                efforts(&at.v, &zero),
-            )],
-            Method::Gravity => vec![Sides::new(
-                "gravity = P(q, 0, 0)",
-                EXACT,
-                found,
-                efforts(&zero, &zero),
-            )],
+            Method::Gravity => exact("gravity = P(q, 0, 0)", found, state.at_rest.clone()),
             Method::MassMatrix => {
                 let text = "M x = P(q, 0, x) − P(q, 0, 0)";
-                let moved = times(&whole(&found, n), &at.a);
-                let size = largest(&efforts(&zero, &zero));
-                vec![Sides::new(text, EXACT, moved, lit.inertial(at, &at.q, &at.a)).sized(size)]
+                let moved = times(&whole(&found, at.q.len()), &at.a);
+                let sides = Sides::new(text, EXACT, moved, state.inertial(lit, &at.a));
+                vec![sides.sized(largest(&state.at_rest))]
             }
-            Method::ForwardDynamics => vec![self.solved(at, &found)],
+            Method::ForwardDynamics => vec![self.solved(state, &found)],
             Method::KineticEnergy => {
-                let twice = dot(&at.v, &lit.inertial(at, &at.q, &at.v));
+                let twice = dot(&at.v, &state.inertial(lit, &at.v));
                 let energy = Dd::from_f64(0.5) * twice;
-                vec![Sides::new("T = ½ vᵀ M v", EXACT, found, vec![energy])]
+                exact("T = ½ vᵀ M v", found, vec![energy])
             }
-            Method::CoriolisMatrix => self.coriolis(at, &found),
-            Method::InverseDynamicsDerivatives => vec![self.inverse_slopes(at, &found)],
-            Method::ForwardDynamicsDerivatives => self.forward_slopes(at, &found),
+            Method::CoriolisMatrix => self.coriolis(state, &found),
+            Method::InverseDynamicsDerivatives => vec![self.inverse_slopes(state, &found)],
+            Method::ForwardDynamicsDerivatives => self.forward_slopes(state, &found),
             method => {
-                let expected = lit.value(method, at).into_iter();
-                let text = "its literal form";
-                expected
-                    .map(|e| Sides::new(text, EXACT, found.clone(), e))
-                    .collect()
+                let form = self.form.get_or_init(|| lit.form(method)).as_ref();
+                let expected = form.map(|form| form.evaluate(at.clone()).0);
+                expected.map_or(vec![], |e| exact("its literal form", found, e))
             }
         }
     }
 
-    fn solved(&self, at: &Inputs<Dd>, accelerations: &[Dd]) -> Sides {
-        let lit = self.literal;
-        let driven = lit.efforts(at, &at.q, &at.v, accelerations);
-        let size = lit.size_of_product(at, accelerations);
+    fn solved(&self, state: &State, accelerations: &[Dd]) -> Sides {
+        let at = &state.at;
+        let driven = self.literal.efforts(at, &at.v, accelerations);
+        let size = state.size_of_product(self.literal, accelerations);
         Sides::new("P(q, v, q̈) = τ", SOLVED, driven, at.u.clone()).sized(size)
     }
 
-    fn coriolis(&self, at: &Inputs<Dd>, matrix: &[Dd]) -> Vec<Sides> {
-        let lit = self.literal;
+    fn coriolis(&self, state: &State, matrix: &[Dd]) -> Vec<Sides> {
+        let (lit, at, zero) = (self.literal, &state.at, state.zero());
         let n = at.q.len();
-        let zero = vec![Dd::ZERO; n];
-        let bias = lit.efforts(at, &at.q, &at.v, &zero);
-        let gravity = lit.efforts(at, &at.q, &zero, &zero);
+        let bias = lit.efforts(at, &at.v, &zero);
         let size = largest(&bias);
-        let first = Sides::new(
-            "bias = C v + gravity",
-            EXACT,
-            plus(&times(matrix, &at.v), &gravity),
-            bias,
-        );
-        let side = |s: f64| lit.inertial(at, &beside(&at.q, &at.v, s), &at.a);
-        let rate = slope(&side(1.0), &side(-1.0));
+        let moved = plus(&times(matrix, &at.v), &state.at_rest);
+        let first = Sides::new("bias = C v + gravity", EXACT, moved, bias);
+        // Ṁ x: the rate of P(q, 0, x) − P(q, 0, 0) along v.
+        let at_rest = Inputs {
+            v: zero.clone(),
+            ..at.clone()
+        };
+        let rate = |x: &[Dd]| lit.effort_rates(&at_rest, &at.v, &zero, (x, &zero));
+        let expected = minus(&rate(&at.a), &rate(&zero));
         let transposed: Vec<Dd> = (0..n * n).map(|k| matrix[k % n * n + k / n]).collect();
         let both = plus(&times(matrix, &at.a), &times(&transposed, &at.a));
-        let second = Sides::new("Ṁ x = (C + Cᵀ) x", DIFFERENCED, both, rate);
+        let second = Sides::new("Ṁ x = (C + Cᵀ) x", EXACT, both, expected);
         vec![first.sized(size), second.sized(size)]
     }
 
     /// ∂τ/∂q d + ∂τ/∂v e along random directions.
-    fn inverse_slopes(&self, at: &Inputs<Dd>, matrices: &[Dd]) -> Sides {
-        let lit = self.literal;
+    fn inverse_slopes(&self, state: &State, matrices: &[Dd]) -> Sides {
+        let at = &state.at;
         let n = at.q.len();
         let [along_q, along_v, _] = directions(n);
-        let side = |s: f64| {
-            let (q, v) = (beside(&at.q, &along_q, s), beside(&at.v, &along_v, s));
-            lit.efforts(at, &q, &v, &at.a)
-        };
-        let expected = slope(&side(1.0), &side(-1.0));
+        let accelerations = (&at.a[..], &state.zero()[..]);
+        let expected = self
+            .literal
+            .effort_rates(at, &along_q, &along_v, accelerations);
         let (by_q, by_v) = matrices.split_at(n * n);
         let found = plus(&times(by_q, &along_q), &times(by_v, &along_v));
-        let size = largest(&lit.efforts(at, &at.q, &at.v, &at.a));
-        Sides::new("dτ = ∂P/∂q dq + ∂P/∂v dv", DIFFERENCED, found, expected).sized(size)
+        let size = largest(&state.efforts);
+        Sides::new("dτ = ∂P/∂q dq + ∂P/∂v dv", EXACT, found, expected).sized(size)
     }
 
     /// Moved along random directions, the accelerations still solve the equations of motion.
-    fn forward_slopes(&self, at: &Inputs<Dd>, result: &[Dd]) -> Vec<Sides> {
-        let lit = self.literal;
+    fn forward_slopes(&self, state: &State, result: &[Dd]) -> Vec<Sides> {
+        let at = &state.at;
         let n = at.q.len();
         let (accelerations, matrices) = result.split_at(n);
         let [along_q, along_v, along_tau] = directions(n);
@@ -277,16 +287,14 @@ impl Subject<'_> {
             .into_iter()
             .zip(matrices.chunks((n * n).max(1)));
         let moved = parts.fold(vec![Dd::ZERO; n], |sum, (d, m)| plus(&sum, &times(m, d)));
-        let side = |s: f64| {
-            let (q, v) = (beside(&at.q, &along_q, s), beside(&at.v, &along_v, s));
-            lit.efforts(at, &q, &v, &beside(accelerations, &moved, s))
-        };
-        let above = side(1.0);
-        let found = slope(&above, &side(-1.0));
-        let size = lit.size_of_product(at, &moved).max(largest(&above));
+        let solution = (accelerations, &moved[..]);
+        let found = self.literal.effort_rates(at, &along_q, &along_v, solution);
+        let size = state.size_of_product(self.literal, &moved);
         let text = "dP(q, v, q̈) = dτ with dq̈ = ∂q̈/∂q dq + ∂q̈/∂v dv + ∂q̈/∂τ dτ";
-        let sides = Sides::new(text, DIFFERENCED, found, along_tau);
-        vec![self.solved(at, accelerations), sides.sized(size)]
+        let sides = Sides::new(text, SOLVED, found, along_tau);
+        let solved = self.solved(state, accelerations);
+        let sides = sides.sized(size.max(solved.size));
+        vec![solved, sides]
     }
 }
 

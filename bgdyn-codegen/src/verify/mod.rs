@@ -1,11 +1,13 @@
-//! The generator checks its own work: each function is evaluated in double-double at a few states
-//! and compared with the literal sum of equation (6).
+//! Verification: compares each function in double-double with the literal sum of equation (6).
+//!
+//! Functions are compared at a few states, before they are written.
 //!
 //! The literal inverse dynamics P(q, v, a) is enough for almost every method, since the others
 //! follow from it: M x = P(q, 0, x) − P(q, 0, 0), P(q, v, q̈) = τ for the accelerations of forward
-//! dynamics, derivatives by central differences. States are the same in every run.
+//! dynamics, derivatives from P in dual numbers. States are the same in every run.
 
 mod compare;
+mod dual;
 mod mechanism;
 mod scene;
 mod states;

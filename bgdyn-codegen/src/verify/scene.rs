@@ -1,11 +1,10 @@
-//! The functions of a scene against its equations of motion, its balance of power, and each other.
+//! Checks the functions of a scene against its equations of motion and its balance of power.
 
 use bgdyn_runtime::Dd;
 
 use super::Difference;
-use super::compare::{
-    DIFFERENCED, EXACT, Law, SOLVED, beside, differs, largest, minus, plus, slope, turned,
-};
+use super::compare::{EXACT, Law, SOLVED, differs, largest, minus, plus, turned};
+use super::dual::{Direction, Dual, along, rates, values};
 use super::states::{Random, of_scene};
 use crate::expr::Inputs;
 use crate::function::Function;
@@ -14,7 +13,7 @@ use crate::system::System;
 
 /// Compares functions of a scene at two or three states, or at one beyond ten coordinates: the
 /// derivative and the inverse with the literal sum under the scene's laws, the power with zero, the
-/// Jacobian and the canonical form with central differences. At most one difference for each
+/// Jacobian and the canonical form with the derivative in dual numbers. At most one difference for each
 /// function. Energies, events, inputs and outputs are read by the others or stand for themselves.
 pub fn check_scene(system: &System, functions: &[Function]) -> Vec<Difference> {
     let held = system.mode_coordinates();
@@ -47,14 +46,6 @@ struct Checked<'a> {
     inverse: Function,
     /// The coordinate that each mode may hold.
     held: Vec<usize>,
-}
-
-/// Time by itself counts as one more part of the state.
-struct Motion {
-    q: Vec<Dd>,
-    v: Vec<Dd>,
-    x: Vec<Dd>,
-    t: Dd,
 }
 
 impl Checked<'_> {
@@ -155,47 +146,40 @@ impl Checked<'_> {
         self.compare(function, (text, SOLVED), (&supplied, &used), size, at)
     }
 
-    /// The Jacobian along a random direction of (q, v, x, t), by a central difference of the
-    /// derivative under the inputs that the scene drives.
+    /// The Jacobian along a random direction of (q, v, x, t): the rate of the derivative in dual
+    /// numbers, under the inputs that the scene drives.
     fn jacobian(&self, function: &Function, at: &Inputs<Dd>, columns: &[Dd]) -> Option<Difference> {
         let mut random = Random(13);
         let (nq, nv, nx) = (at.q.len(), at.v.len(), at.x.len());
-        let along = Motion {
+        let moved = Direction {
             q: random.direction(nq),
             v: random.direction(nv),
             // Volumes of fluid and deflections of bristles are small: steps as large as they are.
             x: at.x.iter().map(|&x| x * random.unit()).collect(),
             t: random.unit(),
         };
-        let above = self.rates(&moved(at, &along, 1.0))?;
-        let below = self.rates(&moved(at, &along, -1.0))?;
-        let expected = slope(&above, &below);
-        let direction = along.q.iter().chain(&along.v).chain(&along.x);
-        let direction = direction.chain(std::iter::once(&along.t));
+        let derivative = self.rates(&along(at, &moved))?;
+        let direction = moved.q.iter().chain(&moved.v).chain(&moved.x);
+        let direction = direction.chain(std::iter::once(&moved.t));
         let columns = columns.chunks((nv + nx).max(1)).zip(direction);
         let mut found = vec![Dd::ZERO; nv + nx];
         for (column, &d) in columns {
             found = plus(&found, &column.iter().map(|&x| x * d).collect::<Vec<_>>());
         }
-        let text = "dẏ = ∂ẏ/∂y dy + ∂ẏ/∂t dt";
-        let pair = (&found[..], &expected[..]);
-        self.compare(function, (text, DIFFERENCED), pair, largest(&above), at)
+        let law = ("dẏ = ∂ẏ/∂y dy + ∂ẏ/∂t dt", SOLVED);
+        let pair = (&found[..], &rates(&derivative)[..]);
+        self.compare(function, law, pair, largest(&values(&derivative)), at)
     }
 
     /// v̇ and ẋ under the inputs that the scene drives.
-    fn rates(&self, at: &Inputs<Dd>) -> Option<Vec<Dd>> {
+    fn rates(&self, at: &Inputs<Dual>) -> Option<Vec<Dual>> {
         let derivative = self.function(Role::Derivative)?;
-        let (rates, refused) = derivative.evaluate(self.driven(at));
-        refused.is_none().then_some(rates)
-    }
-
-    /// The same state under the inputs that the scene drives.
-    fn driven(&self, at: &Inputs<Dd>) -> Inputs<Dd> {
-        let mut at = at.clone();
+        let mut driven = at.clone();
         if let Some(inputs) = self.function(Role::Inputs) {
-            at.u = inputs.evaluate(at.clone()).0;
+            driven.u = inputs.evaluate(at.clone()).0;
         }
-        at
+        let (rates, refused) = derivative.evaluate(driven);
+        refused.is_none().then_some(rates)
     }
 
     /// p = M v
@@ -218,37 +202,30 @@ impl Checked<'_> {
         })
     }
 
-    /// q̇, ṗ and ẋ: ṗ by a central difference of the momenta along the motion.
+    /// q̇, ṗ and ẋ: ṗ from the momenta in dual numbers along the motion.
     fn canonical_rates(&self, function: &Function, at: &Inputs<Dd>) -> Option<Difference> {
         let (found, refused) = function.evaluate(self.canonical(at)?);
-        let rates = self.rates(at)?;
+        let still = Direction {
+            q: vec![Dd::ZERO; at.q.len()],
+            v: vec![Dd::ZERO; at.v.len()],
+            x: vec![Dd::ZERO; at.x.len()],
+            t: Dd::ZERO,
+        };
+        let derivative = values(&self.rates(&along(at, &still))?);
         if refused.is_some() {
             return None;
         }
         let (nq, nv) = (at.q.len(), at.v.len());
-        let along = Motion {
+        let motion = Direction {
             q: at.v[..nq].to_vec(),
-            v: rates[..nv].to_vec(),
-            x: rates[nv..].to_vec(),
+            v: derivative[..nv].to_vec(),
+            x: derivative[nv..].to_vec(),
             t: Dd::ONE,
         };
-        let side = |s: f64| Some(self.canonical(&moved(at, &along, s))?.v);
-        let momentum_rates = slope(&side(1.0)?, &side(-1.0)?);
-        let expected = [&along.q[..], &momentum_rates, &along.x].concat();
-        let text = "rates of q, p and x along the motion";
-        let pair = (&found[..], &expected[..]);
-        self.compare(function, (text, DIFFERENCED), pair, 0.0, at)
-    }
-}
-
-/// The state beside this one.
-fn moved(at: &Inputs<Dd>, along: &Motion, side: f64) -> Inputs<Dd> {
-    let t = at.t.unwrap_or(Dd::ZERO);
-    Inputs {
-        q: beside(&at.q, &along.q, side),
-        v: beside(&at.v, &along.v, side),
-        x: beside(&at.x, &along.x, side),
-        t: beside(&[t], &[along.t], side).first().copied(),
-        ..at.clone()
+        let momenta = self.function(Role::ToCanonical)?;
+        let momentum_rates = rates(&momenta.evaluate(along(at, &motion)).0);
+        let expected = [&motion.q[..], &momentum_rates, &motion.x].concat();
+        let law = ("rates of q, p and x along the motion", SOLVED);
+        self.compare(function, law, (&found, &expected), 0.0, at)
     }
 }

@@ -1,11 +1,11 @@
-//! The states in which functions are compared.
+//! The states at which functions are compared.
 
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::BondGraph;
+use crate::conditioning::rounding_error::in_double_double;
+use crate::conditioning::sample_states::random;
 use crate::expr::Inputs;
-use crate::formulation::conditioning::rounding_error::in_double_double;
-use crate::formulation::conditioning::sample_states::random;
 use crate::system::System;
 
 /// Coordinates up to which every state is tried.

@@ -269,9 +269,11 @@ impl Case {
             let finite = found.iter().all(|x| x.is_finite());
             assert!(finite || refused.is_some(), "{}: {found:?}", place());
             if pivot < 1e-25 {
-                // Singular at this q, whatever the digits; or regular by a pivot that double-double still
-                // sees, of axes that are almost parallel: then a solution, never a wild number.
-                let solved = pivot > 0.0 && self.solves(&state, &found);
+                // Singular at this q, whatever the digits; or regular by a small pivot, of axes that are
+                // almost parallel: then a solution, never a wild number. Axes taken as they are may
+                // differ by 1e-15; their pivot of 1e-30 is below the digits of the literal M.
+                let regular = pivot > 0.0 || self.draft.exact;
+                let solved = regular && self.solves(&state, &found);
                 assert!(
                     refused.is_some() || !sure || solved,
                     "{}: {found:?}",

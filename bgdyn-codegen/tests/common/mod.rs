@@ -16,8 +16,9 @@ pub mod rng;
 pub mod values;
 
 use bgdyn_codegen::bond_graph::{self, BondGraph};
+use bgdyn_codegen::choice::Choice;
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::formulation::{self, Search};
+use bgdyn_codegen::formulation::{self, Prepared};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion, Value};
 use bgdyn_codegen::method::Method;
@@ -76,14 +77,14 @@ impl Robot {
 
     /// The function of a method that is generated when nothing is asked for, in one piece.
     pub fn chosen(&self, method: Method) -> Function {
-        let found = Search::new(&self.graph, None).function(method);
+        let found = Choice::new(&self.graph, None).function(method);
         found.expect("every method is known").as_ref().clone()
     }
 
     /// The same before long functions are cut into blocks: one graph, to be differentiated.
     pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
-        let made = formulation.function(&Search::new(&self.graph, None), method);
+        let made = formulation.function(&Prepared::new(&self.graph), method);
         made.expect("every formulation knows every method")
     }
 }

@@ -51,7 +51,7 @@ fn site(
     let found = graph.sites.iter().position(|s| s.name == name);
     let method = method(bgdyn_codegen::bond_graph::SiteId(found.expect("the site")));
     let literal = bgdyn_codegen::formulation::by_name("literal");
-    let function = bgdyn_codegen::formulation::Search::new(&graph, literal).function(method);
+    let function = bgdyn_codegen::choice::Choice::new(&graph, literal).function(method);
     let (values, _) = function.expect("a function").evaluate(at.clone());
     values
 }

@@ -1,9 +1,14 @@
 //! Elements without a store between them: those in series, solved; those that are not, named.
 
+use std::collections::BTreeSet;
+
+use bgdyn_codegen::bond_graph::{Causality, GraphNodeId, NodeKind};
+use bgdyn_codegen::system::System;
 use bgdyn_runtime::Dd;
 
 use super::bench::{Bench, agree, dd};
 use super::common::{Random, read, scene, specs, told, try_scene};
+use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 
 const EXACT: f64 = 1e-24;
 
@@ -281,4 +286,100 @@ fn a_motor_without_both_is_named() {
         "drive:",
         &["voltage → current → torque → speed"],
     );
+}
+
+/// The names of elements that nodes of the bond graph belong to, and of hydraulic junctions.
+fn names_of(system: &System, nodes: &[GraphNodeId]) -> BTreeSet<String> {
+    let element = |id: &GraphNodeId| {
+        let at = system.network.nodes[id.0].element?;
+        Some(system.scene.elements[at].name.clone())
+    };
+    nodes.iter().filter_map(element).collect()
+}
+
+/// The pass over the bond graph finds the loops that the check solves, and no others.
+#[test]
+fn loops_of_the_bond_graph_are_the_chains_that_are_solved() {
+    let chains = text(
+        "one: { type: junction }
+         two: { type: junction }
+         first: { type: orifice, from: left, to: one, flow: 2e-7, resistance: 2e9 }
+         middle: { type: leakage, from: two, to: one, conductance: 5e-12 }
+         last: { type: orifice, from: two, to: right, flow: 4e-7 }
+         aside: { type: leakage, from: left, to: right, conductance: 1e-12 }",
+    );
+    let files = specs().into_iter();
+    let files = files.filter(|p| p.to_string_lossy().ends_with(".scene.yaml"));
+    let scenes = files.map(|path| read(&path));
+    let mut with_chains = 0;
+    for system in scenes.chain([scene(&chains, BLOCK)]) {
+        let causality = Causality::of(&system.network);
+        let solved = system.scene.solved().into_iter();
+        let solved = solved.filter(|s| !s.nodes.is_empty());
+        let expected: Vec<BTreeSet<String>> = solved
+            .map(|s| s.elements.into_iter().chain(s.nodes).collect())
+            .collect();
+        let found: Vec<BTreeSet<String>> = causality
+            .loops
+            .iter()
+            .map(|nodes| names_of(&system, nodes))
+            .collect();
+        assert_eq!(found, expected, "{}", system.scene.name);
+        assert_eq!(causality.conflicts, [], "{}", system.scene.name);
+        with_chains += usize::from(!found.is_empty());
+        let elements = |node: &&GraphNodeId| system.network.nodes[node.0].element.is_some();
+        let dependent: Vec<GraphNodeId> = causality
+            .dependent
+            .iter()
+            .filter(elements)
+            .copied()
+            .collect();
+        assert_eq!(dependent, [], "{}", system.scene.name);
+    }
+    assert!(with_chains > 0);
+}
+
+/// A motor without inductance is solved by its resistance, which gives the current.
+#[test]
+fn the_resistance_gives_the_current_where_there_is_no_inductance() {
+    let path = specs()
+        .into_iter()
+        .find(|p| p.ends_with("scara_motors.scene.yaml"));
+    let system = read(&path.expect("the scene"));
+    let network = &system.network;
+    let causality = Causality::of(network);
+    let mut giving = BTreeSet::new();
+    for node in network.ids() {
+        let (bond, _) = network.bonds_at(node).next().expect("a bond");
+        let gives_flow = causality.strokes[bond] == Some(node);
+        if network.nodes[node.0].kind == NodeKind::Resistor && gives_flow {
+            giving.extend(names_of(&system, &[node]));
+        }
+    }
+    let solved = system.scene.solved().into_iter().flat_map(|s| s.elements);
+    assert_eq!(giving, solved.collect());
+}
+
+/// Every effect that a file declares has nodes of its symbol in the bond graph, joined without
+/// contradiction; but for those that are part of links or volumes.
+#[test]
+fn effects_are_on_the_bond_graph_what_their_symbols_say() {
+    for (keyword, written) in WRITTEN {
+        let declared = format!("effects:\n  extra: {written}\n");
+        let called = format!("velocity_products, {}]", names(written));
+        let text = ALL.replace("velocity_products]", &called);
+        let system = scene(&text, &mechanism("", TENSOR, &declared));
+        let causality = Causality::of(&system.network);
+        assert_eq!(causality.conflicts, [], "{keyword}");
+        let effect = |at: usize| system.scene.elements[at].effect;
+        let own = |at: Option<usize>| at.is_some_and(|at| effect(at).keyword() == *keyword);
+        let nodes = || system.network.nodes.iter().filter(|n| own(n.element));
+        let elements = system.scene.elements.iter();
+        let symbol = elements.map(|e| e.effect).find(|e| e.keyword() == *keyword);
+        let symbol = symbol.expect("the effect").symbol();
+        match *keyword {
+            "fluid" | "payload" => assert_eq!(nodes().count(), 0, "{keyword}"),
+            _ => assert!(nodes().any(|n| n.kind.symbol() == symbol), "{keyword}"),
+        }
+    }
 }

@@ -5,6 +5,7 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
+use bgdyn_codegen::passes::factor;
 use bgdyn_codegen::system::System;
 use bgdyn_runtime::Dd;
 
@@ -31,7 +32,7 @@ struct Tried<'a> {
 pub fn hold(system: &System) {
     let all = |role: Role| -> Vec<Function> {
         let ways = system.ways(role).into_iter();
-        ways.map(Function::factored).collect()
+        ways.map(factor).collect()
     };
     let driven = !system.scene.layout.inputs.is_empty();
     let tried = Tried {

@@ -101,7 +101,7 @@ fn what_friction_refuses() {
             "it: { type: stribeck, joint: slide, kinetic: 5 N, static: 3 N, stribeck_speed: 0.2, width: 0.01 }",
             "3 N",
             "effect-order",
-            "`static` is 3 N, less than `kinetic`, 5 N",
+            "`static` is 3 N, which is less than `kinetic`, 5 N",
         ),
         (
             "it: { type: stribeck, joint: slide, kinetic: 3 N, static: 5 N, stribeck_speed: -1, width: 0.01 }",
@@ -131,7 +131,7 @@ fn what_friction_refuses() {
             "it: { type: lugre, joint: slide, stiffness: 1e5, kinetic: 1 N, static: 1.5 N }",
             "1.5 N",
             "effect-missing",
-            "`static` without `stribeck_speed`",
+            "`static` needs `stribeck_speed`",
         ),
     ]);
 }
@@ -146,7 +146,8 @@ fn a_joint_has_one_friction_that_holds() {
     let refusal = try_scene(&text, BLOCK).expect_err("two of them");
     let shown = super::common::told(&refusal, &text);
     assert!(shown.starts_with("scene.yaml:5:5: "), "{shown}");
-    let message = "`one` and `two` are both of type `coulomb` at `slide` [repeated-effect]";
+    let message =
+        "`one` and `two` are both of type `coulomb` at the joint `slide` [repeated-effect]";
     assert!(shown.contains(message), "{shown}");
 }
 

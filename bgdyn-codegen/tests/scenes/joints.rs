@@ -147,7 +147,7 @@ fn wrong_joints_are_refused() {
         ),
         (
             "joints: all, joint: elbow, damping: 1",
-            "has a `joint` and `joints`",
+            "has both `joint` and `joints`",
         ),
         ("damping: 1", "or `joints: all` for one effect at each"),
         ("joints: all, damping: 1 N*m*s/rad", "damping"),

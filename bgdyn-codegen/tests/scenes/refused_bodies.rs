@@ -314,7 +314,7 @@ fn names_that_join_nothing() {
         &plain("push: { type: wrench, at: lug, components: [] }"),
         "effect-components",
         "push",
-        &["none"],
+        &["empty"],
     );
 }
 
@@ -342,7 +342,7 @@ fn names_that_stand_twice() {
         ),
         "repeated-name",
         "jack:",
-        &["`jack_b` is a joint, a link or a frame"],
+        &["`jack_b` is already the name of a joint, a link or a frame"],
     );
     refused(
         &oil("hose: { type: line, volume: 1 cm^3 }"),
@@ -435,4 +435,38 @@ fn faults_of_a_family_stand_in_the_scene() {
     let told = told(&refusal, text);
     assert!(told.starts_with("scene.yaml:5:5: "), "{told}");
     assert!(told.contains("[no-fluid]"), "{told}");
+}
+
+/// What acts at a place that no joint moves in its directions does nothing: a warning names it.
+#[test]
+fn what_no_joint_moves_is_warned_of() {
+    let mechanism = ARM.replace(
+        "frames:",
+        "  - { name: wall, joint: { type: fixed } }\nframes:",
+    );
+    let text = "\
+scene: 1
+mechanism: arm.yaml
+effects:
+  - inertia
+  - push: { type: wrench, at: wall }
+  - aside: { type: wrench, at: block, components: [fy, mx] }
+  - along: { type: wrench, at: block, components: [fx, fy] }
+  - swirl: { type: drag, at: block, angular: 0.1 N*m*s/rad }
+  - still: { type: drag, at: block, linear: 0 N*s/m }
+  - water: { type: drag, at: block, linear: 1 N*s/m }
+";
+    let (_, findings) = try_scene(text, &mechanism).expect("a sound scene");
+    let found: Vec<String> = findings
+        .0
+        .iter()
+        .map(|f| format!("{}: {}", f.rule, f.message))
+        .collect();
+    let nothing = |effect: &str, at: &str| {
+        format!(
+            "no-motion: `{effect}` does nothing: no joint moves `{at}` in a direction in which it acts"
+        )
+    };
+    let expected = [("push", "wall"), ("aside", "block"), ("swirl", "block")];
+    assert_eq!(found, expected.map(|(effect, at)| nothing(effect, at)));
 }

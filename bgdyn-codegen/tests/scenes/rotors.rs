@@ -72,12 +72,13 @@ fn equals_the_literal_sum(system: &System) {
     ] {
         let by = |name: &str| {
             let way = by_name(name).expect("a formulation");
-            bgdyn_codegen::formulation::Search::new(&system.graph, Some(way))
+            bgdyn_codegen::choice::Choice::new(&system.graph, Some(way))
         };
         let literal = by("literal").function(method).expect("the literal sum");
         for name in ["recursion", "recursion_own"] {
             let way = by_name(name).expect("a formulation");
-            let found = way.function(&by(name), method).expect("a function");
+            let prepared = bgdyn_codegen::formulation::Prepared::new(&system.graph);
+            let found = way.function(&prepared, method).expect("a function");
             for seed in 0..4 {
                 let mut at = state(system, &mut Random(seed), true);
                 at.u = at.a.iter().map(|&a| a * Dd::from_f64(0.7)).collect();

@@ -249,7 +249,7 @@ fn what_springs_dampers_and_stops_refuse() {
             stop(("2 }", "2, lower: 0.3 }")),
             "it",
             "effect-order",
-            "`upper` is 0.2 m, less than `lower`, 0.3",
+            "`upper` is 0.2 m, which is less than `lower`, 0.3",
         ),
         (
             stop(("0.5", "{ parameter: bounce, value: 0.5 }")),
@@ -261,13 +261,13 @@ fn what_springs_dampers_and_stops_refuse() {
             "it: { type: damper, damping: 3 }".into(),
             "it",
             "effect-place",
-            "where `it` acts is missing",
+            "`it` does not say where it acts",
         ),
         (
             "it: { type: damper, joint: slide, between: [anchor, hook], damping: 3 }".into(),
             "it",
             "effect-place",
-            "one too many",
+            "acts at one place only",
         ),
         (
             "it: { type: damper, joint: slide, damping: -3 }".into(),

@@ -1,4 +1,4 @@
-//! Sine and cosine of double-double angles, and of exact sums of them.
+//! Sine and cosine of double-double angles and of exact sums of angles.
 //!
 //! An angle is turned into a fraction of a turn in fixed point, by multiplying each of its words by
 //! as many digits of 1/2π as matter (Payne and Hanek 1983). In that form angles of any size add

@@ -1,4 +1,4 @@
-//! Constants, computed with 2000 bits and rounded to the two words of a double-double.
+//! Constants as double-doubles, rounded from 2000 bits.
 // The words are written as the shortest text that reads back as them.
 #![allow(clippy::approx_constant)]
 

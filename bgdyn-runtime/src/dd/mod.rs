@@ -1,4 +1,4 @@
-//! Double-double numbers: the reference scalar that generated code is checked against.
+//! Double-double numbers: the scalar with which generated code is checked.
 
 mod angle;
 mod arithmetic;

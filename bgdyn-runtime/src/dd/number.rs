@@ -1,4 +1,4 @@
-//! The type of double-double numbers, its words, its order and its special values.
+//! The type of double-double numbers: its two words, its order, its special values.
 
 use core::cmp::Ordering;
 

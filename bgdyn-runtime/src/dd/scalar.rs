@@ -1,10 +1,10 @@
-//! [`Scalar`] for double-doubles.
+//! Implementation of [`Scalar`] for double-doubles.
 
 use nalgebra::SVector;
 
 use super::number::Dd;
-use crate::singular::{Look, explain, finish, note_refused};
-use crate::{Scalar, Singular};
+use crate::singular::{explain, finish, note_refused};
+use crate::{Look, Scalar, Singular};
 
 impl Scalar for Dd {
     type Mask = bool;

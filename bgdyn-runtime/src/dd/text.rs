@@ -1,4 +1,4 @@
-//! Decimal text of double-doubles, in and out.
+//! Parses and prints double-doubles as decimals.
 //!
 //! `core` reads and writes `f64` correctly rounded, to any number of digits. What is left is to add
 //! or subtract two strings of digits: text − hi gives lo, and hi + lo gives text.

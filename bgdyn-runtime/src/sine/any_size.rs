@@ -1,4 +1,4 @@
-//! Sine and cosine of an angle of any size: branch-free within the limit, by exact reduction beyond.
+//! Sine and cosine of angles of any size: the branch-free kernel, or exact reduction for large ones.
 
 use super::kernel::sin_cos;
 use super::large;

@@ -1,4 +1,4 @@
-//! The branch-free path: reduction by π/2 in parts, then two polynomials.
+//! The branch-free kernel of sine and cosine: reduction by parts of π/2, then two polynomials.
 
 use super::pack::{Coefficients, Pack, Polynomial};
 

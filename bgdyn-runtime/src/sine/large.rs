@@ -1,4 +1,4 @@
-//! Angles beyond the branch-free path: exact reduction (Payne and Hanek 1983).
+//! Exact reduction of large angles (Payne and Hanek 1983).
 //!
 //! A number is a whole number times a power of two. Multiplied by the digits of 1/2π that matter it
 //! is a fraction of a turn in fixed point, from which whole turns drop out by themselves.

@@ -1,5 +1,4 @@
-//! Sine and cosine of `f64` and `f32`, of one angle, of the lanes of a register, and of all angles
-//! of a call at once: one design, and the same bits whichever way.
+//! Sine and cosine in `f64` and `f32`: of one angle, of SIMD lanes, of all angles of a call, bit for bit alike.
 //!
 //! An angle x within [`Pack::LIMIT`] is taken as n quarter turns and a rest r in ±π/4, in two words
 //! (Cody and Waite 1980): π/2 is cut into parts that are so short that n times them is exact. Then

@@ -1,4 +1,4 @@
-//! What the kernel computes with: a number, or the lanes of a register.
+//! The numbers that the kernel computes with: one float, or the lanes of a register.
 
 use core::ops::{Add, Mul, Neg, Sub};
 

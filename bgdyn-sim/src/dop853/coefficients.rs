@@ -1,4 +1,4 @@
-//! Coefficients of the method, as Hairer and Wanner print them: 28 to 30 digits.
+//! Coefficients of DOP853, with the 28 to 30 digits that Hairer and Wanner print.
 
 use crate::coefficient::{Words, ZERO, decimal, ratio};
 use crate::tableau::Stage;

@@ -1,4 +1,4 @@
-//! The method DOP853 by Hairer and Wanner, after Dormand and Prince (1989).
+//! The integrator DOP853 by Hairer and Wanner, after Dormand and Prince (1989).
 
 mod coefficients;
 

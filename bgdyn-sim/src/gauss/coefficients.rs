@@ -1,4 +1,4 @@
-//! Coefficients of the Gauss–Legendre methods, for any number of stages.
+//! Coefficients of the Gauss–Legendre methods for any number of stages.
 //!
 //! With the shifted Legendre polynomials P̄ₖ(x) = √(2k+1) Pₖ(2x − 1), Wᵢₖ = P̄ₖ(cᵢ) and the weights B,
 //! A = W X Wᵀ B, where X is ½ in its corner and ±1/(2√(4k² − 1)) beside its diagonal (Hairer, Wanner,

@@ -1,4 +1,4 @@
-//! The Gauss–Legendre methods: implicit midpoint, and 2 and more stages.
+//! The Gauss–Legendre methods: the implicit midpoint rule, and methods of 2 and more stages.
 
 mod coefficients;
 mod newton;

@@ -1,4 +1,4 @@
-//! The linear equations of a simplified Newton step.
+//! Linear equations of a simplified Newton step.
 
 use bgdyn_runtime::Scalar;
 

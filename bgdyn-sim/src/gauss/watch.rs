@@ -1,4 +1,4 @@
-//! When an iteration has done what rounding lets it do.
+//! Convergence test of an iteration, down to the level of rounding.
 
 use bgdyn_runtime::Scalar;
 

@@ -1,4 +1,4 @@
-//! Events within a step: found, located, and what follows them.
+//! Events within a step: detection, location, and the changes that follow.
 
 use bgdyn_runtime::Scalar;
 

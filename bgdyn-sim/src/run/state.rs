@@ -1,4 +1,4 @@
-//! A run as it is held between two steps: its plant, its modes, its solver and its account.
+//! The state of a run between two steps: plant, modes, solver and energy account.
 
 use bgdyn_runtime::{Scalar, System};
 use nalgebra::SVector;

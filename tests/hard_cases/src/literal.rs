@@ -3,7 +3,7 @@
 
 use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::formulation::{Search, by_name};
+use bgdyn_codegen::formulation::{Prepared, by_name};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
@@ -36,7 +36,7 @@ impl Literal {
         let (mechanism, faults) = bgdyn_codegen::read(text, named);
         let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render("spec", text)));
         let graph = bond_graph::build(&mechanism);
-        let search = Search::new(&graph, None);
+        let prepared = Prepared::new(&graph);
         let short = mechanism.nv() <= SHORT;
         let [way, forward] = match short {
             true => ["literal", "literal"],
@@ -44,7 +44,7 @@ impl Literal {
         };
         let of = |way: &str, method: Method| {
             let formulation = by_name(way).expect("a formulation of this name");
-            let function = formulation.function(&search, method);
+            let function = formulation.function(&prepared, method);
             function.expect("every formulation knows every method")
         };
         let forward = of(forward, Method::ForwardDynamics);

@@ -1,4 +1,4 @@
-//! The arguments of `bgdyn eval`, and what it prints.
+//! The arguments and the printed results of `bgdyn eval`.
 
 use std::path::PathBuf;
 

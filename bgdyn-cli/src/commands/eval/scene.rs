@@ -1,4 +1,4 @@
-//! The functions of scenes at given states.
+//! `bgdyn eval` on scenes: evaluates their functions at given states.
 //!
 //! A state's vectors are arrays in the order of the generated names, or objects by name; what is
 //! left out is as the scene begins, and 0 where the scene says nothing.

@@ -1,4 +1,4 @@
-//! The states of a file and the run-time parameters of a call, and why a state may have no result.
+//! Reads states from a file and parameters from the command line, and explains states without a result.
 
 use anyhow::{Result, anyhow, bail};
 use bgdyn_codegen::mechanism::Parameter;

@@ -1,4 +1,4 @@
-//! The options and the report of a batch.
+//! `bgdyn simulate` for many runs: options and report.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

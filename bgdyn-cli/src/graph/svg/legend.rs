@@ -1,4 +1,4 @@
-//! What the signs mean, below the drawing.
+//! The legend below a drawing.
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
 
@@ -36,6 +36,7 @@ const DRIVES: &str = ". On a drive's bond there is none: inverse dynamics takes 
 const TRIPLE: &str = "bond of three components x, y, z";
 const MTF: &str = "transformer modulated by the coordinates below its modulus, which is ∂rᵢ/∂qⱼ on the way to ṙ (m/rad; 1 for a slide) and ρⱼⁱ on the way to ω (1). In brackets x, y, z: 0 at all times, a constant (three digits), or · varying.";
 const LINE_RATE: &str = "rate of the length between two places, m/s; the transformers on the way there are ∂s/∂qⱼ, one number each";
+const SITE: &str = "motion [ω; v] of a place of a link, rad/s and m/s; the transformers on the way there are the columns of its Jacobian J, of six numbers each";
 const TF: &str = "transformer whose modulus is the same at all times";
 const PARAMETER: &str = "the same at all times, but a run-time parameter";
 const STORE: &str = "inertial store: mass m, kg; inertia J, kg·m², about the centre of mass in the link's axes. Derivative causality: every link's flow follows from the q̇, so the stores meet in the mass matrix";
@@ -92,6 +93,7 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
     let entries = [
         ("MTF", MTF, of_symbol("MTF")),
         ("ṡ", LINE_RATE, !chart.lines.is_empty()),
+        ("V", SITE, !chart.sites.is_empty()),
         ("TF", TF, of_symbol("TF")),
         (
             "p",

@@ -1,4 +1,4 @@
-//! The drawing as SVG.
+//! Prints a drawing as SVG.
 
 mod legend;
 mod style;

@@ -1,4 +1,4 @@
-//! Colours and the height of a line, of the drawing and of its legend.
+//! Colours and line heights of drawings and legends.
 
 /// Colour of the velocities' bars and names.
 pub(super) const VELOCITY: &str = "#1d4f91";

@@ -1,4 +1,4 @@
-//! Junctions and bonds.
+//! SVG symbols of junctions and bonds.
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, INK};
 

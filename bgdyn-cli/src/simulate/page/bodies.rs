@@ -1,4 +1,4 @@
-//! The moving bodies of a mechanism, with the places on them.
+//! The moving bodies of a mechanism and the points on them, for the page.
 
 use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};

@@ -1,4 +1,4 @@
-//! A moving body as the page draws it: its joint, the joint's stops and the places on it.
+//! A moving body as the page draws it: its joint, the joint's stops, its points.
 
 use bgdyn_codegen::math::{Mat3, Vec3};
 use serde::Serialize;

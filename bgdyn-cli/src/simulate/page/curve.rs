@@ -1,4 +1,4 @@
-//! A quantity over time in few characters.
+//! Compact text of a quantity over time.
 
 use serde::Serialize;
 

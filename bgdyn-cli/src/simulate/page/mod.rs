@@ -1,4 +1,4 @@
-//! The page that replays a run: one file with everything in it, for a browser without a network.
+//! The page that replays a run: one self-contained HTML file.
 
 mod bodies;
 mod body;

@@ -1,4 +1,4 @@
-//! Where the stops of joints are.
+//! Positions of the stops of joints.
 
 use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::math::Vec3;

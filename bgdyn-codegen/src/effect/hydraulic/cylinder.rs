@@ -3,12 +3,14 @@
 //! changes, V_a = V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀)). At a joint that turns it is a
 //! vane actuator: areas are volumes per angle, the force is a torque.
 
-use super::{FAMILY, FLUID, declare_volume, fill, filled, has_fluid, number};
+use super::keys::{FAMILY, FLUID, number};
+use super::volume::{add_volume, declare_volume, fill, filled, has_fluid};
+use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::effect::Effect;
 use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
+use crate::effect::{Effect, nodes};
 use crate::expr::Ex;
-use crate::fault::Faults;
+use crate::fault::{Faults, wording};
 use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::spec::{Dimension, Key};
@@ -111,10 +113,7 @@ impl Declaration for Cylinder {
         given.not_negative(&["dead_a", "dead_b"], "there is no such volume");
         for key in ["dead_b", "stroke"] {
             if given.number(key).is_some() && given.number("area_b").is_none() {
-                let place = given.place(key);
-                let message = format!("`{key}` is of side b, which has no `area_b`");
-                let help = "add `area_b: …`, or leave it out: the cylinder is single-acting";
-                given.fault(&place, "effect-missing", message, help);
+                given.report(wording::side_without_area(&given.place(key), key));
             }
         }
     }
@@ -143,6 +142,20 @@ impl Effect for Cylinder {
         given: Ex<'g>,
     ) -> Ex<'g> {
         filled(element, laws, state, given)
+    }
+
+    fn elements(&self, element: &Element, scene: &[Element], network: &mut BondNetwork) {
+        let port = nodes::port(element, network);
+        let sides = [("", AREA_A, DEAD_A), ("−", AREA_B, DEAD_B)];
+        for (node, (sign, area, dead)) in element.nodes().into_iter().zip(sides) {
+            let area = element.written(area.name).unwrap_or_default();
+            let text = format!("{}, A = {sign}{area}", element.name);
+            let side = network.add(NodeKind::Transformer, text);
+            network.bond(side, port);
+            let dead = element.written(dead.name).map(|v| format!("V₀ = {v}"));
+            let pressure = add_volume(element, &node, dead, scene, network);
+            network.bond(pressure, side);
+        }
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {

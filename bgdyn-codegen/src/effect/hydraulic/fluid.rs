@@ -1,24 +1,16 @@
 //! The fluid of a circuit: its bulk modulus.
 
-use super::{FAMILY, number};
-use crate::declaration::{Declaration, Given};
+use super::keys::{BULK_MODULUS, FAMILY, FLUID_KEYWORD};
+use crate::bond_graph::BondNetwork;
+use crate::declaration::{Declaration, Element, Given};
 use crate::effect::Effect;
-use crate::spec::{Dimension, Key};
+use crate::spec::Key;
 
 pub(in crate::effect) struct Fluid;
 
-pub(super) const KEYWORD: &str = "fluid";
-
-pub(super) const BULK_MODULUS: Key = number(
-    "bulk_modulus",
-    &[Dimension::Pressure],
-    true,
-    "β = ρ dp/dρ, constant",
-);
-
 impl Declaration for Fluid {
     fn keyword(&self) -> &'static str {
-        KEYWORD
+        FLUID_KEYWORD
     }
 
     fn family(&self) -> &'static str {
@@ -43,4 +35,8 @@ impl Declaration for Fluid {
     }
 }
 
-impl Effect for Fluid {}
+impl Effect for Fluid {
+    fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
+        // It is in the volumes, which have its compliance.
+    }
+}

@@ -1,9 +1,12 @@
 //! A four-way valve, critically centred (Merritt 1967, chapter 5): a spool shifted by x joins the
 //! supply to one side and the other side to the tank, through orifices that open with |x|.
 
-use super::{Drop, FAMILY, LAMINAR, ORIFICE, joins_two, node, one_fluid, pressure, run};
+use super::flow::{Drop, run};
+use super::keys::{FAMILY, LAMINAR, ORIFICE, joins_two, node};
+use super::volume::{one_fluid, pressure};
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::effect::Effect;
+use crate::effect::{Effect, nodes};
 use crate::fault::Faults;
 use crate::laws::Laws;
 use crate::layout::Layout;
@@ -80,6 +83,21 @@ impl Declaration for FourWayValve {
 }
 
 impl Effect for FourWayValve {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let [supply, tank, a, b] =
+            [SUPPLY, TANK, A, B].map(|key| element.name(key.name).unwrap_or_default());
+        let ways = [
+            (supply, a, '>'),
+            (a, tank, '<'),
+            (supply, b, '<'),
+            (b, tank, '>'),
+        ];
+        for (from, to, sign) in ways {
+            let text = format!("{}, open where x {sign} 0", element.name);
+            nodes::add_pipe(text, [from, to], network);
+        }
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         let [supply, tank, a, b] =
             [SUPPLY, TANK, A, B].map(|key| element.name(key.name).unwrap_or_default());

@@ -1,6 +1,9 @@
 //! A node without a volume between two resistors: its pressure is solved for at generation time.
 
-use super::{FAMILY, FLUID, has_fluid, pressure, read_pressure, solve};
+use super::flow::solve;
+use super::keys::{FAMILY, FLUID};
+use super::volume::{has_fluid, pressure, read_pressure};
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element};
 use crate::effect::Effect;
 use crate::fault::Faults;
@@ -50,6 +53,10 @@ impl Declaration for Junction {
 }
 
 impl Effect for Junction {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        network.add_pressure(&element.name);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         solve(element, laws);
         let found = pressure(&element.name, laws);

@@ -1,20 +1,16 @@
 //! Leakage through a gap: laminar flow, q = c Δp (Merritt 1967, chapter 3).
 
-use super::{FAMILY, FROM, TO, joins_two, number, one_fluid, resist};
+use super::flow::resist;
+use super::keys::{CONDUCTANCE, FAMILY, FROM, TO, joins_two};
+use super::volume::one_fluid;
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::effect::Effect;
+use crate::effect::{Effect, nodes};
 use crate::fault::Faults;
 use crate::laws::Laws;
-use crate::spec::{Dimension, Key};
+use crate::spec::Key;
 
 pub(in crate::effect) struct Leakage;
-
-pub(super) const CONDUCTANCE: Key = number(
-    "conductance",
-    &[Dimension::Leakage],
-    true,
-    "c, flow per pressure drop",
-);
 
 impl Declaration for Leakage {
     fn keyword(&self) -> &'static str {
@@ -57,6 +53,11 @@ impl Declaration for Leakage {
 }
 
 impl Effect for Leakage {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        nodes::add_pipe(nodes::label(element), ends, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         resist(element, laws, |laws, drop| {
             laws.number(element, &CONDUCTANCE) * drop

@@ -1,6 +1,8 @@
 //! The volume of a line or a hose: a hydraulic compliance.
 
-use super::{FAMILY, FLUID, VOLUME, declare_volume, fill, filled, has_fluid, number};
+use super::keys::{FAMILY, FLUID, number};
+use super::volume::{VOLUME, add_volume, declare_volume, fill, filled, has_fluid};
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::expr::Ex;
@@ -66,6 +68,12 @@ impl Effect for Line {
         given: Ex<'g>,
     ) -> Ex<'g> {
         filled(element, laws, state, given)
+    }
+
+    fn elements(&self, element: &Element, scene: &[Element], network: &mut BondNetwork) {
+        let node = &element.name;
+        let volume = element.written(VOLUME).map(|v| format!("V = {v}"));
+        add_volume(element, node, volume, scene, network);
     }
 
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {

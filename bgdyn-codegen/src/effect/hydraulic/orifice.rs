@@ -2,9 +2,12 @@
 //! with a laminar part where it is given, Δp = R q + q|q|/k². That law is smooth at Δp = 0, solved
 //! for the flow it is q = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
 
-use super::{Drop, FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two, one_fluid, resist};
+use super::flow::{Drop, resist};
+use super::keys::{FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two};
+use super::volume::one_fluid;
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::effect::Effect;
+use crate::effect::{Effect, nodes};
 use crate::fault::Faults;
 use crate::laws::Laws;
 use crate::layout::Layout;
@@ -73,6 +76,11 @@ impl Declaration for Orifice {
 }
 
 impl Effect for Orifice {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        nodes::add_pipe(nodes::label(element), ends, network);
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         if let Some(opening) = element.name(OPENING.name) {
             let x = laws.input(opening);

@@ -1,6 +1,8 @@
 //! Sources of pressure: a supply (an ideal pressure-controlled pump) and a tank.
 
-use super::{FAMILY, FLUID, PRESSURE, SOURCE, enthalpy, has_fluid, no_less_than_vacuum, number};
+use super::keys::{FAMILY, FLUID, no_less_than_vacuum, number};
+use super::volume::{ENTHALPY, PRESSURE, SOURCE, enthalpy, has_fluid};
+use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::fault::Faults;
@@ -29,7 +31,7 @@ fn hold(element: &Element, key: &Key, laws: &mut Laws<'_, '_>) {
     let pressure = laws.number(element, key);
     let carried = enthalpy(element, pressure, laws);
     laws.share(node, PRESSURE, pressure);
-    laws.share(node, super::ENTHALPY, carried);
+    laws.share(node, ENTHALPY, carried);
     laws.share(node, SOURCE, one);
 }
 
@@ -72,6 +74,11 @@ impl Declaration for Supply {
 }
 
 impl Effect for Supply {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let pressure = element.written(PRESSURE).unwrap_or("0".into());
+        network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         hold(element, &SUPPLY_PRESSURE, laws);
     }
@@ -116,6 +123,11 @@ impl Declaration for Tank {
 }
 
 impl Effect for Tank {
+    fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
+        let pressure = element.written(PRESSURE).unwrap_or("0".into());
+        network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
+    }
+
     fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
         hold(element, &TANK_PRESSURE, laws);
     }

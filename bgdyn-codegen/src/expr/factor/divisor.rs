@@ -1,4 +1,4 @@
-//! What can be taken out of sums, and the arithmetic of products and numbers that finds it.
+//! Common divisors of sums, and the arithmetic of products and numbers that finds them.
 
 use bgdyn_runtime::Dd;
 

@@ -1,38 +1,18 @@
-//! Taking common products and common two-term sums out of the sums of a network, greedily.
-
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+//! Greedy extraction of common products and common two-term sums from the sums of a network.
 
 use bgdyn_runtime::Dd;
 
-use super::divisor::{
-    Key, Literal, Place, divide, insert, near, number_key, quotient, quotient_of, scales,
-};
+use super::divisor::{Key, Literal, Place, divide, insert, near, quotient, quotient_of, scales};
+use super::divisors::Divisors;
 use super::network::{Network, Term, Var, is_unit, product_cost};
-use crate::expr::index::{Index, mix};
 
 /// How far apart two terms of a sum may stand to be taken out together: time grows with it.
 const WINDOW: usize = 32;
 
-/// Something that may be taken out, with the variables whose sums may hold it.
-struct Candidate {
-    key: Key,
-    places: Vec<Var>,
-    /// What taking it out saves at the most.
-    bound: isize,
-}
-
 /// The greedy search.
 pub(super) struct Extraction<'a, 'g> {
     network: &'a mut Network<'g>,
-    candidates: Vec<Candidate>,
-    /// The candidates by their key.
-    by_key: Index,
-    queue: BinaryHeap<(isize, Reverse<usize>)>,
-    cubes: Vec<Vec<Var>>,
-    cube_ids: Index,
-    numbers: Vec<Dd>,
-    number_ids: Index,
+    divisors: Divisors,
     /// Two products, their memory used again and again.
     scratch: (Vec<Var>, Vec<Var>),
 }
@@ -42,13 +22,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
     pub fn new(network: &'a mut Network<'g>) -> Self {
         let mut extraction = Extraction {
             network,
-            candidates: Vec::new(),
-            by_key: Index::default(),
-            queue: BinaryHeap::new(),
-            cubes: Vec::new(),
-            cube_ids: Index::default(),
-            numbers: Vec::new(),
-            number_ids: Index::default(),
+            divisors: Divisors::default(),
             scratch: Default::default(),
         };
         for i in 0..extraction.network.sums.len() {
@@ -64,18 +38,12 @@ impl<'a, 'g> Extraction<'a, 'g> {
 
     /// Takes out what saves most until nothing saves anything.
     pub fn run(&mut self) {
-        while let Some((bound, Reverse(id))) = self.queue.pop() {
-            if bound != self.candidates[id].bound {
-                continue;
-            }
-            let saved = match self.candidates[id].key {
+        while let Some((id, key, bound)) = self.divisors.pop() {
+            let saved = match key {
                 Key::Product(a, b) => self.try_product(id, a, b, bound),
                 Key::Sum(a, b, r) => self.try_sum(id, a, b, r, bound),
             };
-            self.candidates[id].bound = saved;
-            if saved > 0 {
-                self.queue.push((saved, Reverse(id)));
-            }
+            self.divisors.put_back(id, saved);
         }
     }
 
@@ -100,7 +68,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         let mut literals: Vec<Literal> = Vec::with_capacity(term.factors.len() + 1);
         literals.extend(term.factors.iter().map(|&f| Literal::Factor(f)));
         if !is_unit(k) {
-            literals.insert(0, Literal::Number(self.number(k.abs())));
+            literals.insert(0, Literal::Number(self.divisors.number_id(k.abs())));
         }
         let mut seen: Vec<(Literal, Literal)> = Vec::new();
         for j in 1..literals.len() {
@@ -108,7 +76,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
                 let pair = (literals[i], literals[j]);
                 if !seen.contains(&pair) {
                     seen.push(pair);
-                    self.note(Key::Product(pair.0, pair.1), var, 1, -1);
+                    self.divisors.note(Key::Product(pair.0, pair.1), var, 1, -1);
                 }
             }
         }
@@ -126,72 +94,14 @@ impl<'a, 'g> Extraction<'a, 'g> {
         }
         let saved = before as isize - product_cost(Dd::ONE, common + 1) as isize;
         let least = 1 + product_cost(Dd::ONE, a.len()) + product_cost(Dd::ONE, b.len());
-        let r = self.number(quotient_of(l, k));
-        let key = Key::Sum(self.cube(&a), self.cube(&b), r);
-        self.note(key, var, saved, -(least as isize));
+        let r = self.divisors.number_id(quotient_of(l, k));
+        let key = Key::Sum(
+            self.divisors.product_id(&a),
+            self.divisors.product_id(&b),
+            r,
+        );
+        self.divisors.note(key, var, saved, -(least as isize));
         self.scratch = (a, b);
-    }
-
-    fn note(&mut self, key: Key, var: Var, saved: isize, cost: isize) {
-        let hash = key.quick_hash();
-        let is_it = |id: u32| self.candidates[id as usize].key == key;
-        let id = match self.by_key.find(hash, is_it) {
-            Some(id) => id as usize,
-            None => {
-                let id = self.candidates.len();
-                self.by_key.insert(hash, id as u32);
-                self.candidates.push(Candidate {
-                    key,
-                    places: Vec::new(),
-                    bound: cost,
-                });
-                id
-            }
-        };
-        let candidate = &mut self.candidates[id];
-        if candidate.bound < cost {
-            candidate.bound = cost;
-        }
-        candidate.bound += saved;
-        if candidate.places.last() != Some(&var) {
-            candidate.places.push(var);
-        }
-        if candidate.bound > 0 {
-            self.queue.push((candidate.bound, Reverse(id)));
-        }
-    }
-
-    fn number(&mut self, k: Dd) -> u32 {
-        let key = number_key(k);
-        let hash = mix(mix(0, key.0), key.1 as u64);
-        let is_it = |id: u32| number_key(self.numbers[id as usize]) == key;
-        if let Some(id) = self.number_ids.find(hash, is_it) {
-            return id;
-        }
-        let id = self.numbers.len() as u32;
-        self.numbers.push(k);
-        self.number_ids.insert(hash, id);
-        id
-    }
-
-    fn cube(&mut self, factors: &[Var]) -> u32 {
-        let hash = factors.iter().fold(1, |h, &f| mix(h, u64::from(f)));
-        let is_it = |id: u32| self.cubes[id as usize] == factors;
-        if let Some(id) = self.cube_ids.find(hash, is_it) {
-            return id;
-        }
-        let id = self.cubes.len() as u32;
-        self.cubes.push(factors.to_vec());
-        self.cube_ids.insert(hash, id);
-        id
-    }
-
-    /// The variables whose sums may hold the candidate, each once, in order.
-    fn places(&mut self, id: usize) -> Vec<Var> {
-        let places = &mut self.candidates[id].places;
-        places.sort_unstable();
-        places.dedup();
-        places.clone()
     }
 
     /// A variable for the sum of `terms`.
@@ -208,7 +118,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
     /// Takes a · b out where that saves `bound`; else says what it would save.
     fn try_product(&mut self, id: usize, a: Literal, b: Literal, bound: isize) -> isize {
         let mut found: Vec<(Var, usize)> = Vec::new();
-        for var in self.places(id) {
+        for var in self.divisors.places(id) {
             let terms = self.terms(var);
             let holds = |t: &Term| self.without(t, a, b).is_some();
             found.extend(
@@ -232,7 +142,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
             None => {
                 let term = match (a, b) {
                     (Literal::Number(k), Literal::Factor(f)) => Term {
-                        k: self.numbers[k as usize],
+                        k: self.divisors.number(k),
                         factors: vec![f],
                     },
                     (Literal::Factor(f), Literal::Factor(g)) => Term {
@@ -267,7 +177,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         for literal in [a, b] {
             match literal {
                 Literal::Number(k) => {
-                    if made.factors.is_empty() || !near(made.k.abs(), self.numbers[k as usize]) {
+                    if made.factors.is_empty() || !near(made.k.abs(), self.divisors.number(k)) {
                         return None;
                     }
                     made.k = if made.k < Dd::ZERO { -Dd::ONE } else { Dd::ONE };
@@ -311,12 +221,12 @@ impl<'a, 'g> Extraction<'a, 'g> {
     /// Takes a + r b out where that saves `bound`; else says what it would save.
     fn try_sum(&mut self, id: usize, a: u32, b: u32, r: u32, bound: isize) -> isize {
         let (a, b) = (
-            self.cubes[a as usize].clone(),
-            self.cubes[b as usize].clone(),
+            self.divisors.product(a).to_vec(),
+            self.divisors.product(b).to_vec(),
         );
-        let r = self.numbers[r as usize];
+        let r = self.divisors.number(r);
         let mut found: Vec<Place> = Vec::new();
-        for var in self.places(id) {
+        for var in self.divisors.places(id) {
             self.find(var, &a, &b, r, &mut found);
         }
         let mut best: (isize, Dd) = (0, Dd::ONE);

@@ -1,4 +1,4 @@
-//! Algebraic factoring: a function with fewer operations and the same value.
+//! Algebraic factoring: computes the same function with fewer operations.
 //!
 //! 1. [`network`] reads the graph as sums of products, Σ k·Π factors. Values with a single user are
 //!    written out, so that constants and equal terms meet across nesting, and cancel. A sum with several
@@ -18,6 +18,7 @@
 //! factored. At the end `quotient.rs` divides directly where a reciprocal has a single user.
 
 mod divisor;
+mod divisors;
 mod extract;
 mod network;
 mod rebuild;
@@ -101,7 +102,7 @@ fn readers(graph: &Graph, outputs: &[Expr]) -> Vec<usize> {
 }
 
 /// The same values with fewer operations, where the pass finds a way.
-pub fn factored(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn factor(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     let best = rounds(graph, outputs, ROUNDS);
     (best.graph, best.outputs)
 }

@@ -1,4 +1,4 @@
-//! A function as sums of products: Σ kᵢ · Π factors, read off the expression graph.
+//! A function as a network of sums of products, Σ kᵢ · Π factors, read from the expression graph.
 
 use bgdyn_runtime::Dd;
 

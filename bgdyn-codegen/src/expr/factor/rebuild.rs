@@ -1,4 +1,4 @@
-//! From sums of products back to an expression graph.
+//! Rebuilds an expression graph from sums of products.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! What the check finds: names, the tree, joints, masses, directions.
+//! Messages about a mechanism: names, the tree, joints, masses, directions.
 
 use super::{figure, listed, meant, quote};
 use crate::fault::{Fault, Place};
@@ -11,7 +11,7 @@ pub(crate) fn not_identifier(place: &Place, name: &str) -> Fault {
     let why = if is_keyword(name) {
         "a keyword of Rust"
     } else {
-        "no snake_case identifier"
+        "not a snake_case identifier"
     };
     let help = match to_identifier(name) {
         Some(better) => format!(
@@ -27,9 +27,9 @@ pub(crate) fn world_is_reserved(place: &Place) -> Fault {
     Fault::new(
         place,
         "reserved-name",
-        "`world` is the fixed base and cannot be given away",
+        "`world` is the name of the fixed base",
     )
-    .with_help("choose another name; a link without `parent` stands on the world")
+    .with_help("choose another name; a link without `parent` is attached to the world")
 }
 
 pub(crate) fn repeated_name(place: &Place, name: &str, what: &str, first: &Place) -> Fault {
@@ -38,18 +38,19 @@ pub(crate) fn repeated_name(place: &Place, name: &str, what: &str, first: &Place
         quote(name)
     );
     let (path, line) = (&first.path, first.position.line);
-    Fault::new(place, "repeated-name", message)
-        .with_help(format!("`{path}` on line {line} has it; choose another"))
+    Fault::new(place, "repeated-name", message).with_help(format!(
+        "`{path}` on line {line} has this name; choose another"
+    ))
 }
 
 pub(crate) fn repeated_mount(place: &Place, name: &str, first: &Place) -> Fault {
     let message = format!(
-        "this link's joint is called {} by itself, and that name is taken",
+        "this link's joint is called {} by default, and another joint has that name",
         quote(name)
     );
     let (path, line) = (&first.path, first.position.line);
     Fault::new(place, "repeated-name", message).with_help(format!(
-        "`{path}` on line {line} has it; give one of the joints another `name`"
+        "`{path}` on line {line} has this name; give one of the joints another `name`"
     ))
 }
 
@@ -57,7 +58,7 @@ pub(crate) fn no_name(place: &Place) -> Fault {
     Fault::new(
         place,
         "no-name",
-        "the mechanism has no name: no file to take it from, and no key `name`",
+        "there is no name: the text comes from no file and has no key `name`",
     )
     .with_help("add `name: my_arm`")
 }
@@ -74,7 +75,7 @@ pub(crate) fn stem_not_identifier(place: &Place, stem: &str) -> Fault {
     let why = if is_keyword(stem) {
         "a keyword of Rust"
     } else {
-        "no snake_case identifier"
+        "not a snake_case identifier"
     };
     let message = format!(
         "the mechanism takes its name from the file, but {} is {why}",
@@ -88,7 +89,11 @@ pub(crate) fn stem_not_identifier(place: &Place, stem: &str) -> Fault {
 }
 
 pub(crate) fn name_differs_from_file(place: &Place, name: &str, stem: &str) -> Fault {
-    let message = format!("the name is {}, the file's is {}", quote(name), quote(stem));
+    let message = format!(
+        "the name is {}, but the file is called {}",
+        quote(name),
+        quote(stem)
+    );
     Fault::new(place, "name-differs-from-file", message).with_help(format!(
         "rename the file to `{name}.yaml`, or leave `name` out"
     ))
@@ -107,7 +112,7 @@ pub(crate) fn parameter_not_identifier(place: &Place, name: &str) -> Fault {
 pub(crate) fn parameter_is_method(place: &Place, name: &str) -> Fault {
     let message = format!("{} is a method of the generated struct", quote(name));
     Fault::new(place, "reserved-name", message)
-        .with_help("a parameter becomes a field beside the methods: choose another name")
+        .with_help("a parameter becomes a field next to the methods: choose another name")
 }
 
 pub(crate) fn parameter_has_two_values(
@@ -174,11 +179,7 @@ pub(crate) fn unknown_link(
 
 pub(crate) fn circle(place: &Place, names: &[&str]) -> Fault {
     let Some(first) = names.first() else {
-        return Fault::new(
-            place,
-            "cyclic-parents",
-            "links carry each other in a circle",
-        );
+        return Fault::new(place, "cyclic-parents", "links are their own ancestors");
     };
     if names.len() == 1 {
         return Fault::new(
@@ -186,7 +187,7 @@ pub(crate) fn circle(place: &Place, names: &[&str]) -> Fault {
             "cyclic-parents",
             format!("{} is its own parent", quote(first)),
         )
-        .with_help("leave `parent` out if it stands on the world");
+        .with_help("leave `parent` out if the link is attached to the world");
     }
     let shown = names.iter().copied().take(12);
     let cut = if names.len() > 12 {
@@ -196,11 +197,11 @@ pub(crate) fn circle(place: &Place, names: &[&str]) -> Fault {
     };
     let path: Vec<&str> = shown.chain(cut.iter().copied()).chain([*first]).collect();
     let message = format!(
-        "the links are their own ancestors: {} (each carried by the next)",
+        "the links are their own ancestors: {} (each is the child of the next)",
         path.join(" → ")
     );
     Fault::new(place, "cyclic-parents", message)
-        .with_help("one of them must stand on the world or on another link; loops cannot be closed with `parent`")
+        .with_help("give one of them `world` or another link as its parent; a kinematic loop cannot be written with `parent`")
 }
 
 // Joints
@@ -263,15 +264,19 @@ pub(crate) fn lower_above_upper(place: &Place, lower: &str, upper: &str) -> Faul
 
 pub(crate) fn negative_limit(place: &Place, text: &str) -> Fault {
     let message = format!(
-        "the limit is {}; it is a magnitude, for both directions",
+        "the limit is {}; it is a magnitude and holds in both directions",
         quote(text)
     );
     Fault::new(place, "negative-limit", message).with_help("leave out the minus sign")
 }
 
 pub(crate) fn unknown_axis(place: &Place, text: &str) -> Fault {
-    Fault::new(place, "unknown-axis", format!("{} is no axis", quote(text)))
-        .with_help("write `x`, `y`, `z`, `-x`, `-y`, `-z` or a direction `[0, 0, 1]`")
+    Fault::new(
+        place,
+        "unknown-axis",
+        format!("{} is not an axis", quote(text)),
+    )
+    .with_help("write `x`, `y`, `z`, `-x`, `-y`, `-z` or a direction `[0, 0, 1]`")
 }
 
 pub(crate) fn zero_axis(place: &Place) -> Fault {
@@ -291,10 +296,10 @@ pub(crate) fn negative_mass(place: &Place, text: &str) -> Fault {
 }
 
 pub(crate) fn no_coordinates(place: &Place) -> Fault {
-    let message = "no joint moves: the mechanism has no coordinate (NQ 0, NV 0), so there is nothing to compute the motion of";
+    let message = "no joint moves: the mechanism has no coordinate (NQ 0, NV 0), so no motion can be computed";
     Fault::new(place, "no-coordinates", message)
         .with_help(
-            "give a joint the type `revolute`, `continuous` or `prismatic`; a base that moves is written as massless links on three slides and three turns",
+            "give a joint the type `revolute`, `continuous` or `prismatic`; write a moving base as massless links with three prismatic and three revolute joints",
         )
         .into_warning()
 }
@@ -318,8 +323,18 @@ pub(crate) fn constant_distance(
         )
     };
     Fault::new(place, "constant-distance", message).with_help(
-        "nothing can change along this line; name two links or frames whose distance varies with a coordinate",
+        "the distance must be able to change: name two links or frames whose distance varies with a coordinate",
     )
+}
+
+/// A warning of an effect at a place where it does nothing.
+pub(crate) fn no_motion_there(place: &Place, effect: &str, at: &str) -> Fault {
+    let (effect, at) = (quote(effect), quote(at));
+    let message =
+        format!("{effect} does nothing: no joint moves {at} in a direction in which it acts");
+    let help = "name a link or a frame that a joint moves, or another direction";
+    let fault = Fault::new(place, "no-motion", message).with_help(help);
+    fault.into_warning()
 }
 
 // Directions
@@ -369,9 +384,4 @@ fn nearly(place: &Place, message: String, way: &str) -> Fault {
             "{way}, or `snap: 1e-4` at the top: exact zeros save operations"
         ))
         .into_warning()
-}
-
-/// The fault of a loop that has no solution, or none that is found.
-pub(crate) fn algebraic_loop(place: &Place, message: String, way_out: &str) -> Fault {
-    Fault::new(place, "algebraic-loop", message).with_help(way_out)
 }

@@ -1,4 +1,4 @@
-//! What the check finds in tensors and solids.
+//! Messages about inertia tensors and solids.
 
 use super::{figure, figures, listed, meant, quote};
 use crate::fault::{Fault, Place};
@@ -28,7 +28,7 @@ pub(crate) fn nonphysical_word(place: &Place, word: &str) -> Fault {
     Fault::new(
         place,
         "nonphysical-word",
-        format!("{} means nothing here", quote(word)),
+        format!("{} is not a value of `nonphysical`", quote(word)),
     )
     .with_help("write `nonphysical: allow`, or leave it out")
 }
@@ -51,7 +51,7 @@ pub(crate) fn missing_dimension(place: &Place, solid: &str, key: &str) -> Fault 
         "missing-dimension",
         format!("a {solid} needs `{key}`"),
     )
-    .with_help(format!("write `{key}: …` beside `solid: {solid}`"))
+    .with_help(format!("write `{key}: …` next to `solid: {solid}`"))
 }
 
 pub(crate) fn dimension_of_another(place: &Place, solid: &str, key: &str) -> Fault {
@@ -64,7 +64,7 @@ pub(crate) fn dimension_of_another(place: &Place, solid: &str, key: &str) -> Fau
 }
 
 pub(crate) fn dimension_without_solid(place: &Place, key: &str, known: &[&str]) -> Fault {
-    let message = format!("`{key}` is a dimension of a solid, and there is no `solid`");
+    let message = format!("`{key}` is a dimension of a solid, but there is no `solid`");
     let known = listed(known.iter().copied());
     Fault::new(place, "misplaced-dimension", message).with_help(format!(
         "write `solid: …` with one of {known}, or leave `{key}` out"
@@ -72,7 +72,7 @@ pub(crate) fn dimension_without_solid(place: &Place, key: &str, known: &[&str]) 
 }
 
 pub(crate) fn two_tensors(place: &Place, key: &str, other: &str) -> Fault {
-    let message = format!("`{key}` stands beside `{other}`, which says it already");
+    let message = format!("`{key}` and `{other}` both set the same entries of the tensor");
     Fault::new(place, "two-tensors", message).with_help("keep one of the two")
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn solid_without_mass(place: &Place) -> Fault {
 
 pub(crate) fn solid_of_parameter(place: &Place) -> Fault {
     let message =
-        "the mass is a run-time parameter, and the solid's tensor would have to follow it";
+        "the mass is a run-time parameter, and the tensor of a solid would change with it";
     Fault::new(place, "solid-of-parameter", message).with_help(
         "make the tensor's entries parameters of their own: `xx: { parameter: …, value: … }`",
     )
@@ -97,7 +97,7 @@ pub(crate) fn not_a_length(place: &Place, text: &str) -> Fault {
     Fault::new(
         place,
         "solid-dimension",
-        format!("{} is no length of a solid", quote(text)),
+        format!("{} cannot be a length of a solid", quote(text)),
     )
     .with_help("lengths are above 0, in m or with a unit: `40 mm`")
 }
@@ -116,11 +116,9 @@ pub(crate) fn about_word(place: &Place, word: &str) -> Fault {
     Fault::new(
         place,
         "about-word",
-        format!("{} is no point that a tensor can be about", quote(word)),
+        format!("a tensor cannot be about {}", quote(word)),
     )
-    .with_help(
-        "write `com`, the centre of mass (so it is without `about`), or `origin`, the link's",
-    )
+    .with_help("write `com`, the centre of mass (the default), or `origin`, the origin of the link")
 }
 
 pub(crate) fn parameter_about_origin(place: &Place, what: &str) -> Fault {
@@ -134,7 +132,7 @@ pub(crate) fn no_inertia(place: &Place, joint: &str) -> Fault {
     let message = format!("nothing that the joint {} moves has inertia", quote(joint));
     Fault::new(place, "no-inertia", message)
         .with_help(
-            "give a link beyond it `mass` or `inertia`; as it is, forward dynamics refuses every state of it, and only a scene with a rotor or a payload there can be simulated",
+            "give a link outboard of it `mass` or `inertia`; without, forward dynamics fails in every state, and only a scene with a rotor or a payload there can be simulated",
         )
         .into_warning()
 }

@@ -1,6 +1,7 @@
-//! What the reader finds: syntax, keys, types, numbers.
+//! Messages about the text of a file: YAML syntax, keys, types, numbers, units.
 
-use super::{escape, listed, meant, quote};
+use super::{listed, meant, quote};
+use crate::fault::quote::escape;
 use crate::fault::{Fault, Place, Position};
 use crate::unit::{Dimension, Unit};
 
@@ -18,7 +19,7 @@ pub(crate) fn yaml_syntax(position: Position, info: &str) -> Fault {
     Fault::new(
         &at(position),
         "yaml-syntax",
-        format!("this is no valid YAML: {info}"),
+        format!("this is not valid YAML: {info}"),
     )
     .with_help("look at the lines before it as well: a bracket or a quote may be open")
 }
@@ -30,8 +31,12 @@ pub(crate) fn yaml_ambiguous(position: Position) -> Fault {
 }
 
 pub(crate) fn empty_file() -> Fault {
-    Fault::new(&Place::file(), "empty-file", "the file holds no mechanism")
-        .with_help("a spec begins with `format: 1` and has a list `links`")
+    Fault::new(
+        &Place::file(),
+        "empty-file",
+        "the file contains no mechanism",
+    )
+    .with_help("a spec begins with `format: 1` and has a list `links`")
 }
 
 pub(crate) fn several_documents(position: Position) -> Fault {
@@ -53,7 +58,7 @@ pub(crate) fn cyclic_alias(position: Position) -> Fault {
     Fault::new(
         &at(position),
         "cyclic-alias",
-        "this alias stands inside what it refers to",
+        "this alias is inside the value that it refers to",
     )
     .with_help("write the values out")
 }
@@ -104,7 +109,7 @@ pub(crate) fn key_not_text(place: &Place, known: &[&'static str]) -> Fault {
 }
 
 pub(crate) fn repeated_key(place: &Place, key: &str, first: Position) -> Fault {
-    let message = format!("the key {} stands here a second time", quote(key));
+    let message = format!("the key {} is written a second time", quote(key));
     Fault::new(place, "repeated-key", message).with_help(format!(
         "the first one is on line {}; remove one of them",
         first.line
@@ -140,7 +145,11 @@ pub(crate) fn wrong_length(place: &Place, count: usize) -> Fault {
 // Numbers
 
 pub(crate) fn not_a_number(place: &Place, text: &str, fit: &[Dimension]) -> Fault {
-    let fault = Fault::new(place, "wrong-type", format!("{} is no number", quote(text)));
+    let fault = Fault::new(
+        place,
+        "wrong-type",
+        format!("{} is not a number", quote(text)),
+    );
     fault.with_help(format!("write {}", wanted(fit)))
 }
 
@@ -148,7 +157,7 @@ pub(crate) fn not_decimal(place: &Place, text: &str) -> Fault {
     Fault::new(
         place,
         "wrong-type",
-        format!("{} is no decimal number", quote(text)),
+        format!("{} is not a decimal number", quote(text)),
     )
     .with_help("write it as a decimal: `16`, `1.6e-3`")
 }
@@ -159,7 +168,7 @@ pub(crate) fn number_as_text(place: &Place, text: &str, quoted: bool) -> Fault {
             place,
             "wrong-type",
             format!(
-                "the number {} stands in quotes, which makes it text",
+                "the number {} is in quotes, which makes it text",
                 quote(text)
             ),
         )
@@ -170,14 +179,14 @@ pub(crate) fn number_as_text(place: &Place, text: &str, quoted: bool) -> Fault {
         "wrong-type",
         format!("YAML reads {} as text", quote(text)),
     )
-    .with_help("leave out the zeros in front")
+    .with_help("leave out the leading zeros")
 }
 
 pub(crate) fn non_finite(place: &Place, text: &str) -> Fault {
     Fault::new(
         place,
         "non-finite",
-        format!("{} is no finite number", quote(text)),
+        format!("{} is not a finite number", quote(text)),
     )
     .with_help("leave the key out if there is no value")
 }
@@ -227,7 +236,7 @@ pub(crate) fn misplaced_parameter(place: &Place) -> Fault {
     Fault::new(
         place,
         "misplaced-parameter",
-        "no run-time parameter may stand here",
+        "a run-time parameter is not allowed here",
     )
     .with_help(
         "write the number; a link's `mass`, each component of its `com` and each entry of its \

@@ -1,81 +1,120 @@
-//! Methods that are computed by differentiating the expressions of others.
+//! Formulations of methods that are derivatives of others.
 
 use bgdyn_runtime::Dd;
 
 use super::differentiate::{derivatives, finish, reopened};
 use super::forward_dynamics::ForwardDerivatives;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Ex, Expr, Leaf};
-use crate::formulation::{Formulation, Search, literal, recursion};
+use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
+use crate::passes::cheapest;
 
-/// Velocities up to which expressions are differentiated to see whether that costs less than
-/// composite bodies.
+/// Velocities up to which differentiated expressions may cost less than composite bodies.
 const SMALL: usize = 4;
 
-/// The method, if it is one of these; the others come from a formulation.
-pub(in crate::formulation) fn function(search: &Search<'_>, method: Method) -> Option<Function> {
-    let graph = search.graph;
-    match method {
-        Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-            let literal = search.asks_for(literal::NAME);
-            let own = search.asks_for(recursion::OwnInertia.name());
-            let recursion: &dyn Formulation = match own {
-                true => &recursion::OwnInertia,
-                false => &recursion::Recursion,
-            };
-            let regrouped = (!literal).then(|| recursion.function(search, method));
-            let regrouped = regrouped.flatten();
-            // Differentiating is cheaper for a few joints at most, and slow for many.
-            let small = graph.coordinates.len() <= SMALL;
-            let differentiated = (literal || small).then(|| differentiated(search, method));
-            let ways = regrouped.into_iter().chain(differentiated.flatten());
-            Function::cheapest(ways.map(Function::factored))
+/// Derivatives of inverse dynamics, by differentiating its expressions.
+pub(in crate::formulation) struct Differentiated;
+
+impl Formulation for Differentiated {
+    fn name(&self) -> &'static str {
+        "differentiated"
+    }
+
+    fn summary(&self) -> &'static str {
+        "derivatives of the expressions of inverse dynamics and of the bias"
+    }
+
+    fn knows(&self, method: Method) -> bool {
+        !self.reads(method).is_empty()
+    }
+
+    fn offer(&self, prepared: &Prepared<'_>, _: Method) -> Offer {
+        match prepared.graph.coordinates.len() <= SMALL {
+            true => Offer::Candidate,
+            false => Offer::Reserve,
         }
-        Method::ForwardDynamicsDerivatives => {
-            let slopes = search.effort_derivatives()?;
-            let ways = search
-                .differentiable()
-                .map(|forward| forward_derivatives(graph, method, slopes, forward));
-            Function::cheapest(ways)
+    }
+
+    fn reads(&self, method: Method) -> &'static [Method] {
+        match method {
+            Method::CoriolisMatrix => &[Method::Bias],
+            Method::InverseDynamicsDerivatives => &[Method::InverseDynamics],
+            _ => &[],
         }
-        _ => None,
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let graph = prepared.graph;
+        let n = graph.coordinates.len();
+        let from = prepared.function(*self.reads(method).first()?)?;
+        let (b, x) = reopened(&from);
+        let outputs = if method == Method::CoriolisMatrix {
+            // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
+            let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr();
+            let columns = derivatives(&b, &x, n, Leaf::Velocity);
+            rows(&columns).into_iter().map(|e| half(b.ex(e))).collect()
+        } else {
+            let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
+            outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
+            outputs
+        };
+        Some(finish(graph, method, &from, b, outputs))
     }
 }
 
-/// The method by differentiating the graph of what it is a derivative of.
-fn differentiated(search: &Search<'_>, method: Method) -> Option<Function> {
-    let graph = search.graph;
-    let n = graph.coordinates.len();
-    if method == Method::CoriolisMatrix {
-        // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
-        let bias = search.function(Method::Bias)?;
-        let (b, x) = reopened(&bias);
-        let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr();
-        let columns = derivatives(&b, &x, n, Leaf::Velocity);
-        let outputs = rows(&columns).into_iter().map(|e| half(b.ex(e))).collect();
-        return Some(finish(graph, method, &bias, b, outputs));
+/// Derivatives of forward dynamics: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at τ = inverse dynamics(q, v, q̈), and
+/// ∂q̈/∂τ = M⁻¹.
+pub(in crate::formulation) struct ForwardDynamicsDerivatives;
+
+impl Formulation for ForwardDynamicsDerivatives {
+    fn name(&self) -> &'static str {
+        "solved"
     }
-    let inverse = search.function(Method::InverseDynamics)?;
-    let (b, x) = reopened(&inverse);
-    let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
-    outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
-    Some(finish(graph, method, &inverse, b, outputs))
+
+    fn summary(&self) -> &'static str {
+        "derivatives of forward dynamics from those of inverse dynamics"
+    }
+
+    fn knows(&self, method: Method) -> bool {
+        !self.reads(method).is_empty()
+    }
+
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Candidate
+    }
+
+    fn reads(&self, method: Method) -> &'static [Method] {
+        match method {
+            Method::ForwardDynamicsDerivatives => {
+                &[Method::InverseDynamicsDerivatives, Method::ForwardDynamics]
+            }
+            _ => &[],
+        }
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let efforts = prepared.function(Method::InverseDynamicsDerivatives)?;
+        let forward = prepared.candidates(Method::ForwardDynamics);
+        let forward = forward.accepted.iter().chain(&forward.borderline);
+        cheapest(
+            forward.map(|forward| {
+                forward_derivatives(prepared.graph, method, &efforts, &forward.plain)
+            }),
+        )
+    }
 }
 
-/// ∂q̈/∂x = −M⁻¹ ∂τ/∂x at τ = inverse dynamics(q, v, q̈), and ∂q̈/∂τ = M⁻¹.
-///
-/// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by whatever way it was
-/// found to be stable and cheap. Columns that are alike run in a loop, where that takes no operation
-/// more.
+/// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by whichever formulation it is
+/// stable and cheap. Columns that are alike run in a loop, where that takes no operation more.
 fn forward_derivatives(
-    graph: &BondGraph,
+    graph: &Multibody,
     method: Method,
-    slopes: &Function,
+    efforts: &Function,
     forward: &Function,
 ) -> Function {
-    let columns = ForwardDerivatives::new(graph, slopes, forward);
+    let columns = ForwardDerivatives::new(graph, efforts, forward);
     let groups = columns.alike();
     let written_out = columns.clone().function(graph, method, forward, &[]);
     if groups.is_empty() {

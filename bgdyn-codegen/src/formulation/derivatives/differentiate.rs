@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
 use crate::function::Function;
 use crate::method::Method;
@@ -34,7 +34,7 @@ pub(super) fn derivatives(
 
 /// A function of the differentiated graph; it keeps the order of operations where its origin does.
 pub(super) fn finish(
-    graph: &BondGraph,
+    graph: &Multibody,
     method: Method,
     from: &Function,
     b: Builder,

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 
 use super::differentiate::{derivatives, finish, reopened};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::columns::{self, Columns, Loops, Part};
 use crate::expr::{Builder, Expr, Graph, Leaf, Tangent, copy_into};
 use crate::function::Function;
@@ -30,7 +30,7 @@ pub(super) struct ForwardDerivatives {
 }
 
 impl ForwardDerivatives {
-    pub(super) fn new(graph: &BondGraph, slopes: &Function, forward: &Function) -> Self {
+    pub(super) fn new(graph: &Multibody, slopes: &Function, forward: &Function) -> Self {
         let n = graph.coordinates.len();
         // The copy takes over the accelerations in place of their leaves.
         let (builder, accelerations) = reopened(forward);
@@ -68,7 +68,7 @@ impl ForwardDerivatives {
     /// The function, with a loop for each of these groups of columns.
     pub(super) fn function(
         self,
-        graph: &BondGraph,
+        graph: &Multibody,
         method: Method,
         forward: &Function,
         groups: &[Vec<usize>],

@@ -8,7 +8,8 @@
 mod sites;
 mod sum;
 
-use super::{Arguments, Formulation, Search, solve};
+use super::arguments::Arguments;
+use super::{Formulation, Offer, Prepared, solve};
 use crate::expr::{Builder, Ex};
 use crate::function::Function;
 use crate::method::Method;
@@ -28,8 +29,13 @@ impl Formulation for Literal {
         "equation (6) term by term, in fixed axes"
     }
 
-    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
-        let graph = search.graph;
+    /// Its graph grows with the cube of the number of links.
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Never
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let graph = prepared.graph;
         let b = Builder::new();
         let outputs = {
             let arguments = Arguments::new(&b, graph, method);

@@ -1,8 +1,8 @@
 //! Poses, velocities and Jacobians of sites from the placement of the links, fixed axes.
 
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Ex};
-use crate::formulation::Arguments;
+use crate::formulation::arguments::Arguments;
 use crate::formulation::placement::Placement;
 use crate::formulation::site::{Column, SiteMotion};
 use crate::math::Vec3;
@@ -12,7 +12,7 @@ use crate::method::Method;
 /// The expressions of a method of a site; `None` for any other method.
 pub(super) fn outputs<'g>(
     b: &'g Builder,
-    graph: &BondGraph,
+    graph: &Multibody,
     method: Method,
     x: &Arguments<'g>,
 ) -> Option<Vec<Ex<'g>>> {

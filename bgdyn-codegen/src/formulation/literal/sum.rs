@@ -4,8 +4,8 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{BondGraph, Effort, JunctionId, LinkFrame, Modulus, Transformer};
 use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
+use crate::formulation::arguments::{Arguments, reflected, spin, value};
 use crate::formulation::placement::Placement;
-use crate::formulation::{Arguments, reflected, spin, value};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{CoordinateId, LinkId, Motion, Tensor};
 

@@ -11,9 +11,9 @@ use super::base_parameter_cache::Numbers;
 use super::geometry::{Body, Geometry};
 use super::inertia::{Inertia, Point};
 use super::plan::{Plan, origin_offset};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Ex};
-use crate::formulation::value;
+use crate::formulation::arguments::value;
 use crate::math::Vec3;
 use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
 
@@ -56,7 +56,7 @@ impl<'g> Parts<'g> {
 /// q.
 pub(super) fn regrouped<'g>(
     b: &'g Builder,
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
 ) -> (Vec<Parts<'g>>, Ex<'g>) {
@@ -88,7 +88,7 @@ pub(super) fn regrouped<'g>(
 /// The regrouping itself.
 fn regroup<'g>(
     b: &'g Builder,
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
 ) -> (Vec<Parts<'g>>, Ex<'g>) {
@@ -131,7 +131,7 @@ fn regroup<'g>(
 
 /// The parts of body j as the spec has them. A tensor is taken apart into its parameters:
 /// multiples of one parameter stay that wherever they move, and their factors fold.
-fn parts<'g>(b: &'g Builder, graph: &BondGraph, body: &Body, plan: &Plan, j: usize) -> Parts<'g> {
+fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usize) -> Parts<'g> {
     let mut parts = Parts {
         known: Inertia::zero(b),
         varying: Vec::new(),
@@ -197,7 +197,7 @@ fn point<'g>(b: &'g Builder, inertial: &Inertial, place: &Pose) -> Point<'g> {
 /// −g·r of what hangs on the base at its origin, and of the links that never move.
 fn constant_energy<'g>(
     b: &'g Builder,
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
 ) -> Ex<'g> {

@@ -20,10 +20,12 @@ use super::geometry::Geometry;
 use super::inertia::turn_back;
 use super::mass_matrix::{Momentum, composites};
 use super::plan::Plan;
-use super::{cheapest_plans, plan_search};
-use crate::bond_graph::BondGraph;
-use crate::expr::{self, Builder, Cost, Ex, Expr, Graph};
-use crate::formulation::{Arguments, Formulation, Search};
+use super::plan_search::{self, Best};
+use super::plans::cheapest_plans;
+use crate::bond_graph::Multibody;
+use crate::expr::{self, Builder, Ex, Expr, Graph};
+use crate::formulation::arguments::Arguments;
+use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -47,37 +49,21 @@ impl Formulation for CommonAxes {
         method == METHOD
     }
 
-    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
-        self.cheaper(search, method, None)
+    /// In place of the joint-by-joint way where it costs less than that before factoring.
+    fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
+        let Some(best) = plans(prepared, method) else {
+            return Offer::Never;
+        };
+        let joint_by_joint = cheapest_plans(prepared, METHOD).cost();
+        match best.cost().weighted() < joint_by_joint.weighted() {
+            true => Offer::Instead(None),
+            false => Offer::Never,
+        }
     }
-}
 
-impl CommonAxes {
-    /// The function, where it costs less than `limit` before factoring. It knows no rotors that
-    /// turn with a body: those give momentum to some of the bodies inwards, not to all.
-    pub fn cheaper(
-        &self,
-        search: &Search<'_>,
-        method: Method,
-        limit: Option<Cost>,
-    ) -> Option<Function> {
-        let coupled = search.graph.rotors.iter().any(|r| r.carrier.is_some());
-        if method != METHOD || coupled {
-            return None;
-        }
-        let graph = search.graph;
-        let geometry = search.recursion.geometry(graph);
-        // The plans that suit the joint-by-joint way: the composite bodies are the same.
-        let mut best = cheapest_plans(search, METHOD);
-        for tried in &mut best.plans {
-            let (made, entries) = outputs(Builder::silent(), graph, geometry, &tried.plan);
-            tried.cost = expr::cost(&made, &entries).unfinished();
-        }
-        best.plans.sort_by_key(|tried| tried.cost.weighted());
-        let found = best.plans[0].cost.weighted();
-        if limit.is_some_and(|limit| limit.weighted() <= found) {
-            return None;
-        }
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let (graph, geometry) = (prepared.graph, prepared.geometry());
+        let best = plans(prepared, method)?;
         let plan = best.taken();
         let (made, entries) = outputs(Builder::new(), graph, geometry, plan);
         let name = format!("{}: {}", self.name(), plan_search::describe(geometry, plan));
@@ -85,8 +71,26 @@ impl CommonAxes {
     }
 }
 
+/// The plans that suit the joint-by-joint way, as the composite bodies are the same; the cheapest one
+/// for this way first. `None` where there is a rotor that turns with a body: it gives momentum to
+/// some of the bodies inwards, not to all.
+fn plans(prepared: &Prepared<'_>, method: Method) -> Option<Best> {
+    let graph = prepared.graph;
+    let coupled = graph.rotors.iter().any(|r| r.carrier.is_some());
+    if method != METHOD || coupled {
+        return None;
+    }
+    let mut best = cheapest_plans(prepared, METHOD);
+    for tried in &mut best.plans {
+        let (made, entries) = outputs(Builder::silent(), graph, prepared.geometry(), &tried.plan);
+        tried.cost = expr::cost(&made, &entries).unfinished();
+    }
+    best.plans.sort_by_key(|tried| tried.cost.weighted());
+    Some(best)
+}
+
 /// Entries of the lower triangle under a plan, row by row.
-fn outputs(b: Builder, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> (Graph, Vec<Expr>) {
+fn outputs(b: Builder, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> (Graph, Vec<Expr>) {
     let entries: Vec<Expr> = {
         let x = Arguments::new(&b, graph, METHOD);
         let frames = Frames::new(&b, graph, geometry, plan, &x);

@@ -9,9 +9,9 @@ use super::inertia::{Inertia, Point, turn};
 use super::names::name_data;
 use super::plan::{Plan, origin_offset};
 use super::rotors::Rotors;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Ex};
-use crate::formulation::Arguments;
+use crate::formulation::arguments::Arguments;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -65,7 +65,7 @@ impl<'g> Frames<'g> {
     /// Lays the bodies out for a plan.
     pub fn new(
         b: &'g Builder,
-        graph: &BondGraph,
+        graph: &Multibody,
         geometry: &Geometry,
         plan: &Plan,
         x: &Arguments<'g>,
@@ -127,11 +127,14 @@ impl<'g> Frames<'g> {
         let gravity = geometry.bodies.iter().map(|body| {
             b.vector((body.twist.transpose() * graph.gravity).scale(Dd::ONE / plan.unit))
         });
+        let gravity = gravity.collect();
+        let efforts: Vec<Dd> = bodies.iter().map(|frame| frame.effort).collect();
+        let rotors = Rotors::new(b, graph, geometry, (&aims, &efforts), x);
         let frames = Frames {
-            gravity: gravity.collect(),
+            gravity,
             bodies,
             constant_energy: energy,
-            rotors: Rotors::new(b, graph, geometry, &aims, x),
+            rotors,
         };
         name_data(&frames);
         frames

@@ -8,7 +8,7 @@
 use bgdyn_runtime::Dd;
 
 use super::base_parameter_cache::BaseParameterCache;
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::Multibody;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
 
@@ -20,7 +20,7 @@ const FAR: f64 = 4.0;
 
 /// A rigid body: the links that one coordinate moves, and their frame.
 #[derive(Clone, Debug)]
-pub(in crate::formulation) struct Body {
+pub(crate) struct Body {
     /// Name of the link that the joint carries.
     pub name: String,
     /// Name of the joint.
@@ -77,7 +77,7 @@ impl Body {
 }
 
 /// The bodies, parents before children, and the links welded to the world.
-pub(in crate::formulation) struct Geometry {
+pub(crate) struct Geometry {
     /// In the order of the coordinates.
     pub bodies: Vec<Body>,
     /// Links that never move, with their place in the world.
@@ -94,7 +94,7 @@ impl Geometry {
 }
 
 /// The bodies of a bond graph.
-pub(in crate::formulation) fn geometry(graph: &BondGraph) -> Geometry {
+pub(crate) fn geometry(graph: &Multibody) -> Geometry {
     let mut made = Geometry {
         bodies: Vec::new(),
         fixed: Vec::new(),
@@ -261,7 +261,7 @@ fn basis_with_z(z: Vec3<Dd>) -> Mat3<Dd> {
     clean_matrix(columns(x, z.cross(x), z))
 }
 
-pub(in crate::formulation) fn identity() -> Mat3<Dd> {
+pub(crate) fn identity() -> Mat3<Dd> {
     Mat3::from_fn(|i, j| if i == j { Dd::ONE } else { Dd::ZERO })
 }
 
@@ -335,7 +335,7 @@ fn compose(outer: &Pose, inner: &Pose) -> Pose {
 }
 
 /// The angle with this cosine and sine, to double-double accuracy.
-pub(in crate::formulation) fn angle_of((cos, sin): (Dd, Dd)) -> Dd {
+pub(crate) fn angle_of((cos, sin): (Dd, Dd)) -> Dd {
     let near = Dd::from_f64(f64::atan2(sin.to_f64(), cos.to_f64()));
     let (s, c) = near.sin_cos();
     // sin(φ − near), so small that it is the angle.

@@ -83,7 +83,8 @@ pub(super) fn efforts<'g>(
     let moving = motions(b, frames, active);
     let loads = loads_of(b, frames, plan, &moving);
     let mut efforts = inwards(b, frames, &loads);
-    frames.rotors.add_efforts(&moving, &mut efforts);
+    let omega_dot: Vec<_> = moving.iter().map(|motion| motion.own.omega_dot).collect();
+    frames.rotors.add_efforts(&omega_dot, &mut efforts);
     efforts
 }
 
@@ -108,7 +109,7 @@ fn loads_of<'g>(
         .enumerate()
         .map(|(j, ((frame, motion), &in_basis))| {
             let mut load = load(b, frame, motion, in_basis, plan.short_moment);
-            if let Some(moment) = frames.rotors.moment(j, motion) {
+            if let Some(moment) = frames.rotors.moment(j, motion.own.omega) {
                 load.own.moment = load.own.moment + moment;
             }
             load

@@ -6,9 +6,9 @@ use bgdyn_runtime::Dd;
 use super::frames::Frames;
 use super::geometry::Geometry;
 use super::plan::Plan;
-use crate::bond_graph::{BondGraph, SiteId};
+use crate::bond_graph::{Multibody, SiteId};
 use crate::expr::{Builder, Ex, Expr, Graph, cost};
-use crate::formulation::Arguments;
+use crate::formulation::arguments::Arguments;
 use crate::formulation::site::{Column, SiteMotion};
 use crate::function::Function;
 use crate::math::{Mat3, Vec3};
@@ -17,7 +17,7 @@ use crate::method::Method;
 
 /// The cheaper one of the method with and without groups.
 pub(super) fn function(
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     method: Method,
     site: SiteId,
@@ -37,7 +37,7 @@ pub(super) fn function(
 }
 
 fn outputs(
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     method: Method,
     site: SiteId,
@@ -73,7 +73,7 @@ struct Placed<'g> {
 
 fn motion<'g>(
     b: &'g Builder,
-    graph: &BondGraph,
+    graph: &Multibody,
     geometry: &Geometry,
     frames: &Frames<'g>,
     site: SiteId,

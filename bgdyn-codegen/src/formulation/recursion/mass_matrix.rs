@@ -175,7 +175,14 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
                 .map(|m| m.map(|v| turn(v, frame.turn))),
         );
         momenta.extend(outer.momenta.0.iter().copied());
-        frames.rotors.add_momenta(b, frames, j, &mut momenta);
+        // The joint of a rotor may be anywhere: beyond the body, before it, or its own.
+        for rotor in frames.rotors.on(j) {
+            momenta.add(Momentum {
+                joint: rotor.joint,
+                angular: turn(rotor.unit_momentum(), frame.turn),
+                linear: Vec3([b.zero(); 3]),
+            });
+        }
         enter(&mut mass, frames, j, &momenta);
         let unit = composite.unit;
         let diagonal = unit.along(frame) * (frame.effort * frame.effort);

@@ -27,9 +27,9 @@ pub(super) struct Tried {
 
 /// What a search has seen.
 #[derive(Clone, Default)]
-pub(super) struct Best {
+pub(in crate::formulation) struct Best {
     /// The cheapest plans, the cheapest one first; many a choice changes no cost.
-    pub plans: Vec<Tried>,
+    pub(super) plans: Vec<Tried>,
     /// For each of the least costs the first plan that has it.
     steps: Vec<Tried>,
 }
@@ -56,19 +56,24 @@ impl Best {
     }
 
     /// Takes this plan before all others.
-    pub fn take(&mut self, plan: Plan, cost: Cost) {
+    pub(super) fn take(&mut self, plan: Plan, cost: Cost) {
         self.plans.retain(|t| t.plan != plan);
         self.plans.insert(0, Tried { plan, cost });
     }
 
+    /// What the plan that is taken costs, before factoring.
+    pub(super) fn cost(&self) -> Cost {
+        self.plans[0].cost
+    }
+
     /// The plan that is taken.
-    pub fn taken(&self) -> &Plan {
+    pub(super) fn taken(&self) -> &Plan {
         &self.plans[0].plan
     }
 
     /// The plan that is taken, and the cheapest ones of other costs, for a function's reader: each
     /// with all in which it differs from the one taken.
-    pub fn considered(&self, geometry: &Geometry) -> Vec<Considered> {
+    pub(super) fn considered(&self, geometry: &Geometry) -> Vec<Considered> {
         let taken = &self.plans[0];
         let weight = taken.cost.weighted();
         let others = self.steps.iter().filter(|t| t.cost.weighted() != weight);

@@ -4,8 +4,10 @@
 //! Base parameters move inertia inwards and leave a rest behind; where the two meet again in an
 //! effort, they may be larger than what is left of them.
 
-use super::{best_plans, cost, plan_search, with_plan};
-use crate::formulation::{Formulation, Search};
+use super::formulation::with_plan;
+use super::plan_search;
+use super::plans::{best_plans, cost};
+use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -25,10 +27,14 @@ impl Formulation for OwnInertia {
         method.site().is_none()
     }
 
-    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
-        let graph = search.graph;
-        let geometry = search.recursion.geometry(graph);
-        let mut best = best_plans(search, method)?;
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Never
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let graph = prepared.graph;
+        let geometry = prepared.geometry();
+        let mut best = best_plans(prepared, method)?;
         for tried in &mut best.plans {
             tried.plan.base_parameters = false;
             tried.cost = cost(graph, geometry, method, &tried.plan);

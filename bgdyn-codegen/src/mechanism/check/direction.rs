@@ -1,4 +1,4 @@
-//! Rotations and axes: quarter turns and axes are made exact, so that structural zeros are seen.
+//! Checks rotations and axes, and snaps them to exact quarter turns and axes.
 //!
 //! Exact means: sines and cosines that are 0 or ±1, components that are 0.
 
@@ -93,7 +93,7 @@ impl Directions {
             Field::Given(origin) => &origin.value,
         };
         let rotation = self.rotation(&origin.rpy, faults);
-        let translation = super::vector_or(&origin.xyz, Vec3([Dd::ZERO; 3]));
+        let translation = vector_or(&origin.xyz, Vec3([Dd::ZERO; 3]));
         Some(Pose {
             rotation: rotation?,
             translation: translation?,
@@ -119,7 +119,7 @@ impl Directions {
             ));
             return None;
         }
-        let turns = super::fixed(&angles.value).map(|angle| Turn::new(angle, self.snap));
+        let turns = fixed(&angles.value).map(|angle| Turn::new(angle, self.snap));
         self.warn_of_turns(angles, turns.0, faults);
         let [roll, pitch, yaw] = turns.0;
         let turned = yaw.about(2) * pitch.about(1) * roll.about(0);
@@ -154,7 +154,7 @@ impl Directions {
 
     /// The unit vector of an axis.
     pub(super) fn axis(&self, axis: &Located<Vector>, faults: &mut Faults) -> Option<Vec3<Dd>> {
-        let given = super::fixed(&axis.value);
+        let given = fixed(&axis.value);
         let largest = given.0.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
         if largest == 0.0 {
             faults.push(wording::zero_axis(&axis.place));
@@ -285,4 +285,18 @@ impl Turn {
         (r.0[i][j], r.0[j][i]) = (-self.sin, self.sin);
         r
     }
+}
+
+/// The vector of a field, or the default where the field is absent.
+pub(super) fn vector_or(field: &Field<Vector>, default: Vec3<Dd>) -> Option<Vec3<Dd>> {
+    match field {
+        Field::Absent => Some(default),
+        Field::Broken => None,
+        Field::Given(vector) => Some(fixed(&vector.value)),
+    }
+}
+
+/// Three numbers where no run-time parameter can stand.
+fn fixed(vector: &Vector) -> Vec3<Dd> {
+    Vec3(vector.each_ref().map(|number| number.value.value))
 }

@@ -1,5 +1,7 @@
-//! Inertia tensors: as entries, products or a solid; about the centre of mass; positive semidefinite,
-//! triangle inequality, turned into link axes.
+//! Checks inertia tensors and converts them to the centre of mass and to link axes.
+//!
+//! A tensor is written as entries, products or a solid. It must be positive semidefinite and satisfy
+//! the triangle inequality.
 
 use bgdyn_runtime::Dd;
 use bgdyn_runtime::nalgebra::Matrix3;

@@ -1,4 +1,4 @@
-//! Joints: type, axis, origin, limits.
+//! Checks joints: type, axis, origin, limits.
 
 use bgdyn_runtime::Dd;
 

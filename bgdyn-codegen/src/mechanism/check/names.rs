@@ -1,4 +1,4 @@
-//! Names: identifiers, unique, the mechanism's equal to its file's.
+//! Checks names: they are unique identifiers, and the mechanism is named as its file.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Who carries whom: parents by name, no circles, parents before children.
+//! Checks the tree of links and sorts them, parents before children.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Run-time parameters: names that can be fields, and one value behind each name.
+//! Checks run-time parameters: their names are valid fields, and each has one value.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! Solids of even density: their tensors about their centres, from dimensions and mass.
+//! Inertia tensors of homogeneous solids about their centres, from dimensions and mass.
 
 use bgdyn_runtime::Dd;
 

@@ -1,4 +1,4 @@
-//! Rotation about an axis without position limits; the coordinate is the angle.
+//! The continuous joint: rotation about an axis without position limits.
 
 use super::{JointType, Motion};
 

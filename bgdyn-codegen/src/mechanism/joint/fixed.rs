@@ -1,4 +1,4 @@
-//! No motion: the link is welded to its parent.
+//! The fixed joint: the link is welded to its parent.
 
 use super::{JointType, Motion};
 

@@ -1,4 +1,4 @@
-//! Translation along an axis.
+//! The prismatic joint: translation along an axis.
 
 use super::{JointType, Motion};
 

@@ -1,4 +1,4 @@
-//! Rotation about an axis, between position limits if the spec states them.
+//! The revolute joint: rotation about an axis, between position limits if the spec has them.
 
 use super::{JointType, Motion};
 

@@ -1,15 +1,14 @@
-//! The effects called for.
+//! Checks the effects that a scene uses.
 
 use super::super::causality::chains;
-use super::given;
 use crate::declaration::{
     Beside, Chain, Context, Declared, Element, Kinds, Refused, called, check_unique_names,
     once_per_joint,
 };
-use crate::fault::{Fault, Faults};
+use crate::fault::{Faults, wording};
 use crate::machine::Machine;
 use crate::mechanism::Mechanism;
-use crate::spec::{Raw, SceneSpec};
+use crate::spec::{Field, Raw, SceneSpec};
 
 /// The effects called for.
 pub(super) struct Called {
@@ -100,9 +99,7 @@ fn wanted(
         for declared in each {
             let name = &declared.name.value;
             if wanted.iter().any(|w| w.name.value == *name) {
-                let message = format!("the effect `{name}` is called for twice");
-                let fault = Fault::new(&raw.name.place, "repeated-effect", message);
-                faults.push(fault.with_help("leave one of them out"));
+                faults.push(wording::effect_listed_twice(&raw.name.place, name));
                 continue;
             }
             wanted.push(declared);
@@ -117,4 +114,9 @@ pub(super) fn reduced(mut mechanism: Mechanism, elements: &[Element]) -> Mechani
         element.effect.reduce(element, &mut mechanism);
     }
     mechanism
+}
+
+/// The entries of a list; none where it is missing or broken.
+pub(super) fn given(field: &Field<Vec<Raw>>) -> &[Raw] {
+    field.value().map_or(&[], Vec::as_slice)
 }

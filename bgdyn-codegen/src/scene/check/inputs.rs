@@ -1,8 +1,8 @@
-//! The inputs, and what drives them.
+//! Checks the inputs of a scene and what drives each of them.
 
 use super::super::signal::{self, Drive};
 use crate::declaration::Refused;
-use crate::fault::{Fault, Faults, unknown_name};
+use crate::fault::{Faults, wording};
 use crate::layout::{Coordinate, Layout};
 use crate::spec::Raw;
 
@@ -36,10 +36,7 @@ pub(super) fn drives(
                 .into_iter()
                 .chain(efforts.map(|c| c.name.as_str()))
                 .collect();
-            let message = unknown_name("input", name, &all, &all.join(", "));
-            let fault = Fault::new(&raw.name.place, "unknown-input", message);
-            let fault =
-                fault.with_help("inputs are efforts of joints and what the effects declare");
+            let fault = wording::unknown_input(&raw.name.place, name, &all);
             faults.push(match refused.may_bring(name) {
                 true => fault.following(),
                 false => fault,

@@ -1,5 +1,4 @@
-//! The one step that makes a [`Scene`]: a scene's file that obeys every rule, or all that breaks
-//! one.
+//! The check of a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod effects;
 mod inputs;
@@ -12,12 +11,12 @@ use bgdyn_runtime::Dd;
 use super::reduce::held;
 use super::{Initial, Scene, Written};
 use crate::declaration::{Kinds, Refused};
-use crate::fault::{Fault, Faults, Place, unknown_name, wording};
+use crate::fault::{Faults, Place, wording};
 use crate::layout::Layout;
 use crate::machine::Machine;
-use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
+use crate::mechanism::{LinkId, Mechanism, Pose};
 use crate::name::is_identifier;
-use crate::spec::{Dimension, Field, Located, Raw, SceneSpec};
+use crate::spec::{Field, Located, SceneSpec};
 
 /// The only version of the format there is.
 const VERSION: f64 = 1.0;
@@ -104,14 +103,14 @@ fn scene(
         parameters: Vec::new(),
         drives: Vec::new(),
         initial: Initial::default(),
-        outputs: given(&spec.outputs)
+        outputs: effects::given(&spec.outputs)
             .iter()
             .map(|o| o.name.clone())
             .collect(),
         integration,
         written: Written {
-            inputs: given(&spec.inputs).to_vec(),
-            initial: given(&spec.initial).to_vec(),
+            inputs: effects::given(&spec.inputs).to_vec(),
+            initial: effects::given(&spec.initial).to_vec(),
             unloaded,
             modes: None,
         },
@@ -139,9 +138,7 @@ pub(in crate::scene) fn assembled(scene: Scene, refused: &Refused, faults: &mut 
     // Names of effects that repeat were told already.
     let told = faults.0.iter().any(|f| f.rule == "repeated-name");
     if let Some(name) = layout.repeated().filter(|_| !told) {
-        let message = format!("`{name}` is the name of two parts of the state, or of two inputs");
-        let fault = Fault::new(&Place::file(), "repeated-name", message);
-        faults.push(fault.with_help("give one of the effects or inputs another name"));
+        faults.push(wording::repeated_state_or_input(&Place::file(), name));
     }
     Scene {
         parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
@@ -152,17 +149,12 @@ pub(in crate::scene) fn assembled(scene: Scene, refused: &Refused, faults: &mut 
     }
 }
 
-fn given(field: &Field<Vec<Raw>>) -> &[Raw] {
-    field.value().map_or(&[], Vec::as_slice)
-}
-
 fn version(spec: &SceneSpec, faults: &mut Faults) {
     if let Some(version) = spec.version.given()
         && version.value.value != Dd::from_f64(VERSION)
     {
-        let message = format!("there is no version {} of the format", version.value.text);
-        let fault = Fault::new(&version.place, "version", message);
-        faults.push(fault.with_help("write `scene: 1`"));
+        let text = &version.value.text;
+        faults.push(wording::unknown_scene_version(&version.place, text));
     }
 }
 
@@ -196,7 +188,7 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
 /// The joints that stand still, with the pose in which they hold their links.
 fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Pose)> {
     let mut locked = Vec::new();
-    for raw in given(&spec.lock) {
+    for raw in effects::given(&spec.lock) {
         let name = &raw.name.value;
         let joints = mechanism.coordinates().iter();
         let found = joints
@@ -204,25 +196,14 @@ fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(L
             .find(|l| mechanism.links()[l.0].joint.name == *name);
         let Some(link) = found else {
             let known: Vec<&str> = mechanism.joint_names();
-            let message = unknown_name("moving joint", name, &known, &known.join(", "));
-            let fault = Fault::new(&raw.name.place, "unknown-name", message);
-            faults
-                .push(fault.with_help("`lock` holds joints at their coordinates: `wrist: 30 deg`"));
+            faults.push(wording::unknown_locked_joint(&raw.name.place, name, &known));
             continue;
         };
         let joint = &mechanism.links()[link.0].joint;
-        let [position, ..] = dimensions(joint.kind.motion);
+        let [position, ..] = state::dimensions(joint.kind.motion);
         if let Some(at) = raw.number(&[position], faults) {
             locked.push((link, held(joint, at.value.value)));
         }
     }
     locked
-}
-
-/// What position, velocity and effort of a joint measure.
-fn dimensions(motion: Motion) -> [Dimension; 3] {
-    match motion {
-        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
-        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
-    }
 }

@@ -1,8 +1,8 @@
-//! The names of outputs, where the effects are not sound: what they report is not known then.
+//! Checks the names of outputs in a scene whose effects are refused.
 
 use super::super::Scene;
 use crate::declaration::Refused;
-use crate::fault::{Fault, Faults, unknown_name};
+use crate::fault::{Faults, wording};
 
 /// Notes the outputs that are no parts of the state, no places, and nothing that an effect may report.
 pub(super) fn names(scene: &Scene, refused: &Refused, faults: &mut Faults) {
@@ -21,10 +21,6 @@ pub(super) fn names(scene: &Scene, refused: &Refused, faults: &mut Faults) {
         if known.contains(&name) || reported || refused.may_bring(name) {
             continue;
         }
-        let message = unknown_name("output", name, &known, &known.join(", "));
-        let fault = Fault::new(&output.place, "unknown-output", message);
-        faults.push(
-            fault.with_help("outputs are parts of the state, places and what effects report"),
-        );
+        faults.push(wording::unknown_output(&output.place, name, &known));
     }
 }

@@ -1,9 +1,9 @@
-//! How the scene is run.
+//! Checks a scene's settings of integration: method, step or tolerance, end.
 
 use bgdyn_runtime::Dd;
 
 use super::super::{Integration, Integrator, Pace};
-use crate::fault::{Fault, Faults, Place, unknown_name};
+use crate::fault::{Fault, Faults, Place, wording};
 use crate::spec::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
 
 /// Step and length of a run whose scene says nothing of them, s.
@@ -82,18 +82,11 @@ fn misplaced(method: Integrator, stepped: bool, place: &Place) -> Option<Fault> 
     let choosing = Integrator::ALL.into_iter();
     let choosing = choosing.filter(|m| m.controls_its_error());
     let choosing: Vec<&str> = choosing.map(Integrator::name).collect();
-    let (message, help) = match (method.controls_its_error(), stepped) {
-        (false, _) => (
-            format!("`{name}` takes steps of one length: it has no `tolerance`"),
-            format!("write `step: 1 ms`, or take one of {}", choosing.join(", ")),
-        ),
-        (true, true) => (
-            format!("`{name}` goes by a `step` or by a `tolerance`, not by both"),
-            "leave one of them out".to_owned(),
-        ),
-        (true, false) => return None,
-    };
-    Some(Fault::new(place, "integration", message).with_help(help))
+    match (method.controls_its_error(), stepped) {
+        (false, _) => Some(wording::no_step_control(place, name, &choosing)),
+        (true, true) => Some(wording::step_and_tolerance(place, name)),
+        (true, false) => None,
+    }
 }
 
 /// The number behind a key and its place; one that is not positive is a fault.
@@ -111,14 +104,8 @@ fn positive<'a>(
         return None;
     };
     if number.value <= Dd::ZERO {
-        let message = format!("`{key}` is {}: it must be greater than 0", number.text);
-        let rule = if key == "tolerance" {
-            "integration"
-        } else {
-            "time"
-        };
-        let fault = Fault::new(place, rule, message);
-        faults.push(fault.with_help(format!("write {example}")));
+        let text = &number.text;
+        faults.push(wording::integration_not_positive(place, key, text, example));
     }
     Some((number.value.to_f64(), place))
 }
@@ -135,9 +122,7 @@ fn method(fields: &Fields, faults: &mut Faults) -> Option<Integrator> {
     let found = Integrator::named(word);
     if found.is_none() {
         let known = Integrator::ALL.map(Integrator::name);
-        let message = unknown_name("integration method", word, &known, &known.join(", "));
-        let fault = Fault::new(place, "unknown-name", message);
-        faults.push(fault.with_help("leave `method` out for `rk4`"));
+        faults.push(wording::unknown_integrator(place, word, &known));
     }
     found
 }

@@ -1,15 +1,14 @@
-//! What the state is made of, and where the run begins.
+//! Builds the layout of a scene's state, and checks its parameters and initial values.
 
 use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
 use super::super::Initial;
-use super::dimensions;
 use crate::declaration::{Element, Refused};
-use crate::fault::{Fault, Faults, unknown_name};
+use crate::fault::{Faults, wording};
 use crate::layout::{Coordinate, Layout, Store};
-use crate::mechanism::{CoordinateId, Mechanism, Parameter};
+use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
 use crate::spec::{Dimension, Raw};
 
 /// What the state is made of: the joints, then what the effects add.
@@ -54,9 +53,9 @@ pub(super) fn parameters(
             let unit = quantity.dimension.si();
             match all.iter_mut().find(|p| p.name == *name) {
                 Some(known) if known.default != quantity.value || known.unit != unit => {
-                    let message = format!("the parameter `{name}` has two values");
-                    let fault = Fault::new(&quantity.place, "parameter-twice", message);
-                    faults.push(fault.with_help("give one of them another name"));
+                    let first = (known.default.to_f64(), known.unit);
+                    let values = [first, (quantity.value.to_f64(), unit)];
+                    faults.push(wording::parameter_twice(&quantity.place, name, values));
                 }
                 // A payload's is the mechanism's already.
                 Some(known) if known.meaning == meaning => {}
@@ -105,9 +104,7 @@ pub(super) fn initial(
         let name = &raw.name.value;
         let Some(&(kind, i, dimension)) = places.get(name) else {
             let known: Vec<&str> = places.keys().map(String::as_str).collect();
-            let message = unknown_name("part of the state", name, &known, &known.join(", "));
-            let fault = Fault::new(&raw.name.place, "unknown-name", message);
-            let fault = fault.with_help("joints by their names, rates as `shoulder_rate`");
+            let fault = wording::unknown_initial(&raw.name.place, name, &known);
             faults.push(match refused.may_bring(name) {
                 true => fault.following(),
                 false => fault,
@@ -121,11 +118,13 @@ pub(super) fn initial(
             if let Some(entered) = entered.and_then(|part| part.entered)
                 && value < entered.least
             {
-                let (text, least) = (&number.value.text, entered.least.to_f64());
-                let unit = entered.dimension.si();
-                let message = format!("`{name}` begins with {text}, less than {least} {unit}");
-                let fault = Fault::new(&number.place, "initial", message);
-                faults.push(fault.with_help(entered.way_out));
+                let least = format!("{} {}", entered.least.to_f64(), entered.dimension.si());
+                faults.push(wording::initial_below_least(
+                    &number.place,
+                    name,
+                    (&number.value.text, &least),
+                    entered.way_out,
+                ));
             }
             match kind {
                 0 => initial.q[i] = value,
@@ -150,4 +149,12 @@ pub(super) fn initial(
         }
     }
     initial
+}
+
+/// What position, velocity and effort of a joint measure.
+pub(super) fn dimensions(motion: Motion) -> [Dimension; 3] {
+    match motion {
+        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
+        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
+    }
 }

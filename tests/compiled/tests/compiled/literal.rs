@@ -1,7 +1,7 @@
 //! Compiled code in `f64` is equation (6), evaluated term by term in double-double: to 1e-15 of a
 //! size that no term exceeds.
 
-use bgdyn_codegen::formulation::{self, Search};
+use bgdyn_codegen::formulation::{self, Prepared};
 use bgdyn_codegen::method::Shape;
 use bgdyn_runtime::Dd;
 use compiled::Compiled;
@@ -24,14 +24,14 @@ fn is_equation_six(compiled: &dyn Compiled<f64>) -> bool {
     if robot.nv() > JOINTS {
         return false;
     }
-    let search = Search::new(&robot.graph, None);
+    let prepared = Prepared::new(&robot.graph);
     let mut rng = Rng::new(6);
     let states: Vec<State> = (0..STATES)
         .map(|_| State::random(&mut rng, &robot.motions()))
         .collect();
     for (number, function) in generated(compiled).functions.iter().enumerate() {
         let (method, shape) = (function.method, function.shape());
-        let Some(wanted) = literal.function(&search, method) else {
+        let Some(wanted) = literal.function(&prepared, method) else {
             continue; // derived from the others
         };
         if shape.checked() {

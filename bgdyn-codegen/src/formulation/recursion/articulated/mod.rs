@@ -19,15 +19,20 @@ mod sweep;
 
 use super::frames::Frames;
 use super::geometry::Geometry;
+use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use super::plan::Plan;
-use super::{inverse_dynamics, plan_search};
-use crate::bond_graph::BondGraph;
+use super::plan_search::{self, Best, SEARCHED};
+use super::plans::cheapest_plans;
+use super::{expressions, inverse_dynamics};
+use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Cost, Expr, Graph};
-use crate::formulation::conditioning::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
-use crate::formulation::{Arguments, Formulation, Search};
+use crate::formulation::arguments::Arguments;
+use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
 use sweep::Sweep;
+
+const METHOD: Method = Method::ForwardDynamics;
 
 /// Forward dynamics by articulated bodies.
 pub(in crate::formulation) enum Articulated {
@@ -56,16 +61,37 @@ impl Formulation for Articulated {
         method.shape().checked()
     }
 
-    fn function(&self, search: &Search<'_>, method: Method) -> Option<Function> {
-        // A rotor that turns with its carrier couples joints beside their bodies.
-        let coupled = search.graph.rotors.iter().any(|r| r.carrier.is_some());
-        if method != Method::ForwardDynamics || coupled {
+    /// - Where a joint's own inertia ratio is below [`MIN_INERTIA_RATIO`], `articulated` at any cost: no
+    ///   sample of states could show that another formulation keeps the digits of that joint's pivot.
+    /// - `articulated_base` in place of the recursion where it takes fewer operations than the
+    ///   elimination of a long chain's M alone; as a candidate where it is cheaper under the plan that
+    ///   suits the recursion. A plan that suits one suits the other but for a few operations, so that this
+    ///   tells whether a search for its own plan is worth its time.
+    /// - Else both wait: `articulated_base` as a reserve, `articulated` as the last resort.
+    fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
+        let (graph, geometry) = (prepared.graph, prepared.geometry());
+        if !makes(graph, method) {
+            return Offer::Never;
+        }
+        let ratios = own_inertia_ratios(graph, geometry);
+        let light = ratios.iter().position(|&ratio| ratio < MIN_INERTIA_RATIO);
+        match (self, light) {
+            (Articulated::Own, Some(j)) => {
+                let link = &geometry.bodies[j].name;
+                Offer::Instead(Some(format!("{link} has next to no inertia of its own")))
+            }
+            (Articulated::Own, None) => Offer::LastResort,
+            (Articulated::Base, Some(_)) => Offer::Never,
+            (Articulated::Base, None) => self.offer_beside_recursion(prepared),
+        }
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let (graph, geometry) = (prepared.graph, prepared.geometry());
+        if !makes(graph, method) {
             return None;
         }
-        let graph = search.graph;
-        let geometry = search.recursion.geometry(graph);
-        let cost = |plan: &Plan| self.cost(graph, geometry, plan);
-        let found = plan_search::search(geometry, cost);
+        let found = self.search(prepared);
         let best = found.taken();
         // A pivot is never less than the own inertia of its joint.
         let guarded: Vec<bool> = own_inertia_ratios(graph, geometry)
@@ -86,9 +112,46 @@ impl Formulation for Articulated {
     }
 }
 
+/// Whether articulated bodies make the method. A rotor that turns with its carrier couples joints
+/// beside their bodies.
+fn makes(graph: &Multibody, method: Method) -> bool {
+    method == METHOD && graph.rotors.iter().all(|r| r.carrier.is_none())
+}
+
+/// Operations that the elimination of M takes alone: each joint's row is subtracted from those of the
+/// joints that carry it.
+fn elimination(geometry: &Geometry) -> usize {
+    let mut depths: Vec<usize> = Vec::new();
+    for parent in geometry.parents() {
+        depths.push(parent.map_or(0, |p| depths[p] + 1));
+    }
+    depths.iter().map(|d| d * (d + 1)).sum()
+}
+
 impl Articulated {
+    fn search(&self, prepared: &Prepared<'_>) -> Best {
+        let (graph, geometry) = (prepared.graph, prepared.geometry());
+        plan_search::search(geometry, |plan| self.cost(graph, geometry, plan))
+    }
+
+    fn offer_beside_recursion(&self, prepared: &Prepared<'_>) -> Offer {
+        let (graph, geometry) = (prepared.graph, prepared.geometry());
+        let long = geometry.bodies.len() > SEARCHED;
+        if long && self.search(prepared).cost().operations.total() < elimination(geometry) {
+            return Offer::Instead(None);
+        }
+        let best = cheapest_plans(prepared, METHOD);
+        let (made, outputs) =
+            expressions::outputs(Builder::silent(), graph, geometry, METHOD, best.taken());
+        let recursion = expr::cost(&made, &outputs).weighted();
+        match self.cost(graph, geometry, best.taken()).weighted() < recursion {
+            true => Offer::Candidate,
+            false => Offer::Reserve,
+        }
+    }
+
     /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
-    pub(super) fn cost(&self, graph: &BondGraph, geometry: &Geometry, plan: &Plan) -> Cost {
+    fn cost(&self, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Cost {
         let unguarded = vec![false; geometry.bodies.len()];
         let (graph, outputs) = self.outputs(Builder::silent(), graph, geometry, plan, &unguarded);
         expr::cost(&graph, &outputs).unfinished()
@@ -98,7 +161,7 @@ impl Articulated {
     fn outputs(
         &self,
         b: Builder,
-        graph: &BondGraph,
+        graph: &Multibody,
         geometry: &Geometry,
         plan: &Plan,
         guarded: &[bool],

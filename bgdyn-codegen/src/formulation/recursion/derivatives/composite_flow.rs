@@ -8,6 +8,7 @@ use crate::formulation::recursion::frames::Frame;
 use crate::formulation::recursion::inertia::{Inertia, turn};
 use crate::formulation::recursion::inverse_dynamics::Wrench;
 use crate::formulation::recursion::mass_matrix::Momentum;
+use crate::formulation::recursion::rotors::FullRotor;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -39,6 +40,16 @@ impl<'g> CompositeFlow<'g> {
             flow: self.flow.plus(&other.flow),
             rest: self.rest.plus(other.rest),
         }
+    }
+
+    /// Adds a rotor on the body, in the body's own axes. Seen from the body, its momentum H is a flow of
+    /// mass in place: its E is −[H]× (times `factor` / 2), as the moment ω × H must be E ω.
+    pub fn add_rotor(&mut self, b: &'g Builder, rotor: &FullRotor<'g>, factor: Dd) {
+        let half = factor * Dd::from_f64(0.5);
+        let [x, y, z] = rotor.momentum().map(|x| x * half).0;
+        let moment = Mat3([[b.zero(), z, -y], [-z, b.zero(), x], [y, -x, b.zero()]]);
+        self.flow.moment = self.flow.moment + moment;
+        self.rest.moment = self.rest.moment + rotor.momentum_rate();
     }
 
     /// Turned by Rz.

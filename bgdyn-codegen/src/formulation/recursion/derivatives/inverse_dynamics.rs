@@ -98,10 +98,13 @@ fn pass<'g>(
             view: views[j],
         };
         let axis = place.axis_of_body();
-        own[j]
-            .beyond
-            .extend(frames.rotors.seen(b, frames, j, &axis));
-        frames.rotors.add_flow(b, j, factor, &mut own[j].whole);
+        for rotor in frames.rotors.on(j) {
+            let seen = OutboardJoint::of_rotor(b, rotor.joint, rotor.unit_momentum(), &axis);
+            own[j].beyond.push(seen);
+        }
+        for rotor in frames.rotors.on(j) {
+            own[j].whole.add_rotor(b, rotor, factor);
+        }
         let mut beyond = derivatives.enter_beyond(&place, frames, &own[j], &basis[j]);
         let partials = JointPartials::new(&place, &own[j], &basis[j]);
         let diagonal = partials.joint.diagonal(frame);

@@ -3,14 +3,14 @@
 //! Where this ratio is next to zero, the joint's pivot in the forward dynamics is a small rest of
 //! large terms, or nothing but rounding error.
 
-use crate::bond_graph::BondGraph;
-use crate::formulation::recursion::geometry::{Body, Geometry};
+use super::geometry::{Body, Geometry};
+use crate::bond_graph::Multibody;
 use crate::mechanism::{LinkId, Motion, Pose, Value};
 
 /// The least ratio that is safe: with less, elimination could lose half the digits of `f64`, and all of
 /// those of `f32`, so that a pivot's check has to know how large its rounding error is. Chains of a
 /// hundred like links are above it, a load of a million times a link's mass below.
-pub(in crate::formulation) const MIN_INERTIA_RATIO: f64 = 1e-7;
+pub(super) const MIN_INERTIA_RATIO: f64 = 1e-7;
 
 /// Travel of a prismatic joint that its spec leaves open, m.
 const TRAVEL: f64 = 1.0;
@@ -18,10 +18,7 @@ const TRAVEL: f64 = 1.0;
 /// For each joint, its own body's inertia about the axis (its mass along it) over a bound for that
 /// of everything beyond the joint, in any position. A pivot lies between the two. Run-time
 /// parameters count with their default.
-pub(in crate::formulation) fn own_inertia_ratios(
-    graph: &BondGraph,
-    geometry: &Geometry,
-) -> Vec<f64> {
+pub(super) fn own_inertia_ratios(graph: &Multibody, geometry: &Geometry) -> Vec<f64> {
     let bodies = &geometry.bodies;
     let lumps: Vec<LumpedBody> = bodies
         .iter()
@@ -69,7 +66,7 @@ struct LumpedBody {
 }
 
 impl LumpedBody {
-    fn new(graph: &BondGraph, body: &Body) -> Self {
+    fn new(graph: &Multibody, body: &Body) -> Self {
         let mut sum = LumpedBody::default();
         for (link, place) in &body.links {
             sum.add(graph, body, *link, place);
@@ -77,7 +74,7 @@ impl LumpedBody {
         sum
     }
 
-    fn add(&mut self, graph: &BondGraph, body: &Body, link: LinkId, place: &Pose) {
+    fn add(&mut self, graph: &Multibody, body: &Body, link: LinkId, place: &Pose) {
         let inertial = graph.inertial(link);
         let number = |x: Value| match x {
             Value::Fixed(x) => x,

@@ -1,15 +1,13 @@
-//! No circles of imports between the files of a crate.
+//! The imports between the files of a crate, read from their text.
 //!
-//! A file that uses another stands above it: what is read first never needs what is read later. A name
-//! that a module only passes on (`pub use`) counts as the file that defines it; `mod` declarations and
-//! code under `#[cfg(test)]` do not count. Methods called on a value leave no path and are not seen.
+//! A name that a module only passes on (`pub use`) counts as the file that defines it; `mod` declarations
+//! and code under `#[cfg(test)]` do not count. Methods called on a value leave no path and are not seen.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The crates whose files are held to it, by their folders.
-const CRATES: &[&str] = &["bgdyn-accuracy", "bgdyn-cli", "bgdyn-runtime", "bgdyn-sim"];
+use crate::words::code;
 
 /// Where a name of a module leads: to its file, or to another path.
 type Names = BTreeMap<String, Vec<String>>;
@@ -27,38 +25,10 @@ struct Module {
 type Modules = BTreeMap<Vec<String>, Module>;
 
 /// What a file takes from others: names by file.
-type Imports = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
-
-#[test]
-fn files_of_a_crate_import_each_other_in_one_direction() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut found = String::new();
-    for name in CRATES {
-        let source = root.join(name).join("src");
-        let imports = imports(&source);
-        assert!(imports.len() > 5, "{name}: no files are found");
-        for circle in circles(&imports) {
-            found += &description(name, &imports, &circle);
-        }
-    }
-    assert!(found.is_empty(), "circles of imports:\n{found}");
-}
-
-/// A circle, one line for each import in it.
-fn description(name: &str, imports: &Imports, circle: &BTreeSet<PathBuf>) -> String {
-    let mut text = format!("{name}: {} files\n", circle.len());
-    for file in circle {
-        for (other, names) in imports[file].iter().filter(|(o, _)| circle.contains(*o)) {
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            let (file, other) = (file.display(), other.display());
-            text += &format!("  {file} -> {other}: {}\n", names.join(", "));
-        }
-    }
-    text
-}
+pub type Imports = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
 /// Which file of a crate takes what from which.
-fn imports(source: &Path) -> Imports {
+pub fn imports(source: &Path) -> Imports {
     let modules = modules(source);
     let mut imports = Imports::new();
     for module in modules.values() {
@@ -145,96 +115,6 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The words and signs of a file, without comments, texts and what is under `#[cfg(test)]`.
-fn code(text: &str) -> Vec<String> {
-    without_tests(words(text))
-}
-
-/// Words and signs: `::` is one sign; comments and texts are left out.
-fn words(text: &str) -> Vec<String> {
-    let c: Vec<char> = text.chars().collect();
-    let at = |i: usize| c.get(i).copied().unwrap_or('\0');
-    let (mut words, mut i) = (Vec::new(), 0);
-    while i < c.len() {
-        let raw =
-            c[i] == 'r' && (at(i + 1) == '"' || (at(i + 1) == '#' && "#\"".contains(at(i + 2))));
-        if c[i] == '/' && at(i + 1) == '/' {
-            while i < c.len() && c[i] != '\n' {
-                i += 1;
-            }
-        } else if c[i] == '/' && at(i + 1) == '*' {
-            i += 2;
-            while i < c.len() && !(c[i] == '*' && at(i + 1) == '/') {
-                i += 1;
-            }
-            i += 2;
-        } else if raw {
-            let hashes = (i + 1..).take_while(|&k| at(k) == '#').count();
-            i += hashes + 2;
-            let ends = |i: usize| at(i) == '"' && (1..=hashes).all(|k| at(i + k) == '#');
-            while i < c.len() && !ends(i) {
-                i += 1;
-            }
-            i += hashes + 1;
-        } else if c[i] == '"' {
-            i += 1;
-            while i < c.len() && c[i] != '"' {
-                i += if c[i] == '\\' { 2 } else { 1 };
-            }
-            i += 1;
-        } else if c[i] == '\'' && (at(i + 1) == '\\' || at(i + 2) == '\'') {
-            // A character; else a lifetime.
-            i += if at(i + 1) == '\\' { 3 } else { 2 };
-            while i < c.len() && c[i] != '\'' {
-                i += 1;
-            }
-            i += 1;
-        } else if c[i].is_alphanumeric() || c[i] == '_' {
-            let start = i;
-            while i < c.len() && (c[i].is_alphanumeric() || c[i] == '_') {
-                i += 1;
-            }
-            words.push(c[start..i].iter().collect());
-        } else if c[i] == ':' && at(i + 1) == ':' {
-            words.push("::".into());
-            i += 2;
-        } else {
-            if !c[i].is_whitespace() {
-                words.push(c[i].to_string());
-            }
-            i += 1;
-        }
-    }
-    words
-}
-
-/// Without each item that follows `#[cfg(test)]`: up to its `;` or its last brace.
-fn without_tests(words: Vec<String>) -> Vec<String> {
-    let mark = ["#", "[", "cfg", "(", "test", ")", "]"];
-    let (mut left, mut i) = (Vec::new(), 0);
-    while i < words.len() {
-        if !words[i..].iter().take(mark.len()).eq(mark.iter()) {
-            left.push(words[i].clone());
-            i += 1;
-            continue;
-        }
-        let mut depth = 0;
-        while i < words.len() {
-            match words[i].as_str() {
-                "{" => depth += 1,
-                "}" => depth -= 1,
-                _ => {}
-            }
-            let ends = words[i] == "}" || words[i] == ";";
-            i += 1;
-            if ends && depth == 0 {
-                break;
-            }
-        }
-    }
-    left
-}
-
 /// The names that a module passes on, and the paths that it uses, from the root of the crate.
 fn paths_of(
     code: &[String],
@@ -243,6 +123,8 @@ fn paths_of(
 ) -> (Names, BTreeSet<Vec<String>>) {
     let (mut passed_on, mut used) = (Names::new(), BTreeSet::new());
     let mut imported = Names::new();
+    // The words of the module's own code: all but its imports.
+    let mut words = BTreeSet::new();
     let mut i = 0;
     while i < code.len() {
         let starts = i == 0 || code[i - 1] != "::";
@@ -261,6 +143,12 @@ fn paths_of(
                 }
             }
             continue;
+        }
+        let before = i.checked_sub(1).map_or("", |i| code[i].as_str());
+        let after = code.get(i + 1).map_or("", String::as_str);
+        // No name of a module, a function or a field that is declared here, and no method.
+        if !matches!(before, "mod" | "fn" | "." | "::") && after != ":" {
+            words.insert(code[i].as_str());
         }
         let is_path = code.get(i + 1).is_some_and(|next| next == "::");
         if starts && is_path {
@@ -281,6 +169,12 @@ fn paths_of(
             }
         }
         i += 1;
+    }
+    // What a module passes on and uses itself, it imports as well.
+    for (name, path) in &passed_on {
+        if words.contains(name.as_str()) && !path.is_empty() {
+            used.insert(path.clone());
+        }
     }
     // The name of a module is no import of its own: the path after it is one, if there is any.
     let bare = |path: &Vec<String>| {
@@ -356,95 +250,4 @@ fn absolute(
     }
     place.extend(rest.iter().cloned());
     Some(place)
-}
-
-/// The files that reach each other by imports, in sets of more than one.
-fn circles(imports: &Imports) -> Vec<BTreeSet<PathBuf>> {
-    let reached = |from: &PathBuf| {
-        let mut reached = BTreeSet::new();
-        let mut open = vec![from];
-        while let Some(file) = open.pop() {
-            for next in imports.get(file).into_iter().flat_map(BTreeMap::keys) {
-                if reached.insert(next.clone()) {
-                    open.push(next);
-                }
-            }
-        }
-        reached
-    };
-    let all: BTreeMap<&PathBuf, BTreeSet<PathBuf>> =
-        imports.keys().map(|file| (file, reached(file))).collect();
-    let mut circles: Vec<BTreeSet<PathBuf>> = Vec::new();
-    for (file, reached) in &all {
-        let back = |other: &&PathBuf| all.get(other).is_some_and(|r| r.contains(*file));
-        let circle: BTreeSet<PathBuf> = reached.iter().filter(back).cloned().collect();
-        if circle.len() > 1 && !circles.contains(&circle) {
-            circles.push(circle);
-        }
-    }
-    circles
-}
-
-/// Writes a small crate to a folder and gives its circles, as names of files.
-fn circles_of(name: &str, files: &[(&str, &str)]) -> Vec<Vec<String>> {
-    let folder = std::env::temp_dir().join(format!("import_circles_{name}_{}", std::process::id()));
-    for (file, text) in files {
-        let path = folder.join(file);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("a new folder");
-        fs::write(path, text).expect("a new file");
-    }
-    let found = circles(&imports(&folder));
-    fs::remove_dir_all(&folder).expect("a folder of this test");
-    let names = |circle: BTreeSet<PathBuf>| {
-        let name = |path: PathBuf| path.to_string_lossy().replace('\\', "/");
-        circle.into_iter().map(name).collect()
-    };
-    found.into_iter().map(names).collect()
-}
-
-#[test]
-fn a_circle_through_a_name_that_a_module_passes_on_is_found() {
-    let files = [
-        ("lib.rs", "mod a; mod b; mod c; pub use c::C;"),
-        ("a.rs", "use crate::b::{self, B}; pub fn a() { b::f(); }"),
-        ("b/mod.rs", "mod inner; pub use inner::B; pub fn f() {}"),
-        ("b/inner.rs", "use crate::C; pub struct B(C);"),
-        ("c.rs", "pub struct C; fn c() { let _ = crate::a::a; }"),
-    ];
-    assert_eq!(
-        circles_of("passed_on", &files),
-        [["a.rs", "b/inner.rs", "c.rs"]]
-    );
-}
-
-#[test]
-fn a_child_that_uses_what_its_parent_defines_is_found() {
-    let files = [
-        ("lib.rs", "mod parent;"),
-        (
-            "parent/mod.rs",
-            "mod child; pub struct P; pub fn f() { child::g() }",
-        ),
-        ("parent/child.rs", "use super::P; pub fn g() {}"),
-    ];
-    let wanted = [["parent/child.rs", "parent/mod.rs"]];
-    assert_eq!(circles_of("parent", &files), wanted);
-}
-
-#[test]
-fn tests_comments_texts_and_declarations_are_no_imports() {
-    let files = [
-        ("lib.rs", "mod parent;"),
-        (
-            "parent/mod.rs",
-            "mod child; pub use child::g; // crate::parent::child::g\n pub struct P;",
-        ),
-        (
-            "parent/child.rs",
-            "use super::P; pub fn g() -> &'static str { \"crate::x\" }\n\
-             #[cfg(test)] mod tests { use super::super::other::x; }",
-        ),
-        ("parent/other.rs", "use super::g; pub fn x() {}"),
-    ];
-    assert!(circles_of("none", &files).is_empty());
 }

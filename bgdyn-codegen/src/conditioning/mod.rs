@@ -4,12 +4,10 @@
 //! |---|---|
 //! | `sample_states.rs` | the states: random ones, and those in which the mass matrix is nearly singular |
 //! | `rounding_error.rs` | the error of any function, in roundings |
-//! | `inertia_ratio.rs` | each joint's own inertia over the inertia that it moves |
 //! | `reference_solution.rs` | forward dynamics in double-double at one state, with norms of M |
 //! | `error_bounds.rs` | errors of forward dynamics compared with bounds |
 
-pub(super) mod error_bounds;
-pub(super) mod inertia_ratio;
+pub(crate) mod error_bounds;
 mod reference_solution;
 pub mod rounding_error;
 pub(crate) mod sample_states;

@@ -1,0 +1,419 @@
+//! Causal strokes of a bond graph, by the sequential procedure of Karnopp, Margolis and Rosenberg.
+//!
+//! The stroke of a bond is at the end on which the effort acts. Sources come first, then stores with
+//! their state as the cause (integral causality), then resistors; each choice is followed through the
+//! junctions, transformers and gyrators before the next one. A store whose state follows from others has
+//! derivative causality. Resistors of which one had to be chosen, and which decide each other, are an
+//! algebraic loop. A junction that nothing gives its flow (1) or its effort (0) is a conflict.
+//!
+//! The velocities q̇ of a mechanism are given: the inertia of all links together is the store behind
+//! them, the mass matrix. So the stores of links have derivative causality, and the drive of a joint has
+//! no stroke: inverse dynamics takes q̇ and gives the effort, forward dynamics takes the effort. A store
+//! of its own on the junction of q̇, a rotor's, gives the flow.
+
+use super::network::BondNetwork;
+use super::node::{GraphNodeId, NodeKind, NodePart};
+
+/// The strokes of a network, and what is not the usual case.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Causality {
+    /// For each bond the node at whose end the stroke is; `None` where the question decides it.
+    pub strokes: Vec<Option<GraphNodeId>>,
+    /// Stores in derivative causality.
+    pub dependent: Vec<GraphNodeId>,
+    /// Resistors that decide each other, and the junctions between them, each loop by itself.
+    pub loops: Vec<Vec<GraphNodeId>>,
+    /// Junctions, transformers and gyrators whose bonds contradict each other.
+    pub conflicts: Vec<GraphNodeId>,
+}
+
+impl Causality {
+    /// Assigns the strokes of a network.
+    pub fn of(network: &BondNetwork) -> Self {
+        let mut pass = Pass::new(network);
+        pass.sources();
+        pass.stores();
+        pass.resistors();
+        pass.finish()
+    }
+}
+
+struct Pass<'a> {
+    network: &'a BondNetwork,
+    /// The bonds of each node.
+    bonds: Vec<Vec<usize>>,
+    strokes: Vec<Option<GraphNodeId>>,
+    /// 1-junctions whose flow is given by no bond of theirs.
+    given: Vec<bool>,
+    /// Bonds that are left without a stroke: of the drives.
+    open: Vec<bool>,
+    /// The nodes whose bonds changed.
+    waiting: Vec<GraphNodeId>,
+    loops: Vec<Vec<GraphNodeId>>,
+    conflicts: Vec<GraphNodeId>,
+}
+
+impl<'a> Pass<'a> {
+    fn new(network: &'a BondNetwork) -> Self {
+        let mut bonds = vec![Vec::new(); network.nodes.len()];
+        for (b, bond) in network.bonds.iter().enumerate() {
+            bonds[bond.from.0].push(b);
+            bonds[bond.to.0].push(b);
+        }
+        let mut pass = Pass {
+            network,
+            bonds,
+            strokes: vec![None; network.bonds.len()],
+            given: vec![false; network.nodes.len()],
+            open: vec![false; network.bonds.len()],
+            waiting: Vec::new(),
+            loops: Vec::new(),
+            conflicts: Vec::new(),
+        };
+        pass.velocities();
+        pass
+    }
+
+    fn kind(&self, node: GraphNodeId) -> NodeKind {
+        self.network.nodes[node.0].kind
+    }
+
+    fn other(&self, bond: usize, node: GraphNodeId) -> GraphNodeId {
+        self.network.bonds[bond].other(node)
+    }
+
+    /// The flows that are given: velocities without a store of their own, flows of links at rest.
+    fn velocities(&mut self) {
+        for node in self.network.ids() {
+            let at = |kind| {
+                let mut all = self.bonds[node.0].iter();
+                all.any(|&b| self.kind(self.other(b, node)) == kind)
+            };
+            self.given[node.0] = match self.network.nodes[node.0].part {
+                NodePart::Velocity(_) => !at(NodeKind::Inertia),
+                NodePart::Flow(_) | NodePart::Port(_) if self.kind(node) == NodeKind::One => {
+                    !at(NodeKind::Transformer) && !at(NodeKind::Zero)
+                }
+                _ => false,
+            };
+        }
+        for node in self.network.ids() {
+            if let NodePart::Drive(_) = self.network.nodes[node.0].part {
+                self.open_drive(node);
+            }
+        }
+        self.waiting = self.network.ids().filter(|n| self.given[n.0]).collect();
+        self.follow();
+    }
+
+    /// Leaves the bonds from a drive to a given velocity without strokes.
+    fn open_drive(&mut self, drive: GraphNodeId) {
+        let (mut node, mut way) = (drive, Vec::new());
+        while let Some(&bond) = self.bonds[node.0].iter().find(|b| !way.contains(*b)) {
+            way.push(bond);
+            node = self.other(bond, node);
+            if self.kind(node) != NodeKind::Transformer {
+                break;
+            }
+        }
+        if self.given[node.0] {
+            way.into_iter().for_each(|bond| self.open[bond] = true);
+        }
+    }
+
+    fn sources(&mut self) {
+        for node in self.network.ids() {
+            for bond in self.bonds[node.0].clone() {
+                match self.kind(node) {
+                    NodeKind::EffortSource => self.set(bond, self.other(bond, node)),
+                    NodeKind::FlowSource => self.set(bond, node),
+                    _ => {}
+                }
+            }
+        }
+        self.follow();
+    }
+
+    /// Stores that are not decided yet have integral causality: the effort acts on an inertia, and comes
+    /// from a compliance. Those of the links come last.
+    fn stores(&mut self) {
+        let is_link =
+            |node: &GraphNodeId| matches!(self.network.nodes[node.0].part, NodePart::Store(_));
+        let (links, others): (Vec<_>, Vec<_>) = self.network.ids().partition(is_link);
+        for node in others.into_iter().chain(links) {
+            for bond in self.bonds[node.0].clone() {
+                if self.strokes[bond].is_none() {
+                    match self.kind(node) {
+                        NodeKind::Inertia => self.set(bond, node),
+                        NodeKind::Compliance => self.set(bond, self.other(bond, node)),
+                        _ => continue,
+                    }
+                    self.follow();
+                }
+            }
+        }
+    }
+
+    /// Resistors that are not decided yet give the flow of a 1-junction, or the effort of a 0-junction.
+    fn resistors(&mut self) {
+        for node in self.network.ids() {
+            let [bond] = self.bonds[node.0][..] else {
+                continue;
+            };
+            if self.kind(node) == NodeKind::Resistor && self.strokes[bond].is_none() {
+                let junction = self.other(bond, node);
+                let before = self.strokes.clone();
+                match self.kind(junction) {
+                    NodeKind::Zero => self.set(bond, junction),
+                    _ => self.set(bond, node),
+                }
+                self.follow();
+                self.note_loop(&before);
+            }
+        }
+        for bond in 0..self.strokes.len() {
+            if self.strokes[bond].is_none() && !self.open[bond] {
+                let before = self.strokes.clone();
+                self.set(bond, self.network.bonds[bond].to);
+                self.follow();
+                self.note_loop(&before);
+            }
+        }
+    }
+
+    /// What one choice decided, if it is more than one element.
+    fn note_loop(&mut self, before: &[Option<GraphNodeId>]) {
+        let changed = (0..before.len()).filter(|&b| before[b] != self.strokes[b]);
+        let ends = changed.flat_map(|b| {
+            let bond = self.network.bonds[b];
+            [bond.from, bond.to]
+        });
+        let mut members: Vec<GraphNodeId> = ends.collect();
+        members.sort();
+        members.dedup();
+        let resistors = members
+            .iter()
+            .filter(|n| self.kind(**n) == NodeKind::Resistor);
+        if resistors.count() != 1 {
+            self.loops.push(members);
+        }
+    }
+
+    fn set(&mut self, bond: usize, stroke: GraphNodeId) {
+        if self.open[bond] {
+            return;
+        }
+        match self.strokes[bond] {
+            None => {
+                self.strokes[bond] = Some(stroke);
+                let ends = self.network.bonds[bond];
+                self.waiting.extend([ends.from, ends.to]);
+            }
+            Some(own) if own == stroke => {}
+            Some(own) => {
+                let at = [own, stroke].into_iter().find(|n| !self.is_one_port(*n));
+                self.conflicts.extend(at);
+            }
+        }
+    }
+
+    fn is_one_port(&self, node: GraphNodeId) -> bool {
+        !self.kind(node).is_junction()
+            && !matches!(self.kind(node), NodeKind::Transformer | NodeKind::Gyrator)
+    }
+
+    /// Follows what was decided through the nodes.
+    fn follow(&mut self) {
+        while let Some(node) = self.waiting.pop() {
+            match self.kind(node) {
+                NodeKind::One => self.junction(node, false),
+                NodeKind::Zero => self.junction(node, true),
+                NodeKind::Transformer => self.two_port(node, true),
+                NodeKind::Gyrator => self.two_port(node, false),
+                _ => {}
+            }
+        }
+    }
+
+    /// One bond of a junction brings the common variable: the flow to a 1-junction, on a bond whose
+    /// effort acts on the other end; the effort to a 0-junction.
+    fn junction(&mut self, node: GraphNodeId, is_zero: bool) {
+        let bonds = self.bonds[node.0].clone();
+        let brings = |b: &usize| self.strokes[*b].map(|s| (s == node) == is_zero);
+        let one = bonds.iter().copied().find(|b| brings(b) == Some(true));
+        let undecided: Vec<usize> = bonds
+            .iter()
+            .copied()
+            .filter(|b| self.strokes[*b].is_none())
+            .collect();
+        if one.is_some() || self.given[node.0] {
+            for bond in bonds {
+                if Some(bond) != one || self.given[node.0] {
+                    self.set(bond, self.end(bond, node, !is_zero));
+                }
+            }
+        } else if let [last] = undecided[..] {
+            self.set(last, self.end(last, node, is_zero));
+        } else if undecided.is_empty() && !bonds.is_empty() {
+            self.conflicts.push(node);
+        }
+    }
+
+    /// The node itself, or the other end of its bond.
+    fn end(&self, bond: usize, node: GraphNodeId, own: bool) -> GraphNodeId {
+        match own {
+            true => node,
+            false => self.other(bond, node),
+        }
+    }
+
+    /// A transformer has the effort on one of its ends, a gyrator on both or on none.
+    fn two_port(&mut self, node: GraphNodeId, is_transformer: bool) {
+        let [a, b] = self.bonds[node.0][..] else {
+            return;
+        };
+        for (one, other) in [(a, b), (b, a)] {
+            if let Some(stroke) = self.strokes[one] {
+                let own = (stroke == node) != is_transformer;
+                self.set(other, self.end(other, node, own));
+            }
+        }
+    }
+
+    fn finish(mut self) -> Causality {
+        let derivative = |node: &GraphNodeId| {
+            let mut strokes = self.bonds[node.0].iter().map(|b| self.strokes[*b]);
+            match self.kind(*node) {
+                NodeKind::Inertia => strokes.any(|s| s.is_some_and(|s| s != *node)),
+                NodeKind::Compliance => strokes.any(|s| s == Some(*node)),
+                _ => false,
+            }
+        };
+        let dependent = self.network.ids().filter(derivative).collect();
+        self.conflicts.sort();
+        self.conflicts.dedup();
+        Causality {
+            strokes: self.strokes,
+            dependent,
+            loops: self.loops,
+            conflicts: self.conflicts,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(network: &BondNetwork, nodes: &[GraphNodeId]) -> Vec<String> {
+        let text = |n: &GraphNodeId| network.nodes[n.0].text.clone();
+        nodes.iter().map(text).filter(|t| !t.is_empty()).collect()
+    }
+
+    /// Whether the effort acts on this one-port.
+    fn acts_on(network: &BondNetwork, causality: &Causality, node: GraphNodeId) -> bool {
+        let (bond, _) = network.bonds_at(node).next().expect("a bond");
+        causality.strokes[bond] == Some(node)
+    }
+
+    #[test]
+    fn mass_spring_and_damper_have_integral_causality() {
+        let mut n = BondNetwork::empty();
+        let one = n.add(NodeKind::One, "");
+        let mass = n.add_on(one, NodeKind::Inertia, "mass");
+        let spring = n.add_on(one, NodeKind::Compliance, "spring");
+        let damper = n.add_on(one, NodeKind::Resistor, "damper");
+        let force = n.add_on(one, NodeKind::EffortSource, "force");
+        let causality = Causality::of(&n);
+        let on = [mass, spring, damper, force].map(|node| acts_on(&n, &causality, node));
+        assert_eq!(on, [true, false, false, false]);
+        assert!(causality.dependent.is_empty() && causality.loops.is_empty());
+        assert!(causality.conflicts.is_empty());
+    }
+
+    #[test]
+    fn of_two_masses_coupled_by_a_lever_one_is_dependent() {
+        let mut n = BondNetwork::empty();
+        let (one, other) = (n.add(NodeKind::One, ""), n.add(NodeKind::One, ""));
+        let lever = n.add(NodeKind::Transformer, "lever");
+        n.bond(one, lever);
+        n.bond(lever, other);
+        n.add_on(one, NodeKind::Inertia, "first");
+        n.add_on(other, NodeKind::Inertia, "second");
+        let causality = Causality::of(&n);
+        assert_eq!(text(&n, &causality.dependent), ["second"]);
+        assert!(causality.conflicts.is_empty());
+    }
+
+    #[test]
+    fn of_two_springs_between_the_same_bodies_one_is_dependent_where_their_effort_is_one() {
+        let mut n = BondNetwork::empty();
+        let zero = n.add(NodeKind::Zero, "");
+        n.add_on(zero, NodeKind::Compliance, "first");
+        n.add_on(zero, NodeKind::Compliance, "second");
+        assert_eq!(text(&n, &Causality::of(&n).dependent), ["second"]);
+    }
+
+    /// A DC motor on a rotor that turns freely.
+    fn motor(resistance: bool, inductance: bool) -> (BondNetwork, Causality) {
+        let mut n = BondNetwork::empty();
+        let (shaft, current) = (
+            n.add(NodeKind::One, "shaft"),
+            n.add(NodeKind::One, "current"),
+        );
+        n.add_on(shaft, NodeKind::Inertia, "rotor");
+        let gyrator = n.add(NodeKind::Gyrator, "k");
+        n.bond(current, gyrator);
+        n.bond(gyrator, shaft);
+        n.add_on(current, NodeKind::EffortSource, "u");
+        if resistance {
+            n.add_on(current, NodeKind::Resistor, "R");
+        }
+        if inductance {
+            n.add_on(current, NodeKind::Inertia, "L");
+        }
+        let causality = Causality::of(&n);
+        (n, causality)
+    }
+
+    #[test]
+    fn the_inductance_of_a_motor_or_else_its_resistance_gives_the_current() {
+        let named = |n: &BondNetwork, name| {
+            let found = n.nodes.iter().position(|node| node.text == name);
+            GraphNodeId(found.expect("a node"))
+        };
+        let (n, causality) = motor(true, true);
+        assert!(acts_on(&n, &causality, named(&n, "L")));
+        assert!(!acts_on(&n, &causality, named(&n, "R")));
+        assert!(causality.dependent.is_empty());
+        let (n, causality) = motor(true, false);
+        assert!(acts_on(&n, &causality, named(&n, "R")));
+        assert!(causality.loops.is_empty() && causality.conflicts.is_empty());
+        // The voltage gives the speed.
+        let (n, causality) = motor(false, false);
+        assert_eq!(text(&n, &causality.dependent), ["rotor"]);
+    }
+
+    #[test]
+    fn orifices_in_series_without_a_volume_are_an_algebraic_loop() {
+        let series = |volume: bool| {
+            let mut n = BondNetwork::empty();
+            let between = n.add(NodeKind::Zero, "between");
+            if volume {
+                n.add_on(between, NodeKind::Compliance, "volume");
+            }
+            for name in ["first", "second"] {
+                let flow = n.add(NodeKind::One, "");
+                n.add_on(flow, NodeKind::Resistor, name);
+                n.bond(flow, between);
+                n.add_on(flow, NodeKind::EffortSource, "");
+            }
+            let causality = Causality::of(&n);
+            let loops = causality.loops.iter().map(|all| text(&n, all)).collect();
+            let loops: Vec<Vec<String>> = loops;
+            loops
+        };
+        assert_eq!(series(false), [["between", "first", "second"]]);
+        assert!(series(true).is_empty());
+    }
+}

@@ -1,0 +1,323 @@
+//! The bond graph of a mechanism and of the effects on it, as nodes and bonds.
+//!
+//! A node is a junction, a store, a resistor, a transformer, a gyrator or a source; a bond joins two of
+//! them, its half arrow points where positive power flows. The junctions, stores, sources and
+//! transformers of the links come from the [`BondGraph`]; each effect adds its own by the functions
+//! here. A bond of the links carries three components and is one bond.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::node::{
+    Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortPlace, PowerTerm,
+};
+use super::{BondGraph, Junction, JunctionId};
+use crate::mechanism::{CoordinateId, LinkId};
+
+/// A node of a hydraulic circuit.
+#[derive(Clone, Debug, PartialEq)]
+enum NodePressure {
+    /// The 0-junction of a pressure.
+    Junction(GraphNodeId),
+    /// A pressure that a source holds: the effect and its text. Each bond has a source of its own.
+    Source(usize, String),
+}
+
+/// Nodes and bonds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BondNetwork {
+    /// The nodes.
+    pub nodes: Vec<GraphNode>,
+    /// The bonds.
+    pub bonds: Vec<Bond>,
+    /// Lines and sites that effects act at.
+    pub ports: Vec<PlacePort>,
+    /// The 1-junctions of the coordinates by name, those that effects add among them.
+    velocities: Vec<(String, GraphNodeId)>,
+    /// The coordinates that move each place.
+    movers: BTreeMap<String, BTreeSet<CoordinateId>>,
+    pressures: BTreeMap<String, NodePressure>,
+    /// Names of the coordinates with an effort of their own.
+    driven: BTreeSet<String>,
+    /// The effect that adds nodes now.
+    at: Option<usize>,
+}
+
+impl BondNetwork {
+    /// A network without nodes.
+    pub fn empty() -> Self {
+        BondNetwork {
+            nodes: Vec::new(),
+            bonds: Vec::new(),
+            ports: Vec::new(),
+            velocities: Vec::new(),
+            movers: BTreeMap::new(),
+            pressures: BTreeMap::new(),
+            driven: BTreeSet::new(),
+            at: None,
+        }
+    }
+
+    /// The nodes and bonds of a mechanism. The coordinates with these names, those that effects add among
+    /// them, have an effort of their own.
+    pub fn of_mechanism(graph: &BondGraph, driven: BTreeSet<String>) -> Self {
+        let mut network = BondNetwork::empty();
+        (network.movers, network.driven) = (movers(graph), driven);
+        for (j, coordinate) in graph.coordinates.iter().enumerate() {
+            let one = network.add_part(NodeKind::One, NodePart::Velocity(CoordinateId(j)));
+            network.velocities.push((coordinate.name.clone(), one));
+            if network.is_driven(&coordinate.name) {
+                network.drive(&coordinate.name);
+            }
+        }
+        for (i, junction) in graph.junctions.iter().enumerate() {
+            if !matches!(junction, Junction::Velocity(_)) {
+                network.add_flow(graph, JunctionId(i));
+            }
+        }
+        network
+    }
+
+    /// The 1-junction of a link's flow with its store, its source and the transformers to it.
+    fn add_flow(&mut self, graph: &BondGraph, junction: JunctionId) {
+        let one = self.add_part(NodeKind::One, NodePart::Flow(junction));
+        for (k, _) in matching(&graph.stores, |s| s.junction == junction) {
+            let store = self.add_part(NodeKind::Inertia, NodePart::Store(k));
+            self.bond(one, store);
+        }
+        let acts = |s: &super::Source| s.junction == junction && !s.efforts.is_empty();
+        for (k, _) in matching(&graph.sources, acts) {
+            let source = self.add_part(NodeKind::EffortSource, NodePart::Source(k));
+            self.bond(source, one);
+        }
+        let all: Vec<(usize, GraphNodeId)> = matching(&graph.transformers, |t| t.to == junction)
+            .map(|(k, t)| (k, self.velocities[t.from.0].1))
+            .collect();
+        let feeds: Vec<(NodePart, GraphNodeId)> = all
+            .into_iter()
+            .map(|(k, velocity)| (NodePart::Transformer(k), velocity))
+            .collect();
+        self.feed(one, &feeds, NodePart::Sum(junction));
+    }
+
+    /// Transformers from velocities to a flow; where there are several they meet in a 0-junction.
+    fn feed(&mut self, one: GraphNodeId, transformers: &[(NodePart, GraphNodeId)], sum: NodePart) {
+        let mut target = one;
+        if transformers.len() > 1 {
+            target = self.add_part(NodeKind::Zero, sum);
+            self.bond(target, one);
+        }
+        for &(part, velocity) in transformers {
+            let transformer = self.add_part(NodeKind::Transformer, part);
+            self.bond(velocity, transformer);
+            self.bond(transformer, target);
+        }
+    }
+
+    /// That the nodes which follow belong to the effect at this place among the scene's elements.
+    pub fn begin(&mut self, element: usize) {
+        self.at = Some(element);
+    }
+
+    /// A node without bonds.
+    pub fn add(&mut self, kind: NodeKind, text: impl Into<String>) -> GraphNodeId {
+        let id = GraphNodeId(self.nodes.len());
+        self.nodes.push(GraphNode {
+            kind,
+            part: NodePart::Effect,
+            text: text.into(),
+            more: None,
+            element: self.at,
+            powers: kind.usual_powers(),
+        });
+        id
+    }
+
+    fn add_part(&mut self, kind: NodeKind, part: NodePart) -> GraphNodeId {
+        let id = self.add(kind, "");
+        let node = &mut self.nodes[id.0];
+        (node.part, node.element, node.powers) = (part, None, vec![]);
+        id
+    }
+
+    /// A bond: positive power flows `from` the one `to` the other.
+    pub fn bond(&mut self, from: GraphNodeId, to: GraphNodeId) {
+        self.bonds.push(Bond { from, to });
+    }
+
+    /// A source, a store or a resistor on a junction: power flows from sources, and to the others.
+    pub fn add_on(
+        &mut self,
+        junction: GraphNodeId,
+        kind: NodeKind,
+        text: impl Into<String>,
+    ) -> GraphNodeId {
+        let node = self.add(kind, text);
+        match kind.is_source() {
+            true => self.bond(node, junction),
+            false => self.bond(junction, node),
+        }
+        node
+    }
+
+    /// Says what a node does in its effect's entry of the balance of power.
+    pub fn set_powers(&mut self, node: GraphNodeId, powers: &[PowerTerm]) {
+        self.nodes[node.0].powers = powers.to_vec();
+    }
+
+    /// Says something more of a node.
+    pub fn set_more(&mut self, node: GraphNodeId, more: Option<String>) {
+        self.nodes[node.0].more = more;
+    }
+
+    /// The 1-junction of the coordinate with this name; of one that an effect adds it is made where it
+    /// is first asked for.
+    pub fn velocity(&mut self, name: &str) -> GraphNodeId {
+        if let Some((_, found)) = self.velocities.iter().find(|(own, _)| own == name) {
+            return *found;
+        }
+        let one = self.add(NodeKind::One, format!("θ̇ {name}"));
+        self.velocities.push((name.to_owned(), one));
+        one
+    }
+
+    /// Whether the coordinate with this name has an effort of its own.
+    pub fn is_driven(&self, coordinate: &str) -> bool {
+        self.driven.contains(coordinate)
+    }
+
+    /// The source of the effort of its own on the coordinate with this name.
+    pub fn drive(&mut self, name: &str) -> GraphNodeId {
+        let velocity = self.velocity(name);
+        let joint = match self.nodes[velocity.0].part {
+            NodePart::Velocity(j) => Some(j),
+            _ => None,
+        };
+        let part = NodePart::Drive(joint);
+        let own = |b: &&Bond| b.to == velocity && self.nodes[b.from.0].part == part;
+        if let Some(bond) = self.bonds.iter().find(own) {
+            return bond.from;
+        }
+        let drive = self.add_part(NodeKind::EffortSource, part);
+        self.nodes[drive.0].text = format!("P of {name}");
+        self.bond(drive, velocity);
+        drive
+    }
+
+    /// A transformer between the own effort of a coordinate and its junction: a gear.
+    pub fn add_to_drive(&mut self, coordinate: &str, text: String) -> GraphNodeId {
+        let drive = self.drive(coordinate);
+        let gear = self.add(NodeKind::Transformer, text);
+        let bond = self.bonds.iter_mut().find(|b| b.from == drive);
+        bond.expect("a drive has a bond").from = gear;
+        self.bond(drive, gear);
+        gear
+    }
+
+    /// The 1-junction of the flow at a place, with the transformers from the velocities that move it.
+    pub fn port(&mut self, place: PortPlace) -> GraphNodeId {
+        if let Some(port) = self.ports.iter().find(|port| port.place == place) {
+            return port.junction;
+        }
+        let of = |name: &String| self.movers.get(name).cloned().unwrap_or_default();
+        let coordinates: BTreeSet<CoordinateId> = match &place {
+            PortPlace::Line([a, b]) => of(a).symmetric_difference(&of(b)).copied().collect(),
+            PortPlace::Site(name) => of(name),
+        };
+        let part = NodePart::Port(self.ports.len());
+        let junction = self.add_part(NodeKind::One, part);
+        let feeds: Vec<(NodePart, GraphNodeId)> = coordinates
+            .iter()
+            .map(|j| (part, self.velocities[j.0].1))
+            .collect();
+        self.feed(junction, &feeds, part);
+        self.ports.push(PlacePort {
+            place,
+            coordinates,
+            junction,
+        });
+        junction
+    }
+
+    /// The 0-junction of the pressure of a hydraulic node that the effect has.
+    pub fn add_pressure(&mut self, node: &str) -> GraphNodeId {
+        let zero = self.add(NodeKind::Zero, node);
+        self.pressures
+            .insert(node.to_owned(), NodePressure::Junction(zero));
+        zero
+    }
+
+    /// A hydraulic node whose pressure the effect holds.
+    pub fn hold_pressure(&mut self, node: &str, text: String) {
+        let source = NodePressure::Source(self.at.unwrap_or_default(), text);
+        self.pressures.insert(node.to_owned(), source);
+    }
+
+    /// The pressure of a hydraulic node: its 0-junction, or a source of its own for each call.
+    pub fn pressure(&mut self, node: &str) -> GraphNodeId {
+        match self.pressures.get(node).cloned() {
+            Some(NodePressure::Junction(zero)) => zero,
+            Some(NodePressure::Source(element, text)) => {
+                let source = self.add(NodeKind::EffortSource, text);
+                self.nodes[source.0].element = Some(element);
+                source
+            }
+            None => self.add_pressure(node),
+        }
+    }
+
+    /// Gives the weights of the links to the effect; their energy is stored.
+    pub fn claim_weights(&mut self) {
+        for node in &mut self.nodes {
+            if let NodePart::Source(_) = node.part {
+                (node.element, node.powers) = (self.at, vec![PowerTerm::Stored]);
+            }
+        }
+    }
+
+    /// All nodes.
+    pub fn ids(&self) -> impl Iterator<Item = GraphNodeId> + use<> {
+        (0..self.nodes.len()).map(GraphNodeId)
+    }
+
+    /// The bonds at a node, in the order in which they were added, by their numbers.
+    pub fn bonds_at(&self, node: GraphNodeId) -> impl Iterator<Item = (usize, &Bond)> {
+        matching(&self.bonds, move |bond| bond.joins(node))
+    }
+
+    /// The node that is this part of the mechanism.
+    pub fn part(&self, part: NodePart) -> Option<GraphNodeId> {
+        let found = self.nodes.iter().position(|node| node.part == part);
+        found.map(GraphNodeId)
+    }
+
+    /// The terms that the nodes of an effect have in its entry of the balance of power.
+    pub fn powers_of(&self, element: usize) -> impl Iterator<Item = PowerTerm> {
+        let own = self
+            .nodes
+            .iter()
+            .filter(move |n| n.element == Some(element));
+        own.flat_map(|node| node.powers.iter().copied())
+    }
+}
+
+/// Those that fit, with their numbers.
+fn matching<'a, T>(
+    all: &'a [T],
+    fits: impl Fn(&T) -> bool + 'a,
+) -> impl Iterator<Item = (usize, &'a T)> {
+    all.iter().enumerate().filter(move |(_, x)| fits(x))
+}
+
+/// The coordinates that move each place.
+fn movers(graph: &BondGraph) -> BTreeMap<String, BTreeSet<CoordinateId>> {
+    let of_link = |mut link: Option<LinkId>| {
+        let mut found = BTreeSet::new();
+        while let Some(LinkId(i)) = link {
+            found.extend(graph.frames[i].coordinate);
+            link = graph.frames[i].parent;
+        }
+        found
+    };
+    let of = |site: &super::Site| (site.name.clone(), of_link(site.link));
+    graph.sites.iter().map(of).collect()
+}

@@ -1,0 +1,164 @@
+//! Asks the formulations for their offers, makes the functions, and takes one for each method.
+//!
+//! 1. Candidates are the functions of the formulations that offer themselves in place of the others; if
+//!    none does, of those that offer themselves as candidates.
+//! 2. The digits of forward dynamics are checked ([`super::keep_digits`]). While no candidate keeps its
+//!    digits, or there is none, the reserves are made one by one, then the last resorts.
+//! 3. Of the functions that are left the one with the least cost is taken, after factoring.
+//!
+//! Where a formulation is asked for, the methods that it knows are its own. Formulations that differentiate
+//! the functions of other methods offer themselves all the same: those functions are its own as well.
+
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use super::keep_digits::{Checked, check, sort};
+use crate::bond_graph::BondGraph;
+use crate::conditioning::error_bounds::{BoundReport, ErrorBounds};
+use crate::formulation::{
+    Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared,
+};
+use crate::function::Function;
+use crate::method::Method;
+use crate::passes::{cheapest, factor};
+
+/// The functions chosen for one mechanism. It remembers them: methods are made of each other.
+pub struct Choice<'a> {
+    pub(super) prepared: Prepared<'a>,
+    pub(super) asked: Option<&'static dyn Formulation>,
+    bounds: OnceCell<ErrorBounds>,
+    forward: OnceCell<Rc<Candidates>>,
+    /// Methods that are being chosen.
+    open: RefCell<BTreeSet<Method>>,
+}
+
+/// A formulation with its offer for one method.
+type Offered = (&'static dyn Formulation, Offer);
+
+impl<'a> Choice<'a> {
+    /// Nothing chosen yet. Where a formulation is asked for, the methods it knows are its own.
+    pub fn new(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
+        Choice {
+            prepared: Prepared::new(graph),
+            asked,
+            bounds: OnceCell::new(),
+            forward: OnceCell::new(),
+            open: RefCell::default(),
+        }
+    }
+
+    /// The function of the method with the least cost, before the last passes; of forward dynamics, among
+    /// those that keep their digits.
+    pub fn function(&self, method: Method) -> Option<Rc<Function>> {
+        self.chosen(method).1
+    }
+
+    /// The functions for forward dynamics that keep their digits, the cheapest first, as their formulations
+    /// write them.
+    pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {
+        let made = || self.chosen(Method::ForwardDynamics).0;
+        let candidates = self.forward.get_or_init(made);
+        candidates.accepted.iter().map(|candidate| &candidate.plain)
+    }
+
+    /// All functions for the method that are worth a look, and the one that is taken.
+    pub(super) fn chosen(&self, method: Method) -> (Rc<Candidates>, Option<Rc<Function>>) {
+        if let Some(chosen) = self.prepared.chosen(method) {
+            return chosen;
+        }
+        let anew = self.open.borrow_mut().insert(method);
+        assert!(anew, "{method:?} is made of what is made of it");
+        let candidates = self.candidates(method);
+        let generated = candidates.accepted.iter().map(|c| c.generated.clone());
+        let function = cheapest(generated).map(Rc::new);
+        self.open.borrow_mut().remove(&method);
+        self.prepared.choose(method, candidates, function);
+        self.prepared.chosen(method).unwrap_or_default()
+    }
+
+    fn candidates(&self, method: Method) -> Candidates {
+        let asked = self.asked_for(method);
+        if !asked.is_empty() {
+            return sort(asked);
+        }
+        let mut offered = self.offers(&FORMULATIONS, method);
+        offered.extend(self.offers(&DERIVED, method));
+        sort(match method {
+            Method::ForwardDynamics => {
+                let bounds = || ErrorBounds::new(self.prepared.graph, self.prepared.geometry());
+                let bounds = self.bounds.get_or_init(bounds);
+                self.make_offered(&offered, method, |plain| check(bounds, plain))
+            }
+            _ => self.make_offered(&offered, method, unchecked),
+        })
+    }
+
+    /// The functions of the formulation asked for, where it knows the method.
+    fn asked_for(&self, method: Method) -> Vec<Checked> {
+        let Some(asked) = self.asked.filter(|f| f.knows(method)) else {
+            return Vec::new();
+        };
+        let mut offered = vec![(asked, Offer::Candidate)];
+        offered.extend(self.offers(&DERIVED, method));
+        self.make_offered(&offered, method, unchecked)
+    }
+
+    /// The function of the formulation asked for, as it writes it; `None` where it does not make the
+    /// method.
+    pub(crate) fn asked_plain(&self, method: Method) -> Option<Function> {
+        let made = self.asked_for(method).into_iter();
+        made.map(|(_, candidate)| candidate.plain).next()
+    }
+
+    /// What the formulations offer that know the method.
+    fn offers(&self, all: &[&'static dyn Formulation], method: Method) -> Vec<Offered> {
+        let known = all.iter().filter(|f| f.knows(method));
+        let offered = known.map(|&f| (f, f.offer(&self.prepared, method)));
+        offered.collect()
+    }
+
+    /// The functions of these offers: those in place of the candidates, else the candidates; and reserves
+    /// while none of them keeps its digits.
+    fn make_offered(
+        &self,
+        offered: &[Offered],
+        method: Method,
+        check: impl Fn(Function) -> Checked,
+    ) -> Vec<Checked> {
+        let make = |(formulation, offer): &Offered| {
+            let (report, mut candidate) = check(self.make(*formulation, method)?);
+            if let Offer::Instead(Some(reason)) = offer {
+                candidate.generated.formulation += &format!("; {reason}");
+            }
+            Some((report, candidate))
+        };
+        let level = |wanted: fn(&Offer) -> bool| offered.iter().filter(move |(_, o)| wanted(o));
+        let instead = level(|offer| matches!(offer, Offer::Instead(_)));
+        let mut made: Vec<Checked> = instead.filter_map(make).collect();
+        if made.is_empty() {
+            made.extend(level(|offer| *offer == Offer::Candidate).filter_map(make));
+        }
+        let reserves = level(|offer| *offer == Offer::Reserve);
+        for waiting in reserves.chain(level(|offer| *offer == Offer::LastResort)) {
+            if !made.iter().any(|(report, _)| report.holds()) {
+                made.extend(make(waiting));
+            }
+        }
+        made
+    }
+
+    /// A formulation's function, after those that it reads.
+    fn make(&self, formulation: &dyn Formulation, method: Method) -> Option<Function> {
+        for &other in formulation.reads(method) {
+            self.chosen(other);
+        }
+        formulation.function(&self.prepared, method)
+    }
+}
+
+/// A function whose digits are not checked.
+fn unchecked(plain: Function) -> Checked {
+    let generated = factor(plain.clone());
+    (BoundReport::default(), Candidate { plain, generated })
+}

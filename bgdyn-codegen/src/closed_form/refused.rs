@@ -1,0 +1,48 @@
+//! Why a mechanism has no closed form of a useful length.
+
+use std::fmt;
+
+/// Why there is no closed form.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// The equations have more terms than the limit.
+    TooLong {
+        /// Terms of all P_j.
+        terms: usize,
+    },
+    /// A sum on the way has too many terms for so much to cancel.
+    LongSum {
+        /// Its terms.
+        terms: usize,
+    },
+    /// The way there takes too many products of two terms.
+    ManyProducts {
+        /// As many as were asked for when it was given up.
+        products: usize,
+    },
+    /// The equations hold more than sines, cosines, products and sums.
+    NotTrigonometric,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refused::TooLong { terms } => write!(f, "its equations have {terms} terms"),
+            Refused::LongSum { terms } => {
+                write!(f, "a sum on the way to its equations has {terms} terms")
+            }
+            Refused::ManyProducts { products } => write!(
+                f,
+                "the way to its equations takes {products} products of two terms and more"
+            ),
+            Refused::NotTrigonometric => {
+                write!(
+                    f,
+                    "its equations hold more than sines, cosines, products and sums"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refused {}

@@ -1,0 +1,85 @@
+//! Nodes of the bond graph that several effects add in the same way, and what is written beside them.
+
+use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind, PortPlace, PowerTerm};
+use crate::declaration::Element;
+
+/// `seal (viscous)`
+pub(super) fn label(element: &Element) -> String {
+    format!("{} ({})", element.name, element.effect.keyword())
+}
+
+/// `R = 0.6 ohm`, as the file writes it.
+pub(super) fn number(element: &Element, symbol: &str, key: &str) -> String {
+    format!("{symbol} = {}", element.written(key).unwrap_or_default())
+}
+
+/// The 1-junction of the flow that the element acts on: of its `joint`, or of the line between its two
+/// places.
+pub(super) fn port(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
+    match element.names("between") {
+        Some(ends) => network.port(PortPlace::Line(ends.clone())),
+        None => network.velocity(element.name("joint").unwrap_or_default()),
+    }
+}
+
+/// The 1-junction of the motion of the place that the element acts at.
+pub(super) fn site(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
+    let name = element.name("at").unwrap_or_default();
+    network.port(PortPlace::Site(name.to_owned()))
+}
+
+/// A resistor or a compliance at the element's port. Where a reference moves by itself it acts on the
+/// difference of the two flows.
+pub(super) fn add_acting(
+    element: &Element,
+    kind: NodeKind,
+    network: &mut BondNetwork,
+) -> GraphNodeId {
+    let port = port(element, network);
+    let Some(reference) = element.name("reference") else {
+        return network.add_on(port, kind, label(element));
+    };
+    let flow = match element.name("joint") {
+        Some(_) => "q̇",
+        None => "ṡ",
+    };
+    let zero = network.add(NodeKind::Zero, "");
+    network.bond(port, zero);
+    let difference = network.add(NodeKind::One, format!("{flow} − {reference}"));
+    network.bond(zero, difference);
+    let acting = network.add_on(difference, kind, label(element));
+    let moving = network.add(NodeKind::FlowSource, format!("rate of {reference}"));
+    network.bond(zero, moving);
+    acting
+}
+
+/// The store of a rotor behind its gear, N² J, on a junction.
+pub(super) fn add_rotor(
+    element: &Element,
+    junction: GraphNodeId,
+    network: &mut BondNetwork,
+) -> GraphNodeId {
+    let inertia = number(element, "J", "inertia");
+    let text = match element.written("ratio") {
+        Some(ratio) => format!("N²J of {}, {inertia}, N = {ratio}", element.name),
+        None => format!("{}, {inertia}", element.name),
+    };
+    network.add_on(junction, NodeKind::Inertia, text)
+}
+
+/// What a gear with an efficiency loses.
+pub(super) fn gear_losses(element: &Element) -> &'static [PowerTerm] {
+    match element.quantity("efficiency") {
+        Some(_) => &[PowerTerm::Dissipated],
+        None => &[],
+    }
+}
+
+/// A resistor that lets fluid run from one hydraulic node to another.
+pub(super) fn add_pipe(text: String, [from, to]: [&str; 2], network: &mut BondNetwork) {
+    let flow = network.add(NodeKind::One, "q");
+    network.add_on(flow, NodeKind::Resistor, text);
+    let [from, to] = [from, to].map(|node| network.pressure(node));
+    network.bond(from, flow);
+    network.bond(flow, to);
+}

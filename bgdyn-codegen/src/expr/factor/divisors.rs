@@ -1,0 +1,126 @@
+//! The products and two-term sums that may be taken out, by what that saves at the most.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use bgdyn_runtime::Dd;
+
+use super::divisor::{Key, number_key};
+use super::network::Var;
+use crate::expr::index::{Index, mix};
+
+/// Something that may be taken out, with the variables whose sums may hold it.
+struct Divisor {
+    key: Key,
+    places: Vec<Var>,
+    /// What taking it out saves at the most.
+    bound: isize,
+}
+
+/// All that may be taken out. Products of variables and numbers in keys go by their ids here.
+#[derive(Default)]
+pub(super) struct Divisors {
+    all: Vec<Divisor>,
+    /// Those by their key.
+    by_key: Index,
+    queue: BinaryHeap<(isize, Reverse<usize>)>,
+    products: Vec<Vec<Var>>,
+    product_ids: Index,
+    numbers: Vec<Dd>,
+    number_ids: Index,
+}
+
+impl Divisors {
+    /// The one that saves most by its bound, with its id and that bound.
+    pub fn pop(&mut self) -> Option<(usize, Key, isize)> {
+        while let Some((bound, Reverse(id))) = self.queue.pop() {
+            if bound == self.all[id].bound {
+                return Some((id, self.all[id].key, bound));
+            }
+        }
+        None
+    }
+
+    /// Notes what one saves after it was tried.
+    pub fn put_back(&mut self, id: usize, saved: isize) {
+        self.all[id].bound = saved;
+        if saved > 0 {
+            self.queue.push((saved, Reverse(id)));
+        }
+    }
+
+    /// Notes that a variable's sum may hold it, what that saves, and what defining it costs.
+    pub fn note(&mut self, key: Key, var: Var, saved: isize, cost: isize) {
+        let hash = key.quick_hash();
+        let is_it = |id: u32| self.all[id as usize].key == key;
+        let id = match self.by_key.find(hash, is_it) {
+            Some(id) => id as usize,
+            None => {
+                let id = self.all.len();
+                self.by_key.insert(hash, id as u32);
+                self.all.push(Divisor {
+                    key,
+                    places: Vec::new(),
+                    bound: cost,
+                });
+                id
+            }
+        };
+        let divisor = &mut self.all[id];
+        if divisor.bound < cost {
+            divisor.bound = cost;
+        }
+        divisor.bound += saved;
+        if divisor.places.last() != Some(&var) {
+            divisor.places.push(var);
+        }
+        if divisor.bound > 0 {
+            self.queue.push((divisor.bound, Reverse(id)));
+        }
+    }
+
+    /// The variables whose sums may hold it, each once, in order.
+    pub fn places(&mut self, id: usize) -> Vec<Var> {
+        let places = &mut self.all[id].places;
+        places.sort_unstable();
+        places.dedup();
+        places.clone()
+    }
+
+    /// The id of a number.
+    pub fn number_id(&mut self, k: Dd) -> u32 {
+        let key = number_key(k);
+        let hash = mix(mix(0, key.0), key.1 as u64);
+        let is_it = |id: u32| number_key(self.numbers[id as usize]) == key;
+        if let Some(id) = self.number_ids.find(hash, is_it) {
+            return id;
+        }
+        let id = self.numbers.len() as u32;
+        self.numbers.push(k);
+        self.number_ids.insert(hash, id);
+        id
+    }
+
+    /// The number with this id.
+    pub fn number(&self, id: u32) -> Dd {
+        self.numbers[id as usize]
+    }
+
+    /// The id of a product of variables.
+    pub fn product_id(&mut self, factors: &[Var]) -> u32 {
+        let hash = factors.iter().fold(1, |h, &f| mix(h, u64::from(f)));
+        let is_it = |id: u32| self.products[id as usize] == factors;
+        if let Some(id) = self.product_ids.find(hash, is_it) {
+            return id;
+        }
+        let id = self.products.len() as u32;
+        self.products.push(factors.to_vec());
+        self.product_ids.insert(hash, id);
+        id
+    }
+
+    /// The factors of the product with this id.
+    pub fn product(&self, id: u32) -> &[Var] {
+        &self.products[id as usize]
+    }
+}

@@ -1,0 +1,62 @@
+//! The arguments of a method, and the numbers of the spec, as expressions.
+
+use crate::bond_graph::{Multibody, Rotor};
+use crate::expr::{Builder, Ex, Leaf};
+use crate::mechanism::{ParameterId, Value};
+use crate::method::{Argument, Method};
+
+/// The arguments of a method as expressions; what it does not take is zero.
+pub(super) struct Arguments<'g> {
+    /// Positions.
+    pub q: Vec<Ex<'g>>,
+    /// Velocities.
+    pub v: Vec<Ex<'g>>,
+    /// Accelerations.
+    pub a: Vec<Ex<'g>>,
+    /// Joint efforts.
+    pub tau: Vec<Ex<'g>>,
+    /// Whether the active efforts act.
+    pub active: bool,
+}
+
+impl<'g> Arguments<'g> {
+    /// Those that the method takes.
+    pub fn new(b: &'g Builder, graph: &Multibody, method: Method) -> Self {
+        let n = graph.coordinates.len();
+        let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
+            (0..n)
+                .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
+                .collect()
+        };
+        let takes = |argument| method.arguments().contains(&argument);
+        // Kinetic energy and velocities of frames always take the true velocities, even where
+        // velocity products are switched off.
+        let kinematic = method.site().is_some() || method == Method::KineticEnergy;
+        let turning = graph.velocity_products || kinematic;
+        Arguments {
+            q: read(true, Leaf::Position),
+            v: read(takes(Argument::V) && turning, Leaf::Velocity),
+            a: read(takes(Argument::A), Leaf::Acceleration),
+            tau: read(takes(Argument::Tau), Leaf::Input),
+            active: true,
+        }
+    }
+}
+
+/// What a rotor adds to a joint's inertia: N² J.
+pub(super) fn reflected<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
+    spin(b, rotor) * value(b, rotor.ratio)
+}
+
+/// Momentum of a rotor about its axis per unit rate of the joint: N J.
+pub(super) fn spin<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
+    value(b, rotor.inertia) * value(b, rotor.ratio)
+}
+
+/// A number of the spec as an expression.
+pub(super) fn value<'g>(b: &'g Builder, value: Value) -> Ex<'g> {
+    match value {
+        Value::Fixed(x) => b.constant(x),
+        Value::Parameter(ParameterId(p)) => b.leaf(Leaf::Parameter(p)),
+    }
+}

@@ -1,0 +1,73 @@
+//! The recursion's expressions for a method, under one plan.
+
+use super::frames::Frames;
+use super::geometry::Geometry;
+use super::plan::Plan;
+use super::{derivatives, inverse_dynamics, mass_matrix};
+use crate::bond_graph::Multibody;
+use crate::expr::{Builder, Expr, Graph};
+use crate::formulation::arguments::Arguments;
+use crate::formulation::solve;
+use crate::method::Method;
+
+/// The method's expressions under a plan.
+pub(super) fn outputs(
+    b: Builder,
+    graph: &Multibody,
+    geometry: &Geometry,
+    method: Method,
+    plan: &Plan,
+) -> (Graph, Vec<Expr>) {
+    let outputs: Vec<Expr> = {
+        let x = Arguments::new(&b, graph, method);
+        let frames = Frames::new(&b, graph, geometry, plan, &x);
+        let efforts = || inverse_dynamics::efforts(&b, &frames, plan, x.active);
+        let outputs = match method {
+            Method::InverseDynamics | Method::Bias | Method::Gravity => efforts(),
+            Method::MassMatrix => mass_matrix::mass_matrix(&b, &frames)
+                .into_iter()
+                .flatten()
+                .collect(),
+            Method::ForwardDynamics => {
+                let drive = x
+                    .tau
+                    .iter()
+                    .zip(efforts())
+                    .map(|(&tau, h)| tau - h)
+                    .collect();
+                solve::ltdl(&b, mass_matrix::mass_matrix(&b, &frames), drive)
+            }
+            Method::InverseDynamicsDerivatives => {
+                let derivatives =
+                    derivatives::effort_derivatives(&b, &frames, &plan.views, x.active);
+                let rows = derivatives
+                    .by_position
+                    .into_iter()
+                    .chain(derivatives.by_rate);
+                rows.flatten().collect()
+            }
+            Method::CoriolisMatrix => {
+                let rows = derivatives::coriolis_matrix(&b, &frames, &plan.views);
+                rows.into_iter().flatten().collect()
+            }
+            Method::KineticEnergy => vec![mass_matrix::kinetic_energy(&b, &frames)],
+            Method::PotentialEnergy => vec![mass_matrix::potential_energy(&b, &frames)],
+            other => unreachable!("{other:?} is no method of the recursion"),
+        };
+        outputs.into_iter().map(|e| e.expr()).collect()
+    };
+    (b.into_graph(), outputs)
+}
+
+/// The lower triangle of M, row by row, and h, in one graph.
+pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, Vec<Expr>) {
+    let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
+    let outputs: Vec<Expr> = {
+        let x = Arguments::new(&b, graph, Method::ForwardDynamics);
+        let frames = Frames::new(&b, graph, geometry, plan, &x);
+        let rows = mass_matrix::mass_matrix(&b, &frames).into_iter().flatten();
+        let bias = inverse_dynamics::efforts(&b, &frames, plan, x.active);
+        rows.chain(bias).map(|e| e.expr()).collect()
+    };
+    (b.into_graph(), outputs)
+}

@@ -1,0 +1,60 @@
+//! The recursion with base parameters as a formulation.
+
+use super::expressions::outputs;
+use super::geometry::Geometry;
+use super::plan_search::Best;
+use super::plans::best_plans;
+use super::{kinematics, plan_search};
+use crate::bond_graph::Multibody;
+use crate::expr::Builder;
+use crate::formulation::{Formulation, Offer, Prepared};
+use crate::function::Function;
+use crate::method::Method;
+
+/// The recursion.
+pub(in crate::formulation) struct Recursion;
+
+impl Formulation for Recursion {
+    fn name(&self) -> &'static str {
+        "recursion"
+    }
+
+    fn summary(&self) -> &'static str {
+        "link axes, base parameters, common-axis trick, sliding origins, groups of parallel axes"
+    }
+
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Candidate
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let graph = prepared.graph;
+        let geometry = prepared.geometry();
+        if let Some(site) = method.site() {
+            return Some(kinematics::function(graph, geometry, method, site));
+        }
+        let best = best_plans(prepared, method)?;
+        Some(with_plan(graph, geometry, method, &best))
+    }
+}
+
+/// The function under the plan that is taken.
+pub(super) fn with_plan(
+    graph: &Multibody,
+    geometry: &Geometry,
+    method: Method,
+    best: &Best,
+) -> Function {
+    let plan = best.taken();
+    let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);
+    let name = format!(
+        "{}: {}",
+        Recursion.name(),
+        plan_search::describe(geometry, plan)
+    );
+    let plans = best.considered(geometry);
+    Function {
+        plans,
+        ..Function::flat(graph, method, name, made, outputs)
+    }
+}

@@ -1,0 +1,100 @@
+//! The cheapest plans of the recursion for each method, found once for a mechanism.
+
+use super::expressions::outputs;
+use super::geometry::Geometry;
+use super::plan::Plan;
+use super::plan_search::{Best, Tried};
+use super::{derivatives, plan_search};
+use crate::bond_graph::Multibody;
+use crate::expr::{self, Builder, Cost, factored_cost};
+use crate::formulation::Prepared;
+use crate::method::Method;
+
+/// Bodies up to which a mechanism is small: the plans that its search keeps are factored before
+/// one is taken. For larger ones it would take more time than it saves operations: on arms of six
+/// and seven axes 16 of 8,000, for twice the time of expansion.
+const SMALL: usize = 4;
+
+/// The cheapest plans found for a method of joints; nothing for what is derived from other methods.
+pub(super) fn best_plans(prepared: &Prepared<'_>, method: Method) -> Option<Best> {
+    match method {
+        Method::ForwardDynamicsDerivatives => None,
+        method if method.site().is_some() => None,
+        _ => Some(cheapest_plans(prepared, method)),
+    }
+}
+
+/// The cheapest plans found, the one to be taken first.
+pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> Best {
+    if let Some(best) = prepared.plans.borrow().get(&method) {
+        return best.clone();
+    }
+    let best = match method {
+        // Their graphs are too large for a whole search: it starts from the plan of a smaller
+        // method that they resemble.
+        Method::CoriolisMatrix => plans_from(prepared, Method::MassMatrix, method),
+        Method::InverseDynamicsDerivatives => plans_from(prepared, Method::CoriolisMatrix, method),
+        _ => search_plans(prepared, method),
+    };
+    let mut known = prepared.plans.borrow_mut();
+    known.insert(method, best.clone());
+    best
+}
+
+/// The plans of a method with partial derivatives, which start from the cheapest plan of another one.
+fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> Best {
+    let graph = prepared.graph;
+    let geometry = prepared.geometry();
+    let start = cheapest_plans(prepared, other);
+    let cost = |plan: &Plan| cost(graph, geometry, method, plan);
+    let after = |plan: &Plan| cost_after_factoring(graph, geometry, method, plan);
+    let mut best = plan_search::refined(geometry, start.taken(), cost);
+    let plan = derivatives::choose_partials(geometry, best.taken().clone(), cost);
+    let plan = derivatives::choose_length_unit(geometry, plan, cost, after);
+    let found = cost(&plan);
+    best.take(plan, found);
+    best
+}
+
+/// The plans that a whole search finds; the first one costs least after factoring. Plans that cost
+/// about the same before it differ in what it makes of them. Whether a tip's axes are turned at its
+/// centre of mass shows only there: it saves operations and costs a sum of angles.
+fn search_plans(prepared: &Prepared<'_>, method: Method) -> Best {
+    let graph = prepared.graph;
+    let geometry = prepared.geometry();
+    let mut best = plan_search::search(geometry, |plan| cost(graph, geometry, method, plan));
+    let small = geometry.bodies.len() <= SMALL;
+    let kept = if small { best.plans.len() } else { 1 };
+    let mut candidates: Vec<Tried> = best.plans.drain(..kept).collect();
+    for k in 0..candidates.len() {
+        let plan = candidates[k].plan.unturned();
+        if candidates.iter().all(|other| other.plan != plan) {
+            let cost = cost(graph, geometry, method, &plan);
+            candidates.push(Tried { plan, cost });
+        }
+    }
+    if candidates.len() > 1 {
+        let after =
+            |tried: &Tried| cost_after_factoring(graph, geometry, method, &tried.plan).weighted();
+        candidates.sort_by_cached_key(after);
+    }
+    best.plans.splice(..0, candidates);
+    best
+}
+
+/// What the method's expressions under a plan cost, before factoring.
+pub(super) fn cost(graph: &Multibody, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
+    let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
+    expr::cost(&graph, &outputs).unfinished()
+}
+
+/// The same after factoring.
+fn cost_after_factoring(
+    graph: &Multibody,
+    geometry: &Geometry,
+    method: Method,
+    plan: &Plan,
+) -> Cost {
+    let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
+    factored_cost(graph, outputs)
+}

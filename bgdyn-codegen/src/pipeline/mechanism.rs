@@ -1,0 +1,68 @@
+//! A mechanism: its text to a model and to tokens, step by step.
+
+use proc_macro2::TokenStream;
+
+use crate::bond_graph;
+use crate::choice::{Choice, prefer};
+use crate::emit;
+use crate::fault::Faults;
+use crate::function::Function;
+use crate::mechanism::Mechanism;
+use crate::method::Method;
+use crate::model::Model;
+use crate::options::{Options, Unknown};
+use crate::read::read;
+use crate::refusal::Refusal;
+use crate::verify::check_functions;
+
+/// From a mechanism's text to the tokens of its module; see [`super::generate_file`].
+///
+/// # Errors
+/// Every fault found in the spec; or, where it has none, every name asked for that it lacks.
+pub fn generate(
+    text: &str,
+    stem: &str,
+    place: &emit::OutputOptions,
+    options: &Options,
+) -> Result<(TokenStream, Faults), Refusal> {
+    let (mechanism, findings) = read(text, Some(stem));
+    let Some(mechanism) = mechanism else {
+        return Err(Refusal::Spec(findings));
+    };
+    let model = model(mechanism, options).map_err(Refusal::Options)?;
+    if options.verify {
+        let name = model.mechanism.name();
+        Refusal::unless_equal(check_functions(name, &model.bond_graph, &model.functions))?;
+    }
+    Ok((emit::module(&model, place), findings))
+}
+
+/// Builds the bond graph of a mechanism and chooses a function for each method asked for.
+///
+/// # Errors
+/// Every name asked for that the mechanism does not have.
+pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unknown>> {
+    let bond_graph = bond_graph::build(&mechanism);
+    let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
+    let choice = Choice::new(&bond_graph, options.formulation);
+    let chosen = methods
+        .into_iter()
+        .filter_map(|method| prefer(&choice, method, options.prefer));
+    let functions = chosen.collect();
+    drop(choice);
+    Ok(Model {
+        mechanism,
+        bond_graph,
+        functions,
+    })
+}
+
+/// One function of a mechanism, without the others.
+pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
+    let graph = bond_graph::build(mechanism);
+    prefer(
+        &Choice::new(&graph, options.formulation),
+        method,
+        options.prefer,
+    )
+}

@@ -1,0 +1,40 @@
+//! A scene: its text to functions and tokens.
+
+use proc_macro2::TokenStream;
+
+use crate::emit;
+use crate::fault::Faults;
+use crate::function::Function;
+use crate::options::Options;
+use crate::read::read_scene;
+use crate::refusal::Refusal;
+use crate::system::System;
+use crate::verify::check_scene;
+
+/// From a scene's text to the tokens of its module; see [`super::generate_file`].
+pub(super) fn generate_scene(
+    text: &str,
+    stem: &str,
+    place: &emit::OutputOptions,
+    options: &Options,
+    load: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<(TokenStream, Faults), Refusal> {
+    let (system, findings) = read_scene(text, stem, load)?;
+    let misplaced = options.of_mechanisms();
+    if !misplaced.is_empty() {
+        return Err(Refusal::Options(misplaced));
+    }
+    let functions = scene_functions(&system, options);
+    if options.verify {
+        Refusal::unless_equal(check_scene(&system, &functions))?;
+    }
+    Ok((emit::scene_module(&system, &functions, place), findings))
+}
+
+/// The functions of a scene: the usual ones, what its method of integration needs, and what is
+/// asked for.
+pub fn scene_functions(system: &System, options: &Options) -> Vec<Function> {
+    let roles = system.roles_with(options.jacobian, options.canonical);
+    let roles = roles.into_iter();
+    roles.map(|role| system.function(role)).collect()
+}

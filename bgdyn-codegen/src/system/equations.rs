@@ -1,0 +1,73 @@
+//! The equations of a scene as data: the scene, its bond graph, its start and its named results.
+
+use super::summed::summed;
+use crate::bond_graph::{BondGraph, BondNetwork};
+use crate::expr::{Builder, Ex, Expr};
+use crate::function::Function;
+use crate::laws::Own;
+use crate::method::{Method, Role};
+use crate::scene::{Initial, Scene};
+
+/// The equations of a scene.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// The scene.
+    pub scene: Scene,
+    /// The bond graph of its mechanism, with what its effects change in it.
+    pub graph: BondGraph,
+    /// The nodes and bonds of the mechanism and of its effects.
+    pub network: BondNetwork,
+    /// Its initial state, of fluid volumes too.
+    pub initial: Initial,
+    /// The parts of its outputs.
+    pub outputs: Vec<Named>,
+    /// The entries of its balance of power.
+    pub entries: Vec<Named>,
+}
+
+/// A named number of a result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Its name.
+    pub name: String,
+    /// Its SI unit; nothing for an entry of the balance of power, whose numbers have several.
+    pub unit: &'static str,
+    /// Unit and meaning.
+    pub about: String,
+}
+
+impl System {
+    /// The coordinate that each mode may hold.
+    pub fn mode_coordinates(&self) -> Vec<usize> {
+        let b = Builder::silent();
+        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
+        let mut found = vec![0; self.scene.layout.modes.len()];
+        for contact in laws.contacts() {
+            found[contact.mode] = contact.coordinate;
+        }
+        found
+    }
+
+    /// The function of a role in one block, with what `made` gives as its outputs.
+    pub(super) fn one(
+        &self,
+        role: Role,
+        made: impl for<'g> FnOnce(&System, &'g Builder) -> Vec<Ex<'g>>,
+    ) -> Function {
+        let b = Builder::new();
+        let outputs: Vec<Expr> = made(self, &b).into_iter().map(Ex::expr).collect();
+        self.flat(role, "scene".into(), b, outputs)
+    }
+
+    /// The function of a role in one block, with these outputs.
+    pub(super) fn flat(
+        &self,
+        role: Role,
+        formulation: String,
+        b: Builder,
+        outputs: Vec<Expr>,
+    ) -> Function {
+        let method = Method::Scene(role);
+        Function::flat(&self.graph, method, formulation, b.into_graph(), outputs)
+    }
+}

@@ -1,0 +1,37 @@
+//! Elements that do nothing: no joint moves the place where they act in a direction in which they act.
+
+use super::System;
+use super::summed::summed;
+use crate::bond_graph::PortPlace;
+use crate::declaration::Element;
+use crate::expr::Builder;
+use crate::laws::Own;
+
+impl System {
+    /// Elements that act at a place of a link, but take and give no power in any state: the Jacobian of the
+    /// place is zero in the directions in which they act. Those whose numbers are all zero are left out.
+    pub fn idle(&self) -> Vec<&Element> {
+        let b = Builder::silent();
+        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
+        let elements = self.scene.elements.iter().zip(laws.balances()).enumerate();
+        let idle = elements.filter(|(at, (element, balance))| {
+            let powers = [balance.supplied, balance.stored, balance.dissipated];
+            let mut numbers = element.quantities().peekable();
+            let is_off = numbers.peek().is_some() && numbers.all(|(_, q)| q.value.to_f64() == 0.0);
+            self.acts_at_site(*at) && powers.iter().all(|power| power.is_zero()) && !is_off
+        });
+        idle.map(|(_, (element, _))| element).collect()
+    }
+
+    /// Whether the element with this number has a node on the flow of a place of a link.
+    fn acts_at_site(&self, element: usize) -> bool {
+        let network = &self.network;
+        let mut sites = network.ports.iter();
+        sites.any(|port| {
+            let mut bonds = network.bonds_at(port.junction);
+            let is_own = |node: usize| network.nodes[node].element == Some(element);
+            matches!(port.place, PortPlace::Site(_))
+                && bonds.any(|(_, bond)| is_own(bond.other(port.junction).0))
+        })
+    }
+}

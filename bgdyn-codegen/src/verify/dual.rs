@@ -1,0 +1,206 @@
+//! Dual numbers over double-double: a value and its exact rate along a direction.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use bgdyn_runtime::{Dd, Scalar};
+use nalgebra::SVector;
+
+use crate::expr::Inputs;
+
+/// A number x + ε dx with ε² = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Dual {
+    value: Dd,
+    rate: Dd,
+}
+
+/// A direction of motion: rates of positions, velocities, first-order states and time.
+pub(super) struct Direction {
+    pub q: Vec<Dd>,
+    pub v: Vec<Dd>,
+    pub x: Vec<Dd>,
+    pub t: Dd,
+}
+
+/// The state with its rates along the direction. Accelerations, inputs, modes and parameters have
+/// the rate zero.
+pub(super) fn along(at: &Inputs<Dd>, direction: &Direction) -> Inputs<Dual> {
+    Inputs {
+        q: with_rates(&at.q, &direction.q),
+        v: with_rates(&at.v, &direction.v),
+        x: with_rates(&at.x, &direction.x),
+        t: at.t.map(|t| Dual::new(t, direction.t)),
+        a: constants(&at.a),
+        u: constants(&at.u),
+        modes: constants(&at.modes),
+        parameters: constants(&at.parameters),
+        passed: vec![],
+    }
+}
+
+/// Values and their rates.
+pub(super) fn with_rates(values: &[Dd], rates: &[Dd]) -> Vec<Dual> {
+    assert_eq!(values.len(), rates.len());
+    let pairs = values.iter().zip(rates);
+    pairs.map(|(&x, &dx)| Dual::new(x, dx)).collect()
+}
+
+/// The values of results.
+pub(super) fn values(results: &[Dual]) -> Vec<Dd> {
+    results.iter().map(|x| x.value).collect()
+}
+
+/// The rates of results.
+pub(super) fn rates(results: &[Dual]) -> Vec<Dd> {
+    results.iter().map(|x| x.rate).collect()
+}
+
+fn constants(values: &[Dd]) -> Vec<Dual> {
+    values.iter().map(|&x| Dual::new(x, Dd::ZERO)).collect()
+}
+
+impl Dual {
+    fn new(value: Dd, rate: Dd) -> Self {
+        Dual { value, rate }
+    }
+}
+
+impl Add for Dual {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Dual::new(self.value + other.value, self.rate + other.rate)
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Dual::new(self.value - other.value, self.rate - other.rate)
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let rate = self.rate * other.value + self.value * other.rate;
+        Dual::new(self.value * other.value, rate)
+    }
+}
+
+impl Div for Dual {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        Dual::new(value, (self.rate - value * other.rate) / other.value)
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Dual::new(-self.value, -self.rate)
+    }
+}
+
+/// Where a function has a kink, the rate is that of the branch which the value takes.
+impl Scalar for Dual {
+    type Mask = bool;
+    type Refused = Option<usize>;
+    type Singular<const N: usize> = ();
+
+    fn from_f64(x: f64) -> Self {
+        Dual::new(Dd::from_f64(x), Dd::ZERO)
+    }
+
+    fn from_parts(hi: f64, lo: f64) -> Self {
+        Dual::new(Dd::from_parts(hi, lo), Dd::ZERO)
+    }
+
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    fn sqrt(self) -> Self {
+        let root = Scalar::sqrt(self.value);
+        Dual::new(root, self.rate / (root + root))
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        Self::sin_cos_sum(&[self], (0.0, 0.0))
+    }
+
+    fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
+        let rate = angles.iter().fold(Dd::ZERO, |sum, a| sum + a.rate);
+        let (sine, cosine) = Dd::sin_cos_sum(&values(angles), offset);
+        let sine_and_rate = Dual::new(sine, cosine * rate);
+        (sine_and_rate, Dual::new(cosine, -sine * rate))
+    }
+
+    fn exp(self) -> Self {
+        let value = Scalar::exp(self.value);
+        Dual::new(value, value * self.rate)
+    }
+
+    fn ln(self) -> Self {
+        Dual::new(Scalar::ln(self.value), self.rate / self.value)
+    }
+
+    fn tanh(self) -> Self {
+        let value = Scalar::tanh(self.value);
+        Dual::new(value, (Dd::ONE - value * value) * self.rate)
+    }
+
+    fn abs(self) -> Self {
+        if self.value < Dd::ZERO { -self } else { self }
+    }
+
+    fn min(self, other: Self) -> Self {
+        if other.value < self.value {
+            other
+        } else {
+            self
+        }
+    }
+
+    fn max(self, other: Self) -> Self {
+        if self.value < other.value {
+            other
+        } else {
+            self
+        }
+    }
+
+    fn sign(self) -> Self {
+        Dual::new(Scalar::sign(self.value), Dd::ZERO)
+    }
+
+    fn less(self, other: Self) -> bool {
+        self.value < other.value
+    }
+
+    fn select(mask: bool, a: Self, b: Self) -> Self {
+        if mask { a } else { b }
+    }
+
+    fn none_refused() -> Option<usize> {
+        None
+    }
+
+    fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Option<usize>) -> Self {
+        let value = Scalar::checked_pivot(self.value, magnitude.value, joint, refused);
+        Dual::new(value, self.rate)
+    }
+
+    fn finish<const N: usize>(
+        all: SVector<Self, N>,
+        refused: Option<usize>,
+        _: &'static [&'static str; N],
+    ) -> Result<SVector<Self, N>, ()> {
+        if refused.is_none() { Ok(all) } else { Err(()) }
+    }
+}
