@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 use super::base_parameters::{Parts, regrouped};
 use super::geometry::{Geometry, angle_of};
 use super::inertia::{Inertia, Point, turn};
-use super::names::name_data;
+use super::names::{name_body, name_number};
 use super::plan::{Plan, origin_offset};
 use super::rotors::Rotors;
 use crate::bond_graph::Multibody;
@@ -202,4 +202,15 @@ fn cos_sin<'g>(b: &'g Builder, terms: &[Ex<'g>], phase: (Dd, Dd)) -> (Ex<'g>, Ex
         return (c * phase.0 - s * phase.1, s * phase.0 + c * phase.1);
     }
     b.cos_sin(terms, angle_of(phase))
+}
+
+/// Names what a mechanism gives: gravity, positions, inertias.
+fn name_data(frames: &Frames<'_>) {
+    for (frame, gravity) in frames.bodies.iter().zip(&frames.gravity) {
+        if frame.parent.is_none() {
+            name_number(gravity, "g", &frame.name);
+        }
+        name_number(&frame.position, "r", &frame.name);
+        name_body(&frame.inertia, &frame.name);
+    }
 }

@@ -11,7 +11,7 @@ use bgdyn_runtime::Dd;
 
 use super::frames::{Frame, Frames};
 use super::inertia::{Inertia, turn, turn_back};
-use super::names::{name_composite, name_momentum, name_vector};
+use super::names::{name_composite, name_vector};
 use crate::expr::{Builder, Ex};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
@@ -330,4 +330,11 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g
         }
     }
     energy
+}
+
+/// Names the momentum that a unit rate of the joint `moved` gives, about the origin at `joint`.
+fn name_momentum(momentum: &Momentum<'_>, moved: &str, joint: &str) {
+    let owner = format!("{moved}_at_{joint}");
+    name_vector(&momentum.linear, "p", &owner);
+    name_vector(&momentum.angular, "l", &owner);
 }

@@ -9,8 +9,8 @@ use super::inertia::{ArticulatedInertia, Column};
 use crate::expr::{Bound, Builder, ErrorBound, Ex};
 use crate::formulation::recursion::frames::{Frame, Frames};
 use crate::formulation::recursion::inertia::{turn, turn_back};
+use crate::formulation::recursion::inverse_dynamics::name_wrenches;
 use crate::formulation::recursion::inverse_dynamics::{Load, Wrench};
-use crate::formulation::recursion::names::name_wrenches;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
