@@ -53,11 +53,11 @@ fn about(name: &Name, length: f64) -> String {
     }
 }
 
-/// A comment that says the unit of length, and what that does to the quantities of these prefixes.
-pub(super) fn unit_of_length(unit: Dd, prefixes: &BTreeSet<&str>) -> String {
+/// A comment that says the unit of length, and what that does to the quantities with these patterns.
+pub(super) fn unit_of_length(unit: Dd, patterns: &BTreeSet<String>) -> String {
     let unit = unit.to_f64();
     let used = QUANTITIES.iter();
-    let used = used.filter(|q| q.scales() && prefixes.contains(q.prefix));
+    let used = used.filter(|q| q.scales() && patterns.contains(&q.pattern()));
     let units = used.map(|q| format!("{}_* in {}", q.prefix, q.unit_in(unit)));
     let units: Vec<String> = units.collect();
     let list = if units.is_empty() { "" } else { ": " };

@@ -55,8 +55,8 @@ impl Writer<'_> {
         }
         let names = nodes.filter_map(|id| self.graph.name(id));
         let quantities = names.filter_map(|name| Quantity::of_name(&name.text));
-        let prefixes = quantities.map(|(quantity, _)| quantity.prefix).collect();
-        Some(unit_of_length(unit, &prefixes))
+        let patterns = quantities.map(|(quantity, _)| quantity.pattern()).collect();
+        Some(unit_of_length(unit, &patterns))
     }
 
     /// Code of the block's results.
