@@ -28,6 +28,7 @@ pub mod function;
 pub mod interface;
 pub mod laws;
 pub mod layout;
+mod legend;
 pub mod machine;
 pub mod math;
 pub mod mechanism;

@@ -79,6 +79,7 @@ fn module(
         source: find::file_name(Path::new(&written)),
         rebuild: None,
         also: Vec::new(),
+        plain: false,
     };
     let found = find::find(&written, input.path.span());
     let load = |mechanism: &str| {

@@ -14,7 +14,7 @@ use crate::usage::Usage;
 /// Write the generated Rust source
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs\n  bgdyn generate specs/scara.yaml -o scara.rs --check   # exit 1 if scara.rs is not up to date"
+    after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs\n  bgdyn generate specs/scara.yaml -o scara.rs --check   # exit 1 if scara.rs is not up to date\n  bgdyn generate specs/scara.yaml --plain   # formulas as one writes them"
 )]
 pub(crate) struct Generate {
     /// The spec
@@ -37,6 +37,10 @@ pub(crate) struct Generate {
     /// Do not compare the functions with equation (6)
     #[arg(long)]
     no_verify: bool,
+    /// Write infix formulas, for reading and review: `a * b + c` in place of `T::mul_add(a, b, c)`.
+    /// The statements are those of the code that is compiled; this text is not to be compiled
+    #[arg(long)]
+    plain: bool,
     #[command(flatten)]
     asked: Asked,
 }
@@ -64,7 +68,10 @@ impl Generate {
             true => "standard input".into(),
             false => self.file.file_name().unwrap_or_default().to_string_lossy(),
         };
-        let place = OutputOptions::source_text(source.into_owned());
+        let place = OutputOptions {
+            plain: self.plain,
+            ..OutputOptions::source_text(source.into_owned())
+        };
         let place = place
             .with_crate(&self.bgdyn)?
             .with_visibility(&self.visibility)?;

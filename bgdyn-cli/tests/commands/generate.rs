@@ -103,3 +103,31 @@ fn names_asked_for_in_vain_are_bad_usage() {
     let stderr = bgdyn(&["generate", SCARA, "--module", "Arm"]).bad_usage();
     assert!(stderr.contains("`Arm` cannot name a module"), "{stderr}");
 }
+
+/// With `--plain` formulas are infix; the statements, their names and their order stay.
+#[test]
+fn plain_text_has_the_same_statements() {
+    let statements = |text: &str| -> Vec<String> {
+        let words = text.split_whitespace().collect::<Vec<_>>();
+        let names = words.windows(2).filter(|pair| pair[0] == "let");
+        names.map(|pair| pair[1].to_owned()).collect()
+    };
+    for spec in [
+        "specs/scara.yaml",
+        "specs/puma560.yaml",
+        "specs/scenes/scara_friction.scene.yaml",
+    ] {
+        let compiled = bgdyn(&["generate", "--no-verify", spec]).good();
+        let plain = bgdyn(&["generate", "--no-verify", "--plain", spec]).good();
+        assert!(plain.contains("FOR READING, NOT FOR COMPILING"), "{spec}");
+        let (_, body) = plain.split_once("pub mod").expect("a module");
+        assert!(!body.contains("mul_add("), "{spec}");
+        assert!(!body.contains(" k(") && !body.contains("(k("), "{spec}");
+        let mut wanted = statements(&compiled);
+        // `k`, which makes a scalar of a number, is not in plain text.
+        wanted.retain(|name| name != "k");
+        assert!(wanted.len() > 100, "{spec}");
+        assert_eq!(statements(&plain), wanted, "{spec}");
+        syn::parse_file(&plain).unwrap_or_else(|e| panic!("{spec}: {e}"));
+    }
+}

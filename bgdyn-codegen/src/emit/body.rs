@@ -161,7 +161,7 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
     let read: BTreeSet<Leaf> = function.blocks.iter().flat_map(of_block).collect();
     let mut unread = Vec::new();
-    let naming = Naming::of_model(model);
+    let naming = Naming::of_model(model, false);
     for argument in function.method.arguments() {
         let components = naming.components(*argument);
         let is_read = |j: usize| read.contains(&components[j].0);

@@ -67,27 +67,31 @@ pub(super) struct Naming<'a> {
     pub(super) parameters: Vec<&'a str>,
     /// The parts of a scene's state and inputs; `None` for a mechanism.
     pub(super) layout: Option<&'a Layout>,
+    /// Whether formulas are infix.
+    pub(super) plain: bool,
 }
 
 impl<'a> Naming<'a> {
     /// Of a mechanism's functions.
-    pub(super) fn of_model(model: &'a Model) -> Self {
+    pub(super) fn of_model(model: &'a Model, plain: bool) -> Self {
         let coordinates = model.bond_graph.coordinates.iter();
         let parameters = model.mechanism.parameters().iter();
         Naming {
             joints: coordinates.map(|c| c.name.as_str()).collect(),
             parameters: parameters.map(|p| p.name.as_str()).collect(),
             layout: None,
+            plain,
         }
     }
 
     /// Of a scene's functions.
-    pub(super) fn of_scene(scene: &'a SceneInterface) -> Self {
+    pub(super) fn of_scene(scene: &'a SceneInterface, plain: bool) -> Self {
         let coordinates = scene.layout.coordinates.iter();
         Naming {
             joints: coordinates.map(|c| c.name.as_str()).collect(),
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(&scene.layout),
+            plain,
         }
     }
 

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{body, code, constants, entries, explain, traits};
@@ -20,8 +21,8 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let operations = constants::counted(&model.functions);
     let about = format!(" The mechanism `{}`.", model.mechanism.name());
     let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
-    let methods = model.functions.iter().map(|f| method(f, model));
-    let naming = code::Naming::of_model(model);
+    let methods = model.functions.iter().map(|f| method(f, model, output));
+    let naming = code::Naming::of_model(model, output.plain);
     let explainers = explain::explainers(&model.functions, &naming, &quote! { T::Singular<NV> });
     let struct_name = struct_name(model);
     let present: Vec<Method> = model.functions.iter().map(|f| f.method).collect();
@@ -75,6 +76,7 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
             output.source
         ),
     ];
+    docs.extend(output.note().iter().map(ToString::to_string));
     if let Some(text) = mechanism.description() {
         docs.push(String::new());
         docs.extend(text.lines().map(|line| format!(" {}", line.trim_end())));
@@ -98,11 +100,12 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
             f.formulation
         ));
     }
+    docs.extend(legend(&model.functions));
     docs
 }
 
 /// One method of the struct.
-fn method(function: &Function, model: &Model) -> TokenStream {
+fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenStream {
     let name = ident(function.name());
     let arguments = function.method.arguments();
     let names = arguments.iter().map(|a| ident(a.name()));
@@ -111,7 +114,7 @@ fn method(function: &Function, model: &Model) -> TokenStream {
     let docs = method_docs(function, model);
     let finish =
         |values: &[TokenStream]| body::result(function.method, model.mechanism.nv(), values);
-    let naming = code::Naming::of_model(model);
+    let naming = code::Naming::of_model(model, output.plain);
     let places = entries::places(function.shape(), model.mechanism.nv());
     let body::Body { body, blocks } = body::body(function, &naming, places, finish);
     quote! {

@@ -22,6 +22,8 @@ pub struct OutputOptions {
     pub rebuild: Option<String>,
     /// Other files to include for the same reason: a scene's mechanism.
     pub also: Vec<String>,
+    /// Whether the code is for reading: infix formulas, which nobody compiles.
+    pub plain: bool,
 }
 
 impl OutputOptions {
@@ -34,6 +36,7 @@ impl OutputOptions {
             source,
             rebuild: None,
             also: Vec::new(),
+            plain: false,
         }
     }
 
@@ -67,6 +70,19 @@ impl OutputOptions {
         }
         let module = Some(name.to_string());
         Ok(OutputOptions { module, ..self })
+    }
+
+    /// What stands in the header of code that is for reading.
+    pub(super) fn note(&self) -> &'static [&'static str] {
+        match self.plain {
+            true => &[
+                "",
+                " FOR READING, NOT FOR COMPILING: `bgdyn generate --plain`. Formulas are infix; in the code that",
+                " is compiled, `a * b + c` is one `mul_add` where a statement of its own computes it, and a",
+                " number `x` is `k(x)`, the scalar nearest to it.",
+            ],
+            false => &[],
+        }
     }
 
     /// The module's name for a mechanism of this name.

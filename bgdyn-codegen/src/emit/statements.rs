@@ -1,13 +1,16 @@
 //! The statements of one block: a `let` for each value that is used more than once.
 
+use bgdyn_runtime::Dd;
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{ToTokens, quote};
 
-use super::code::{Binding, atom, leaves};
+use super::code::{Binding, Code, atom, leaves};
+use super::named_constants::unit_of_length;
 use super::tokens::number;
 use super::writer::Writer;
 use crate::expr::{Expr, Node, NodeId};
 use crate::function::Function;
+use crate::legend::Quantity;
 
 /// Operations in one statement at the most: what a reader takes in at a glance.
 const STATEMENT: usize = 6;
@@ -16,6 +19,7 @@ impl Writer<'_> {
     /// Statements that compute a block.
     pub(super) fn block(&mut self, outputs: &[Expr], function: &Function) -> TokenStream {
         let arguments = self.arguments(function, &leaves(self.graph, outputs));
+        let unit = self.first_unit();
         for i in 0..self.needed.len() {
             if !self.needed[i] {
                 continue;
@@ -30,7 +34,29 @@ impl Writer<'_> {
             .constants
             .then(|| quote! { let k = <T as __Scalar>::from_f64; });
         let statements = std::mem::take(&mut self.statements);
-        quote! { #arguments #constants #(#statements)* }
+        let named = self.named_constants.items(self.unit);
+        let whole = quote! { #named #arguments #constants #(#statements)* };
+        match unit.filter(|_| !whole.is_empty()) {
+            Some(unit) => quote! { #[doc = #unit] #whole },
+            None => whole,
+        }
+    }
+
+    /// A comment on the unit of length with which the block begins, where that is not the metre.
+    fn first_unit(&mut self) -> Option<String> {
+        let needed = (0..self.needed.len()).filter(|&i| self.needed[i]);
+        let nodes = needed.map(NodeId::at);
+        let nodes =
+            nodes.filter(|&id| !matches!(self.graph.node(id), Node::Leaf(_) | Node::Constant(_)));
+        let unit = nodes.clone().find_map(|id| self.graph.unit_of_length(id))?;
+        self.unit = Some(unit);
+        if unit == Dd::ONE {
+            return None;
+        }
+        let names = nodes.filter_map(|id| self.graph.name(id));
+        let quantities = names.filter_map(|name| Quantity::of_name(&name.text));
+        let patterns = quantities.map(|(quantity, _)| quantity.pattern()).collect();
+        Some(unit_of_length(unit, &patterns))
     }
 
     /// Code of the block's results.
@@ -39,6 +65,23 @@ impl Writer<'_> {
             .iter()
             .map(|&e| self.operand(e, Binding::Sum))
             .collect()
+    }
+
+    /// A number as a scalar.
+    pub(super) fn scalar(&mut self, value: TokenStream) -> Code {
+        if self.naming.plain {
+            return atom(value);
+        }
+        self.use_constants();
+        atom(quote! { k(#value) })
+    }
+
+    /// A number's name, or its digits where it has none.
+    pub(super) fn number_of(&mut self, value: Dd) -> TokenStream {
+        match self.graph.constant_name(value) {
+            Some(name) => self.named_constants.add(&mut self.names, name, value),
+            None => number(value.to_f64()).into_token_stream(),
+        }
     }
 
     /// Writes a node: the code where it is used, after a statement of its own if it needs one.
@@ -50,9 +93,8 @@ impl Writer<'_> {
                 None => return,
             },
             Node::Constant(c) => {
-                self.use_constants();
-                let value = number(c.value().to_f64());
-                atom(quote! { k(#value) })
+                let value = self.number_of(c.value());
+                self.scalar(value)
             }
             Node::Less(a, b) => {
                 let (a, b) = (
@@ -82,6 +124,7 @@ impl Writer<'_> {
         let inline = self.uses[i] <= 1
             && code.binding != Binding::Atom
             && code.operations < STATEMENT
+            && !matches!(self.graph.node(id), Node::MulAdd(..))
             && self.graph.name(id).is_none();
         self.code[i] = Some(if is_operation && !inline {
             self.bind(id, code)

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::code::{Binding, atom};
 use super::entries::{Entries, NAME};
-use super::tokens::{COMMENT, number};
+use super::tokens::COMMENT;
 use super::writer::Writer;
 use crate::expr::{Expr, Node, NodeId};
 
@@ -55,24 +55,17 @@ impl Writer<'_> {
         };
         let values: Vec<TokenStream> = entries.outputs.iter().map(value).collect();
         let (name, whole) = (format_ident!("{NAME}"), (entries.whole)(&values));
-        if entries
-            .outputs
-            .iter()
-            .any(|e| self.constant(e.node).is_some())
-        {
-            self.use_constants();
-        }
         let title =
             format!("{COMMENT} placeholders but for constants: every other entry is stored below");
         self.push_untitled(quote! { #[doc = #title] let mut #name = #whole; });
     }
 
     /// The code of a constant.
-    fn constant(&self, id: NodeId) -> Option<TokenStream> {
+    fn constant(&mut self, id: NodeId) -> Option<TokenStream> {
         match self.graph.node(id) {
             Node::Constant(c) => {
-                let value = number(c.value().to_f64());
-                Some(quote! { k(#value) })
+                let value = self.number_of(c.value());
+                Some(self.scalar(value).tokens)
             }
             _ => None,
         }

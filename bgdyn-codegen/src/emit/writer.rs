@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use bgdyn_runtime::Dd;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::code::{Binding, Code, Naming, SinePair, atom};
 use super::entries::{self, Entries};
+use super::named_constants::{NamedConstants, unit_of_length};
 use super::names::{Names, loop_names};
 use super::tokens::{COMMENT, ident};
 use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
@@ -31,6 +33,10 @@ pub(super) struct Writer<'a> {
     /// Whether the block is a function of its own.
     separate: bool,
     pub(super) constants: bool,
+    /// The numbers with names that are used.
+    pub(super) named_constants: NamedConstants,
+    /// The unit of length that was said last, m.
+    pub(super) unit: Option<Dd>,
     pub(super) pivots: bool,
     /// The result, where it is written entry by entry.
     pub(super) entries: Option<Entries<'a>>,
@@ -63,6 +69,8 @@ impl<'a> Writer<'a> {
             statements: Vec::new(),
             section: None,
             constants: false,
+            named_constants: NamedConstants::default(),
+            unit: None,
             pivots: false,
             entries: None,
         };
@@ -129,8 +137,15 @@ impl<'a> Writer<'a> {
             let text = format!("{COMMENT} {title}");
             quote! { #[doc = #text] }
         });
+        let unit = begins.and_then(|_| self.graph.unit_of_length(id));
+        let unit = unit.filter(|unit| self.unit.is_some_and(|said| said != *unit));
+        self.unit = unit.or(self.unit);
+        let unit = unit.map(|unit| {
+            let text = unit_of_length(unit, &BTreeSet::new());
+            quote! { #[doc = #text] }
+        });
         self.section = section.or(self.section);
-        self.statements.push(quote! { #title #statement });
+        self.statements.push(quote! { #unit #title #statement });
     }
 
     /// Adds a statement that computes nothing, so that no section begins with it.
@@ -208,6 +223,9 @@ impl<'a> Writer<'a> {
                     operations,
                 }
             }
+            Node::MulAdd(a, b, negative, c) if self.naming.plain => {
+                self.infix(plus(*a), plus(*b), *negative, *c)
+            }
             Node::MulAdd(a, b, negative, c) => {
                 let a = self.operand(plus(*a).flipped(*negative), Binding::Sum);
                 let (b, c) = (
@@ -242,6 +260,26 @@ impl<'a> Writer<'a> {
             }
             Node::Constant(_) | Node::Leaf(_) | Node::Less(..) => unreachable_node(),
             Node::Angle(..) | Node::Sin(_) | Node::Cos(_) => unreachable_node(),
+        }
+    }
+
+    /// a b + c, or c − a b where `negative`, for readers.
+    fn infix(&mut self, a: Expr, b: Expr, negative: bool, c: Expr) -> Code {
+        let left = self.operand(a, Binding::Product);
+        let right = self.operand(b, Binding::Atom);
+        let tokens = if negative && !c.negative {
+            let c = self.operand(c, Binding::Sum);
+            quote! { #c - #left * #right }
+        } else {
+            let minus = negative.then(|| quote! { - });
+            let sign = if c.negative { quote!(-) } else { quote!(+) };
+            let c = self.operand(Expr::plus(c.node), Binding::Product);
+            quote! { #minus #left * #right #sign #c }
+        };
+        Code {
+            tokens,
+            binding: Binding::Sum,
+            operations: 0,
         }
     }
 

@@ -40,10 +40,10 @@ struct Sums<'a> {
 }
 
 impl Sums<'_> {
-    /// Whether a node is part of the sum that reads it: nothing else does, and it has no name.
+    /// Whether a node is part of the sum that reads it: nothing else reads it.
     fn is_part(&self, id: NodeId) -> bool {
         let is_sum = matches!(self.from.node(id), Node::Add(..));
-        is_sum && self.reads[id.0 as usize] == 1 && self.from.name(id).is_none()
+        is_sum && self.reads[id.0 as usize] == 1
     }
 
     /// The nodes that are needed, but for sums that become part of another.

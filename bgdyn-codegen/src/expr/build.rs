@@ -95,6 +95,11 @@ impl Builder {
         }
     }
 
+    /// Sections that begin from now on have lengths in this unit, m.
+    pub fn unit_of_length(&self, unit: Dd) {
+        self.graph.borrow_mut().set_unit_of_length(unit);
+    }
+
     /// A number.
     pub fn constant(&self, x: Dd) -> Ex<'_> {
         Ex {
@@ -159,11 +164,26 @@ impl<'g> Ex<'g> {
 
     /// Names its node for readers of the output.
     pub fn named(self, name: impl FnOnce() -> String) -> Self {
-        if let (Value::Node(expr), false) = (self.value, self.builder.silent) {
+        if !self.builder.silent {
             let mut graph = self.builder.graph.borrow_mut();
-            graph.set_name(expr, name);
+            match self.value {
+                Value::Node(expr) => graph.set_name(expr, name),
+                Value::Number(x) => graph.set_constant_name(x, name, false),
+            }
         }
         self
+    }
+
+    /// The same for what the mechanism gives: a number that several quantities share has no name.
+    pub fn named_alone(self, name: impl FnOnce() -> String) -> Self {
+        match self.value {
+            Value::Number(x) if !self.builder.silent => {
+                let mut graph = self.builder.graph.borrow_mut();
+                graph.set_constant_name(x, name, true);
+                self
+            }
+            _ => self.named(name),
+        }
     }
 
     /// Its value as a checked pivot of `joint`; see [`super::Node::Pivot`].

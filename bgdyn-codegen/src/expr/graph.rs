@@ -5,24 +5,8 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 
 use super::index::Index;
-use super::node::{Expr, Node, NodeId};
-
-/// A name for a value. The node may hold the value with the opposite sign.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Name {
-    /// The name of the value.
-    pub text: String,
-    /// Whether the node is the value times −1.
-    pub negative: bool,
-}
-
-impl Name {
-    /// An identifier for the node: `neg_m_elbow_turn` for −m_elbow_turn.
-    pub fn identifier(&self) -> String {
-        let prefix = if self.negative { "neg_" } else { "" };
-        format!("{prefix}{}", self.text)
-    }
-}
+use super::naming::{Name, Section, Title};
+use super::node::{Constant, Expr, Node, NodeId};
 
 /// The nodes, operands before users.
 #[derive(Clone, Debug, Default)]
@@ -30,16 +14,17 @@ pub struct Graph {
     pub(super) nodes: Vec<Node>,
     /// The nodes by their hash.
     index: Index,
-    names: BTreeMap<NodeId, Name>,
+    pub(super) names: BTreeMap<NodeId, Name>,
     /// Titles of the sections, and for each node the one in which it was made.
-    titles: Vec<String>,
-    sections: Vec<Section>,
+    pub(super) titles: Vec<Title>,
+    pub(super) sections: Vec<Section>,
     /// The section that is open.
-    open: Section,
+    pub(super) open: Section,
+    /// The unit of length of the sections that are begun.
+    pub(super) unit: Option<Dd>,
+    /// Names of numbers without their sign; nothing where several quantities have the value.
+    pub(super) constant_names: BTreeMap<Constant, Option<Name>>,
 }
-
-/// A stretch of the algorithm that readers of the output find under one title; 0 has none.
-type Section = u32;
 
 impl Graph {
     /// The node with this id.
@@ -55,54 +40,6 @@ impl Graph {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
-    }
-
-    /// The name that a formulation gave to a node, for readers of the output.
-    pub fn name(&self, id: NodeId) -> Option<&Name> {
-        self.names.get(&id)
-    }
-
-    /// Names an expression; the first name of its node stays.
-    pub(crate) fn set_name(&mut self, e: Expr, text: impl FnOnce() -> String) {
-        if !matches!(self.node(e.node), Node::Constant(_) | Node::Leaf(_)) {
-            let named = || Name {
-                text: text(),
-                negative: e.negative,
-            };
-            self.names.entry(e.node).or_insert_with(named);
-        }
-    }
-
-    /// Names `copy` as the node `id` of another graph, of which it is a copy.
-    pub(crate) fn copy_name(&mut self, copy: Expr, from: &Graph, id: NodeId) {
-        if let Some(name) = from.name(id) {
-            self.set_name(copy.flipped(name.negative), || name.text.clone());
-        }
-    }
-
-    /// The title of the section in which a node was made.
-    pub fn section(&self, id: NodeId) -> Option<&str> {
-        let section = self.sections[id.0 as usize] as usize;
-        section.checked_sub(1).map(|i| self.titles[i].as_str())
-    }
-
-    /// What is made from now on belongs under this title.
-    pub(crate) fn begin_section(&mut self, title: String) {
-        self.titles.push(title);
-        self.open = self.titles.len() as Section;
-    }
-
-    /// Takes over another graph's titles. What it gives opens the section of a node of that graph.
-    pub(crate) fn adopt_sections(&mut self, from: &Graph) -> Section {
-        let offset = self.titles.len() as Section;
-        self.titles.extend(from.titles.iter().cloned());
-        offset
-    }
-
-    /// Opens the section that `id` of `from` was made in; `offset` is where its titles went.
-    pub(crate) fn reopen_section(&mut self, from: &Graph, id: NodeId, offset: Section) {
-        let section = from.sections[id.0 as usize];
-        self.open = if section == 0 { 0 } else { section + offset };
     }
 
     /// The one node equal to `node`.

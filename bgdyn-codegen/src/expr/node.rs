@@ -49,7 +49,7 @@ impl Expr {
 }
 
 /// A constant as a key: the bits of its two words. Constants of nodes are never negative.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Constant {
     hi: u64,
     lo: u64,

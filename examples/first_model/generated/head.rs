@@ -12,6 +12,23 @@
 /// | method | operations | formulation |
 /// |---|---|---|
 /// | `gravity` | 4 mul, 2 add, 1 sincos | recursion: inertia turned for cradle |
+///
+/// # Names in the code
+///
+/// The axes of a body: z along its joint's axis, or against it so that parallel joints share z; x along
+/// the common normal with the next joint's axis. Names end with the body or the joint that they belong to.
+/// Components of a body's vectors are in its axes, those `at` a joint in the axes before that joint turns.
+/// Inertia is regrouped: part of what a body has may count with its carrier (base parameters). `neg_` is the opposite.
+///
+/// - U = [ω̇]× + [ω]×[ω]×: the point s of a body accelerates by a + U s.
+/// - h = Σ m s, the first moment of a body about its origin.
+/// - D = Σ m s sᵀ = ½ tr(J)·1 − J. skew(U D) is the vector of the skew part of U D: J ω̇ + ω × J ω.
+///
+/// | name | meaning | unit |
+/// |---|---|---|
+/// | `g_x_…` | gravity, in the axes before the joint turns | m/s² |
+/// | `h_x_…` | first moment h = Σ m s about the origin | kg·m |
+/// | `gravity_…` | effort of the joint at rest | N·m or N |
 #[allow(
     unused,
     unreachable_pub,
@@ -81,15 +98,19 @@ pub mod head {
         ///
         /// Does not read: `q[0]` (pan).
         pub fn gravity(&self, q: &__na::SVector<T, NQ>) -> __na::SVector<T, NV> {
+            /// `yoke`: gravity, in the axes before the joint turns, m/s², times −1
+            const NEG_G_Z_YOKE: f64 = 9.81;
+            /// `cradle`: first moment h = Σ m s about the origin, kg·m
+            const H_Y_CRADLE: f64 = 0.012;
             let [[_, q_tilt]] = q.data.0;
             let k = <T as __Scalar>::from_f64;
             // cradle: place and inertia
-            let x1 = T::mul_add(self.lens_mass, k(0.14), k(0.036));
+            let neg_h_x_cradle = T::mul_add(self.lens_mass, k(0.14), k(0.036));
             let (sin_tilt, cos_tilt) = T::sin_cos(q_tilt);
             // cradle: F = m a + U h, N = h × a + skew(U D)
-            let x2 = T::mul_add(sin_tilt, k(0.012), x1 * cos_tilt);
-            let neg_tau_tilt = k(9.81) * x2;
-            __rt::vector([k(0.0), -neg_tau_tilt])
+            let x1 = T::mul_add(sin_tilt, k(H_Y_CRADLE), neg_h_x_cradle * cos_tilt);
+            let neg_gravity_tilt = k(NEG_G_Z_YOKE) * x1;
+            __rt::vector([k(0.0), -neg_gravity_tilt])
         }
     }
     impl<T: __Scalar> __rt::Description<NV> for Head<T> {

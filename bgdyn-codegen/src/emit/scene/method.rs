@@ -34,7 +34,7 @@ fn result_of(role: Role, scene: &SceneInterface) -> (&'static str, Vec<Field>) {
 }
 
 /// A role's function as a method.
-pub(super) fn method(function: &Function, scene: &SceneInterface) -> TokenStream {
+pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -> TokenStream {
     let Method::Scene(role) = function.method else {
         unreachable!("a scene has functions of its own only")
     };
@@ -42,7 +42,7 @@ pub(super) fn method(function: &Function, scene: &SceneInterface) -> TokenStream
     let (_, parts) = result_of(role, scene);
     let (layout, checked) = (&scene.layout, function.shape().checked());
     let finish = |values: &[TokenStream]| finish(role, layout, &parts, values, checked);
-    let naming = Naming::of_scene(scene);
+    let naming = Naming::of_scene(scene, plain);
     let body::Body { body, blocks } = body::body(function, &naming, None, finish);
     let mut docs = vec![
         format!(" {}", role.summary()),

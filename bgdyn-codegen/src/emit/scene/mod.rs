@@ -14,6 +14,7 @@ use quote::quote;
 use super::code::Naming;
 use super::constants::counted;
 use super::explain::explainers;
+use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{ident, struct_ident, structure};
 use crate::function::Function;
@@ -33,8 +34,10 @@ pub fn scene_module(system: &System, functions: &[Function], place: &OutputOptio
     let interface = SceneInterface::of(system);
     let types = types::types(&interface);
     let constants = constants::constants(&interface);
-    let methods = functions.iter().map(|f| method::method(f, &interface));
-    let naming = Naming::of_scene(&interface);
+    let methods = functions
+        .iter()
+        .map(|f| method::method(f, &interface, place.plain));
+    let naming = Naming::of_scene(&interface, place.plain);
     let explainers = explainers(functions, &naming, &quote! { T::Singular<{ NV + NX }> });
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
@@ -84,6 +87,7 @@ fn docs(system: &System, functions: &[Function], place: &OutputOptions) -> Vec<S
             place.source
         ),
     ];
+    docs.extend(place.note().iter().map(ToString::to_string));
     if let Some(text) = &scene.description {
         docs.push(String::new());
         docs.extend(text.lines().map(|line| format!(" {}", line.trim_end())));
@@ -102,5 +106,6 @@ fn docs(system: &System, functions: &[Function], place: &OutputOptions) -> Vec<S
         let (name, operations) = (f.name(), f.operations());
         docs.push(format!(" | `{name}` | {operations} | {} |", f.formulation));
     }
+    docs.extend(legend(functions));
     docs
 }

@@ -6,6 +6,7 @@ use bgdyn_runtime::Dd;
 use super::base_parameters::{Parts, regrouped};
 use super::geometry::{Geometry, angle_of};
 use super::inertia::{Inertia, Point, turn};
+use super::names::{name_body, name_number};
 use super::plan::{Plan, origin_offset};
 use super::rotors::Rotors;
 use crate::bond_graph::Multibody;
@@ -69,6 +70,7 @@ impl<'g> Frames<'g> {
         plan: &Plan,
         x: &Arguments<'g>,
     ) -> Self {
+        b.unit_of_length(plan.unit);
         let (parts, energy) = regrouped(b, graph, geometry, plan);
         let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<Frame<'g>> = Vec::new();
@@ -128,12 +130,14 @@ impl<'g> Frames<'g> {
         let gravity = gravity.collect();
         let efforts: Vec<Dd> = bodies.iter().map(|frame| frame.effort).collect();
         let rotors = Rotors::new(b, graph, geometry, (&aims, &efforts), x);
-        Frames {
+        let frames = Frames {
             gravity,
             bodies,
             constant_energy: energy,
             rotors,
-        }
+        };
+        name_data(&frames);
+        frames
     }
 }
 
@@ -198,4 +202,15 @@ fn cos_sin<'g>(b: &'g Builder, terms: &[Ex<'g>], phase: (Dd, Dd)) -> (Ex<'g>, Ex
         return (c * phase.0 - s * phase.1, s * phase.0 + c * phase.1);
     }
     b.cos_sin(terms, angle_of(phase))
+}
+
+/// Names what a mechanism gives: gravity, positions, inertias.
+fn name_data(frames: &Frames<'_>) {
+    for (frame, gravity) in frames.bodies.iter().zip(&frames.gravity) {
+        if frame.parent.is_none() {
+            name_number(gravity, "g", &frame.name);
+        }
+        name_number(&frame.position, "r", &frame.name);
+        name_body(&frame.inertia, &frame.name);
+    }
 }

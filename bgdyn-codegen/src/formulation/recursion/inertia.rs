@@ -226,6 +226,13 @@ impl<'g> Inertia<'g> {
         entries.all(|e| e.as_constant().is_some())
     }
 
+    /// Whether there is none.
+    pub fn is_zero(&self) -> bool {
+        let entries = self.first.0.iter().chain(&self.pseudo);
+        let mut entries = entries.chain([&self.mass, &self.axial]);
+        entries.all(|e| e.is_zero())
+    }
+
     /// Whether turning it about z changes nothing.
     pub fn round(&self) -> bool {
         let [xx, yy, _, xy, xz, yz] = self.pseudo;

@@ -7,6 +7,7 @@
 use super::frames::{Frame, Frames};
 use super::inertia::{Inertia, Point, turn};
 use super::motion::{Moving, Spin, motions, zero};
+use super::names::name_vector;
 use super::plan::Plan;
 use crate::expr::{Builder, Ex};
 use crate::math::Vec3;
@@ -208,6 +209,7 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
     let mut own = vec![Wrench::zero(b); n];
     let mut basis = own.clone();
     let mut efforts = vec![b.zero(); n];
+    let effort = effort_name(frames);
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
         b.section(|| {
@@ -218,7 +220,9 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
         });
         let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
         let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
-        efforts[j] = (whole.along(frame) * frame.effort).named(|| format!("tau_{}", frame.joint));
+        efforts[j] =
+            (whole.along(frame) * frame.effort).named(|| format!("{effort}_{}", frame.joint));
+        name_wrenches(["f", "n"], frame, &inner, &outer, &whole);
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {
@@ -229,4 +233,37 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
         }
     }
     efforts
+}
+
+/// What the efforts of these motions are called: those at rest `gravity`, those without accelerations
+/// `bias`.
+fn effort_name(frames: &Frames<'_>) -> &'static str {
+    let zero = |x: fn(&Frame<'_>) -> bool| frames.bodies.iter().all(x);
+    match (
+        zero(|f| f.acceleration.is_zero()),
+        zero(|f| f.rate.is_zero()),
+    ) {
+        (true, true) => "gravity",
+        (true, false) => "bias",
+        (false, _) => "tau",
+    }
+}
+
+/// Names force and moment on a body with all that it carries: inside of its joint in the body's axes,
+/// `inner`, if that is all of it; and at the joint, in the axes before that turns.
+pub(super) fn name_wrenches(
+    [force, moment]: [&str; 2],
+    frame: &Frame<'_>,
+    inner: &Wrench<'_>,
+    outer: &Wrench<'_>,
+    whole: &Wrench<'_>,
+) {
+    let zero = |v: &Vec3<Ex<'_>>| v.0.iter().all(|x| x.is_zero());
+    if zero(&outer.force) && zero(&outer.moment) {
+        name_vector(&inner.force, force, &frame.name);
+        name_vector(&inner.moment, moment, &frame.name);
+    }
+    let at = format!("at_{}", frame.joint);
+    name_vector(&whole.force, force, &at);
+    name_vector(&whole.moment, moment, &at);
 }

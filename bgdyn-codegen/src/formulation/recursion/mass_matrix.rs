@@ -11,6 +11,7 @@ use bgdyn_runtime::Dd;
 
 use super::frames::{Frame, Frames};
 use super::inertia::{Inertia, turn, turn_back};
+use super::names::{name_composite, name_vector};
 use crate::expr::{Builder, Ex};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
@@ -96,12 +97,16 @@ impl<'g> CompositeInertia<'g> {
         outer: &Inertia<'g>,
     ) -> Self {
         let composite = frame.inertia.plus(inner);
+        if outer.is_zero() {
+            name_composite(&composite, &frame.name);
+        }
         let turned = if composite.round() {
             composite
         } else {
             composite.turned(frame.turn)
         };
         let whole = turned.plus(outer);
+        name_composite(&whole, &format!("at_{}", frame.joint));
         // Turning about z leaves J_zz as it is.
         let j_zz = (composite.d(0, 0) + composite.d(1, 1)) + (outer.d(0, 0) + outer.d(1, 1));
         let unit = unit_momentum(b, j, frame, &whole, j_zz);
@@ -184,6 +189,9 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
         mass[j][j] = (mass[j][j] + (diagonal + frames.rotors.armature(j)))
             .named(|| format!("m_{}_{}", frame.joint, frame.joint));
         momenta.add(unit);
+        for m in &momenta.0 {
+            name_momentum(m, &frames.bodies[m.joint].joint, &frame.joint);
+        }
         let Some(p) = frame.parent else { continue };
         let shifted = composite.whole.shifted(frame.position);
         let carried = momenta.0.into_iter().map(|m| m.carried(frame.position));
@@ -276,6 +284,8 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> 
         }
         basis.push((omega, u));
         let (omega, u) = (turn_back(omega, frame.turn), turn_back(u, frame.turn));
+        name_vector(&omega, "omega", &frame.name);
+        name_vector(&u, "v", &frame.name);
         own.push((omega, u));
         twice = twice + twice_kinetic_energy(&frame.inertia, omega, u);
     }
@@ -320,4 +330,11 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g
         }
     }
     energy
+}
+
+/// Names the momentum that a unit rate of the joint `moved` gives, about the origin at `joint`.
+fn name_momentum(momentum: &Momentum<'_>, moved: &str, joint: &str) {
+    let owner = format!("{moved}_at_{joint}");
+    name_vector(&momentum.linear, "p", &owner);
+    name_vector(&momentum.angular, "l", &owner);
 }

@@ -40,6 +40,7 @@ mod inverse_dynamics;
 mod kinematics;
 mod mass_matrix;
 mod motion;
+mod names;
 mod plan;
 pub(super) mod plan_search;
 mod plans;

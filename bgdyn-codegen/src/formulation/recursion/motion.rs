@@ -7,6 +7,7 @@ use bgdyn_runtime::Dd;
 
 use super::frames::{Frame, Frames};
 use super::inertia::turn_back;
+use super::names::{name_matrix, name_vector};
 use crate::expr::{Builder, Ex};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -72,10 +73,11 @@ pub(super) fn zero(b: &Builder) -> Vec3<Ex<'_>> {
 }
 
 fn name(frame: &Frame<'_>, step: &Moving<'_>) {
-    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        step.own.omega.0[k].named(|| format!("omega_{axis}_{}", frame.name));
-        step.a_own.0[k].named(|| format!("a_{axis}_{}", frame.name));
-    }
+    let (name, spin) = (&frame.name, &step.own);
+    name_vector(&spin.omega, "omega", name);
+    name_vector(&step.a_own, "a", name);
+    name_vector(&spin.omega_dot, "alpha", name);
+    name_matrix(&spin.u, "u", name);
 }
 
 /// Motion of a body from its parent's.

@@ -9,6 +9,7 @@ use bgdyn_runtime::Dd;
 use crate::expr::{Builder, Ex};
 use crate::formulation::recursion::inertia::Inertia;
 use crate::formulation::recursion::inverse_dynamics::Wrench;
+use crate::formulation::recursion::names::name_matrix;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -85,6 +86,13 @@ impl<'g> ArticulatedInertia<'g> {
             coupling: self.coupling + other.coupling,
             linear: self.linear + other.linear,
         }
+    }
+
+    /// Names its entries.
+    pub fn name(&self, owner: &str) {
+        name_matrix(&self.angular, "ia", owner);
+        name_matrix(&self.coupling, "ha", owner);
+        name_matrix(&self.linear, "ma", owner);
     }
 
     /// Whether there is none.

@@ -9,6 +9,7 @@ use super::inertia::{ArticulatedInertia, Column};
 use crate::expr::{Bound, Builder, ErrorBound, Ex};
 use crate::formulation::recursion::frames::{Frame, Frames};
 use crate::formulation::recursion::inertia::{turn, turn_back};
+use crate::formulation::recursion::inverse_dynamics::name_wrenches;
 use crate::formulation::recursion::inverse_dynamics::{Load, Wrench};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -95,7 +96,16 @@ impl<'g, 'f> Sweep<'g, 'f> {
         let mut hinges = Vec::new();
         for j in (0..n).rev() {
             let frame = &frames.bodies[j];
+            b.section(|| {
+                format!(
+                    "{}: articulated inertia, with the joints beyond free; pivot of `{}`",
+                    frame.name, frame.joint
+                )
+            });
             let inner = ArticulatedInertia::rigid(b, &frame.inertia).plus(&own[j]);
+            if basis[j].is_zero() {
+                inner.name(&frame.name);
+            }
             let armature = frames.rotors.armature(j) * (Dd::ONE / (frame.effort * frame.effort));
             let along = inner.along(frame.motion) + basis[j].along(frame.motion);
             let magnitude = if guarded[j] {
@@ -105,6 +115,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
             };
             // A rotor adds to what the joint moves, and keeps it from giving way whole.
             let pivot = (along + armature).pivot(magnitude, j);
+            pivot.named(|| format!("pivot_{}", frame.joint));
             let (hinge, rest) = if basis[j].is_zero() {
                 // Turning about the joint's axis and giving way along it can change places: the
                 // latter first, which leaves a row and a column of zeros.
@@ -120,6 +131,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
                 (hinge, rest.turned(frame.turn, careful))
             } else {
                 let whole = inner.turned(frame.turn, careful).plus(&basis[j]);
+                whole.name(&format!("at_{}", frame.joint));
                 let column = whole.column(b, frame.motion, pivot, armature);
                 let rest = whole.projected(b, frame.motion, &column);
                 (Hinge { column, own: false }, rest)
@@ -152,12 +164,19 @@ impl<'g, 'f> Sweep<'g, 'f> {
         let mut drives = vec![self.b.zero(); n];
         for j in (0..n).rev() {
             let (frame, hinge) = (&self.frames.bodies[j], &self.hinges[j]);
+            self.b.section(|| {
+                format!(
+                    "{}: force and moment that its joint passes on; what is left of `tau_{}`",
+                    frame.name, frame.joint
+                )
+            });
             let (mut inner, mut outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
             let along = match frame.motion {
                 Motion::Rotation => inner.moment.0[2] + outer.moment.0[2],
                 _ => inner.force.0[2] + outer.force.0[2],
             };
             let drive = tau[j] * (self.b.number(1.0) / self.b.constant(frame.effort)) - along;
+            drive.named(|| format!("u_{}", frame.joint));
             drives[j] = drive * hinge.column.inverse;
             let Some(p) = frame.parent else { continue };
             // The joint carries the drive whole; the rest of the wrench in proportion to it.
@@ -169,6 +188,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
                 outer = outer.plus(given);
             }
             let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
+            name_wrenches(["fa", "na"], frame, &inner, &outer, &whole);
             let carried = whole.carried(frame.position);
             if frame.continues {
                 basis[p] = basis[p].plus(carried);
@@ -187,6 +207,8 @@ impl<'g, 'f> Sweep<'g, 'f> {
         let mut found = Vec::new();
         for (j, hinge) in self.hinges.iter().enumerate() {
             let frame = &self.frames.bodies[j];
+            self.b
+                .section(|| format!("{}: acceleration of `{}`", frame.name, frame.joint));
             let carried = match frame.parent {
                 None => {
                     let still = Vec3([self.b.zero(); 3]);
@@ -203,7 +225,8 @@ impl<'g, 'f> Sweep<'g, 'f> {
             let along = drives[j] - felt.under(&hinge.column.share);
             own.push(turned.with(frame.motion, along));
             basis.push(carried.with(frame.motion, along));
-            found.push(along * (self.b.number(1.0) / self.b.constant(frame.effort)));
+            let acceleration = along * (self.b.number(1.0) / self.b.constant(frame.effort));
+            found.push(acceleration.named(|| format!("a_{}", frame.joint)));
         }
         found
     }

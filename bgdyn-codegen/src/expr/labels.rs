@@ -1,0 +1,104 @@
+//! Gives names to nodes and numbers, titles and units to sections. No pass decides by them.
+
+use std::collections::btree_map::Entry;
+
+use bgdyn_runtime::Dd;
+
+use super::graph::Graph;
+use super::naming::{Name, Section, Title};
+use super::node::{Constant, Expr, Node, NodeId};
+
+impl Graph {
+    /// The name that a formulation gave to a node, for readers of the output.
+    pub fn name(&self, id: NodeId) -> Option<&Name> {
+        self.names.get(&id)
+    }
+
+    /// Names an expression; the first name of its node stays.
+    pub(crate) fn set_name(&mut self, e: Expr, text: impl FnOnce() -> String) {
+        if !matches!(self.node(e.node), Node::Constant(_) | Node::Leaf(_)) {
+            let named = || Name {
+                text: text(),
+                negative: e.negative,
+            };
+            self.names.entry(e.node).or_insert_with(named);
+        }
+    }
+
+    /// Names a number. The first name stays; one that has to be the only one, `alone`, is none where
+    /// several quantities have the value. Numbers that equations bring along have no names.
+    pub(crate) fn set_constant_name(&mut self, x: Dd, text: impl FnOnce() -> String, alone: bool) {
+        let negative = x < Dd::ZERO;
+        let size = if negative { -x } else { x };
+        if [0.0, 0.5, 1.0, 2.0].contains(&size.hi()) && size.lo() == 0.0 {
+            return;
+        }
+        let text = text();
+        let name = Name { text, negative };
+        match self.constant_names.entry(Constant::new(size)) {
+            Entry::Vacant(place) => {
+                place.insert(Some(name));
+            }
+            Entry::Occupied(mut place) if alone && place.get().as_ref() != Some(&name) => {
+                place.insert(None);
+            }
+            Entry::Occupied(_) => {}
+        }
+    }
+
+    /// The name of a number that is not negative.
+    pub fn constant_name(&self, x: Dd) -> Option<&Name> {
+        self.constant_names.get(&Constant::new(x))?.as_ref()
+    }
+
+    /// Names `copy` as the node `id` of another graph, of which it is a copy.
+    pub(crate) fn copy_name(&mut self, copy: Expr, from: &Graph, id: NodeId) {
+        if let Some(name) = from.name(id) {
+            self.set_name(copy.flipped(name.negative), || name.text.clone());
+        }
+    }
+
+    /// The title of the section in which a node was made.
+    pub fn section(&self, id: NodeId) -> Option<&str> {
+        let section = self.sections[id.0 as usize] as usize;
+        section.checked_sub(1).map(|i| self.titles[i].text.as_str())
+    }
+
+    /// The unit of length, m, of the section in which a node was made, where it knows one.
+    pub fn unit_of_length(&self, id: NodeId) -> Option<Dd> {
+        let section = self.sections[id.0 as usize] as usize;
+        section.checked_sub(1).and_then(|i| self.titles[i].unit)
+    }
+
+    /// Sections that begin from now on have lengths in this unit, m.
+    pub(crate) fn set_unit_of_length(&mut self, unit: Dd) {
+        self.unit = Some(unit);
+    }
+
+    /// What is made from now on belongs under this title.
+    pub(crate) fn begin_section(&mut self, title: String) {
+        let unit = self.unit;
+        self.titles.push(Title { text: title, unit });
+        self.open = self.titles.len() as Section;
+    }
+
+    /// Takes over another graph's titles. What it gives opens the section of a node of that graph.
+    pub(crate) fn adopt_sections(&mut self, from: &Graph) -> Section {
+        let offset = self.titles.len() as Section;
+        self.titles.extend(from.titles.iter().cloned());
+        for (constant, name) in &from.constant_names {
+            let kept = self.constant_names.entry(*constant);
+            let kept = kept.or_insert_with(|| name.clone());
+            if kept != name {
+                *kept = None;
+            }
+        }
+        offset
+    }
+
+    /// Opens the section that `id` of `from` was made in; `offset` is where its titles went.
+    pub(crate) fn reopen_section(&mut self, from: &Graph, id: NodeId, offset: Section) {
+        let section = from.sections[id.0 as usize];
+        self.open = if section == 0 { 0 } else { section + offset };
+    }
+}
