@@ -6,13 +6,13 @@ use std::fmt::Write;
 
 use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
 use bgdyn_codegen::fault::Place as Where;
+use bgdyn_codegen::format::Located;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Method, Role};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::scene::{Integrator, Pace, Scene};
-use bgdyn_codegen::spec::Located;
 use bgdyn_codegen::system::System;
 
 /// Coordinates up to which the literal sum is written out: it grows with the cube of their number.

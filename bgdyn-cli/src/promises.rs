@@ -1,9 +1,9 @@
 //! Invariants of reader, check and importer for any text, called by property tests and by the fuzzer.
 
 use bgdyn_codegen::fault::Faults;
+use bgdyn_codegen::format::is_scene;
 use bgdyn_codegen::interface::Interface;
 use bgdyn_codegen::read;
-use bgdyn_codegen::spec::is_scene;
 
 use crate::import;
 

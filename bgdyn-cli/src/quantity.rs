@@ -1,6 +1,6 @@
 //! Reads numbers with units from the command line, as the reader of files does.
 
-use bgdyn_codegen::spec::{Dimension, Number, quantity};
+use bgdyn_codegen::format::{Dimension, Number, quantity};
 use bgdyn_runtime::Dd;
 
 use crate::usage::Usage;

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults, Place};
 use bgdyn_codegen::files::{beside, stem};
+use bgdyn_codegen::format::{parse, parse_scene};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::options::{Options, Unknown, formulation_named, preference_named};
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::refusal::Refusal;
-use bgdyn_codegen::spec::{parse, parse_scene};
 use bgdyn_codegen::system::System;
 use bgdyn_codegen::verify::explain;
 use clap::Args;
@@ -87,7 +87,7 @@ impl SpecFile {
 
     /// Whether it is a scene's file.
     pub(crate) fn is_scene(&self) -> bool {
-        bgdyn_codegen::spec::is_scene(&self.text)
+        bgdyn_codegen::format::is_scene(&self.text)
     }
 
     /// The text of a file named from this one.
@@ -183,7 +183,7 @@ impl SpecFile {
 
 /// The name that a spec gives itself.
 fn written_name(text: &str) -> Option<String> {
-    let name = match bgdyn_codegen::spec::is_scene(text) {
+    let name = match bgdyn_codegen::format::is_scene(text) {
         true => parse_scene(text).0?.name,
         false => parse(text).0?.name,
     };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::spec::{is_scene, parse_scene};
+use crate::format::{is_scene, parse_scene};
 
 /// The name of a spec's module: the file's name up to its first dot.
 pub fn stem(path: &Path) -> String {

@@ -2,8 +2,8 @@
 
 use crate::declaration::{Context, Declared, Kinds, Refused, check_unique_names, declared};
 use crate::fault::{Faults, wording};
+use crate::format::Spec;
 use crate::mechanism::{self, Mechanism};
-use crate::spec::Spec;
 
 /// A mechanism that passed every check, with its declared effects.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,12 +6,12 @@ use crate::bond_graph;
 use crate::effect;
 use crate::fault::{Fault, Faults, Severity, wording};
 use crate::files::stem;
+use crate::format::{Joint, Spec, parse, parse_scene};
 use crate::machine::{self, Machine};
 use crate::mechanism::Mechanism;
 use crate::method;
 use crate::refusal::Refusal;
 use crate::scene::{self, Verdict};
-use crate::spec::{Joint, Spec, parse, parse_scene};
 use crate::system::System;
 
 /// Reads and checks a spec. `stem` is the file's name without its ending, if there is a file; only

@@ -1,6 +1,6 @@
 //! The reader alone: what YAML's scalars become, and where things stand.
 
-use bgdyn_codegen::spec::{Spec, parse};
+use bgdyn_codegen::format::{Spec, parse};
 use bgdyn_runtime::Dd;
 
 /// The mass of a link written as `text`, or the message of the one fault.

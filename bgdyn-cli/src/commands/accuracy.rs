@@ -7,7 +7,7 @@ use bgdyn_accuracy::generate::variants;
 use bgdyn_accuracy::{
     Machine, Plan, Study, costs_csv, csv, figures, page, study, targets, verdicts,
 };
-use bgdyn_codegen::spec::Dimension;
+use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::system::System;
 use clap::Args;
 

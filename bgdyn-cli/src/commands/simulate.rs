@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults};
+use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::scene::{Integration, Integrator, Pace};
-use bgdyn_codegen::spec::Dimension;
 use bgdyn_codegen::system::System;
 use clap::Args;
 

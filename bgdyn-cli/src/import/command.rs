@@ -5,7 +5,7 @@ use crate::output::{print, tell};
 use crate::quantity::value;
 use crate::spec_file::{STDIN_NAME, is_stdin, read_text, shown};
 use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::spec::Dimension;
+use bgdyn_codegen::format::Dimension;
 use std::path::{Path, PathBuf};
 
 /// Make a mechanism from a URDF or from a table of Denavit–Hartenberg parameters

@@ -1,6 +1,6 @@
 //! Options of the import.
 
-use bgdyn_codegen::spec::Dimension;
+use bgdyn_codegen::format::Dimension;
 
 use super::number::Num;
 

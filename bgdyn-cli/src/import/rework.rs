@@ -9,8 +9,8 @@ use super::reading::{Frame, Joint, Limits, Model};
 use super::tree::{Tree, order};
 use crate::quantity;
 use anyhow::{Result, bail};
+use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::math::Vec3;
-use bgdyn_codegen::spec::Dimension;
 
 /// The word that means every link that may be a frame.
 const ALL: &str = "all";

@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
-use bgdyn_codegen::spec::{Dimension, Reads};
+use bgdyn_codegen::format::{Dimension, Reads};
 use serde_json::{Value, json};
 
 use super::parts::{described, identifier, object, triple, value};

@@ -1,7 +1,7 @@
 //! The JSON Schema of a mechanism's file.
 
+use bgdyn_codegen::format::{Dimension, LENGTHS};
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
-use bgdyn_codegen::spec::{Dimension, LENGTHS};
 use serde_json::{Value, json};
 
 use super::effects::effects;

@@ -1,6 +1,6 @@
 //! Building blocks of JSON Schemas.
 
-use bgdyn_codegen::spec::Dimension;
+use bgdyn_codegen::format::Dimension;
 use serde_json::{Map, Value, json};
 
 /// A whole file: its version under `version`, its name, what it is about, and these keys.

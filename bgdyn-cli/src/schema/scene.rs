@@ -5,8 +5,8 @@
 
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
+use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::scene::Integrator;
-use bgdyn_codegen::spec::Dimension;
 use serde_json::{Map, Value, json};
 
 use super::effects::{effects, reads};

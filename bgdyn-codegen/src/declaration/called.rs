@@ -3,8 +3,8 @@
 use super::joints::keys_declared;
 use super::{Declaration, Declared, Kinds};
 use crate::fault::{Faults, Place, wording};
+use crate::format::{Fields, Key, Located, Raw, Reads};
 use crate::name::is_identifier;
-use crate::spec::{Fields, Key, Located, Raw, Reads};
 
 /// The key that says what an effect is.
 const TYPE: Key = Key {

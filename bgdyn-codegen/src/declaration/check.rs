@@ -4,9 +4,9 @@ use bgdyn_runtime::Dd;
 
 use super::{Checked, Context, Declared, Element, Given, Quantity};
 use crate::fault::{Fault, Faults, Place, wording};
+use crate::format::{Dimension, Entry, Key, Located, Number, Reads, misfit};
 use crate::mechanism::Motion;
 use crate::name::is_identifier;
-use crate::spec::{Dimension, Entry, Key, Located, Number, Reads, misfit};
 
 impl Declared {
     /// The element, if its names are known and its numbers obey its rules.

@@ -2,7 +2,7 @@
 
 use super::Declaration;
 use super::element::node_names;
-use crate::spec::{Fields, Located};
+use crate::format::{Fields, Located};
 
 /// An effect as a mechanism's file declares it; a scene may use it, with other values if it likes.
 #[derive(Clone, Debug, PartialEq)]

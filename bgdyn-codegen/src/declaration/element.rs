@@ -3,9 +3,9 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Place};
+use crate::format::{Dimension, Key, Reads};
 use crate::layout::Layout;
 use crate::mechanism::{Limits, Mechanism};
-use crate::spec::{Dimension, Key, Reads};
 
 /// A number of an effect: folded into the code, or a public field of the generated struct.
 #[derive(Clone, Debug, PartialEq)]

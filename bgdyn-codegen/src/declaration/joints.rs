@@ -4,7 +4,7 @@
 
 use super::{Declaration, Declared};
 use crate::fault::{Faults, wording};
-use crate::spec::{Entry, Fields, Key, Located, Reads};
+use crate::format::{Entry, Fields, Key, Located, Reads};
 
 /// The key of several joints.
 pub const JOINTS: Key = Key {

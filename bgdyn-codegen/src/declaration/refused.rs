@@ -1,7 +1,7 @@
 //! The names that refused effects may have defined, so that uses of them are not reported as well.
 
 use super::{Declared, Kinds};
-use crate::spec::{Entry, Key, Raw, Reads};
+use crate::format::{Entry, Key, Raw, Reads};
 
 /// What effects that were refused may have brought.
 #[derive(Clone, Debug, Default)]

@@ -2,8 +2,8 @@
 
 use super::{Declaration, Declared, Refused};
 use crate::fault::{Faults, wording};
+use crate::format::{Entry, Key};
 use crate::mechanism::{Limits, LinkId, Mechanism, Motion, Places};
-use crate::spec::{Entry, Key};
 
 /// The names that an effect may refer to.
 #[derive(Clone, Debug, Default)]

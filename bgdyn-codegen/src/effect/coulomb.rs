@@ -5,9 +5,9 @@ use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::{Hold, Laws};
 use crate::layout::{Layout, Level};
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Coulomb;
 

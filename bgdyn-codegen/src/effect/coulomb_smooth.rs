@@ -9,9 +9,9 @@ use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::layout::Layout;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct CoulombSmooth;
 

@@ -5,9 +5,9 @@ use super::viscous::{EFFORT_PER_RATE, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
+use crate::format::Key;
 use crate::laws::Laws;
 use crate::layout::Layout;
-use crate::spec::Key;
 
 pub(super) struct Damper;
 

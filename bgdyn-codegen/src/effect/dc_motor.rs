@@ -18,9 +18,9 @@ use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::wording;
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::{Hold, Laws};
 use crate::layout::Layout;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct DcMotor;
 

@@ -6,9 +6,9 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::fault::{Faults, wording};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::math::Vec3;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Drag;
 

@@ -9,9 +9,9 @@ use super::viscous::JOINT;
 use super::{Effect, nodes};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{Declaration, Element, Given};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::{Laws, load_event};
 use crate::layout::Layout;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Gear;
 

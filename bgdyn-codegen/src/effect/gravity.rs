@@ -3,10 +3,10 @@
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
 use crate::declaration::{Declaration, Element};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::math::Vec3;
 use crate::mechanism::Mechanism;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Gravity;
 

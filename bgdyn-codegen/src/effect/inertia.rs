@@ -4,8 +4,8 @@
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
 use crate::declaration::{Declaration, Element};
+use crate::format::{Key, Reads};
 use crate::mechanism::Mechanism;
-use crate::spec::{Key, Reads};
 
 pub(super) struct LinkInertia;
 

@@ -16,9 +16,9 @@ use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{Declaration, Element, Given};
 use crate::fault::wording;
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::layout::{Layout, Level};
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct LuGre;
 

@@ -9,9 +9,9 @@ use super::wrench::{AT, moves};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::fault::Faults;
+use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 use crate::mechanism::{Inertial, Mechanism, Pose, Tensor, Value, check_tensor};
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Payload;
 

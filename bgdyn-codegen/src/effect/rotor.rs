@@ -7,9 +7,9 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
 use crate::declaration::{Declaration, Element, Given};
 use crate::fault::wording;
+use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Rotor;
 

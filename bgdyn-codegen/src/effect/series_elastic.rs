@@ -12,9 +12,9 @@ use super::viscous::{EFFORT_PER_RATE, JOINT};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::layout::Layout;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct SeriesElastic;
 

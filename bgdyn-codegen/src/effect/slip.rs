@@ -3,9 +3,9 @@
 
 use crate::declaration::Element;
 use crate::expr::Ex;
+use crate::format::Dimension;
 use crate::laws::Laws;
 use crate::layout::{Layout, Level};
-use crate::spec::Dimension;
 
 /// The counterpart's speed is an input, where there is one.
 pub(super) fn declare(element: &Element, layout: &mut Layout) {

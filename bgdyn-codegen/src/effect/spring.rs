@@ -6,9 +6,9 @@ use super::viscous::REFERENCE;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::layout::{Layout, Level};
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Spring;
 

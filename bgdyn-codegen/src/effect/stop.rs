@@ -18,10 +18,10 @@ use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::wording;
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::{Laws, Port};
 use crate::layout::Layout;
 use crate::mechanism::Limits;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Stop;
 

@@ -14,9 +14,9 @@ use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::wording;
+use crate::format::Key;
 use crate::laws::Laws;
 use crate::layout::Layout;
-use crate::spec::Key;
 
 pub(super) struct Stribeck;
 

@@ -6,10 +6,10 @@ use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::expr::Ex;
 use crate::fault::{Faults, wording};
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::layout::Layout;
 use crate::math::Vec3;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(super) struct Wrench;
 

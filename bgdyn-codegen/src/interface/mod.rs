@@ -2,9 +2,9 @@
 
 mod scene;
 
+use crate::format::{Field, Link, Spec};
 use crate::mechanism::joint::{JOINT_TYPES, Motion};
 use crate::name::is_identifier;
-use crate::spec::{Field, Link, Spec};
 pub use scene::SceneInterface;
 
 /// The interface of a module without the mechanism behind it.
@@ -31,7 +31,7 @@ impl Interface {
         if !is_identifier(stem) {
             return None;
         }
-        let (spec, _) = crate::spec::parse(text);
+        let (spec, _) = crate::format::parse(text);
         let (_, faults) = crate::read(text, Some(stem));
         let links = spec.as_ref().and_then(links);
         let Some(links) = links else {

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use crate::bond_graph;
 use crate::effect;
+use crate::format::{Dimension, Located, Raw, SceneSpec, parse_scene};
 use crate::machine::Machine;
 use crate::mechanism::{CoordinateId, Parameter};
 use crate::name::is_identifier;
 use crate::scene::{self, Coordinate, Initial, Layout, Part, Store};
-use crate::spec::{Dimension, Located, Raw, SceneSpec, parse_scene};
 use crate::system::{Named, System};
 
 /// The interface of a scene's module without the functions behind it.

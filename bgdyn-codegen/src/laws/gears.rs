@@ -3,7 +3,7 @@
 use super::{Gear, Laws, Port, load_event};
 use crate::declaration::Element;
 use crate::expr::Ex;
-use crate::spec::Key;
+use crate::format::Key;
 
 impl<'g> Laws<'g, '_> {
     /// A gear with losses, whose efficiency is the number behind this key and whose mode has this

@@ -8,10 +8,10 @@ use crate::bond_graph::SiteId;
 use crate::declaration::Chain;
 use crate::declaration::{Element, Quantity};
 use crate::expr::{Ex, Graph, Leaf, Tangent};
+use crate::format::{Dimension, Key};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Level;
-use crate::spec::{Dimension, Key};
 
 impl<'g, 'a> Laws<'g, 'a> {
     /// Whether the limits of drives act: not where the coordinates' own efforts are sought.

@@ -12,8 +12,8 @@ use bgdyn_runtime::Dd;
 
 use super::{CoordinateId, Frame, Inertial, Joint, Link, LinkId, Mechanism, Motion, Value};
 use crate::fault::{Faults, wording};
+use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
-use crate::spec::{self, Dimension, Field, Spec};
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
 use order::Tree;
@@ -96,7 +96,7 @@ struct Body {
 }
 
 fn body(
-    link: &spec::Link,
+    link: &format::Link,
     directions: &Directions,
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
@@ -113,7 +113,7 @@ fn body(
 
 /// Where a number may be a run-time parameter. Its default obeys the rules for numbers.
 fn inertial(
-    link: &spec::Link,
+    link: &format::Link,
     directions: &Directions,
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
@@ -149,7 +149,7 @@ fn inertial(
 }
 
 fn frame(
-    frame: &spec::Frame,
+    frame: &format::Frame,
     tree: &Tree<'_>,
     directions: &Directions,
     faults: &mut Faults,

@@ -5,9 +5,9 @@ use proc_macro2::TokenStream;
 use super::{mechanism, scene};
 use crate::emit::OutputOptions;
 use crate::fault::Faults;
+use crate::format::is_scene;
 use crate::options::Options;
 use crate::refusal::Refusal;
-use crate::spec::is_scene;
 
 /// From a spec's text to the tokens of its module, with warnings if there are any. `stem` is the
 /// file's stem, `place` says where and from what the code is generated. A scene's mechanism is read by

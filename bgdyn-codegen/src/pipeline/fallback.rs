@@ -6,8 +6,8 @@ use proc_macro2::TokenStream;
 
 use crate::emit;
 use crate::files::{mechanism_of, stem as stem_of};
+use crate::format::is_scene;
 use crate::interface::{Interface, SceneInterface};
-use crate::spec::is_scene;
 
 /// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
 /// caller can name, nothing that runs. `load` gives the text of a scene's mechanism. Nothing where the

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Place, wording};
-use crate::spec::{Dimension, Raw};
+use crate::format::{Dimension, Raw};
 
 /// A course in time.
 #[derive(Clone, Debug, PartialEq)]

@@ -26,13 +26,13 @@ use crate::bond_graph::{self, BondGraph, BondNetwork};
 use crate::effect;
 use crate::expr::{Builder, Ex};
 use crate::fault::{Faults, wording};
+use crate::format::Dimension;
 use crate::formulation::Formulation;
 use crate::function::Function;
 pub use crate::laws::{Balance, Contact, Gear, Hold, Laws, Own, Port, Reading};
 use crate::method::{Method, Role};
 use crate::passes::{cheapest, factor, finish};
 use crate::scene::{Scene, Settable};
-use crate::spec::Dimension;
 pub use equations::{Named, System};
 
 impl System {

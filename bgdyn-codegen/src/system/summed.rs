@@ -58,8 +58,8 @@ mod tests {
     use crate::declaration::{Declaration, Element};
     use crate::effect::Effect;
     use crate::expr::Builder;
+    use crate::format::{Dimension, Key, Reads};
     use crate::laws::{Laws, Own};
-    use crate::spec::{Dimension, Key, Reads};
 
     const MECHANISM: &str = "{ format: 1, name: one, links: [{ name: arm, joint: { name: hinge, type: revolute, axis: y }, mass: 1 }] }";
     const SCENE: &str = "{ scene: 1, name: swing, mechanism: one.yaml, effects: [bearing: { type: viscous, joint: hinge, damping: 1 }] }";

@@ -8,9 +8,9 @@ use bgdyn_accuracy::dark::with_dark_mode;
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::format::{Key, Reads};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Role;
-use bgdyn_codegen::spec::{Key, Reads};
 use bgdyn_codegen::system::System;
 
 use super::common::scene;

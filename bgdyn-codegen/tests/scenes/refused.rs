@@ -137,7 +137,7 @@ fn a_mechanism_that_is_wrong_is_shown_as_it_is() {
 
 #[test]
 fn a_scene_is_told_by_its_first_key() {
-    use bgdyn_codegen::spec::is_scene;
+    use bgdyn_codegen::format::is_scene;
     assert!(is_scene("# a comment\n\nscene: 1\nmechanism: x.yaml"));
     assert!(is_scene("{ \"scene\": 1, mechanism: x.yaml }"));
     assert!(!is_scene("format: 1\nscene: 1"));

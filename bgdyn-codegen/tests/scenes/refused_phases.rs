@@ -189,7 +189,7 @@ fn broken_links_hide_no_effects() {
 
 #[test]
 fn a_scene_has_its_keys_in_any_order() {
-    use bgdyn_codegen::spec::is_scene;
+    use bgdyn_codegen::format::is_scene;
     let moved =
         "\u{feff}# an arm\n---\n".to_owned() + &SOUND.replacen("scene: 1\n", "", 1) + "scene: 1\n";
     let last = SOUND.replacen("scene: 1\n", "", 1) + "\"scene\": 1\n";

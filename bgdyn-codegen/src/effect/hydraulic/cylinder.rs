@@ -11,9 +11,9 @@ use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
 use crate::effect::{Effect, nodes};
 use crate::expr::Ex;
 use crate::fault::{Faults, wording};
+use crate::format::{Dimension, Key};
 use crate::laws::Laws;
 use crate::layout::Layout;
-use crate::spec::{Dimension, Key};
 
 pub(in crate::effect) struct Cylinder;
 

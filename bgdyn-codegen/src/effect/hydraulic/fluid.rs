@@ -4,7 +4,7 @@ use super::keys::{BULK_MODULUS, FAMILY, FLUID_KEYWORD};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{Declaration, Element, Given};
 use crate::effect::Effect;
-use crate::spec::Key;
+use crate::format::Key;
 
 pub(in crate::effect) struct Fluid;
 

@@ -8,9 +8,9 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::{Effect, nodes};
 use crate::fault::Faults;
+use crate::format::{Dimension, Key, Reads};
 use crate::laws::Laws;
 use crate::layout::Layout;
-use crate::spec::{Dimension, Key, Reads};
 
 pub(in crate::effect) struct FourWayValve;
 

@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use crate::declaration::Given;
 use crate::fault::wording;
-use crate::spec::{Dimension, Key, Reads};
+use crate::format::{Dimension, Key, Reads};
 
 /// The word by which a scene calls for all of it.
 pub(super) const FAMILY: &str = "hydraulics";

@@ -7,8 +7,8 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::{Effect, nodes};
 use crate::fault::Faults;
+use crate::format::Key;
 use crate::laws::Laws;
-use crate::spec::Key;
 
 pub(in crate::effect) struct Leakage;
 

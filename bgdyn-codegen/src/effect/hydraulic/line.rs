@@ -7,9 +7,9 @@ use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::expr::Ex;
 use crate::fault::Faults;
+use crate::format::{Dimension, Key};
 use crate::laws::Laws;
 use crate::layout::Layout;
-use crate::spec::{Dimension, Key};
 
 pub(in crate::effect) struct Line;
 

@@ -6,8 +6,8 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{Beside, Declaration, Element, Given};
 use crate::effect::Effect;
 use crate::fault::Faults;
+use crate::format::{Dimension, Key};
 use crate::laws::Laws;
-use crate::spec::{Dimension, Key};
 
 /// Holds its pressure whatever runs.
 pub(in crate::effect) struct Supply;

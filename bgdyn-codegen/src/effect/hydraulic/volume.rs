@@ -7,9 +7,9 @@ use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind};
 use crate::declaration::{Beside, Element};
 use crate::expr::Ex;
 use crate::fault::{Faults, wording};
+use crate::format::Dimension;
 use crate::laws::Laws;
 use crate::layout::{Entered, Layout};
-use crate::spec::Dimension;
 
 // What nodes and elements share
 

@@ -7,9 +7,9 @@ use std::cell::RefCell;
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Place, wording};
+use crate::format::{Field, Located, Origin, Spec, Vector};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{Pose, Snapped};
-use crate::spec::{Field, Located, Origin, Spec, Vector};
 
 /// How far a direction may be off and still be taken as exact, if the spec says nothing.
 const SNAP: f64 = 1e-11;

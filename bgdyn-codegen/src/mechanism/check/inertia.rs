@@ -10,9 +10,9 @@ use super::direction::Directions;
 use super::parameters::Parameters;
 use super::solid;
 use crate::fault::{Faults, Place, wording};
+use crate::format::{Dimension, Field, Inertia, Link};
 use crate::math::Mat3;
 use crate::mechanism::{Pose, Tensor, Value};
-use crate::spec::{Dimension, Field, Inertia, Link};
 
 /// How far, relative to the largest principal moment, a tensor may miss a rule.
 const TOLERANCE: f64 = 1e-9;

@@ -5,10 +5,10 @@ use bgdyn_runtime::Dd;
 use super::direction::Directions;
 use super::names::mount_name;
 use crate::fault::{Faults, wording};
+use crate::format::{self, Dimension, Field, Link, Located, Number, misfit};
 use crate::math::Vec3;
 use crate::mechanism::joint::JOINT_TYPES;
 use crate::mechanism::{Joint, JointType, Limits, Motion};
-use crate::spec::{self, Dimension, Field, Link, Located, Number, misfit};
 
 /// The joint that carries `link`; its coordinate is given later.
 pub(super) fn joint(link: &Link, directions: &Directions, faults: &mut Faults) -> Option<Joint> {
@@ -28,7 +28,7 @@ pub(super) fn joint(link: &Link, directions: &Directions, faults: &mut Faults) -
 }
 
 fn given(
-    joint: &spec::Joint,
+    joint: &format::Joint,
     link: &Link,
     directions: &Directions,
     faults: &mut Faults,
@@ -53,7 +53,7 @@ fn z() -> Vec3<Dd> {
     Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE])
 }
 
-fn kind(joint: &spec::Joint, faults: &mut Faults) -> Option<&'static JointType> {
+fn kind(joint: &format::Joint, faults: &mut Faults) -> Option<&'static JointType> {
     let word = joint.kind.given()?;
     let found = JOINT_TYPES
         .iter()
@@ -71,7 +71,7 @@ fn kind(joint: &spec::Joint, faults: &mut Faults) -> Option<&'static JointType> 
 }
 
 fn name(
-    joint: &spec::Joint,
+    joint: &format::Joint,
     link: &Link,
     kind: Option<&'static JointType>,
     faults: &mut Faults,
@@ -88,7 +88,7 @@ fn name(
 }
 
 fn axis(
-    joint: &spec::Joint,
+    joint: &format::Joint,
     kind: Option<&'static JointType>,
     directions: &Directions,
     faults: &mut Faults,
@@ -105,7 +105,7 @@ fn axis(
 }
 
 fn limits(
-    joint: &spec::Joint,
+    joint: &format::Joint,
     kind: Option<&'static JointType>,
     faults: &mut Faults,
 ) -> Option<Limits> {
@@ -140,7 +140,7 @@ fn number(field: &Field<Number>) -> Option<Option<f64>> {
     }
 }
 
-fn position_limits(limits: &spec::Limits, kind: &JointType, faults: &mut Faults) {
+fn position_limits(limits: &format::Limits, kind: &JointType, faults: &mut Faults) {
     if kind.position_limits {
         return;
     }
@@ -153,7 +153,7 @@ fn position_limits(limits: &spec::Limits, kind: &JointType, faults: &mut Faults)
 }
 
 /// Units of the coordinate, its rate and its effort, for a motion.
-fn units(limits: &spec::Limits, motion: Motion, faults: &mut Faults) {
+fn units(limits: &format::Limits, motion: Motion, faults: &mut Faults) {
     let [position, speed, effort] = match motion {
         Motion::None => return,
         Motion::Rotation => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
@@ -172,7 +172,7 @@ fn units(limits: &spec::Limits, motion: Motion, faults: &mut Faults) {
     }
 }
 
-fn signs(limits: &spec::Limits, faults: &mut Faults) {
+fn signs(limits: &format::Limits, faults: &mut Faults) {
     if let (Some(lower), Some(upper)) = (limits.lower.given(), limits.upper.given())
         && lower.value.value > upper.value.value
         && same_dimension(lower, upper)

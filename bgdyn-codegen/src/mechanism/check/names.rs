@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::fault::{Fault, Faults, Place, wording};
+use crate::format::{Field, Frame, Joint, Link, Located, Spec};
 use crate::name::{WORLD, is_identifier};
-use crate::spec::{Field, Frame, Joint, Link, Located, Spec};
 
 /// The one name whose struct, `T`, would hide the type parameter of generated code.
 const TYPE_PARAMETER: &str = "t";

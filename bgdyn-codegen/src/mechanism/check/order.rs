@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::fault::{Faults, wording};
+use crate::format::{Field, Frame, Link, Located};
 use crate::mechanism::LinkId;
 use crate::name::WORLD;
-use crate::spec::{Field, Frame, Link, Located};
 
 /// What a link or frame is fixed to, by its place in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Place, wording};
+use crate::format::{Dimension, Located, Number};
 use crate::mechanism::{Parameter, ParameterId, Value};
 use crate::name::is_identifier;
-use crate::spec::{Dimension, Located, Number};
 
 /// The parameters found so far, in the file's order.
 pub(super) struct Parameters<'a> {

@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::direction::Directions;
 use crate::fault::{Faults, wording};
-use crate::spec::{Field, Inertia, LENGTHS, Link, Located, Number, Vector};
+use crate::format::{Field, Inertia, LENGTHS, Link, Located, Number, Vector};
 
 /// A kind of solid.
 struct Kind {

@@ -6,9 +6,9 @@ use crate::declaration::{
     once_per_joint,
 };
 use crate::fault::{Faults, wording};
+use crate::format::{Field, Raw, SceneSpec};
 use crate::machine::Machine;
 use crate::mechanism::Mechanism;
-use crate::spec::{Field, Raw, SceneSpec};
 
 /// The effects called for.
 pub(super) struct Called {

@@ -3,8 +3,8 @@
 use super::super::signal::{self, Drive};
 use crate::declaration::Refused;
 use crate::fault::{Faults, wording};
+use crate::format::Raw;
 use crate::layout::{Coordinate, Layout};
-use crate::spec::Raw;
 
 /// Efforts of coordinates are inputs where the scene names them.
 pub(super) fn add_efforts(layout: &mut Layout, inputs: &[Raw]) {

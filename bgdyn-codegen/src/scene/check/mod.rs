@@ -12,11 +12,11 @@ use super::reduce::held;
 use super::{Initial, Scene, Written};
 use crate::declaration::{Kinds, Refused};
 use crate::fault::{Faults, Place, wording};
+use crate::format::{Field, Located, SceneSpec};
 use crate::layout::Layout;
 use crate::machine::Machine;
 use crate::mechanism::{LinkId, Mechanism, Pose};
 use crate::name::is_identifier;
-use crate::spec::{Field, Located, SceneSpec};
 
 /// The only version of the format there is.
 const VERSION: f64 = 1.0;

@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::super::{Integration, Integrator, Pace};
 use crate::fault::{Fault, Faults, Place, wording};
-use crate::spec::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
+use crate::format::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
 
 /// Step and length of a run whose scene says nothing of them, s.
 const STEP: f64 = 1e-3;

@@ -7,9 +7,9 @@ use bgdyn_runtime::Dd;
 use super::super::Initial;
 use crate::declaration::{Element, Refused};
 use crate::fault::{Faults, wording};
+use crate::format::{Dimension, Raw};
 use crate::layout::{Coordinate, Layout, Store};
 use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
-use crate::spec::{Dimension, Raw};
 
 /// What the state is made of: the joints, then what the effects add.
 pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> Layout {
