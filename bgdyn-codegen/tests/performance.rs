@@ -144,10 +144,10 @@ fn the_page_holds_what_is_generated() {
              above the best known one.\n";
     text += "\nArms outside this table: [outside.md](outside.md).\n";
     text += "\n## How fast\n\n\
-             [peers.md](peers.md) has times beside Pinocchio, MuJoCo, KDL, dynibo and the C that CasADi and \
-             CppADCodeGen generate, measured in turn by `benches/peers/run.sh`, which takes any spec. \
-             `cargo bench` times every method of the specs beside a textbook's recursions, without any \
-             of them. [order.md](order.md) says what each choice of order gains, \
+             [peers.md](peers.md) compares times with Pinocchio, MuJoCo, KDL, dynibo and the C that CasADi \
+             and CppADCodeGen generate, measured alternately by `benches/peers/run.sh`, which takes any \
+             spec. `cargo bench` times every method of the specs next to textbook recursions and needs none \
+             of these systems. [order.md](order.md) shows what each choice of order gains, \
              [compile_time.md](compile_time.md) what a model costs while compiling, [chains.md](chains.md) \
              what long chains take.\n";
     let page = folder("docs/performance.md");
