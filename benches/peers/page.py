@@ -134,7 +134,7 @@ def versions(folder):
 def text(results, rounds, undisturbed, folder):
     date = datetime.date.today().isoformat()
     quiet = "on a core of their own (`chrt -f`, `taskset`)" if undisturbed else "on a machine that did other work too"
-    return f"""# How fast, beside other systems
+    return f"""# Times compared with other systems
 
 {machine()}, {date}. {versions(folder)}. Written by `benches/peers/run.sh --docs`.
 

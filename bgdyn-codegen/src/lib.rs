@@ -1,6 +1,6 @@
 //! The generator behind bgdyn: it turns a mechanism in YAML into Rust tokens or source text.
 //!
-//! One path, one direction: [`spec`] (the file as written) → [`mechanism`] (checked) →
+//! One path, one direction: [`mod@format`] (the file as written) → [`mechanism`] (checked) →
 //! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) →
 //! [`emit`] (Rust tokens). Data types import no steps; [`pipeline`] runs the steps in order.
 //!

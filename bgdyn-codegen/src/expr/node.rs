@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::index::{QuickHasher, mix};
 
-/// A node of a [`Graph`].
+/// A node of a [`super::Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(pub(crate) u32);
 

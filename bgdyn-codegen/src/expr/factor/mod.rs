@@ -107,7 +107,7 @@ pub fn factor(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
     (best.graph, best.outputs)
 }
 
-/// About what [`factored`] makes of a function costs: of long ones, after a single round.
+/// About what [`factor`] makes of a function costs: of long ones, after a single round.
 pub fn factored_cost(graph: Graph, outputs: Vec<Expr>) -> Cost {
     let best = rounds(graph, outputs, 1);
     cost(&best.graph, &best.outputs)
