@@ -217,7 +217,7 @@ impl Quantity {
 pub static SIGNS: [(&str, &str); 5] = [
     (
         "U = [",
-        "U = [ω̇]× + [ω]×[ω]×: the point s of a body accelerates by a + U s.",
+        "`U = [ω̇]× + [ω]×[ω]×`: the point s of a body accelerates by a + U s.",
     ),
     (
         "U h",
