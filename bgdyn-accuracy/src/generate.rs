@@ -5,15 +5,15 @@
 use std::fmt::Write;
 
 use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
-use bgdyn_codegen::fault::Place as Where;
+use bgdyn_codegen::fault::Location;
 use bgdyn_codegen::format::Located;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::{Method, Role};
+use bgdyn_codegen::method::{Method, SceneFunction};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::scene::{Integrator, Pace, Scene};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 /// Coordinates up to which the literal sum is written out: it grows with the cube of their number.
 const LITERAL: usize = 4;
@@ -22,8 +22,8 @@ const LITERAL: usize = 4;
 pub const ALL_BUT: &str = "all but ";
 
 /// Operations of one call of the scene's `derivative`; a pair of sine and cosine is one.
-pub fn operations(system: &System) -> usize {
-    let o = system.function(Role::Derivative).operations();
+pub fn operations(system: &SceneEquations) -> usize {
+    let o = system.function(SceneFunction::Derivative).operations();
     o.total() + o.div + o.sqrt + o.sincos + o.other
 }
 
@@ -33,14 +33,14 @@ pub struct Level {
     /// Which: `none`, `gravity+inertia`, `all but friction`.
     pub effects: String,
     /// Its equations; `None` where the measured output is not there without the others.
-    pub system: Option<System>,
+    pub system: Option<SceneEquations>,
 }
 
 /// The scene with one output, the measured one: the first place among its outputs, else the first
 /// coordinate of a joint among them, else the first, and where it asks for none the first coordinate.
 ///
 /// `None` where a scene has nothing to measure.
-pub fn measured(system: &System) -> Option<System> {
+pub fn measured(system: &SceneEquations) -> Option<SceneEquations> {
     let outputs = &system.scene.outputs;
     let is_site = |name: &str| system.graph.sites.iter().any(|s| s.name == name);
     let joints = &system.graph.coordinates;
@@ -48,8 +48,8 @@ pub fn measured(system: &System) -> Option<System> {
     let first = |holds: &dyn Fn(&str) -> bool| outputs.iter().find(|o| holds(&o.value)).cloned();
     let coordinate = || {
         let value = joints.first()?.name.clone();
-        let place = Where::file();
-        Some(Located { value, place })
+        let location = Location::file();
+        Some(Located { value, location })
     };
     let found = first(&is_site)
         .or_else(|| first(&is_joint))
@@ -58,15 +58,15 @@ pub fn measured(system: &System) -> Option<System> {
     with_output(&system.scene, found)
 }
 
-fn with_output(scene: &Scene, output: Located<String>) -> Option<System> {
+fn with_output(scene: &Scene, output: Located<String>) -> Option<SceneEquations> {
     let mut scene = scene.clone();
     scene.outputs = vec![output];
-    System::new(scene).ok()
+    SceneEquations::new(scene).ok()
 }
 
 /// The scene with ever more of its effects, family by family, and with all but each one; `system` is
 /// as [`measured`] gives it.
-pub fn levels(system: &System) -> Vec<Level> {
+pub fn levels(system: &SceneEquations) -> Vec<Level> {
     let elements = &system.scene.elements;
     let mut families: Vec<&str> = Vec::new();
     for element in elements {
@@ -77,7 +77,7 @@ pub fn levels(system: &System) -> Vec<Level> {
     let with = |effects: String, kept: &[&str]| {
         let scene = system
             .scene
-            .with_only(|e| kept.contains(&e.effect.family()));
+            .with_effects(|e| kept.contains(&e.effect.family()));
         let system = with_output(&scene, system.scene.outputs[0].clone());
         Level { effects, system }
     };
@@ -104,7 +104,7 @@ struct Own {
 }
 
 /// The scene's own method; one on momenta stands for the same in velocities.
-fn own(system: &System) -> Own {
+fn own(system: &SceneEquations) -> Own {
     use Integrator as I;
     let (method, constructor) = match system.scene.integration.method {
         I::SemiImplicitEuler => (I::SemiImplicitEuler, "SemiImplicitEuler"),
@@ -124,7 +124,7 @@ fn own(system: &System) -> Own {
 }
 
 /// The method and the pace of a scene, as a study names them.
-pub fn own_way(system: &System) -> (&'static str, crate::Pace) {
+pub fn own_way(system: &SceneEquations) -> (&'static str, crate::Pace) {
     let pace = match system.scene.integration.pace {
         Pace::Step(h) => crate::Pace::Step(h),
         Pace::Tolerance(tolerance) => crate::Pace::Tolerance(tolerance),
@@ -138,7 +138,7 @@ pub fn own_way(system: &System) -> (&'static str, crate::Pace) {
 ///
 /// # Errors
 /// In a sentence, where the scene has nothing to measure.
-pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
+pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, String> {
     let name = &system.scene.name;
     let full =
         measured(system).ok_or_else(|| format!("the scene `{name}` has nothing to measure"))?;
@@ -180,7 +180,7 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
     let add = |effects: &str, model: &str, text: &mut String| {
         writeln!(text, "subject.{call}({effects:?}, {model}, || {method});").expect("text");
     };
-    let price = |effects: &str, system: &System, model: &str, text: &mut String| {
+    let price = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
         let count = operations(system);
         writeln!(text, "subject.price({effects:?}, {count}, {model});").expect("text");
     };
@@ -209,13 +209,13 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
 }
 
 /// Whether a scene's laws have kinks: events that change no mode.
-pub fn kinked(system: &System) -> bool {
+pub fn kinked(system: &SceneEquations) -> bool {
     let layout = &system.scene.layout;
     layout.events.iter().any(|e| layout.mode_of(e).is_none())
 }
 
 /// The call that makes a subject.
-fn opening(full: &System, end: Option<f64>) -> String {
+fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     let scene = &full.scene;
     let (method, pace) = own_way(full);
     let pace = match pace {
@@ -235,7 +235,7 @@ fn opening(full: &System, end: Option<f64>) -> String {
 }
 
 /// The functions of the scene with its derivative by each formulation that knows it.
-fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
+fn formulations(full: &SceneEquations) -> Vec<(&'static str, Vec<Function>)> {
     let few = full.graph.coordinates.len() <= LITERAL;
     let mut found = Vec::new();
     for formulation in FORMULATIONS {
@@ -248,7 +248,7 @@ fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
         };
         let functions = scene_functions(full, &Options::default()).into_iter();
         let replaced = functions.map(|f| match f.method {
-            Method::Scene(Role::Derivative) => derivative.clone(),
+            Method::Scene(SceneFunction::Derivative) => derivative.clone(),
             _ => f,
         });
         found.push((name, replaced.collect()));
@@ -257,7 +257,7 @@ fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
 }
 
 /// One variant's module.
-fn module(system: &System, functions: &[Function], name: &str) -> Result<String, String> {
+fn module(system: &SceneEquations, functions: &[Function], name: &str) -> Result<String, String> {
     let place = OutputOptions::source_text(system.scene.name.clone()).with_module(name)?;
     Ok(source_text(scene_module(system, functions, &place)))
 }

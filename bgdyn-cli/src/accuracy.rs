@@ -8,8 +8,8 @@ use bgdyn_accuracy::{
     Call, Contender, CountSteps, Integrate, Measured, Pace, Priced, Ran, Runner, STEPS_METHOD,
     Subject, order,
 };
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Jacobian, METHODS, Plant, Power, with_method};
 
@@ -33,20 +33,20 @@ struct Calls {
 }
 
 impl Calls {
-    fn of(system: &System) -> Self {
+    fn of(system: &SceneEquations) -> Self {
         let roles = system.roles_with(true, false);
-        let one = |role: Role| match roles.contains(&role) {
+        let one = |role: SceneFunction| match roles.contains(&role) {
             true => estimate(system.function(role).operations()),
             false => 0.0,
         };
-        let inputs = one(Role::Inputs);
-        let derivative = one(Role::Derivative);
+        let inputs = one(SceneFunction::Inputs);
+        let derivative = one(SceneFunction::Derivative);
         Calls {
             operations: operations(system),
             derivative,
             rates: derivative + inputs,
-            slopes: one(Role::Jacobian),
-            events: one(Role::Events) + inputs,
+            slopes: one(SceneFunction::Jacobian),
+            events: one(SceneFunction::Events) + inputs,
         }
     }
 }
@@ -62,7 +62,7 @@ struct Counted {
 
 impl Counted {
     /// The scene: it stays, since a study is the program's last act.
-    fn new(system: System) -> Self {
+    fn new(system: SceneEquations) -> Self {
         let calls = Calls::of(&system);
         let system = Box::leak(Box::new(system));
         Counted {
@@ -177,7 +177,7 @@ impl Measured for Counted {
 }
 
 /// The scene as a subject; `None` where it has nothing to measure.
-pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
+pub(crate) fn subject(system: &SceneEquations, end: Option<f64>) -> Option<Subject> {
     let full = measured(system)?;
     let scene = &full.scene;
     let (method, pace) = own_way(&full);

@@ -7,7 +7,7 @@ use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 use crate::scratch::Scratch;
 
@@ -66,7 +66,7 @@ where
 ///
 /// # Errors
 /// Where there is no cargo, or it cannot have the crates.
-pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
+pub(crate) fn times(systems: &[SceneEquations], bgdyn: &str) -> Result<Vec<f64>> {
     let scratch = Scratch::new("times", bgdyn, &[])?;
     let (mut modules, mut calls) = (String::new(), String::new());
     for (i, system) in systems.iter().enumerate() {

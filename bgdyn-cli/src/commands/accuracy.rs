@@ -8,7 +8,7 @@ use bgdyn_accuracy::{
     Machine, Plan, Study, costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_codegen::format::Dimension;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use crate::output::{print, tell};
@@ -69,7 +69,7 @@ impl Accuracy {
     }
 
     /// The study of compiled code, or of the evaluator where there is no cargo.
-    fn study(&self, system: &System, end: Option<f64>) -> Result<Study> {
+    fn study(&self, system: &SceneEquations, end: Option<f64>) -> Result<Study> {
         let program = match self.compiled(system, end) {
             Ok(text) => text,
             Err(why) => {
@@ -90,7 +90,7 @@ impl Accuracy {
     }
 
     /// What the program prints that studies the compiled scene.
-    fn compiled(&self, system: &System, end: Option<f64>) -> Result<String> {
+    fn compiled(&self, system: &SceneEquations, end: Option<f64>) -> Result<String> {
         let scratch = Scratch::new("accuracy", &self.bgdyn, &["bgdyn-accuracy"])?;
         let text = variants(system, end).map_err(|e| anyhow!(e))?;
         scratch.write("src/scene.rs", &text)?;
@@ -105,7 +105,7 @@ impl Accuracy {
 }
 
 /// The study through the evaluator.
-fn evaluated(system: &System, end: Option<f64>) -> Result<Study> {
+fn evaluated(system: &SceneEquations, end: Option<f64>) -> Result<Study> {
     let subject = crate::accuracy::subject(system, end)
         .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
     // The evaluator takes its time.

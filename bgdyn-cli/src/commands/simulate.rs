@@ -8,7 +8,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::scene::{Integration, Integrator, Pace};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use self::many::{Batch, Many};
@@ -112,8 +112,10 @@ impl Simulate {
             print(&format!("{}\n", summary(&file.stem, &way.integration)))?;
             return self.many.run(&batch, &given, &varied);
         }
-        let system = system.starting(&given).map_err(|f| start_refused(&f))?;
-        let plant = plant.starting(&system);
+        let system = system
+            .with_overrides(&given)
+            .map_err(|f| start_refused(&f))?;
+        let plant = plant.with_overrides(&system);
         let run = watched("run", &plant, &way);
         let files = self.write(&file.stem, &columns, &run)?;
         print(&format!(
@@ -143,7 +145,7 @@ impl Simulate {
     fn page(
         &self,
         name: &str,
-        (system, way): (&System, &Way),
+        (system, way): (&SceneEquations, &Way),
         columns: &[Column],
         run: &Record,
         report: String,

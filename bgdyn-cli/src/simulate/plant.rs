@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd, mode_by_slip, settle_by};
 use bgdyn_sim::{Jacobian, Moment, Plant, Power, resting_slip};
 use nalgebra::{DMatrix, DVector};
@@ -49,7 +49,7 @@ pub enum Form {
 /// its files give them.
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
-    system: &'a System,
+    system: &'a SceneEquations,
     parameters: Vec<f64>,
     functions: Arc<Functions>,
 }
@@ -83,25 +83,26 @@ type Tried<T> = Result<T, Undefined>;
 
 impl<'a> Evaluated<'a> {
     /// The scene in these numbers; `slopes` for methods that take the slope of the rates.
-    pub fn new(system: &'a System, form: Form, slopes: bool) -> Self {
+    pub fn new(system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
         let roles = system.roles();
         let if_there = |role| roles.contains(&role).then(|| system.function(role));
         let canonical = || Canonical {
-            to: system.function(Role::ToCanonical),
-            from: system.function(Role::FromCanonical),
-            rates: system.function(Role::CanonicalRates),
+            to: system.function(SceneFunction::ToCanonical),
+            from: system.function(SceneFunction::FromCanonical),
+            rates: system.function(SceneFunction::CanonicalRates),
         };
         let layout = &system.scene.layout;
         let functions = Functions {
-            derivative: system.function(Role::Derivative),
-            inputs: if_there(Role::Inputs),
-            events: if_there(Role::Events),
-            contacts: if_there(Role::Contacts),
-            outputs: if_there(Role::Outputs),
-            power: system.function(Role::Power),
-            energy: system.function(Role::Energy),
+            derivative: system.function(SceneFunction::Derivative),
+            inputs: if_there(SceneFunction::Inputs),
+            events: if_there(SceneFunction::Events),
+            contacts: if_there(SceneFunction::Contacts),
+            outputs: if_there(SceneFunction::Outputs),
+            power: system.function(SceneFunction::Power),
+            energy: system.function(SceneFunction::Energy),
             // In momenta the slopes are not known: stages are then solved for without them.
-            jacobian: (slopes && form == Form::Natural).then(|| system.function(Role::Jacobian)),
+            jacobian: (slopes && form == Form::Natural)
+                .then(|| system.function(SceneFunction::Jacobian)),
             canonical: (form == Form::Canonical).then(canonical),
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
             mode_coordinates: system.mode_coordinates(),
@@ -113,8 +114,8 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// The same scene as it starts there ([`System::starting`]), with the functions of this one.
-    pub fn starting<'b>(&self, system: &'b System) -> Evaluated<'b> {
+    /// The same scene as it starts there ([`SceneEquations::with_overrides`]), with the functions of this one.
+    pub fn with_overrides<'b>(&self, system: &'b SceneEquations) -> Evaluated<'b> {
         Evaluated {
             system,
             parameters: parameters(system),
@@ -296,7 +297,7 @@ impl<'a> Evaluated<'a> {
     }
 }
 
-fn parameters(system: &System) -> Vec<f64> {
+fn parameters(system: &SceneEquations) -> Vec<f64> {
     numbers(system.scene.parameters.iter().map(|p| &p.default))
 }
 

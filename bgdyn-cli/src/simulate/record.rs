@@ -1,7 +1,7 @@
 //! The record of a run: its points, and how they were computed.
 
 use bgdyn_codegen::scene::{Integration, Pace};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::Audit;
 
 use super::plant::Numbers;
@@ -16,7 +16,7 @@ pub struct Column {
 }
 
 /// The parts of a scene's state, in the order of y.
-pub(crate) fn state_columns(system: &System) -> Vec<Column> {
+pub(crate) fn state_columns(system: &SceneEquations) -> Vec<Column> {
     let layout = &system.scene.layout;
     let column = |name: &str, unit| Column {
         name: name.to_owned(),
@@ -32,7 +32,7 @@ pub(crate) fn state_columns(system: &System) -> Vec<Column> {
 }
 
 /// What is told of a scene: its outputs, or its whole state where it names none.
-pub fn columns(system: &System) -> Vec<Column> {
+pub fn columns(system: &SceneEquations) -> Vec<Column> {
     if system.outputs.is_empty() {
         return state_columns(system);
     }

@@ -1,14 +1,14 @@
 //! Records a run from its start to its end.
 
 use bgdyn_codegen::scene::{Integration, Integrator, Pace};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::{Dense, Failure, Method, Run, Tolerance, WithMethod, with_method};
 
 use super::plant::{Evaluated, Form, Numbers, Undefined};
 use super::record::{EnergyAt, Event, Record, Row, Way};
 
 /// A scene as a plant for the method that it is to be run by.
-pub fn prepared(system: &System, method: Integrator) -> Evaluated<'_> {
+pub fn prepared(system: &SceneEquations, method: Integrator) -> Evaluated<'_> {
     let form = match method.needs_canonical() {
         true => Form::Canonical,
         false => Form::Natural,
@@ -22,7 +22,7 @@ pub fn prepared(system: &System, method: Integrator) -> Evaluated<'_> {
 ///
 /// # Panics
 /// Never: every method of scenes is one of `bgdyn_sim`'s.
-pub fn record(system: &System, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
+pub fn record(system: &SceneEquations, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
     record_from(prepared(system, way.integration.method), way, watch)
 }
 

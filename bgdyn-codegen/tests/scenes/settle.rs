@@ -2,8 +2,8 @@
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System as Equations;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations as Equations;
 use bgdyn_runtime::nalgebra::SVector;
 use bgdyn_runtime::{Balance, Contact, System, settle};
 
@@ -24,9 +24,9 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize> Evaluate
         Evaluated {
             nq: layout.nq(),
             nv: layout.nv(),
-            derivative: system.function(Role::Derivative),
-            events: system.function(Role::Events),
-            contacts: system.function(Role::Contacts),
+            derivative: system.function(SceneFunction::Derivative),
+            events: system.function(SceneFunction::Events),
+            contacts: system.function(SceneFunction::Contacts),
         }
     }
 

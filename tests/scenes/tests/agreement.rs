@@ -5,7 +5,7 @@ use std::path::Path;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::files::{beside, stem};
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::read_scene;
 use bgdyn_runtime::{Canonical, Slope, System};
 use nalgebra::SVector;
@@ -34,7 +34,7 @@ impl Random {
 }
 
 /// The generator's own system of a scene.
-fn generated(path: &Path) -> bgdyn_codegen::system::System {
+fn generated(path: &Path) -> bgdyn_codegen::system::SceneEquations {
     let text = std::fs::read_to_string(path).expect("a scene");
     let load = |mechanism: &str| {
         std::fs::read_to_string(beside(path, mechanism)).map_err(|e| e.to_string())
@@ -45,7 +45,7 @@ fn generated(path: &Path) -> bgdyn_codegen::system::System {
 
 /// What the evaluator is given.
 fn inputs<const N: usize, const M: usize, const U: usize>(
-    system: &bgdyn_codegen::system::System,
+    system: &bgdyn_codegen::system::SceneEquations,
     y: &SVector<f64, N>,
     modes: &SVector<f64, M>,
     u: &SVector<f64, U>,
@@ -84,12 +84,12 @@ fn agrees<
     let nq = system.scene.layout.nq();
     let (start, _) = compiled.start();
     let mut random = Random(2007);
-    let functions: Vec<(Role, _)> = system
+    let functions: Vec<(SceneFunction, _)> = system
         .roles()
         .into_iter()
         .map(|role| (role, system.function(role)))
         .collect();
-    let evaluate = |role: Role, inputs: &Inputs<f64>| -> Vec<f64> {
+    let evaluate = |role: SceneFunction, inputs: &Inputs<f64>| -> Vec<f64> {
         let found = functions.iter().find(|(r, _)| *r == role);
         found.map_or(vec![], |(_, f)| f.evaluate(inputs.clone()).0)
     };
@@ -104,46 +104,46 @@ fn agrees<
             panic!("{name}: state {k} is singular");
         };
         let mut wanted = inputs.v[..nq].to_vec();
-        wanted.extend(evaluate(Role::Derivative, &inputs));
+        wanted.extend(evaluate(SceneFunction::Derivative, &inputs));
         assert_eq!(rates.as_slice(), wanted, "{name}: derivative, state {k}");
         if U > 0 {
             let input = compiled.input(&y, &m, &u, t);
             assert_eq!(
                 input.as_slice(),
-                evaluate(Role::Inputs, &inputs),
+                evaluate(SceneFunction::Inputs, &inputs),
                 "{name}: input"
             );
         }
         let events = compiled.events(&y, &m, &u, t).expect("regular");
         assert_eq!(
             events.as_slice(),
-            evaluate(Role::Events, &inputs),
+            evaluate(SceneFunction::Events, &inputs),
             "{name}: events"
         );
         let contacts = compiled.contacts(&y, &m, &u, t).expect("regular");
         let contacts = contacts.map(|c| [c.slip, c.slip_rate, c.holding, c.margin]);
         assert_eq!(
             contacts.concat(),
-            evaluate(Role::Contacts, &inputs),
+            evaluate(SceneFunction::Contacts, &inputs),
             "{name}: contacts"
         );
         let output = compiled.output(&y, &m, &u, t);
         assert_eq!(
             output.as_slice(),
-            evaluate(Role::Outputs, &inputs),
+            evaluate(SceneFunction::Outputs, &inputs),
             "{name}: output"
         );
         let energy = compiled.energy(&y, &m, &u, t);
         assert_eq!(
             energy.as_slice(),
-            evaluate(Role::Energy, &inputs),
+            evaluate(SceneFunction::Energy, &inputs),
             "{name}: energy"
         );
         let power = compiled.power(&y, &m, &u, t).expect("regular");
         let power = power.map(|b| [b.supplied, b.stored_rate, b.dissipated]);
         assert_eq!(
             power.concat(),
-            evaluate(Role::Power, &inputs),
+            evaluate(SceneFunction::Power, &inputs),
             "{name}: power"
         );
     }
@@ -179,10 +179,10 @@ fn forms_agree<
     let layout = &system.scene.layout;
     let (nq, nv) = (layout.nq(), layout.nv());
     let functions = [
-        Role::Jacobian,
-        Role::ToCanonical,
-        Role::FromCanonical,
-        Role::CanonicalRates,
+        SceneFunction::Jacobian,
+        SceneFunction::ToCanonical,
+        SceneFunction::FromCanonical,
+        SceneFunction::CanonicalRates,
     ];
     let functions = functions.map(|role| system.function(role));
     let (start, _) = compiled.start();

@@ -3,13 +3,13 @@
 use bgdyn_runtime::Dd;
 
 use super::undeclared::undeclared;
-use super::{Condition, Contact, Hold, Laws, Port, Reading};
+use super::{Condition, Contact, EffortSums, Hold, Port, Reading};
 use crate::declaration::Element;
-use crate::expr::Ex;
+use crate::expr::Expr;
 
-impl<'g> Laws<'g, '_> {
+impl<'g> EffortSums<'g, '_> {
     /// An effort along a port.
-    pub fn push(&mut self, port: &Port<'g>, effort: Ex<'g>) {
+    pub fn push(&mut self, port: &Port<'g>, effort: Expr<'g>) {
         for &(j, transformer) in &port.transformers {
             self.efforts[j] = self.efforts[j] + transformer * effort;
         }
@@ -19,13 +19,13 @@ impl<'g> Laws<'g, '_> {
     ///
     /// # Panics
     /// Where the element adds no coordinate.
-    pub fn push_own(&mut self, element: &Element, effort: Ex<'g>) {
+    pub fn push_own(&mut self, element: &Element, effort: Expr<'g>) {
         let j = self.coordinate_index(&element.name);
         self.efforts[j] = self.efforts[j] + effort;
     }
 
     /// An effort on one coordinate, by its number.
-    pub fn push_on(&mut self, coordinate: usize, effort: Ex<'g>) {
+    pub fn push_on(&mut self, coordinate: usize, effort: Expr<'g>) {
         self.efforts[coordinate] = self.efforts[coordinate] + effort;
     }
 
@@ -34,7 +34,7 @@ impl<'g> Laws<'g, '_> {
     ///
     /// # Panics
     /// Where the element adds no coordinate.
-    pub fn inertia(&mut self, element: &Element, inertia: Ex<'g>) {
+    pub fn inertia(&mut self, element: &Element, inertia: Expr<'g>) {
         let j = self.coordinate_index(&element.name);
         self.inertias.insert(j, inertia);
         let rate = self.v[j];
@@ -45,13 +45,13 @@ impl<'g> Laws<'g, '_> {
     ///
     /// # Panics
     /// Where no effect of the scene declares the state.
-    pub fn flow(&mut self, state: &str, rate: Ex<'g>) {
+    pub fn flow(&mut self, state: &str, rate: Expr<'g>) {
         let i = self.part("state", &self.scene.layout.states, state);
         self.rates[i] = self.rates[i] + rate;
     }
 
     /// Power that the element takes from outside, W.
-    pub fn supply(&mut self, power: Ex<'g>) {
+    pub fn supply(&mut self, power: Expr<'g>) {
         let balance = &mut self.balances[self.at];
         balance.supplied = balance.supplied + power;
     }
@@ -61,7 +61,7 @@ impl<'g> Laws<'g, '_> {
     ///
     /// # Panics
     /// Where the scene has no element with this name.
-    pub fn supply_by(&mut self, element: &str, power: Ex<'g>) {
+    pub fn supply_by(&mut self, element: &str, power: Expr<'g>) {
         let found = self.scene.elements.iter().position(|e| e.name == element);
         let at = found.unwrap_or_else(|| undeclared(self.element_at_work(), "element", element));
         let balance = &mut self.balances[at];
@@ -69,13 +69,13 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// Energy that the element stores, J.
-    pub fn store(&mut self, energy: Ex<'g>) {
+    pub fn store(&mut self, energy: Expr<'g>) {
         let balance = &mut self.balances[self.at];
         balance.stored = balance.stored + energy;
     }
 
     /// Power that the element dissipates, W.
-    pub fn dissipate(&mut self, power: Ex<'g>) {
+    pub fn dissipate(&mut self, power: Expr<'g>) {
         let balance = &mut self.balances[self.at];
         balance.dissipated = balance.dissipated + power;
     }
@@ -84,7 +84,7 @@ impl<'g> Laws<'g, '_> {
     ///
     /// # Panics
     /// Where no effect of the scene declares the event.
-    pub fn event(&mut self, name: &str, value: Ex<'g>) {
+    pub fn event(&mut self, name: &str, value: Expr<'g>) {
         self.part("event", &self.scene.layout.events, name);
         self.events.insert(name.to_owned(), value);
     }
@@ -94,7 +94,13 @@ impl<'g> Laws<'g, '_> {
     ///
     /// # Panics
     /// Where no effect of the scene declares the mode.
-    pub fn contact(&mut self, mode: &str, port: &Port<'g>, reference: [Ex<'g>; 2], hold: Hold<'g>) {
+    pub fn contact(
+        &mut self,
+        mode: &str,
+        port: &Port<'g>,
+        reference: [Expr<'g>; 2],
+        hold: Hold<'g>,
+    ) {
         let mode = self.part("mode", &self.scene.layout.modes, mode);
         if let Some(&(coordinate, _)) = port.transformers.first() {
             self.contacts.push(Contact {
@@ -109,7 +115,7 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// A quantity worth knowing, in this SI unit.
-    pub fn reading(&mut self, name: String, value: Ex<'g>, unit: &'static str, about: String) {
+    pub fn reading(&mut self, name: String, value: Expr<'g>, unit: &'static str, about: String) {
         self.readings.push(Reading {
             name,
             value,
@@ -119,7 +125,7 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// A value that must be positive, tried at the start and over the limits of the joints.
-    pub fn stays_positive(&mut self, value: Ex<'g>, what: String, way_out: &'static str) {
+    pub fn stays_positive(&mut self, value: Expr<'g>, what: String, way_out: &'static str) {
         self.conditions.push(Condition {
             element: self.at,
             value,
@@ -129,7 +135,7 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// A value that one element gives to others: the pressure of a node.
-    pub fn share(&mut self, node: &str, what: &'static str, value: Ex<'g>) {
+    pub fn share(&mut self, node: &str, what: &'static str, value: Expr<'g>) {
         self.shared.insert((node.to_owned(), what), value);
     }
 }

@@ -1,27 +1,27 @@
 //! What laws add to a scene: ports, power balances, contacts, readings, conditions.
 
-use crate::expr::Ex;
+use crate::expr::Expr;
 
 /// Where an effort acts: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
 #[derive(Clone, Debug)]
 pub struct Port<'g> {
     /// s, rad or m.
-    pub place: Ex<'g>,
+    pub displacement: Expr<'g>,
     /// ṡ = Σ ∂s/∂q_j q̇_j
-    pub rate: Ex<'g>,
+    pub rate: Expr<'g>,
     /// Coordinates with their ∂s/∂q_j.
-    pub transformers: Vec<(usize, Ex<'g>)>,
+    pub transformers: Vec<(usize, Expr<'g>)>,
 }
 
 /// What an element supplies, stores and dissipates.
 #[derive(Clone, Copy, Debug)]
 pub struct Balance<'g> {
     /// Power that comes from outside, W.
-    pub supplied: Ex<'g>,
+    pub supplied: Expr<'g>,
     /// Energy stored, J.
-    pub stored: Ex<'g>,
+    pub stored: Expr<'g>,
     /// Power that is lost, W.
-    pub dissipated: Ex<'g>,
+    pub dissipated: Expr<'g>,
 }
 
 /// What can hold a coordinate at the rate of a counterpart: dry friction, the limit of a rate.
@@ -34,9 +34,9 @@ pub struct Contact<'g> {
     /// The coordinate it acts on.
     pub coordinate: usize,
     /// Rate of the coordinate against the counterpart.
-    pub slip: Ex<'g>,
+    pub slip: Expr<'g>,
     /// Speed and acceleration of the counterpart.
-    pub reference: [Ex<'g>; 2],
+    pub reference: [Expr<'g>; 2],
     /// The efforts it can hold with.
     pub hold: Hold<'g>,
 }
@@ -45,9 +45,9 @@ pub struct Contact<'g> {
 #[derive(Clone, Copy, Debug)]
 pub enum Hold<'g> {
     /// As large as this in both directions: dry friction.
-    Within(Ex<'g>),
+    Within(Expr<'g>),
     /// From the first to the second, with 0 among them: the losses of a gear under load.
-    Between([Ex<'g>; 2]),
+    Between([Expr<'g>; 2]),
     /// Of any size that lowers the rate: an upper limit.
     Lowers,
     /// Of any size that raises the rate: a lower limit.
@@ -56,7 +56,7 @@ pub enum Hold<'g> {
 
 impl<'g> Hold<'g> {
     /// The least and the largest effort of a friction; `None` of the limit of a rate.
-    pub fn range(&self) -> Option<[Ex<'g>; 2]> {
+    pub fn range(&self) -> Option<[Expr<'g>; 2]> {
         match *self {
             Hold::Within(limit) => Some([-limit, limit]),
             Hold::Between(range) => Some(range),
@@ -71,7 +71,7 @@ pub struct Reading<'g> {
     /// `belt_force`
     pub name: String,
     /// Its value.
-    pub value: Ex<'g>,
+    pub value: Expr<'g>,
     /// Its SI unit.
     pub unit: &'static str,
     /// Unit and meaning.
@@ -84,7 +84,7 @@ pub(crate) struct Condition<'g> {
     /// The element that asks for it, by its place in the scene.
     pub element: usize,
     /// The value.
-    pub value: Ex<'g>,
+    pub value: Expr<'g>,
     /// What it is, with its unit.
     pub what: String,
     /// What to do where it is not.
@@ -93,12 +93,12 @@ pub(crate) struct Condition<'g> {
 
 /// What the coordinates' own efforts (joint efforts, voltages) are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Own {
+pub enum ActuatorEfforts {
     /// Inputs, where the scene has them.
-    Inputs,
-    /// Sought: the laws run as if there were none, and no drive has a limit.
-    Sought,
+    FromInputs,
+    /// Unknown: the laws run as if there were none, and no drive has a limit.
+    Unknown,
     /// One at every coordinate, in place of its acceleration among the leaves; no drive has a
-    /// limit. Undoes what [`Own::Sought`] finds.
-    Everywhere,
+    /// limit. Undoes what [`ActuatorEfforts::Unknown`] finds.
+    Each,
 }

@@ -3,14 +3,14 @@
 use super::Scene;
 use super::causality::{chains, is_solvable};
 use super::check::assembled;
-use crate::declaration::{Beside, Checked, Element, Refused};
+use crate::declaration::{Element, ElementValue, RejectedEffects, SceneContext};
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 
 impl Scene {
     /// The same scene with only the effects that `keep` says, and without those that act on what
     /// then is missing or need it. Inputs, initial values and outputs that are not there any more fall away.
-    pub fn with_only(&self, keep: impl Fn(&Element) -> bool) -> Scene {
+    pub fn with_effects(&self, keep: impl Fn(&Element) -> bool) -> Scene {
         let mut elements = self.elements.clone();
         elements.retain(|e| keep(e));
         loop {
@@ -37,7 +37,11 @@ impl Scene {
             ..self.clone()
         };
         // Entries for what is gone are no faults here.
-        let laid_out = assembled(bare.clone(), &Refused::default(), &mut Faults::default());
+        let laid_out = assembled(
+            bare.clone(),
+            &RejectedEffects::default(),
+            &mut Faults::default(),
+        );
         let layout = &laid_out.layout;
         let known_input = |name: &str| layout.inputs.iter().any(|i| i.name == name);
         written.inputs.retain(|raw| known_input(&raw.name.value));
@@ -46,7 +50,7 @@ impl Scene {
         let scene = Scene { written, ..bare };
         Scene {
             outputs: Vec::new(),
-            ..assembled(scene, &Refused::default(), &mut Faults::default())
+            ..assembled(scene, &RejectedEffects::default(), &mut Faults::default())
         }
     }
 }
@@ -54,11 +58,11 @@ impl Scene {
 /// Whether an element still has what it needs beside it: a fluid, two elements at a junction.
 fn stands(element: &Element, left: &[Element], mechanism: &Mechanism) -> bool {
     let mut faults = Faults::default();
-    let beside = Beside {
+    let beside = SceneContext {
         elements: left,
         mechanism,
     };
-    element.effect.fits(element, &beside, &mut faults);
+    element.effect.check_in_scene(element, &beside, &mut faults);
     !faults.any_fault() && is_solvable(element, left)
 }
 
@@ -71,8 +75,8 @@ fn acts_on(element: &Element, other: &str) -> bool {
         name == other || side.is_some_and(|side| side.len() == 1)
     };
     element.values.iter().any(|(_, value)| match value {
-        Checked::Name(name) => refers(name),
-        Checked::Names(names) => names.iter().any(refers),
-        Checked::Number(_) | Checked::Vector(_) | Checked::Words(_) => false,
+        ElementValue::Name(name) => refers(name),
+        ElementValue::Names(names) => names.iter().any(refers),
+        ElementValue::Number(_) | ElementValue::Vector(_) | ElementValue::Words(_) => false,
     })
 }

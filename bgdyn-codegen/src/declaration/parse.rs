@@ -1,8 +1,8 @@
 //! Reads the effects that a mechanism's file declares, and the ones that a scene calls for.
 
 use super::joints::keys_declared;
-use super::{Declaration, Declared, Kinds};
-use crate::fault::{Faults, Place, wording};
+use super::{Declaration, EffectKind, EffectKinds};
+use crate::fault::{Faults, Location, wording};
 use crate::format::{Fields, Key, Located, Raw, Reads};
 use crate::name::is_identifier;
 
@@ -15,19 +15,23 @@ const TYPE: Key = Key {
 };
 
 /// The effect that a file declares under a name.
-pub fn declared(raw: &Raw, kinds: &Kinds, faults: &mut Faults) -> Option<Declared> {
+pub fn parse_declaration(
+    raw: &Raw,
+    kinds: &EffectKinds,
+    faults: &mut Faults,
+) -> Option<Declaration> {
     identifier(&raw.name, faults);
     let Some(word) = raw.peek(TYPE.name) else {
         let name = &raw.name.value;
         faults.push(wording::effect_without_type(
-            &raw.place,
+            &raw.location,
             name,
             &types(kinds),
         ));
         return None;
     };
     let effect = of_type(&word, kinds, faults)?;
-    fields_of(raw, effect, faults).map(|fields| Declared {
+    fields_of(raw, effect, faults).map(|fields| Declaration {
         name: raw.name.clone(),
         effect,
         fields,
@@ -35,15 +39,20 @@ pub fn declared(raw: &Raw, kinds: &Kinds, faults: &mut Faults) -> Option<Declare
 }
 
 /// The effects that a scene calls for by one entry of its list; the mechanism declares `known`.
-pub fn called(raw: &Raw, known: &[Declared], kinds: &Kinds, faults: &mut Faults) -> Vec<Declared> {
+pub fn resolve_call(
+    raw: &Raw,
+    known: &[Declaration],
+    kinds: &EffectKinds,
+    faults: &mut Faults,
+) -> Vec<Declaration> {
     let name = &raw.name.value;
     let own = known.iter().find(|d| d.name.value == *name);
     if let Some(own) = own {
-        return varied(raw, own, faults).into_iter().collect();
+        return with_overrides(raw, own, faults).into_iter().collect();
     }
     if let Some(effect) = kinds.named(name).filter(|e| e.built_in()) {
         let fields = fields_of(raw, effect, faults);
-        let one = |fields| Declared {
+        let one = |fields| Declaration {
             name: raw.name.clone(),
             effect,
             fields,
@@ -51,25 +60,25 @@ pub fn called(raw: &Raw, known: &[Declared], kinds: &Kinds, faults: &mut Faults)
         return fields.map(one).into_iter().collect();
     }
     if raw.is_mapping() {
-        return declared(raw, kinds, faults).into_iter().collect();
+        return parse_declaration(raw, kinds, faults).into_iter().collect();
     }
-    let of_kind = |d: &&Declared| d.effect.family() == name || d.effect.keyword() == name;
-    let kin: Vec<Declared> = known
+    let of_kind = |d: &&Declaration| d.effect.family() == name || d.effect.keyword() == name;
+    let kin: Vec<Declaration> = known
         .iter()
         .filter(of_kind)
-        .map(|d| d.clone().called_at(&raw.name.place))
+        .map(|d| d.clone().located_at(&raw.name.location))
         .collect();
     if kin.is_empty() || !raw.is_bare() {
         let names = callable(known, kinds);
-        faults.push(wording::unknown_effect(&raw.name.place, name, &names));
+        faults.push(wording::unknown_effect(&raw.name.location, name, &names));
         return vec![];
     }
     kin
 }
 
 /// The mechanism's effect, with the scene's values in place of its own.
-fn varied(raw: &Raw, own: &Declared, faults: &mut Faults) -> Option<Declared> {
-    let own = own.clone().called_at(&raw.name.place);
+fn with_overrides(raw: &Raw, own: &Declaration, faults: &mut Faults) -> Option<Declaration> {
+    let own = own.clone().located_at(&raw.name.location);
     if raw.is_bare() {
         return Some(own);
     }
@@ -78,19 +87,23 @@ fn varied(raw: &Raw, own: &Declared, faults: &mut Faults) -> Option<Declared> {
     {
         let types = (own.effect.keyword(), word.value.as_str());
         let name = &raw.name.value;
-        faults.push(wording::type_of_mechanism_differs(&word.place, name, types));
+        faults.push(wording::type_of_mechanism_differs(
+            &word.location,
+            name,
+            types,
+        ));
         return None;
     }
     let fields = fields_of(raw, own.effect, faults)?;
-    Some(Declared {
+    Some(Declaration {
         name: raw.name.clone(),
         effect: own.effect,
-        fields: Declared::over(fields, &own.fields),
+        fields: Declaration::over(fields, &own.fields),
     })
 }
 
 /// The words by which a scene may call for effects.
-fn callable<'a>(known: &'a [Declared], kinds: &Kinds) -> Vec<&'a str> {
+fn callable<'a>(known: &'a [Declaration], kinds: &EffectKinds) -> Vec<&'a str> {
     let mut words: Vec<&str> = known.iter().map(|d| d.name.value.as_str()).collect();
     words.extend(kinds.iter().filter(|e| e.built_in()).map(|e| e.keyword()));
     let families: Vec<&str> = known.iter().map(|d| d.effect.family()).collect();
@@ -100,21 +113,21 @@ fn callable<'a>(known: &'a [Declared], kinds: &Kinds) -> Vec<&'a str> {
 }
 
 /// The words that may follow `type`.
-fn types(kinds: &Kinds) -> Vec<&'static str> {
+fn types(kinds: &EffectKinds) -> Vec<&'static str> {
     let types = kinds.iter().filter(|e| !e.built_in());
-    types.map(Declaration::keyword).collect()
+    types.map(EffectKind::keyword).collect()
 }
 
 fn of_type(
     word: &Located<String>,
-    kinds: &Kinds,
+    kinds: &EffectKinds,
     faults: &mut Faults,
-) -> Option<&'static dyn Declaration> {
+) -> Option<&'static dyn EffectKind> {
     let found = kinds.named(&word.value).filter(|e| !e.built_in());
     if found.is_none() {
         let known = types(kinds);
         faults.push(wording::unknown_effect_type(
-            &word.place,
+            &word.location,
             &word.value,
             &known,
         ));
@@ -122,7 +135,7 @@ fn of_type(
     found
 }
 
-fn fields_of(raw: &Raw, effect: &'static dyn Declaration, faults: &mut Faults) -> Option<Fields> {
+fn fields_of(raw: &Raw, effect: &'static dyn EffectKind, faults: &mut Faults) -> Option<Fields> {
     let mut keys = keys_declared(effect);
     if !effect.built_in() {
         keys.push(TYPE);
@@ -132,7 +145,7 @@ fn fields_of(raw: &Raw, effect: &'static dyn Declaration, faults: &mut Faults) -
 }
 
 /// How the effect is written.
-pub(crate) fn example(effect: &dyn Declaration) -> String {
+pub(crate) fn example(effect: &dyn EffectKind) -> String {
     let needed = effect.keys().iter().filter(|k| k.needed);
     let keys: Vec<String> = needed.map(|k| format!("{}: …", k.name)).collect();
     match (effect.built_in(), keys.is_empty()) {
@@ -144,15 +157,15 @@ pub(crate) fn example(effect: &dyn Declaration) -> String {
 
 fn identifier(name: &Located<String>, faults: &mut Faults) {
     if !is_identifier(&name.value) {
-        faults.push(wording::not_identifier(&name.place, &name.value));
+        faults.push(wording::not_identifier(&name.location, &name.value));
     }
 }
 
-impl Declared {
+impl Declaration {
     /// The same with faults reported where a scene calls for it: the mechanism's file is another.
-    fn called_at(mut self, place: &Place) -> Self {
-        self.name.place = place.clone();
-        self.fields = self.fields.placed(place);
+    fn located_at(mut self, location: &Location) -> Self {
+        self.name.location = location.clone();
+        self.fields = self.fields.placed(location);
         self
     }
 }

@@ -19,12 +19,12 @@ use crate::method::{Argument, Method};
 use crate::name::is_identifier;
 
 /// The module with bodies that never run.
-pub fn fallback(interface: &Interface, place: &OutputOptions) -> TokenStream {
-    let name = place.module_ident(&interface.name);
+pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
+    let name = output.module_ident(&interface.name);
     let model = ident(&struct_ident(&interface.name));
-    let (bgdyn, visibility) = (&place.bgdyn, &place.visibility);
-    let rebuild = rebuild(place);
-    let doc = format!(" The spec {} was refused: see the error.", place.source);
+    let (bgdyn, visibility) = (&output.bgdyn, &output.visibility);
+    let rebuild = rebuild(output);
+    let doc = format!(" The spec {} was refused: see the error.", output.source);
     let constants = constants(interface);
     let parameters = interface.parameters.iter();
     let fields = fields(

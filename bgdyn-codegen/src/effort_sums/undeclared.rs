@@ -1,10 +1,10 @@
 //! Lookups by name in a law, and the panic where the name is not declared: an error of its author.
 
-use super::Laws;
+use super::EffortSums;
 use crate::declaration::Element;
-use crate::scene::Part;
+use crate::scene::Variable;
 
-impl Laws<'_, '_> {
+impl EffortSums<'_, '_> {
     /// The element whose law runs.
     pub(super) fn element_at_work(&self) -> &Element {
         &self.scene.elements[self.at]
@@ -12,7 +12,7 @@ impl Laws<'_, '_> {
 
     /// The number of the part with this name among the scene's states, modes, inputs or events;
     /// `kind` is the word for one of them.
-    pub(super) fn part(&self, kind: &str, parts: &[Part], name: &str) -> usize {
+    pub(super) fn part(&self, kind: &str, parts: &[Variable], name: &str) -> usize {
         let found = parts.iter().position(|part| part.name == name);
         found.unwrap_or_else(|| undeclared(self.element_at_work(), kind, name))
     }

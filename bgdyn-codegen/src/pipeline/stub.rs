@@ -12,10 +12,10 @@ use crate::interface::{Interface, SceneInterface};
 /// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
 /// caller can name, nothing that runs. `load` gives the text of a scene's mechanism. Nothing where the
 /// stem cannot name a module.
-pub fn fallback(
+pub fn stub(
     text: &str,
     stem: &str,
-    place: &emit::OutputOptions,
+    output: &emit::OutputOptions,
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Option<TokenStream> {
     if is_scene(text) {
@@ -24,7 +24,7 @@ pub fn fallback(
         let of = stem_of(Path::new(&path));
         let mechanism = written.as_deref().map(|written| (written, of.as_str()));
         let scene = SceneInterface::guess(text, stem, mechanism);
-        return scene.map(|scene| emit::scene_fallback(&scene, place));
+        return scene.map(|scene| emit::scene_stub(&scene, output));
     }
-    Interface::guess(text, stem).map(|interface| emit::fallback(&interface, place))
+    Interface::guess(text, stem).map(|interface| emit::stub(&interface, output))
 }

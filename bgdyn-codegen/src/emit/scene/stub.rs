@@ -10,20 +10,20 @@ use super::super::tokens::{ident, struct_ident, structure};
 use super::{constants, method, system, types};
 use crate::expr::Operations;
 use crate::interface::SceneInterface;
-use crate::method::Role;
+use crate::method::SceneFunction;
 
 /// The module with bodies that never run.
-pub fn scene_fallback(scene: &SceneInterface, place: &OutputOptions) -> TokenStream {
-    let name = place.module_ident(&scene.name);
+pub fn scene_stub(scene: &SceneInterface, output: &OutputOptions) -> TokenStream {
+    let name = output.module_ident(&scene.name);
     let model = ident(&struct_ident(&scene.name));
-    let (bgdyn, visibility) = (&place.bgdyn, &place.visibility);
-    let rebuild = rebuild(place);
-    let doc = format!(" The scene {} was refused: see the error.", place.source);
+    let (bgdyn, visibility) = (&output.bgdyn, &output.visibility);
+    let rebuild = rebuild(output);
+    let doc = format!(" The scene {} was refused: see the error.", output.source);
     let structure = structure(&model, &doc, &scene.parameters);
     let (constants, types) = (constants::constants(scene), types::types(scene));
     // Contacts have a type where there are modes only.
-    let roles = Role::ALL.into_iter();
-    let roles = roles.filter(|r| *r != Role::Contacts || !scene.layout.modes.is_empty());
+    let roles = SceneFunction::ALL.into_iter();
+    let roles = roles.filter(|r| *r != SceneFunction::Contacts || !scene.layout.modes.is_empty());
     let methods = roles.clone().map(|role| {
         let signature = method::signature(role, scene);
         quote! {
@@ -38,7 +38,7 @@ pub fn scene_fallback(scene: &SceneInterface, place: &OutputOptions) -> TokenStr
         system::slope_trait(scene, &model),
         system::canonical_trait(scene, &model),
     ];
-    let names: Vec<&str> = roles.map(Role::name).collect();
+    let names: Vec<&str> = roles.map(SceneFunction::name).collect();
     let operations = operations(names.iter().map(|name| (*name, Operations::default())));
     quote! {
         #[doc = #doc]

@@ -6,7 +6,7 @@ use crate::math::{Mat3, Vec3};
 use crate::mechanism::{Joint, Motion, Pose};
 
 /// Where a joint holds its link at a coordinate.
-pub(super) fn held(joint: &Joint, at: Dd) -> Pose {
+pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
     let Pose {
         rotation,
         translation,

@@ -3,27 +3,27 @@
 use bgdyn_runtime::Dd;
 
 use super::undeclared::undeclared;
-use super::{Laws, Own, Port, copied};
+use super::{ActuatorEfforts, EffortSums, Port, copied};
 use crate::bond_graph::SiteId;
 use crate::declaration::Chain;
 use crate::declaration::{Element, Quantity};
-use crate::expr::{Ex, Graph, Leaf, Tangent};
+use crate::expr::{Expr, Graph, Leaf, Tangent};
 use crate::format::{Dimension, Key};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Level;
 
-impl<'g, 'a> Laws<'g, 'a> {
+impl<'g, 'a> EffortSums<'g, 'a> {
     /// Whether the limits of drives act: not where the coordinates' own efforts are sought.
     pub fn limited(&self) -> bool {
-        self.own == Own::Inputs
+        self.own == ActuatorEfforts::FromInputs
     }
 
     /// The number behind a key; 0 where the file does not give it.
     ///
     /// # Panics
     /// Where the element's effect does not declare the key.
-    pub fn number(&self, element: &Element, key: &Key) -> Ex<'g> {
+    pub fn number(&self, element: &Element, key: &Key) -> Expr<'g> {
         self.optional(element, key).unwrap_or(self.b.zero())
     }
 
@@ -31,7 +31,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     ///
     /// # Panics
     /// Where the element's effect does not declare the key.
-    pub fn optional(&self, element: &Element, key: &Key) -> Option<Ex<'g>> {
+    pub fn optional(&self, element: &Element, key: &Key) -> Option<Expr<'g>> {
         if !element.effect.keys().iter().any(|k| k.name == key.name) {
             undeclared(element, "key", key.name);
         }
@@ -39,7 +39,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// A number as an expression.
-    pub fn quantity(&self, quantity: &Quantity) -> Ex<'g> {
+    pub fn quantity(&self, quantity: &Quantity) -> Expr<'g> {
         let index = quantity.parameter.as_ref().and_then(|name| {
             let parameters = self.scene.parameters.iter();
             parameters.clone().position(|p| p.name == *name)
@@ -54,7 +54,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     ///
     /// # Panics
     /// Where no effect of the scene declares it.
-    pub fn state(&self, name: &str) -> Ex<'g> {
+    pub fn state(&self, name: &str) -> Expr<'g> {
         self.x[self.part("state", &self.scene.layout.states, name)]
     }
 
@@ -62,7 +62,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     ///
     /// # Panics
     /// Where no effect of the scene declares it.
-    pub fn mode(&self, name: &str) -> Ex<'g> {
+    pub fn mode(&self, name: &str) -> Expr<'g> {
         self.modes[self.part("mode", &self.scene.layout.modes, name)]
     }
 
@@ -70,7 +70,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     ///
     /// # Panics
     /// Where no effect of the scene declares it.
-    pub fn input(&self, name: &str) -> Ex<'g> {
+    pub fn input(&self, name: &str) -> Expr<'g> {
         self.u[self.part("input", &self.scene.layout.inputs, name)]
     }
 
@@ -78,7 +78,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     ///
     /// # Panics
     /// Where no effect of the scene declares the reference up to this level.
-    pub fn reference(&self, name: Option<&str>, level: Level) -> Ex<'g> {
+    pub fn reference(&self, name: Option<&str>, level: Level) -> Expr<'g> {
         name.map_or(self.b.zero(), |name| self.input(&level.name(name)))
     }
 
@@ -86,7 +86,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     ///
     /// # Panics
     /// Where it adds none.
-    pub fn own_velocity(&self, element: &Element) -> Ex<'g> {
+    pub fn own_velocity(&self, element: &Element) -> Expr<'g> {
         self.v[self.coordinate_index(&element.name)]
     }
 
@@ -131,7 +131,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     pub fn coordinate(&self, name: &str) -> Port<'g> {
         let j = self.coordinate_index(name);
         Port {
-            place: self.q.get(j).copied().unwrap_or(self.b.zero()),
+            displacement: self.q.get(j).copied().unwrap_or(self.b.zero()),
             rate: self.v[j],
             transformers: vec![(j, self.b.number(1.0))],
         }
@@ -143,7 +143,7 @@ impl<'g, 'a> Laws<'g, 'a> {
         let apart = self.pose(b).1 - self.pose(a).1;
         let length = apart.dot(apart).sqrt();
         let mut port = Port {
-            place: length,
+            displacement: length,
             rate: self.b.zero(),
             transformers: vec![],
         };
@@ -159,7 +159,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// ∂x/∂q_j
-    pub(crate) fn slope(&self, x: Ex<'g>, j: usize) -> Ex<'g> {
+    pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
         let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| g.constant(Dd::ONE));
         let x = x.expr();
         let slope = self.b.with_graph(|g| Tangent::new(seed).of(g, x));
@@ -167,7 +167,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// Axes and origin of a place in the world.
-    pub fn pose(&mut self, site: SiteId) -> (Mat3<Ex<'g>>, Vec3<Ex<'g>>) {
+    pub fn pose(&mut self, site: SiteId) -> (Mat3<Expr<'g>>, Vec3<Expr<'g>>) {
         if let Some(pose) = self.poses.get(&site) {
             return *pose;
         }
@@ -181,7 +181,7 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// Jacobian of a place, world axes: a column (angular part first) per joint.
-    pub fn jacobian(&mut self, site: SiteId) -> Vec<[Ex<'g>; 6]> {
+    pub fn jacobian(&mut self, site: SiteId) -> Vec<[Expr<'g>; 6]> {
         let n = self.graph.coordinates.len();
         let rows = self.method(Method::Jacobian(site));
         (0..n)
@@ -190,17 +190,17 @@ impl<'g, 'a> Laws<'g, 'a> {
     }
 
     /// Energy of the weights, if anything weighs.
-    pub fn potential_energy(&self) -> Vec<Ex<'g>> {
+    pub fn potential_energy(&self) -> Vec<Expr<'g>> {
         self.method(Method::PotentialEnergy)
     }
 
     /// A method of the mechanism, its expressions copied into this graph.
-    pub(crate) fn method(&self, method: Method) -> Vec<Ex<'g>> {
+    pub(crate) fn method(&self, method: Method) -> Vec<Expr<'g>> {
         copied(self.b, (self.graph, self.asked), method, |_, _| None)
     }
 
     /// What an earlier element gave.
-    pub fn shared(&self, node: &str, what: &'static str) -> Option<Ex<'g>> {
+    pub fn shared(&self, node: &str, what: &'static str) -> Option<Expr<'g>> {
         self.shared.get(&(node.to_owned(), what)).copied()
     }
 

@@ -1,75 +1,75 @@
 //! What the effects' laws see and what they add: the sums on the junctions of one scene.
 
-mod adds;
 mod gear;
 mod gears;
-mod joined;
 mod parts;
-mod reads;
+mod read;
+mod result;
 mod undeclared;
+mod write;
 
 use std::collections::BTreeMap;
 
 use crate::bond_graph::{BondGraph, SiteId};
 use crate::choice::Choice;
-use crate::expr::{Builder, Ex, Graph, Leaf, copy_into};
+use crate::expr::{Builder, Expr, Graph, Leaf, copy_into};
 use crate::formulation::Formulation;
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Scene;
 
-pub use gear::{Gear, load_event};
+pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
-pub use parts::{Balance, Contact, Hold, Own, Port, Reading};
+pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading};
 
 /// The sums that the laws of a scene's effects add to.
-pub struct Laws<'g, 'a> {
+pub struct EffortSums<'g, 'a> {
     /// The graph under construction.
     pub b: &'g Builder,
     /// Positions.
-    pub q: Vec<Ex<'g>>,
+    pub q: Vec<Expr<'g>>,
     /// Velocities.
-    pub v: Vec<Ex<'g>>,
+    pub v: Vec<Expr<'g>>,
     /// Time.
-    pub t: Ex<'g>,
-    own: Own,
+    pub t: Expr<'g>,
+    own: ActuatorEfforts,
     /// The formulation asked for; the cheapest of each method where `None`.
     pub(crate) asked: Option<&'static dyn Formulation>,
     scene: &'a Scene,
     graph: &'a BondGraph,
-    x: Vec<Ex<'g>>,
-    modes: Vec<Ex<'g>>,
-    u: Vec<Ex<'g>>,
+    x: Vec<Expr<'g>>,
+    modes: Vec<Expr<'g>>,
+    u: Vec<Expr<'g>>,
     /// Which element's law is at work.
     at: usize,
     /// On each coordinate.
-    efforts: Vec<Ex<'g>>,
+    efforts: Vec<Expr<'g>>,
     /// The gear between a coordinate's own effort and the coordinate.
-    gears: BTreeMap<usize, Gear<'g>>,
+    gears: BTreeMap<usize, LossyGear<'g>>,
     /// Inertia of the coordinates that store their own momentum.
-    inertias: BTreeMap<usize, Ex<'g>>,
+    inertias: BTreeMap<usize, Expr<'g>>,
     /// ẋ
-    rates: Vec<Ex<'g>>,
+    rates: Vec<Expr<'g>>,
     balances: Vec<Balance<'g>>,
     contacts: Vec<Contact<'g>>,
-    events: BTreeMap<String, Ex<'g>>,
+    events: BTreeMap<String, Expr<'g>>,
     readings: Vec<Reading<'g>>,
     conditions: Vec<Condition<'g>>,
-    shared: BTreeMap<(String, &'static str), Ex<'g>>,
-    poses: BTreeMap<SiteId, (Mat3<Ex<'g>>, Vec3<Ex<'g>>)>,
+    shared: BTreeMap<(String, &'static str), Expr<'g>>,
+    poses: BTreeMap<SiteId, (Mat3<Expr<'g>>, Vec3<Expr<'g>>)>,
 }
 
-impl<'g, 'a> Laws<'g, 'a> {
+impl<'g, 'a> EffortSums<'g, 'a> {
     /// No law yet, under these inputs, with the mechanism's own methods by the formulation `asked`.
     pub(crate) fn empty(
         b: &'g Builder,
         scene: &'a Scene,
         (graph, asked): (&'a BondGraph, Option<&'static dyn Formulation>),
-        own: Own,
-        inputs: impl FnOnce() -> Vec<Ex<'g>>,
+        own: ActuatorEfforts,
+        inputs: impl FnOnce() -> Vec<Expr<'g>>,
     ) -> Self {
         let layout = &scene.layout;
-        let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
+        let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Expr<'g>> {
             (0..n).map(|i| b.leaf(leaf(i))).collect()
         };
         let zeros = |n: usize| vec![b.zero(); n];
@@ -78,7 +78,7 @@ impl<'g, 'a> Laws<'g, 'a> {
             stored: b.zero(),
             dissipated: b.zero(),
         };
-        Laws {
+        EffortSums {
             b,
             q: leaves(layout.nq(), Leaf::Position),
             v: leaves(layout.nv(), Leaf::Velocity),
@@ -117,8 +117,8 @@ pub(crate) fn copied<'g>(
     b: &'g Builder,
     (graph, asked): (&BondGraph, Option<&'static dyn Formulation>),
     method: Method,
-    leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Expr>,
-) -> Vec<Ex<'g>> {
+    leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Signed>,
+) -> Vec<Expr<'g>> {
     let Some(function) = Choice::new(graph, asked).function(method) else {
         return vec![];
     };

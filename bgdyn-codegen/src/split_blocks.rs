@@ -5,10 +5,10 @@
 //! it, so that a cut costs no operation. Entries of a matrix that are inner products of two tables
 //! make the last block, whose code is loops.
 
-use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
-use crate::function::{Block, Function, Products, in_triangle};
+use crate::expr::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
+use crate::function::{Block, Function, InnerProducts, in_triangle};
+use crate::inner_products::products;
 use crate::method::Shape;
-use crate::products::products;
 
 /// Operations in a block at the most. Arms of seven axes stay in one piece.
 const MAX_BLOCK: usize = 3200;
@@ -42,7 +42,7 @@ pub fn cut(function: Function) -> Function {
 }
 
 /// The block in which each node is computed; `None` for what stands where it is used.
-fn homes(graph: &Graph, outputs: &[Expr], products: &[Products]) -> Vec<Option<usize>> {
+fn homes(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Vec<Option<usize>> {
     let needed = reachable(graph, outputs);
     let in_loops = in_loops(graph, outputs, products);
     let mut homes = vec![None; graph.len()];
@@ -69,9 +69,9 @@ fn homes(graph: &Graph, outputs: &[Expr], products: &[Products]) -> Vec<Option<u
 }
 
 /// The nodes that are sums of products, or parts of such a sum.
-fn in_loops(graph: &Graph, outputs: &[Expr], products: &[Products]) -> Vec<bool> {
+fn in_loops(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Vec<bool> {
     let mut found = vec![false; graph.len()];
-    for (row, column) in products.iter().flat_map(Products::places) {
+    for (row, column) in products.iter().flat_map(InnerProducts::places) {
         let mut sum = outputs[in_triangle(row, column)].node;
         found[sum.place()] = true;
         while let Node::MulAdd(_, _, _, rest) = graph.node(sum) {
@@ -86,16 +86,16 @@ struct Cutter<'a> {
     graph: &'a Graph,
     homes: Vec<Option<usize>>,
     /// The function's results, and each block's: nodes that later blocks read.
-    results: &'a [Expr],
+    results: &'a [Signed],
     passed: Vec<Vec<NodeId>>,
     /// The graph with blocks, and where a node of the old one is in it, block by block.
     made: Graph,
     titles: u32,
-    copies: QuickMap<NodeId, Expr>,
+    copies: QuickMap<NodeId, Signed>,
 }
 
 impl<'a> Cutter<'a> {
-    fn new(graph: &'a Graph, homes: Vec<Option<usize>>, results: &'a [Expr]) -> Self {
+    fn new(graph: &'a Graph, homes: Vec<Option<usize>>, results: &'a [Signed]) -> Self {
         let last = homes.iter().flatten().max().copied().unwrap_or(0);
         let mut cutter = Cutter {
             graph,
@@ -158,10 +158,10 @@ impl<'a> Cutter<'a> {
                 self.copies.insert(id, leaf);
             }
         }
-        let wanted: Vec<Expr> = if b + 1 == self.blocks() {
+        let wanted: Vec<Signed> = if b + 1 == self.blocks() {
             self.results.to_vec()
         } else {
-            self.passed[b].iter().map(|&id| Expr::plus(id)).collect()
+            self.passed[b].iter().map(|&id| Signed::plus(id)).collect()
         };
         for i in 0..self.graph.len() {
             if self.homes[i] == Some(b) {
@@ -175,7 +175,7 @@ impl<'a> Cutter<'a> {
     }
 
     /// Enters inner products in the last block, each summed in the order of its vectors.
-    fn enter(&mut self, products: Vec<Products>, block: &mut Block) {
+    fn enter(&mut self, products: Vec<InnerProducts>, block: &mut Block) {
         for mut found in products {
             for e in (found.rows.values_mut().chain(found.columns.values_mut())).flatten() {
                 *e = self.copy_signed(*e);
@@ -183,7 +183,7 @@ impl<'a> Cutter<'a> {
             for (row, column) in found.places() {
                 let mut terms = found.rows[&row].iter().zip(&found.columns[&column]);
                 let first = terms.next().map(|(&x, &y)| self.made.mul(x, y));
-                let add = |sum, (&x, &y): (&Expr, &Expr)| self.made.mul_add(x, y, sum);
+                let add = |sum, (&x, &y): (&Signed, &Signed)| self.made.mul_add(x, y, sum);
                 if let Some(first) = first {
                     block.outputs[in_triangle(row, column)] = terms.fold(first, add);
                 }
@@ -192,18 +192,18 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    fn copy_signed(&mut self, e: Expr) -> Expr {
+    fn copy_signed(&mut self, e: Signed) -> Signed {
         self.copy(e.node).flipped(e.negative)
     }
 
-    fn copy(&mut self, id: NodeId) -> Expr {
+    fn copy(&mut self, id: NodeId) -> Signed {
         if let Some(&copy) = self.copies.get(&id) {
             return copy;
         }
         let node = self.graph.node(id).clone();
         let copied = node.map_operands(|e| self.copy_signed(e));
         self.made.reopen_section(self.graph, id, self.titles);
-        let copy = Expr::plus(self.made.intern(copied));
+        let copy = Signed::plus(self.made.intern(copied));
         self.made.copy_name(copy, self.graph, id);
         self.copies.insert(id, copy);
         copy

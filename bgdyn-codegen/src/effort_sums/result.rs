@@ -2,12 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Balance, Condition, Contact, Hold, Laws, Own, Reading};
-use crate::expr::{Ex, Leaf};
+use super::{ActuatorEfforts, Balance, Condition, Contact, EffortSums, Hold, Reading};
+use crate::expr::{Expr, Leaf};
 
-impl<'g> Laws<'g, '_> {
+impl<'g> EffortSums<'g, '_> {
     /// An expression's value at the start, run-time parameters at their defaults.
-    pub(crate) fn at_start(&self, x: Ex<'g>, initial: &crate::scene::Initial) -> Dd {
+    pub(crate) fn at_start(&self, x: Expr<'g>, initial: &crate::scene::Initial) -> Dd {
         use bgdyn_runtime::Scalar as _;
         let inputs = crate::expr::Inputs {
             q: initial.q.clone(),
@@ -29,17 +29,17 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// Own efforts of the coordinates that are inputs.
-    pub(crate) fn own_effort(&self, j: usize) -> Ex<'g> {
+    pub(crate) fn own_effort(&self, j: usize) -> Expr<'g> {
         let parts = self.scene.layout.inputs.iter().zip(&self.u);
         let own = parts.filter(|(part, _)| part.drives == Some(j));
         own.fold(self.b.zero(), |sum, (_, &u)| sum + u)
     }
 
     /// Own effort of a coordinate before its gear. A voltage goes through its motor's law.
-    pub(super) fn before_the_gear(&self, j: usize) -> Ex<'g> {
+    pub(super) fn before_the_gear(&self, j: usize) -> Expr<'g> {
         let (stored, everywhere) = (
             self.scene.layout.coordinates[j].stored,
-            self.own == Own::Everywhere,
+            self.own == ActuatorEfforts::Each,
         );
         match (everywhere, stored) {
             (true, _) => self.b.leaf(Leaf::Acceleration(j)),
@@ -49,30 +49,30 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// Own effort of a coordinate behind its gear.
-    pub(crate) fn drive(&self, j: usize) -> Ex<'g> {
+    pub(crate) fn drive(&self, j: usize) -> Expr<'g> {
         let own = self.before_the_gear(j);
         let gear = self.gears.get(&j);
         gear.map_or(own, |gear| gear.behind(self.b, own))
     }
 
     /// The own effort that gives `effort` behind the coordinate's gear.
-    pub(crate) fn before_gear(&self, j: usize, effort: Ex<'g>) -> Ex<'g> {
+    pub(crate) fn before_gear(&self, j: usize, effort: Expr<'g>) -> Expr<'g> {
         let gear = self.gears.get(&j);
         gear.map_or(effort, |gear| gear.before(self.b, effort))
     }
 
     /// Effort on a coordinate by everything but its store, its own input included.
-    pub(crate) fn effort(&self, j: usize) -> Ex<'g> {
+    pub(crate) fn effort(&self, j: usize) -> Expr<'g> {
         self.efforts[j] + self.drive(j)
     }
 
     /// Whether an expression depends on any position.
-    pub(crate) fn reads_positions(&self, x: Ex<'g>) -> bool {
+    pub(crate) fn reads_positions(&self, x: Expr<'g>) -> bool {
         !self.positions_of(x).is_empty()
     }
 
     /// The positions that an expression depends on.
-    pub(crate) fn positions_of(&self, x: Ex<'g>) -> Vec<usize> {
+    pub(crate) fn positions_of(&self, x: Expr<'g>) -> Vec<usize> {
         let x = x.expr();
         self.b.with_graph(|g| {
             let needed = crate::expr::reachable(g, &[x]);
@@ -86,23 +86,23 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// Inertia of a coordinate with a store of its own.
-    pub(crate) fn inertia_of(&self, j: usize) -> Option<Ex<'g>> {
+    pub(crate) fn inertia_of(&self, j: usize) -> Option<Expr<'g>> {
         self.inertias.get(&j).copied()
     }
 
-    pub(crate) fn rates(&self) -> &[Ex<'g>] {
+    pub(crate) fn rates(&self) -> &[Expr<'g>] {
         &self.rates
     }
 
-    pub(crate) fn states(&self) -> &[Ex<'g>] {
+    pub(crate) fn states(&self) -> &[Expr<'g>] {
         &self.x
     }
 
-    pub(crate) fn mode_at(&self, k: usize) -> Ex<'g> {
+    pub(crate) fn mode_at(&self, k: usize) -> Expr<'g> {
         self.modes[k]
     }
 
-    pub(crate) fn inputs(&self) -> &[Ex<'g>] {
+    pub(crate) fn inputs(&self) -> &[Expr<'g>] {
         &self.u
     }
 
@@ -113,7 +113,7 @@ impl<'g> Laws<'g, '_> {
     /// What is left until a contact gives way, where its coordinate is held with this effort;
     /// negative beyond. Frictions that hold the same coordinate share the effort: they give way
     /// together, where it is more than the sum of their limits.
-    pub(crate) fn margin(&self, contact: &Contact<'g>, holding: Ex<'g>) -> Ex<'g> {
+    pub(crate) fn margin(&self, contact: &Contact<'g>, holding: Expr<'g>) -> Expr<'g> {
         let ranges = match contact.hold {
             Hold::Lowers => return -holding,
             Hold::Raises => return holding,
@@ -130,7 +130,7 @@ impl<'g> Laws<'g, '_> {
     }
 
     /// The efforts that a friction and the others that hold its coordinate now can hold with.
-    fn ranges_with(&self, contact: &Contact<'g>) -> Vec<[Ex<'g>; 2]> {
+    fn ranges_with(&self, contact: &Contact<'g>) -> Vec<[Expr<'g>; 2]> {
         let (half, zero) = (self.b.number(0.5), self.b.zero());
         let beside = |c: &&Contact<'g>| c.coordinate == contact.coordinate;
         let all = self.contacts.iter().filter(beside);
@@ -154,7 +154,7 @@ impl<'g> Laws<'g, '_> {
         &self.balances
     }
 
-    pub(crate) fn event_named(&self, name: &str) -> Option<Ex<'g>> {
+    pub(crate) fn event_named(&self, name: &str) -> Option<Expr<'g>> {
         self.events.get(name).copied()
     }
 

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{BondGraph, Inertia, JunctionId, LinkFrame};
+use super::{BondGraph, JunctionId, LinkFrame, StoreInertia};
 use crate::math::Vec3;
 use crate::mechanism::{CoordinateId, Motion, Value};
 
@@ -30,10 +30,10 @@ impl BondGraph {
     }
 
     /// Whether a velocity that feeds a store's junction changes what the store holds.
-    fn moves(&self, j: CoordinateId, junction: JunctionId, inertia: &Inertia) -> bool {
+    fn moves(&self, j: CoordinateId, junction: JunctionId, inertia: &StoreInertia) -> bool {
         let there = match inertia {
-            Inertia::Mass(mass) => *mass != ZERO,
-            Inertia::Tensor(entries) => *entries != [ZERO; 6],
+            StoreInertia::Mass(mass) => *mass != ZERO,
+            StoreInertia::Tensor(entries) => *entries != [ZERO; 6],
         };
         // What the joint's own link holds lies still in the joint's axes: there zeros are seen that
         // the transformers, in fixed axes, do not tell.
@@ -44,15 +44,15 @@ impl BondGraph {
 }
 
 /// Whether the inertia of a link about, or along, its joint's axis is not zero.
-fn moved_by_own_joint(frame: &LinkFrame, inertia: &Inertia) -> bool {
+fn moved_by_own_joint(frame: &LinkFrame, inertia: &StoreInertia) -> bool {
     match (inertia, frame.motion) {
-        (Inertia::Mass(_), Motion::Translation) => true,
-        (Inertia::Mass(_), _) => {
+        (StoreInertia::Mass(_), Motion::Translation) => true,
+        (StoreInertia::Mass(_), _) => {
             let offset = fixed(&frame.com.0).map(|com| frame.axis.cross(Vec3(com)));
             offset.is_none_or(|offset| offset.dot(offset).to_f64() > 1e-48)
         }
-        (Inertia::Tensor(_), Motion::Translation) => false,
-        (Inertia::Tensor(entries), _) => fixed(entries).is_none_or(|entries| {
+        (StoreInertia::Tensor(_), Motion::Translation) => false,
+        (StoreInertia::Tensor(entries), _) => fixed(entries).is_none_or(|entries| {
             // nᵀ J n
             let [xx, yy, zz, xy, xz, yz] = entries;
             let Vec3([x, y, z]) = frame.tensor_axes.transpose() * frame.axis;

@@ -3,22 +3,22 @@
 use bgdyn_runtime::Dd;
 
 use super::Scene;
-use crate::fault::{Faults, Place, unknown_name, wording};
+use crate::fault::{Faults, Location, unknown_name, wording};
 
 /// Something that a run can be given.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settable {
+pub struct Override {
     /// Its name.
     pub name: String,
     /// Its SI unit; nothing for a pure number.
     pub unit: &'static str,
     /// What it is.
-    pub kind: SettableKind,
+    pub kind: OverrideKind,
 }
 
 /// What kind of thing a run can be given, by its place in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SettableKind {
+pub enum OverrideKind {
     /// A position at the start.
     Position(usize),
     /// A velocity at the start.
@@ -31,20 +31,20 @@ pub enum SettableKind {
     Parameter(usize),
 }
 
-impl SettableKind {
+impl OverrideKind {
     /// Whether it is a run-time parameter, not a part of the state.
     pub fn is_parameter(self) -> bool {
-        matches!(self, SettableKind::Parameter(_))
+        matches!(self, OverrideKind::Parameter(_))
     }
 }
 
 impl Scene {
     /// Everything that a run can be given: positions, velocities, first-order states, modes (`NAME_mode`),
     /// run-time parameters.
-    pub fn settable(&self) -> Vec<Settable> {
-        use SettableKind::{Mode, Parameter, Position, State, Velocity};
+    pub fn overrides(&self) -> Vec<Override> {
+        use OverrideKind::{Mode, Parameter, Position, State, Velocity};
         let layout = &self.layout;
-        let one = |name: &str, unit, kind| Settable {
+        let one = |name: &str, unit, kind| Override {
             name: name.to_owned(),
             unit,
             kind,
@@ -74,15 +74,15 @@ impl Scene {
     ///
     /// # Errors
     /// With the names that there are, or the nearest one. `what` says what was looked for.
-    pub fn settable_named(
+    pub fn override_named(
         &self,
         what: &str,
         name: &str,
-        wanted: impl Fn(SettableKind) -> bool,
-    ) -> Result<Settable, String> {
-        let mut all = self.settable();
+        wanted: impl Fn(OverrideKind) -> bool,
+    ) -> Result<Override, String> {
+        let mut all = self.overrides();
         all.retain(|s| wanted(s.kind));
-        let found: Vec<&Settable> = all.iter().filter(|s| s.name == name).collect();
+        let found: Vec<&Override> = all.iter().filter(|s| s.name == name).collect();
         match found.as_slice() {
             [one] => Ok((*one).clone()),
             [] if all.is_empty() => {
@@ -103,32 +103,32 @@ impl Scene {
     ///
     /// # Errors
     /// Values that a state cannot have.
-    pub fn starting(&self, values: &[(Settable, Dd)]) -> Result<Scene, Faults> {
+    pub fn with_overrides(&self, values: &[(Override, Dd)]) -> Result<Scene, Faults> {
         let mut scene = self.clone();
         let mut faults = Faults::default();
         // What the file states of modes, it states of its own start.
         let modes = values.iter().filter_map(|(s, _)| match s.kind {
-            SettableKind::Mode(i) => Some(i),
+            OverrideKind::Mode(i) => Some(i),
             _ => None,
         });
         if !values.is_empty() {
             scene.written.modes = Some(modes.collect());
         }
-        for (settable, value) in values {
+        for (overrides, value) in values {
             let value = *value;
-            match settable.kind {
-                SettableKind::Position(j) => scene.initial.q[j] = value,
-                SettableKind::Velocity(j) => scene.initial.v[j] = value,
-                SettableKind::Mode(i) => scene.initial.modes[i] = value,
-                SettableKind::Parameter(i) => scene.parameters[i].default = value,
-                SettableKind::State(i) => {
+            match overrides.kind {
+                OverrideKind::Position(j) => scene.initial.q[j] = value,
+                OverrideKind::Velocity(j) => scene.initial.v[j] = value,
+                OverrideKind::Mode(i) => scene.initial.modes[i] = value,
+                OverrideKind::Parameter(i) => scene.parameters[i].default = value,
+                OverrideKind::State(i) => {
                     scene.initial.x[i] = value;
                     let entered = scene.layout.states[i].entered;
                     if let Some(entered) = entered.filter(|e| value < e.least) {
-                        let with_unit = |x: Dd| format!("{} {}", x.to_f64(), settable.unit);
+                        let with_unit = |x: Dd| format!("{} {}", x.to_f64(), overrides.unit);
                         faults.push(wording::initial_below_least(
-                            &Place::file(),
-                            &settable.name,
+                            &Location::file(),
+                            &overrides.name,
                             (&with_unit(value), &with_unit(entered.least)),
                             entered.way_out,
                         ));

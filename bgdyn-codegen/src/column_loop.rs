@@ -10,7 +10,7 @@
 
 use bgdyn_runtime::Scalar;
 
-use crate::expr::{Expr, Graph, Inputs, Leaf, Node, NodeId, QuickMap, evaluate, reachable};
+use crate::expr::{Graph, Inputs, Leaf, Node, NodeId, QuickMap, Signed, evaluate, reachable};
 
 /// The block of [`Leaf::Passed`] that stands for values that all columns share.
 pub(crate) const SHARED: usize = 0;
@@ -19,19 +19,19 @@ pub(crate) const OWN: usize = 1;
 
 /// Columns that one loop computes.
 #[derive(Clone, Debug)]
-pub struct Columns {
+pub struct ColumnLoop {
     /// The expressions of one column, over [`Leaf::Passed`]: of block 0 what all columns read, of
     /// block 1 what a column has of its own.
     pub graph: Graph,
     /// The results of a column.
-    pub outputs: Vec<Expr>,
+    pub outputs: Vec<Signed>,
     /// Where in the stage's results stands what all columns read.
     pub shared: Vec<usize>,
     /// Where stands what each column has of its own: a list for each column.
     pub own: Vec<Vec<usize>>,
 }
 
-impl Columns {
+impl ColumnLoop {
     /// The results of every column from the stage's.
     fn evaluate<T: Scalar>(&self, stage: &[T], refused: &mut T::Refused) -> Vec<Vec<T>> {
         let at = |places: &[usize]| places.iter().map(|&k| stage[k]).collect::<Vec<T>>();
@@ -45,7 +45,7 @@ impl Columns {
 
 /// Where a result of a function with loops comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum ResultSource {
     /// A result of the stage.
     Stage(usize),
     /// A result of a loop.
@@ -61,21 +61,21 @@ pub enum Part {
 
 /// The loops of a function, and how its result is put together.
 #[derive(Clone, Debug)]
-pub struct Loops {
+pub struct LoopedResult {
     /// The loops.
-    pub groups: Vec<Columns>,
+    pub groups: Vec<ColumnLoop>,
     /// The function's results in the order of its shape.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ResultSource>,
 }
 
-impl Loops {
+impl LoopedResult {
     /// The function's results from those of the stage.
     pub(crate) fn evaluate<T: Scalar>(&self, stage: &[T], refused: &mut T::Refused) -> Vec<T> {
         let groups = self.groups.iter();
         let found: Vec<Vec<Vec<T>>> = groups.map(|g| g.evaluate(stage, refused)).collect();
-        let value = |part: &Part| match *part {
-            Part::Stage(k) => stage[k],
-            Part::Column { group, column, row } => found[group][column][row],
+        let value = |part: &ResultSource| match *part {
+            ResultSource::Stage(k) => stage[k],
+            ResultSource::Column { group, column, row } => found[group][column][row],
         };
         self.parts.iter().map(value).collect()
     }
@@ -83,12 +83,12 @@ impl Loops {
 
 /// One column's expressions in a graph of their own, and what it reads of the graph that it was made
 /// in, as [`SHARED`] values in this order. Its own values are [`OWN`] leaves there already.
-pub(crate) fn column(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>, Vec<Expr>) {
+pub(crate) fn column(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>, Vec<Signed>) {
     let own = of_column(from, outputs);
     let mut to = Graph::default();
-    let mut shared: Vec<Expr> = Vec::new();
-    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
-    let mut at = |to: &mut Graph, copies: &mut QuickMap<NodeId, Expr>, id: NodeId| -> Expr {
+    let mut shared: Vec<Signed> = Vec::new();
+    let mut copies: QuickMap<NodeId, Signed> = QuickMap::default();
+    let mut at = |to: &mut Graph, copies: &mut QuickMap<NodeId, Signed>, id: NodeId| -> Signed {
         if let Some(&copy) = copies.get(&id) {
             return copy;
         }
@@ -96,7 +96,7 @@ pub(crate) fn column(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>, Vec<E
             Node::Constant(c) => to.constant(c.value()),
             _ => {
                 let index = shared.len();
-                shared.push(Expr::plus(id));
+                shared.push(Signed::plus(id));
                 let block = SHARED;
                 to.leaf(Leaf::Passed { block, index })
             }
@@ -110,7 +110,7 @@ pub(crate) fn column(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>, Vec<E
         node.for_each_operand(|operand| {
             at(&mut to, &mut copies, operand);
         });
-        let copy = to.rebuilt(node, |e: Expr| copies[&e.node].flipped(e.negative));
+        let copy = to.rebuilt(node, |e: Signed| copies[&e.node].flipped(e.negative));
         copies.insert(id, copy);
     }
     let outputs = outputs.iter();
@@ -120,7 +120,7 @@ pub(crate) fn column(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>, Vec<E
 }
 
 /// The nodes that depend on what a column has of its own.
-fn of_column(graph: &Graph, outputs: &[Expr]) -> Vec<bool> {
+fn of_column(graph: &Graph, outputs: &[Signed]) -> Vec<bool> {
     let needed = reachable(graph, outputs);
     let mut own = vec![false; graph.len()];
     for i in (0..graph.len()).filter(|&i| needed[i]) {

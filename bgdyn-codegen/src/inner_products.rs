@@ -15,57 +15,57 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use crate::expr::{Expr, Graph, Node, NodeId, QuickMap, reads};
-use crate::function::Products;
+use crate::expr::{Graph, Node, NodeId, QuickMap, Signed, reads};
+use crate::function::InnerProducts;
 
 /// Entries from which on a loop is worth its tables.
 const WORTH: usize = 64;
 
 /// One product of a sum, with its sign.
 #[derive(Clone, Copy)]
-struct Term {
+struct ProductTerm {
     factors: [NodeId; 2],
     negative: bool,
 }
 
 /// An entry that is a sum of products.
-struct Entry {
+struct MatrixEntry {
     /// Where it stands: row, column.
     place: [usize; 2],
     /// As they are summed.
-    terms: Vec<Term>,
+    terms: Vec<ProductTerm>,
 }
 
-impl Entry {
+impl MatrixEntry {
     /// The factors that stand beside those of `vector`, in its order, with their signs; nothing where
     /// a term has none of them.
-    fn beside(&self, vector: &[Expr]) -> Option<Vec<Expr>> {
-        let other = |x: &Expr| {
+    fn beside(&self, vector: &[Signed]) -> Option<Vec<Signed>> {
+        let other = |x: &Signed| {
             let mut with = self.terms.iter().filter(|t| t.factors.contains(&x.node));
             let term = with.next().filter(|_| with.next().is_none())?;
             let [a, b] = term.factors;
             let node = if a == x.node { b } else { a };
-            Some(Expr::plus(node).flipped(term.negative ^ x.negative))
+            Some(Signed::plus(node).flipped(term.negative ^ x.negative))
         };
         (vector.len() == self.terms.len()).then_some(())?;
         vector.iter().map(other).collect()
     }
 
     /// One factor of each term that the other entry has too.
-    fn shared(&self, other: &Entry) -> Option<Vec<Expr>> {
+    fn shared(&self, other: &MatrixEntry) -> Option<Vec<Signed>> {
         let has = |x: &NodeId| other.terms.iter().any(|t| t.factors.contains(x));
-        let one = |term: &Term| {
+        let one = |term: &ProductTerm| {
             let mut both = term.factors.into_iter().filter(has);
             both.next().filter(|_| both.next().is_none())
         };
         let terms = self.terms.iter();
-        terms.map(|term| one(term).map(Expr::plus)).collect()
+        terms.map(|term| one(term).map(Signed::plus)).collect()
     }
 }
 
 /// The tables of a symmetric matrix given by its lower triangle, row by row. The entries in them
 /// are read by nothing else.
-pub fn products(graph: &Graph, triangle: &[Expr]) -> Vec<Products> {
+pub fn products(graph: &Graph, triangle: &[Signed]) -> Vec<InnerProducts> {
     let entries = entries(graph, triangle);
     let mut by_node: QuickMap<NodeId, Vec<usize>> = QuickMap::default();
     for (e, entry) in entries.iter().enumerate() {
@@ -76,7 +76,7 @@ pub fn products(graph: &Graph, triangle: &[Expr]) -> Vec<Products> {
     let mut found = Vec::new();
     let mut tried = vec![false; entries.len()];
     for first in 0..entries.len() {
-        let grown = (!tried[first]).then(|| Tables::grown(&entries, &by_node, first, &tried));
+        let grown = (!tried[first]).then(|| FactorTables::grown(&entries, &by_node, first, &tried));
         let Some(tables) = grown.flatten() else {
             continue;
         };
@@ -89,21 +89,21 @@ pub fn products(graph: &Graph, triangle: &[Expr]) -> Vec<Products> {
 }
 
 /// The entries that are sums of two or more products, read by nothing else.
-fn entries(graph: &Graph, triangle: &[Expr]) -> Vec<Entry> {
+fn entries(graph: &Graph, triangle: &[Signed]) -> Vec<MatrixEntry> {
     let reads = reads(graph, triangle);
     let places = (0..).flat_map(|row| (0..=row).map(move |column| [row, column]));
-    let entry = |(&e, place): (&Expr, [usize; 2])| {
+    let entry = |(&e, place): (&Signed, [usize; 2])| {
         let terms = terms(graph, &reads, e)?;
-        Some(Entry { place, terms })
+        Some(MatrixEntry { place, terms })
     };
     triangle.iter().zip(places).filter_map(entry).collect()
 }
 
 /// The products of a sum in the order in which they are added: x₀ y₀, then fused with one after the
 /// other.
-fn terms(graph: &Graph, reads: &[u32], e: Expr) -> Option<Vec<Term>> {
+fn terms(graph: &Graph, reads: &[u32], e: Signed) -> Option<Vec<ProductTerm>> {
     let mut terms = Vec::new();
-    let Expr { mut node, negative } = e;
+    let Signed { mut node, negative } = e;
     let mut negative = negative;
     loop {
         (reads[node.place()] == 1).then_some(())?;
@@ -112,7 +112,7 @@ fn terms(graph: &Graph, reads: &[u32], e: Expr) -> Option<Vec<Term>> {
             Node::Mul(a, b) => ([a, b], false, None),
             _ => return None,
         };
-        terms.push(Term {
+        terms.push(ProductTerm {
             factors,
             negative: negative ^ minus,
         });
@@ -125,31 +125,31 @@ fn terms(graph: &Graph, reads: &[u32], e: Expr) -> Option<Vec<Term>> {
 
 /// Entries that hang together by the vectors they share.
 #[derive(Default)]
-struct Tables {
+struct FactorTables {
     /// Entries with the vectors of their row and their column.
-    members: Vec<(usize, [Vec<Expr>; 2])>,
+    members: Vec<(usize, [Vec<Signed>; 2])>,
     /// Every vector by its first factor, with its side: of rows (0) or of columns (1).
-    known: QuickMap<NodeId, (usize, Vec<Expr>)>,
+    known: QuickMap<NodeId, (usize, Vec<Signed>)>,
     /// Those that are still to be looked for in other entries.
     open: VecDeque<NodeId>,
 }
 
-impl Tables {
+impl FactorTables {
     /// All that hangs together with an entry, but for entries that were tried before. The vector of
     /// its row is what it shares with another one of that row.
     fn grown(
-        entries: &[Entry],
+        entries: &[MatrixEntry],
         by_node: &QuickMap<NodeId, Vec<usize>>,
         first: usize,
         tried: &[bool],
-    ) -> Option<Tables> {
+    ) -> Option<FactorTables> {
         let start = &entries[first];
         let [a, b] = start.terms[0].factors;
         let near = by_node[&a].iter().chain(&by_node[&b]);
         let of_row = near.filter(|&&e| e != first && entries[e].place[0] == start.place[0]);
         let mut vectors = of_row.filter_map(|&e| start.shared(&entries[e]));
         let row = vectors.find(|v| start.beside(v).is_some())?;
-        let mut tables = Tables::default();
+        let mut tables = FactorTables::default();
         tables.meet(0, &row);
         let mut seen = tried.to_vec();
         while let Some(key) = tables.open.pop_front() {
@@ -168,7 +168,7 @@ impl Tables {
     }
 
     /// Takes a vector of a side in; whether it is what is known by its first factor.
-    fn meet(&mut self, side: usize, vector: &[Expr]) -> bool {
+    fn meet(&mut self, side: usize, vector: &[Signed]) -> bool {
         let key = vector[0].node;
         if let Some((known_side, known)) = self.known.get(&key) {
             return *known_side == side && known == vector;
@@ -179,8 +179,8 @@ impl Tables {
     }
 
     /// The products; nothing where a row or a column has several vectors.
-    fn products(&self, entries: &[Entry]) -> Option<Products> {
-        let mut products = Products::default();
+    fn products(&self, entries: &[MatrixEntry]) -> Option<InnerProducts> {
+        let mut products = InnerProducts::default();
         let mut places: Vec<[usize; 2]> = Vec::new();
         for (e, [row, column]) in &self.members {
             let [i, j] = entries[*e].place;

@@ -2,7 +2,7 @@
 
 /// What a function of a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Role {
+pub enum SceneFunction {
     /// v̇ and ẋ.
     Derivative,
     /// Efforts at the coordinates behind given accelerations.
@@ -30,71 +30,77 @@ pub enum Role {
     CanonicalRates,
 }
 
-impl Role {
+impl SceneFunction {
     /// Every role.
-    pub const ALL: [Role; 12] = [
-        Role::Derivative,
-        Role::Inverse,
-        Role::Inputs,
-        Role::Events,
-        Role::Contacts,
-        Role::Power,
-        Role::Energy,
-        Role::Outputs,
-        Role::Jacobian,
-        Role::ToCanonical,
-        Role::FromCanonical,
-        Role::CanonicalRates,
+    pub const ALL: [SceneFunction; 12] = [
+        SceneFunction::Derivative,
+        SceneFunction::Inverse,
+        SceneFunction::Inputs,
+        SceneFunction::Events,
+        SceneFunction::Contacts,
+        SceneFunction::Power,
+        SceneFunction::Energy,
+        SceneFunction::Outputs,
+        SceneFunction::Jacobian,
+        SceneFunction::ToCanonical,
+        SceneFunction::FromCanonical,
+        SceneFunction::CanonicalRates,
     ];
 
     /// Those of the canonical form.
-    pub const CANONICAL: [Role; 3] = [Role::ToCanonical, Role::FromCanonical, Role::CanonicalRates];
+    pub const CANONICAL: [SceneFunction; 3] = [
+        SceneFunction::ToCanonical,
+        SceneFunction::FromCanonical,
+        SceneFunction::CanonicalRates,
+    ];
 
     /// The method's name.
     pub fn name(self) -> &'static str {
         match self {
-            Role::Derivative => "derivative",
-            Role::Inverse => "inverse",
-            Role::Inputs => "input",
-            Role::Events => "events",
-            Role::Contacts => "contacts",
-            Role::Power => "power",
-            Role::Energy => "energy",
-            Role::Outputs => "output",
-            Role::Jacobian => "jacobian",
-            Role::ToCanonical => "to_canonical",
-            Role::FromCanonical => "from_canonical",
-            Role::CanonicalRates => "canonical_rates",
+            SceneFunction::Derivative => "derivative",
+            SceneFunction::Inverse => "inverse",
+            SceneFunction::Inputs => "input",
+            SceneFunction::Events => "events",
+            SceneFunction::Contacts => "contacts",
+            SceneFunction::Power => "power",
+            SceneFunction::Energy => "energy",
+            SceneFunction::Outputs => "output",
+            SceneFunction::Jacobian => "jacobian",
+            SceneFunction::ToCanonical => "to_canonical",
+            SceneFunction::FromCanonical => "from_canonical",
+            SceneFunction::CanonicalRates => "canonical_rates",
         }
     }
 
     /// What the result is: one line of documentation.
     pub fn summary(self) -> &'static str {
         match self {
-            Role::Derivative => {
+            SceneFunction::Derivative => {
                 "Rates of the state: accelerations, and rates of first-order states."
             }
-            Role::Inverse => {
+            SceneFunction::Inverse => {
                 "Efforts at the coordinates that produce these accelerations, as if no coordinate had an effort of its own: a force or torque at a joint, a voltage at a winding."
             }
-            Role::Inputs => "The inputs: what the scene drives itself, and what is `given`.",
-            Role::Events => "Values whose fall through zero is an event.",
-            Role::Contacts => {
+            SceneFunction::Inputs => {
+                "The inputs: what the scene drives itself, and what is `given`."
+            }
+            SceneFunction::Events => "Values whose fall through zero is an event.",
+            SceneFunction::Contacts => {
                 "For each mode: slip, its acceleration, the effort that holds, the most that can hold."
             }
-            Role::Power => {
+            SceneFunction::Power => {
                 "Balance of power, W: Σ supplied = Σ rate of the energy stored + Σ dissipated."
             }
-            Role::Energy => "Energy stored, J, effect by effect.",
-            Role::Outputs => "The outputs that the scene asks for.",
-            Role::Jacobian => {
+            SceneFunction::Energy => "Energy stored, J, effect by effect.",
+            SceneFunction::Outputs => "The outputs that the scene asks for.",
+            SceneFunction::Jacobian => {
                 "(∂ẏ/∂y, ∂ẏ/∂t) of the rates under the inputs that the scene drives itself; `input` is what is `given`."
             }
-            Role::ToCanonical => {
+            SceneFunction::ToCanonical => {
                 "The state with the momenta p = M v in place of the velocities: kg·m²/s for a rotation, kg·m/s for a translation, the flux linkage V·s of a winding."
             }
-            Role::FromCanonical => "The state of momenta: v = M⁻¹ p in place of p.",
-            Role::CanonicalRates => {
+            SceneFunction::FromCanonical => "The state of momenta: v = M⁻¹ p in place of p.",
+            SceneFunction::CanonicalRates => {
                 "Rates of the state with momenta: q̇ = M⁻¹ p, ṗ and ẋ, under the inputs that the scene drives itself; `input` is what is `given`."
             }
         }

@@ -9,7 +9,7 @@ use crate::math::Vec3;
 
 /// A letter for a number of the spec: m₂, l₁, Jzz₃.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Letter {
+pub struct NumberSymbol {
     /// `m` mass, `c` place of the centre of mass, `J` entry of the tensor about it, `l` displacement
     /// of a joint in its parent's axes; a run-time parameter's own name.
     pub symbol: String,
@@ -31,11 +31,11 @@ pub struct Letter {
 /// A mechanism whose inertial numbers are run-time parameters, and whose joints' displacements are
 /// coordinates of massless carriers. Every number that its equations then hold is a direction.
 #[derive(Clone, Debug)]
-pub struct Lettered {
+pub struct SymbolicMechanism {
     /// It. Its own coordinates come first, then the displacements.
     pub mechanism: Mechanism,
     /// The letters. A mechanism's run-time parameters come first.
-    pub letters: Vec<Letter>,
+    pub letters: Vec<NumberSymbol>,
     /// For each of its parameters the letter, and whether it stands for the letter's opposite.
     pub parameters: Vec<(usize, bool)>,
     /// For each coordinate beyond the mechanism's own the letter of the displacement.
@@ -51,8 +51,8 @@ const INERTIA: [i32; 3] = [1, 2, 0];
 impl Mechanism {
     /// The same mechanism with letters for masses, centres of mass, tensors and the displacements
     /// between joints. The base's place stays as it is: no effort depends on it.
-    pub fn lettered(&self) -> Lettered {
-        let mut all = Lettered {
+    pub fn symbolic(&self) -> SymbolicMechanism {
+        let mut all = SymbolicMechanism {
             mechanism: self.clone(),
             letters: Vec::new(),
             parameters: Vec::new(),
@@ -60,7 +60,7 @@ impl Mechanism {
         };
         all.mechanism.links.clear();
         for (p, parameter) in self.parameters.iter().enumerate() {
-            all.letters.push(Letter {
+            all.letters.push(NumberSymbol {
                 symbol: parameter.name.clone(),
                 component: "",
                 of: Vec::new(),
@@ -99,7 +99,7 @@ impl Mechanism {
     }
 }
 
-impl Lettered {
+impl SymbolicMechanism {
     /// Massless carriers from the parent's axes to the joint of link i: one slide for each component
     /// of the displacement that is not zero. Gives the last one.
     fn displace(&mut self, from: &Mechanism, i: usize, parent: LinkId, place: LinkId) -> LinkId {
@@ -120,7 +120,7 @@ impl Lettered {
             let opposite = step.0[axis] < Dd::ZERO;
             let (joint, parent) = (&from.links[i].joint.name, &from.links[parent.0].name);
             let along = along(axis, opposite);
-            self.letters.push(Letter {
+            self.letters.push(NumberSymbol {
                 symbol: "l".into(),
                 component: component(step, axis),
                 of: of.clone(),
@@ -172,7 +172,7 @@ impl Lettered {
     /// Letters for the numbers of a link's body.
     fn letter_body(&mut self, link: (usize, &str), inertial: &mut Inertial) {
         let (i, name) = link;
-        let plain = |symbol: &str, component, meaning, dimension| Letter {
+        let plain = |symbol: &str, component, meaning, dimension| NumberSymbol {
             symbol: symbol.into(),
             component,
             of: vec![i + 1],
@@ -201,7 +201,7 @@ impl Lettered {
     }
 
     /// A letter for a number that is neither zero nor a run-time parameter already.
-    fn letter(&mut self, value: Value, mut letter: Letter) -> Value {
+    fn letter(&mut self, value: Value, mut letter: NumberSymbol) -> Value {
         let Value::Fixed(x) = value else {
             return value;
         };

@@ -1,29 +1,29 @@
 //! Gears with losses between efforts and coordinates.
 
-use super::{Gear, Laws, Port, load_event};
+use super::{EffortSums, LossyGear, Port, load_event};
 use crate::declaration::Element;
-use crate::expr::Ex;
+use crate::expr::Expr;
 use crate::format::Key;
 
-impl<'g> Laws<'g, '_> {
+impl<'g> EffortSums<'g, '_> {
     /// A gear with losses, whose efficiency is the number behind this key and whose mode has this
     /// name; `None` where no efficiency is given.
     ///
     /// # Panics
     /// Where the effect declares no such key, or no effect such a mode.
-    pub fn gear(&self, element: &Element, efficiency: &Key, mode: &str) -> Option<Gear<'g>> {
+    pub fn gear(&self, element: &Element, efficiency: &Key, mode: &str) -> Option<LossyGear<'g>> {
         let efficiency = self.optional(element, efficiency)?;
         let mode = self.mode(mode);
-        Some(Gear { efficiency, mode })
+        Some(LossyGear { efficiency, mode })
     }
 
     /// The events of a gear under an effort at its motor's side, and what it can hold.
     pub fn load(
         &mut self,
         (element, mode): (&Element, &str),
-        gear: Gear<'g>,
+        gear: LossyGear<'g>,
         port: &Port<'g>,
-        effort: Ex<'g>,
+        effort: Expr<'g>,
     ) {
         let zero = self.b.zero();
         self.event(&load_event(element), effort);
