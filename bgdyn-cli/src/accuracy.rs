@@ -3,10 +3,10 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use bgdyn_accuracy::generate::{ALL_BUT, kinked, levels, measured, operations, own_way};
+use bgdyn_accuracy::generate::{ALL_BUT, kinked, ablations, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Contender, CountSteps, Integrate, Measured, Pace, Priced, Ran, Runner, STEPS_METHOD,
-    Subject, order,
+    Call, Configuration, CountSteps, Integrate, Measured, Pace, Priced, Samples, Runner, STEPS_METHOD,
+    TestCase, order,
 };
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
@@ -106,7 +106,7 @@ impl Counted {
                 pace,
             };
             let values = with_method(&method, run).expect("a method of bgdyn-sim")?;
-            Ran::finite(values, Some(counted.spent.get()))
+            Samples::finite(values, Some(counted.spent.get()))
         })
     }
 }
@@ -176,8 +176,8 @@ impl Measured for Counted {
     }
 }
 
-/// The scene as a subject; `None` where it has nothing to measure.
-pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
+/// The scene as a test case; `None` where it has nothing to measure.
+pub(crate) fn test_case(system: &System, end: Option<f64>) -> Option<TestCase> {
     let full = measured(system)?;
     let scene = &full.scene;
     let (method, pace) = own_way(&full);
@@ -188,20 +188,20 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
         full.outputs[0].unit,
     ];
     let end = end.unwrap_or(scene.integration.end);
-    let mut subject = Subject::new(words, end, method, pace);
-    subject.kinked = kinked(&full);
-    subject.tolerances = TOLERANCES;
-    let levels = levels(&full);
+    let mut test_case = TestCase::new(words, end, method, pace);
+    test_case.kinked = kinked(&full);
+    test_case.tolerances = TOLERANCES;
+    let ablations = ablations(&full);
     let counted = Counted::new(full);
     let reference = counted.runner(REFERENCE);
-    subject.reference = Some(Box::new(move |grid, tolerance| {
+    test_case.reference = Some(Box::new(move |grid, tolerance| {
         let ran = reference(grid, Pace::Tolerance(tolerance))?;
         let row = |row: Vec<f64>| row.into_iter().map(Dd::from_f64).collect();
         Ok(ran.values.into_iter().map(row).collect())
     }));
     for method in METHODS.iter().filter(|m| **m != REFERENCE) {
         let (order, controlled) = order(method)?;
-        subject.contenders.push(Contender {
+        test_case.configurations.push(Configuration {
             effects: "all".into(),
             method: (*method).to_owned(),
             order,
@@ -212,19 +212,19 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
             run: counted.runner(method),
         });
     }
-    subject.add_level("all", counted.runner(method));
-    subject.prices.push(counted.price("all"));
-    for level in levels {
-        match level.system {
+    test_case.add_ablation("all", counted.runner(method));
+    test_case.prices.push(counted.price("all"));
+    for ablation in ablations {
+        match ablation.system {
             Some(system) => {
                 let counted = Counted::new(system);
-                subject.add_level(&level.effects, counted.runner(method));
-                if level.effects.starts_with(ALL_BUT) {
-                    subject.prices.push(counted.price(&level.effects));
+                test_case.add_ablation(&ablation.effects, counted.runner(method));
+                if ablation.effects.starts_with(ALL_BUT) {
+                    test_case.prices.push(counted.price(&ablation.effects));
                 }
             }
-            None => subject.missing_level(&level.effects),
+            None => test_case.missing_ablation(&ablation.effects),
         }
     }
-    Some(subject)
+    Some(test_case)
 }

@@ -3,7 +3,7 @@
 //! Dots are used where the length of a bar would mean nothing.
 
 use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
-use crate::text::short;
+use crate::format::short;
 
 /// A line.
 pub(super) struct Line {

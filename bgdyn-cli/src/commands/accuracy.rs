@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_accuracy::generate::variants;
 use bgdyn_accuracy::{
-    Machine, Plan, Study, costs_csv, csv, figures, page, study, targets, verdicts,
+    Machine, Effort, Study, costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::system::System;
@@ -95,9 +95,9 @@ impl Accuracy {
         let text = variants(system, end).map_err(|e| anyhow!(e))?;
         scratch.write("src/scene.rs", &text)?;
         let name = &system.scene.name;
-        let plan = if self.quick { "QUICK" } else { "FULL" };
+        let effort = if self.quick { "QUICK" } else { "FULL" };
         let main = format!(
-            "//! Written by `bgdyn accuracy`.\ninclude!(\"scene.rs\");\n\nfn main() {{\n    match bgdyn_accuracy::study(&{name}::subject(), &bgdyn_accuracy::Plan::{plan}) {{\n        Ok(study) => print!(\"{{}}\", study.write()),\n        Err(why) => print!(\"{REFUSED}{{why}}\"),\n    }}\n}}\n"
+            "//! Written by `bgdyn accuracy`.\ninclude!(\"scene.rs\");\n\nfn main() {{\n    match bgdyn_accuracy::study(&{name}::test_case(), &bgdyn_accuracy::Effort::{effort}) {{\n        Ok(study) => print!(\"{{}}\", study.write()),\n        Err(why) => print!(\"{REFUSED}{{why}}\"),\n    }}\n}}\n"
         );
         scratch.write("src/main.rs", &main)?;
         scratch.run()
@@ -106,10 +106,10 @@ impl Accuracy {
 
 /// The study through the evaluator.
 fn evaluated(system: &System, end: Option<f64>) -> Result<Study> {
-    let subject = crate::accuracy::subject(system, end)
+    let test_case = crate::accuracy::test_case(system, end)
         .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
     // The evaluator takes its time.
-    study(&subject, &Plan::QUICK).map_err(|e| anyhow!("{e}"))
+    study(&test_case, &Effort::QUICK).map_err(|e| anyhow!("{e}"))
 }
 
 /// Writes table, figures and page.
