@@ -13,7 +13,7 @@ use bgdyn_codegen::system::System;
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Jacobian, METHODS, Plant, Power, with_method};
 
-use crate::simulate::{Evaluated, Form, Numbers, Undefined};
+use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
 use crate::timing::estimate;
 
 /// The method of references.
@@ -111,8 +111,6 @@ impl Counted {
     }
 }
 
-type Tried<T> = Result<T, Undefined>;
-
 impl Plant for Counted {
     type State = Numbers;
     type Modes = Numbers;
@@ -120,12 +118,12 @@ impl Plant for Counted {
     type Entries = Numbers;
     type Error = Undefined;
 
-    fn rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.spend(self.calls.rates);
         self.plant.rates(t, y, modes)
     }
 
-    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Tried<Jacobian<Numbers>>> {
+    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Evaluation<Jacobian<Numbers>>> {
         self.spend(self.calls.slopes);
         self.plant.jacobian(t, y, modes)
     }
@@ -134,11 +132,11 @@ impl Plant for Counted {
         self.plant.positions()
     }
 
-    fn position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.plant.position_rates(t, y, modes)
     }
 
-    fn events(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn events(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.spend(self.calls.events);
         self.plant.events(t, y, modes)
     }
@@ -153,7 +151,7 @@ impl Plant for Counted {
         y: &Numbers,
         modes: &Numbers,
         fell: impl Fn(usize) -> bool,
-    ) -> Tried<(Numbers, Numbers)> {
+    ) -> Evaluation<(Numbers, Numbers)> {
         self.plant.change(t, y, modes, fell)
     }
 
@@ -161,11 +159,11 @@ impl Plant for Counted {
         self.plant.nothing()
     }
 
-    fn energy(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn energy(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.plant.energy(t, y, modes)
     }
 
-    fn power(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Power<Numbers>> {
+    fn power(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         self.plant.power(t, y, modes)
     }
 }

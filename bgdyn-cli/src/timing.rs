@@ -9,7 +9,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::system::System;
 
-use crate::scratch::Scratch;
+use crate::cargo_project::CargoProject;
 
 /// States in which a scene is timed, around its start.
 const STATES: usize = 64;
@@ -67,7 +67,7 @@ where
 /// # Errors
 /// Where there is no cargo, or it cannot have the crates.
 pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
-    let scratch = Scratch::new("times", bgdyn, &[])?;
+    let project = CargoProject::new("times", bgdyn, &[])?;
     let (mut modules, mut calls) = (String::new(), String::new());
     for (i, system) in systems.iter().enumerate() {
         let place = OutputOptions::source_text("a scene".into());
@@ -76,7 +76,7 @@ pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
             .map_err(|e| anyhow!(e))?;
         let functions = scene_functions(system, &Options::default());
         let text = source_text(scene_module(system, &functions, &place));
-        scratch.write(&format!("src/v{i}.rs"), &text)?;
+        project.write(&format!("src/v{i}.rs"), &text)?;
         writeln!(modules, "include!(\"v{i}.rs\");")?;
         let scene = struct_ident(&system.scene.name);
         writeln!(
@@ -86,8 +86,8 @@ pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
     }
     let main =
         format!("{HEAD}\nconst STATES: usize = {STATES};\n{modules}\nfn main() {{\n{calls}}}\n");
-    scratch.write("src/main.rs", &main)?;
-    let text = scratch.run()?;
+    project.write("src/main.rs", &main)?;
+    let text = project.run()?;
     let numbers = text
         .lines()
         .map(|line| line.parse::<f64>().context("a time"));

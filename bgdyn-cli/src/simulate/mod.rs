@@ -9,12 +9,13 @@ mod panel;
 mod plant;
 pub(crate) mod plot;
 pub(crate) mod progress;
-mod record;
-mod recorder;
+mod run_table;
+mod run_recorder;
 pub(crate) mod report;
-pub(crate) mod varied;
+pub(crate) mod batch_values;
 
 pub use difference::Difference;
+pub(crate) use plant::Evaluation;
 pub use plant::{Evaluated, Form, Numbers, Undefined};
-pub use record::{Column, EnergyAt, Event, Record, Row, Way, columns};
-pub use recorder::{prepared, record, record_from};
+pub use run_table::{Column, EnergyAt, Event, Record, Row, Way, columns};
+pub use run_recorder::{prepared, record, record_from};

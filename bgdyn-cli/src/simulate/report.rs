@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use bgdyn_codegen::system::System;
 
-use super::record::{Column, Event, Record, state_columns};
+use super::run_table::{Column, Event, Record, state_columns};
 
 /// Events that are told one by one; of more than these the number.
 const EVENTS: usize = 40;

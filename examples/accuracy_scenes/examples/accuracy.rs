@@ -93,14 +93,14 @@ fn run(options: &Options) -> Result<bool, Box<dyn std::error::Error>> {
             studies.push(study(&test_case(), &options.effort).map_err(|e| format!("{name}: {e}"))?);
         }
     }
-    let sound = studies.iter().filter(|study| !told(study)).count() == 0;
+    let sound = studies.iter().filter(|study| !print_summary(study)).count() == 0;
     write(&studies, &options.out).map_err(|e| format!("{}: {e}", options.out.display()))?;
     println!("wrote {}", options.out.join("report.html").display());
     Ok(sound)
 }
 
 /// Prints the cheapest ways and what does not converge; whether all does.
-fn told(study: &Study) -> bool {
+fn print_summary(study: &Study) -> bool {
     let facts = &study.facts;
     println!("{}", facts.scene);
     for choice in targets(study) {

@@ -15,12 +15,12 @@ pub(crate) type Given = (Settable, Dd);
 
 /// Quantities, and their values run by run.
 #[derive(Default)]
-pub(crate) struct Varied {
+pub(crate) struct BatchValues {
     pub(crate) quantities: Vec<Settable>,
     pub(crate) runs: Vec<Vec<f64>>,
 }
 
-impl Varied {
+impl BatchValues {
     /// What a run is given, after what all of them are given.
     pub(crate) fn given(&self, fixed: &[Given], run: &[f64]) -> Vec<Given> {
         let own = self.quantities.iter().zip(run);
@@ -63,7 +63,7 @@ pub(crate) fn fixed(
 }
 
 /// Runs of a table: names of quantities in the first line, a run per further line.
-pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<Varied> {
+pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValues> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| {
         let line = line.trim();
         !line.is_empty() && !line.starts_with('#')
@@ -71,7 +71,7 @@ pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<Varied> {
     let (_, header) = lines
         .next()
         .ok_or_else(|| anyhow!("{shown} is empty: write names of quantities in its first line"))?;
-    let mut varied = Varied::default();
+    let mut varied = BatchValues::default();
     for field in header.trim_start_matches('\u{feff}').split(',') {
         let quantity = headed(scene, field.trim()).map_err(|e| anyhow!("{shown}:1: {e}"))?;
         if varied.quantities.contains(&quantity) {
@@ -127,8 +127,8 @@ fn named(scene: &Scene, name: &str) -> Result<Settable, String> {
 }
 
 /// Runs over a grid: `NAME=FROM:TO:N` each, the last one fastest.
-pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<Varied, Usage> {
-    let mut varied = Varied::default();
+pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<BatchValues, Usage> {
+    let mut varied = BatchValues::default();
     varied.runs.push(vec![]);
     for text in sweeps {
         let wrong = |what: String| Usage(format!("`--sweep {text}`: {what}"));
@@ -172,8 +172,8 @@ pub(crate) fn chance(
     ranges: &[String],
     runs: usize,
     seed: u64,
-) -> Result<Varied, Usage> {
-    let mut varied = Varied::default();
+) -> Result<BatchValues, Usage> {
+    let mut varied = BatchValues::default();
     let mut of = Vec::new();
     for text in ranges {
         let wrong = |what: String| Usage(format!("`--random {text}`: {what}"));
@@ -202,7 +202,7 @@ pub(crate) fn chance(
     Ok(varied)
 }
 
-fn new(scene: &Scene, name: &str, varied: &Varied) -> Result<Settable, String> {
+fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Settable, String> {
     let quantity = named(scene, name.trim())?;
     match varied.quantities.contains(&quantity) {
         true => Err(format!("`{}` is varied twice", quantity.name)),
