@@ -10,8 +10,8 @@ use bgdyn_sim::{
 };
 use nalgebra::SVector;
 
-use crate::configuration::{Configuration, Grid, Pace, Samples, Runner, RunError};
-use crate::dyn_plant::{PlantObject, DynPlant};
+use crate::configuration::{Configuration, Grid, Pace, RunError, Runner, Samples};
+use crate::dyn_plant::{DynPlant, PlantObject};
 use crate::integrate::{Integrate, Measured, SampledOutput, numbers};
 use crate::test_case::{TestCase, order};
 
@@ -111,7 +111,12 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Started<T, N, NM
     }
 
     /// A run by a method.
-    fn run<M: Method<SVector<T, N>>>(&self, method: M, grid: &Grid, pace: Pace) -> SampledOutput<T> {
+    fn run<M: Method<SVector<T, N>>>(
+        &self,
+        method: M,
+        grid: &Grid,
+        pace: Pace,
+    ) -> SampledOutput<T> {
         let run = Integrate {
             plant: self.plant.clone(),
             begin: black_box(self.begin),
@@ -127,7 +132,9 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Started<T, N, NM
         T: 'static,
     {
         let started = self.clone();
-        Box::new(move |grid, pace| Samples::finite(numbers(started.run(method(), grid, pace)?), None))
+        Box::new(move |grid, pace| {
+            Samples::finite(numbers(started.run(method(), grid, pace)?), None)
+        })
     }
 }
 

@@ -9,9 +9,9 @@ use bgdyn_sim::{Dopri5, Method, Moment, Of, Plant, Real, Run, Scene, Tolerance, 
 use crate::clock::calls;
 use crate::configuration::RunError;
 use crate::integrate::in_short;
-use crate::step_sequence::Effort;
 use crate::priced::{Call, Priced};
 use crate::row::{fields, quoted};
+use crate::step_sequence::Effort;
 use crate::test_case::TestCase;
 
 /// The method by which steps are counted.

@@ -202,7 +202,9 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for DynPla
     }
 }
 
-impl<T: Real, const N: usize, const NM: usize, const NE: usize> Measured for DynPlant<T, N, NM, NE> {
+impl<T: Real, const N: usize, const NM: usize, const NE: usize> Measured
+    for DynPlant<T, N, NM, NE>
+{
     fn measured(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Vec<T> {
         self.0.measured(t, y, modes)
     }

@@ -154,9 +154,17 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
     let functions = scene_functions(&full, &all);
     text += &module(&full, &functions, "all")?;
     for call in ["methods", "momenta"] {
-        writeln!(calls, "test_case.{call}(all::{structure}::<f64>::default());").expect("text");
+        writeln!(
+            calls,
+            "test_case.{call}(all::{structure}::<f64>::default());"
+        )
+        .expect("text");
     }
-    writeln!(calls, "test_case.single(all::{structure}::<f32>::default());").expect("text");
+    writeln!(
+        calls,
+        "test_case.single(all::{structure}::<f32>::default());"
+    )
+    .expect("text");
     let dd = "bgdyn_accuracy::Dd";
     writeln!(
         calls,

@@ -6,8 +6,8 @@ use crate::clock::times;
 use crate::configuration::{Configuration, Grid, Pace, RunError};
 use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
-use crate::step_sequence::{Effort, ErrorScale, Trial, step_sequence};
 use crate::row::{Row, Status};
+use crate::step_sequence::{Effort, ErrorScale, Trial, step_sequence};
 use crate::test_case::TestCase;
 
 /// What a study is about.

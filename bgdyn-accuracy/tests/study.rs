@@ -2,8 +2,8 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Configuration, Cost, CountSteps, Finding, Grid, Pace, Effort, Samples, Status, RunError, Study, TestCase,
-    costs_csv, csv, figures, page, study, targets, verdicts,
+    Configuration, Cost, CountSteps, Effort, Finding, Grid, Pace, RunError, Samples, Status, Study,
+    TestCase, costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
@@ -69,7 +69,11 @@ fn test_case(configurations: Vec<Configuration>) -> TestCase {
 }
 
 fn studied(weights: [f64; 4]) -> Study {
-    study(&test_case(vec![configuration("cheapest", weights)]), &EFFORT).expect("a reference")
+    study(
+        &test_case(vec![configuration("cheapest", weights)]),
+        &EFFORT,
+    )
+    .expect("a reference")
 }
 
 #[test]

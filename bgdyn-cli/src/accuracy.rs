@@ -3,10 +3,10 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use bgdyn_accuracy::generate::{ALL_BUT, kinked, ablations, measured, operations, own_way};
+use bgdyn_accuracy::generate::{ALL_BUT, ablations, kinked, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Configuration, CountSteps, Integrate, Measured, Pace, Priced, Samples, Runner, STEPS_METHOD,
-    TestCase, order,
+    Call, Configuration, CountSteps, Integrate, Measured, Pace, Priced, Runner, STEPS_METHOD,
+    Samples, TestCase, order,
 };
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
@@ -123,7 +123,12 @@ impl Plant for Counted {
         self.plant.rates(t, y, modes)
     }
 
-    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Evaluation<Jacobian<Numbers>>> {
+    fn jacobian(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+    ) -> Option<Evaluation<Jacobian<Numbers>>> {
         self.spend(self.calls.slopes);
         self.plant.jacobian(t, y, modes)
     }

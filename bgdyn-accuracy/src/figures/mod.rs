@@ -4,13 +4,13 @@ mod bars;
 mod diagram;
 
 use crate::configuration::Pace;
-use crate::order_check::{Verdict, verdicts};
 use crate::cost::{Cost, METHOD, TOLERANCE};
+use crate::format::{short, step, time};
+use crate::order_check::{Verdict, verdicts};
 use crate::pareto::targets;
 use crate::row::{Row, Status};
 use crate::study::Study;
 use crate::svg::Marker;
-use crate::format::{short, step, time};
 use bars::{Bars, Column, Line, Scale};
 use diagram::{Diagram, Series};
 

@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_accuracy::generate::variants;
 use bgdyn_accuracy::{
-    Machine, Effort, Study, costs_csv, csv, figures, page, study, targets, verdicts,
+    Effort, Machine, Study, costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::system::System;
 use clap::Args;
 
+use crate::cargo_project::CargoProject;
 use crate::output::{print, tell};
 use crate::quantity::positive;
-use crate::cargo_project::CargoProject;
 use crate::spec_file::SpecFile;
 
 /// What accuracy costs in time on a scene: error and time by method, step, scalar, formulation, effects

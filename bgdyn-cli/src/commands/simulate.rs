@@ -18,7 +18,7 @@ use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{self, number, quantity, short};
 use crate::simulate::{
-    Column, Evaluated, Record, Way, columns, plot, prepared, record_from, batch_values,
+    Column, Evaluated, Record, Way, batch_values, columns, plot, prepared, record_from,
 };
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
@@ -175,7 +175,11 @@ impl Simulate {
     }
 
     /// The scene's way to run, as the options change it.
-    fn integration(&self, scene: Integration, given: &NumericOptions) -> Result<Integration, Usage> {
+    fn integration(
+        &self,
+        scene: Integration,
+        given: &NumericOptions,
+    ) -> Result<Integration, Usage> {
         let method = match &self.method {
             None => scene.method,
             Some(name) => Integrator::named(name).ok_or_else(|| {

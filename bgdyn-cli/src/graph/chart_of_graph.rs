@@ -8,7 +8,7 @@ use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose, Value};
 use bgdyn_runtime::Dd;
 
-use super::chart::{Chart, Component, Flow, ChartLink, Port, Transformer, Velocity};
+use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, Velocity};
 use super::notation::{coordinates, number, subscript, superscript};
 use super::unfold::Unfolding;
 
@@ -130,7 +130,12 @@ fn velocity(graph: &BondGraph, unfolding: &mut Unfolding<'_>, j: CoordinateId) -
     }
 }
 
-fn link(graph: &BondGraph, unfolding: &Unfolding<'_>, order: &[CoordinateId], i: LinkId) -> ChartLink {
+fn link(
+    graph: &BondGraph,
+    unfolding: &Unfolding<'_>,
+    order: &[CoordinateId],
+    i: LinkId,
+) -> ChartLink {
     let frame = &graph.frames[i.0];
     let flows = [('ṙ', graph.translation(i)), ('ω', graph.rotation(i))];
     let flows = flows.map(|(letter, junction)| Flow {

@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::chart::{Chart, Flow, ChartLink, Port, Transformer};
+use super::chart::{Chart, ChartLink, Flow, Port, Transformer};
 
 impl Chart {
     /// The drawing as the text of a DOT file.
@@ -127,7 +127,14 @@ enum BondEnd {
 }
 
 /// A bond with its half arrow at `to` and its causal stroke at one end.
-fn bond(text: &mut String, indent: usize, from: &str, to: &str, stroke: Option<BondEnd>, triple: bool) {
+fn bond(
+    text: &mut String,
+    indent: usize,
+    from: &str,
+    to: &str,
+    stroke: Option<BondEnd>,
+    triple: bool,
+) {
     let mut style = vec![match stroke {
         Some(BondEnd::Head) => "arrowhead=teelvee",
         _ => "arrowhead=lvee",

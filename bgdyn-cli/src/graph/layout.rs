@@ -14,7 +14,7 @@
 //! begins just above its own link and ends with the last link that it carries; so nothing but
 //! transformers stands left of a link's stores, and nothing at all right of them.
 
-use super::chart::{Chart, Flow, ChartLink, Port, Transformer, Velocity, lines};
+use super::chart::{Chart, ChartLink, Flow, Port, Transformer, Velocity, lines};
 
 /// Margin around all.
 pub(super) const MARGIN: f64 = 28.0;

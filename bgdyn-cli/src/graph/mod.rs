@@ -11,10 +11,10 @@
 //! without effort.
 
 mod chart;
-mod dot;
-mod notation;
 mod chart_of_graph;
+mod dot;
 mod layout;
+mod notation;
 mod scene;
 mod svg;
 mod unfold;

@@ -3,9 +3,9 @@
 use bgdyn_codegen::bond_graph::{BondGraph, GraphNode, NodePart, PlacePort, PortPlace};
 use bgdyn_codegen::system::System;
 
-use super::chart::{Chart, Component, Flow, ChartLink, Transformer};
-use super::notation::{coordinates, subscript};
+use super::chart::{Chart, ChartLink, Component, Flow, Transformer};
 use super::chart_of_graph::drive;
+use super::notation::{coordinates, subscript};
 use super::unfold::Unfolding;
 
 impl Chart {

@@ -218,7 +218,10 @@ fn free(name: &str, taken: &HashSet<String>) -> String {
 }
 
 /// The frames with their names and those of their links.
-fn frames<'a>(model: &'a Model, named: &'a Identifiers) -> Vec<(&'a reading::Frame, &'a str, &'a str)> {
+fn frames<'a>(
+    model: &'a Model,
+    named: &'a Identifiers,
+) -> Vec<(&'a reading::Frame, &'a str, &'a str)> {
     let link = |name: &str| {
         let found = model.links.iter().position(|link| link.name == name);
         found.map_or("", |i| named.links[i].as_str())

@@ -5,12 +5,12 @@ use std::num::NonZeroUsize;
 
 use bgdyn_codegen::system::System;
 
+use super::batch_values::{BatchValues, Given};
 use super::difference::range;
 use super::plant::Evaluated;
-use super::run_table::{Column, Way};
-use super::run_recorder::record_from;
 use super::report;
-use super::batch_values::{Given, BatchValues};
+use super::run_recorder::record_from;
+use super::run_table::{Column, Way};
 
 /// The results of a run of a batch.
 pub(crate) struct RunSummary {

@@ -6,10 +6,10 @@ use bgdyn_accuracy::svg::{Anchor, Drawing, INK, Marker};
 
 use super::axis::{Axis, LARGEST};
 use super::batch::RunSummary;
+use super::batch_values::BatchValues;
 use super::difference::range;
 use super::panel::{BLUE, ORANGE, Panel};
 use super::run_table::Column;
-use super::batch_values::BatchValues;
 
 const PANEL: (f64, f64) = (400.0, 230.0);
 const HEADER: f64 = 60.0;

@@ -328,7 +328,12 @@ impl Plant for Evaluated<'_> {
         Ok(rates.into())
     }
 
-    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Evaluation<Jacobian<Numbers>>> {
+    fn jacobian(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+    ) -> Option<Evaluation<Jacobian<Numbers>>> {
         let jacobian = self.functions.jacobian.as_ref()?;
         let values = match self.checked(jacobian, self.arguments(t, y, modes)) {
             Ok(values) => values,

@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 use accuracy_scenes::TEST_CASES;
 use bgdyn_accuracy::{
-    Cost, Machine, Effort, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets,
+    Cost, Effort, Machine, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets,
     verdicts,
 };
 

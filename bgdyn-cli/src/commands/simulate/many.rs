@@ -9,9 +9,9 @@ use bgdyn_codegen::system::System;
 use clap::Args;
 
 use crate::output::print;
+use crate::simulate::batch_values::{self, BatchValues, Given};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{number, quantity, short};
-use crate::simulate::batch_values::{self, Given, BatchValues};
 use crate::simulate::{Column, Evaluated, Way, batch, batch_plot};
 use crate::spec_file::read_text;
 use crate::usage::Usage;

@@ -6,9 +6,9 @@ mod symbols;
 
 use bgdyn_accuracy::svg::{ALARM, Anchor, Drawing, FAINT, INK};
 
-use super::chart::{Chart, Component, Flow, ChartLink, Port, Transformer, lines};
+use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, lines};
 use super::layout::{
-    BOND, Band, DROP, MARGIN, PITCH, Layout, SYMBOL, VECTOR, VelocityColumn, layout, text_width,
+    BOND, Band, DROP, Layout, MARGIN, PITCH, SYMBOL, VECTOR, VelocityColumn, layout, text_width,
     vector_width, words_width,
 };
 use style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};

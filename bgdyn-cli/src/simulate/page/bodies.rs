@@ -4,7 +4,7 @@ use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
 use bgdyn_codegen::scene::Scene;
 
-use super::body::{Body, End, BodyJoint, Placed, BodyPoint};
+use super::body::{Body, BodyJoint, BodyPoint, End, Placed};
 use super::stops::stops;
 
 /// The bodies of a scene, and where its links stand on them.

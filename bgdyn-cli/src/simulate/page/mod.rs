@@ -16,8 +16,8 @@ use self::bodies::Bodies;
 use self::body::{Body, End};
 use self::curve::{Curve, LEVELS};
 use super::difference::range;
-use super::run_table::{Column, Record, Row};
 use super::report::{changes, short};
+use super::run_table::{Column, Record, Row};
 
 /// Poses that a page holds: more rows than this allows are thinned out.
 const POSES: usize = 36_000;
