@@ -21,11 +21,12 @@ use std::time::Instant;
 use bgdyn::runtime::System;
 use bgdyn::nalgebra::SVector;
 
-struct Random(u64);
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+/// Numbers that spread evenly over −1 … 1: multiples of the golden ratio.
+fn spread() -> impl FnMut() -> f64 {
+    let mut k = 0.0_f64;
+    move || {
+        k += 1.0;
+        2.0 * (0.618_033_988_749_894_9 * k).fract() - 1.0
     }
 }
 
@@ -37,11 +38,11 @@ where
     S: System<f64, N, M, U, E, Y, P>,
 {
     let (start, modes) = scene.start();
-    let mut random = Random(2007);
+    let mut unit = spread();
     let states: Vec<SVector<f64, N>> = (0..STATES)
-        .map(|_| start.map(|x| x + random.unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }))
+        .map(|_| start.map(|x| x + unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }))
         .collect();
-    let input = SVector::<f64, U>::from_fn(|_, _| random.unit());
+    let input = SVector::<f64, U>::from_fn(|_, _| unit());
     let mut rounds = Vec::new();
     let mut calls = 64;
     while rounds.len() < 9 {

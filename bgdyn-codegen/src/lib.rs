@@ -40,6 +40,7 @@ pub mod options;
 pub mod passes;
 pub mod pipeline;
 mod products;
+pub mod random;
 mod read;
 pub mod refusal;
 pub mod scene;

@@ -1,6 +1,7 @@
 //! Values that override a scene's: from the command line, a file, a grid, or at random.
 
 use anyhow::{Result, anyhow};
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::scene::{Scene, Settable, SettableKind};
 use bgdyn_runtime::Dd;
 
@@ -193,9 +194,9 @@ pub(crate) fn chance(
             "`--runs {runs}`: write a number from 1 to {RUNS}"
         )));
     }
-    let mut random = SplitMix(seed);
-    let one = |random: &mut SplitMix| {
-        let value = |&[low, high]: &[f64; 2]| low + (high - low) * random.number();
+    let mut random = Random(seed);
+    let one = |random: &mut Random| {
+        let value = |&[low, high]: &[f64; 2]| low + (high - low) * random.unit();
         of.iter().map(value).collect()
     };
     varied.runs = (0..runs).map(|_| one(&mut random)).collect();
@@ -213,18 +214,4 @@ fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Settable, Stri
 fn ends(low: &str, high: &str, quantity: &Settable) -> Result<[f64; 2], String> {
     let end = |text: &str| value_in(text, quantity.unit).map(|value| value.to_f64());
     Ok([end(low)?, end(high)?])
-}
-
-/// SplitMix64 (Steele, Lea and Flood 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    /// From 0 up to 1, in steps of 2⁻⁵³.
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
