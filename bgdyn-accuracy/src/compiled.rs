@@ -1,4 +1,4 @@
-//! Compiled scenes as contenders of a study.
+//! Compiled scenes as configurations of a study.
 
 use std::hint::black_box;
 use std::rc::Rc;
@@ -10,26 +10,23 @@ use bgdyn_sim::{
 };
 use nalgebra::SVector;
 
-use crate::contender::{Contender, Grid, Pace, Ran, Runner, Stop};
-use crate::erased::{Callable, Erased};
-use crate::integrate::{Integrate, Measured, numbers};
-use crate::subject::{Subject, order};
-
-/// The measured output at each sample.
-type Sampled<T> = Result<Vec<Vec<T>>, Stop>;
+use crate::configuration::{Configuration, Grid, Pace, RunError, Runner, Samples};
+use crate::dyn_plant::{DynPlant, PlantObject};
+use crate::integrate::{Integrate, Measured, SampledOutput, numbers};
+use crate::test_case::{TestCase, order};
 
 /// What equations are called that are written as they are by default.
 const CHEAPEST: &str = "cheapest";
 
-/// A contender of this method's order and way to go.
-fn contender(
+/// A configuration of this method's order and way to go.
+fn configuration(
     method: &str,
     scalar: (&'static str, f64),
     formulation: &str,
     run: Runner,
-) -> Contender {
+) -> Configuration {
     let (order, controlled) = order(method).expect("a method of bgdyn-sim");
-    Contender {
+    Configuration {
         effects: "all".into(),
         method: method.into(),
         order,
@@ -100,21 +97,26 @@ measured!(CanonicalScene: Canonical, |plant, t, z, modes| {
 
 /// A plant as it is run: where it begins, and how.
 struct Started<T: Real, const N: usize, const NM: usize, const NE: usize> {
-    plant: Erased<T, N, NM, NE>,
+    plant: DynPlant<T, N, NM, NE>,
     begin: Moment<SVector<T, N>, SVector<T, NM>>,
 }
 
 impl<T: Real, const N: usize, const NM: usize, const NE: usize> Started<T, N, NM, NE> {
     fn new(
-        plant: impl Callable<T, N, NM, NE> + 'static,
+        plant: impl PlantObject<T, N, NM, NE> + 'static,
         begin: Moment<SVector<T, N>, SVector<T, NM>>,
     ) -> Rc<Self> {
-        let plant = Erased(Rc::new(plant));
+        let plant = DynPlant(Rc::new(plant));
         Rc::new(Started { plant, begin })
     }
 
     /// A run by a method.
-    fn run<M: Method<SVector<T, N>>>(&self, method: M, grid: &Grid, pace: Pace) -> Sampled<T> {
+    fn run<M: Method<SVector<T, N>>>(
+        &self,
+        method: M,
+        grid: &Grid,
+        pace: Pace,
+    ) -> SampledOutput<T> {
         let run = Integrate {
             plant: self.plant.clone(),
             begin: black_box(self.begin),
@@ -124,13 +126,15 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Started<T, N, NM
         run.with(method)
     }
 
-    /// The same, for a contender.
+    /// The same, for a configuration.
     fn runner<M: Method<SVector<T, N>>>(self: &Rc<Self>, method: impl Fn() -> M + 'static) -> Runner
     where
         T: 'static,
     {
         let started = self.clone();
-        Box::new(move |grid, pace| Ran::finite(numbers(started.run(method(), grid, pace)?), None))
+        Box::new(move |grid, pace| {
+            Samples::finite(numbers(started.run(method(), grid, pace)?), None)
+        })
     }
 }
 
@@ -139,7 +143,7 @@ fn kept<S: 'static>(scene: S) -> &'static S {
     Box::leak(Box::new(scene))
 }
 
-impl Subject {
+impl TestCase {
     scenes! {
         /// The reference: order 12 in double-double by controlled steps.
         pub fn reference[S: System<Dd>](&mut self, scene: S) {
@@ -166,7 +170,7 @@ impl Subject {
                 ("dop853", started.runner(|| Dop853)),
             ];
             for (method, run) in runs {
-                self.contenders.push(contender(method, F64, CHEAPEST, run));
+                self.configurations.push(configuration(method, F64, CHEAPEST, run));
             }
         }
 
@@ -183,7 +187,7 @@ impl Subject {
                 ("canonical_gauss3", started.runner(Gauss3::<f64>::new)),
             ];
             for (method, run) in runs {
-                self.contenders.push(contender(method, F64, "canonical", run));
+                self.configurations.push(configuration(method, F64, "canonical", run));
             }
         }
 
@@ -196,7 +200,7 @@ impl Subject {
                 ("dopri5", started.runner(|| Dopri5)),
             ];
             for (method, run) in runs {
-                self.contenders.push(contender(method, F32, CHEAPEST, run));
+                self.configurations.push(configuration(method, F32, CHEAPEST, run));
             }
         }
 
@@ -205,11 +209,11 @@ impl Subject {
             let scene = kept(scene);
             let started = Started::new(Scene::new(scene), Run::begin(scene));
             let run = started.runner(|| Rk4);
-            self.contenders.push(contender("rk4", F64, name, run));
+            self.configurations.push(configuration("rk4", F64, name, run));
         }
 
         /// The scene with these effects, by an explicit method: the scene's own.
-        pub fn level[S: System<f64>, M: Method<SVector<f64, N>>](
+        pub fn ablation[S: System<f64>, M: Method<SVector<f64, N>>](
             &mut self,
             effects: &str,
             scene: S,
@@ -217,11 +221,11 @@ impl Subject {
         ) {
             let scene = kept(scene);
             let started = Started::new(Scene::new(scene), Run::begin(scene));
-            self.add_level(effects, started.runner(method));
+            self.add_ablation(effects, started.runner(method));
         }
 
         /// The same by a method that takes slopes.
-        pub fn level_with_slope[S: Slope<f64>, M: Method<SVector<f64, N>>](
+        pub fn ablation_with_slope[S: Slope<f64>, M: Method<SVector<f64, N>>](
             &mut self,
             effects: &str,
             scene: S,
@@ -229,25 +233,25 @@ impl Subject {
         ) {
             let scene = kept(scene);
             let started = Started::new(Scene::with_slope(scene), Run::begin(scene));
-            self.add_level(effects, started.runner(method));
+            self.add_ablation(effects, started.runner(method));
         }
     }
 
-    /// A level of effects at which the measured output is not there.
-    pub fn missing_level(&mut self, effects: &str) {
+    /// A set of effects without which the measured output is not there.
+    pub fn missing_ablation(&mut self, effects: &str) {
         let run: Runner = Box::new(|_, _| {
             let why = "the measured output is not there".into();
-            Err(Stop { t: 0.0, why })
+            Err(RunError { t: 0.0, why })
         });
-        self.add_level(effects, run);
+        self.add_ablation(effects, run);
     }
 
-    /// A level of effects by the scene's own method.
-    pub fn add_level(&mut self, effects: &str, run: Runner) {
-        let level = contender(&self.own.0, F64, CHEAPEST, run);
-        self.levels.push(Contender {
+    /// A set of effects, run by the scene's own method.
+    pub fn add_ablation(&mut self, effects: &str, run: Runner) {
+        let ablation = configuration(&self.own.0, F64, CHEAPEST, run);
+        self.ablations.push(Configuration {
             effects: effects.into(),
-            ..level
+            ..ablation
         });
     }
 }

@@ -7,12 +7,12 @@ use bgdyn_runtime::System;
 use bgdyn_sim::{Dopri5, Method, Moment, Of, Plant, Real, Run, Scene, Tolerance, WithMethod};
 
 use crate::clock::calls;
-use crate::contender::Stop;
+use crate::configuration::RunError;
 use crate::integrate::in_short;
-use crate::ladder::Plan;
 use crate::priced::{Call, Priced};
 use crate::row::{fields, quoted};
-use crate::subject::Subject;
+use crate::step_sequence::Effort;
+use crate::test_case::TestCase;
 
 /// The method by which steps are counted.
 pub const METHOD: &str = "dopri5";
@@ -35,13 +35,13 @@ pub struct Cost {
 }
 
 /// Costs of all, timed in turn.
-pub(crate) fn costs(all: &[Priced], end: f64, plan: &Plan) -> Vec<Cost> {
+pub(crate) fn costs(all: &[Priced], end: f64, effort: &Effort) -> Vec<Cost> {
     let compiled = |p: &Priced| matches!(p.call, Call::Compiled(_));
     let jobs = all.iter().filter_map(|p| match &p.call {
         Call::Compiled(call) => Some(&**call),
         Call::Estimated(_) => None,
     });
-    let mut times = calls(&jobs.collect::<Vec<_>>(), plan).into_iter();
+    let mut times = calls(&jobs.collect::<Vec<_>>(), effort).into_iter();
     let one = |p: &Priced| Cost {
         effects: p.effects.clone(),
         operations: p.operations,
@@ -70,7 +70,7 @@ where
     Of<P::State>: Real,
     P::Error: Debug,
 {
-    type Output = Result<usize, Stop>;
+    type Output = Result<usize, RunError>;
 
     fn with<M: Method<P::State>>(self, method: M) -> Self::Output {
         let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
@@ -86,18 +86,18 @@ where
                 return Ok(steps);
             }
             let taken = run.advance_densely(number(left));
-            taken.map_err(|failure| Stop {
+            taken.map_err(|failure| RunError {
                 t: failure.t.to_f64(),
                 why: in_short(&failure.reason),
             })?;
         }
         let why = format!("more than {STEPS:e} steps");
         let t = run.t().to_f64();
-        Err(Stop { t, why })
+        Err(RunError { t, why })
     }
 }
 
-impl Subject {
+impl TestCase {
     /// The scene with these effects, whose `derivative` has so many operations: what it costs.
     pub fn price<
         S: System<f64, N, NM, NU, NE, NY, NP> + 'static,

@@ -29,7 +29,7 @@ pub fn operations(system: &SceneEquations) -> usize {
 
 /// A scene with some of its effects.
 #[derive(Debug)]
-pub struct Level {
+pub struct Ablation {
     /// Which: `none`, `gravity+inertia`, `all but friction`.
     pub effects: String,
     /// Its equations; `None` where the measured output is not there without the others.
@@ -66,7 +66,7 @@ fn with_output(scene: &Scene, output: Located<String>) -> Option<SceneEquations>
 
 /// The scene with ever more of its effects, family by family, and with all but each one; `system` is
 /// as [`measured`] gives it.
-pub fn levels(system: &SceneEquations) -> Vec<Level> {
+pub fn ablations(system: &SceneEquations) -> Vec<Ablation> {
     let elements = &system.scene.elements;
     let mut families: Vec<&str> = Vec::new();
     for element in elements {
@@ -79,7 +79,7 @@ pub fn levels(system: &SceneEquations) -> Vec<Level> {
             .scene
             .with_effects(|e| kept.contains(&e.effect.family()));
         let system = with_output(&scene, system.scene.outputs[0].clone());
-        Level { effects, system }
+        Ablation { effects, system }
     };
     let mut found = Vec::new();
     for n in 0..families.len() {
@@ -132,8 +132,8 @@ pub fn own_way(system: &SceneEquations) -> (&'static str, crate::Pace) {
     (own(system).method.name(), pace)
 }
 
-/// The text of a module with the scene's name: its variants, and `subject()`, which gives the
-/// [`Subject`](crate::Subject) of them. The crate that includes it depends on `bgdyn` and
+/// The text of a module with the scene's name: its variants, and `test_case()`, which gives the
+/// [`TestCase`](crate::TestCase) of them. The crate that includes it depends on `bgdyn` and
 /// `bgdyn-accuracy`; `end` stands in for the scene's own, s.
 ///
 /// # Errors
@@ -154,54 +154,62 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     let functions = scene_functions(&full, &all);
     text += &module(&full, &functions, "all")?;
     for call in ["methods", "momenta"] {
-        writeln!(calls, "subject.{call}(all::{structure}::<f64>::default());").expect("text");
+        writeln!(
+            calls,
+            "test_case.{call}(all::{structure}::<f64>::default());"
+        )
+        .expect("text");
     }
-    writeln!(calls, "subject.single(all::{structure}::<f32>::default());").expect("text");
+    writeln!(
+        calls,
+        "test_case.single(all::{structure}::<f32>::default());"
+    )
+    .expect("text");
     let dd = "bgdyn_accuracy::Dd";
     writeln!(
         calls,
-        "subject.reference(all::{structure}::<{dd}>::default());"
+        "test_case.reference(all::{structure}::<{dd}>::default());"
     )
     .expect("text");
     for (formulation, functions) in formulations(&full) {
         text += &module(&full, &functions, formulation)?;
         let model = format!("{formulation}::{structure}::<f64>::default()");
-        writeln!(calls, "subject.formulation({formulation:?}, {model});").expect("text");
+        writeln!(calls, "test_case.formulation({formulation:?}, {model});").expect("text");
     }
     let options = Options {
         jacobian: own.slopes,
         ..Options::default()
     };
     let call = match own.slopes {
-        true => "level_with_slope",
-        false => "level",
+        true => "ablation_with_slope",
+        false => "ablation",
     };
     let method = format!("bgdyn_accuracy::bgdyn_sim::{}", own.constructor);
     let add = |effects: &str, model: &str, text: &mut String| {
-        writeln!(text, "subject.{call}({effects:?}, {model}, || {method});").expect("text");
+        writeln!(text, "test_case.{call}({effects:?}, {model}, || {method});").expect("text");
     };
     let price = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
         let count = operations(system);
-        writeln!(text, "subject.price({effects:?}, {count}, {model});").expect("text");
+        writeln!(text, "test_case.price({effects:?}, {count}, {model});").expect("text");
     };
     let model = format!("all::{structure}::<f64>::default()");
     add("all", &model, &mut calls);
     price("all", &full, &model, &mut calls);
-    for (i, level) in levels(&full).iter().enumerate() {
-        let Some(system) = &level.system else {
-            writeln!(calls, "subject.missing_level({:?});", level.effects).expect("text");
+    for (i, ablation) in ablations(&full).iter().enumerate() {
+        let Some(system) = &ablation.system else {
+            writeln!(calls, "test_case.missing_ablation({:?});", ablation.effects).expect("text");
             continue;
         };
-        let inner = format!("level_{i}");
+        let inner = format!("ablation_{i}");
         text += &module(system, &scene_functions(system, &options), &inner)?;
         let model = format!("{inner}::{structure}::<f64>::default()");
-        add(&level.effects, &model, &mut calls);
-        if level.effects.starts_with(ALL_BUT) {
-            price(&level.effects, system, &model, &mut calls);
+        add(&ablation.effects, &model, &mut calls);
+        if ablation.effects.starts_with(ALL_BUT) {
+            price(&ablation.effects, system, &model, &mut calls);
         }
     }
     text += &format!(
-        "/// What is measured of it.\npub fn subject() -> bgdyn_accuracy::Subject {{\nlet mut subject = {};\nsubject.kinked = {};\n{calls}subject\n}}\n}}\n",
+        "/// What is measured of it.\npub fn test_case() -> bgdyn_accuracy::TestCase {{\nlet mut test_case = {};\ntest_case.kinked = {};\n{calls}test_case\n}}\n}}\n",
         opening(&full, end),
         kinked(&full)
     );
@@ -214,7 +222,7 @@ pub fn kinked(system: &SceneEquations) -> bool {
     layout.events.iter().any(|e| layout.mode_of(e).is_none())
 }
 
-/// The call that makes a subject.
+/// The call that makes the test case.
 fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     let scene = &full.scene;
     let (method, pace) = own_way(full);
@@ -230,7 +238,7 @@ fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     ];
     let end = end.unwrap_or(scene.integration.end);
     format!(
-        "bgdyn_accuracy::Subject::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::Pace::{pace})"
+        "bgdyn_accuracy::TestCase::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::Pace::{pace})"
     )
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::contender::Pace;
+use crate::configuration::Pace;
 
 /// Whether a row's numbers hold.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,12 +3,12 @@
 use std::fmt;
 
 use crate::clock::times;
-use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::configuration::{Configuration, Grid, Pace, RunError};
 use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
-use crate::ladder::{Plan, Scale, Tried, ladder};
 use crate::row::{Row, Status};
-use crate::subject::Subject;
+use crate::step_sequence::{Effort, ErrorScale, Trial, step_sequence};
+use crate::test_case::TestCase;
 
 /// What a study is about.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub enum Failed {
     /// It has no reference.
     NoReference,
     /// Its reference's run ends early.
-    Reference(Stop),
+    Reference(RunError),
     /// Two references differ by so much of the motion.
     Uncertain(f64),
 }
@@ -79,13 +79,13 @@ const CERTAIN: f64 = 1e-6;
 ///
 /// # Errors
 /// Where there is no reference to go by.
-pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
+pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
     let grid = Grid {
-        end: subject.end,
-        samples: plan.samples,
+        end: test_case.end,
+        samples: effort.samples,
     };
-    let run = subject.reference.as_ref().ok_or(Failed::NoReference)?;
-    let (fine, coarse) = subject.tolerances;
+    let run = test_case.reference.as_ref().ok_or(Failed::NoReference)?;
+    let (fine, coarse) = test_case.tolerances;
     let reference = run(&grid, fine).map_err(Failed::Reference)?;
     let error = distance(&reference, &run(&grid, coarse).map_err(Failed::Reference)?);
     let reference = numbers(reference);
@@ -94,41 +94,41 @@ pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
         return Err(Failed::Uncertain(error / size));
     }
     let zero = vec![vec![0.0; reference[0].len()]; reference.len()];
-    let scale = Scale {
+    let scale = ErrorScale {
         largest: distance(&reference, &zero).max(size),
         reference: &reference,
         error,
         size,
     };
-    let mut tried: Vec<(&Contender, Tried)> = Vec::new();
-    for contender in &subject.contenders {
-        let steps = ladder(contender, &grid, &scale, plan);
-        tried.extend(steps.into_iter().map(|t| (contender, t)));
+    let mut tried: Vec<(&Configuration, Trial)> = Vec::new();
+    for configuration in &test_case.configurations {
+        let steps = step_sequence(configuration, &grid, &scale, effort);
+        tried.extend(steps.into_iter().map(|t| (configuration, t)));
     }
-    for level in &subject.levels {
-        let pace = own_pace(subject, &grid);
+    for ablation in &test_case.ablations {
+        let pace = own_pace(test_case, &grid);
         // A motion far from the reference is a finding here, not a failure.
-        let far = Scale {
+        let far = ErrorScale {
             size: f64::INFINITY,
             ..scale
         };
-        tried.push((level, far.attempt(level, &grid, pace)));
+        tried.push((ablation, far.attempt(ablation, &grid, pace)));
     }
     Ok(Study {
         facts: Facts {
-            scene: subject.scene.clone(),
-            description: subject.description.clone(),
-            output: subject.output.clone(),
-            unit: subject.unit.clone(),
-            end: subject.end,
-            samples: plan.samples,
-            kinked: subject.kinked,
+            scene: test_case.scene.clone(),
+            description: test_case.description.clone(),
+            output: test_case.output.clone(),
+            unit: test_case.unit.clone(),
+            end: test_case.end,
+            samples: effort.samples,
+            kinked: test_case.kinked,
             size,
             floor: scale.floor(f64::EPSILON),
             reference_error: error,
         },
-        rows: rows(&subject.scene, &tried, &grid, plan),
-        costs: costs(&subject.prices, grid.end, plan),
+        rows: rows(&test_case.scene, &tried, &grid, effort),
+        costs: costs(&test_case.prices, grid.end, effort),
     })
 }
 
@@ -139,20 +139,20 @@ fn moved(reference: &[Vec<f64>]) -> f64 {
 }
 
 /// The scene's own pace; a step is taken as often as fits between two samples.
-fn own_pace(subject: &Subject, grid: &Grid) -> Pace {
-    match subject.own.1 {
+fn own_pace(test_case: &TestCase, grid: &Grid) -> Pace {
+    match test_case.own.1 {
         Pace::Step(h) => Pace::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64),
         tolerance => tolerance,
     }
 }
 
 /// The rows of what was tried, with times.
-fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) -> Vec<Row> {
-    let measured = |t: &Tried| matches!(t.outcome, Ok((_, None)));
+fn rows(scene: &str, tried: &[(&Configuration, Trial)], grid: &Grid, effort: &Effort) -> Vec<Row> {
+    let measured = |t: &Trial| matches!(t.outcome, Ok((_, None)));
     let jobs = tried.iter().filter(|(_, t)| measured(t));
-    let jobs: Vec<(&Contender, Pace)> = jobs.map(|(c, t)| (*c, t.pace)).collect();
-    let mut times = times(&jobs, grid, plan).into_iter();
-    let row = |(contender, t): &(&Contender, Tried)| {
+    let jobs: Vec<(&Configuration, Pace)> = jobs.map(|(c, t)| (*c, t.pace)).collect();
+    let mut times = times(&jobs, grid, effort).into_iter();
+    let row = |(configuration, t): &(&Configuration, Trial)| {
         let (error, ns, status) = match &t.outcome {
             Ok((error, None)) => (Some(*error), times.next(), Status::Ok),
             Ok((error, Some(ns))) => {
@@ -163,11 +163,11 @@ fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) ->
         };
         Row {
             scene: scene.into(),
-            effects: contender.effects.clone(),
-            method: contender.method.clone(),
+            effects: configuration.effects.clone(),
+            method: configuration.method.clone(),
             pace: t.pace,
-            scalar: contender.scalar.into(),
-            formulation: contender.formulation.clone(),
+            scalar: configuration.scalar.into(),
+            formulation: configuration.formulation.clone(),
             error,
             ns,
             status,

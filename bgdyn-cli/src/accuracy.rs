@@ -3,17 +3,17 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use bgdyn_accuracy::generate::{ALL_BUT, kinked, levels, measured, operations, own_way};
+use bgdyn_accuracy::generate::{ALL_BUT, ablations, kinked, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Contender, CountSteps, Integrate, Measured, Pace, Priced, Ran, Runner, STEPS_METHOD,
-    Subject, order,
+    Call, Configuration, CountSteps, Integrate, Measured, Pace, Priced, Runner, STEPS_METHOD,
+    Samples, TestCase, order,
 };
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Jacobian, METHODS, Plant, Power, with_method};
 
-use crate::simulate::{Evaluated, Form, Numbers, Undefined};
+use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
 use crate::timing::estimate;
 
 /// The method of references.
@@ -106,12 +106,10 @@ impl Counted {
                 pace,
             };
             let values = with_method(&method, run).expect("a method of bgdyn-sim")?;
-            Ran::finite(values, Some(counted.spent.get()))
+            Samples::finite(values, Some(counted.spent.get()))
         })
     }
 }
-
-type Tried<T> = Result<T, Undefined>;
 
 impl Plant for Counted {
     type State = Numbers;
@@ -120,12 +118,17 @@ impl Plant for Counted {
     type Entries = Numbers;
     type Error = Undefined;
 
-    fn rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.spend(self.calls.rates);
         self.plant.rates(t, y, modes)
     }
 
-    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Tried<Jacobian<Numbers>>> {
+    fn jacobian(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+    ) -> Option<Evaluation<Jacobian<Numbers>>> {
         self.spend(self.calls.slopes);
         self.plant.jacobian(t, y, modes)
     }
@@ -134,11 +137,11 @@ impl Plant for Counted {
         self.plant.positions()
     }
 
-    fn position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.plant.position_rates(t, y, modes)
     }
 
-    fn events(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn events(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.spend(self.calls.events);
         self.plant.events(t, y, modes)
     }
@@ -153,7 +156,7 @@ impl Plant for Counted {
         y: &Numbers,
         modes: &Numbers,
         fell: impl Fn(usize) -> bool,
-    ) -> Tried<(Numbers, Numbers)> {
+    ) -> Evaluation<(Numbers, Numbers)> {
         self.plant.change(t, y, modes, fell)
     }
 
@@ -161,11 +164,11 @@ impl Plant for Counted {
         self.plant.nothing()
     }
 
-    fn energy(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn energy(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.plant.energy(t, y, modes)
     }
 
-    fn power(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Power<Numbers>> {
+    fn power(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         self.plant.power(t, y, modes)
     }
 }
@@ -176,8 +179,8 @@ impl Measured for Counted {
     }
 }
 
-/// The scene as a subject; `None` where it has nothing to measure.
-pub(crate) fn subject(system: &SceneEquations, end: Option<f64>) -> Option<Subject> {
+/// The scene as a test case; `None` where it has nothing to measure.
+pub(crate) fn test_case(system: &SceneEquations, end: Option<f64>) -> Option<TestCase> {
     let full = measured(system)?;
     let scene = &full.scene;
     let (method, pace) = own_way(&full);
@@ -188,20 +191,20 @@ pub(crate) fn subject(system: &SceneEquations, end: Option<f64>) -> Option<Subje
         full.outputs[0].unit,
     ];
     let end = end.unwrap_or(scene.integration.end);
-    let mut subject = Subject::new(words, end, method, pace);
-    subject.kinked = kinked(&full);
-    subject.tolerances = TOLERANCES;
-    let levels = levels(&full);
+    let mut test_case = TestCase::new(words, end, method, pace);
+    test_case.kinked = kinked(&full);
+    test_case.tolerances = TOLERANCES;
+    let ablations = ablations(&full);
     let counted = Counted::new(full);
     let reference = counted.runner(REFERENCE);
-    subject.reference = Some(Box::new(move |grid, tolerance| {
+    test_case.reference = Some(Box::new(move |grid, tolerance| {
         let ran = reference(grid, Pace::Tolerance(tolerance))?;
         let row = |row: Vec<f64>| row.into_iter().map(Dd::from_f64).collect();
         Ok(ran.values.into_iter().map(row).collect())
     }));
     for method in METHODS.iter().filter(|m| **m != REFERENCE) {
         let (order, controlled) = order(method)?;
-        subject.contenders.push(Contender {
+        test_case.configurations.push(Configuration {
             effects: "all".into(),
             method: (*method).to_owned(),
             order,
@@ -212,19 +215,19 @@ pub(crate) fn subject(system: &SceneEquations, end: Option<f64>) -> Option<Subje
             run: counted.runner(method),
         });
     }
-    subject.add_level("all", counted.runner(method));
-    subject.prices.push(counted.price("all"));
-    for level in levels {
-        match level.system {
+    test_case.add_ablation("all", counted.runner(method));
+    test_case.prices.push(counted.price("all"));
+    for ablation in ablations {
+        match ablation.system {
             Some(system) => {
                 let counted = Counted::new(system);
-                subject.add_level(&level.effects, counted.runner(method));
-                if level.effects.starts_with(ALL_BUT) {
-                    subject.prices.push(counted.price(&level.effects));
+                test_case.add_ablation(&ablation.effects, counted.runner(method));
+                if ablation.effects.starts_with(ALL_BUT) {
+                    test_case.prices.push(counted.price(&ablation.effects));
                 }
             }
-            None => subject.missing_level(&level.effects),
+            None => test_case.missing_ablation(&ablation.effects),
         }
     }
-    Some(subject)
+    Some(test_case)
 }

@@ -39,6 +39,7 @@ pub mod name;
 pub mod options;
 pub mod passes;
 pub mod pipeline;
+pub mod random;
 mod read;
 pub mod refusal;
 pub mod scene;

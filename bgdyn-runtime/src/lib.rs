@@ -52,7 +52,7 @@ mod storage;
 mod system;
 mod two_sum;
 
-pub use dd::{Dd, ParseDdError};
+pub use dd::{Dd, Digits, ParseDdError};
 pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
 #[cfg(feature = "num-dual")]
 pub use dual::DualPart;

@@ -31,11 +31,11 @@ fn main() {
         fs::write(out.join(format!("{name}.rs")), text).expect("OUT_DIR is writable");
         let file = out.join(format!("{name}.rs")).display().to_string();
         writeln!(modules, "include!({file:?});").expect("text");
-        write!(list, "({name:?}, {name}::subject), ").expect("text");
+        write!(list, "({name:?}, {name}::test_case), ").expect("text");
     }
     let count = SCENES.len();
     modules += &format!(
-        "/// The scenes' names, and what is measured of each.\npub const SUBJECTS: [(&str, Study); {count}] = [{list}];\n"
+        "/// The scenes' names, and what is measured of each.\npub const TEST_CASES: [(&str, Study); {count}] = [{list}];\n"
     );
     fs::write(out.join("modules.rs"), modules).expect("OUT_DIR is writable");
 }

@@ -12,7 +12,7 @@ use crate::timing::{estimate, times};
 
 /// A scene with some of its effects.
 #[derive(Serialize)]
-struct Row {
+struct VariantCost {
     /// What it is: effects added so far, or all but one.
     effects: Vec<String>,
     /// Multiplications and additions of the derivative.
@@ -43,14 +43,14 @@ pub(super) fn report(whole: &SceneEquations, json: bool, bgdyn: &str) -> Result<
             "bgdyn: times are estimated from operations: {why:#}\n"
         ));
     }
-    let rows: Vec<Row> = titles
+    let rows: Vec<VariantCost> = titles
         .into_iter()
         .enumerate()
         .map(|(i, title)| {
             let (system, function) = (&systems[i], &functions[i]);
             let operations = function.operations();
             let layout = &system.scene.layout;
-            Row {
+            VariantCost {
                 effects: names(system),
                 ops: operations.total(),
                 states: layout.nq() + layout.nv() + layout.nx(),
@@ -111,7 +111,7 @@ fn fastest(system: &SceneEquations, derivative: &Function) -> Option<f64> {
     (largest > 1e-9).then_some(1.0 / largest)
 }
 
-fn table(rows: &[Row]) -> String {
+fn table(rows: &[VariantCost]) -> String {
     let mut text = format!(
         "{:<40} {:>7} {:>7} {:>9} {:>14}\n",
         "effects", "mul+add", "states", "ns", "fastest, s"

@@ -18,7 +18,7 @@ use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{self, number, quantity, short};
 use crate::simulate::{
-    Column, Evaluated, Record, Way, columns, plot, prepared, record_from, varied,
+    Column, Evaluated, Record, Way, batch_values, columns, plot, prepared, record_from,
 };
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
@@ -67,8 +67,8 @@ pub(crate) struct Simulate {
     many: Many,
 }
 
-/// Numbers of the options, SI units.
-struct Numbers {
+/// The numbers of the options, SI units.
+struct NumericOptions {
     step: Option<f64>,
     tolerance: Option<f64>,
     end: Option<f64>,
@@ -92,7 +92,7 @@ impl Simulate {
         }
         let numbers = self.numbers()?;
         let system = file.scene()?;
-        let given = varied::fixed(&system.scene, &self.parameters, &self.initial)?;
+        let given = batch_values::fixed(&system.scene, &self.parameters, &self.initial)?;
         let way = Way {
             integration: self.integration(system.scene.integration, &numbers)?,
             points: self.points,
@@ -163,13 +163,13 @@ impl Simulate {
     }
 
     /// The numbers given.
-    fn numbers(&self) -> Result<Numbers, Usage> {
+    fn numbers(&self) -> Result<NumericOptions, Usage> {
         use Dimension::{One, Time};
         if self.points < 2 {
             let message = format!("`--points {}`: the start and the end are 2", self.points);
             return Err(Usage(message));
         }
-        Ok(Numbers {
+        Ok(NumericOptions {
             step: positive("step", self.step.as_ref(), Time)?,
             tolerance: positive("tolerance", self.tolerance.as_ref(), One)?,
             end: positive("end", self.end.as_ref(), Time)?,
@@ -177,7 +177,11 @@ impl Simulate {
     }
 
     /// The scene's way to run, as the options change it.
-    fn integration(&self, scene: Integration, given: &Numbers) -> Result<Integration, Usage> {
+    fn integration(
+        &self,
+        scene: Integration,
+        given: &NumericOptions,
+    ) -> Result<Integration, Usage> {
         let method = match &self.method {
             None => scene.method,
             Some(name) => Integrator::named(name).ok_or_else(|| {

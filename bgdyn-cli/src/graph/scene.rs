@@ -3,9 +3,9 @@
 use bgdyn_codegen::bond_graph::{BondGraph, GraphNode, NodePart, PlacePort, PortSite};
 use bgdyn_codegen::system::SceneEquations;
 
-use super::chart::{Chart, Component, Flow, Link, Transformer};
+use super::chart::{Chart, ChartLink, Component, Flow, Transformer};
+use super::chart_of_graph::drive;
 use super::notation::{coordinates, subscript};
-use super::order::drive;
 use super::unfold::Unfolding;
 
 impl Chart {
@@ -44,7 +44,7 @@ impl Chart {
                 transformers: transformers(graph, names, port, &partial),
                 ports: own,
             };
-            all.push(Link {
+            all.push(ChartLink {
                 name,
                 velocities: Vec::new(),
                 flows: vec![flow],

@@ -51,12 +51,12 @@ pub enum Form {
 pub struct Evaluated<'a> {
     system: &'a SceneEquations,
     parameters: Vec<f64>,
-    functions: Arc<Functions>,
+    functions: Arc<SceneFunctions>,
 }
 
 /// What is evaluated of a scene: the same from whichever state it starts.
 #[derive(Debug)]
-struct Functions {
+struct SceneFunctions {
     derivative: Function,
     inputs: Option<Function>,
     events: Option<Function>,
@@ -79,7 +79,8 @@ struct Canonical {
     rates: Function,
 }
 
-type Tried<T> = Result<T, Undefined>;
+/// A value of a scene, or why there is none.
+pub(crate) type Evaluation<T> = Result<T, Undefined>;
 
 impl<'a> Evaluated<'a> {
     /// The scene in these numbers; `slopes` for methods that take the slope of the rates.
@@ -92,7 +93,7 @@ impl<'a> Evaluated<'a> {
             rates: system.function(SceneFunction::CanonicalRates),
         };
         let layout = &system.scene.layout;
-        let functions = Functions {
+        let functions = SceneFunctions {
             derivative: system.function(SceneFunction::Derivative),
             inputs: if_there(SceneFunction::Inputs),
             events: if_there(SceneFunction::Events),
@@ -139,7 +140,7 @@ impl<'a> Evaluated<'a> {
     ///
     /// # Errors
     /// Where the mass matrix is singular.
-    pub fn natural(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    pub fn natural(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         match &self.functions.canonical {
             None => Ok(state.clone()),
             Some(canonical) => {
@@ -215,7 +216,7 @@ impl<'a> Evaluated<'a> {
     ///
     /// # Errors
     /// Where the mass matrix is singular and the state is one of momenta.
-    pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<(f64, f64)> {
+    pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<(f64, f64)> {
         let y = self.natural(t, state, modes)?;
         let energy = |y: &Numbers| -> Numbers {
             let at = self.driven(t, y, modes);
@@ -228,7 +229,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// A value that exists where the mass matrix is regular.
-    fn regular(&self, function: &Function, at: Inputs<f64>) -> Tried<Vec<f64>> {
+    fn regular(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
         let (values, refused) = function.evaluate(at);
         match refused {
             None => Ok(values),
@@ -237,7 +238,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// The same of rates, or of columns of rates, which must be finite.
-    fn checked(&self, function: &Function, at: Inputs<f64>) -> Tried<Vec<f64>> {
+    fn checked(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
         let values = self.regular(function, at)?;
         let layout = &self.system.scene.layout;
         match values.iter().position(|x| !x.is_finite()) {
@@ -258,7 +259,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// What can hold a coordinate, mode by mode, at y.
-    fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Vec<Contact<f64>>> {
+    fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Vec<Contact<f64>>> {
         let Some(contacts) = &self.functions.contacts else {
             return Ok(vec![]);
         };
@@ -280,7 +281,7 @@ impl<'a> Evaluated<'a> {
         y: Numbers,
         modes: &Numbers,
         fell: impl Fn(usize) -> bool,
-    ) -> Tried<(Numbers, Numbers)> {
+    ) -> Evaluation<(Numbers, Numbers)> {
         let (mut rested, mut held) = (y, modes.clone());
         let of_modes = self.functions.event_modes.iter().enumerate();
         let fallen = of_modes.filter(|&(event, _)| fell(event));
@@ -312,7 +313,7 @@ impl Plant for Evaluated<'_> {
     type Entries = Numbers;
     type Error = Undefined;
 
-    fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         if let Some(canonical) = &self.functions.canonical {
             let at = self.arguments(t, state, modes);
             let rates = self.regular(&canonical.rates, at)?;
@@ -328,7 +329,12 @@ impl Plant for Evaluated<'_> {
         Ok(rates.into())
     }
 
-    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Tried<Jacobian<Numbers>>> {
+    fn jacobian(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+    ) -> Option<Evaluation<Jacobian<Numbers>>> {
         let jacobian = self.functions.jacobian.as_ref()?;
         let values = match self.checked(jacobian, self.arguments(t, y, modes)) {
             Ok(values) => values,
@@ -350,7 +356,7 @@ impl Plant for Evaluated<'_> {
         self.system.scene.layout.nq()
     }
 
-    fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
         let mut rates = y.clone();
         let nq = self.positions();
@@ -358,7 +364,7 @@ impl Plant for Evaluated<'_> {
         Ok(rates)
     }
 
-    fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let Some(events) = &self.functions.events else {
             return Ok(DVector::zeros(0));
         };
@@ -376,7 +382,7 @@ impl Plant for Evaluated<'_> {
         state: &Numbers,
         modes: &Numbers,
         fell: impl Fn(usize) -> bool,
-    ) -> Tried<(Numbers, Numbers)> {
+    ) -> Evaluation<(Numbers, Numbers)> {
         let y = self.natural(t, state, modes)?;
         let (y, held) = self.changed(t, y, modes, fell)?;
         Ok((self.own(t, &y, &held), held))
@@ -388,7 +394,7 @@ impl Plant for Evaluated<'_> {
         state: &Numbers,
         modes: &Numbers,
         rest: f64,
-    ) -> Tried<Option<(Numbers, Numbers)>> {
+    ) -> Evaluation<Option<(Numbers, Numbers)>> {
         let y = self.natural(t, state, modes)?;
         let (mut rested, mut now) = (y.clone(), modes.clone());
         for (k, contact) in self.contacts(t, &y, modes)?.iter().enumerate() {
@@ -408,7 +414,7 @@ impl Plant for Evaluated<'_> {
         DVector::zeros(self.system.entries.len())
     }
 
-    fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
         Ok(self
             .functions
@@ -418,7 +424,7 @@ impl Plant for Evaluated<'_> {
             .into())
     }
 
-    fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Power<Numbers>> {
+    fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         let y = self.natural(t, state, modes)?;
         let values = self.regular(&self.functions.power, self.driven(t, &y, modes))?;
         // Of three numbers each the first is supplied, the last dissipated.

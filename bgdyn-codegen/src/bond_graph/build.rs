@@ -7,7 +7,7 @@ use super::{
     BondGraph, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody, Site,
     Store, StoreInertia, Transformer,
 };
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
 /// Builds the bond graph.
@@ -153,7 +153,10 @@ fn place(frame: &LinkFrame, parent: Option<PosePattern>) -> PosePattern {
     if let Some(j) = frame.coordinate {
         let varying = Modulus::Varying(Coordinates::one(j));
         match frame.motion {
-            Motion::Rotation => rotation = rotation * turn(frame.axis, varying),
+            Motion::Rotation => {
+                let turn = rodrigues(frame.axis, (varying, varying), Modulus::constant);
+                rotation = rotation * turn;
+            }
             Motion::Translation => origin = origin + axis.scale(varying),
             Motion::None => {}
         }
@@ -163,18 +166,6 @@ fn place(frame: &LinkFrame, parent: Option<PosePattern>) -> PosePattern {
         origin,
         axis,
     }
-}
-
-/// Pattern of the rotation about `axis`: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
-fn turn(axis: Vec3<Dd>, varying: Modulus) -> Mat3<Modulus> {
-    let n = axis.0;
-    Mat3::from_fn(|i, j| {
-        let along = n[i] * n[j];
-        let across = if i == j { Dd::ONE - along } else { -along };
-        let swirl = if i == j { Dd::ZERO } else { n[3 - i - j] };
-        let [along, across, swirl] = [along, across, swirl].map(Modulus::constant);
-        along + varying * (across + varying * swirl)
-    })
 }
 
 /// ρ_j^i and ∂r_i/∂q_j for every coordinate on the path from the base to link i.

@@ -102,7 +102,7 @@ impl fmt::Display for Cost {
         write!(
             f,
             "{} = {} mul + {} add",
-            Hundredths(self.weighted()),
+            hundredths(self.weighted()),
             o.mul,
             o.add
         )?;
@@ -116,24 +116,15 @@ impl fmt::Display for Cost {
             ("+", DEPTH, self.depth, "in a row"),
         ];
         for (sign, weight, n, what) in parts.into_iter().filter(|part| part.2 > 0) {
-            write!(f, " {sign} {} × {n} {what}", Hundredths(weight))?;
+            write!(f, " {sign} {} × {n} {what}", hundredths(weight))?;
         }
         Ok(())
     }
 }
 
-/// A number of hundredths as a decimal with no more places than it needs.
-struct Hundredths(usize);
-
-impl fmt::Display for Hundredths {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (whole, rest) = (self.0 / 100, self.0 % 100);
-        match (rest, rest % 10) {
-            (0, _) => write!(f, "{whole}"),
-            (_, 0) => write!(f, "{whole}.{}", rest / 10),
-            _ => write!(f, "{whole}.{rest:02}"),
-        }
-    }
+/// A number of hundredths, to be printed with no more places than it needs.
+fn hundredths(n: usize) -> f64 {
+    n as f64 / 100.0
 }
 
 /// What computing the outputs once costs.

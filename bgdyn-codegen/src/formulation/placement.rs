@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::{LinkId, Motion};
 
 /// Placement of every link frame.
@@ -34,7 +34,10 @@ impl<'g> Placement<'g> {
             }
             let axis = rotation * b.vector(frame.axis);
             match (frame.motion, frame.coordinate) {
-                (Motion::Rotation, Some(j)) => rotation = rotation * turn(b, frame.axis, q[j.0]),
+                (Motion::Rotation, Some(j)) => {
+                    let angle = b.cos_sin(&[q[j.0]], Dd::ZERO);
+                    rotation = rotation * rodrigues(frame.axis, angle, |x| b.constant(x));
+                }
                 (Motion::Translation, Some(j)) => origin = origin + axis.scale(q[j.0]),
                 _ => {}
             }
@@ -49,20 +52,4 @@ impl<'g> Placement<'g> {
     pub(super) fn point(&self, i: usize, p: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         self.origins[i] + self.rotations[i] * p
     }
-}
-
-/// Rotation by q about the unit vector n: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
-fn turn<'g>(b: &'g Builder, axis: Vec3<Dd>, q: Expr<'g>) -> Mat3<Expr<'g>> {
-    let (cos, sin) = b.cos_sin(&[q], Dd::ZERO);
-    let n = axis.0;
-    Mat3::from_fn(|i, j| {
-        let along = n[i] * n[j];
-        let across = if i == j { Dd::ONE - along } else { -along };
-        let swirl = match (3 + j - i) % 3 {
-            0 => Dd::ZERO,
-            1 => -n[3 - i - j],
-            _ => n[3 - i - j],
-        };
-        b.constant(along) + cos * across + sin * swirl
-    })
 }

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::math::{Mat3, Vec3};
+use crate::math::rodrigues;
 use crate::mechanism::{Joint, Motion, Pose};
 
 /// Where a joint holds its link at a coordinate.
@@ -13,7 +13,7 @@ pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
     } = joint.origin;
     match joint.kind.motion {
         Motion::Rotation => Pose {
-            rotation: rotation * turn(joint.axis, at),
+            rotation: rotation * rodrigues(joint.axis, cos_sin(at), |x| x),
             translation,
         },
         Motion::Translation => Pose {
@@ -24,9 +24,8 @@ pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
     }
 }
 
-/// Rotation by an angle about a unit vector n: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×, quarter turns
-/// exact.
-fn turn(axis: Vec3<Dd>, angle: Dd) -> Mat3<Dd> {
+/// Cosine and sine of an angle, those of quarter turns exact.
+fn cos_sin(angle: Dd) -> (Dd, Dd) {
     let (sin, cos) = angle.sin_cos();
     let exact = |x: Dd| {
         let near = Dd::from_f64(x.to_f64().round());
@@ -36,16 +35,5 @@ fn turn(axis: Vec3<Dd>, angle: Dd) -> Mat3<Dd> {
             x
         }
     };
-    let (sin, cos) = (exact(sin), exact(cos));
-    let n = axis.0;
-    Mat3::from_fn(|i, j| {
-        let along = n[i] * n[j];
-        let across = if i == j { Dd::ONE - along } else { -along };
-        let swirl = match (3 + j - i) % 3 {
-            0 => Dd::ZERO,
-            1 => -n[3 - i - j],
-            _ => n[3 - i - j],
-        };
-        along + cos * across + sin * swirl
-    })
+    (exact(cos), exact(sin))
 }

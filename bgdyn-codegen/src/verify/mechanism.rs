@@ -7,12 +7,13 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times, turned};
 use super::dual::{Direction, along, rates, with_rates};
-use super::states::{Random, of_mechanism};
+use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::formulation::{Prepared, specification};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
+use crate::random::Random;
 
 /// Compares functions of a mechanism with the literal sum for its bond graph: at three states, or
 /// at one beyond ten coordinates. At most one difference for each function.
@@ -301,7 +302,7 @@ impl Subject<'_> {
 /// Directions of position, velocity and effort.
 fn directions(n: usize) -> [Vec<Dd>; 3] {
     let mut random = Random(11);
-    std::array::from_fn(|_| random.direction(n))
+    std::array::from_fn(|_| direction(&mut random, n))
 }
 
 /// A symmetric matrix row by row, from its lower triangle.

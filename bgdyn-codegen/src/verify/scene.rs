@@ -5,10 +5,11 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, largest, minus, plus, turned};
 use super::dual::{Direction, Dual, along, rates, values};
-use super::states::{Random, of_scene};
+use super::states::{direction, of_scene, signed};
 use crate::expr::Inputs;
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
+use crate::random::Random;
 use crate::system::SceneEquations;
 
 /// Compares functions of a scene at two or three states, or at one beyond ten coordinates: the
@@ -161,11 +162,11 @@ impl CheckedScene<'_> {
         let mut random = Random(13);
         let (nq, nv, nx) = (at.q.len(), at.v.len(), at.x.len());
         let moved = Direction {
-            q: random.direction(nq),
-            v: random.direction(nv),
+            q: direction(&mut random, nq),
+            v: direction(&mut random, nv),
             // Volumes of fluid and deflections of bristles are small: steps as large as they are.
-            x: at.x.iter().map(|&x| x * random.unit()).collect(),
-            t: random.unit(),
+            x: at.x.iter().map(|&x| x * signed(&mut random)).collect(),
+            t: signed(&mut random),
         };
         let derivative = self.rates(&along(at, &moved))?;
         let direction = moved.q.iter().chain(&moved.v).chain(&moved.x);

@@ -1,5 +1,6 @@
 //! Wrenches, drag and payloads: what acts on a link as a whole, and what it carries.
 
+use bgdyn_codegen::random::Random;
 use std::path::Path;
 
 use bgdyn_codegen::expr::Inputs;
@@ -8,7 +9,7 @@ use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 use super::bench::{Bench, agree, dd};
-use super::common::{Random, scene};
+use super::common::scene;
 
 const EXACT: f64 = 1e-24;
 
@@ -33,7 +34,7 @@ fn arm(effects: &str) -> SceneEquations {
 /// Puts two benches into the same random state.
 fn anywhere(random: &mut Random, one: &mut Bench, other: &mut Bench) {
     for j in 0..6 {
-        let mut next = || Dd::from_f64(2.0 * random.unit());
+        let mut next = || Dd::from_f64(2.0 * random.signed());
         (one.at.q[j], one.at.v[j], one.at.a[j]) = (next(), next(), next());
     }
     (other.at.q, other.at.v, other.at.a) = (one.at.q.clone(), one.at.v.clone(), one.at.a.clone());
@@ -79,7 +80,7 @@ fn a_wrench_acts_through_the_jacobian() {
         );
         for _ in 0..3 {
             anywhere(&mut random, &mut pushed, &mut free);
-            let w: [Dd; 6] = std::array::from_fn(|_| Dd::from_f64(10.0 * random.unit()));
+            let w: [Dd; 6] = std::array::from_fn(|_| Dd::from_f64(10.0 * random.signed()));
             pushed.at.u = w.to_vec();
             let pose = site("grip", Method::Pose, &pushed.at);
             let world = if axes.contains("link") {

@@ -1,5 +1,6 @@
 //! Elements without a store between them: those in series, solved; those that are not, named.
 
+use bgdyn_codegen::random::Random;
 use std::collections::BTreeSet;
 
 use bgdyn_codegen::bond_graph::{Causality, GraphNodeId, NodeKind};
@@ -7,7 +8,7 @@ use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 use super::bench::{Bench, agree, dd};
-use super::common::{Random, read, scene, specs, told, try_scene};
+use super::common::{read, scene, specs, told, try_scene};
 use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 
 const EXACT: f64 = 1e-24;
@@ -49,7 +50,7 @@ fn hold(effects: &str, members: &[(&str, f64, Member)], junctions: &[&str]) {
     let bulk = dd("1e9");
     let mut random = Random(5);
     for _ in 0..20 {
-        let mut p = || Dd::from_f64(8e6 + 7e6 * random.unit());
+        let mut p = || Dd::from_f64(8e6 + 7e6 * random.signed());
         let (left, right) = (p(), p());
         for (name, volume, p) in [("left", "2e-6", left), ("right", "5e-6", right)] {
             let i = bench.state(name);

@@ -1,5 +1,6 @@
 //! Scenes from files and from text, states to try them in.
 
+use bgdyn_codegen::random::Random;
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::expr::Inputs;
@@ -63,22 +64,11 @@ pub fn told(refusal: &Refusal, text: &str) -> String {
     }
 }
 
-/// Random numbers by a linear congruential generator (Knuth's MMIX).
-pub struct Random(pub u64);
-
-impl Random {
-    /// In −1 … 1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn many(&mut self, n: usize, size: f64) -> Vec<Dd> {
-        (0..n).map(|_| Dd::from_f64(self.unit() * size)).collect()
-    }
+/// So many numbers within `size` of 0.
+fn many(random: &mut Random, n: usize, size: f64) -> Vec<Dd> {
+    (0..n)
+        .map(|_| Dd::from_f64(random.signed() * size))
+        .collect()
 }
 
 /// The winding, the sign and the size of the limit whose mode has this name.
@@ -97,7 +87,7 @@ fn current_limit(system: &SceneEquations, mode: &str) -> Option<(usize, f64, Dd)
 pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> Inputs<Dd> {
     let layout = &system.scene.layout;
     let mut around = |start: &[Dd], size: f64| -> Vec<Dd> {
-        let offsets = random.many(start.len(), size);
+        let offsets = many(random, start.len(), size);
         start.iter().zip(offsets).map(|(&s, o)| s + o).collect()
     };
     let q = around(&system.initial.q, 0.3);
@@ -113,16 +103,16 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
             } else {
                 s.to_f64() * 1e-3
             };
-            s + Dd::from_f64(random.unit() * size)
+            s + Dd::from_f64(random.signed() * size)
         })
         .collect();
-    let u = random.many(layout.inputs.len(), 2.0);
-    let a = random.many(layout.nv(), 3.0);
+    let u = many(random, layout.inputs.len(), 2.0);
+    let a = many(random, layout.nv(), 3.0);
     let mut modes = Vec::new();
     let upper = u.first().is_none_or(|u| *u > Dd::ZERO);
     let (coordinates, mut seen) = (system.mode_coordinates(), Vec::new());
     for (k, part) in layout.modes.iter().enumerate() {
-        let sign = if random.unit() < 0.0 { -1.0 } else { 1.0 };
+        let sign = if random.signed() < 0.0 { -1.0 } else { 1.0 };
         if let Some((motor, side, limit)) = current_limit(system, &part.name) {
             // At one of its limits at a time.
             let held = !slipping && (side > 0.0) == upper;
@@ -156,7 +146,7 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
             .position(|i| Some(&i.name) == rate.as_ref());
         let speed = speed.map_or(Dd::ZERO, |i| u[i]);
         v[j] = if slipping {
-            speed + Dd::from_f64(sign * (0.2 + random.unit().abs()))
+            speed + Dd::from_f64(sign * (0.2 + random.signed().abs()))
         } else {
             speed
         };
@@ -169,7 +159,7 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
         u,
         modes,
         parameters: system.scene.parameters.iter().map(|p| p.default).collect(),
-        t: Some(Dd::from_f64(random.unit().abs())),
+        t: Some(Dd::from_f64(random.signed().abs())),
         passed: vec![],
     }
 }

@@ -1,10 +1,11 @@
 //! Gears and series elasticity: their laws, and that other effects act on a drive.
 
 use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
-use super::common::{Random, scene, state, told, try_scene};
+use super::common::{scene, state, told, try_scene};
 use super::laws;
 use super::one::{BLOCK, MASS, Tried, close, refused, text};
 

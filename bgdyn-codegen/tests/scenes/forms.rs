@@ -6,10 +6,11 @@ use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::passes::factor;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
-use super::common::{Random, read, specs, state};
+use super::common::{read, specs, state};
 use super::dual::{Dual, dual};
 
 /// States per scene, and for each kind of modes.
@@ -57,7 +58,7 @@ pub fn hold(system: &SceneEquations) {
             let mut random = Random(seed);
             let mut at = state(system, &mut random, *kind != 1);
             if *kind == 2 {
-                let mut mode = || Dd::from_f64((random.unit() * 1.5).round());
+                let mut mode = || Dd::from_f64((random.signed() * 1.5).round());
                 at.modes.iter_mut().for_each(|m| *m = mode());
             }
             tried.formulations(&at);

@@ -2,9 +2,10 @@
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations;
 
-use super::common::{Random, scene, state, told, try_scene};
+use super::common::{scene, state, told, try_scene};
 
 /// Three turning joints, one that slides; effects of the file for `EFFECTS`.
 const ARM: &str = "\

@@ -4,10 +4,11 @@
 use bgdyn_codegen::expr::{Graph, Inputs, Node, NodeId, Signed, evaluate, reachable};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Dd, Scalar};
 
-use super::common::{Random, read, scene, specs, state};
+use super::common::{read, scene, specs, state};
 use super::one::{BLOCK, text};
 
 /// Segments between two states that are searched in each scene.
@@ -138,7 +139,7 @@ fn far(system: &SceneEquations, random: &mut Random) -> Inputs<Dd> {
     }
     for parts in [&mut at.q, &mut at.v, &mut at.u] {
         for x in parts {
-            *x *= Dd::from_f64(4.0 * (1.0 + random.unit()).powi(3));
+            *x *= Dd::from_f64(4.0 * (1.0 + random.signed()).powi(3));
         }
     }
     at

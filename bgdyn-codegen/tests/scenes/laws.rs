@@ -2,10 +2,11 @@
 
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
-use super::common::{Random, state};
+use super::common::state;
 
 /// States per scene.
 const STATES: u64 = 20;

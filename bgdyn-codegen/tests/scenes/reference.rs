@@ -1,11 +1,12 @@
 //! Right-hand sides of textbook systems, written out here, against those of their scenes.
 
+use bgdyn_codegen::random::Random;
 use std::path::Path;
 
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_runtime::Dd;
 
-use super::common::{Random, read, state};
+use super::common::{read, state};
 
 fn file(name: &str) -> std::path::PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/scenes");

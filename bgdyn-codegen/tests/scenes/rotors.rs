@@ -1,9 +1,10 @@
 //! Full rotors anywhere: on a link before their own joint, on the one that it moves, beyond it, on
 //! another branch; alone and beside other effects.
 
+use bgdyn_codegen::random::Random;
 use std::fmt::Write;
 
-use super::common::{Random, scene, state};
+use super::common::{scene, state};
 use super::random::Draft;
 use super::rng::Rng;
 use super::{forms, laws};

@@ -3,11 +3,12 @@
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations as Equations;
 use bgdyn_runtime::nalgebra::SVector;
 use bgdyn_runtime::{Balance, Contact, System, settle};
 
-use super::common::{Random, read, scene};
+use super::common::{read, scene};
 
 /// A scene by the evaluator, as what generated code implements.
 struct Evaluated<const N: usize, const NM: usize, const NU: usize, const NE: usize> {
@@ -259,9 +260,9 @@ fn all_consistent(arm: &Arm, y: &SVector<f64, 6>, u: &SVector<f64, 3>) -> Vec<SV
 fn at_rest(random: &mut Random) -> (SVector<f64, 6>, SVector<f64, 3>) {
     let mut y = SVector::zeros();
     for j in 0..3 {
-        y[j] = 3.0 * random.unit();
+        y[j] = 3.0 * random.signed();
     }
-    (y, SVector::from([0; 3].map(|_| 12.0 * random.unit())))
+    (y, SVector::from([0; 3].map(|_| 12.0 * random.signed())))
 }
 
 /// Where friction is the same at rest and in motion there is one answer, and `settle` finds it.

@@ -5,9 +5,10 @@ use bgdyn_codegen::emit::{OutputOptions, scene_module};
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations;
 
-use super::common::{Random, scene, state};
+use super::common::{scene, state};
 use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 
 fn text(system: &SceneEquations) -> String {

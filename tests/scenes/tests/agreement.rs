@@ -6,6 +6,7 @@ use std::path::Path;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::read_scene;
 use bgdyn_runtime::{Canonical, Slope, System};
 use nalgebra::SVector;
@@ -13,24 +14,14 @@ use nalgebra::SVector;
 /// States per scene.
 const STATES: usize = 200;
 
-/// Random numbers by a linear congruential generator (Knuth's MMIX).
-struct Random(u64);
-
-impl Random {
-    /// In −1 … 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// Numbers of about `size` away from these; those of their own size, such as volumes of fluid,
-    /// stay near it.
-    fn vector<const N: usize>(&mut self, around: &SVector<f64, N>, size: f64) -> SVector<f64, N> {
-        around.map(|x| x + self.unit() * if x == 0.0 { size } else { 0.02 * x })
-    }
+/// Numbers of about `size` away from these; those of their own size, such as volumes of fluid,
+/// stay near it.
+fn around<const N: usize>(
+    random: &mut Random,
+    start: &SVector<f64, N>,
+    size: f64,
+) -> SVector<f64, N> {
+    start.map(|x| x + random.signed() * if x == 0.0 { size } else { 0.02 * x })
 }
 
 /// The generator's own system of a scene.
@@ -94,10 +85,10 @@ fn agrees<
         found.map_or(vec![], |(_, f)| f.evaluate(inputs.clone()).0)
     };
     for k in 0..STATES {
-        let y = random.vector(&start, 0.02);
-        let m = SVector::<f64, M>::from_fn(|_, _| (random.unit() * 1.5).round());
-        let u = random.vector(&SVector::<f64, U>::zeros(), 1.0);
-        let t = random.unit().abs();
+        let y = around(&mut random, &start, 0.02);
+        let m = SVector::<f64, M>::from_fn(|_, _| (random.signed() * 1.5).round());
+        let u = around(&mut random, &SVector::<f64, U>::zeros(), 1.0);
+        let t = random.signed().abs();
         let inputs = inputs(&system, &y, &m, &u, t);
         let name = &system.scene.name;
         let Ok(rates) = compiled.derivative(&y, &m, &u, t) else {
@@ -189,10 +180,10 @@ fn forms_agree<
     let mut random = Random(1984);
     let name = &system.scene.name;
     for k in 0..STATES {
-        let y = random.vector(&start, 0.02);
-        let m = SVector::<f64, M>::from_fn(|_, _| (random.unit() * 1.5).round());
-        let u = random.vector(&SVector::<f64, U>::zeros(), 1.0);
-        let t = random.unit().abs();
+        let y = around(&mut random, &start, 0.02);
+        let m = SVector::<f64, M>::from_fn(|_, _| (random.signed() * 1.5).round());
+        let u = around(&mut random, &SVector::<f64, U>::zeros(), 1.0);
+        let t = random.signed().abs();
         let [jacobian, to, from, rates] = &functions;
         let at = |y: &SVector<f64, N>| inputs(&system, y, &m, &u, t);
 

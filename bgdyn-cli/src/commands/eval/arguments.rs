@@ -33,7 +33,7 @@ pub(crate) struct Eval {
 
 /// What is printed.
 #[derive(Serialize)]
-struct Report<'a> {
+struct EvalReport<'a> {
     function: &'a str,
     /// What the parts of a scene's results are called.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -60,7 +60,7 @@ impl Eval {
         states: &[Value],
         value: impl Fn(&Value) -> Result<Value, Failure>,
     ) -> Result<()> {
-        let mut report = Report {
+        let mut report = EvalReport {
             function: &self.method,
             names,
             results: Vec::new(),

@@ -32,7 +32,7 @@ impl Eval {
                 "this scene has no function `{method}`; it has {known}"
             ))
         })?;
-        let tried = Tried {
+        let call = SceneCall {
             system,
             role,
             parameters: parameters(&system.scene.parameters, &self.parameters)?,
@@ -40,22 +40,22 @@ impl Eval {
             inputs: roles
                 .contains(&SceneFunction::Inputs)
                 .then(|| system.function(SceneFunction::Inputs)),
-            names: Names::of(system),
+            names: SceneNames::of(system),
         };
         let states = states(&self.states)?;
-        self.report(tried.result_names(), &states, |state| tried.value(state))
+        self.report(call.result_names(), &states, |state| call.value(state))
     }
 }
 
 /// The names of a scene's numbers.
-struct Names {
+struct SceneNames {
     state: Vec<String>,
     modes: Vec<String>,
     inputs: Vec<String>,
     coordinates: Vec<String>,
 }
 
-impl Names {
+impl SceneNames {
     fn of(system: &SceneEquations) -> Self {
         let layout = &system.scene.layout;
         let stored = layout.coordinates.iter().filter(|c| c.stored);
@@ -63,7 +63,7 @@ impl Names {
         let states = layout.states.iter().map(|s| s.name.clone());
         let modes = layout.modes.iter().map(|m| format!("{}_mode", m.name));
         let coordinates = layout.coordinates.iter().map(|c| c.name.clone());
-        Names {
+        SceneNames {
             state: stored
                 .map(|c| c.name.clone())
                 .chain(rates)
@@ -77,17 +77,17 @@ impl Names {
 }
 
 /// A function of a scene, and what its arguments are called.
-struct Tried<'a> {
+struct SceneCall<'a> {
     system: &'a SceneEquations,
     role: SceneFunction,
     parameters: Vec<f64>,
     function: Function,
     /// What the scene drives itself, where it has inputs.
     inputs: Option<Function>,
-    names: Names,
+    names: SceneNames,
 }
 
-impl Tried<'_> {
+impl SceneCall<'_> {
     /// What the results' parts are called.
     fn result_names(&self) -> Vec<String> {
         let (layout, names) = (&self.system.scene.layout, &self.names);

@@ -16,8 +16,8 @@ use self::bodies::Bodies;
 use self::body::{Body, End};
 use self::curve::{Curve, LEVELS};
 use super::difference::range;
-use super::record::{Column, Record, Row};
 use super::report::{changes, short};
+use super::run_table::{Column, Record, Row};
 
 /// Poses that a page holds: more rows than this allows are thinned out.
 const POSES: usize = 36_000;
@@ -58,7 +58,7 @@ struct Data<'a> {
     between: Vec<Between>,
     outputs: Vec<Curve>,
     states: Vec<Curve>,
-    modes: Vec<Modes>,
+    modes: Vec<ModeCurve>,
     events: Vec<Mark>,
     energy: Energy,
 }
@@ -74,7 +74,7 @@ struct Between {
 }
 
 #[derive(Serialize)]
-struct Modes {
+struct ModeCurve {
     name: String,
     at: Vec<i8>,
 }
@@ -319,7 +319,7 @@ fn states(system: &SceneEquations, rows: &[&Row]) -> Vec<Curve> {
         let column = column(&part.name, part.dimension.si());
         Curve::new(&column, rows.iter().map(|row| row.inputs[i]))
     });
-    let parts = super::record::state_columns(system);
+    let parts = super::run_table::state_columns(system);
     let beside = |i: usize| (i >= joints && i < layout.nq()) || i >= layout.nq() + joints;
     let own = parts.iter().enumerate().filter(|&(i, _)| beside(i));
     let own = own.map(|(i, column)| Curve::new(column, rows.iter().map(|row| row.y[i])));
@@ -333,9 +333,9 @@ fn column(name: &str, unit: &'static str) -> Column {
     }
 }
 
-fn modes(system: &SceneEquations, rows: &[&Row]) -> Vec<Modes> {
+fn modes(system: &SceneEquations, rows: &[&Row]) -> Vec<ModeCurve> {
     let modes = system.scene.layout.modes.iter().enumerate();
-    let modes = modes.map(|(i, mode)| Modes {
+    let modes = modes.map(|(i, mode)| ModeCurve {
         name: mode.name.clone(),
         at: rows.iter().map(|row| row.modes[i] as i8).collect(),
     });
@@ -348,7 +348,7 @@ fn energy(run: &Record) -> Energy {
     let last = run.energy.len().saturating_sub(1);
     let kept = kept.filter(|&(i, _)| i % stride == 0 || i == last);
     let kept: Vec<_> = kept.map(|(_, at)| at).collect();
-    let curve = |name, part: fn(&super::record::EnergyAt) -> f64| {
+    let curve = |name, part: fn(&super::run_table::EnergyAt) -> f64| {
         Curve::new(&column(name, "J"), kept.iter().map(|at| part(at)))
     };
     Energy {

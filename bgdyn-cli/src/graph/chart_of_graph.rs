@@ -8,7 +8,7 @@ use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose, Value};
 use bgdyn_runtime::Dd;
 
-use super::chart::{Chart, Component, Flow, Link, Port, Transformer, Velocity};
+use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, Velocity};
 use super::notation::{coordinates, number, subscript, superscript};
 use super::unfold::Unfolding;
 
@@ -63,7 +63,7 @@ impl Chart {
 
 /// The links without those that have no junctions but carry some that have, whose names come beside.
 /// The velocities of the joints of the latter begin at the next link.
-fn folded(graph: &BondGraph, all: Vec<(LinkId, Link)>) -> (Vec<Link>, Vec<String>) {
+fn folded(graph: &BondGraph, all: Vec<(LinkId, ChartLink)>) -> (Vec<ChartLink>, Vec<String>) {
     let acting = all.iter().filter(|(_, link)| !link.flows.is_empty());
     let mut carries_some = vec![false; graph.frames.len()];
     for (i, _) in acting {
@@ -130,7 +130,12 @@ fn velocity(graph: &BondGraph, unfolding: &mut Unfolding<'_>, j: CoordinateId) -
     }
 }
 
-fn link(graph: &BondGraph, unfolding: &Unfolding<'_>, order: &[CoordinateId], i: LinkId) -> Link {
+fn link(
+    graph: &BondGraph,
+    unfolding: &Unfolding<'_>,
+    order: &[CoordinateId],
+    i: LinkId,
+) -> ChartLink {
     let frame = &graph.frames[i.0];
     let flows = [('ṙ', graph.translation(i)), ('ω', graph.rotation(i))];
     let flows = flows.map(|(letter, junction)| Flow {
@@ -141,7 +146,7 @@ fn link(graph: &BondGraph, unfolding: &Unfolding<'_>, order: &[CoordinateId], i:
     let massless = massless(graph, i);
     let acts = |f: &Flow| !massless && !f.transformers.is_empty() && !f.ports.is_empty();
     let flows = flows.into_iter().filter(acts);
-    Link {
+    ChartLink {
         name: frame.name.clone(),
         velocities: (0..order.len())
             .filter(|&k| frame.coordinate == Some(order[k]))

@@ -14,7 +14,7 @@
 //! begins just above its own link and ends with the last link that it carries; so nothing but
 //! transformers stands left of a link's stores, and nothing at all right of them.
 
-use super::chart::{Chart, Flow, Link, Port, Transformer, Velocity, lines};
+use super::chart::{Chart, ChartLink, Flow, Port, Transformer, Velocity, lines};
 
 /// Margin around all.
 pub(super) const MARGIN: f64 = 28.0;
@@ -45,11 +45,11 @@ const BEFORE_ZERO: f64 = 16.0;
 /// From a 0-junction to the 1-junction that it feeds, and from there to what stands on it.
 pub(super) const BOND: f64 = 46.0;
 
-/// Places of a drawing's parts.
+/// The coordinates of all parts of a drawing, px.
 #[derive(Debug)]
-pub(super) struct Places {
+pub(super) struct Layout {
     /// Each velocity's.
-    pub columns: Vec<Column>,
+    pub columns: Vec<VelocityColumn>,
     /// Each link's.
     pub bands: Vec<Band>,
     /// The right end of all.
@@ -60,7 +60,7 @@ pub(super) struct Places {
 
 /// The bar of a velocity.
 #[derive(Clone, Debug)]
-pub(super) struct Column {
+pub(super) struct VelocityColumn {
     pub x: f64,
     /// Where its 1-junction stands.
     pub head: f64,
@@ -84,8 +84,8 @@ pub(super) struct Band {
     pub rows: Vec<f64>,
 }
 
-/// Gives everything its place, below `top`.
-pub(super) fn place(chart: &Chart, top: f64) -> Places {
+/// Lays everything out, below `top`.
+pub(super) fn layout(chart: &Chart, top: f64) -> Layout {
     let mut columns = columns(chart);
     let mut y = top;
     let mut bands = Vec::new();
@@ -111,7 +111,7 @@ pub(super) fn place(chart: &Chart, top: f64) -> Places {
         .map(|b| b.right)
         .chain(heads)
         .fold(0.0, f64::max);
-    Places {
+    Layout {
         columns,
         bands,
         right: right + MARGIN,
@@ -120,13 +120,13 @@ pub(super) fn place(chart: &Chart, top: f64) -> Places {
 }
 
 /// Columns as wide as the widest modulus in them.
-fn columns(chart: &Chart) -> Vec<Column> {
+fn columns(chart: &Chart) -> Vec<VelocityColumn> {
     let mut x = MARGIN + INDENT;
     let mut columns = Vec::new();
     for j in 0..chart.velocities.len() {
         let own = chart.transformers().filter(|t| t.velocity == j);
         let width = own.map(cell_width).fold(0.0, f64::max);
-        columns.push(Column {
+        columns.push(VelocityColumn {
             x,
             head: 0.0,
             end: 0.0,
@@ -153,17 +153,17 @@ pub(super) fn vector_width(transformer: &Transformer) -> f64 {
     widths.fold(0.0, f64::max) + 8.0
 }
 
-fn band(link: &Link, columns: &[Column], top: f64) -> Band {
+fn band(link: &ChartLink, columns: &[VelocityColumn], top: f64) -> Band {
     let transformers = || link.flows.iter().flat_map(|flow| &flow.transformers);
     let used = transformers()
         .map(|t| t.velocity)
         .chain(link.velocities.iter().copied());
-    let used: Vec<&Column> = used.map(|j| &columns[j]).collect();
+    let used: Vec<&VelocityColumn> = used.map(|j| &columns[j]).collect();
     let left = used.iter().map(|c| c.x).reduce(f64::min);
     let left = left.unwrap_or(MARGIN + INDENT);
     // Right of a line's junctions no bar runs down, either: lines stand below the whole tree.
     let is_line = link.flows.iter().any(|flow| !flow.is_vector());
-    let cleared: Vec<&Column> = match is_line {
+    let cleared: Vec<&VelocityColumn> = match is_line {
         true => columns.iter().collect(),
         false => used,
     };

@@ -1,4 +1,4 @@
-//! Type-erased plants, so that one copy of an integrator serves all scenes of equal dimensions.
+//! Plants behind a pointer (trait objects), so that one copy of an integrator serves all scenes of equal dimensions.
 //!
 //! The rates stay compiled code; to call them takes a nanosecond more.
 
@@ -15,7 +15,7 @@ type Vector<T, const N: usize> = SVector<T, N>;
 type Changed<T, const N: usize, const NM: usize> = (Vector<T, N>, Vector<T, NM>);
 
 /// What integrators call of a plant, without types of its own.
-pub(crate) trait Callable<T: Real, const N: usize, const NM: usize, const NE: usize> {
+pub(crate) trait PlantObject<T: Real, const N: usize, const NM: usize, const NE: usize> {
     fn rates(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Result<Vector<T, N>, String>;
     fn jacobian(
         &self,
@@ -56,7 +56,7 @@ fn told<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
     })
 }
 
-impl<T: Real, P, const N: usize, const NM: usize, const NE: usize> Callable<T, N, NM, NE> for P
+impl<T: Real, P, const N: usize, const NM: usize, const NE: usize> PlantObject<T, N, NM, NE> for P
 where
     P: Measured<State = Vector<T, N>, Modes = Vector<T, NM>, Values = Vector<T, NE>>,
 {
@@ -116,11 +116,11 @@ where
 
 /// A plant behind a pointer.
 #[derive(Clone)]
-pub(crate) struct Erased<T: Real, const N: usize, const NM: usize, const NE: usize>(
-    pub Rc<dyn Callable<T, N, NM, NE>>,
+pub(crate) struct DynPlant<T: Real, const N: usize, const NM: usize, const NE: usize>(
+    pub Rc<dyn PlantObject<T, N, NM, NE>>,
 );
 
-impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for Erased<T, N, NM, NE> {
+impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for DynPlant<T, N, NM, NE> {
     type State = Vector<T, N>;
     type Modes = Vector<T, NM>;
     type Values = Vector<T, NE>;
@@ -202,7 +202,9 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for Erased
     }
 }
 
-impl<T: Real, const N: usize, const NM: usize, const NE: usize> Measured for Erased<T, N, NM, NE> {
+impl<T: Real, const N: usize, const NM: usize, const NE: usize> Measured
+    for DynPlant<T, N, NM, NE>
+{
     fn measured(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Vec<T> {
         self.0.measured(t, y, modes)
     }

@@ -5,7 +5,7 @@ use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::{Dense, Failure, Method, Run, Tolerance, WithMethod, with_method};
 
 use super::plant::{Evaluated, Form, Numbers, Undefined};
-use super::record::{EnergyAt, Event, Record, Row, Way};
+use super::run_table::{EnergyAt, Event, Record, Row, Way};
 
 /// A scene as a plant for the method that it is to be run by.
 pub fn prepared(system: &SceneEquations, method: Integrator) -> Evaluated<'_> {
@@ -64,7 +64,7 @@ impl WithMethod<Numbers> for Start<'_> {
         if !self.way.audited {
             run = run.unaudited();
         }
-        Recorder::new(run, outputs, self.way, self.watch).all()
+        RunRecorder::new(run, outputs, self.way, self.watch).all()
     }
 }
 
@@ -89,7 +89,7 @@ fn straight<M: Method<Numbers>>(
 }
 
 /// A run, and what was kept of it so far.
-struct Recorder<'a, M: Method<Numbers>> {
+struct RunRecorder<'a, M: Method<Numbers>> {
     run: Run<Evaluated<'a>, M>,
     outputs: bool,
     way: &'a Way,
@@ -103,14 +103,14 @@ struct Recorder<'a, M: Method<Numbers>> {
     moved: f64,
 }
 
-impl<'a, M: Method<Numbers>> Recorder<'a, M> {
+impl<'a, M: Method<Numbers>> RunRecorder<'a, M> {
     fn new(
         run: Run<Evaluated<'a>, M>,
         outputs: bool,
         way: &'a Way,
         watch: &'a mut dyn FnMut(f64),
     ) -> Self {
-        Recorder {
+        RunRecorder {
             run,
             outputs,
             way,

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::contender::Pace;
+use crate::configuration::Pace;
 use crate::row::Row;
 use crate::study::{Facts, Study};
-use crate::subject::order;
+use crate::test_case::order;
 
 /// What a method's errors say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +58,7 @@ const EXACT: f64 = 1e-11;
 const KEEPS: f64 = 100.0;
 /// The least order that a method shows where laws have kinks.
 const KINKED: f64 = 0.5;
-/// Rungs of a fit.
+/// Steps of a fit.
 const WINDOW: usize = 3;
 
 /// A verdict on each method, scalar and formulation of a study's full scene.
@@ -113,11 +113,11 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     let rounding = ROUGH * epsilon * facts.floor;
     let held = rows.iter().filter(|r| r.holds());
     let mut points: Vec<(Pace, f64)> = held.filter_map(|r| Some((r.pace, r.error?))).collect();
-    // The scene's own pace, which comes last, is no part of the ladder.
-    let ladder = points
+    // The scene's own pace, which comes last, is no part of the sequence.
+    let sequence = points
         .windows(2)
         .take_while(|p| p[1].0.value() < p[0].0.value());
-    points.truncate(ladder.count() + 1);
+    points.truncate(sequence.count() + 1);
     let reached = points
         .iter()
         .any(|p| p.1 <= rounding || p.1 < EXACT * facts.size);

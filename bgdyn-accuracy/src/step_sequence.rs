@@ -2,12 +2,12 @@
 //!
 //! Equal input gives the same rows everywhere.
 
-use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::configuration::{Configuration, Grid, Pace, RunError};
 use crate::integrate::distance;
 
 /// How thorough a study is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
+pub struct Effort {
     /// Rounds in which everything is timed in turn; the median counts.
     pub rounds: usize,
     /// Samples of a run.
@@ -22,9 +22,9 @@ pub struct Plan {
     pub resolution: f64,
 }
 
-impl Plan {
+impl Effort {
     /// For figures.
-    pub const FULL: Plan = Plan {
+    pub const FULL: Effort = Effort {
         rounds: 5,
         samples: 20,
         steps: 1 << 17,
@@ -34,7 +34,7 @@ impl Plan {
     };
 
     /// For a quick look, and for tests.
-    pub const QUICK: Plan = Plan {
+    pub const QUICK: Effort = Effort {
         rounds: 5,
         samples: 10,
         steps: 1 << 11,
@@ -44,16 +44,16 @@ impl Plan {
     };
 }
 
-/// What came of one try.
+/// What came of one run.
 #[derive(Clone, Debug)]
-pub(crate) struct Tried {
+pub(crate) struct Trial {
     pub pace: Pace,
     /// The error, and an estimate of the time if the run was not of compiled code.
-    pub outcome: Result<(f64, Option<f64>), Stop>,
+    pub outcome: Result<(f64, Option<f64>), RunError>,
 }
 
 /// What errors are held against.
-pub(crate) struct Scale<'a> {
+pub(crate) struct ErrorScale<'a> {
     pub reference: &'a [Vec<f64>],
     /// The reference's own error.
     pub error: f64,
@@ -70,24 +70,24 @@ const FIRST: f64 = 1e-3;
 /// Failures that are kept in front of the first success.
 const SHOWN: usize = 2;
 
-impl Scale<'_> {
+impl ErrorScale<'_> {
     /// Errors below this are rounding.
     pub fn floor(&self, epsilon: f64) -> f64 {
         (16.0 * epsilon * self.largest).max(4.0 * self.error)
     }
 
     /// One run.
-    pub fn attempt(&self, contender: &Contender, grid: &Grid, pace: Pace) -> Tried {
-        let judged = (contender.run)(grid, pace).and_then(|ran| {
+    pub fn attempt(&self, configuration: &Configuration, grid: &Grid, pace: Pace) -> Trial {
+        let judged = (configuration.run)(grid, pace).and_then(|ran| {
             let error = distance(&ran.values, self.reference);
             if error > LOST * self.size {
                 let why = "unstable: leaves the motion".into();
-                return Err(Stop { t: grid.end, why });
+                return Err(RunError { t: grid.end, why });
             }
             Ok((error, ran.estimate))
         });
         let outcome = judged;
-        Tried { pace, outcome }
+        Trial { pace, outcome }
     }
 }
 
@@ -98,38 +98,38 @@ fn is_implicit(method: &str) -> bool {
         .any(|m| method.contains(m))
 }
 
-/// A contender's steps or tolerances from the coarsest on: halved, or a tenth each, until the error is
-/// rounding, or falls no more, or the plan's end is reached.
-pub(crate) fn ladder(
-    contender: &Contender,
+/// A configuration's steps or tolerances from the coarsest on: halved, or a tenth each, until the error is
+/// rounding, or falls no more, or the limits of the effort are reached.
+pub(crate) fn step_sequence(
+    configuration: &Configuration,
     grid: &Grid,
-    scale: &Scale<'_>,
-    plan: &Plan,
-) -> Vec<Tried> {
-    let most = match is_implicit(&contender.method) {
-        true => plan.implicit_steps,
-        false => plan.steps,
+    scale: &ErrorScale<'_>,
+    effort: &Effort,
+) -> Vec<Trial> {
+    let most = match is_implicit(&configuration.method) {
+        true => effort.implicit_steps,
+        false => effort.steps,
     };
-    let least = plan.tolerance.max(contender.epsilon);
-    let pace = |k: i32| match contender.controlled {
+    let least = effort.tolerance.max(configuration.epsilon);
+    let pace = |k: i32| match configuration.controlled {
         true => Pace::Tolerance(FIRST * 0.1_f64.powi(k)),
         false => Pace::Step(grid.interval() / f64::from(2_u32.pow(k as u32))),
     };
-    let within = |k: i32| match contender.controlled {
+    let within = |k: i32| match configuration.controlled {
         true => FIRST * 0.1_f64.powi(k) > 0.5 * least,
         false => grid.samples << k <= most,
     };
-    let mut all: Vec<Tried> = Vec::new();
+    let mut all: Vec<Trial> = Vec::new();
     let (mut best, mut stalled) = (f64::INFINITY, 0);
     for k in (0..30).take_while(|&k| within(k)) {
-        let tried = scale.attempt(contender, grid, rounded(pace(k)));
+        let tried = scale.attempt(configuration, grid, rounded(pace(k)));
         let error = tried.outcome.as_ref().map(|(error, _)| *error).ok();
         all.push(tried);
         if let Some(error) = error {
             stalled = if error < 0.95 * best { 0 } else { stalled + 1 };
             best = best.min(error);
-            if error <= scale.floor(contender.epsilon)
-                || (stalled >= 3 && !contender.controlled && best < 1e-3 * scale.size)
+            if error <= scale.floor(configuration.epsilon)
+                || (stalled >= 3 && !configuration.controlled && best < 1e-3 * scale.size)
             {
                 break;
             }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use bgdyn_cli::promises::any_text;
+use bgdyn_cli::fuzz_invariants::any_text;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 

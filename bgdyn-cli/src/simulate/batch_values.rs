@@ -1,6 +1,7 @@
 //! Values that override a scene's: from the command line, a file, a grid, or at random.
 
 use anyhow::{Result, anyhow};
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::scene::{Override, OverrideKind, Scene};
 use bgdyn_runtime::Dd;
 
@@ -15,12 +16,12 @@ pub(crate) type Given = (Override, Dd);
 
 /// Quantities, and their values run by run.
 #[derive(Default)]
-pub(crate) struct Varied {
+pub(crate) struct BatchValues {
     pub(crate) quantities: Vec<Override>,
     pub(crate) runs: Vec<Vec<f64>>,
 }
 
-impl Varied {
+impl BatchValues {
     /// What a run is given, after what all of them are given.
     pub(crate) fn given(&self, fixed: &[Given], run: &[f64]) -> Vec<Given> {
         let own = self.quantities.iter().zip(run);
@@ -63,7 +64,7 @@ pub(crate) fn fixed(
 }
 
 /// Runs of a table: names of quantities in the first line, a run per further line.
-pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<Varied> {
+pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValues> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| {
         let line = line.trim();
         !line.is_empty() && !line.starts_with('#')
@@ -71,7 +72,7 @@ pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<Varied> {
     let (_, header) = lines
         .next()
         .ok_or_else(|| anyhow!("{shown} is empty: write names of quantities in its first line"))?;
-    let mut varied = Varied::default();
+    let mut varied = BatchValues::default();
     for field in header.trim_start_matches('\u{feff}').split(',') {
         let quantity = headed(scene, field.trim()).map_err(|e| anyhow!("{shown}:1: {e}"))?;
         if varied.quantities.contains(&quantity) {
@@ -127,8 +128,8 @@ fn named(scene: &Scene, name: &str) -> Result<Override, String> {
 }
 
 /// Runs over a grid: `NAME=FROM:TO:N` each, the last one fastest.
-pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<Varied, Usage> {
-    let mut varied = Varied::default();
+pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<BatchValues, Usage> {
+    let mut varied = BatchValues::default();
     varied.runs.push(vec![]);
     for text in sweeps {
         let wrong = |what: String| Usage(format!("`--sweep {text}`: {what}"));
@@ -172,8 +173,8 @@ pub(crate) fn chance(
     ranges: &[String],
     runs: usize,
     seed: u64,
-) -> Result<Varied, Usage> {
-    let mut varied = Varied::default();
+) -> Result<BatchValues, Usage> {
+    let mut varied = BatchValues::default();
     let mut of = Vec::new();
     for text in ranges {
         let wrong = |what: String| Usage(format!("`--random {text}`: {what}"));
@@ -193,16 +194,16 @@ pub(crate) fn chance(
             "`--runs {runs}`: write a number from 1 to {RUNS}"
         )));
     }
-    let mut random = SplitMix(seed);
-    let one = |random: &mut SplitMix| {
-        let value = |&[low, high]: &[f64; 2]| low + (high - low) * random.number();
+    let mut random = Random(seed);
+    let one = |random: &mut Random| {
+        let value = |&[low, high]: &[f64; 2]| low + (high - low) * random.unit();
         of.iter().map(value).collect()
     };
     varied.runs = (0..runs).map(|_| one(&mut random)).collect();
     Ok(varied)
 }
 
-fn new(scene: &Scene, name: &str, varied: &Varied) -> Result<Override, String> {
+fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Override, String> {
     let quantity = named(scene, name.trim())?;
     match varied.quantities.contains(&quantity) {
         true => Err(format!("`{}` is varied twice", quantity.name)),
@@ -213,18 +214,4 @@ fn new(scene: &Scene, name: &str, varied: &Varied) -> Result<Override, String> {
 fn ends(low: &str, high: &str, quantity: &Override) -> Result<[f64; 2], String> {
     let end = |text: &str| value_in(text, quantity.unit).map(|value| value.to_f64());
     Ok([end(low)?, end(high)?])
-}
-
-/// SplitMix64 (Steele, Lea and Flood 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    /// From 0 up to 1, in steps of 2⁻⁵³.
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }

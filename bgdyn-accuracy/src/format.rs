@@ -1,29 +1,17 @@
 //! Formats numbers and words for people.
 
+use bgdyn_runtime::Digits;
+
 /// A number as short as it can be written without loss: `0.002`, `5e-6`.
 pub(crate) fn number(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 || (1e-3..1e5).contains(&size) {
-        format!("{x}")
-    } else {
-        format!("{x:e}")
-    }
+    Digits::shortest(x).plain(-3..5).to_string()
 }
 
 /// A number with two or three digits: `0.18`, `3.1e-7`.
 pub(crate) fn short(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        "0".into()
-    } else if (1e-2..1e6).contains(&size) {
-        let decimals = (2 - size.log10().floor() as i32).clamp(0, 4) as usize;
-        let text = format!("{x:.decimals$}");
-        match text.contains('.') {
-            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-            false => text,
-        }
-    } else {
-        format!("{x:.1e}")
+    match x == 0.0 || (1e-2..1e6).contains(&x.abs()) {
+        true => Digits::new(x, 3).plain(-2..7).to_string(),
+        false => Digits::new(x, 2).plain(0..0).with_zeros().to_string(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! A contender: one way to run a scene, as a closure.
+//! A configuration: one way to run a scene, as a closure.
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ impl Pace {
 impl fmt::Display for Pace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Pace::Step(h) => write!(f, "{} s", crate::text::number(*h)),
+            Pace::Step(h) => write!(f, "{} s", crate::format::number(*h)),
             Pace::Tolerance(tolerance) => write!(f, "{tolerance:e}"),
         }
     }
@@ -52,20 +52,20 @@ impl Grid {
 
 /// A run that came to its end.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ran {
+pub struct Samples {
     /// The measured output at each sample, SI units.
     pub values: Vec<Vec<f64>>,
     /// What it would take in compiled code, ns, where this run was none: an estimate.
     pub estimate: Option<f64>,
 }
 
-impl Ran {
+impl Samples {
     /// A run that came to its end with these values; it failed where they are not all finite.
-    pub fn finite(values: Vec<Vec<f64>>, estimate: Option<f64>) -> Result<Ran, Stop> {
+    pub fn finite(values: Vec<Vec<f64>>, estimate: Option<f64>) -> Result<Samples, RunError> {
         if values.iter().flatten().all(|x| x.is_finite()) {
-            return Ok(Ran { values, estimate });
+            return Ok(Samples { values, estimate });
         }
-        Err(Stop {
+        Err(RunError {
             t: 0.0,
             why: "unstable: not finite".into(),
         })
@@ -74,24 +74,24 @@ impl Ran {
 
 /// A run that ended early.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stop {
+pub struct RunError {
     /// When, s.
     pub t: f64,
     /// Why, in a few words.
     pub why: String,
 }
 
-impl fmt::Display for Stop {
+impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} at {} s", self.why, crate::text::short(self.t))
+        write!(f, "{} at {} s", self.why, crate::format::short(self.t))
     }
 }
 
 /// Runs a scene from its start to the end of the grid.
-pub type Runner = Box<dyn Fn(&Grid, Pace) -> Result<Ran, Stop>>;
+pub type Runner = Box<dyn Fn(&Grid, Pace) -> Result<Samples, RunError>>;
 
 /// A way to run a scene.
-pub struct Contender {
+pub struct Configuration {
     /// The effects of the scene: `all`, `all but friction`, `gravity+inertia`.
     pub effects: String,
     /// The method of integration, as scenes name it.
@@ -111,9 +111,9 @@ pub struct Contender {
 }
 
 /// What is known of it, without the closure.
-impl fmt::Debug for Contender {
+impl fmt::Debug for Configuration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Contender")
+        f.debug_struct("Configuration")
             .field("effects", &self.effects)
             .field("method", &self.method)
             .field("scalar", &self.scalar)

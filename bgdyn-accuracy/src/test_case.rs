@@ -1,17 +1,17 @@
-//! The subject of a study: a scene with its reference and its contenders.
+//! A test case: a scene with its reference and its configurations.
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Method, WithMethod, with_method};
 use nalgebra::SVector;
 
-use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::configuration::{Configuration, Grid, Pace, RunError};
 use crate::priced::Priced;
 
 /// The measured output at each sample, in double-double, by a tolerance.
-pub type References = Box<dyn Fn(&Grid, f64) -> Result<Vec<Vec<Dd>>, Stop>>;
+pub type References = Box<dyn Fn(&Grid, f64) -> Result<Vec<Vec<Dd>>, RunError>>;
 
 /// A scene as it is studied.
-pub struct Subject {
+pub struct TestCase {
     /// The scene's name.
     pub scene: String,
     /// What it is, in a line.
@@ -30,15 +30,15 @@ pub struct Subject {
     pub reference: Option<References>,
     /// Tolerances of the reference and of the coarser run that its error is taken from.
     pub tolerances: (f64, f64),
-    /// Ways to run the scene with all effects, each with its own ladder of steps or tolerances.
-    pub contenders: Vec<Contender>,
+    /// Ways to run the scene with all effects, each with its own sequence of steps or tolerances.
+    pub configurations: Vec<Configuration>,
     /// The scene with fewer effects, each at the scene's own pace.
-    pub levels: Vec<Contender>,
+    pub ablations: Vec<Configuration>,
     /// The scene with all effects, and without each: what a call and a run cost.
     pub prices: Vec<Priced>,
 }
 
-impl Subject {
+impl TestCase {
     /// A scene that nothing is known of yet: names, unit, end and the scene's own way to run.
     pub fn new(
         [scene, description, output, unit]: [&str; 4],
@@ -46,7 +46,7 @@ impl Subject {
         method: &str,
         pace: Pace,
     ) -> Self {
-        Subject {
+        TestCase {
             scene: scene.into(),
             description: description.into(),
             output: output.into(),
@@ -56,21 +56,21 @@ impl Subject {
             kinked: false,
             reference: None,
             tolerances: (1e-20, 1e-18),
-            contenders: Vec::new(),
-            levels: Vec::new(),
+            configurations: Vec::new(),
+            ablations: Vec::new(),
             prices: Vec::new(),
         }
     }
 }
 
 /// Without the closures.
-impl std::fmt::Debug for Subject {
+impl std::fmt::Debug for TestCase {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Subject")
+        f.debug_struct("TestCase")
             .field("scene", &self.scene)
             .field("output", &self.output)
-            .field("contenders", &self.contenders)
-            .field("levels", &self.levels)
+            .field("configurations", &self.configurations)
+            .field("ablations", &self.ablations)
             .field("prices", &self.prices)
             .finish_non_exhaustive()
     }

@@ -7,11 +7,11 @@ use std::{env, fs};
 use anyhow::{Context, Result, bail};
 
 /// A scratch crate of one purpose.
-pub(crate) struct Scratch {
+pub(crate) struct CargoProject {
     folder: PathBuf,
 }
 
-impl Scratch {
+impl CargoProject {
     /// The crate with this name. It depends on `bgdyn`, a path or a version, and on these other
     /// crates of the same repository and version.
     ///
@@ -37,9 +37,9 @@ impl Scratch {
         for other in others {
             manifest += &format!("{other} = {{ {} }}\n", source(other)?);
         }
-        let scratch = Scratch { folder };
-        scratch.write("Cargo.toml", &(manifest + "\n[workspace]\n"))?;
-        Ok(scratch)
+        let project = CargoProject { folder };
+        project.write("Cargo.toml", &(manifest + "\n[workspace]\n"))?;
+        Ok(project)
     }
 
     /// Writes a file of it, where that changes the file.
