@@ -22,12 +22,13 @@
 //! - `serde`: `Serialize` and `Deserialize` for the structs of generated modules (run-time parameters,
 //!   a scene's `State` and `Input`), for [`Limits`] and [`Dd`]; re-exported as `serde`. Stays `no_std`.
 #![no_std]
-// But for one instruction on some Arm processors: see `root.rs`.
+// But for one instruction on some Arm processors: see `sqrt.rs`.
 #![cfg_attr(
     not(all(target_arch = "arm", target_abi = "eabihf")),
     forbid(unsafe_code)
 )]
 
+mod arrays;
 mod dd;
 mod description;
 #[cfg(feature = "num-dual")]
@@ -40,7 +41,6 @@ mod joint;
 mod lanes;
 mod operations;
 mod pose;
-mod root;
 pub mod rotation;
 mod scalar;
 #[cfg(feature = "serde")]
@@ -48,10 +48,11 @@ mod serial;
 mod settle;
 mod sine;
 mod singular;
-mod storage;
+mod sqrt;
 mod system;
 mod two_sum;
 
+pub use arrays::{inner_products, matrix, mirror, vector};
 pub use dd::{Dd, ParseDdError};
 pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
 #[cfg(feature = "num-dual")]
@@ -73,7 +74,6 @@ pub use serde;
 pub use serial::{__read_fields, __write_fields};
 pub use settle::{mode_by_slip, settle, settle_by};
 pub use singular::{Cause, Singular};
-pub use storage::{inner_products, matrix, mirror, vector};
 pub use system::{Balance, Canonical, Contact, Slope, System};
 #[cfg(feature = "wide")]
 pub use wide;
