@@ -21,6 +21,7 @@
 //!   `num_dual`. That crate needs `std`; this one still does not use it.
 //! - `serde`: `Serialize` and `Deserialize` for the structs of generated modules (run-time parameters,
 //!   a scene's `State` and `Input`), for [`Limits`] and [`Dd`]; re-exported as `serde`. Stays `no_std`.
+//! - `alloc`: [`StateVector`] for nalgebra's `DVector`, of a size known when running. Needs a heap.
 #![no_std]
 // But for one instruction on some Arm processors: see `sqrt.rs`.
 #![cfg_attr(
@@ -45,10 +46,11 @@ pub mod rotation;
 mod scalar;
 #[cfg(feature = "serde")]
 mod serial;
-mod settle;
 mod sine;
 mod singular;
 mod sqrt;
+mod state_vector;
+mod stiction;
 mod system;
 mod two_sum;
 
@@ -72,9 +74,10 @@ pub use serde;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub use serial::{__read_fields, __write_fields};
-pub use settle::{mode_by_slip, settle, settle_by};
 pub use singular::{Cause, Singular};
-pub use system::{Balance, Canonical, Contact, Slope, System};
+pub use state_vector::{ArrayOf, FixedVector, MatrixOf, StateVector};
+pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};
+pub use system::{Balance, Canonical, Contact, HybridSystem, Slope};
 #[cfg(feature = "wide")]
 pub use wide;
 

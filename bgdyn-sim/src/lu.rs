@@ -1,17 +1,19 @@
 //! LU factorisation with partial pivoting, in any scalar that is one number.
 
-use crate::space::{Of, Real, Space};
+use bgdyn_runtime::StateVector;
+
+use crate::real::{Of, Real};
 
 /// A factored square matrix.
 #[derive(Clone, Debug)]
-pub(crate) struct Lu<Y: Space> {
+pub(crate) struct Lu<Y: StateVector> {
     /// Unit lower and upper factors in one matrix.
     factors: Y::Matrix,
     /// The row that came to each place.
     pivots: Y::Pivots,
 }
 
-impl<Y: Space> Lu<Y>
+impl<Y: StateVector> Lu<Y>
 where
     Of<Y>: Real,
 {
