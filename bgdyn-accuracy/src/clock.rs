@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use crate::contender::{Contender, Grid, Pace};
+use crate::contender::{Contender, Grid, StepControl};
 use crate::ladder::Plan;
 
 /// Runs of one measurement at the most.
@@ -14,7 +14,7 @@ const BEST_OF: usize = 3;
 
 /// Time of each of these runs per simulated millisecond, ns: the median of the plan's rounds. Every
 /// round takes all of them in turn, so that what slows the machine down for a while slows all alike.
-pub(crate) fn times(jobs: &[(&Contender, Pace)], grid: &Grid, plan: &Plan) -> Vec<f64> {
+pub(crate) fn times(jobs: &[(&Contender, StepControl)], grid: &Grid, plan: &Plan) -> Vec<f64> {
     let repeat: Vec<usize> = jobs
         .iter()
         .map(|job| {
@@ -63,10 +63,10 @@ pub(crate) fn calls(jobs: &[&dyn Fn(usize)], plan: &Plan) -> Vec<f64> {
 }
 
 /// So many runs, s.
-fn seconds((contender, pace): &(&Contender, Pace), grid: &Grid, runs: usize) -> f64 {
+fn seconds((contender, step_control): &(&Contender, StepControl), grid: &Grid, runs: usize) -> f64 {
     let begin = Instant::now();
     for _ in 0..runs {
-        let _ = black_box((contender.run)(black_box(grid), black_box(*pace)));
+        let _ = black_box((contender.run)(black_box(grid), black_box(*step_control)));
     }
     begin.elapsed().as_secs_f64()
 }

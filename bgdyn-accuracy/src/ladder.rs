@@ -2,7 +2,7 @@
 //!
 //! Equal input gives the same rows everywhere.
 
-use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::contender::{Contender, Grid, StepControl, Stop};
 use crate::integrate::distance;
 
 /// How thorough a study is.
@@ -47,7 +47,7 @@ impl Plan {
 /// What came of one try.
 #[derive(Clone, Debug)]
 pub(crate) struct Tried {
-    pub pace: Pace,
+    pub step_control: StepControl,
     /// The error, and an estimate of the time if the run was not of compiled code.
     pub outcome: Result<(f64, Option<f64>), Stop>,
 }
@@ -77,8 +77,8 @@ impl Scale<'_> {
     }
 
     /// One run.
-    pub fn attempt(&self, contender: &Contender, grid: &Grid, pace: Pace) -> Tried {
-        let judged = (contender.run)(grid, pace).and_then(|ran| {
+    pub fn attempt(&self, contender: &Contender, grid: &Grid, step_control: StepControl) -> Tried {
+        let judged = (contender.run)(grid, step_control).and_then(|ran| {
             let error = distance(&ran.values, self.reference);
             if error > LOST * self.size {
                 let why = "unstable: leaves the motion".into();
@@ -87,7 +87,7 @@ impl Scale<'_> {
             Ok((error, ran.estimate))
         });
         let outcome = judged;
-        Tried { pace, outcome }
+        Tried { step_control, outcome }
     }
 }
 
@@ -111,9 +111,9 @@ pub(crate) fn ladder(
         false => plan.steps,
     };
     let least = plan.tolerance.max(contender.epsilon);
-    let pace = |k: i32| match contender.controlled {
-        true => Pace::Tolerance(FIRST * 0.1_f64.powi(k)),
-        false => Pace::Step(grid.interval() / f64::from(2_u32.pow(k as u32))),
+    let step_control = |k: i32| match contender.controlled {
+        true => StepControl::Tolerance(FIRST * 0.1_f64.powi(k)),
+        false => StepControl::Step(grid.interval() / f64::from(2_u32.pow(k as u32))),
     };
     let within = |k: i32| match contender.controlled {
         true => FIRST * 0.1_f64.powi(k) > 0.5 * least,
@@ -122,7 +122,7 @@ pub(crate) fn ladder(
     let mut all: Vec<Tried> = Vec::new();
     let (mut best, mut stalled) = (f64::INFINITY, 0);
     for k in (0..30).take_while(|&k| within(k)) {
-        let tried = scale.attempt(contender, grid, rounded(pace(k)));
+        let tried = scale.attempt(contender, grid, rounded(step_control(k)));
         let error = tried.outcome.as_ref().map(|(error, _)| *error).ok();
         all.push(tried);
         if let Some(error) = error {
@@ -145,9 +145,9 @@ pub(crate) fn ladder(
 }
 
 /// A tolerance as it is written: 1e-6, not 1.0000000000000002e-6.
-fn rounded(pace: Pace) -> Pace {
-    match pace {
-        Pace::Tolerance(x) => Pace::Tolerance(format!("{x:.0e}").parse().unwrap_or(x)),
+fn rounded(step_control: StepControl) -> StepControl {
+    match step_control {
+        StepControl::Tolerance(x) => StepControl::Tolerance(format!("{x:.0e}").parse().unwrap_or(x)),
         step => step,
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::clock::times;
-use crate::contender::{Contender, Grid, Pace, Stop};
+use crate::contender::{Contender, Grid, StepControl, Stop};
 use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
 use crate::ladder::{Plan, Scale, Tried, ladder};
@@ -106,13 +106,13 @@ pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
         tried.extend(steps.into_iter().map(|t| (contender, t)));
     }
     for level in &subject.levels {
-        let pace = own_pace(subject, &grid);
+        let step_control = own_step_control(subject, &grid);
         // A motion far from the reference is a finding here, not a failure.
         let far = Scale {
             size: f64::INFINITY,
             ..scale
         };
-        tried.push((level, far.attempt(level, &grid, pace)));
+        tried.push((level, far.attempt(level, &grid, step_control)));
     }
     Ok(Study {
         facts: Facts {
@@ -138,10 +138,10 @@ fn moved(reference: &[Vec<f64>]) -> f64 {
     distance(reference, &still).max(f64::MIN_POSITIVE)
 }
 
-/// The scene's own pace; a step is taken as often as fits between two samples.
-fn own_pace(subject: &Subject, grid: &Grid) -> Pace {
+/// The scene's own step control; a step is taken as often as fits between two samples.
+fn own_step_control(subject: &Subject, grid: &Grid) -> StepControl {
     match subject.own.1 {
-        Pace::Step(h) => Pace::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64),
+        StepControl::Step(h) => StepControl::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64),
         tolerance => tolerance,
     }
 }
@@ -150,7 +150,7 @@ fn own_pace(subject: &Subject, grid: &Grid) -> Pace {
 fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) -> Vec<Row> {
     let measured = |t: &Tried| matches!(t.outcome, Ok((_, None)));
     let jobs = tried.iter().filter(|(_, t)| measured(t));
-    let jobs: Vec<(&Contender, Pace)> = jobs.map(|(c, t)| (*c, t.pace)).collect();
+    let jobs: Vec<(&Contender, StepControl)> = jobs.map(|(c, t)| (*c, t.step_control)).collect();
     let mut times = times(&jobs, grid, plan).into_iter();
     let row = |(contender, t): &(&Contender, Tried)| {
         let (error, ns, status) = match &t.outcome {
@@ -165,7 +165,7 @@ fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) ->
             scene: scene.into(),
             effects: contender.effects.clone(),
             method: contender.method.clone(),
-            pace: t.pace,
+            step_control: t.step_control,
             scalar: contender.scalar.into(),
             formulation: contender.formulation.clone(),
             error,

@@ -2,7 +2,7 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Contender, Cost, CountSteps, Finding, Grid, Pace, Plan, Ran, Status, Stop, Study, Subject,
+    Contender, Cost, CountSteps, Finding, Grid, StepControl, Plan, Ran, Status, Stop, Study, Subject,
     costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
@@ -17,8 +17,8 @@ const PLAN: Plan = Plan {
 };
 
 /// ẋ = y, ẏ = −x by the classical Runge–Kutta method, the weights of its slopes given.
-fn oscillator(grid: &Grid, pace: Pace, weights: [f64; 4]) -> Result<Ran, Stop> {
-    let parts = grid.parts(pace.value());
+fn oscillator(grid: &Grid, step_control: StepControl, weights: [f64; 4]) -> Result<Ran, Stop> {
+    let parts = grid.parts(step_control.value());
     let h = grid.interval() / parts as f64;
     let rates = |[x, y]: [f64; 2]| [y, -x];
     let at = |[x, y]: [f64; 2], k: f64, [a, b]: [f64; 2]| [x + k * a, y + k * b];
@@ -53,13 +53,13 @@ fn contender(formulation: &str, weights: [f64; 4]) -> Contender {
         scalar: "f64",
         epsilon: f64::EPSILON,
         formulation: formulation.into(),
-        run: Box::new(move |grid, pace| oscillator(grid, pace, weights)),
+        run: Box::new(move |grid, step_control| oscillator(grid, step_control, weights)),
     }
 }
 
 fn subject(contenders: Vec<Contender>) -> Subject {
     let words = ["oscillator", "A mass on a spring", "x", "m"];
-    let mut subject = Subject::new(words, 2.0, "rk4", Pace::Step(0.05));
+    let mut subject = Subject::new(words, 2.0, "rk4", StepControl::Step(0.05));
     subject.reference = Some(Box::new(|grid, _| {
         let times = (1..=grid.samples).map(|k| grid.interval() * k as f64);
         Ok(times.map(|t| vec![Dd::from_f64(t.cos())]).collect())
@@ -77,7 +77,7 @@ fn errors_are_those_of_the_closed_form() {
     let study = studied(RIGHT);
     // A step multiplies x − iy by R(ih), R(z) = 1 + z + z²/2 + z³/6 + z⁴/24.
     for row in &study.rows[..2] {
-        let h = row.pace.value();
+        let h = row.step_control.value();
         let (re, im) = (1.0 - h * h / 2.0 + h.powi(4) / 24.0, h - h.powi(3) / 6.0);
         let (size, angle) = (re.hypot(im), im.atan2(re));
         let parts = (0.2 / h).round() as i32;
@@ -118,12 +118,12 @@ fn a_wrong_coefficient_is_found() {
 #[test]
 fn a_run_that_fails_is_a_row_with_its_reason() {
     let mut failing = contender("cheapest", RIGHT);
-    failing.run = Box::new(|grid, pace| match grid.parts(pace.value()) {
+    failing.run = Box::new(|grid, step_control| match grid.parts(step_control.value()) {
         1 => Err(Stop {
             t: 0.4,
             why: "unstable: not finite".into(),
         }),
-        _ => oscillator(grid, pace, RIGHT),
+        _ => oscillator(grid, step_control, RIGHT),
     });
     let study = study(&subject(vec![failing]), &PLAN).expect("a reference");
     let first = &study.rows[0];

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use bgdyn_accuracy::generate::{ALL_BUT, kinked, levels, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Contender, CountSteps, Integrate, Measured, Pace, Priced, Ran, Runner, STEPS_METHOD,
+    Call, Contender, CountSteps, Integrate, Measured, StepControl, Priced, Ran, Runner, STEPS_METHOD,
     Subject, order,
 };
 use bgdyn_codegen::method::Role;
@@ -97,13 +97,13 @@ impl Counted {
     /// Runs it by a method of this name.
     fn runner(&self, method: &str) -> Runner {
         let (counted, method) = (self.clone(), method.to_owned());
-        Box::new(move |grid, pace| {
+        Box::new(move |grid, step_control| {
             counted.spent.set(0.0);
             let run = Integrate {
                 plant: counted.clone(),
                 begin: counted.plant.begin(),
                 grid,
-                pace,
+                step_control,
             };
             let values = with_method(&method, run).expect("a method of bgdyn-sim")?;
             Ran::finite(values, Some(counted.spent.get()))
@@ -180,7 +180,7 @@ impl Measured for Counted {
 pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
     let full = measured(system)?;
     let scene = &full.scene;
-    let (method, pace) = own_way(&full);
+    let (method, step_control) = own_way(&full);
     let words = [
         scene.name.as_str(),
         scene.description.as_deref().unwrap_or_default(),
@@ -188,14 +188,14 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
         full.outputs[0].unit,
     ];
     let end = end.unwrap_or(scene.integration.end);
-    let mut subject = Subject::new(words, end, method, pace);
+    let mut subject = Subject::new(words, end, method, step_control);
     subject.kinked = kinked(&full);
     subject.tolerances = TOLERANCES;
     let levels = levels(&full);
     let counted = Counted::new(full);
     let reference = counted.runner(REFERENCE);
     subject.reference = Some(Box::new(move |grid, tolerance| {
-        let ran = reference(grid, Pace::Tolerance(tolerance))?;
+        let ran = reference(grid, StepControl::Tolerance(tolerance))?;
         let row = |row: Vec<f64>| row.into_iter().map(Dd::from_f64).collect();
         Ok(ran.values.into_iter().map(row).collect())
     }));

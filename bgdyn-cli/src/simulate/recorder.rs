@@ -1,6 +1,6 @@
 //! Records a run from its start to its end.
 
-use bgdyn_codegen::scene::{Integration, Integrator, Pace};
+use bgdyn_codegen::scene::{Integration, Integrator, StepControl};
 use bgdyn_codegen::system::System;
 use bgdyn_sim::{Dense, Failure, Method, Run, Tolerance, WithMethod, with_method};
 
@@ -55,7 +55,7 @@ impl WithMethod<Numbers> for Start<'_> {
         let begin = self.plant.begin();
         let outputs = self.plant.has_outputs();
         let mut run = Run::by(method, self.plant, begin);
-        if let Pace::Tolerance(tolerance) = self.way.integration.pace {
+        if let StepControl::Tolerance(tolerance) = self.way.integration.step_control {
             run = run.with_tolerance(Tolerance {
                 absolute: tolerance,
                 relative: tolerance,
@@ -153,10 +153,10 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
         self.keep(0.0, &begin, false);
         settled?;
         self.points = 1;
-        let Integration { pace, end, .. } = self.way.integration;
-        match pace {
-            Pace::Tolerance(_) => self.reach(end),
-            Pace::Step(h) => {
+        let Integration { step_control, end, .. } = self.way.integration;
+        match step_control {
+            StepControl::Tolerance(_) => self.reach(end),
+            StepControl::Step(h) => {
                 let mut steps = 1.0;
                 // A last step that is next to nothing is none.
                 while steps * h < end - 1e-9 * h {
@@ -188,9 +188,9 @@ impl<'a, M: Method<Numbers>> Recorder<'a, M> {
             } else {
                 // On without a halt at every kink.
                 let (t, y) = (self.run.t(), self.run.y().clone());
-                self.run.step(match self.way.integration.pace {
-                    Pace::Step(_) => left,
-                    Pace::Tolerance(_) => left.min(self.interval()),
+                self.run.step(match self.way.integration.step_control {
+                    StepControl::Step(_) => left,
+                    StepControl::Tolerance(_) => left.min(self.interval()),
                 })?;
                 self.sample(&straight(t, &y, &self.run), &before, rest);
             }

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::super::{Integration, Integrator, Pace};
+use super::super::{Integration, Integrator, StepControl};
 use crate::fault::{Fault, Faults, Place, wording};
 use crate::format::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
 
@@ -47,7 +47,7 @@ pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integratio
     let given = field.value().and_then(|raw| settings(raw, faults));
     given.unwrap_or(Integration {
         method: Integrator::Rk4,
-        pace: Pace::Step(STEP),
+        step_control: StepControl::Step(STEP),
         end: END,
     })
 }
@@ -63,17 +63,17 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
     let step = positive(&fields, "step", "a time such as `1 ms`", faults);
     let tolerance = positive(&fields, "tolerance", "a number such as `1e-8`", faults);
     let method = method?;
-    let pace = match (step, tolerance) {
-        (None, None) if method.controls_its_error() => Pace::Tolerance(TOLERANCE),
-        (None, None) => Pace::Step(STEP),
-        (Some((step, _)), None) => Pace::Step(step),
+    let step_control = match (step, tolerance) {
+        (None, None) if method.controls_its_error() => StepControl::Tolerance(TOLERANCE),
+        (None, None) => StepControl::Step(STEP),
+        (Some((step, _)), None) => StepControl::Step(step),
         (step, Some((tolerance, place))) => {
             faults.0.extend(misplaced(method, step.is_some(), place));
-            Pace::Tolerance(tolerance)
+            StepControl::Tolerance(tolerance)
         }
     };
     let end = end.map_or(END, |(end, _)| end);
-    Some(Integration { method, pace, end })
+    Some(Integration { method, step_control, end })
 }
 
 /// What is wrong with a tolerance at this place.
