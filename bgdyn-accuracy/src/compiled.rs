@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::rc::Rc;
 
-use bgdyn_runtime::{Canonical, Dd, FixedVector, HybridSystem, Scalar, Slope};
+use bgdyn_runtime::{Canonical, Dd, FixedVector, HybridSystem, Slope};
 use bgdyn_sim::{
     CanonicalPlant, Dopri5, Extrapolation12, HybridState, INTEGRATORS, Integrator, Of, Real, Rk4,
     Run, ScenePlant, StateVector, WithIntegrator, with_integrator,
@@ -49,7 +49,7 @@ impl<S: HybridSystem<T>, T: Real> Measured for ScenePlant<'_, S, T> {
 impl<S: Canonical<T>, T: Real> Measured for CanonicalPlant<'_, S, T> {
     fn measured(&self, t: T, z: &S::State, modes: &S::Modes) -> Vec<T> {
         match self.to_natural(t, z, modes) {
-            Ok(y) => self.natural.measured(t, &y, modes),
+            Ok(y) => Measured::measured(&self.natural, t, &y, modes),
             Err(_) => vec![T::from_f64(f64::NAN); S::Outputs::LEN],
         }
     }

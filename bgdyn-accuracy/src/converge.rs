@@ -112,7 +112,9 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     };
     let rounding = ROUGH * epsilon * facts.floor;
     let held = rows.iter().filter(|r| r.holds());
-    let mut points: Vec<(StepControl, f64)> = held.filter_map(|r| Some((r.step_control, r.error?))).collect();
+    let mut points: Vec<(StepControl, f64)> = held
+        .filter_map(|r| Some((r.step_control, r.error?)))
+        .collect();
     // The scene's own step control, which comes last, is no part of the ladder.
     let ladder = points
         .windows(2)

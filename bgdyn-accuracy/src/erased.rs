@@ -128,7 +128,7 @@ where
     fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String> {
         // A scene without events is not asked.
         match E::LEN {
-            0 => Ok(E::zeros()),
+            0 => Ok(E::zero_vector()),
             _ => self.0.events(t, y, modes),
         }
     }
@@ -148,7 +148,7 @@ where
     }
 
     fn nothing(&self) -> Self::Entries {
-        FixedVector::zeros()
+        FixedVector::zero_vector()
     }
 
     fn energy(&self, _: Of<Y>, _: &Y, _: &M) -> Result<Self::Entries, String> {

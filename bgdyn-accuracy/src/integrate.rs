@@ -1,8 +1,6 @@
 //! One run of a plant by a method, sampled at given times.
 
-use bgdyn_sim::{
-    HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator,
-};
+use bgdyn_sim::{HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator};
 use std::fmt::Debug;
 
 use crate::contender::{Grid, StepControl, Stop};

@@ -87,7 +87,10 @@ impl Scale<'_> {
             Ok((error, ran.estimate))
         });
         let outcome = judged;
-        Tried { step_control, outcome }
+        Tried {
+            step_control,
+            outcome,
+        }
     }
 }
 
@@ -147,7 +150,9 @@ pub(crate) fn ladder(
 /// A tolerance as it is written: 1e-6, not 1.0000000000000002e-6.
 fn rounded(step_control: StepControl) -> StepControl {
     match step_control {
-        StepControl::Tolerance(x) => StepControl::Tolerance(format!("{x:.0e}").parse().unwrap_or(x)),
+        StepControl::Tolerance(x) => {
+            StepControl::Tolerance(format!("{x:.0e}").parse().unwrap_or(x))
+        }
         step => step,
     }
 }

@@ -48,7 +48,7 @@ mod text;
 
 pub use bgdyn_runtime::Dd;
 pub use bgdyn_sim;
-pub use contender::{Contender, Grid, StepControl, Ran, Runner, Stop};
+pub use contender::{Contender, Grid, Ran, Runner, StepControl, Stop};
 pub use converge::{Finding, Verdict, verdicts};
 pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 pub use figures::{Figure, figures};

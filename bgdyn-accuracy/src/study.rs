@@ -141,7 +141,9 @@ fn moved(reference: &[Vec<f64>]) -> f64 {
 /// The scene's own step control; a step is taken as often as fits between two samples.
 fn own_step_control(subject: &Subject, grid: &Grid) -> StepControl {
     match subject.own.1 {
-        StepControl::Step(h) => StepControl::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64),
+        StepControl::Step(h) => {
+            StepControl::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64)
+        }
         tolerance => tolerance,
     }
 }

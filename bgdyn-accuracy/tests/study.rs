@@ -2,8 +2,8 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Contender, Cost, CountSteps, Finding, Grid, StepControl, Plan, Ran, Status, Stop, Study, Subject,
-    costs_csv, csv, figures, page, study, targets, verdicts,
+    Contender, Cost, CountSteps, Finding, Grid, Plan, Ran, Status, StepControl, Stop, Study,
+    Subject, costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
@@ -118,13 +118,15 @@ fn a_wrong_coefficient_is_found() {
 #[test]
 fn a_run_that_fails_is_a_row_with_its_reason() {
     let mut failing = contender("cheapest", RIGHT);
-    failing.run = Box::new(|grid, step_control| match grid.parts(step_control.value()) {
-        1 => Err(Stop {
-            t: 0.4,
-            why: "unstable: not finite".into(),
-        }),
-        _ => oscillator(grid, step_control, RIGHT),
-    });
+    failing.run = Box::new(
+        |grid, step_control| match grid.parts(step_control.value()) {
+            1 => Err(Stop {
+                t: 0.4,
+                why: "unstable: not finite".into(),
+            }),
+            _ => oscillator(grid, step_control, RIGHT),
+        },
+    );
     let study = study(&subject(vec![failing]), &PLAN).expect("a reference");
     let first = &study.rows[0];
     let why = "unstable: not finite at 0.4 s";
@@ -273,11 +275,11 @@ impl Plant for Decay {
 /// ẋ = −x by controlled steps: one step behind the other to the end, more of them for a longer run.
 #[test]
 fn steps_are_counted() {
-    use bgdyn_sim::{Moment, WithMethod};
+    use bgdyn_sim::{HybridState, WithIntegrator};
     let steps = |end: f64| {
         let count = CountSteps {
             plant: Decay,
-            begin: Moment {
+            begin: HybridState {
                 t: 0.0,
                 y: V::repeat(1.0),
                 modes: SVector::zeros(),

@@ -5,13 +5,13 @@ use std::rc::Rc;
 
 use bgdyn_accuracy::generate::{ALL_BUT, kinked, levels, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Contender, CountSteps, Integrate, Measured, StepControl, Priced, Ran, Runner, STEPS_METHOD,
-    Subject, order,
+    Call, Contender, CountSteps, Integrate, Measured, Priced, Ran, Runner, STEPS_METHOD,
+    StepControl, Subject, order,
 };
 use bgdyn_codegen::method::Role;
 use bgdyn_codegen::system::System;
 use bgdyn_runtime::Dd;
-use bgdyn_sim::{Jacobian, METHODS, Plant, Power, with_method};
+use bgdyn_sim::{INTEGRATORS, Jacobian, Plant, Power, with_integrator};
 
 use crate::simulate::{Evaluated, Form, Numbers, Undefined};
 use crate::timing::estimate;
@@ -89,7 +89,7 @@ impl Counted {
                     begin: counted.plant.begin(),
                     end,
                 };
-                with_method(STEPS_METHOD, run).expect("a method of bgdyn-sim")
+                with_integrator(STEPS_METHOD, run).expect("a method of bgdyn-sim")
             }),
         }
     }
@@ -105,7 +105,7 @@ impl Counted {
                 grid,
                 step_control,
             };
-            let values = with_method(&method, run).expect("a method of bgdyn-sim")?;
+            let values = with_integrator(&method, run).expect("a method of bgdyn-sim")?;
             Ran::finite(values, Some(counted.spent.get()))
         })
     }
@@ -199,7 +199,7 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
         let row = |row: Vec<f64>| row.into_iter().map(Dd::from_f64).collect();
         Ok(ran.values.into_iter().map(row).collect())
     }));
-    for method in METHODS.iter().filter(|m| **m != REFERENCE) {
+    for method in INTEGRATORS.iter().filter(|m| **m != REFERENCE) {
         let (order, controlled) = order(method)?;
         subject.contenders.push(Contender {
             effects: "all".into(),

@@ -18,8 +18,7 @@ const STATES: usize = 64;
 const HEAD: &str = r#"//! Written by `bgdyn ops --per-effect`.
 use std::hint::black_box;
 use std::time::Instant;
-use bgdyn::runtime::System;
-use bgdyn::nalgebra::SVector;
+use bgdyn::runtime::{FixedVector, HybridSystem, StateVector};
 
 struct Random(u64);
 impl Random {
@@ -30,18 +29,18 @@ impl Random {
 }
 
 /// Median of nine rounds, ns per call of the derivative.
-fn time<S, const N: usize, const M: usize, const U: usize, const E: usize, const Y: usize, const P: usize>(
-    scene: &S,
-) -> f64
-where
-    S: System<f64, N, M, U, E, Y, P>,
-{
+fn time<S: HybridSystem<f64>>(scene: &S) -> f64 {
     let (start, modes) = scene.start();
     let mut random = Random(2007);
-    let states: Vec<SVector<f64, N>> = (0..STATES)
-        .map(|_| start.map(|x| x + random.unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }))
+    let states: Vec<S::State> = (0..STATES)
+        .map(|_| {
+            S::State::from_entries(|i| {
+                let x = start.entries()[i];
+                x + random.unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }
+            })
+        })
         .collect();
-    let input = SVector::<f64, U>::from_fn(|_, _| random.unit());
+    let input = S::Inputs::from_entries(|_| random.unit());
     let mut rounds = Vec::new();
     let mut calls = 64;
     while rounds.len() < 9 {

@@ -2,9 +2,9 @@
 
 use nalgebra::SVector;
 
-use crate::sqrt::sqrt_f32;
 use crate::sine::{self, SineLanes};
 use crate::singular::{explain, finish, note_refused};
+use crate::sqrt::sqrt_f32;
 use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 

@@ -81,7 +81,7 @@ pub trait FixedVector: StateVector + Copy {
     fn from_entries(entry: impl FnMut(usize) -> Self::Scalar) -> Self;
 
     /// The zero vector.
-    fn zeros() -> Self {
+    fn zero_vector() -> Self {
         Self::from_entries(|_| Self::Scalar::from_f64(0.0))
     }
 }

@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-use crate::state_vector::{ArrayOf, FixedVector, MatrixOf};
 use crate::Scalar;
+use crate::state_vector::{ArrayOf, FixedVector, MatrixOf};
 
 /// Power of one effect, W: supplied = rate of what it stores + dissipated, summed over all effects.
 #[derive(Clone, Copy, Debug, PartialEq)]

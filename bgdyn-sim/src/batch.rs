@@ -12,8 +12,8 @@ use crate::audit::Audit;
 use crate::failure::Failure;
 use crate::integrator::Integrator;
 use crate::plant::Plant;
-use crate::run::{HybridState, Run};
 use crate::real::{Of, Real};
+use crate::run::{HybridState, Run};
 
 /// How many runs go at once where nothing else is said: as many as the machine has cores.
 pub fn cores() -> NonZeroUsize {

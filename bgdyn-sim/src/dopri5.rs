@@ -5,7 +5,7 @@ use bgdyn_runtime::StateVector;
 use crate::coefficient::{Words, ZERO, ratio};
 use crate::dense::Dense;
 use crate::failure::Reason;
-use crate::integrator::{IntegratorInfo, Integrator, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
 use crate::real::{Of, Real, largest};
 use crate::tableau::{Stage, all, combined};

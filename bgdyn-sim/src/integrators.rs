@@ -7,10 +7,10 @@ use crate::dopri5::Dopri5;
 use crate::extrapolation::Extrapolation12;
 use crate::gauss::{Gauss2, Gauss3, Gauss4, Midpoint};
 use crate::integrator::Integrator;
+use crate::real::{Of, Real};
 use crate::rk4::Rk4;
 use crate::rodas4::Rodas4;
 use crate::semi_implicit_euler::SemiImplicitEuler;
-use crate::real::{Of, Real};
 
 /// What is to be done with an integrator that is chosen by name.
 pub trait WithIntegrator<Y: StateVector> {

@@ -16,8 +16,8 @@ use nalgebra::SVector;
 
 use crate::integrator::{Integrator, Start};
 use crate::ode::Ode;
-use crate::solver::sum_in_two;
 use crate::real::{Of, Real};
+use crate::solver::sum_in_two;
 
 /// A scalar that holds one number per lane; a number by itself has one lane.
 pub trait Lanes: Scalar {
@@ -191,7 +191,13 @@ where
 /// The rates of the first components by those that follow them.
 fn following<Y: FixedVector>(positions: usize, y: &Y) -> Y {
     let y = y.entries();
-    Y::from_entries(|i| if i < positions { y[positions + i] } else { y[i] })
+    Y::from_entries(|i| {
+        if i < positions {
+            y[positions + i]
+        } else {
+            y[i]
+        }
+    })
 }
 
 /// A scene without dry friction that can hold, in any scalar. Kinks of its laws are stepped over: there
@@ -210,19 +216,20 @@ where
 {
     /// The scene, with all given inputs at 0.
     pub fn new(scene: &'a S) -> Self {
-        let given = S::Inputs::zeros();
+        let given = S::Inputs::zero_vector();
         SmoothScene { scene, given }
     }
 
     /// All inputs at an instant.
     pub fn input(&self, t: T, y: &S::State) -> S::Inputs {
-        self.scene.input(y, &S::Modes::zeros(), &self.given, t)
+        self.scene
+            .input(y, &S::Modes::zero_vector(), &self.given, t)
     }
 
     /// The outputs that the scene asks for, at an instant.
     pub fn output(&self, t: T, y: &S::State) -> S::Outputs {
         let input = self.input(t, y);
-        self.scene.output(y, &S::Modes::zeros(), &input, t)
+        self.scene.output(y, &S::Modes::zero_vector(), &input, t)
     }
 }
 
@@ -236,7 +243,9 @@ where
 
     fn rates(&self, t: T, y: &S::State) -> Result<S::State, Infallible> {
         let input = self.input(t, y);
-        let found = self.scene.derivative(y, &S::Modes::zeros(), &input, t);
+        let found = self
+            .scene
+            .derivative(y, &S::Modes::zero_vector(), &input, t);
         Ok(found.unwrap_or_else(|error| {
             let positions = self.scene.positions();
             S::State::from_entries(|i| match i.checked_sub(positions) {

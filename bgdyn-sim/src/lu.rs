@@ -1,6 +1,6 @@
 //! LU factorisation with partial pivoting, in any scalar that is one number.
 
-use bgdyn_runtime::StateVector;
+use bgdyn_runtime::{ArrayOf, StateVector};
 
 use crate::real::{Of, Real};
 
@@ -10,7 +10,7 @@ pub(crate) struct Lu<Y: StateVector> {
     /// Unit lower and upper factors in one matrix.
     factors: Y::Matrix,
     /// The row that came to each place.
-    pivots: Y::Pivots,
+    pivots: ArrayOf<Y, usize>,
 }
 
 impl<Y: StateVector> Lu<Y>
@@ -19,7 +19,7 @@ where
 {
     /// Factors a matrix on the space of `like`; `None` where a pivot is 0 or not finite.
     pub(crate) fn new(mut factors: Y::Matrix, like: &Y) -> Option<Self> {
-        let mut pivots = like.pivots();
+        let mut pivots = like.array(0);
         let n = like.entries().len();
         let sound = factor(Y::columns_mut(&mut factors), pivots.as_mut(), n);
         sound.then_some(Lu { factors, pivots })

@@ -4,7 +4,7 @@ use bgdyn_runtime::StateVector;
 
 use crate::coefficient::{Words, ZERO, ratio};
 use crate::failure::Reason;
-use crate::integrator::{IntegratorInfo, Integrator, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
 use crate::real::Of;
 use crate::tableau::{Stage, all, combined};

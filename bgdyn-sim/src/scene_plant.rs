@@ -47,7 +47,7 @@ impl<'a, S: HybridSystem<T>, T: Real> ScenePlant<'a, S, T> {
     pub fn new(scene: &'a S) -> Self {
         ScenePlant {
             scene,
-            given: S::Inputs::zeros(),
+            given: S::Inputs::zero_vector(),
             slope: Slopes::Unknown,
         }
     }
@@ -181,7 +181,7 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
     }
 
     fn nothing(&self) -> S::Entries {
-        S::Entries::zeros()
+        S::Entries::zero_vector()
     }
 
     fn energy(&self, t: T, y: &S::State, modes: &S::Modes) -> Result<S::Entries, S::Singular> {

@@ -3,7 +3,7 @@
 use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::failure::Reason;
-use crate::integrator::{IntegratorInfo, Integrator, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
 use crate::real::Of;
 

@@ -203,7 +203,10 @@ fn curve(d: &mut Drawing, series: &Series<'_>, x: &Axis, y: &Axis, floor: f64) {
 /// their steps. A failed tolerance has no such ratio and stands at that run's time.
 fn failures(series: &Series<'_>) -> impl Iterator<Item = f64> {
     let held = series.rows.iter().filter(|r| r.holds());
-    let first = held.clone().next().and_then(|r| Some((r.step_control, r.ns?)));
+    let first = held
+        .clone()
+        .next()
+        .and_then(|r| Some((r.step_control, r.ns?)));
     let failed = series.rows.iter().filter(|r| !r.holds());
     failed.filter_map(move |r| match (first?, r.step_control) {
         ((StepControl::Step(h), ns), StepControl::Step(failed)) => Some(ns * h / failed),

@@ -233,7 +233,11 @@ fn formulations(study: &Study) -> Option<Figure> {
         .filter(|v| v.method == "rk4" && v.scalar == "f64");
     let names: Vec<&str> = of_rk4.map(|v| v.formulation.as_str()).collect();
     let base = by("cheapest");
-    let shared = |r: &&&Row| names.iter().all(|n| by(n).iter().any(|o| o.step_control == r.step_control));
+    let shared = |r: &&&Row| {
+        names
+            .iter()
+            .all(|n| by(n).iter().any(|o| o.step_control == r.step_control))
+    };
     let step_control = base.iter().rev().find(shared)?.step_control;
     let line = |name: &&str| {
         let rows = by(name);
@@ -261,7 +265,11 @@ fn formulations(study: &Study) -> Option<Figure> {
             title,
             columns: vec![
                 linear(
-                    format!("{}time by rk4 at {}", about(study), step(step_control.value())),
+                    format!(
+                        "{}time by rk4 at {}",
+                        about(study),
+                        step(step_control.value())
+                    ),
                     "ns per simulated ms".into(),
                 ),
                 logarithmic(format!("least error of {}", facts.output), study),
@@ -301,7 +309,8 @@ fn levels<'a>(
     let named: Vec<(&str, &Row)> = named.collect();
     let step_control = named.first()?.1.step_control;
     let method = &named.first()?.1.method;
-    let own = |r: &&Row| r.effects == "all" && r.step_control == step_control && r.method == *method;
+    let own =
+        |r: &&Row| r.effects == "all" && r.step_control == step_control && r.method == *method;
     let own = |r: &&Row| own(r) && r.scalar == "f64" && r.formulation == "cheapest";
     // The level comes after the method's own ladder, and is timed beside the other levels.
     Some((study.rows.iter().rfind(own)?, named))

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::format::Dimension;
-use bgdyn_codegen::scene::{Integration, Integrator, StepControl};
+use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
 use bgdyn_codegen::system::System;
 use clap::Args;
 
@@ -178,8 +178,8 @@ impl Simulate {
     fn integration(&self, scene: Integration, given: &Numbers) -> Result<Integration, Usage> {
         let method = match &self.method {
             None => scene.method,
-            Some(name) => Integrator::named(name).ok_or_else(|| {
-                let all: Vec<&str> = Integrator::ALL.iter().map(|m| m.name()).collect();
+            Some(name) => IntegratorName::named(name).ok_or_else(|| {
+                let all: Vec<&str> = IntegratorName::ALL.iter().map(|m| m.name()).collect();
                 let all = all.join(", ");
                 Usage(format!("there is no method `{name}`; there are {all}"))
             })?,
@@ -191,7 +191,9 @@ impl Simulate {
         };
         if matches!(step_control, StepControl::Tolerance(_)) && !method.controls_its_error() {
             let name = method.name();
-            let all = Integrator::ALL.iter().filter(|m| m.controls_its_error());
+            let all = IntegratorName::ALL
+                .iter()
+                .filter(|m| m.controls_its_error());
             let all: Vec<&str> = all.map(|m| m.name()).collect();
             let all = all.join(", ");
             return Err(Usage(format!(
@@ -207,7 +209,11 @@ impl Simulate {
                 "{steps} steps of {h} s to t = {end} s: that is more than {STEPS:e}; take a longer step"
             )));
         }
-        Ok(Integration { method, step_control, end })
+        Ok(Integration {
+            method,
+            step_control,
+            end,
+        })
     }
 
     /// Writes table and plot; gives what is said of them.
@@ -246,7 +252,11 @@ fn watched(what: &'static str, plant: &Evaluated<'_>, way: &Way) -> Record {
 
 /// "stick_slip: rk4 in steps of 0.001 s, to t = 5 s"
 fn summary(name: &str, integration: &Integration) -> String {
-    let Integration { method, step_control, end } = integration;
+    let Integration {
+        method,
+        step_control,
+        end,
+    } = integration;
     let step_control = match step_control {
         StepControl::Step(h) => format!("in steps of {} s", short(*h)),
         StepControl::Tolerance(t) => format!("with the tolerance {}", short(*t)),

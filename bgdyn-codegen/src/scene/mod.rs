@@ -22,7 +22,7 @@ use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
 pub(crate) use check::sketch;
 pub use check::{Verdict, check, check_alone};
-pub use integration::{Integration, Integrator, StepControl};
+pub use integration::{Integration, IntegratorName, StepControl};
 pub use signal::{Drive, Signal};
 pub use start::{Settable, SettableKind};
 

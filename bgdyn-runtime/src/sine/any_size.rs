@@ -1,8 +1,8 @@
 //! Sine and cosine of angles of any size: the branch-free kernel, or exact reduction for large ones.
 
 use super::kernel::sin_cos_in_range;
-use super::large;
 use super::lanes::SineLanes;
+use super::large;
 
 /// Numbers whose sines are known for angles of any size.
 pub(crate) trait AnySize: SineLanes {

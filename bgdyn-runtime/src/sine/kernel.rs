@@ -1,6 +1,6 @@
 //! The branch-free kernel of sine and cosine: reduction by parts of π/2, then two polynomials.
 
-use super::lanes::{Coefficients, SineLanes, Polynomial};
+use super::lanes::{Coefficients, Polynomial, SineLanes};
 
 /// Sine and cosine of `angle` + `tail`, for an angle within [`SineLanes::LIMIT`] and a tail of half a
 /// unit in its last place at most.

@@ -58,8 +58,8 @@ pub(crate) use methods;
 
 mod any_size;
 mod kernel;
-mod large;
 mod lanes;
+mod large;
 
 use crate::two_sum::{TwoWord, exact_sum};
 pub(crate) use any_size::{AnySize, sin_cos};

@@ -7,7 +7,7 @@ use coefficients::{DENSE, FIFTH, MORE, STAGES, THIRD, WEIGHTS};
 
 use crate::dense::Dense;
 use crate::failure::Reason;
-use crate::integrator::{IntegratorInfo, Integrator, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
 use crate::real::{Of, Real, largest};
 use crate::tableau::{all, combined, fill};

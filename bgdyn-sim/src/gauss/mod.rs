@@ -1,16 +1,16 @@
 //! The Gauss–Legendre methods: the implicit midpoint rule, and methods of 2 and more stages.
 
 mod coefficients;
-mod newton;
 mod convergence;
+mod newton;
 
 use bgdyn_runtime::{Scalar as _, StateVector};
 use coefficients::{Coefficients, Split};
-use newton::Blocks;
 use convergence::ConvergenceMonitor;
+use newton::Blocks;
 
 use crate::failure::Reason;
-use crate::integrator::{IntegratorInfo, Integrator, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::{Ode, ScalarOf};
 use crate::real::{Of, Real};
 

@@ -4,10 +4,10 @@ use bgdyn_runtime::{Scalar, StateVector};
 
 use super::state::{Budget, EVENTS, Proposed, Refused, Run};
 use crate::failure::Reason;
-use crate::zero_crossing::first_passage;
 use crate::integrator::Integrator;
 use crate::plant::{Plant, Time};
 use crate::real::Real;
+use crate::zero_crossing::first_passage;
 
 /// The values of all events at the beginning of a step and just behind the first passage.
 pub(super) struct Passed<V> {
@@ -197,7 +197,8 @@ where
         whole: &Proposed<P, M>,
         theta: Time<P>,
     ) -> Result<Proposed<P, M>, Refused<P>> {
-        self.solver.attempt(&self.fixed_modes(), whole.step.h * theta)
+        self.solver
+            .attempt(&self.fixed_modes(), whole.step.h * theta)
     }
 
     /// State and modes after the events that a step has passed; `None` where all of them are kinks.
@@ -233,7 +234,11 @@ where
         if fell > 0 {
             let apart = self.t() - self.last_event;
             let close = Time::<P>::EPSILON.sqrt() * self.t().abs();
-            self.zeno_count = if apart < close { self.zeno_count + 1 } else { 0 };
+            self.zeno_count = if apart < close {
+                self.zeno_count + 1
+            } else {
+                0
+            };
             budget.events -= 1;
             self.events += fell;
             self.last_event = self.t();

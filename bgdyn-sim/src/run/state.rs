@@ -7,10 +7,10 @@ use crate::control::Tolerance;
 use crate::failure::{Failure, Reason};
 use crate::integrator::Integrator;
 use crate::plant::{FixedModes, Plant, Time};
+use crate::real::{Of, Real};
 use crate::rk4::Rk4;
 use crate::scene_plant::ScenePlant;
 use crate::solver::{Proposal, Solver};
-use crate::real::{Of, Real};
 
 /// Time, state and modes of a plant at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -206,7 +206,9 @@ where
             Agreement::Unknown => Time::<P>::from_f64(0.0),
             Agreement::Disturbed => Time::<P>::from_f64(DRIFT),
         };
-        let found = self.plant.resolve_stiction(self.t(), self.y(), &self.modes, rest);
+        let found = self
+            .plant
+            .resolve_stiction(self.t(), self.y(), &self.modes, rest);
         if let Some((y, modes)) = found.map_err(Reason::Singular)? {
             self.modes = modes;
             self.solver.restart(y);

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    Dop853, Dopri5, IntegratorInfo, Gauss3, INTEGRATORS, Integrator, Reason, Rk4, Rodas4, Run, Tolerance,
-    WithIntegrator, with_integrator,
+    Dop853, Dopri5, Gauss3, INTEGRATORS, Integrator, IntegratorInfo, Reason, Rk4, Rodas4, Run,
+    Tolerance, WithIntegrator, with_integrator,
 };
 use nalgebra::SVector;
 

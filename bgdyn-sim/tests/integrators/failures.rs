@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    Dop853, Dopri5, Failure, Gauss2, Jacobian, Integrator, Midpoint, Ode, Reason, Rk4, Rodas4, Solver,
-    Tolerance,
+    Dop853, Dopri5, Failure, Gauss2, Integrator, Jacobian, Midpoint, Ode, Reason, Rk4, Rodas4,
+    Solver, Tolerance,
 };
 use nalgebra::SVector;
 

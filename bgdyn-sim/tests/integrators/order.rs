@@ -1,7 +1,7 @@
 //! Errors of a method by halvings of its step. Shared with the hard cases' package.
 
 use bgdyn_runtime::Dd;
-use bgdyn_sim::{IntegratorInfo, Integrator, Ode, Start, WithIntegrator};
+use bgdyn_sim::{Integrator, IntegratorInfo, Ode, Start, WithIntegrator};
 use nalgebra::SVector;
 
 use crate::problems::{Known, dd, distance, known, ode};

@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{
-    Dop853, Dopri5, Extrapolation, Gauss, INTEGRATORS, Integrator, Real, Rk4, Rodas4, Start, with_integrator,
+    Dop853, Dopri5, Extrapolation, Gauss, INTEGRATORS, Integrator, Real, Rk4, Rodas4, Start,
+    with_integrator,
 };
 
 use crate::order::{Errors, Y, known_run};

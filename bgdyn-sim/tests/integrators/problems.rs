@@ -1,7 +1,7 @@
 //! Equations with known solutions, and helpers.
 
 use bgdyn_runtime::{Dd, Scalar, matrix, vector};
-use bgdyn_sim::{Jacobian, Integrator, Ode, Real, Solver, StateVector};
+use bgdyn_sim::{Integrator, Jacobian, Ode, Real, Solver, StateVector};
 use nalgebra::SVector;
 
 /// Nonlinear, driven by time, with a position and its velocity first:

@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    Dop853, Jacobian, INTEGRATORS, Integrator, Ode, Rk4, Solver, Tolerance, WithIntegrator, with_integrator,
+    Dop853, INTEGRATORS, Integrator, Jacobian, Ode, Rk4, Solver, Tolerance, WithIntegrator,
+    with_integrator,
 };
 use nalgebra::{DMatrix, DVector, SVector};
 

@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    FiniteDifferences, Dop853, Dopri5, Extrapolation12, Gauss2, Gauss3, Jacobian, Integrator, Midpoint,
-    Reason, Rk4, Rodas4, Solver, Start, Tolerance,
+    Dop853, Dopri5, Extrapolation12, FiniteDifferences, Gauss2, Gauss3, Integrator, Jacobian,
+    Midpoint, Reason, Rk4, Rodas4, Solver, Start, Tolerance,
 };
 use nalgebra::SVector;
 

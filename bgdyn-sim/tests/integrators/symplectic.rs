@@ -75,7 +75,12 @@ fn energy(y: &SVector<Dd, 4>) -> Dd {
 }
 
 /// The energy's largest error, in [`UNIT`]s: in the first tenth of the run, and in its last.
-fn drift<M: Integrator<SVector<f64, 4>>>(method: M, h: f64, steps: u32, compensated: bool) -> [f64; 3] {
+fn drift<M: Integrator<SVector<f64, 4>>>(
+    method: M,
+    h: f64,
+    steps: u32,
+    compensated: bool,
+) -> [f64; 3] {
     let mut solver = Solver::new(method, 0.0, vector([0.5, 0.0, 0.0, 0.0]));
     if compensated {
         solver = solver.compensated();

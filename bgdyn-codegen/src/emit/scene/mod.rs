@@ -1,4 +1,4 @@
-//! The module of a scene: types with named parts, the scene's functions, the trait `System`.
+//! The module of a scene: types with named parts, the scene's functions, the trait `HybridSystem`.
 
 mod constants;
 mod fallback;
@@ -41,9 +41,9 @@ pub fn scene_module(system: &System, functions: &[Function], place: &OutputOptio
     let explainers = explainers(functions, &naming, &quote! { T::Singular<{ NV + NX }> });
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
-    let slope = has(Role::Jacobian).then(|| system::slope_trait(&interface, &struct_name));
+    let slope = has(Role::Jacobian).then(|| system::slope_trait(&struct_name));
     let canonical = Role::CANONICAL.into_iter().all(has);
-    let canonical = canonical.then(|| system::canonical_trait(&interface, &struct_name));
+    let canonical = canonical.then(|| system::canonical_trait(&struct_name));
     let operations = counted(functions);
     let rebuild = rebuild(place);
     quote! {

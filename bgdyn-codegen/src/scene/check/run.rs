@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::super::{Integration, Integrator, StepControl};
+use super::super::{Integration, IntegratorName, StepControl};
 use crate::fault::{Fault, Faults, Place, wording};
 use crate::format::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
 
@@ -46,7 +46,7 @@ const fn key(name: &'static str, reads: Reads, about: &'static str) -> Key {
 pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integration {
     let given = field.value().and_then(|raw| settings(raw, faults));
     given.unwrap_or(Integration {
-        method: Integrator::Rk4,
+        method: IntegratorName::Rk4,
         step_control: StepControl::Step(STEP),
         end: END,
     })
@@ -73,15 +73,19 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
         }
     };
     let end = end.map_or(END, |(end, _)| end);
-    Some(Integration { method, step_control, end })
+    Some(Integration {
+        method,
+        step_control,
+        end,
+    })
 }
 
 /// What is wrong with a tolerance at this place.
-fn misplaced(method: Integrator, stepped: bool, place: &Place) -> Option<Fault> {
+fn misplaced(method: IntegratorName, stepped: bool, place: &Place) -> Option<Fault> {
     let name = method.name();
-    let choosing = Integrator::ALL.into_iter();
+    let choosing = IntegratorName::ALL.into_iter();
     let choosing = choosing.filter(|m| m.controls_its_error());
-    let choosing: Vec<&str> = choosing.map(Integrator::name).collect();
+    let choosing: Vec<&str> = choosing.map(IntegratorName::name).collect();
     match (method.controls_its_error(), stepped) {
         (false, _) => Some(wording::no_step_control(place, name, &choosing)),
         (true, true) => Some(wording::step_and_tolerance(place, name)),
@@ -111,17 +115,17 @@ fn positive<'a>(
 }
 
 /// The method asked for, RK4 where none is; nothing for a name that is none's.
-fn method(fields: &Fields, faults: &mut Faults) -> Option<Integrator> {
+fn method(fields: &Fields, faults: &mut Faults) -> Option<IntegratorName> {
     let Some(Located {
         value: Entry::Text(word),
         place,
     }) = fields.get("method")
     else {
-        return Some(Integrator::Rk4);
+        return Some(IntegratorName::Rk4);
     };
-    let found = Integrator::named(word);
+    let found = IntegratorName::named(word);
     if found.is_none() {
-        let known = Integrator::ALL.map(Integrator::name);
+        let known = IntegratorName::ALL.map(IntegratorName::name);
         faults.push(wording::unknown_integrator(place, word, &known));
     }
     found
