@@ -71,7 +71,7 @@ type Failed = Failure<Numbers, Undefined>;
 const ROUNDING: f64 = 1e-12;
 
 /// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
-const CROWDED: usize = 16;
+const ZENO_LIMIT: usize = 16;
 
 /// A straight line from a state to where a run is now.
 fn straight<M: Integrator<Numbers>>(
@@ -175,12 +175,12 @@ impl<'a, M: Integrator<Numbers>> Recorder<'a, M> {
     fn reach(&mut self, target: f64) -> Result<(), Failed> {
         let span = target - self.run.t();
         let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
-        let mut crowded = 0;
+        let mut zeno_count = 0;
         while target - self.run.t() > rest {
             let left = target - self.run.t();
             let before = self.run.modes().clone();
             let passed = (self.run.events, self.run.kinks);
-            if crowded < CROWDED {
+            if zeno_count < ZENO_LIMIT {
                 let dense = self.run.advance_densely(left)?;
                 self.sample(&dense, &before, rest);
             } else {
@@ -194,8 +194,8 @@ impl<'a, M: Integrator<Numbers>> Recorder<'a, M> {
             }
             self.steps += 1;
             let halted = passed != (self.run.events, self.run.kinks);
-            crowded = if halted {
-                (crowded + 1) % (CROWDED + 1)
+            zeno_count = if halted {
+                (zeno_count + 1) % (ZENO_LIMIT + 1)
             } else {
                 0
             };
