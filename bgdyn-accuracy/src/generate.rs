@@ -12,7 +12,7 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Method, SceneFunction};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
-use bgdyn_codegen::scene::{Integrator, Pace, Scene};
+use bgdyn_codegen::scene::{IntegratorName, Scene, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 
 /// Coordinates up to which the literal sum is written out: it grows with the cube of their number.
@@ -96,40 +96,18 @@ pub fn ablations(system: &SceneEquations) -> Vec<Ablation> {
     found
 }
 
-/// How a scene is run by its own method: the method, its constructor, whether it takes slopes.
-struct Own {
-    method: Integrator,
-    constructor: &'static str,
-    slopes: bool,
+/// The scene's own integrator; one on momenta stands for the same on velocities.
+fn own_integrator(system: &SceneEquations) -> IntegratorName {
+    system.scene.integration.method.on_velocities()
 }
 
-/// The scene's own method; one on momenta stands for the same in velocities.
-fn own(system: &SceneEquations) -> Own {
-    use Integrator as I;
-    let (method, constructor) = match system.scene.integration.method {
-        I::SemiImplicitEuler => (I::SemiImplicitEuler, "SemiImplicitEuler"),
-        I::Rk4 => (I::Rk4, "Rk4"),
-        I::Midpoint | I::CanonicalMidpoint => (I::Midpoint, "Midpoint::<f64>::new()"),
-        I::Gauss2 | I::CanonicalGauss2 => (I::Gauss2, "Gauss2::<f64>::new()"),
-        I::Gauss3 | I::CanonicalGauss3 => (I::Gauss3, "Gauss3::<f64>::new()"),
-        I::Rodas4 => (I::Rodas4, "Rodas4"),
-        I::Dopri5 => (I::Dopri5, "Dopri5"),
-        I::Dop853 => (I::Dop853, "Dop853"),
+/// The integrator and the step control of a scene, as a study names them.
+pub fn own_way(system: &SceneEquations) -> (&'static str, crate::StepControl) {
+    let step_control = match system.scene.integration.step_control {
+        StepControl::Step(h) => crate::StepControl::Step(h),
+        StepControl::Tolerance(tolerance) => crate::StepControl::Tolerance(tolerance),
     };
-    Own {
-        method,
-        constructor,
-        slopes: method.needs_jacobian(),
-    }
-}
-
-/// The method and the pace of a scene, as a study names them.
-pub fn own_way(system: &SceneEquations) -> (&'static str, crate::Pace) {
-    let pace = match system.scene.integration.pace {
-        Pace::Step(h) => crate::Pace::Step(h),
-        Pace::Tolerance(tolerance) => crate::Pace::Tolerance(tolerance),
-    };
-    (own(system).method.name(), pace)
+    (own_integrator(system).name(), step_control)
 }
 
 /// The text of a module with the scene's name: its variants, and `test_case()`, which gives the
@@ -143,7 +121,7 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     let full =
         measured(system).ok_or_else(|| format!("the scene `{name}` has nothing to measure"))?;
     let structure = struct_ident(name);
-    let own = own(&full);
+    let own = own_integrator(&full);
     let mut text = format!("/// The scene `{name}` and its variants.\npub mod {name} {{\n");
     let mut calls = String::new();
     let all = Options {
@@ -177,14 +155,16 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
         writeln!(calls, "test_case.formulation({formulation:?}, {model});").expect("text");
     }
     let options = Options {
-        jacobian: own.slopes,
+        jacobian: own.needs_jacobian(),
         ..Options::default()
     };
-    let call = match own.slopes {
+    let call = match own.needs_jacobian() {
         true => "ablation_with_slope",
         false => "ablation",
     };
-    let method = format!("bgdyn_accuracy::bgdyn_sim::{}", own.constructor);
+    // Types of bgdyn-sim are called like the integrators.
+    let integrator = struct_ident(own.name());
+    let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default()");
     let add = |effects: &str, model: &str, text: &mut String| {
         writeln!(text, "test_case.{call}({effects:?}, {model}, || {method});").expect("text");
     };
@@ -225,10 +205,10 @@ pub fn kinked(system: &SceneEquations) -> bool {
 /// The call that makes the test case.
 fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     let scene = &full.scene;
-    let (method, pace) = own_way(full);
-    let pace = match pace {
-        crate::Pace::Step(h) => format!("Step({h:?})"),
-        crate::Pace::Tolerance(t) => format!("Tolerance({t:?})"),
+    let (method, step_control) = own_way(full);
+    let step_control = match step_control {
+        crate::StepControl::Step(h) => format!("Step({h:?})"),
+        crate::StepControl::Tolerance(t) => format!("Tolerance({t:?})"),
     };
     let names = [
         &scene.name,
@@ -238,7 +218,7 @@ fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     ];
     let end = end.unwrap_or(scene.integration.end);
     format!(
-        "bgdyn_accuracy::TestCase::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::Pace::{pace})"
+        "bgdyn_accuracy::TestCase::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::StepControl::{step_control})"
     )
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::configuration::Pace;
+use crate::configuration::StepControl;
 
 /// Whether a row's numbers hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub struct Row {
     /// The method of integration.
     pub method: String,
     /// The step, s, or the tolerance.
-    pub pace: Pace,
+    pub step_control: StepControl,
     /// The scalar: `f64`, `f32`.
     pub scalar: String,
     /// How the equations are written.
@@ -83,7 +83,7 @@ impl Row {
         for text in [&self.scene, &self.effects, &self.method] {
             let _ = write!(line, "{},", quoted(text));
         }
-        let _ = write!(line, "{},", self.pace);
+        let _ = write!(line, "{},", self.step_control);
         let _ = write!(line, "{},{},", self.scalar, quoted(&self.formulation));
         let (error, ns) = (number(self.error, 3), number(self.ns, 3));
         line + &format!("{error},{ns},{}", quoted(&status))
@@ -96,7 +96,7 @@ impl Row {
             scene,
             effects,
             method,
-            pace,
+            step_control,
             scalar,
             formulation,
             error,
@@ -108,9 +108,9 @@ impl Row {
             _ => text.parse::<f64>().ok().map(Some),
         };
         Some(Row {
-            pace: match pace.strip_suffix(" s") {
-                Some(step) => Pace::Step(step.parse().ok()?),
-                None => Pace::Tolerance(pace.parse().ok()?),
+            step_control: match step_control.strip_suffix(" s") {
+                Some(step) => StepControl::Step(step.parse().ok()?),
+                None => StepControl::Tolerance(step_control.parse().ok()?),
             },
             error: optional(&error)?,
             ns: optional(&ns)?,
@@ -164,7 +164,7 @@ mod tests {
             scene: "arm".into(),
             effects: "all".into(),
             method: "rk4".into(),
-            pace: Pace::Step(0.002),
+            step_control: StepControl::Step(0.002),
             scalar: "f64".into(),
             formulation: "cheapest".into(),
             error: Some(1.25e-7),
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn lines_are_read_as_they_were_written() {
         let failed = Row {
-            pace: Pace::Tolerance(1e-6),
+            step_control: StepControl::Tolerance(1e-6),
             error: None,
             ns: None,
             status: Status::Failed("no accelerations (\"turn\", 3) at 0 s".into()),

@@ -143,7 +143,7 @@ fn summary(study: &Study, out: &Path) -> String {
         let ns = row.ns.unwrap_or(f64::NAN);
         text += &format!(
             "{:.0e} {} at {}: {} at {} in {}, {mark}{ns:.0} ns per simulated ms\n",
-            choice.target, facts.unit, facts.output, row.method, row.pace, row.scalar
+            choice.target, facts.unit, facts.output, row.method, row.step_control, row.scalar
         );
     }
     text + &format!("written: {}\n", out.join("report.html").display())

@@ -1,6 +1,6 @@
 //! The record of a run: its points, and how they were computed.
 
-use bgdyn_codegen::scene::{Integration, Pace};
+use bgdyn_codegen::scene::{Integration, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::Audit;
 
@@ -129,9 +129,9 @@ impl Way {
     /// The same run, but for an error far below its own: half the step, a tenth of the tolerance.
     #[must_use]
     pub fn finer(mut self) -> Self {
-        self.integration.pace = match self.integration.pace {
-            Pace::Step(h) => Pace::Step(0.5 * h),
-            Pace::Tolerance(tolerance) => Pace::Tolerance(0.1 * tolerance),
+        self.integration.step_control = match self.integration.step_control {
+            StepControl::Step(h) => StepControl::Step(0.5 * h),
+            StepControl::Tolerance(tolerance) => StepControl::Tolerance(0.1 * tolerance),
         };
         self.audited = false;
         self

@@ -24,7 +24,7 @@ use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
 pub(crate) use check::sketch;
 pub use check::{Verdict, check, check_alone};
-pub use integration::{Integration, Integrator, Pace};
+pub use integration::{Integration, IntegratorName, StepControl};
 pub use overrides::{Override, OverrideKind};
 pub use signal::{InputSource, Waveform};
 

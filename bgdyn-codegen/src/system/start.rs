@@ -2,7 +2,7 @@
 //! rest of the state.
 
 use super::summed::summed;
-use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, settle_by};
+use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, resolve_stiction_by};
 use nalgebra::DVector;
 
 use super::holds::contacts_under;
@@ -75,16 +75,16 @@ fn modes(system: &SceneEquations, faults: &mut Faults) -> Vec<Dd> {
     });
     let by_slip = DVector::from_iterator(stated.len(), by_slip);
     let contacts = |modes: &DVector<Dd>| Ok::<_, ()>(start.contacts(modes));
-    let Ok(settled) = settle_by(&by_slip, Dd::ZERO, contacts) else {
+    let Ok(resolved) = resolve_stiction_by(&by_slip, Dd::ZERO, contacts) else {
         return system.initial.modes.clone();
     };
     for k in 0..stated.len() {
         let location = system.scene.stated_mode(k).filter(|_| !start.by_caller[k]);
-        if let Some(location) = location.filter(|_| stated[k] != settled[k]) {
-            faults.push(start.contradiction(&location, k, &stated, settled[k]));
+        if let Some(location) = location.filter(|_| stated[k] != resolved[k]) {
+            faults.push(start.contradiction(&location, k, &stated, resolved[k]));
         }
     }
-    settled.as_slice().to_vec()
+    resolved.as_slice().to_vec()
 }
 
 /// The contacts of a scene at its start, at any modes.

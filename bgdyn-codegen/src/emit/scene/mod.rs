@@ -1,4 +1,4 @@
-//! The module of a scene: types with named parts, the scene's functions, the trait `System`.
+//! The module of a scene: types with named parts, the scene's functions, the trait `HybridSystem`.
 
 mod constants;
 mod method;
@@ -45,9 +45,9 @@ pub fn scene_module(
     let explainers = explainers(functions, &naming, &quote! { T::Singular<{ NV + NX }> });
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
-    let slope = has(SceneFunction::Jacobian).then(|| system::slope_trait(&interface, &struct_name));
+    let slope = has(SceneFunction::Jacobian).then(|| system::slope_trait(&struct_name));
     let canonical = SceneFunction::CANONICAL.into_iter().all(has);
-    let canonical = canonical.then(|| system::canonical_trait(&interface, &struct_name));
+    let canonical = canonical.then(|| system::canonical_trait(&struct_name));
     let operations = counted(functions);
     let rebuild = rebuild(output);
     quote! {

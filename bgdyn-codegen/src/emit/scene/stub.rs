@@ -35,8 +35,8 @@ pub fn scene_stub(scene: &SceneInterface, output: &OutputOptions) -> TokenStream
     });
     let traits = [
         system::system_trait(scene, &model),
-        system::slope_trait(scene, &model),
-        system::canonical_trait(scene, &model),
+        system::slope_trait(&model),
+        system::canonical_trait(&model),
     ];
     let names: Vec<&str> = roles.map(SceneFunction::name).collect();
     let operations = operations(names.iter().map(|name| (*name, Operations::default())));

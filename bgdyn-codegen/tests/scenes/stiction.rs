@@ -1,4 +1,4 @@
-//! Which of the joints at rest hold: `settle` on scenes.
+//! Which of the joints at rest hold: `resolve_stiction` on scenes.
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
@@ -6,7 +6,7 @@ use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations as Equations;
 use bgdyn_runtime::nalgebra::SVector;
-use bgdyn_runtime::{Balance, Contact, System, settle};
+use bgdyn_runtime::{Balance, Contact, HybridSystem, resolve_stiction};
 
 use super::common::{read, scene};
 
@@ -61,9 +61,15 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize> Evaluate
     }
 }
 
-impl<const N: usize, const NM: usize, const NU: usize, const NE: usize>
-    System<f64, N, NM, NU, NE, 0, 0> for Evaluated<N, NM, NU, NE>
+impl<const N: usize, const NM: usize, const NU: usize, const NE: usize> HybridSystem<f64>
+    for Evaluated<N, NM, NU, NE>
 {
+    type State = SVector<f64, N>;
+    type Modes = SVector<f64, NM>;
+    type Inputs = SVector<f64, NU>;
+    type Events = SVector<f64, NE>;
+    type Outputs = SVector<f64, 0>;
+    type Entries = SVector<f64, 0>;
     type Singular = ();
 
     fn state_names(&self) -> &'static [&'static str; N] {
@@ -179,13 +185,13 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize>
 }
 
 /// One step of the classical Runge-Kutta method with the modes as they are.
-fn step<const N: usize, const NM: usize, const NU: usize, const NE: usize>(
-    system: &impl System<f64, N, NM, NU, NE, 0, 0, Singular = ()>,
-    y: &SVector<f64, N>,
-    modes: &SVector<f64, NM>,
-    input: &SVector<f64, NU>,
+fn step<S: HybridSystem<f64, State = SVector<f64, N>, Singular = ()>, const N: usize>(
+    system: &S,
+    y: &S::State,
+    modes: &S::Modes,
+    input: &S::Inputs,
     h: f64,
-) -> SVector<f64, N> {
+) -> S::State {
     let f = |y: &SVector<f64, N>| {
         system
             .derivative(y, modes, input, 0.0)
@@ -265,7 +271,7 @@ fn at_rest(random: &mut Random) -> (SVector<f64, 6>, SVector<f64, 3>) {
     (y, SVector::from([0; 3].map(|_| 12.0 * random.signed())))
 }
 
-/// Where friction is the same at rest and in motion there is one answer, and `settle` finds it.
+/// Where friction is the same at rest and in motion there is one answer, and `resolve_stiction` finds it.
 #[test]
 fn an_arm_at_rest_settles_in_the_only_way() {
     let arm = arm([16.0, 8.0, 3.0], [16.0, 8.0, 3.0]);
@@ -273,7 +279,8 @@ fn an_arm_at_rest_settles_in_the_only_way() {
     let mut seen = [0; 4];
     for _ in 0..400 {
         let (y, u) = at_rest(&mut random);
-        let found = settle(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
+        let found =
+            resolve_stiction(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
         assert_eq!(all_consistent(&arm, &y, &u), [found], "{y:?} {u:?}");
         seen[found.iter().filter(|m| **m != 0.0).count()] += 1;
     }
@@ -288,7 +295,8 @@ fn an_arm_at_rest_settles_consistently() {
     let mut several = 0;
     for _ in 0..400 {
         let (y, u) = at_rest(&mut random);
-        let found = settle(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
+        let found =
+            resolve_stiction(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
         let all = all_consistent(&arm, &y, &u);
         assert!(all.contains(&found), "{found:?} is none of {all:?}");
         if all.contains(&SVector::<f64, 3>::zeros()) {
@@ -299,7 +307,7 @@ fn an_arm_at_rest_settles_consistently() {
     assert!(several > 10, "{several}");
 }
 
-/// Joints that slip keep their modes while others settle.
+/// Joints that slip keep their modes while others are decided.
 #[test]
 fn moving_joints_keep_their_modes() {
     let arm = arm([5.0, 3.0, 1.0], [5.0, 3.0, 1.0]);
@@ -308,7 +316,7 @@ fn moving_joints_keep_their_modes() {
         let (mut y, u) = at_rest(&mut random);
         y[4] = -0.3;
         let modes = SVector::from([0.0, -1.0, 1.0]);
-        let found = settle(&arm, &y, &modes, &u, 0.0, 1e-9).expect("not singular");
+        let found = resolve_stiction(&arm, &y, &modes, &u, 0.0, 1e-9).expect("not singular");
         assert_eq!(found[1], -1.0);
         let contacts = (&arm as &Arm)
             .contacts(&y, &found, &u, 0.0)
@@ -330,7 +338,7 @@ fn a_held_arm_does_not_creep() {
     let arm = arm([60.0, 60.0, 60.0], [60.0, 60.0, 60.0]);
     let y = SVector::from([0.3, -0.7, 1.1, 0.0, 0.0, 0.0]);
     let u = SVector::from([2.0, -1.0, 0.5]);
-    let modes = settle(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
+    let modes = resolve_stiction(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
     assert_eq!(modes, SVector::<f64, 3>::zeros());
     let mut now = y;
     for _ in 0..200 {
@@ -357,7 +365,8 @@ fn a_joint_breaks_away_at_the_static_limit() {
         for (part, mode) in [(1.0 - 1e-9, 0.0), (1.0 + 1e-9, sign)] {
             let (u, holding) = held(weight + sign * 3.0 * part);
             assert!((holding + sign * 3.0 * part).abs() < 1e-12, "{holding}");
-            let found = settle(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
+            let found =
+                resolve_stiction(&arm, &y, &SVector::zeros(), &u, 0.0, 0.0).expect("not singular");
             assert_eq!(found, SVector::from([0.0, mode, 0.0]));
         }
     }
@@ -404,7 +413,7 @@ fn the_block_on_the_belt_sticks_and_slips() {
                 (taken, next) = (long, step(&belt, &y, &modes, &input, long));
                 // At the end of a slip the block moves with the belt.
                 next[1] = 0.1;
-                modes = settle(&belt, &next, &SVector::from([0.0]), &input, 0.0, 0.0)
+                modes = resolve_stiction(&belt, &next, &SVector::from([0.0]), &input, 0.0, 0.0)
                     .expect("not singular");
                 events.push(t + taken);
             }

@@ -1,9 +1,9 @@
 //! Locates the first instant of an event within a step.
 
-use crate::space::Real;
+use crate::real::Real;
 
 /// Evaluations at the most: bisection alone would need no more.
-const MOST: u32 = 400;
+const MAX_EVALUATIONS: u32 = 400;
 
 /// One end of the interval searched: where it is, and the value there.
 type End<T> = (T, T);
@@ -21,7 +21,7 @@ pub(crate) fn first_passage<T: Real, E>(
     let half = T::from_f64(0.5);
     // Which end moved last.
     let mut moved = None;
-    for i in 0..MOST {
+    for i in 0..MAX_EVALUATIONS {
         let length = high.0 - low.0;
         if length <= width {
             break;

@@ -7,7 +7,7 @@
 /// √x, correctly rounded; NaN of a negative x.
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline(always)]
-pub(crate) fn single(x: f32) -> f32 {
+pub(crate) fn sqrt_f32(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
@@ -15,7 +15,7 @@ pub(crate) fn single(x: f32) -> f32 {
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[allow(unsafe_code)]
 #[inline(always)]
-pub(crate) fn single(x: f32) -> f32 {
+pub(crate) fn sqrt_f32(x: f32) -> f32 {
     let mut bits = x.to_bits();
     // SAFETY: the ABI has single-precision registers, so the processor has VSQRT.F32. The compiler does
     // not give out those registers here (it asks for a target feature that no target of microcontrollers

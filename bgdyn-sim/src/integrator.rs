@@ -1,17 +1,17 @@
-//! The trait of integrators: one-step methods.
+//! The trait of integrators: one-step methods for ẏ = f(t, y).
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::Scalar as _;
+use bgdyn_runtime::{Scalar as _, StateVector};
 
 use crate::dense::Dense;
 use crate::failure::Reason;
 use crate::ode::{Ode, ScalarOf};
-use crate::space::{Of, Space};
+use crate::real::Of;
 
-/// What is known of a method beforehand.
+/// What is known of an integrator beforehand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Facts {
+pub struct IntegratorInfo {
     /// Its name in scenes: `rk4`.
     pub name: &'static str,
     /// Its order p: halving the step divides the error by 2ᵖ.
@@ -21,11 +21,13 @@ pub struct Facts {
     pub estimate: Option<u32>,
     /// Into how many parts a step is divided to look for events: long steps hold more.
     pub looks: u32,
+    /// Whether it reads the slopes of the rates, [`Ode::jacobian`].
+    pub reads_jacobian: bool,
 }
 
 /// A step that a method has tried.
 #[derive(Clone, Debug)]
-pub struct Step<Y: Space, S> {
+pub struct Step<Y: StateVector, S> {
     /// Its length.
     pub h: Of<Y>,
     /// y(t + h) − y(t)
@@ -36,7 +38,7 @@ pub struct Step<Y: Space, S> {
 
 /// Where a step begins.
 #[derive(Clone, Debug)]
-pub struct Start<'a, Y: Space, S> {
+pub struct Start<'a, Y: StateVector, S> {
     /// Time.
     pub t: Of<Y>,
     /// State.
@@ -49,12 +51,12 @@ pub struct Start<'a, Y: Space, S> {
 type Tried<T, O> = Result<T, Reason<<O as Ode>::Error>>;
 
 /// A one-step method on states `Y`.
-pub trait Method<Y: Space> {
+pub trait Integrator<Y: StateVector> {
     /// What a step leaves behind for its error, its dense output and the next step.
     type Stages: Clone + Debug;
 
     /// What is known of it beforehand.
-    fn facts(&self) -> Facts;
+    fn info(&self) -> IntegratorInfo;
 
     /// A step of length `h`.
     ///

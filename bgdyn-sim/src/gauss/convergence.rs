@@ -1,26 +1,26 @@
 //! Convergence test of an iteration, down to the level of rounding.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::failure::Reason;
-use crate::space::{Of, Real, Space, finite};
+use crate::real::{Of, Real, finite};
 
 /// Iterations at the most.
-const MOST: usize = 100;
+const MAX_ITERATIONS: usize = 100;
 /// What the next change may be, in units of rounding. It has the same sign step after step: what it
 /// leaves of the energy adds up, which rounding does not.
-const LEFT: f64 = 1e-5;
+const NEGLIGIBLE_CHANGE: f64 = 1e-5;
 /// Times in a row that the changes may fail to become smaller.
 const STALLS: usize = 2;
 
-/// Watches an iteration for the displacements of a step's stages.
+/// Monitors an iteration for the displacements of a step's stages.
 ///
 /// Changes are measured in units of rounding, of each component by itself and of all by the largest
 /// one: a component at rest may hold nothing but the rounding of others, and stiff rates multiply the
 /// rounding of what they come from. The iteration ends where the
 /// next change would be no part of a unit to speak of, or where neither measure becomes smaller
 /// any more and what changes is no more than rounding.
-pub(super) struct Watch<Y> {
+pub(super) struct ConvergenceMonitor<Y> {
     /// What the rounding of the rates is a part of: h |J| |y|, as far as the slopes are known.
     rates: Y,
     iterations: usize,
@@ -30,12 +30,12 @@ pub(super) struct Watch<Y> {
     stalls: usize,
 }
 
-impl<Y: Space> Watch<Y>
+impl<Y: StateVector> ConvergenceMonitor<Y>
 where
     Of<Y>: Real,
 {
     pub(super) fn new(rates: Y) -> Self {
-        Watch {
+        ConvergenceMonitor {
             rates,
             iterations: 0,
             own: f64::INFINITY,
@@ -62,7 +62,7 @@ where
         } else {
             1.0
         };
-        if own == 0.0 || own * falls < LEFT {
+        if own == 0.0 || own * falls < NEGLIGIBLE_CHANGE {
             return Ok(true);
         }
         if own < self.own || overall < self.overall {
@@ -77,11 +77,11 @@ where
         let digits = (Of::<Y>::EPSILON.ln() * third).exp().to_f64();
         let rounding = self.overall.min(of_rates) < 64.0 || self.own < digits;
         let settled = self.stalls >= 2 * STALLS && self.overall < digits;
-        let over = self.stalls >= STALLS || self.iterations >= MOST;
+        let over = self.stalls >= STALLS || self.iterations >= MAX_ITERATIONS;
         if over && (rounding || settled) {
             return Ok(true);
         }
-        if self.iterations >= MOST || self.stalls > 5 * STALLS {
+        if self.iterations >= MAX_ITERATIONS || self.stalls > 5 * STALLS {
             return Err(Reason::NoConvergence {
                 iterations: self.iterations,
                 change: overall,

@@ -1,7 +1,7 @@
-//! Which of several blocks at rest hold: `settle` against every combination there is.
+//! Which of several blocks at rest hold: `resolve_stiction` against every combination there is.
 
 use bgdyn_runtime::nalgebra::{SMatrix, SVector};
-use bgdyn_runtime::{Balance, Contact, System, settle};
+use bgdyn_runtime::{Balance, Contact, HybridSystem, resolve_stiction};
 
 /// Blocks coupled by a mass matrix under given forces, each with dry friction: M a = f − m ⊙ F_k where
 /// it slips, a = 0 where it is held.
@@ -43,7 +43,13 @@ impl<const K: usize> Blocks<K> {
     }
 }
 
-impl<const K: usize> System<f64, 0, K, 0, 0, 0, 0> for Blocks<K> {
+impl<const K: usize> HybridSystem<f64> for Blocks<K> {
+    type State = SVector<f64, 0>;
+    type Modes = SVector<f64, K>;
+    type Inputs = SVector<f64, 0>;
+    type Events = SVector<f64, 0>;
+    type Outputs = SVector<f64, 0>;
+    type Entries = SVector<f64, 0>;
     type Singular = ();
 
     fn state_names(&self) -> &'static [&'static str; 0] {
@@ -149,9 +155,9 @@ impl<const K: usize> System<f64, 0, K, 0, 0, 0, 0> for Blocks<K> {
 }
 
 impl<const K: usize> Blocks<K> {
-    fn settled(&self, modes: &SVector<f64, K>, rest: f64) -> SVector<f64, K> {
+    fn resolved(&self, modes: &SVector<f64, K>, rest: f64) -> SVector<f64, K> {
         let none = SVector::zeros();
-        settle(self, &none, modes, &none, 0.0, rest).expect("not singular")
+        resolve_stiction(self, &none, modes, &none, 0.0, rest).expect("not singular")
     }
 
     /// Every combination in which what holds is within its limit and what slips does not turn back.
@@ -207,7 +213,7 @@ fn the_only_one<const K: usize>(tries: usize) {
     let mut slipping = 0;
     for _ in 0..tries {
         let blocks = random.blocks::<K>(0.0);
-        let found = blocks.settled(&SVector::zeros(), 0.0);
+        let found = blocks.resolved(&SVector::zeros(), 0.0);
         assert_eq!(blocks.consistent(), [found]);
         slipping += found.iter().filter(|m| **m != 0.0).count();
     }
@@ -229,7 +235,7 @@ fn more_friction_at_rest_settles_consistently() {
     let (mut several, mut held) = (0, 0);
     for _ in 0..4000 {
         let blocks = random.blocks::<3>(0.5);
-        let found = blocks.settled(&SVector::zeros(), 0.0);
+        let found = blocks.resolved(&SVector::zeros(), 0.0);
         let all = blocks.consistent();
         assert!(all.contains(&found), "{found:?} is none of {all:?}");
         if all.contains(&SVector::<f64, 3>::zeros()) {
@@ -252,21 +258,21 @@ fn two_blocks_are_decided_together() {
         limit: SVector::from([floor, between]),
         slip: SVector::zeros(),
     };
-    let settled =
-        |pull, floor, between| blocks(pull, floor, between).settled(&SVector::zeros(), 0.0);
-    assert_eq!(settled(1.9, 4.0, 2.0), SVector::from([0.0, 0.0]));
+    let resolved =
+        |pull, floor, between| blocks(pull, floor, between).resolved(&SVector::zeros(), 0.0);
+    assert_eq!(resolved(1.9, 4.0, 2.0), SVector::from([0.0, 0.0]));
     assert_eq!(
-        settled(2.1, 4.0, 2.0),
+        resolved(2.1, 4.0, 2.0),
         SVector::from([0.0, 1.0]),
         "only the upper one slips"
     );
     assert_eq!(
-        settled(4.0, 3.0, 5.0),
+        resolved(4.0, 3.0, 5.0),
         SVector::from([1.0, 0.0]),
         "both go together"
     );
-    assert_eq!(settled(20.0, 3.0, 5.0), SVector::from([1.0, 1.0]));
-    assert_eq!(settled(-20.0, 3.0, 5.0), SVector::from([-1.0, -1.0]));
+    assert_eq!(resolved(20.0, 3.0, 5.0), SVector::from([1.0, 1.0]));
+    assert_eq!(resolved(-20.0, 3.0, 5.0), SVector::from([-1.0, -1.0]));
 }
 
 /// What moves keeps its mode; what is slower than `rest` is at rest; equal forces hold.
@@ -280,10 +286,10 @@ fn only_blocks_at_rest_are_decided() {
         slip: SVector::from([1e-3, 0.0]),
     };
     let modes = SVector::from([1.0, 1.0]);
-    assert_eq!(blocks.settled(&modes, 1e-6), SVector::from([1.0, 0.0]));
-    assert_eq!(blocks.settled(&modes, 1e-2), SVector::from([0.0, 0.0]));
+    assert_eq!(blocks.resolved(&modes, 1e-6), SVector::from([1.0, 0.0]));
+    assert_eq!(blocks.resolved(&modes, 1e-2), SVector::from([0.0, 0.0]));
     blocks.force[1] = -3.0000001;
-    assert_eq!(blocks.settled(&modes, 1e-6), SVector::from([1.0, -1.0]));
+    assert_eq!(blocks.resolved(&modes, 1e-6), SVector::from([1.0, -1.0]));
 }
 
 /// A number that is none ends it as well.
@@ -291,5 +297,5 @@ fn only_blocks_at_rest_are_decided() {
 fn nonsense_terminates() {
     let mut blocks = Random(3).blocks::<3>(0.0);
     blocks.force[1] = f64::NAN;
-    blocks.settled(&SVector::zeros(), 0.0);
+    blocks.resolved(&SVector::zeros(), 0.0);
 }

@@ -76,7 +76,7 @@ const SINGLE: Coefficients = Coefficients {
 };
 
 /// A number, or several of them.
-pub(crate) trait Pack:
+pub(crate) trait SineLanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// Angles up to here, in radians, take the branch-free path.
@@ -90,7 +90,7 @@ pub(crate) trait Pack:
     fn splat(x: f64) -> Self;
     /// self · b + c, rounded once where the target has an instruction for it.
     fn fused(self, b: Self, c: Self) -> Self;
-    /// c − self · b, as [`Pack::fused`].
+    /// c − self · b, as [`SineLanes::fused`].
     #[inline(always)]
     fn minus_product(self, b: Self, c: Self) -> Self {
         (-self).fused(b, c)
@@ -148,9 +148,9 @@ macro_rules! quarter_turns {
     }};
 }
 
-macro_rules! scalar_pack {
+macro_rules! scalar_lanes {
     ($float:ident, $bits:ident, $limit:literal, $magic:literal, $coefficients:ident, $fused:ident, $to_sign:literal) => {
-        impl Pack for $float {
+        impl SineLanes for $float {
             const LIMIT: f64 = $limit;
             const MAGIC: f64 = $magic;
             const COEFFICIENTS: Coefficients = $coefficients;
@@ -165,7 +165,7 @@ macro_rules! scalar_pack {
             }
             #[inline(always)]
             fn within(self) -> bool {
-                self.abs() <= <Self as Pack>::LIMIT as $float
+                self.abs() <= <Self as SineLanes>::LIMIT as $float
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {
@@ -178,7 +178,7 @@ macro_rules! scalar_pack {
         }
     };
 }
-scalar_pack!(
+scalar_lanes!(
     f64,
     u64,
     1e5,
@@ -187,15 +187,15 @@ scalar_pack!(
     fused_f64,
     62
 );
-scalar_pack!(f32, u32, 1e4, 12_582_912.0, SINGLE, fused_f32, 30);
+scalar_lanes!(f32, u32, 1e4, 12_582_912.0, SINGLE, fused_f32, 30);
 
 #[cfg(any(feature = "wide", target_arch = "x86_64", target_arch = "aarch64"))]
-macro_rules! lane_pack {
+macro_rules! register_lanes {
     ($($lanes:ident of $float:ident, $bits:ident, $to_sign:literal;)*) => {$(
-        impl Pack for wide::$lanes {
-            const LIMIT: f64 = <$float as Pack>::LIMIT;
-            const MAGIC: f64 = <$float as Pack>::MAGIC;
-            const COEFFICIENTS: Coefficients = <$float as Pack>::COEFFICIENTS;
+        impl SineLanes for wide::$lanes {
+            const LIMIT: f64 = <$float as SineLanes>::LIMIT;
+            const MAGIC: f64 = <$float as SineLanes>::MAGIC;
+            const COEFFICIENTS: Coefficients = <$float as SineLanes>::COEFFICIENTS;
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
@@ -207,7 +207,7 @@ macro_rules! lane_pack {
             }
             #[inline(always)]
             fn within(self) -> bool {
-                self.abs().simd_le(wide::$lanes::splat(<$float as Pack>::LIMIT as $float)).all()
+                self.abs().simd_le(wide::$lanes::splat(<$float as SineLanes>::LIMIT as $float)).all()
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {
@@ -223,7 +223,7 @@ macro_rules! lane_pack {
     )*};
 }
 #[cfg(any(feature = "wide", target_arch = "x86_64", target_arch = "aarch64"))]
-lane_pack! {
+register_lanes! {
     f64x2 of f64, u64x2, 62_u32;
     f64x4 of f64, u64x4, 62_u32;
     f64x8 of f64, u64x8, 62_u32;

@@ -1,43 +1,45 @@
 //! The list of integrators that a scene or a command can name.
 
+use bgdyn_runtime::StateVector;
+
 use crate::dop853::Dop853;
 use crate::dopri5::Dopri5;
 use crate::extrapolation::Extrapolation12;
 use crate::gauss::{Gauss2, Gauss3, Gauss4, Midpoint};
-use crate::method::Method;
+use crate::integrator::Integrator;
+use crate::real::{Of, Real};
 use crate::rk4::Rk4;
 use crate::rodas4::Rodas4;
 use crate::semi_implicit_euler::SemiImplicitEuler;
-use crate::space::{Of, Real, Space};
 
-/// What is to be done with a method that is chosen by name.
-pub trait WithMethod<Y: Space> {
+/// What is to be done with an integrator that is chosen by name.
+pub trait WithIntegrator<Y: StateVector> {
     /// What comes of it.
     type Output;
 
     /// Does it.
-    fn with<M: Method<Y>>(self, method: M) -> Self::Output;
+    fn with<M: Integrator<Y>>(self, integrator: M) -> Self::Output;
 }
 
-macro_rules! methods {
-    ($($name:literal => $method:expr,)*) => {
-        /// Names of all methods, in the order of the list.
-        pub const METHODS: &[&str] = &[$($name),*];
+macro_rules! integrators {
+    ($($name:literal => $integrator:expr,)*) => {
+        /// Names of all integrators, in the order of the list.
+        pub const INTEGRATORS: &[&str] = &[$($name),*];
 
-        /// Does something with the method of this name; `None` where there is none.
-        pub fn with_method<Y: Space, W: WithMethod<Y>>(name: &str, what: W) -> Option<W::Output>
+        /// Does something with the integrator of this name; `None` where there is none.
+        pub fn with_integrator<Y: StateVector, W: WithIntegrator<Y>>(name: &str, what: W) -> Option<W::Output>
         where
             Of<Y>: Real,
         {
             match name {
-                $($name => Some(what.with($method)),)*
+                $($name => Some(what.with($integrator)),)*
                 _ => None,
             }
         }
     };
 }
 
-methods! {
+integrators! {
     "semi_implicit_euler" => SemiImplicitEuler,
     "rk4" => Rk4,
     "midpoint" => Midpoint::<Of<Y>>::new(),

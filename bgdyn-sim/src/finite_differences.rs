@@ -1,18 +1,18 @@
 //! Jacobians of the rates by finite differences.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::ode::{Jacobian, Ode, ScalarOf};
-use crate::space::{Of, Real, Space};
+use crate::real::{Of, Real};
 
 /// An equation whose slopes are taken from central differences of its rates, for methods that need
 /// them where nobody derived them. They cost two evaluations per component, and two thirds of the
 /// digits are right: enough for a Rosenbrock method's stability, while its error falls with its
 /// order only as far as those digits go.
 #[derive(Clone, Copy, Debug)]
-pub struct Differenced<O>(pub O);
+pub struct FiniteDifferences<O>(pub O);
 
-impl<O: Ode> Ode for Differenced<O>
+impl<O: Ode> Ode for FiniteDifferences<O>
 where
     ScalarOf<O>: Real,
 {

@@ -1,9 +1,7 @@
 //! Decides which contacts hold and which slip, for all joints at rest together.
 
-use nalgebra::allocator::Allocator;
-use nalgebra::{DefaultAllocator, Dim, OVector, SVector};
-
-use crate::{Contact, Scalar, System};
+use crate::state_vector::StateVector;
+use crate::{Contact, HybridSystem, Scalar};
 
 /// The modes of a scene's dry friction at an instant: which of the joints at rest hold, and in which
 /// direction the others begin to slip.
@@ -27,33 +25,20 @@ use crate::{Contact, Scalar, System};
 /// that of all combinations.
 ///
 /// # Errors
-/// As [`System::derivative`].
-#[allow(
-    clippy::too_many_arguments,
-    reason = "the state, and what counts as rest"
-)]
-pub fn settle<
-    T,
-    S,
-    const N: usize,
-    const NM: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
->(
+/// As [`HybridSystem::derivative`].
+pub fn resolve_stiction<T, S>(
     system: &S,
-    y: &SVector<T, N>,
-    modes: &SVector<T, NM>,
-    input: &SVector<T, NU>,
+    y: &S::State,
+    modes: &S::Modes,
+    input: &S::Inputs,
     t: T,
     rest: T,
-) -> Result<SVector<T, NM>, S::Singular>
+) -> Result<S::Modes, S::Singular>
 where
     T: Scalar<Mask = bool>,
-    S: System<T, N, NM, NU, NE, NY, NP>,
+    S: HybridSystem<T>,
 {
-    settle_by(modes, rest, |modes| system.contacts(y, modes, input, t))
+    resolve_stiction_by(modes, rest, |modes| system.contacts(y, modes, input, t))
 }
 
 /// The mode that a coordinate's slip calls for: 0 where it is at rest against its counterpart, which
@@ -70,53 +55,56 @@ pub fn mode_by_slip<T: Scalar<Mask = bool>>(mode: T, slip: T, rest: T) -> T {
     }
 }
 
-/// [`settle`] for contacts that come from elsewhere, of a number known when compiling or when
+/// [`resolve_stiction`] for contacts that come from elsewhere, of a number known when compiling or when
 /// running: `contacts` gives one per mode, at the modes it is asked for.
 ///
 /// # Errors
 /// Those of `contacts`.
-pub fn settle_by<T, D, C, E>(
-    modes: &OVector<T, D>,
+pub fn resolve_stiction_by<T, M, C, E>(
+    modes: &M,
     rest: T,
-    contacts: impl Fn(&OVector<T, D>) -> Result<C, E>,
-) -> Result<OVector<T, D>, E>
+    contacts: impl Fn(&M) -> Result<C, E>,
+) -> Result<M, E>
 where
     T: Scalar<Mask = bool>,
-    D: Dim,
+    M: StateVector<Scalar = T>,
     C: AsRef<[Contact<T>]>,
-    DefaultAllocator: Allocator<D>,
 {
     let zero = T::from_f64(0.0);
+    let count = modes.entries().len();
+    let mut resting = modes.array(false);
+    let resting = resting.as_mut();
     let mut now = modes.clone();
-    let (size, one) = modes.shape_generic();
-    let mut resting = OVector::<bool, D>::from_element_generic(size, one, false);
     for (k, contact) in contacts(modes)?.as_ref().iter().enumerate() {
-        resting[k] = modes[k] == zero || !rest.less(contact.slip.abs());
+        resting[k] = modes.entries()[k] == zero || !rest.less(contact.slip.abs());
         if resting[k] {
-            now[k] = zero;
+            now.entries_mut()[k] = zero;
         }
     }
     // Which broke away at this instant.
-    let mut broken = resting.map(|_| false);
-    for _ in 0..combinations(modes.len()) {
+    let mut broken = modes.array(false);
+    let broken = broken.as_mut();
+    for _ in 0..combinations(count) {
         let found = contacts(&now)?;
         let found = found.as_ref();
         let mut changed = None;
-        for k in (0..modes.len()).filter(|&k| resting[k]) {
-            changed = if now[k] != zero {
-                turns_back(now[k], &found[k]).then_some(zero)
+        for k in (0..count).filter(|&k| resting[k]) {
+            let mode = now.entries()[k];
+            changed = if mode != zero {
+                turns_back(mode, &found[k]).then_some(zero)
             } else if broken[k] {
                 // Does it slip on against the effort of slipping?
                 let mut tried = now.clone();
-                tried[k] = against(&found[k]);
-                let slips = tried[k] * contacts(&tried)?.as_ref()[k].slip_rate;
-                zero.less(slips).then_some(tried[k])
+                let slip = against(&found[k]);
+                tried.entries_mut()[k] = slip;
+                let slips = slip * contacts(&tried)?.as_ref()[k].slip_rate;
+                zero.less(slips).then_some(slip)
             } else {
                 broken[k] = found[k].margin.less(zero);
                 broken[k].then(|| against(&found[k]))
             };
             if let Some(mode) = changed {
-                now[k] = mode;
+                now.entries_mut()[k] = mode;
                 break;
             }
         }

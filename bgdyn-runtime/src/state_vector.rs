@@ -1,67 +1,20 @@
-//! The vector operations on states that integrators need.
+//! Vectors of scalars that scenes and integrators share: of a size known when compiling, or when running.
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::{Dd, Scalar};
 use nalgebra::{SMatrix, SVector};
 
-/// A scalar that is one number: what step control and iterations need to compare.
-pub trait Real: Scalar<Mask = bool> + PartialOrd {
-    /// A bound on the relative rounding error of one operation.
-    const EPSILON: Self;
+use crate::Scalar;
 
-    /// The nearest `f64`.
-    fn to_f64(self) -> f64;
-
-    /// Whether it is neither infinite nor NaN.
-    fn is_finite(self) -> bool;
-}
-
-impl Real for f64 {
-    const EPSILON: Self = f64::EPSILON;
-
-    fn to_f64(self) -> f64 {
-        self
-    }
-
-    fn is_finite(self) -> bool {
-        f64::is_finite(self)
-    }
-}
-
-impl Real for f32 {
-    const EPSILON: Self = f32::EPSILON;
-
-    fn to_f64(self) -> f64 {
-        self.into()
-    }
-
-    fn is_finite(self) -> bool {
-        f32::is_finite(self)
-    }
-}
-
-impl Real for Dd {
-    const EPSILON: Self = Dd::EPSILON;
-
-    fn to_f64(self) -> f64 {
-        Dd::to_f64(self)
-    }
-
-    fn is_finite(self) -> bool {
-        Dd::is_finite(self)
-    }
-}
-
-/// A vector space of states, of a size known when compiling ([`SVector`]) or, with the feature
-/// `std`, when running (`DVector`).
-pub trait Space: Clone + Debug {
+/// A vector that an integrator can work with, of a size known when compiling ([`SVector`]) or, with
+/// the feature `alloc`, when running (`DVector`).
+pub trait StateVector: Clone + Debug + PartialEq {
     /// What its components are.
     type Scalar: Scalar;
-    /// A square matrix on it.
+    /// A square matrix that maps such vectors to each other.
     type Matrix: Clone + Debug;
-    /// One row number per component.
-    type Pivots: Clone + Debug + AsRef<[usize]> + AsMut<[usize]>;
+    /// One value of any type per component.
+    type Array<X: Copy + Debug + 'static>: Clone + Debug + AsRef<[X]> + AsMut<[X]> + 'static;
 
     /// The components.
     fn entries(&self) -> &[Self::Scalar];
@@ -71,8 +24,8 @@ pub trait Space: Clone + Debug {
     fn zero(&self) -> Self;
     /// The zero matrix.
     fn matrix(&self) -> Self::Matrix;
-    /// The row numbers 0, 0, …
-    fn pivots(&self) -> Self::Pivots;
+    /// The same value for every component.
+    fn array<X: Copy + Debug + 'static>(&self, value: X) -> Self::Array<X>;
     /// A matrix's entries, column by column.
     fn columns(matrix: &Self::Matrix) -> &[Self::Scalar];
     /// A matrix's entries, column by column, to be changed.
@@ -114,38 +67,29 @@ pub trait Space: Clone + Debug {
     }
 }
 
-/// The components of the vectors of `Y`.
-pub type Of<Y> = <Y as Space>::Scalar;
+/// One value of the type `X` per component of the vectors `V`.
+pub type ArrayOf<V, X> = <V as StateVector>::Array<X>;
+/// The square matrices that map the vectors `V` to each other.
+pub type MatrixOf<V> = <V as StateVector>::Matrix;
 
-/// The largest of |x|ᵢ/sᵢ; a component whose scale is 0 counts only if it is not 0 itself. NaN
-/// where a component is.
-pub(crate) fn largest<Y: Space>(x: &Y, scale: &Y) -> Of<Y>
-where
-    Of<Y>: Real,
-{
-    let zero = Of::<Y>::from_f64(0.0);
-    let ratios = x.entries().iter().zip(scale.entries());
-    ratios.fold(zero, |most, (&x, &s)| {
-        if x == zero {
-            most
-        } else {
-            most.max(x.abs() / s)
-        }
-    })
+/// A vector of a size known when compiling: a scene's state, its modes, inputs, events, outputs.
+pub trait FixedVector: StateVector + Copy {
+    /// The number of components.
+    const LEN: usize;
+
+    /// The vector of the components that `entry` gives, by their index.
+    fn from_entries(entry: impl FnMut(usize) -> Self::Scalar) -> Self;
+
+    /// The zero vector.
+    fn zero_vector() -> Self {
+        Self::from_entries(|_| Self::Scalar::from_f64(0.0))
+    }
 }
 
-/// Whether every component is finite.
-pub(crate) fn finite<Y: Space>(x: &Y) -> bool
-where
-    Of<Y>: Real,
-{
-    x.entries().iter().all(|x| x.is_finite())
-}
-
-impl<T: Scalar, const N: usize> Space for SVector<T, N> {
+impl<T: Scalar, const N: usize> StateVector for SVector<T, N> {
     type Scalar = T;
     type Matrix = SMatrix<T, N, N>;
-    type Pivots = [usize; N];
+    type Array<X: Copy + Debug + 'static> = [X; N];
 
     fn entries(&self) -> &[T] {
         self.as_slice()
@@ -163,8 +107,8 @@ impl<T: Scalar, const N: usize> Space for SVector<T, N> {
         SMatrix::repeat(T::from_f64(0.0))
     }
 
-    fn pivots(&self) -> [usize; N] {
-        [0; N]
+    fn array<X: Copy + Debug + 'static>(&self, value: X) -> [X; N] {
+        [value; N]
     }
 
     fn columns(matrix: &Self::Matrix) -> &[T] {
@@ -176,20 +120,31 @@ impl<T: Scalar, const N: usize> Space for SVector<T, N> {
     }
 }
 
-#[cfg(feature = "std")]
-mod dynamic {
-    use std::vec;
-    use std::vec::Vec;
+impl<T: Scalar, const N: usize> FixedVector for SVector<T, N> {
+    const LEN: usize = N;
 
-    use bgdyn_runtime::Scalar;
+    fn from_entries(mut entry: impl FnMut(usize) -> T) -> Self {
+        SVector::from_fn(|i, _| entry(i))
+    }
+}
+
+#[cfg(feature = "alloc")]
+mod dynamic {
+    extern crate alloc;
+
+    use alloc::vec;
+    use alloc::vec::Vec;
+    use core::fmt::Debug;
+
     use nalgebra::{DMatrix, DVector};
 
-    use super::Space;
+    use super::StateVector;
+    use crate::Scalar;
 
-    impl<T: Scalar> Space for DVector<T> {
+    impl<T: Scalar> StateVector for DVector<T> {
         type Scalar = T;
         type Matrix = DMatrix<T>;
-        type Pivots = Vec<usize>;
+        type Array<X: Copy + Debug + 'static> = Vec<X>;
 
         fn entries(&self) -> &[T] {
             self.as_slice()
@@ -207,8 +162,8 @@ mod dynamic {
             DMatrix::repeat(self.len(), self.len(), T::from_f64(0.0))
         }
 
-        fn pivots(&self) -> Vec<usize> {
-            vec![0; self.len()]
+        fn array<X: Copy + Debug + 'static>(&self, value: X) -> Vec<X> {
+            vec![value; self.len()]
         }
 
         fn columns(matrix: &DMatrix<T>) -> &[T] {
