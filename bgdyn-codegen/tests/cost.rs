@@ -45,9 +45,9 @@ fn a_sum_takes_one_product_with_it() {
 fn a_tree_of_sums_costs_less_than_a_chain() {
     let b = Builder::new();
     let x: Vec<_> = (0..8).map(|k| b.leaf(Leaf::Velocity(k))).collect();
-    let chain = x[1..].iter().fold(x[0], |sum, &y| sum + y).expr();
+    let chain = x[1..].iter().fold(x[0], |sum, &y| sum + y).signed();
     let pairs: Vec<_> = x.chunks(2).map(|p| p[0] + p[1]).collect();
-    let tree = ((pairs[0] + pairs[1]) + (pairs[2] + pairs[3])).expr();
+    let tree = ((pairs[0] + pairs[1]) + (pairs[2] + pairs[3])).signed();
     let graph = b.into_graph();
     let (chain, tree) = (cost(&graph, &[chain]), cost(&graph, &[tree]));
     assert_eq!(parts(&chain), (0, 7, 0, 7));

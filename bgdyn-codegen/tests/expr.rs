@@ -203,7 +203,7 @@ fn counting() {
     let b = Builder::new();
     let [x, y, z] = [0, 1, 2].map(|k| b.leaf(Leaf::Velocity(k)));
     let counted = |outputs: &[Expr<'_>]| {
-        let outputs: Vec<Signed> = outputs.iter().map(|e| e.expr()).collect();
+        let outputs: Vec<Signed> = outputs.iter().map(|e| e.signed()).collect();
         b.with_graph(|g| count(g, &outputs))
     };
     // A distinct product counts once, signs and arguments are free, what nobody reads is dead.

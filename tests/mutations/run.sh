@@ -107,7 +107,7 @@ mutate "properties: rates" $recursion/kinematics.rs \
 mutate "derivatives" $src/expr/diff.rs \
     'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
 mutate "derivatives, solved" $src/formulation/derivatives/forward_dynamics.rs \
-    '(-builder.ex(e)).expr()' 'builder.ex(e).expr()' "${codegen[@]}" motions derivatives
+    '(-builder.expr(e)).signed()' 'builder.expr(e).signed()' "${codegen[@]}" motions derivatives
 mutate "generated text" $src/emit/writer.rs \
     'quote! { #left - #right }' 'quote! { #left + #right }' "${codegen[@]}" text
 mutate "compiled = evaluator" $src/emit/writer.rs \

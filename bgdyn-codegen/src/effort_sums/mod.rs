@@ -124,5 +124,5 @@ pub(crate) fn copied<'g>(
     };
     let outputs = &function.blocks[0].outputs;
     let copies = b.with_graph(|g| copy_into(g, &function.graph, outputs, leaf));
-    copies.into_iter().map(|e| b.ex(e)).collect()
+    copies.into_iter().map(|e| b.expr(e)).collect()
 }

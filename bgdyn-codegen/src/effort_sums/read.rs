@@ -161,9 +161,9 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     /// ∂x/∂q_j
     pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
         let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| g.constant(Dd::ONE));
-        let x = x.expr();
+        let x = x.signed();
         let slope = self.b.with_graph(|g| Tangent::new(seed).of(g, x));
-        self.b.ex(slope)
+        self.b.expr(slope)
     }
 
     /// Axes and origin of a place in the world.

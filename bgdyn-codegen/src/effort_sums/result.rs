@@ -20,7 +20,7 @@ impl<'g> EffortSums<'g, '_> {
             t: Some(Dd::ZERO),
             passed: vec![],
         };
-        let x = x.expr();
+        let x = x.signed();
         let mut refused = Dd::none_refused();
         let values = self
             .b
@@ -73,7 +73,7 @@ impl<'g> EffortSums<'g, '_> {
 
     /// The positions that an expression depends on.
     pub(crate) fn positions_of(&self, x: Expr<'g>) -> Vec<usize> {
-        let x = x.expr();
+        let x = x.signed();
         self.b.with_graph(|g| {
             let needed = crate::expr::reachable(g, &[x]);
             let needed = (0..g.len()).filter(|&i| needed[i]);

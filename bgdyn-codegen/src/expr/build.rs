@@ -79,7 +79,7 @@ impl Builder {
     }
 
     /// An expression made in this graph.
-    pub fn ex(&self, expr: Signed) -> Expr<'_> {
+    pub fn expr(&self, expr: Signed) -> Expr<'_> {
         self.make(|_| expr)
     }
 
@@ -130,7 +130,7 @@ impl Builder {
 
     /// Cosine and sine of the exact sum of angles and a constant.
     pub fn cos_sin(&self, angles: &[Expr<'_>], offset: Dd) -> (Expr<'_>, Expr<'_>) {
-        let terms: Vec<Signed> = angles.iter().map(|a| a.expr()).collect();
+        let terms: Vec<Signed> = angles.iter().map(|a| a.signed()).collect();
         let angle = self.graph.borrow_mut().angle(&terms, offset);
         (self.make(|g| g.cos(angle)), self.make(|g| g.sin(angle)))
     }
@@ -138,7 +138,7 @@ impl Builder {
 
 impl<'g> Expr<'g> {
     /// The expression in the graph.
-    pub fn expr(self) -> Signed {
+    pub fn signed(self) -> Signed {
         match self.value {
             Operand::Number(x) => self.builder.graph.borrow_mut().constant(x),
             Operand::Node(expr) => expr,
@@ -188,23 +188,23 @@ impl<'g> Expr<'g> {
 
     /// Its value as a checked pivot of `joint`; see [`super::Node::Pivot`].
     pub fn pivot(self, magnitude: Self, joint: usize) -> Self {
-        let (value, magnitude) = (self.expr(), magnitude.expr());
+        let (value, magnitude) = (self.signed(), magnitude.signed());
         self.builder.make(|g| g.pivot(value, magnitude, joint))
     }
 
     /// Its square root.
     pub fn sqrt(self) -> Self {
-        let value = self.expr();
+        let value = self.signed();
         self.builder.make(|g| g.sqrt(value))
     }
 
     fn of(self, f: impl FnOnce(&mut Graph, Signed) -> Signed) -> Self {
-        let value = self.expr();
+        let value = self.signed();
         self.builder.make(|g| f(g, value))
     }
 
     fn of_two(self, b: Self, f: impl FnOnce(&mut Graph, Signed, Signed) -> Signed) -> Self {
-        let (x, y) = (self.expr(), b.expr());
+        let (x, y) = (self.signed(), b.signed());
         self.builder.make(|g| f(g, x, y))
     }
 
@@ -248,7 +248,7 @@ impl<'g> Expr<'g> {
         if let (Some(x), Some(y)) = (self.as_constant(), bound.as_constant()) {
             return if x < y { yes } else { no };
         }
-        let (x, y, yes, no) = (self.expr(), bound.expr(), yes.expr(), no.expr());
+        let (x, y, yes, no) = (self.signed(), bound.signed(), yes.signed(), no.signed());
         self.builder.make(|g| {
             let condition = g.less(x, y);
             g.select(condition, yes, no)
@@ -325,7 +325,7 @@ impl Div for Expr<'_> {
         match b.value {
             Operand::Number(k) if k != Dd::ZERO => self.times(Dd::ONE / k),
             _ => {
-                let (x, y) = (self.expr(), b.expr());
+                let (x, y) = (self.signed(), b.signed());
                 self.builder.make(|g| g.div(x, y))
             }
         }

@@ -72,13 +72,13 @@ impl<'g> SiteMotion<'g> {
 
 /// Rates of change along the motion, the velocities held.
 fn rates<'g>(b: &'g Builder, x: &[Expr<'g>], v: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    let velocities: Vec<_> = v.iter().map(|v| v.expr()).collect();
+    let velocities: Vec<_> = v.iter().map(|v| v.signed()).collect();
     let mut rate = Tangent::new(|_: &mut Graph, leaf| match leaf {
         Leaf::Position(j) => Some(velocities[j]),
         _ => None,
     });
-    let x: Vec<_> = x.iter().map(|e| e.expr()).collect();
+    let x: Vec<_> = x.iter().map(|e| e.signed()).collect();
     x.into_iter()
-        .map(|e| b.ex(b.with_graph(|g| rate.of(g, e))))
+        .map(|e| b.expr(b.with_graph(|g| rate.of(g, e))))
         .collect()
 }

@@ -180,26 +180,26 @@ impl Along {
         let layout = &system.scene.layout;
         let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
         let mut tangents: Vec<(Leaf, Signed)> = Vec::new();
-        tangents.extend((0..nq).map(|j| (Leaf::Position(j), sums.v[j].expr())));
-        tangents.extend((0..nv).map(|j| (Leaf::Velocity(j), rates[j].expr())));
-        tangents.extend((0..nx).map(|i| (Leaf::State(i), rates[nv + i].expr())));
+        tangents.extend((0..nq).map(|j| (Leaf::Position(j), sums.v[j].signed())));
+        tangents.extend((0..nv).map(|j| (Leaf::Velocity(j), rates[j].signed())));
+        tangents.extend((0..nx).map(|i| (Leaf::State(i), rates[nv + i].signed())));
         // A reference's place moves with its rate.
         for (i, part) in layout.inputs.iter().enumerate() {
             let rate = crate::scene::Level::Rate.name(&part.name);
             if let Some(k) = layout.inputs.iter().position(|p| p.name == rate) {
-                tangents.push((Leaf::Input(i), sums.inputs()[k].expr()));
+                tangents.push((Leaf::Input(i), sums.inputs()[k].signed()));
             }
         }
         Along { tangents }
     }
 
     fn rate<'g>(&mut self, b: &'g Builder, x: Expr<'g>) -> Expr<'g> {
-        let x = x.expr();
+        let x = x.signed();
         let seed = |_: &mut Graph, leaf: Leaf| {
             let found = self.tangents.iter().find(|(l, _)| *l == leaf);
             found.map(|(_, tangent)| *tangent)
         };
         let rate = b.with_graph(|g| Tangent::new(seed).of(g, x));
-        b.ex(rate)
+        b.expr(rate)
     }
 }

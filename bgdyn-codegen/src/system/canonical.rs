@@ -224,7 +224,7 @@ impl Drift {
                 });
                 let momenta =
                     expressions(&MomentumFunction::Product.of_joints(system, sums)).into_iter();
-                let moved = momenta.map(|p| b.ex(b.with_graph(|g| along.of(g, p))));
+                let moved = momenta.map(|p| b.expr(b.with_graph(|g| along.of(g, p))));
                 moved.zip(bias).map(|(moved, &bias)| moved - bias).collect()
             }
             Drift::Energy => {

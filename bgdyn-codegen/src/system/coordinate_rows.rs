@@ -13,7 +13,7 @@ pub(super) fn link_accelerations<'g>(
     system: &SceneEquations,
 ) -> Vec<Expr<'g>> {
     let efforts: Vec<Signed> = (0..system.graph.coordinates.len())
-        .map(|j| sums.effort(j).expr())
+        .map(|j| sums.effort(j).signed())
         .collect();
     let placed = |_: &mut Graph, leaf| match leaf {
         Leaf::Input(j) => Some(efforts[j]),
@@ -21,7 +21,7 @@ pub(super) fn link_accelerations<'g>(
     };
     let outputs = &forward.blocks[0].outputs;
     let copies = b.with_graph(|g| copy_into(g, &forward.graph, outputs, placed));
-    copies.into_iter().map(|e| b.ex(e)).collect()
+    copies.into_iter().map(|e| b.expr(e)).collect()
 }
 
 /// Inertia of a coordinate that stores its own momentum.

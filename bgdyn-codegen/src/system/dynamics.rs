@@ -103,7 +103,7 @@ pub(super) fn efforts<'g>(
     sums: &EffortSums<'g, '_>,
     at: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    let placed: Vec<Signed> = at.iter().map(|a| a.expr()).collect();
+    let placed: Vec<Signed> = at.iter().map(|a| a.signed()).collect();
     let links = copied(
         sums.b,
         (&system.graph, sums.asked),

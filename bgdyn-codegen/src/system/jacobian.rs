@@ -44,14 +44,14 @@ fn leaves(system: &SceneEquations) -> impl Iterator<Item = Leaf> + use<> {
 fn slopes<'g>(b: &'g Builder, leaf: Leaf, of: impl Iterator<Item = Expr<'g>>) -> Vec<Expr<'g>> {
     let seed = |g: &mut Graph, l| (l == leaf).then(|| g.constant(Dd::ONE));
     let mut tangent = Tangent::new(seed);
-    of.map(|x| x.expr())
-        .map(|x| b.ex(b.with_graph(|g| tangent.of(g, x))))
+    of.map(|x| x.signed())
+        .map(|x| b.expr(b.with_graph(|g| tangent.of(g, x))))
         .collect()
 }
 
 /// The expressions without their graph.
 pub(super) fn expressions(all: &[Expr<'_>]) -> Vec<Signed> {
-    all.iter().map(|x| x.expr()).collect()
+    all.iter().map(|x| x.signed()).collect()
 }
 
 /// The graph of ẏ differentiated.
@@ -66,7 +66,7 @@ fn differentiated(system: &SceneEquations) -> Function {
         };
         let of = &derivative.blocks[0].outputs;
         let rates = b.with_graph(|g| copy_into(g, &derivative.graph, of, placed));
-        let rates: Vec<Expr<'_>> = rates.into_iter().map(|e| b.ex(e)).collect();
+        let rates: Vec<Expr<'_>> = rates.into_iter().map(|e| b.expr(e)).collect();
         let columns = leaves(system).map(|leaf| slopes(&b, leaf, rates.iter().copied()));
         expressions(&columns.flatten().collect::<Vec<_>>())
     };
@@ -183,7 +183,7 @@ impl Response {
             _ => None,
         };
         let copies = b.with_graph(|g| copy_into(g, &self.graph, &self.outputs, placed));
-        copies.into_iter().map(|e| b.ex(e)).collect()
+        copies.into_iter().map(|e| b.expr(e)).collect()
     }
 }
 

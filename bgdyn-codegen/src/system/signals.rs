@@ -82,9 +82,9 @@ fn rate_of<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
 /// d/dt
 fn rate<'g>(b: &'g Builder, x: Expr<'g>) -> Expr<'g> {
     let seed = |g: &mut Graph, leaf| (leaf == Leaf::Time).then(|| g.constant(Dd::ONE));
-    let x = x.expr();
+    let x = x.signed();
     let rate = b.with_graph(|g| Tangent::new(seed).of(g, x));
-    b.ex(rate)
+    b.expr(rate)
 }
 
 /// A course in time.

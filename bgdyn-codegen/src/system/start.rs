@@ -103,7 +103,7 @@ impl<'a> Start<'a> {
         let rows: Vec<Signed> = {
             let sums = system.laws_under_driven_inputs(&b);
             let all = contacts_under(system, &sums).into_iter().flatten();
-            all.map(|x| x.expr()).collect()
+            all.map(|x| x.signed()).collect()
         };
         let graph = b.into_graph();
         let given = |row: &[Signed]| {

@@ -52,9 +52,9 @@ impl Formulation for Differentiated {
         let (b, x) = reopened(&from);
         let outputs = if method == Method::CoriolisMatrix {
             // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
-            let half = |e: Expr<'_>| (e * Dd::from_f64(0.5)).expr();
+            let half = |e: Expr<'_>| (e * Dd::from_f64(0.5)).signed();
             let columns = derivatives(&b, &x, n, Leaf::Velocity);
-            rows(&columns).into_iter().map(|e| half(b.ex(e))).collect()
+            rows(&columns).into_iter().map(|e| half(b.expr(e))).collect()
         } else {
             let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
             outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));

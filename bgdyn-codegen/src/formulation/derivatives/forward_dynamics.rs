@@ -40,7 +40,7 @@ impl ForwardDerivatives {
         };
         let results = &slopes.blocks[0].outputs;
         let slopes = builder.with_graph(|g| copy_into(g, &slopes.graph, results, placed));
-        let minus = |e: Signed| (-builder.ex(e)).expr();
+        let minus = |e: Signed| (-builder.expr(e)).signed();
         let column = |square: &[Signed], j: usize| square.chunks(n).map(|r| minus(r[j])).collect();
         let columns = slopes.chunks((n * n).max(1));
         let columns = columns.flat_map(|square| (0..n).map(move |j| column(square, j)));
@@ -132,7 +132,7 @@ impl ForwardDerivatives {
         let mut drive = first.clone();
         for (index, &row) in rows.iter().enumerate() {
             let leaf = Leaf::Passed { block, index };
-            drive[row] = self.builder.leaf(leaf).expr();
+            drive[row] = self.builder.leaf(leaf).signed();
         }
         let outputs = self.along(&drive);
         let column = |g: &mut Graph| column_loop::column(g, &outputs);
@@ -166,7 +166,7 @@ impl ForwardDerivatives {
     }
 
     fn is_zero(&self, e: Signed) -> bool {
-        self.builder.ex(e).as_constant() == Some(Dd::ZERO)
+        self.builder.expr(e).as_constant() == Some(Dd::ZERO)
     }
 }
 

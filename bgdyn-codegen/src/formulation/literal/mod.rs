@@ -58,7 +58,7 @@ impl Formulation for Literal {
                 Method::PotentialEnergy => vec![sum.potential_energy()],
                 method => sites::outputs(&b, graph, method, &arguments)?,
             };
-            outputs.into_iter().map(|e: Expr<'_>| e.expr()).collect()
+            outputs.into_iter().map(|e: Expr<'_>| e.signed()).collect()
         };
         let name = NAME.into();
         Some(Function::flat(graph, method, name, b.into_graph(), outputs).in_order())

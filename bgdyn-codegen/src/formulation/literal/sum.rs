@@ -121,7 +121,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
 
     /// P_j for the given velocities and accelerations.
     pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
-        let velocities: Vec<_> = x.v.iter().map(|v| v.expr()).collect();
+        let velocities: Vec<_> = x.v.iter().map(|v| v.signed()).collect();
         let seed = |_: &mut Graph, leaf| match leaf {
             Leaf::Position(l) => Some(velocities[l]),
             _ => None,
@@ -129,8 +129,8 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         let mut rate = Tangent::new(seed);
         let mut rate_of = |m: &Vec3<Expr<'g>>| {
             m.map(|e| {
-                let e = e.expr();
-                self.b.ex(self.b.with_graph(|g| rate.of(g, e)))
+                let e = e.signed();
+                self.b.expr(self.b.with_graph(|g| rate.of(g, e)))
             })
         };
         let mut efforts = vec![self.b.zero(); self.graph.coordinates.len()];

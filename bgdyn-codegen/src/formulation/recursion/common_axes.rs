@@ -100,7 +100,7 @@ fn outputs(
         let x = Arguments::new(&b, graph, METHOD);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let rows = mass_matrix(&b, &frames);
-        rows.into_iter().flatten().map(|e| e.expr()).collect()
+        rows.into_iter().flatten().map(|e| e.signed()).collect()
     };
     (b.into_graph(), entries)
 }

@@ -54,7 +54,7 @@ pub(super) fn outputs(
             Method::PotentialEnergy => vec![mass_matrix::potential_energy(&b, &frames)],
             other => unreachable!("{other:?} is no method of the recursion"),
         };
-        outputs.into_iter().map(|e| e.expr()).collect()
+        outputs.into_iter().map(|e| e.signed()).collect()
     };
     (b.into_graph(), outputs)
 }
@@ -67,7 +67,7 @@ pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, V
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let rows = mass_matrix::mass_matrix(&b, &frames).into_iter().flatten();
         let bias = inverse_dynamics::efforts(&b, &frames, plan, x.active);
-        rows.chain(bias).map(|e| e.expr()).collect()
+        rows.chain(bias).map(|e| e.signed()).collect()
     };
     (b.into_graph(), outputs)
 }

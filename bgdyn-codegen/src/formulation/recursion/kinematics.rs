@@ -57,7 +57,7 @@ fn outputs(
         motion
             .outputs(&b, method, &x.v)
             .into_iter()
-            .map(|e| e.expr())
+            .map(|e| e.signed())
             .collect()
     };
     (b.into_graph(), outputs)

@@ -177,7 +177,7 @@ impl Articulated {
             let sweep = Sweep::new(&b, &frames, careful, guarded);
             let loads = inverse_dynamics::loads(&b, &frames, plan, x.active);
             let found = sweep.accelerations(&loads, &x.tau);
-            found.into_iter().map(|e| e.expr()).collect()
+            found.into_iter().map(|e| e.signed()).collect()
         };
         (b.into_graph(), outputs)
     }

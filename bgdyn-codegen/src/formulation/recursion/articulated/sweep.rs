@@ -22,10 +22,10 @@ const MAGNITUDE: f64 = 1.0 / 32.0;
 /// The size of what was really subtracted in a pivot, by the rounding error it carries; nothing
 /// where the error is a small part of the pivot whatever it is.
 fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Expr<'g>) -> Expr<'g> {
-    let pivot = pivot.expr();
+    let pivot = pivot.signed();
     match b.with_graph(|g| bounds.of(g, pivot)) {
         Bound::Relative(_) => b.zero(),
-        Bound::Absolute(bound) => b.ex(bound) * Dd::from_f64(MAGNITUDE),
+        Bound::Absolute(bound) => b.expr(bound) * Dd::from_f64(MAGNITUDE),
     }
 }
 
