@@ -2,6 +2,13 @@
 
 use std::f64::consts::PI;
 
+/// The generator's own; a peer without bgdyn includes this file.
+#[path = "../../bgdyn-codegen/src/random.rs"]
+#[allow(dead_code)]
+mod random;
+
+use random::Random;
+
 /// Number of states: too many for a branch predictor to learn, few enough for the cache.
 pub const STATES: usize = 1024;
 
@@ -18,26 +25,11 @@ pub struct State {
     pub tau: Vec<f64>,
 }
 
-/// Equally distributed numbers: splitmix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    /// In [−size, size).
-    fn within(&mut self, size: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        size * ((z >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0)
-    }
-}
-
 /// The states of a mechanism; `slides`: which joints are prismatic.
 pub fn states(slides: &[bool]) -> Vec<State> {
     let mut random = Random(0x5eed_5eed_1234_5678);
     let state = |_| {
-        let mut joints = |size: f64| slides.iter().map(|_| random.within(size)).collect();
+        let mut joints = |size: f64| slides.iter().map(|_| size * random.signed()).collect();
         let turns: Vec<f64> = joints(1.0);
         let reach = |slides: bool| if slides { 0.3 } else { PI };
         State {

@@ -1,10 +1,10 @@
-//! Measures the times of contenders in turn.
+//! Measures the times of configurations in turn.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-use crate::contender::{Contender, Grid, StepControl};
-use crate::ladder::Plan;
+use crate::configuration::{Configuration, Grid, StepControl};
+use crate::step_sequence::Effort;
 
 /// Runs of one measurement at the most.
 const RUNS: usize = 1000;
@@ -12,18 +12,22 @@ const RUNS: usize = 1000;
 /// Measurements of a round, of which the best counts: what interrupts one of them is no part of it.
 const BEST_OF: usize = 3;
 
-/// Time of each of these runs per simulated millisecond, ns: the median of the plan's rounds. Every
+/// Time of each of these runs per simulated millisecond, ns: the median of the rounds. Every
 /// round takes all of them in turn, so that what slows the machine down for a while slows all alike.
-pub(crate) fn times(jobs: &[(&Contender, StepControl)], grid: &Grid, plan: &Plan) -> Vec<f64> {
+pub(crate) fn times(
+    jobs: &[(&Configuration, StepControl)],
+    grid: &Grid,
+    effort: &Effort,
+) -> Vec<f64> {
     let repeat: Vec<usize> = jobs
         .iter()
         .map(|job| {
             let once = seconds(job, grid, 1).max(1e-9);
-            ((plan.resolution / once).ceil() as usize).clamp(1, RUNS)
+            ((effort.resolution / once).ceil() as usize).clamp(1, RUNS)
         })
         .collect();
-    let mut rounds = vec![Vec::with_capacity(plan.rounds); jobs.len()];
-    for _ in 0..plan.rounds {
+    let mut rounds = vec![Vec::with_capacity(effort.rounds); jobs.len()];
+    for _ in 0..effort.rounds {
         for ((job, &runs), found) in jobs.iter().zip(&repeat).zip(&mut rounds) {
             let tried = (0..BEST_OF).map(|_| seconds(job, grid, runs));
             found.push(tried.fold(f64::INFINITY, f64::min) / runs as f64);
@@ -38,7 +42,7 @@ pub(crate) fn times(jobs: &[(&Contender, StepControl)], grid: &Grid, plan: &Plan
 
 /// Time of one call, ns, of each of these, which make as many calls as they are told: measured as
 /// [`times`] measures runs.
-pub(crate) fn calls(jobs: &[&dyn Fn(usize)], plan: &Plan) -> Vec<f64> {
+pub(crate) fn calls(jobs: &[&dyn Fn(usize)], effort: &Effort) -> Vec<f64> {
     let spent = |job: &dyn Fn(usize), count: usize| {
         let begin = Instant::now();
         job(black_box(count));
@@ -46,14 +50,14 @@ pub(crate) fn calls(jobs: &[&dyn Fn(usize)], plan: &Plan) -> Vec<f64> {
     };
     let enough = |job: &dyn Fn(usize)| {
         let mut count = 64;
-        while spent(job, count) < plan.resolution && count < 1 << 24 {
+        while spent(job, count) < effort.resolution && count < 1 << 24 {
             count *= 2;
         }
         count
     };
     let counts: Vec<usize> = jobs.iter().map(|job| enough(*job)).collect();
-    let mut rounds = vec![Vec::with_capacity(plan.rounds); jobs.len()];
-    for _ in 0..plan.rounds {
+    let mut rounds = vec![Vec::with_capacity(effort.rounds); jobs.len()];
+    for _ in 0..effort.rounds {
         for ((job, &count), found) in jobs.iter().zip(&counts).zip(&mut rounds) {
             let tried = (0..BEST_OF).map(|_| spent(*job, count));
             found.push(1e9 * tried.fold(f64::INFINITY, f64::min) / count as f64);
@@ -63,10 +67,17 @@ pub(crate) fn calls(jobs: &[&dyn Fn(usize)], plan: &Plan) -> Vec<f64> {
 }
 
 /// So many runs, s.
-fn seconds((contender, step_control): &(&Contender, StepControl), grid: &Grid, runs: usize) -> f64 {
+fn seconds(
+    (configuration, step_control): &(&Configuration, StepControl),
+    grid: &Grid,
+    runs: usize,
+) -> f64 {
     let begin = Instant::now();
     for _ in 0..runs {
-        let _ = black_box((contender.run)(black_box(grid), black_box(*step_control)));
+        let _ = black_box((configuration.run)(
+            black_box(grid),
+            black_box(*step_control),
+        ));
     }
     begin.elapsed().as_secs_f64()
 }

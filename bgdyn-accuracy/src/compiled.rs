@@ -1,4 +1,4 @@
-//! Compiled scenes as contenders of a study.
+//! Compiled scenes as configurations of a study.
 
 use std::hint::black_box;
 use std::rc::Rc;
@@ -9,23 +9,23 @@ use bgdyn_sim::{
     Run, ScenePlant, StateVector, WithIntegrator, with_integrator,
 };
 
-use crate::contender::{Contender, Grid, Ran, Runner, StepControl, Stop};
-use crate::erased::{Callable, Erased};
+use crate::configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
+use crate::dyn_plant::{DynPlant, PlantObject};
 use crate::integrate::{Integrate, Measured, numbers};
-use crate::subject::{Subject, order};
+use crate::test_case::{TestCase, order};
 
 /// What equations are called that are written as they are by default.
 const CHEAPEST: &str = "cheapest";
 
-/// A contender of this method's order and way to go.
-fn contender(
+/// A configuration of this method's order and way to go.
+fn configuration(
     method: &str,
     scalar: (&'static str, f64),
     formulation: &str,
     run: Runner,
-) -> Contender {
+) -> Configuration {
     let (order, controlled) = order(method).expect("a method of bgdyn-sim");
-    Contender {
+    Configuration {
         effects: "all".into(),
         method: method.into(),
         order,
@@ -57,7 +57,7 @@ impl<S: Canonical<T>, T: Real> Measured for CanonicalPlant<'_, S, T> {
 
 /// A plant as it is run: where it begins, and how.
 struct Started<Y: StateVector, M, E> {
-    plant: Erased<Y, M, E>,
+    plant: DynPlant<Y, M, E>,
     begin: HybridState<Y, M>,
 }
 
@@ -67,8 +67,8 @@ where
     M: FixedVector + 'static,
     E: FixedVector<Scalar = Of<Y>> + 'static,
 {
-    fn new(plant: impl Callable<Y, M, E> + 'static, begin: HybridState<Y, M>) -> Rc<Self> {
-        let plant = Erased(Rc::new(plant));
+    fn new(plant: impl PlantObject<Y, M, E> + 'static, begin: HybridState<Y, M>) -> Rc<Self> {
+        let plant = DynPlant(Rc::new(plant));
         Rc::new(Started { plant, begin })
     }
 
@@ -77,7 +77,7 @@ where
         &self,
         grid: &'g Grid,
         step_control: StepControl,
-    ) -> Integrate<'g, Erased<Y, M, E>> {
+    ) -> Integrate<'g, DynPlant<Y, M, E>> {
         Integrate {
             plant: self.plant.clone(),
             begin: black_box(self.begin),
@@ -91,17 +91,17 @@ where
         let started = self.clone();
         Box::new(move |grid, step_control| {
             let run = started.integrate(grid, step_control);
-            Ran::finite(numbers(run.with(integrator())?), None)
+            Samples::finite(numbers(run.with(integrator())?), None)
         })
     }
 
-    /// Runs by the integrator of this name, for a contender.
+    /// Runs by the integrator of this name, for a configuration.
     fn runner_by_name(self: &Rc<Self>, name: &'static str) -> Runner {
         let started = self.clone();
         Box::new(move |grid, step_control| {
             let run = started.integrate(grid, step_control);
             let values = with_integrator(name, run).expect("a name of the list");
-            Ran::finite(numbers(values?), None)
+            Samples::finite(numbers(values?), None)
         })
     }
 }
@@ -114,7 +114,7 @@ fn kept<S: 'static>(scene: S) -> &'static S {
 /// The integrator of the reference, which is no contender.
 const REFERENCE: &str = "extrapolation12";
 
-impl Subject {
+impl TestCase {
     /// The reference: order 12 in double-double by controlled steps.
     pub fn reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
         let scene = kept(scene);
@@ -131,7 +131,8 @@ impl Subject {
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
         for name in INTEGRATORS.iter().filter(|name| **name != REFERENCE) {
             let run = started.runner_by_name(name);
-            self.contenders.push(contender(name, F64, CHEAPEST, run));
+            self.configurations
+                .push(configuration(name, F64, CHEAPEST, run));
         }
     }
 
@@ -145,8 +146,8 @@ impl Subject {
         for name in ["midpoint", "gauss2", "gauss3"] {
             let run = started.runner_by_name(name);
             let method = format!("canonical_{name}");
-            self.contenders
-                .push(contender(&method, F64, "canonical", run));
+            self.configurations
+                .push(configuration(&method, F64, "canonical", run));
         }
     }
 
@@ -159,7 +160,8 @@ impl Subject {
             ("dopri5", started.runner(|| Dopri5)),
         ];
         for (method, run) in runs {
-            self.contenders.push(contender(method, F32, CHEAPEST, run));
+            self.configurations
+                .push(configuration(method, F32, CHEAPEST, run));
         }
     }
 
@@ -168,11 +170,12 @@ impl Subject {
         let scene = kept(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
         let run = started.runner(|| Rk4);
-        self.contenders.push(contender("rk4", F64, name, run));
+        self.configurations
+            .push(configuration("rk4", F64, name, run));
     }
 
     /// The scene with these effects, by an explicit method: the scene's own.
-    pub fn level<S: HybridSystem<f64> + 'static, I: Integrator<S::State>>(
+    pub fn ablation<S: HybridSystem<f64> + 'static, I: Integrator<S::State>>(
         &mut self,
         effects: &str,
         scene: S,
@@ -180,11 +183,11 @@ impl Subject {
     ) {
         let scene = kept(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        self.add_level(effects, started.runner(integrator));
+        self.add_ablation(effects, started.runner(integrator));
     }
 
     /// The same by a method that takes slopes.
-    pub fn level_with_slope<S: Slope<f64> + 'static, I: Integrator<S::State>>(
+    pub fn ablation_with_slope<S: Slope<f64> + 'static, I: Integrator<S::State>>(
         &mut self,
         effects: &str,
         scene: S,
@@ -192,24 +195,24 @@ impl Subject {
     ) {
         let scene = kept(scene);
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
-        self.add_level(effects, started.runner(integrator));
+        self.add_ablation(effects, started.runner(integrator));
     }
 
-    /// A level of effects at which the measured output is not there.
-    pub fn missing_level(&mut self, effects: &str) {
+    /// A set of effects without which the measured output is not there.
+    pub fn missing_ablation(&mut self, effects: &str) {
         let run: Runner = Box::new(|_, _| {
             let why = "the measured output is not there".into();
-            Err(Stop { t: 0.0, why })
+            Err(RunError { t: 0.0, why })
         });
-        self.add_level(effects, run);
+        self.add_ablation(effects, run);
     }
 
-    /// A level of effects by the scene's own method.
-    pub fn add_level(&mut self, effects: &str, run: Runner) {
-        let level = contender(&self.own.0, F64, CHEAPEST, run);
-        self.levels.push(Contender {
+    /// A set of effects, run by the scene's own method.
+    pub fn add_ablation(&mut self, effects: &str, run: Runner) {
+        let ablation = configuration(&self.own.0, F64, CHEAPEST, run);
+        self.ablations.push(Configuration {
             effects: effects.into(),
-            ..level
+            ..ablation
         });
     }
 }

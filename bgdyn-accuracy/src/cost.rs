@@ -9,12 +9,12 @@ use bgdyn_sim::{
 };
 
 use crate::clock::calls;
-use crate::contender::Stop;
+use crate::configuration::RunError;
 use crate::integrate::in_short;
-use crate::ladder::Plan;
 use crate::priced::{Call, Priced};
 use crate::row::{fields, quoted};
-use crate::subject::Subject;
+use crate::step_sequence::Effort;
+use crate::test_case::TestCase;
 
 /// The method by which steps are counted.
 pub const METHOD: &str = "dopri5";
@@ -37,13 +37,13 @@ pub struct Cost {
 }
 
 /// Costs of all, timed in turn.
-pub(crate) fn costs(all: &[Priced], end: f64, plan: &Plan) -> Vec<Cost> {
+pub(crate) fn costs(all: &[Priced], end: f64, effort: &Effort) -> Vec<Cost> {
     let compiled = |p: &Priced| matches!(p.call, Call::Compiled(_));
     let jobs = all.iter().filter_map(|p| match &p.call {
         Call::Compiled(call) => Some(&**call),
         Call::Estimated(_) => None,
     });
-    let mut times = calls(&jobs.collect::<Vec<_>>(), plan).into_iter();
+    let mut times = calls(&jobs.collect::<Vec<_>>(), effort).into_iter();
     let one = |p: &Priced| Cost {
         effects: p.effects.clone(),
         operations: p.operations,
@@ -72,7 +72,7 @@ where
     Of<P::State>: Real,
     P::Error: Debug,
 {
-    type Output = Result<usize, Stop>;
+    type Output = Result<usize, RunError>;
 
     fn with<M: Integrator<P::State>>(self, integrator: M) -> Self::Output {
         let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
@@ -88,18 +88,18 @@ where
                 return Ok(steps);
             }
             let taken = run.advance_densely(number(left));
-            taken.map_err(|failure| Stop {
+            taken.map_err(|failure| RunError {
                 t: failure.t.to_f64(),
                 why: in_short(&failure.reason),
             })?;
         }
         let why = format!("more than {STEPS:e} steps");
         let t = run.t().to_f64();
-        Err(Stop { t, why })
+        Err(RunError { t, why })
     }
 }
 
-impl Subject {
+impl TestCase {
     /// The scene with these effects, whose `derivative` has so many operations: what it costs.
     pub fn price<S>(&mut self, effects: &str, operations: usize, scene: S)
     where

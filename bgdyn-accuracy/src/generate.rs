@@ -5,15 +5,15 @@
 use std::fmt::Write;
 
 use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
-use bgdyn_codegen::fault::Place as Where;
+use bgdyn_codegen::fault::Location;
 use bgdyn_codegen::format::Located;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::{Method, Role};
+use bgdyn_codegen::method::{Method, SceneFunction};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::scene::{IntegratorName, Scene, StepControl};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 /// Coordinates up to which the literal sum is written out: it grows with the cube of their number.
 const LITERAL: usize = 4;
@@ -22,25 +22,25 @@ const LITERAL: usize = 4;
 pub const ALL_BUT: &str = "all but ";
 
 /// Operations of one call of the scene's `derivative`; a pair of sine and cosine is one.
-pub fn operations(system: &System) -> usize {
-    let o = system.function(Role::Derivative).operations();
+pub fn operations(system: &SceneEquations) -> usize {
+    let o = system.function(SceneFunction::Derivative).operations();
     o.total() + o.div + o.sqrt + o.sincos + o.other
 }
 
 /// A scene with some of its effects.
 #[derive(Debug)]
-pub struct Level {
+pub struct Ablation {
     /// Which: `none`, `gravity+inertia`, `all but friction`.
     pub effects: String,
     /// Its equations; `None` where the measured output is not there without the others.
-    pub system: Option<System>,
+    pub system: Option<SceneEquations>,
 }
 
 /// The scene with one output, the measured one: the first place among its outputs, else the first
 /// coordinate of a joint among them, else the first, and where it asks for none the first coordinate.
 ///
 /// `None` where a scene has nothing to measure.
-pub fn measured(system: &System) -> Option<System> {
+pub fn measured(system: &SceneEquations) -> Option<SceneEquations> {
     let outputs = &system.scene.outputs;
     let is_site = |name: &str| system.graph.sites.iter().any(|s| s.name == name);
     let joints = &system.graph.coordinates;
@@ -48,8 +48,8 @@ pub fn measured(system: &System) -> Option<System> {
     let first = |holds: &dyn Fn(&str) -> bool| outputs.iter().find(|o| holds(&o.value)).cloned();
     let coordinate = || {
         let value = joints.first()?.name.clone();
-        let place = Where::file();
-        Some(Located { value, place })
+        let location = Location::file();
+        Some(Located { value, location })
     };
     let found = first(&is_site)
         .or_else(|| first(&is_joint))
@@ -58,15 +58,15 @@ pub fn measured(system: &System) -> Option<System> {
     with_output(&system.scene, found)
 }
 
-fn with_output(scene: &Scene, output: Located<String>) -> Option<System> {
+fn with_output(scene: &Scene, output: Located<String>) -> Option<SceneEquations> {
     let mut scene = scene.clone();
     scene.outputs = vec![output];
-    System::new(scene).ok()
+    SceneEquations::new(scene).ok()
 }
 
 /// The scene with ever more of its effects, family by family, and with all but each one; `system` is
 /// as [`measured`] gives it.
-pub fn levels(system: &System) -> Vec<Level> {
+pub fn ablations(system: &SceneEquations) -> Vec<Ablation> {
     let elements = &system.scene.elements;
     let mut families: Vec<&str> = Vec::new();
     for element in elements {
@@ -77,9 +77,9 @@ pub fn levels(system: &System) -> Vec<Level> {
     let with = |effects: String, kept: &[&str]| {
         let scene = system
             .scene
-            .with_only(|e| kept.contains(&e.effect.family()));
+            .with_effects(|e| kept.contains(&e.effect.family()));
         let system = with_output(&scene, system.scene.outputs[0].clone());
-        Level { effects, system }
+        Ablation { effects, system }
     };
     let mut found = Vec::new();
     for n in 0..families.len() {
@@ -97,12 +97,12 @@ pub fn levels(system: &System) -> Vec<Level> {
 }
 
 /// The scene's own integrator; one on momenta stands for the same on velocities.
-fn own_integrator(system: &System) -> IntegratorName {
+fn own_integrator(system: &SceneEquations) -> IntegratorName {
     system.scene.integration.method.on_velocities()
 }
 
 /// The integrator and the step control of a scene, as a study names them.
-pub fn own_way(system: &System) -> (&'static str, crate::StepControl) {
+pub fn own_way(system: &SceneEquations) -> (&'static str, crate::StepControl) {
     let step_control = match system.scene.integration.step_control {
         StepControl::Step(h) => crate::StepControl::Step(h),
         StepControl::Tolerance(tolerance) => crate::StepControl::Tolerance(tolerance),
@@ -110,13 +110,13 @@ pub fn own_way(system: &System) -> (&'static str, crate::StepControl) {
     (own_integrator(system).name(), step_control)
 }
 
-/// The text of a module with the scene's name: its variants, and `subject()`, which gives the
-/// [`Subject`](crate::Subject) of them. The crate that includes it depends on `bgdyn` and
+/// The text of a module with the scene's name: its variants, and `test_case()`, which gives the
+/// [`TestCase`](crate::TestCase) of them. The crate that includes it depends on `bgdyn` and
 /// `bgdyn-accuracy`; `end` stands in for the scene's own, s.
 ///
 /// # Errors
 /// In a sentence, where the scene has nothing to measure.
-pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
+pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, String> {
     let name = &system.scene.name;
     let full =
         measured(system).ok_or_else(|| format!("the scene `{name}` has nothing to measure"))?;
@@ -132,56 +132,64 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
     let functions = scene_functions(&full, &all);
     text += &module(&full, &functions, "all")?;
     for call in ["methods", "momenta"] {
-        writeln!(calls, "subject.{call}(all::{structure}::<f64>::default());").expect("text");
+        writeln!(
+            calls,
+            "test_case.{call}(all::{structure}::<f64>::default());"
+        )
+        .expect("text");
     }
-    writeln!(calls, "subject.single(all::{structure}::<f32>::default());").expect("text");
+    writeln!(
+        calls,
+        "test_case.single(all::{structure}::<f32>::default());"
+    )
+    .expect("text");
     let dd = "bgdyn_accuracy::Dd";
     writeln!(
         calls,
-        "subject.reference(all::{structure}::<{dd}>::default());"
+        "test_case.reference(all::{structure}::<{dd}>::default());"
     )
     .expect("text");
     for (formulation, functions) in formulations(&full) {
         text += &module(&full, &functions, formulation)?;
         let model = format!("{formulation}::{structure}::<f64>::default()");
-        writeln!(calls, "subject.formulation({formulation:?}, {model});").expect("text");
+        writeln!(calls, "test_case.formulation({formulation:?}, {model});").expect("text");
     }
     let options = Options {
         jacobian: own.needs_jacobian(),
         ..Options::default()
     };
     let call = match own.needs_jacobian() {
-        true => "level_with_slope",
-        false => "level",
+        true => "ablation_with_slope",
+        false => "ablation",
     };
     // Types of bgdyn-sim are called like the integrators.
     let integrator = struct_ident(own.name());
     let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default()");
     let add = |effects: &str, model: &str, text: &mut String| {
-        writeln!(text, "subject.{call}({effects:?}, {model}, || {method});").expect("text");
+        writeln!(text, "test_case.{call}({effects:?}, {model}, || {method});").expect("text");
     };
-    let price = |effects: &str, system: &System, model: &str, text: &mut String| {
+    let price = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
         let count = operations(system);
-        writeln!(text, "subject.price({effects:?}, {count}, {model});").expect("text");
+        writeln!(text, "test_case.price({effects:?}, {count}, {model});").expect("text");
     };
     let model = format!("all::{structure}::<f64>::default()");
     add("all", &model, &mut calls);
     price("all", &full, &model, &mut calls);
-    for (i, level) in levels(&full).iter().enumerate() {
-        let Some(system) = &level.system else {
-            writeln!(calls, "subject.missing_level({:?});", level.effects).expect("text");
+    for (i, ablation) in ablations(&full).iter().enumerate() {
+        let Some(system) = &ablation.system else {
+            writeln!(calls, "test_case.missing_ablation({:?});", ablation.effects).expect("text");
             continue;
         };
-        let inner = format!("level_{i}");
+        let inner = format!("ablation_{i}");
         text += &module(system, &scene_functions(system, &options), &inner)?;
         let model = format!("{inner}::{structure}::<f64>::default()");
-        add(&level.effects, &model, &mut calls);
-        if level.effects.starts_with(ALL_BUT) {
-            price(&level.effects, system, &model, &mut calls);
+        add(&ablation.effects, &model, &mut calls);
+        if ablation.effects.starts_with(ALL_BUT) {
+            price(&ablation.effects, system, &model, &mut calls);
         }
     }
     text += &format!(
-        "/// What is measured of it.\npub fn subject() -> bgdyn_accuracy::Subject {{\nlet mut subject = {};\nsubject.kinked = {};\n{calls}subject\n}}\n}}\n",
+        "/// What is measured of it.\npub fn test_case() -> bgdyn_accuracy::TestCase {{\nlet mut test_case = {};\ntest_case.kinked = {};\n{calls}test_case\n}}\n}}\n",
         opening(&full, end),
         kinked(&full)
     );
@@ -189,13 +197,13 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
 }
 
 /// Whether a scene's laws have kinks: events that change no mode.
-pub fn kinked(system: &System) -> bool {
+pub fn kinked(system: &SceneEquations) -> bool {
     let layout = &system.scene.layout;
     layout.events.iter().any(|e| layout.mode_of(e).is_none())
 }
 
-/// The call that makes a subject.
-fn opening(full: &System, end: Option<f64>) -> String {
+/// The call that makes the test case.
+fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     let scene = &full.scene;
     let (method, step_control) = own_way(full);
     let step_control = match step_control {
@@ -210,12 +218,12 @@ fn opening(full: &System, end: Option<f64>) -> String {
     ];
     let end = end.unwrap_or(scene.integration.end);
     format!(
-        "bgdyn_accuracy::Subject::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::StepControl::{step_control})"
+        "bgdyn_accuracy::TestCase::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::StepControl::{step_control})"
     )
 }
 
 /// The functions of the scene with its derivative by each formulation that knows it.
-fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
+fn formulations(full: &SceneEquations) -> Vec<(&'static str, Vec<Function>)> {
     let few = full.graph.coordinates.len() <= LITERAL;
     let mut found = Vec::new();
     for formulation in FORMULATIONS {
@@ -228,7 +236,7 @@ fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
         };
         let functions = scene_functions(full, &Options::default()).into_iter();
         let replaced = functions.map(|f| match f.method {
-            Method::Scene(Role::Derivative) => derivative.clone(),
+            Method::Scene(SceneFunction::Derivative) => derivative.clone(),
             _ => f,
         });
         found.push((name, replaced.collect()));
@@ -237,7 +245,7 @@ fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
 }
 
 /// One variant's module.
-fn module(system: &System, functions: &[Function], name: &str) -> Result<String, String> {
+fn module(system: &SceneEquations, functions: &[Function], name: &str) -> Result<String, String> {
     let place = OutputOptions::source_text(system.scene.name.clone()).with_module(name)?;
     Ok(source_text(scene_module(system, functions, &place)))
 }

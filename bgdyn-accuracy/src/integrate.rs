@@ -3,7 +3,7 @@
 use bgdyn_sim::{HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator};
 use std::fmt::Debug;
 
-use crate::contender::{Grid, StepControl, Stop};
+use crate::configuration::{Grid, RunError, StepControl};
 
 /// A plant with a measured output.
 pub trait Measured: Plant {
@@ -30,13 +30,13 @@ pub struct Integrate<'a, P: Plant> {
 }
 
 /// The measured output at each sample, or why the run ended early.
-type Sampled<Y> = Result<Vec<Vec<Of<Y>>>, Stop>;
+pub(crate) type SampledOutput<T> = Result<Vec<Vec<T>>, RunError>;
 
 impl<P: Measured> WithIntegrator<P::State> for Integrate<'_, P>
 where
     Of<P::State>: Real,
 {
-    type Output = Sampled<P::State>;
+    type Output = SampledOutput<Of<P::State>>;
 
     fn with<M: Integrator<P::State>>(self, integrator: M) -> Self::Output {
         let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
@@ -60,7 +60,7 @@ where
         let mut samples = Vec::with_capacity(self.grid.samples);
         for _ in 0..self.grid.samples {
             for _ in 0..steps {
-                run.step(h).map_err(|failure| Stop {
+                run.step(h).map_err(|failure| RunError {
                     t: failure.t.to_f64(),
                     why: in_short(&failure.reason),
                 })?;

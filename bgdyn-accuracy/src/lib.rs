@@ -5,12 +5,12 @@
 //! One factor is varied at a time, from all effects in `f64` by the cheapest formulation. The path:
 //!
 //! ```text
-//! scene ──generate──▶ variants, compiled ──▶ Subject ──study──▶ Study (rows) ──▶ verdicts, front, figures, page
+//! scene ──generate──▶ variants, compiled ──▶ TestCase ──study──▶ Study (rows) ──▶ verdicts, front, figures, page
 //! ```
 //!
 //! - `generate` (the feature of this name) writes the modules of a scene's variants with a function that
-//!   makes a [`Subject`] of them. Build scripts and the command `bgdyn accuracy` call it alike.
-//! - [`Subject`] is what is measured: runs of compiled scenes behind plain closures, so that what
+//!   makes a [`TestCase`] of them. Build scripts and the command `bgdyn accuracy` call it alike.
+//! - [`TestCase`] is what is measured: runs of compiled scenes behind plain closures, so that what
 //!   follows knows no scene.
 //! - [`study()`] runs each of them, takes the time and gives rows: `accuracy.csv`.
 //! - What single effects cost is asked of one call of `derivative` and of the number of steps
@@ -26,37 +26,37 @@
 
 mod clock;
 mod compiled;
-mod contender;
-mod converge;
+mod configuration;
 mod cost;
 pub mod dark;
-mod erased;
+mod dyn_plant;
 mod figures;
 pub mod fine;
+mod format;
 #[cfg(feature = "generate")]
 pub mod generate;
 mod integrate;
-mod ladder;
+mod order_check;
 mod page;
 mod pareto;
 mod priced;
 mod row;
+mod step_sequence;
 mod study;
-mod subject;
 pub mod svg;
-mod text;
+mod test_case;
 
 pub use bgdyn_runtime::Dd;
 pub use bgdyn_sim;
-pub use contender::{Contender, Grid, Ran, Runner, StepControl, Stop};
-pub use converge::{Finding, Verdict, verdicts};
+pub use configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
 pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 pub use figures::{Figure, figures};
 pub use integrate::{Integrate, Measured};
-pub use ladder::Plan;
+pub use order_check::{Finding, Verdict, verdicts};
 pub use page::{Machine, page, readme};
 pub use pareto::{Choice, front, targets};
 pub use priced::{Call, Priced};
 pub use row::{Row, Status, csv};
+pub use step_sequence::Effort;
 pub use study::{Facts, Failed, Study, study};
-pub use subject::{References, Subject, order};
+pub use test_case::{References, TestCase, order};

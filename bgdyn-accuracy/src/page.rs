@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use crate::converge::verdicts;
 use crate::figures::{figures, way};
+use crate::format::{escaped, short, time};
+use crate::order_check::verdicts;
 use crate::pareto::targets;
 use crate::study::{Facts, Study};
-use crate::text::{escaped, short, time};
 
 /// What times were measured on.
 #[derive(Clone, Debug, PartialEq)]

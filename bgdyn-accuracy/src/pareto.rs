@@ -66,7 +66,7 @@ pub fn targets(study: &Study) -> Vec<Choice> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contender::StepControl;
+    use crate::configuration::StepControl;
     use crate::row::Status;
     use crate::study::Facts;
 

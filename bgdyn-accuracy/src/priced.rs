@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::contender::Stop;
+use crate::configuration::RunError;
 
 /// What one call takes: measured, or known beforehand.
 pub enum Call {
@@ -22,7 +22,7 @@ pub struct Priced {
     /// One call of `derivative`.
     pub call: Call,
     /// Steps of [`STEPS_METHOD`](crate::STEPS_METHOD) from the start to this time, s.
-    pub steps: Box<dyn Fn(f64) -> Result<usize, Stop>>,
+    pub steps: Box<dyn Fn(f64) -> Result<usize, RunError>>,
 }
 
 /// Without the closures.

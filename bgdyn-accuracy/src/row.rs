@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::contender::StepControl;
+use crate::configuration::StepControl;
 
 /// Whether a row's numbers hold.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,12 +3,12 @@
 use std::fmt;
 
 use crate::clock::times;
-use crate::contender::{Contender, Grid, StepControl, Stop};
+use crate::configuration::{Configuration, Grid, RunError, StepControl};
 use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
-use crate::ladder::{Plan, Scale, Tried, ladder};
 use crate::row::{Row, Status};
-use crate::subject::Subject;
+use crate::step_sequence::{Effort, ErrorScale, Trial, step_sequence};
+use crate::test_case::TestCase;
 
 /// What a study is about.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub enum Failed {
     /// It has no reference.
     NoReference,
     /// Its reference's run ends early.
-    Reference(Stop),
+    Reference(RunError),
     /// Two references differ by so much of the motion.
     Uncertain(f64),
 }
@@ -79,13 +79,13 @@ const CERTAIN: f64 = 1e-6;
 ///
 /// # Errors
 /// Where there is no reference to go by.
-pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
+pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
     let grid = Grid {
-        end: subject.end,
-        samples: plan.samples,
+        end: test_case.end,
+        samples: effort.samples,
     };
-    let run = subject.reference.as_ref().ok_or(Failed::NoReference)?;
-    let (fine, coarse) = subject.tolerances;
+    let run = test_case.reference.as_ref().ok_or(Failed::NoReference)?;
+    let (fine, coarse) = test_case.tolerances;
     let reference = run(&grid, fine).map_err(Failed::Reference)?;
     let error = distance(&reference, &run(&grid, coarse).map_err(Failed::Reference)?);
     let reference = numbers(reference);
@@ -94,41 +94,41 @@ pub fn study(subject: &Subject, plan: &Plan) -> Result<Study, Failed> {
         return Err(Failed::Uncertain(error / size));
     }
     let zero = vec![vec![0.0; reference[0].len()]; reference.len()];
-    let scale = Scale {
+    let scale = ErrorScale {
         largest: distance(&reference, &zero).max(size),
         reference: &reference,
         error,
         size,
     };
-    let mut tried: Vec<(&Contender, Tried)> = Vec::new();
-    for contender in &subject.contenders {
-        let steps = ladder(contender, &grid, &scale, plan);
-        tried.extend(steps.into_iter().map(|t| (contender, t)));
+    let mut tried: Vec<(&Configuration, Trial)> = Vec::new();
+    for configuration in &test_case.configurations {
+        let steps = step_sequence(configuration, &grid, &scale, effort);
+        tried.extend(steps.into_iter().map(|t| (configuration, t)));
     }
-    for level in &subject.levels {
-        let step_control = own_step_control(subject, &grid);
+    for ablation in &test_case.ablations {
+        let step_control = own_step_control(test_case, &grid);
         // A motion far from the reference is a finding here, not a failure.
-        let far = Scale {
+        let far = ErrorScale {
             size: f64::INFINITY,
             ..scale
         };
-        tried.push((level, far.attempt(level, &grid, step_control)));
+        tried.push((ablation, far.attempt(ablation, &grid, step_control)));
     }
     Ok(Study {
         facts: Facts {
-            scene: subject.scene.clone(),
-            description: subject.description.clone(),
-            output: subject.output.clone(),
-            unit: subject.unit.clone(),
-            end: subject.end,
-            samples: plan.samples,
-            kinked: subject.kinked,
+            scene: test_case.scene.clone(),
+            description: test_case.description.clone(),
+            output: test_case.output.clone(),
+            unit: test_case.unit.clone(),
+            end: test_case.end,
+            samples: effort.samples,
+            kinked: test_case.kinked,
             size,
             floor: scale.floor(f64::EPSILON),
             reference_error: error,
         },
-        rows: rows(&subject.scene, &tried, &grid, plan),
-        costs: costs(&subject.prices, grid.end, plan),
+        rows: rows(&test_case.scene, &tried, &grid, effort),
+        costs: costs(&test_case.prices, grid.end, effort),
     })
 }
 
@@ -139,8 +139,8 @@ fn moved(reference: &[Vec<f64>]) -> f64 {
 }
 
 /// The scene's own step control; a step is taken as often as fits between two samples.
-fn own_step_control(subject: &Subject, grid: &Grid) -> StepControl {
-    match subject.own.1 {
+fn own_step_control(test_case: &TestCase, grid: &Grid) -> StepControl {
+    match test_case.own.1 {
         StepControl::Step(h) => {
             StepControl::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64)
         }
@@ -149,12 +149,13 @@ fn own_step_control(subject: &Subject, grid: &Grid) -> StepControl {
 }
 
 /// The rows of what was tried, with times.
-fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) -> Vec<Row> {
-    let measured = |t: &Tried| matches!(t.outcome, Ok((_, None)));
+fn rows(scene: &str, tried: &[(&Configuration, Trial)], grid: &Grid, effort: &Effort) -> Vec<Row> {
+    let measured = |t: &Trial| matches!(t.outcome, Ok((_, None)));
     let jobs = tried.iter().filter(|(_, t)| measured(t));
-    let jobs: Vec<(&Contender, StepControl)> = jobs.map(|(c, t)| (*c, t.step_control)).collect();
-    let mut times = times(&jobs, grid, plan).into_iter();
-    let row = |(contender, t): &(&Contender, Tried)| {
+    let jobs: Vec<(&Configuration, StepControl)> =
+        jobs.map(|(c, t)| (*c, t.step_control)).collect();
+    let mut times = times(&jobs, grid, effort).into_iter();
+    let row = |(configuration, t): &(&Configuration, Trial)| {
         let (error, ns, status) = match &t.outcome {
             Ok((error, None)) => (Some(*error), times.next(), Status::Ok),
             Ok((error, Some(ns))) => {
@@ -165,11 +166,11 @@ fn rows(scene: &str, tried: &[(&Contender, Tried)], grid: &Grid, plan: &Plan) ->
         };
         Row {
             scene: scene.into(),
-            effects: contender.effects.clone(),
-            method: contender.method.clone(),
+            effects: configuration.effects.clone(),
+            method: configuration.method.clone(),
             step_control: t.step_control,
-            scalar: contender.scalar.into(),
-            formulation: contender.formulation.clone(),
+            scalar: configuration.scalar.into(),
+            formulation: configuration.formulation.clone(),
             error,
             ns,
             status,

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use crate::dark::with_dark_mode;
-use crate::text::escaped;
+use crate::format::escaped;
 
 /// Colour of axes and words.
 pub const INK: &str = "#282828";

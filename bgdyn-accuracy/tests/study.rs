@@ -2,22 +2,26 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Contender, Cost, CountSteps, Finding, Grid, Plan, Ran, Status, StepControl, Stop, Study,
-    Subject, costs_csv, csv, figures, page, study, targets, verdicts,
+    Configuration, Cost, CountSteps, Effort, Finding, Grid, RunError, Samples, Status, StepControl,
+    Study, TestCase, costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
 use nalgebra::SVector;
 
 /// A few steps and one round: times are looked at by nobody.
-const PLAN: Plan = Plan {
+const EFFORT: Effort = Effort {
     rounds: 1,
     resolution: 1e-6,
-    ..Plan::QUICK
+    ..Effort::QUICK
 };
 
 /// ẋ = y, ẏ = −x by the classical Runge–Kutta method, the weights of its slopes given.
-fn oscillator(grid: &Grid, step_control: StepControl, weights: [f64; 4]) -> Result<Ran, Stop> {
+fn oscillator(
+    grid: &Grid,
+    step_control: StepControl,
+    weights: [f64; 4],
+) -> Result<Samples, RunError> {
     let parts = grid.parts(step_control.value());
     let h = grid.interval() / parts as f64;
     let rates = |[x, y]: [f64; 2]| [y, -x];
@@ -37,15 +41,15 @@ fn oscillator(grid: &Grid, step_control: StepControl, weights: [f64; 4]) -> Resu
         values.push(vec![z[0]]);
     }
     let estimate = None;
-    Ok(Ran { values, estimate })
+    Ok(Samples { values, estimate })
 }
 
 const RIGHT: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 /// Two weights have changed places: consistent, of order 1.
 const WRONG: [f64; 4] = [1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0, 1.0 / 6.0];
 
-fn contender(formulation: &str, weights: [f64; 4]) -> Contender {
-    Contender {
+fn configuration(formulation: &str, weights: [f64; 4]) -> Configuration {
+    Configuration {
         effects: "all".into(),
         method: "rk4".into(),
         order: 4,
@@ -57,19 +61,23 @@ fn contender(formulation: &str, weights: [f64; 4]) -> Contender {
     }
 }
 
-fn subject(contenders: Vec<Contender>) -> Subject {
+fn test_case(configurations: Vec<Configuration>) -> TestCase {
     let words = ["oscillator", "A mass on a spring", "x", "m"];
-    let mut subject = Subject::new(words, 2.0, "rk4", StepControl::Step(0.05));
-    subject.reference = Some(Box::new(|grid, _| {
+    let mut test_case = TestCase::new(words, 2.0, "rk4", StepControl::Step(0.05));
+    test_case.reference = Some(Box::new(|grid, _| {
         let times = (1..=grid.samples).map(|k| grid.interval() * k as f64);
         Ok(times.map(|t| vec![Dd::from_f64(t.cos())]).collect())
     }));
-    subject.contenders = contenders;
-    subject
+    test_case.configurations = configurations;
+    test_case
 }
 
 fn studied(weights: [f64; 4]) -> Study {
-    study(&subject(vec![contender("cheapest", weights)]), &PLAN).expect("a reference")
+    study(
+        &test_case(vec![configuration("cheapest", weights)]),
+        &EFFORT,
+    )
+    .expect("a reference")
 }
 
 #[test]
@@ -117,17 +125,17 @@ fn a_wrong_coefficient_is_found() {
 
 #[test]
 fn a_run_that_fails_is_a_row_with_its_reason() {
-    let mut failing = contender("cheapest", RIGHT);
+    let mut failing = configuration("cheapest", RIGHT);
     failing.run = Box::new(
         |grid, step_control| match grid.parts(step_control.value()) {
-            1 => Err(Stop {
+            1 => Err(RunError {
                 t: 0.4,
                 why: "unstable: not finite".into(),
             }),
             _ => oscillator(grid, step_control, RIGHT),
         },
     );
-    let study = study(&subject(vec![failing]), &PLAN).expect("a reference");
+    let study = study(&test_case(vec![failing]), &EFFORT).expect("a reference");
     let first = &study.rows[0];
     let why = "unstable: not finite at 0.4 s";
     assert_eq!(first.status, Status::Failed(why.into()));

@@ -3,17 +3,17 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use bgdyn_accuracy::generate::{ALL_BUT, kinked, levels, measured, operations, own_way};
+use bgdyn_accuracy::generate::{ALL_BUT, ablations, kinked, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Contender, CountSteps, Integrate, Measured, Priced, Ran, Runner, STEPS_METHOD,
-    StepControl, Subject, order,
+    Call, Configuration, CountSteps, Integrate, Measured, Priced, Runner, STEPS_METHOD, Samples,
+    StepControl, TestCase, order,
 };
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{INTEGRATORS, Jacobian, Plant, Power, with_integrator};
 
-use crate::simulate::{Evaluated, Form, Numbers, Undefined};
+use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
 use crate::timing::estimate;
 
 /// The method of references.
@@ -33,20 +33,20 @@ struct Calls {
 }
 
 impl Calls {
-    fn of(system: &System) -> Self {
+    fn of(system: &SceneEquations) -> Self {
         let roles = system.roles_with(true, false);
-        let one = |role: Role| match roles.contains(&role) {
+        let one = |role: SceneFunction| match roles.contains(&role) {
             true => estimate(system.function(role).operations()),
             false => 0.0,
         };
-        let inputs = one(Role::Inputs);
-        let derivative = one(Role::Derivative);
+        let inputs = one(SceneFunction::Inputs);
+        let derivative = one(SceneFunction::Derivative);
         Calls {
             operations: operations(system),
             derivative,
             rates: derivative + inputs,
-            slopes: one(Role::Jacobian),
-            events: one(Role::Events) + inputs,
+            slopes: one(SceneFunction::Jacobian),
+            events: one(SceneFunction::Events) + inputs,
         }
     }
 }
@@ -62,7 +62,7 @@ struct Counted {
 
 impl Counted {
     /// The scene: it stays, since a study is the program's last act.
-    fn new(system: System) -> Self {
+    fn new(system: SceneEquations) -> Self {
         let calls = Calls::of(&system);
         let system = Box::leak(Box::new(system));
         Counted {
@@ -106,12 +106,10 @@ impl Counted {
                 step_control,
             };
             let values = with_integrator(&method, run).expect("a method of bgdyn-sim")?;
-            Ran::finite(values, Some(counted.spent.get()))
+            Samples::finite(values, Some(counted.spent.get()))
         })
     }
 }
-
-type Tried<T> = Result<T, Undefined>;
 
 impl Plant for Counted {
     type State = Numbers;
@@ -120,12 +118,17 @@ impl Plant for Counted {
     type Entries = Numbers;
     type Error = Undefined;
 
-    fn rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.spend(self.calls.rates);
         self.plant.rates(t, y, modes)
     }
 
-    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Tried<Jacobian<Numbers>>> {
+    fn jacobian(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+    ) -> Option<Evaluation<Jacobian<Numbers>>> {
         self.spend(self.calls.slopes);
         self.plant.jacobian(t, y, modes)
     }
@@ -134,11 +137,11 @@ impl Plant for Counted {
         self.plant.positions()
     }
 
-    fn position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.plant.position_rates(t, y, modes)
     }
 
-    fn events(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn events(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.spend(self.calls.events);
         self.plant.events(t, y, modes)
     }
@@ -153,7 +156,7 @@ impl Plant for Counted {
         y: &Numbers,
         modes: &Numbers,
         fell: impl Fn(usize) -> bool,
-    ) -> Tried<(Numbers, Numbers)> {
+    ) -> Evaluation<(Numbers, Numbers)> {
         self.plant.change(t, y, modes, fell)
     }
 
@@ -161,11 +164,11 @@ impl Plant for Counted {
         self.plant.nothing()
     }
 
-    fn energy(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn energy(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.plant.energy(t, y, modes)
     }
 
-    fn power(&self, t: f64, y: &Numbers, modes: &Numbers) -> Tried<Power<Numbers>> {
+    fn power(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         self.plant.power(t, y, modes)
     }
 }
@@ -176,8 +179,8 @@ impl Measured for Counted {
     }
 }
 
-/// The scene as a subject; `None` where it has nothing to measure.
-pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
+/// The scene as a test case; `None` where it has nothing to measure.
+pub(crate) fn test_case(system: &SceneEquations, end: Option<f64>) -> Option<TestCase> {
     let full = measured(system)?;
     let scene = &full.scene;
     let (method, step_control) = own_way(&full);
@@ -188,20 +191,20 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
         full.outputs[0].unit,
     ];
     let end = end.unwrap_or(scene.integration.end);
-    let mut subject = Subject::new(words, end, method, step_control);
-    subject.kinked = kinked(&full);
-    subject.tolerances = TOLERANCES;
-    let levels = levels(&full);
+    let mut test_case = TestCase::new(words, end, method, step_control);
+    test_case.kinked = kinked(&full);
+    test_case.tolerances = TOLERANCES;
+    let ablations = ablations(&full);
     let counted = Counted::new(full);
     let reference = counted.runner(REFERENCE);
-    subject.reference = Some(Box::new(move |grid, tolerance| {
+    test_case.reference = Some(Box::new(move |grid, tolerance| {
         let ran = reference(grid, StepControl::Tolerance(tolerance))?;
         let row = |row: Vec<f64>| row.into_iter().map(Dd::from_f64).collect();
         Ok(ran.values.into_iter().map(row).collect())
     }));
     for method in INTEGRATORS.iter().filter(|m| **m != REFERENCE) {
         let (order, controlled) = order(method)?;
-        subject.contenders.push(Contender {
+        test_case.configurations.push(Configuration {
             effects: "all".into(),
             method: (*method).to_owned(),
             order,
@@ -212,19 +215,19 @@ pub(crate) fn subject(system: &System, end: Option<f64>) -> Option<Subject> {
             run: counted.runner(method),
         });
     }
-    subject.add_level("all", counted.runner(method));
-    subject.prices.push(counted.price("all"));
-    for level in levels {
-        match level.system {
+    test_case.add_ablation("all", counted.runner(method));
+    test_case.prices.push(counted.price("all"));
+    for ablation in ablations {
+        match ablation.system {
             Some(system) => {
                 let counted = Counted::new(system);
-                subject.add_level(&level.effects, counted.runner(method));
-                if level.effects.starts_with(ALL_BUT) {
-                    subject.prices.push(counted.price(&level.effects));
+                test_case.add_ablation(&ablation.effects, counted.runner(method));
+                if ablation.effects.starts_with(ALL_BUT) {
+                    test_case.prices.push(counted.price(&ablation.effects));
                 }
             }
-            None => subject.missing_level(&level.effects),
+            None => test_case.missing_ablation(&ablation.effects),
         }
     }
-    Some(subject)
+    Some(test_case)
 }

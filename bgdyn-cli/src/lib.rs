@@ -4,15 +4,15 @@
 #![forbid(unsafe_code)]
 
 mod accuracy;
+mod cargo_project;
 mod colour;
 mod commands;
+pub mod fuzz_invariants;
 mod graph;
 pub mod import;
 mod output;
-pub mod promises;
 mod quantity;
 pub mod schema;
-mod scratch;
 pub mod simulate;
 mod spec_file;
 mod timing;

@@ -7,9 +7,9 @@ use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
-use crate::scratch::Scratch;
+use crate::cargo_project::CargoProject;
 
 /// States in which a scene is timed, around its start.
 const STATES: usize = 64;
@@ -20,27 +20,28 @@ use std::hint::black_box;
 use std::time::Instant;
 use bgdyn::runtime::{FixedVector, HybridSystem, StateVector};
 
-struct Random(u64);
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+/// Numbers that spread evenly over −1 … 1: multiples of the golden ratio.
+fn spread() -> impl FnMut() -> f64 {
+    let mut k = 0.0_f64;
+    move || {
+        k += 1.0;
+        2.0 * (0.618_033_988_749_894_9 * k).fract() - 1.0
     }
 }
 
 /// Median of nine rounds, ns per call of the derivative.
 fn time<S: HybridSystem<f64>>(scene: &S) -> f64 {
     let (start, modes) = scene.start();
-    let mut random = Random(2007);
+    let mut unit = spread();
     let states: Vec<S::State> = (0..STATES)
         .map(|_| {
             S::State::from_entries(|i| {
                 let x = start.entries()[i];
-                x + random.unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }
+                x + unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }
             })
         })
         .collect();
-    let input = S::Inputs::from_entries(|_| random.unit());
+    let input = S::Inputs::from_entries(|_| unit());
     let mut rounds = Vec::new();
     let mut calls = 64;
     while rounds.len() < 9 {
@@ -65,8 +66,8 @@ fn time<S: HybridSystem<f64>>(scene: &S) -> f64 {
 ///
 /// # Errors
 /// Where there is no cargo, or it cannot have the crates.
-pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
-    let scratch = Scratch::new("times", bgdyn, &[])?;
+pub(crate) fn times(systems: &[SceneEquations], bgdyn: &str) -> Result<Vec<f64>> {
+    let project = CargoProject::new("times", bgdyn, &[])?;
     let (mut modules, mut calls) = (String::new(), String::new());
     for (i, system) in systems.iter().enumerate() {
         let place = OutputOptions::source_text("a scene".into());
@@ -75,7 +76,7 @@ pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
             .map_err(|e| anyhow!(e))?;
         let functions = scene_functions(system, &Options::default());
         let text = source_text(scene_module(system, &functions, &place));
-        scratch.write(&format!("src/v{i}.rs"), &text)?;
+        project.write(&format!("src/v{i}.rs"), &text)?;
         writeln!(modules, "include!(\"v{i}.rs\");")?;
         let scene = struct_ident(&system.scene.name);
         writeln!(
@@ -85,8 +86,8 @@ pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
     }
     let main =
         format!("{HEAD}\nconst STATES: usize = {STATES};\n{modules}\nfn main() {{\n{calls}}}\n");
-    scratch.write("src/main.rs", &main)?;
-    let text = scratch.run()?;
+    project.write("src/main.rs", &main)?;
+    let text = project.run()?;
     let numbers = text
         .lines()
         .map(|line| line.parse::<f64>().context("a time"));

@@ -4,6 +4,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use bgdyn_runtime::Dd;
+
 /// What vectors and matrices are made of.
 pub trait Ring:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
@@ -119,4 +121,24 @@ impl<T: Ring> Sub for Mat3<T> {
     fn sub(self, b: Self) -> Self {
         Self::from_fn(|i, j| self.0[i][j] - b.0[i][j])
     }
+}
+
+/// Rotation by an angle about the unit vector n, by Rodrigues' formula:
+/// n nᵀ + cos (1 − n nᵀ) + sin [n]×. `constant` is a number as an entry.
+pub fn rodrigues<T: Ring + Mul<Dd, Output = T>>(
+    axis: Vec3<Dd>,
+    (cos, sin): (T, T),
+    constant: impl Fn(Dd) -> T,
+) -> Mat3<T> {
+    let n = axis.0;
+    Mat3::from_fn(|i, j| {
+        let along = n[i] * n[j];
+        let across = if i == j { Dd::ONE - along } else { -along };
+        let cross = match (3 + j - i) % 3 {
+            0 => Dd::ZERO,
+            1 => -n[3 - i - j],
+            _ => n[3 - i - j],
+        };
+        constant(along) + cos * across + sin * cross
+    })
 }

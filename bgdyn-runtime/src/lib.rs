@@ -55,7 +55,7 @@ mod system;
 mod two_sum;
 
 pub use arrays::{inner_products, matrix, mirror, vector};
-pub use dd::{Dd, ParseDdError};
+pub use dd::{Dd, Digits, ParseDdError};
 pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
 #[cfg(feature = "num-dual")]
 pub use dual::DualPart;

@@ -1,5 +1,8 @@
 //! Lane k of every result equals the scalar's result for lane k, bit for bit.
 
+// The generator's own: its crate is above this one.
+#[path = "../../bgdyn-codegen/src/random.rs"]
+#[allow(dead_code)]
 mod random;
 
 use bgdyn_runtime::nalgebra::{SVector, Vector2};
@@ -33,7 +36,7 @@ impl Numbers for Random {
             1e22,
             -1e-40,
         ];
-        let unit = self.unit();
+        let unit = self.signed();
         match self.word() % 8 {
             0 => SPECIAL[(self.word() % 16) as usize],
             1 => f64::from_bits(self.word()),

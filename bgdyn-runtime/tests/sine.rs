@@ -1,5 +1,8 @@
 //! Sine and cosine of `f64` and `f32` against double-double: errors in units of the last place.
 
+// The generator's own: its crate is above this one.
+#[path = "../../bgdyn-codegen/src/random.rs"]
+#[allow(dead_code)]
 mod random;
 
 use bgdyn_runtime::{Dd, Scalar};
@@ -82,12 +85,12 @@ fn measure<T: Float>(count: u64, seed: u64) {
     );
     check(
         "|x| <= π",
-        worst::<T>(count, || a.unit() * core::f64::consts::PI),
+        worst::<T>(count, || a.signed() * core::f64::consts::PI),
     );
-    check("to the limit", worst::<T>(count, || b.unit() * T::LIMIT));
+    check("to the limit", worst::<T>(count, || b.signed() * T::LIMIT));
     let sizes = worst::<T>(count, || {
-        let sign = c.unit();
-        libm::copysign(libm::exp2(c.unit() * 50.0), sign)
+        let sign = c.signed();
+        libm::copysign(libm::exp2(c.signed() * 50.0), sign)
     });
     check("of all sizes to 1e15", sizes);
     let quarters = (T::LIMIT * core::f64::consts::FRAC_2_PI) as i32;
@@ -146,19 +149,19 @@ fn sums<T: Float>(seed: u64) {
     let mut random = Random(seed);
     let mut found = (0.0, [0.0; 3]);
     for round in 0..60_000 {
-        let size = libm::exp2(random.unit() * 12.0);
-        let [a, b] = [0, 1].map(|_| T::of(random.unit() * size));
-        let hi = random.unit() * 3.0;
+        let size = libm::exp2(random.signed() * 12.0);
+        let [a, b] = [0, 1].map(|_| T::of(random.signed() * size));
+        let hi = random.signed() * 3.0;
         // In two rounds of three the sum is a multiple of a quarter turn, often 0, but for a few units in
         // the last place of the angle.
         let turns = match round % 4 {
             0 => 0.0,
-            _ => (random.unit() * 1000.0).round(),
+            _ => (random.signed() * 1000.0).round(),
         };
         let other = if round % 2 == 0 { hi } else { b.wide() };
         let near = T::of(turns * core::f64::consts::FRAC_PI_2 - other).beside((round % 7) - 3);
         let a = if round % 3 == 0 { a } else { near };
-        let lo = hi * random.unit() * 2_f64.powi(-54);
+        let lo = hi * random.signed() * 2_f64.powi(-54);
         let cases: [(&[T], (f64, f64)); 3] =
             [(&[a], (hi, lo)), (&[a, b], (0.0, 0.0)), (&[a, b], (hi, lo))];
         for (angles, offset) in cases {
@@ -198,13 +201,13 @@ fn errors_of_sums() {
 fn large_sums<T: Float>(seed: u64) {
     let mut random = Random(seed);
     for round in 0..40_000 {
-        let size = libm::exp2(33.0 + random.unit() * 20.0);
-        let [a, b, c] = [0, 1, 2].map(|_| T::of(random.unit() * size));
+        let size = libm::exp2(33.0 + random.signed() * 20.0);
+        let [a, b, c] = [0, 1, 2].map(|_| T::of(random.signed() * size));
         // In one round of two the angles all but cancel.
         let b = if round % 2 == 0 {
             b
         } else {
-            T::of(random.unit() * 3.0 - a.wide())
+            T::of(random.signed() * 3.0 - a.wide())
         };
         for angles in [&[a, b][..], &[a, b, c]] {
             let wide: Vec<Dd> = angles.iter().map(|x| Dd::from(x.wide())).collect();
@@ -263,7 +266,7 @@ fn at_once_as_alone() {
             let angles: [T; K] = core::array::from_fn(|k| {
                 let size = if (round + k) % 37 == 0 { 1e9 } else { 10.0 };
                 T::of(
-                    random.unit()
+                    random.signed()
                         * if round == 199 && k == 0 {
                             f64::NAN
                         } else {
@@ -271,7 +274,7 @@ fn at_once_as_alone() {
                         },
                 )
             });
-            let other = T::of(random.unit());
+            let other = T::of(random.signed());
             let offset = (core::f64::consts::FRAC_PI_4, 3.061_616_997_868_383e-17);
             let pairs = angles.map(|a| [a, other]);
             let plain = T::sin_cos_all(

@@ -7,7 +7,7 @@ use std::{env, fs};
 use bgdyn_accuracy::generate::variants;
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 /// The scenes, and when their runs end where that is not as the file says, s.
 const SCENES: [(&str, Option<f64>); 8] = [
@@ -31,17 +31,17 @@ fn main() {
         fs::write(out.join(format!("{name}.rs")), text).expect("OUT_DIR is writable");
         let file = out.join(format!("{name}.rs")).display().to_string();
         writeln!(modules, "include!({file:?});").expect("text");
-        write!(list, "({name:?}, {name}::subject), ").expect("text");
+        write!(list, "({name:?}, {name}::test_case), ").expect("text");
     }
     let count = SCENES.len();
     modules += &format!(
-        "/// The scenes' names, and what is measured of each.\npub const SUBJECTS: [(&str, Study); {count}] = [{list}];\n"
+        "/// The scenes' names, and what is measured of each.\npub const TEST_CASES: [(&str, Study); {count}] = [{list}];\n"
     );
     fs::write(out.join("modules.rs"), modules).expect("OUT_DIR is writable");
 }
 
 /// A scene.
-fn read(path: &Path) -> System {
+fn read(path: &Path) -> SceneEquations {
     println!("cargo::rerun-if-changed={}", path.display());
     let text = fs::read_to_string(path).expect("a scene");
     let load = |mechanism: &str| {

@@ -2,24 +2,13 @@
 
 use bgdyn::Dynamics;
 use bgdyn::nalgebra::{SMatrix, SVector};
+use bgdyn_codegen::random::Random;
 
 use crate::robots::for_each_robot;
 
-/// Equally distributed numbers in (−1, 1): splitmix64.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub(crate) fn vector<const N: usize>(&mut self, size: f64) -> SVector<f64, N> {
-        SVector::from_fn(|_, _| size * self.number())
-    }
+/// A vector of numbers in (−size, size).
+pub(crate) fn vector<const N: usize>(random: &mut Random, size: f64) -> SVector<f64, N> {
+    SVector::from_fn(|_, _| size * random.signed())
 }
 
 fn obeys<M: Dynamics<f64, N, N>, const N: usize>(
@@ -30,7 +19,11 @@ fn obeys<M: Dynamics<f64, N, N>, const N: usize>(
     assert_eq!(model.joint_names(), joints);
     let mut random = Random(17);
     for _ in 0..50 {
-        let (q, v, a) = (random.vector(3.0), random.vector(2.0), random.vector(2.0));
+        let (q, v, a) = (
+            vector(&mut random, 3.0),
+            vector(&mut random, 2.0),
+            vector(&mut random, 2.0),
+        );
         let mass = model.mass_matrix(&q);
         let bias = model.bias(&q, &v);
         let tau = model.inverse_dynamics(&q, &v, &a);
@@ -62,7 +55,7 @@ fn obeys<M: Dynamics<f64, N, N>, const N: usize>(
             0.0,
             size,
         );
-        let x: SVector<f64, N> = random.vector(1.0);
+        let x: SVector<f64, N> = vector(&mut random, 1.0);
         assert!(x.dot(&(mass * x)) > 0.0, "{robot}: M is positive definite");
         undoes(robot, model, (&q, &v, &a), &mass);
     }

@@ -5,11 +5,12 @@ use bgdyn::runtime::Cause;
 use bgdyn::{Dynamics, Scalar, Singular};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
+use bgdyn_codegen::random::Random;
 
 use crate::counted::{Counted, executed};
 use crate::counting::counts_equal;
 use crate::golden_values::equals_golden;
-use crate::laws::Random;
+use crate::laws::vector;
 
 bgdyn::bgdyn!("specs/puma_changed.yaml");
 bgdyn::bgdyn!("specs/puma_payload.yaml", derivatives = true);
@@ -138,7 +139,11 @@ fn parameters_set_at_run_time_equal_constants_and_the_evaluator() {
     let (model, constant) = (changed::<f64>(), PumaChanged::<f64>::default());
     let mut random = Random(29);
     for _ in 0..50 {
-        let state = [random.vector(3.0), random.vector(2.0), random.vector(5.0)];
+        let state = [
+            vector(&mut random, 3.0),
+            vector(&mut random, 2.0),
+            vector(&mut random, 5.0),
+        ];
         let found = results(&model, &state);
         let wanted = results(&constant, &state);
         for ((method, found), (_, wanted)) in found.iter().zip(&wanted) {

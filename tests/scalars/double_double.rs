@@ -4,10 +4,11 @@
 use bgdyn::Dynamics;
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::Dd;
+use bgdyn_codegen::random::Random;
 
 use crate::models::puma560::Puma560;
 use crate::models::scara4::Scara4;
-use crate::models::{Random, State, results, widen};
+use crate::models::{State, results, vector, widen};
 
 fn near(what: &str, found: &[Dd], wanted: &[Dd], relative: f64) {
     assert_eq!(found.len(), wanted.len(), "{what}");
@@ -28,7 +29,11 @@ fn agrees<const N: usize>(
 ) {
     let mut random = Random(43);
     for _ in 0..50 {
-        let narrow: State<f64, N> = [random.vector(3.0), random.vector(2.0), random.vector(5.0)];
+        let narrow: State<f64, N> = [
+            vector(&mut random, 3.0),
+            vector(&mut random, 2.0),
+            vector(&mut random, 5.0),
+        ];
         let state: State<Dd, N> = widen(&narrow);
         let [q, v, tau] = &state;
         let found = results(double, &state);

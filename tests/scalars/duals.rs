@@ -5,11 +5,12 @@ use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::runtime::Dd;
 use bgdyn::runtime::num_dual::{Dual64, DualSVec64, HyperDual64};
 use bgdyn::{Dynamics, Singular};
+use bgdyn_codegen::random::Random;
 
 use crate::models::puma560::Puma560;
 use crate::models::scara4::Scara4;
 use crate::models::spherical_pendulum::SphericalPendulum;
-use crate::models::{Random, State, widen};
+use crate::models::{State, vector, widen};
 
 /// Which argument the derivative is with respect to.
 const Q: usize = 0;
@@ -82,7 +83,11 @@ fn obeys<const N: usize>(
     let (plain, model) = (&models.plain, &models.dual);
     let mut random = Random(41);
     for _ in 0..100 {
-        let state @ [q, v, a] = &[random.vector(3.0), random.vector(2.0), random.vector(5.0)];
+        let state @ [q, v, a] = &[
+            vector(&mut random, 3.0),
+            vector(&mut random, 2.0),
+            vector(&mut random, 5.0),
+        ];
         let mass = plain.mass_matrix(q);
         let effort = |part: usize| {
             columns(|j| {

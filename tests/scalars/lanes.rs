@@ -4,12 +4,13 @@ use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 use bgdyn::runtime::{Cause, LaneSingular};
 use bgdyn::{Dynamics, Scalar, Singular};
+use bgdyn_codegen::random::Random;
 
 use crate::models::massless_tip::MasslessTip;
 use crate::models::puma560::Puma560;
 use crate::models::scara4::Scara4;
 use crate::models::spherical_pendulum::{self, SphericalPendulum};
-use crate::models::{Random, State, results};
+use crate::models::{State, results};
 
 /// A number that lanes are made of.
 trait Word: Scalar<Singular<2> = Singular> {
@@ -71,8 +72,8 @@ fn packed<S: Word, T: Lanes<S, L>, const L: usize, const N: usize>(
 fn random_states<S: Word, const L: usize, const N: usize>(random: &mut Random) -> [State<S, N>; L] {
     std::array::from_fn(|_| {
         // Now and then angles that need a long reduction.
-        let size = if random.number() > 0.9 { 1e9 } else { 3.0 };
-        [size, 2.0, 5.0].map(|size| SVector::from_fn(|_, _| S::from_f64(size * random.number())))
+        let size = if random.signed() > 0.9 { 1e9 } else { 3.0 };
+        [size, 2.0, 5.0].map(|size| SVector::from_fn(|_, _| S::from_f64(size * random.signed())))
     })
 }
 

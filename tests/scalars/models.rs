@@ -2,6 +2,7 @@
 
 use bgdyn::nalgebra::SVector;
 use bgdyn::{Dynamics, Scalar};
+use bgdyn_codegen::random::Random;
 
 bgdyn::bgdyn!("../golden/specs/puma560.yaml");
 bgdyn::bgdyn!("../golden/specs/scara4.yaml");
@@ -9,21 +10,9 @@ bgdyn::bgdyn!("specs/lifter.yaml");
 bgdyn::bgdyn!("specs/massless_tip.yaml");
 bgdyn::bgdyn!("specs/spherical_pendulum.yaml");
 
-/// Equally distributed numbers in (−1, 1): splitmix64.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub(crate) fn vector<const N: usize>(&mut self, size: f64) -> SVector<f64, N> {
-        SVector::from_fn(|_, _| size * self.number())
-    }
+/// A vector of numbers in (−size, size).
+pub(crate) fn vector<const N: usize>(random: &mut Random, size: f64) -> SVector<f64, N> {
+    SVector::from_fn(|_, _| size * random.signed())
 }
 
 /// Positions, velocities, and accelerations or efforts.

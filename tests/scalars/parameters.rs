@@ -5,12 +5,13 @@ use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::Dd;
 use bgdyn::runtime::num_dual::Dual64;
 use bgdyn::runtime::wide::f64x4;
+use bgdyn_codegen::random::Random;
 
 use crate::models::lifter::Lifter;
-use crate::models::{Random, State, results, widen};
+use crate::models::{State, results, vector, widen};
 
 fn state(random: &mut Random) -> State<f64, 2> {
-    [random.vector(3.0), random.vector(2.0), random.vector(5.0)]
+    [3.0, 2.0, 5.0].map(|size| vector(random, size))
 }
 
 /// Each lane with a payload of its own.

@@ -1,5 +1,6 @@
 //! Runs in lanes and by several threads: bit for bit those of one number at a time.
 
+use bgdyn_codegen::random::Random;
 use std::num::NonZeroUsize;
 
 use bgdyn::nalgebra::SVector;
@@ -10,9 +11,9 @@ use bgdyn_sim::batch::{Course, batch, outcome};
 use bgdyn_sim::lanes::{Driven, LaneError, LaneRun, Lanes, SmoothScene, packed, unpacked};
 use bgdyn_sim::{HybridState, Integrator, Ode, Rk4, Run, ScenePlant, SemiImplicitEuler, Solver};
 
-use crate::models::Random;
 use crate::models::scara4::Scara4;
 use crate::models::spherical_pendulum::SphericalPendulum;
+use crate::models::vector;
 
 bgdyn::bgdyn!("../../specs/scenes/puma_distributed.scene.yaml");
 use puma_distributed::PumaDistributed;
@@ -21,7 +22,7 @@ const STEPS: usize = 200;
 
 fn starts<S: Scalar, const N: usize>(count: usize, seed: u64) -> Vec<SVector<S, N>> {
     let mut random = Random(seed);
-    let mut start = || random.vector::<N>(0.8).map(S::from_f64);
+    let mut start = || vector::<N>(&mut random, 0.8).map(S::from_f64);
     (0..count).map(|_| start()).collect()
 }
 

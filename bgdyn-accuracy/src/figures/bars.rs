@@ -2,8 +2,8 @@
 //!
 //! Dots are used where the length of a bar would mean nothing.
 
+use crate::format::short;
 use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
-use crate::text::short;
 
 /// A line.
 pub(super) struct Line {

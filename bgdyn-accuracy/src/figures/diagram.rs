@@ -1,6 +1,6 @@
 //! The diagram of error against time, both on logarithmic axes.
 
-use crate::contender::StepControl;
+use crate::configuration::StepControl;
 use crate::row::Row;
 use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
 
@@ -84,7 +84,7 @@ impl Axis {
 /// 10^k as people write it.
 fn decade(k: i32) -> String {
     match k {
-        -2..=4 => crate::text::number(10_f64.powi(k)),
+        -2..=4 => crate::format::number(10_f64.powi(k)),
         _ => format!("1e{k}"),
     }
 }

@@ -3,14 +3,14 @@
 mod bars;
 mod diagram;
 
-use crate::contender::StepControl;
-use crate::converge::{Verdict, verdicts};
+use crate::configuration::StepControl;
 use crate::cost::{Cost, METHOD, TOLERANCE};
+use crate::format::{short, step, time};
+use crate::order_check::{Verdict, verdicts};
 use crate::pareto::targets;
 use crate::row::{Row, Status};
 use crate::study::Study;
 use crate::svg::Marker;
-use crate::text::{short, step, time};
 use bars::{Bars, Column, Line, Scale};
 use diagram::{Diagram, Series};
 
@@ -46,7 +46,7 @@ fn look(method: &str) -> (&'static str, Marker) {
     }
 }
 
-/// What stands before a family of effects that is left out, in the names of levels.
+/// What stands before a family of effects that is left out, in the names of ablations.
 const ALL_BUT: &str = "all but ";
 
 /// The figures of a study: methods, scalars and momenta, formulations, effects left out, effects
@@ -116,7 +116,7 @@ fn series<'a>(
             && r.scalar == verdict.scalar
             && r.formulation == verdict.formulation
     };
-    // The first row of a step control: the level `all` repeats the scene's own.
+    // The first row of a step control: the ablation `all` repeats the scene's own.
     let mut rows: Vec<&Row> = Vec::new();
     for row in study.rows.iter().filter(of) {
         if !rows.iter().any(|r| r.step_control == row.step_control) {
@@ -297,8 +297,8 @@ fn logarithmic(what: String, study: &Study) -> Column {
     }
 }
 
-/// The rows of levels: the scene with all effects by its own way, then those that `name` takes.
-fn levels<'a>(
+/// The rows of ablations: the scene with all effects by its own way, then those that `name` takes.
+fn ablations<'a>(
     study: &'a Study,
     name: impl Fn(&'a str) -> Option<&'a str>,
 ) -> Option<(&'a Row, Vec<(&'a str, &'a Row)>)> {
@@ -312,7 +312,7 @@ fn levels<'a>(
     let own =
         |r: &&Row| r.effects == "all" && r.step_control == step_control && r.method == *method;
     let own = |r: &&Row| own(r) && r.scalar == "f64" && r.formulation == "cheapest";
-    // The level comes after the method's own ladder, and is timed beside the other levels.
+    // The ablation comes after the method's own sequence of steps, and is timed beside the other ablations.
     Some((study.rows.iter().rfind(own)?, named))
 }
 
@@ -325,7 +325,7 @@ fn why(row: &Row) -> Option<String> {
 
 /// What each effect costs, and what it changes: the scene with all effects, and without each.
 fn left_out(study: &Study) -> Option<Figure> {
-    let (_, named) = levels(study, |e| e.strip_prefix(ALL_BUT))?;
+    let (_, named) = ablations(study, |e| e.strip_prefix(ALL_BUT))?;
     let of = |effects: &str| study.costs.iter().find(|c| c.effects == effects);
     let whole = of("all")?;
     let values = |cost: Option<&Cost>, error: Option<f64>| {
@@ -383,7 +383,7 @@ fn left_out(study: &Study) -> Option<Figure> {
 
 /// Effects added one after the other.
 fn added(study: &Study) -> Option<Figure> {
-    let (own, named) = levels(study, |e| {
+    let (own, named) = ablations(study, |e| {
         (!e.starts_with("all")).then(|| e.rsplit('+').next().unwrap_or(e))
     })?;
     let line = |(i, (effect, row)): (usize, &(&str, &Row))| Line {

@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_accuracy::generate::variants;
 use bgdyn_accuracy::{
-    Machine, Plan, Study, costs_csv, csv, figures, page, study, targets, verdicts,
+    Effort, Machine, Study, costs_csv, csv, figures, page, study, targets, verdicts,
 };
 use bgdyn_codegen::format::Dimension;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
+use crate::cargo_project::CargoProject;
 use crate::output::{print, tell};
 use crate::quantity::positive;
-use crate::scratch::Scratch;
 use crate::spec_file::SpecFile;
 
 /// What accuracy costs in time on a scene: error and time by method, step, scalar, formulation, effects
@@ -57,7 +57,7 @@ impl Accuracy {
         let system = file.scene()?;
         let study = self.study(&system, end)?;
         write(&study, &self.out)?;
-        print(&told(&study, &self.out))?;
+        print(&summary(&study, &self.out))?;
         let wrong = verdicts(&study).into_iter().filter(|v| v.is_failure());
         let wrong: Vec<String> = wrong
             .map(|v| format!("{} in {}: {}", v.method, v.scalar, v.words()))
@@ -69,7 +69,7 @@ impl Accuracy {
     }
 
     /// The study of compiled code, or of the evaluator where there is no cargo.
-    fn study(&self, system: &System, end: Option<f64>) -> Result<Study> {
+    fn study(&self, system: &SceneEquations, end: Option<f64>) -> Result<Study> {
         let program = match self.compiled(system, end) {
             Ok(text) => text,
             Err(why) => {
@@ -90,26 +90,26 @@ impl Accuracy {
     }
 
     /// What the program prints that studies the compiled scene.
-    fn compiled(&self, system: &System, end: Option<f64>) -> Result<String> {
-        let scratch = Scratch::new("accuracy", &self.bgdyn, &["bgdyn-accuracy"])?;
+    fn compiled(&self, system: &SceneEquations, end: Option<f64>) -> Result<String> {
+        let project = CargoProject::new("accuracy", &self.bgdyn, &["bgdyn-accuracy"])?;
         let text = variants(system, end).map_err(|e| anyhow!(e))?;
-        scratch.write("src/scene.rs", &text)?;
+        project.write("src/scene.rs", &text)?;
         let name = &system.scene.name;
-        let plan = if self.quick { "QUICK" } else { "FULL" };
+        let effort = if self.quick { "QUICK" } else { "FULL" };
         let main = format!(
-            "//! Written by `bgdyn accuracy`.\ninclude!(\"scene.rs\");\n\nfn main() {{\n    match bgdyn_accuracy::study(&{name}::subject(), &bgdyn_accuracy::Plan::{plan}) {{\n        Ok(study) => print!(\"{{}}\", study.write()),\n        Err(why) => print!(\"{REFUSED}{{why}}\"),\n    }}\n}}\n"
+            "//! Written by `bgdyn accuracy`.\ninclude!(\"scene.rs\");\n\nfn main() {{\n    match bgdyn_accuracy::study(&{name}::test_case(), &bgdyn_accuracy::Effort::{effort}) {{\n        Ok(study) => print!(\"{{}}\", study.write()),\n        Err(why) => print!(\"{REFUSED}{{why}}\"),\n    }}\n}}\n"
         );
-        scratch.write("src/main.rs", &main)?;
-        scratch.run()
+        project.write("src/main.rs", &main)?;
+        project.run()
     }
 }
 
 /// The study through the evaluator.
-fn evaluated(system: &System, end: Option<f64>) -> Result<Study> {
-    let subject = crate::accuracy::subject(system, end)
+fn evaluated(system: &SceneEquations, end: Option<f64>) -> Result<Study> {
+    let test_case = crate::accuracy::test_case(system, end)
         .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
     // The evaluator takes its time.
-    study(&subject, &Plan::QUICK).map_err(|e| anyhow!("{e}"))
+    study(&test_case, &Effort::QUICK).map_err(|e| anyhow!("{e}"))
 }
 
 /// Writes table, figures and page.
@@ -134,7 +134,7 @@ fn write(study: &Study, out: &Path) -> Result<()> {
 }
 
 /// The cheapest ways, and where the rest is.
-fn told(study: &Study, out: &Path) -> String {
+fn summary(study: &Study, out: &Path) -> String {
     let facts = &study.facts;
     let mark = if study.is_measured() { "" } else { "~" };
     let mut text = String::new();

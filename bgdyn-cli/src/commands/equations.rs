@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::closed_form::{LIMIT, Refused, closed_form, latex, text};
+use bgdyn_codegen::closed_form::{LIMIT, NoClosedForm, closed_form, latex, text};
 use clap::{Args, ValueEnum};
 
 use crate::output::print;
@@ -19,8 +19,8 @@ pub(crate) struct Equations {
     /// The spec
     file: PathBuf,
     /// How they are written
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = EquationFormat::Text)]
+    format: EquationFormat,
     /// Where to write them; stdout by default
     #[arg(short, long)]
     output: Option<PathBuf>,
@@ -34,7 +34,7 @@ pub(crate) struct Equations {
 
 /// How equations are written.
 #[derive(Clone, Copy, ValueEnum)]
-enum Format {
+enum EquationFormat {
     /// Plain Unicode, for a terminal
     Text,
     /// LaTeX, for the package amsmath
@@ -52,8 +52,8 @@ impl Equations {
         let form = closed_form(&mechanism, self.limit).map_err(|refused| self.refused(&refused))?;
         let digits = usize::from(self.digits);
         let written = match self.format {
-            Format::Text => text(&form, digits),
-            Format::Latex => latex(&form, digits),
+            EquationFormat::Text => text(&form, digits),
+            EquationFormat::Latex => latex(&form, digits),
         };
         match &self.output {
             None => print(&written),
@@ -63,10 +63,10 @@ impl Equations {
     }
 
     /// A refusal with the way out.
-    fn refused(&self, refused: &Refused) -> anyhow::Error {
+    fn refused(&self, refused: &NoClosedForm) -> anyhow::Error {
         let (file, limit) = (self.file.display(), self.limit);
         match refused {
-            Refused::NotTrigonometric => anyhow!("{file}: no closed form: {refused}"),
+            NoClosedForm::NotTrigonometric => anyhow!("{file}: no closed form: {refused}"),
             _ => anyhow!(
                 "{file}: too long for a closed form: {refused}, and the limit is {limit} terms; \
                  give joints that may stand still the type `fixed`, or allow more by `--limit N`"

@@ -23,11 +23,11 @@ pub(crate) struct Graph {
     output: Option<PathBuf>,
     /// SVG, or the language of Graphviz; by default what the output's name ends with, else SVG
     #[arg(long, value_enum)]
-    format: Option<Format>,
+    format: Option<DrawingFormat>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum DrawingFormat {
     Svg,
     Dot,
 }
@@ -41,8 +41,8 @@ impl Graph {
             false => Chart::new(&spec.mechanism()?),
         };
         let text = match format {
-            Format::Svg => chart.svg(),
-            Format::Dot => chart.dot(),
+            DrawingFormat::Svg => chart.svg(),
+            DrawingFormat::Dot => chart.dot(),
         };
         match &self.output {
             None => print(&text),
@@ -52,13 +52,13 @@ impl Graph {
     }
 
     /// The format asked for, or that of the output's name.
-    fn format(&self) -> Result<Format> {
+    fn format(&self) -> Result<DrawingFormat> {
         let ending = self.output.as_deref().and_then(Path::extension);
         let ending = ending.map(|e| e.to_string_lossy().to_lowercase());
         match (self.format, ending.as_deref()) {
             (Some(format), _) => Ok(format),
-            (None, None | Some("svg")) => Ok(Format::Svg),
-            (None, Some("dot" | "gv")) => Ok(Format::Dot),
+            (None, None | Some("svg")) => Ok(DrawingFormat::Svg),
+            (None, Some("dot" | "gv")) => Ok(DrawingFormat::Dot),
             (None, Some(other)) => {
                 let message = format!(
                     "`.{other}` is no format of drawings: end the name with .svg or .dot, or say --format svg or --format dot"

@@ -11,7 +11,7 @@ use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::{function, scene_functions};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 use serde::{Serialize, Serializer};
 
@@ -65,14 +65,14 @@ impl Ops {
             let words: Vec<String> = words.unwrap_or_default();
             return print(&(table(functions) + &words.concat()));
         }
-        let report = serde_json::to_string_pretty(&Report {
-            functions: Functions(functions),
+        let report = serde_json::to_string_pretty(&OpsReport {
+            functions: FunctionCounts(functions),
             explained,
         })?;
         print(&(report + "\n"))
     }
 
-    fn scene(&self, system: &System, options: &Options) -> Result<()> {
+    fn scene(&self, system: &SceneEquations, options: &Options) -> Result<()> {
         let misplaced = options.of_mechanisms();
         if !misplaced.is_empty() {
             return Err(unknown(misplaced).into());
@@ -89,8 +89,8 @@ impl Ops {
 }
 
 #[derive(Serialize)]
-struct Report<'a> {
-    functions: Functions<'a>,
+struct OpsReport<'a> {
+    functions: FunctionCounts<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     explained: Option<Explained>,
 }
@@ -107,9 +107,9 @@ impl Serialize for Explained {
 }
 
 /// One entry per generated function, in the module's order.
-struct Functions<'a>(&'a [Function]);
+struct FunctionCounts<'a>(&'a [Function]);
 
-impl Serialize for Functions<'_> {
+impl Serialize for FunctionCounts<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|f| (f.name(), Counts::of(f))))
     }
@@ -175,7 +175,7 @@ fn explained(mechanism: &Mechanism, model: &Model) -> Explained {
 }
 
 fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
-    let lost = told(rounding_error(f, &model.bond_graph));
+    let lost = summary(rounding_error(f, &model.bond_graph));
     let mut text = format!("{}: {}; {lost}\n", f.name(), f.formulation);
     text += &format!("  cost {}\n", f.cost());
     text += &list("plans before factoring, the first one taken", &f.plans);
@@ -191,7 +191,7 @@ fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
                 "    {:<16} {}; {}  ({})\n",
                 formulation.name(),
                 other.cost(),
-                told(rounding_error(&other, &model.bond_graph)),
+                summary(rounding_error(&other, &model.bond_graph)),
                 formulation.summary()
             );
         }
@@ -211,7 +211,7 @@ fn list(title: &str, all: &[Considered]) -> String {
 }
 
 /// A rounding error in words.
-fn told(error: Option<RoundingError>) -> String {
+fn summary(error: Option<RoundingError>) -> String {
     match error {
         Some(RoundingError { failures: 0, ulps }) => {
             format!("error in f64 up to {ulps:.1} roundings of the largest component")

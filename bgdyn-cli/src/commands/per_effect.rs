@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use crate::timing::{estimate, times};
 
 /// A scene with some of its effects.
 #[derive(Serialize)]
-struct Row {
+struct VariantCost {
     /// What it is: effects added so far, or all but one.
     effects: Vec<String>,
     /// Multiplications and additions of the derivative.
@@ -30,11 +30,12 @@ struct Row {
 }
 
 /// Prints the table of a scene's effects: added one at a time, and all but one.
-pub(super) fn report(whole: &System, json: bool, bgdyn: &str) -> Result<()> {
-    let (titles, systems): (Vec<String>, Vec<System>) = variants(whole)?.into_iter().unzip();
+pub(super) fn report(whole: &SceneEquations, json: bool, bgdyn: &str) -> Result<()> {
+    let (titles, systems): (Vec<String>, Vec<SceneEquations>) =
+        variants(whole)?.into_iter().unzip();
     let functions: Vec<Function> = systems
         .iter()
-        .map(|s| s.function(Role::Derivative))
+        .map(|s| s.function(SceneFunction::Derivative))
         .collect();
     let measured = times(&systems, bgdyn);
     if let Err(why) = &measured {
@@ -42,14 +43,14 @@ pub(super) fn report(whole: &System, json: bool, bgdyn: &str) -> Result<()> {
             "bgdyn: times are estimated from operations: {why:#}\n"
         ));
     }
-    let rows: Vec<Row> = titles
+    let rows: Vec<VariantCost> = titles
         .into_iter()
         .enumerate()
         .map(|(i, title)| {
             let (system, function) = (&systems[i], &functions[i]);
             let operations = function.operations();
             let layout = &system.scene.layout;
-            Row {
+            VariantCost {
                 effects: names(system),
                 ops: operations.total(),
                 states: layout.nq() + layout.nv() + layout.nx(),
@@ -68,7 +69,7 @@ pub(super) fn report(whole: &System, json: bool, bgdyn: &str) -> Result<()> {
     }
 }
 
-fn names(system: &System) -> Vec<String> {
+fn names(system: &SceneEquations) -> Vec<String> {
     system
         .scene
         .elements
@@ -78,11 +79,12 @@ fn names(system: &System) -> Vec<String> {
 }
 
 /// The scene without effects, with one more each time, and without each one in turn.
-fn variants(whole: &System) -> Result<Vec<(String, System)>> {
+fn variants(whole: &SceneEquations) -> Result<Vec<(String, SceneEquations)>> {
     let all = names(whole);
     let with = |names: &[&String]| {
-        let scene = whole.scene.with_only(|e| names.contains(&&e.name));
-        System::new(scene).map_err(|_| anyhow::anyhow!("the scene cannot do without its effects"))
+        let scene = whole.scene.with_effects(|e| names.contains(&&e.name));
+        SceneEquations::new(scene)
+            .map_err(|_| anyhow::anyhow!("the scene cannot do without its effects"))
     };
     let mut found = vec![("links with point masses".to_owned(), with(&[])?)];
     let mut so_far: Vec<&String> = Vec::new();
@@ -100,7 +102,7 @@ fn variants(whole: &System) -> Result<Vec<(String, System)>> {
 }
 
 /// 1 / |λ| of the fastest mode at the start.
-fn fastest(system: &System, derivative: &Function) -> Option<f64> {
+fn fastest(system: &SceneEquations, derivative: &Function) -> Option<f64> {
     let slope = system.slope(derivative, &system.start())?;
     let n = slope.len();
     let matrix = DMatrix::from_fn(n, n, |i, j| slope[i][j]);
@@ -109,7 +111,7 @@ fn fastest(system: &System, derivative: &Function) -> Option<f64> {
     (largest > 1e-9).then_some(1.0 / largest)
 }
 
-fn table(rows: &[Row]) -> String {
+fn table(rows: &[VariantCost]) -> String {
     let mut text = format!(
         "{:<40} {:>7} {:>7} {:>9} {:>14}\n",
         "effects", "mul+add", "states", "ns", "fastest, s"

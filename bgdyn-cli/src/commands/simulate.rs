@@ -8,7 +8,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use self::many::{Batch, Many};
@@ -18,7 +18,7 @@ use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{self, number, quantity, short};
 use crate::simulate::{
-    Column, Evaluated, Record, Way, columns, plot, prepared, record_from, varied,
+    Column, Evaluated, Record, Way, batch_values, columns, plot, prepared, record_from,
 };
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
@@ -67,8 +67,8 @@ pub(crate) struct Simulate {
     many: Many,
 }
 
-/// Numbers of the options, SI units.
-struct Numbers {
+/// The numbers of the options, SI units.
+struct NumericOptions {
     step: Option<f64>,
     tolerance: Option<f64>,
     end: Option<f64>,
@@ -92,7 +92,7 @@ impl Simulate {
         }
         let numbers = self.numbers()?;
         let system = file.scene()?;
-        let given = varied::fixed(&system.scene, &self.parameters, &self.initial)?;
+        let given = batch_values::fixed(&system.scene, &self.parameters, &self.initial)?;
         let way = Way {
             integration: self.integration(system.scene.integration, &numbers)?,
             points: self.points,
@@ -112,8 +112,10 @@ impl Simulate {
             print(&format!("{}\n", summary(&file.stem, &way.integration)))?;
             return self.many.run(&batch, &given, &varied);
         }
-        let system = system.starting(&given).map_err(|f| start_refused(&f))?;
-        let plant = plant.starting(&system);
+        let system = system
+            .with_overrides(&given)
+            .map_err(|f| start_refused(&f))?;
+        let plant = plant.with_overrides(&system);
         let run = watched("run", &plant, &way);
         let files = self.write(&file.stem, &columns, &run)?;
         print(&format!(
@@ -143,7 +145,7 @@ impl Simulate {
     fn page(
         &self,
         name: &str,
-        (system, way): (&System, &Way),
+        (system, way): (&SceneEquations, &Way),
         columns: &[Column],
         run: &Record,
         report: String,
@@ -161,13 +163,13 @@ impl Simulate {
     }
 
     /// The numbers given.
-    fn numbers(&self) -> Result<Numbers, Usage> {
+    fn numbers(&self) -> Result<NumericOptions, Usage> {
         use Dimension::{One, Time};
         if self.points < 2 {
             let message = format!("`--points {}`: the start and the end are 2", self.points);
             return Err(Usage(message));
         }
-        Ok(Numbers {
+        Ok(NumericOptions {
             step: positive("step", self.step.as_ref(), Time)?,
             tolerance: positive("tolerance", self.tolerance.as_ref(), One)?,
             end: positive("end", self.end.as_ref(), Time)?,
@@ -175,7 +177,11 @@ impl Simulate {
     }
 
     /// The scene's way to run, as the options change it.
-    fn integration(&self, scene: Integration, given: &Numbers) -> Result<Integration, Usage> {
+    fn integration(
+        &self,
+        scene: Integration,
+        given: &NumericOptions,
+    ) -> Result<Integration, Usage> {
         let method = match &self.method {
             None => scene.method,
             Some(name) => IntegratorName::named(name).ok_or_else(|| {

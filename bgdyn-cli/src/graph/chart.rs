@@ -12,11 +12,11 @@ pub(crate) struct Chart {
     /// 1-junctions of the generalized velocities, each before those that it carries.
     pub velocities: Vec<Velocity>,
     /// The links that move, parents first, each before the next of its carrier's other links.
-    pub links: Vec<Link>,
+    pub links: Vec<ChartLink>,
     /// Lines between two places, along which something acts: as links without a joint.
-    pub lines: Vec<Link>,
-    /// Places of links at which something acts: their flow is [ω; v].
-    pub sites: Vec<Link>,
+    pub lines: Vec<ChartLink>,
+    /// Frames of links at which something acts: their flow is [ω; v].
+    pub sites: Vec<ChartLink>,
     /// Names of links that no coordinate moves: none of their junctions is there.
     pub still: Vec<String>,
     /// Names of links that move and carry others, but have no store and no source: none of their
@@ -28,7 +28,7 @@ pub(crate) struct Chart {
 
 impl Chart {
     /// Links, then lines, then sites.
-    pub fn bands(&self) -> impl Iterator<Item = &Link> {
+    pub fn bands(&self) -> impl Iterator<Item = &ChartLink> {
         self.links.iter().chain(&self.lines).chain(&self.sites)
     }
 
@@ -114,7 +114,7 @@ pub(crate) struct Velocity {
 
 /// A link and the junctions of its flows.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Link {
+pub(crate) struct ChartLink {
     /// Its name.
     pub name: String,
     /// The velocities that begin here, as places among [`Chart::velocities`]: those of the folded

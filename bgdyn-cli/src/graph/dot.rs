@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::chart::{Chart, Flow, Link, Port, Transformer};
+use super::chart::{Chart, ChartLink, Flow, Port, Transformer};
 
 impl Chart {
     /// The drawing as the text of a DOT file.
@@ -38,7 +38,7 @@ impl Chart {
 }
 
 /// A link's junctions, transformers and one-ports in a frame of their own.
-fn cluster(text: &mut String, i: usize, link: &Link) {
+fn cluster(text: &mut String, i: usize, link: &ChartLink) {
     let title = quoted(&link.name);
     *text += &format!("  subgraph cluster_{i} {{\n    label={title};\n    color=gray80;\n");
     for (k, flow) in link.flows.iter().enumerate() {
@@ -70,14 +70,14 @@ fn transformers(text: &mut String, flow: &Flow, one: &str) {
             1,
             &format!("v{}", t.velocity),
             &own,
-            Some(End::Tail),
+            Some(BondEnd::Tail),
             false,
         );
         let target = if flow.sums() { &sum } else { one };
-        bond(text, 1, &own, target, Some(End::Tail), flow.is_vector());
+        bond(text, 1, &own, target, Some(BondEnd::Tail), flow.is_vector());
     }
     if flow.sums() {
-        bond(text, 1, &sum, one, Some(End::Tail), flow.is_vector());
+        bond(text, 1, &sum, one, Some(BondEnd::Tail), flow.is_vector());
     }
 }
 
@@ -99,9 +99,9 @@ fn one_port(text: &mut String, port: &Port, junction: &str, own: &str, triple: b
     node(text, indent, own, &(words + &more.collect::<String>()));
     let stroke = |on: bool| {
         if on == port.feeds {
-            End::Head
+            BondEnd::Head
         } else {
-            End::Tail
+            BondEnd::Tail
         }
     };
     let stroke = port.on_junction.map(stroke);
@@ -121,18 +121,25 @@ fn node(text: &mut String, indent: usize, name: &str, words: &str) {
 
 /// An end of a bond.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum End {
+enum BondEnd {
     Tail,
     Head,
 }
 
 /// A bond with its half arrow at `to` and its causal stroke at one end.
-fn bond(text: &mut String, indent: usize, from: &str, to: &str, stroke: Option<End>, triple: bool) {
+fn bond(
+    text: &mut String,
+    indent: usize,
+    from: &str,
+    to: &str,
+    stroke: Option<BondEnd>,
+    triple: bool,
+) {
     let mut style = vec![match stroke {
-        Some(End::Head) => "arrowhead=teelvee",
+        Some(BondEnd::Head) => "arrowhead=teelvee",
         _ => "arrowhead=lvee",
     }];
-    if stroke == Some(End::Tail) {
+    if stroke == Some(BondEnd::Tail) {
         style.extend(["dir=both", "arrowtail=tee"]);
     }
     if triple {

@@ -1,5 +1,7 @@
 //! Numbers and symbols as drawings show them.
 
+use bgdyn_runtime::Digits;
+
 /// A subscript: `₁₂`.
 pub(super) fn subscript(n: usize) -> String {
     digits(n, '₀'..='₉')
@@ -23,28 +25,7 @@ fn digits(n: usize, signs: std::ops::RangeInclusive<char>) -> String {
 /// A number with three digits, whole numbers up to a million with all of theirs: `0.0825`, `−1`,
 /// `2.38e−6`.
 pub(super) fn number(x: f64) -> String {
-    let size = x.abs();
-    let text = match size {
-        0.0 => "0".to_owned(),
-        _ if (1e-4..1e6).contains(&size) => {
-            let decimals = (2 - size.log10().floor() as i32).max(0) as usize;
-            trimmed(&format!("{x:.decimals$}"))
-        }
-        _ => {
-            let text = format!("{x:.2e}");
-            let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-            format!("{}e{exponent}", trimmed(mantissa))
-        }
-    };
-    text.replace('-', "−")
-}
-
-/// Without the zeros at the end of its decimals.
-fn trimmed(text: &str) -> String {
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text.to_owned(),
-    }
+    Digits::new(x, 3).to_string().replace('-', "−")
 }
 
 /// Coordinates by their numbers, three and more in a row in short: `q₁…q₃, q₅`.

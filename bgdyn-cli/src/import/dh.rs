@@ -52,7 +52,7 @@ const COLUMNS: [&str; 24] = [
 ];
 
 /// One row: its cells by the names of their columns.
-struct Row<'a> {
+struct TableRow<'a> {
     line: u32,
     /// Name, column of the text, text; only cells with something in them.
     cells: Vec<(&'a str, u32, &'a str)>,
@@ -111,7 +111,7 @@ fn base() -> Link {
 }
 
 /// The rows below the names of the columns; empty lines and those that begin with `#` are none.
-fn rows(text: &str) -> Result<Vec<Row<'_>>> {
+fn rows(text: &str) -> Result<Vec<TableRow<'_>>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = (1..).zip(text.lines());
     let mut lines = lines.filter(|(_, line)| {
@@ -142,7 +142,7 @@ fn rows(text: &str) -> Result<Vec<Row<'_>>> {
         let message = format!("columns are missing: {}", missing.join(", "));
         return Err(fault((line, 1), message));
     }
-    let rows: Result<Vec<Row<'_>>> = lines
+    let rows: Result<Vec<TableRow<'_>>> = lines
         .map(|(line, text)| {
             let given: Vec<(u32, &str)> = cells(text).collect();
             if given.len() > columns.len() {
@@ -154,7 +154,7 @@ fn rows(text: &str) -> Result<Vec<Row<'_>>> {
                 .zip(given)
                 .filter(|(_, (_, text))| !text.is_empty());
             let cells = cells.map(|((_, name), (at, text))| (*name, at, text));
-            Ok(Row {
+            Ok(TableRow {
                 line,
                 cells: cells.collect(),
             })
@@ -178,7 +178,7 @@ fn cells(line: &str) -> impl Iterator<Item = (u32, &str)> {
     })
 }
 
-impl<'a> Row<'a> {
+impl<'a> TableRow<'a> {
     fn cell(&self, name: &str) -> Option<(At, &'a str)> {
         let found = self.cells.iter().find(|(column, ..)| *column == name);
         found.map(|(_, at, text)| ((self.line, *at), *text))

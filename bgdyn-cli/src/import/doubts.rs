@@ -7,6 +7,7 @@ use super::number::Num;
 use super::reading::{Inertial, Model};
 use super::tree::Tree;
 use bgdyn_codegen::name::WORLD;
+use bgdyn_runtime::Digits;
 use std::collections::HashMap;
 
 /// Warnings about the robot as a whole.
@@ -79,16 +80,16 @@ pub(super) fn judge_inertial(link: &str, inertial: &Inertial, warnings: &mut Vec
             "are not all positive or zero; kept, but `bgdyn check` will refuse them",
         ),
     };
-    let [a, b, c] = moments.map(|moment| Num::computed(rounded(moment)).text);
+    let [a, b, c] = moments.map(six_digits);
     warnings.push(format!(
         "link `{link}`: the principal moments {a}, {b}, {c} kg·m² {fault}"
     ));
     matches!(verdict, Verdict::NoTriangle(_))
 }
 
-/// Rounded to six digits, for reading.
-pub(super) fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
+/// A number with six digits, for reading.
+pub(super) fn six_digits(value: f64) -> String {
+    Digits::new(value, 6).to_string()
 }
 
 /// The links that are fixed to the world although nothing in the file says so, and that have mass: the maker may
@@ -106,7 +107,7 @@ fn grounded(model: &Model, tree: &Tree) -> Option<String> {
             rigid.extend(fixed.map(|(_, (_, child))| *child));
         }
         (mass != 0.0).then(|| {
-            let mass = Num::computed(rounded(mass)).text;
+            let mass = six_digits(mass);
             format!("`{}` ({mass} kg)", shown(&model.links[*root].name))
         })
     };

@@ -86,7 +86,7 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
     tree::order(&model)?;
     let told = rework::rework(&mut model, options)?;
     let tree = tree::order(&model)?;
-    let named = Names::new(&model);
+    let named = Identifiers::new(&model);
 
     let mut warnings = doubts::doubtful(&model, &tree);
     warnings.extend(told);
@@ -129,14 +129,14 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
 }
 
 /// The names of the mechanism, in the order of the model's.
-struct Names {
+struct Identifiers {
     robot: String,
     links: Vec<String>,
     joints: Vec<String>,
     frames: Vec<String>,
 }
 
-impl Names {
+impl Identifiers {
     fn new(model: &Model) -> Self {
         let places = model.links.iter().map(|link| link.name.as_str());
         let places: Vec<&str> = places
@@ -146,7 +146,7 @@ impl Names {
         let frames = links.split_off(model.links.len());
         let joints = model.joints.iter().map(|joint| joint.name.as_str());
         let joints: Vec<&str> = joints.collect();
-        Names {
+        Identifiers {
             robot: naming::identifier(&model.name, "robot"),
             links,
             joints: identifiers(&joints, "joint"),
@@ -173,11 +173,11 @@ impl Names {
 fn entries(
     model: &Model,
     tree: &tree::Tree,
-    named: &Names,
+    named: &Identifiers,
     allowed: &[bool],
     taken: &mut HashSet<String>,
 ) -> Vec<String> {
-    let entry = |link: usize| writing::Entry {
+    let entry = |link: usize| writing::LinkEntry {
         link: &model.links[link],
         name: &named.links[link],
         parent: None,
@@ -191,7 +191,7 @@ fn entries(
         let default = format!("{}_mount", named.links[*root]);
         let mount = taken.contains(&default).then(|| free(&default, taken));
         taken.insert(mount.clone().unwrap_or(default));
-        entries.push(writing::entry(&writing::Entry {
+        entries.push(writing::entry(&writing::LinkEntry {
             mount,
             ..entry(*root)
         }));
@@ -201,7 +201,7 @@ fn entries(
             Some(named.links[*parent].as_str()),
             Some((joint, name.as_str())),
         );
-        entries.push(writing::entry(&writing::Entry {
+        entries.push(writing::entry(&writing::LinkEntry {
             parent,
             joint,
             ..entry(*child)
@@ -218,7 +218,10 @@ fn free(name: &str, taken: &HashSet<String>) -> String {
 }
 
 /// The frames with their names and those of their links.
-fn frames<'a>(model: &'a Model, named: &'a Names) -> Vec<(&'a reading::Frame, &'a str, &'a str)> {
+fn frames<'a>(
+    model: &'a Model,
+    named: &'a Identifiers,
+) -> Vec<(&'a reading::Frame, &'a str, &'a str)> {
     let link = |name: &str| {
         let found = model.links.iter().position(|link| link.name == name);
         found.map_or("", |i| named.links[i].as_str())
@@ -231,7 +234,7 @@ fn frames<'a>(model: &'a Model, named: &'a Names) -> Vec<(&'a reading::Frame, &'
 /// What damping and friction of joints are as effects.
 fn effects<'a>(
     model: &'a Model,
-    named: &'a Names,
+    named: &'a Identifiers,
     mut taken: HashSet<String>,
 ) -> Vec<writing::Effect<'a>> {
     taken.extend(named.links.iter().chain(&named.frames).cloned());
@@ -261,7 +264,7 @@ fn has_losses(joint: &reading::Joint) -> bool {
 }
 
 /// What was written, on one line.
-fn written(model: &Model, tree: &tree::Tree, named: &Names, effects: usize) -> String {
+fn written(model: &Model, tree: &tree::Tree, named: &Identifiers, effects: usize) -> String {
     let moving = model
         .joints
         .iter()

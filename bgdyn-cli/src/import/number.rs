@@ -1,6 +1,6 @@
 //! Decimal numbers with their text as it was written.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, Digits};
 
 /// A number: its decimal text, fit for YAML, and its value.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,11 +34,7 @@ impl Num {
 
     /// A computed value, in its shortest form that reads back the same.
     pub(super) fn computed(value: f64) -> Self {
-        let text = match value.abs() {
-            0.0 => "0".into(),
-            size if (1e-5..1e17).contains(&size) => format!("{value}"),
-            _ => format!("{value:e}"),
-        };
+        let text = Digits::shortest(value).plain(-5..17).to_string();
         Num { text, value }
     }
 

@@ -1,7 +1,7 @@
 //! Poses computed from a robot's numbers in double-double, and their decimal text.
 
 use super::number::{Num, all_zero};
-use bgdyn_codegen::math::{Mat3, Vec3};
+use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
 use bgdyn_runtime::Dd;
 
 /// Angles this near a multiple of 90° are one: what is off is the rounding of double-double.
@@ -99,16 +99,9 @@ pub(super) fn about(axis: usize, angle: Dd) -> Pose {
 
 /// A turn about an axis of any length but zero.
 pub(super) fn turned(axis: Vec3<Dd>, angle: Dd) -> Pose {
-    let n = unit(axis);
     let (sin, cos) = sin_cos(angle);
-    let columns: [Vec3<Dd>; 3] = std::array::from_fn(|j| {
-        let mut e = [Dd::ZERO; 3];
-        e[j] = Dd::ONE;
-        let e = Vec3(e);
-        e.scale(cos) + n.cross(e).scale(sin) + n.scale(n.0[j] * (Dd::ONE - cos))
-    });
     Pose {
-        rotation: Mat3::from_fn(|i, j| columns[j].0[i]),
+        rotation: rodrigues(unit(axis), (cos, sin), |x| x),
         translation: Vec3([Dd::ZERO; 3]),
     }
 }

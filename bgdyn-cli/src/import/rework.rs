@@ -192,7 +192,7 @@ fn without(model: &Model, tree: &Tree, kept: &[bool]) -> Vec<String> {
     let names = listed(left.iter().map(|link| link.name.as_str()));
     vec![format!(
         "--chain: left out, with {} kg in all and {} moving joints: {names}",
-        Num::computed(super::doubts::rounded(mass)).text,
+        super::doubts::six_digits(mass),
         moving.count(),
     )]
 }

@@ -10,7 +10,7 @@ use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
 const WIDTH: usize = 100;
 
 /// A link as it stands in the mechanism.
-pub(super) struct Entry<'a> {
+pub(super) struct LinkEntry<'a> {
     pub(super) link: &'a Link,
     pub(super) name: &'a str,
     /// The name of the link that carries it; none for the fixed base.
@@ -82,7 +82,7 @@ pub(super) fn effects(effects: &[Effect<'_>]) -> String {
 }
 
 /// One link of the list.
-pub(super) fn entry(entry: &Entry<'_>) -> String {
+pub(super) fn entry(entry: &LinkEntry<'_>) -> String {
     let mut lines = vec![format!("name: {}", scalar(entry.name))];
     if entry.name != entry.link.name {
         lines.push(format!("label: {}", scalar(&entry.link.name)));

@@ -3,17 +3,17 @@
 use std::fmt::Write;
 use std::num::NonZeroUsize;
 
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
+use super::batch_values::{BatchValues, Given};
 use super::difference::range;
 use super::plant::Evaluated;
-use super::record::{Column, Way};
-use super::recorder::record_from;
 use super::report;
-use super::varied::{Given, Varied};
+use super::run_recorder::record_from;
+use super::run_table::{Column, Way};
 
-/// What is told of a run.
-pub(crate) struct Told {
+/// The results of a run of a batch.
+pub(crate) struct RunSummary {
     /// Of each output: at the end, the least, the largest.
     pub(crate) outputs: Vec<[f64; 3]>,
     /// What the energy's account lacks, of the energy that could move.
@@ -26,25 +26,25 @@ pub(crate) struct Told {
 
 /// Runs a scene for every row of `varied`, by so many threads; `watch` hears how many are done.
 pub(crate) fn run(
-    system: &System,
+    system: &SceneEquations,
     plant: &Evaluated<'_>,
     way: &Way,
-    (fixed, varied): (&[Given], &Varied),
+    (fixed, varied): (&[Given], &BatchValues),
     threads: NonZeroUsize,
     watch: impl FnMut(usize),
-) -> Vec<Told> {
+) -> Vec<RunSummary> {
     let one = |values: &Vec<f64>| {
-        let system = match system.starting(&varied.given(fixed, values)) {
+        let system = match system.with_overrides(&varied.given(fixed, values)) {
             Ok(system) => system,
             Err(faults) => return refused(&faults),
         };
-        let run = record_from(plant.starting(&system), way, &mut |_| {});
+        let run = record_from(plant.with_overrides(&system), way, &mut |_| {});
         let last = run.rows.last().map_or(&[][..], |row| &row.values);
         let outputs = last.iter().enumerate().map(|(i, &end)| {
             let (low, high) = range(run.rows.iter().map(|row| row.values[i]));
             [end, low, high]
         });
-        Told {
+        RunSummary {
             outputs: outputs.collect(),
             drift: report::drift(&run),
             t: run.t,
@@ -54,9 +54,9 @@ pub(crate) fn run(
     bgdyn_sim::batch::batch(&varied.runs, threads, one, watch)
 }
 
-fn refused(faults: &bgdyn_codegen::fault::Faults) -> Told {
+fn refused(faults: &bgdyn_codegen::fault::Faults) -> RunSummary {
     let why: Vec<&str> = faults.0.iter().map(|f| f.message.as_str()).collect();
-    Told {
+    RunSummary {
         outputs: vec![],
         drift: f64::NAN,
         t: 0.0,
@@ -65,7 +65,7 @@ fn refused(faults: &bgdyn_codegen::fault::Faults) -> Told {
 }
 
 /// The runs as a table with commas.
-pub(crate) fn csv(columns: &[Column], varied: &Varied, told: &[Told]) -> String {
+pub(crate) fn csv(columns: &[Column], varied: &BatchValues, told: &[RunSummary]) -> String {
     let one = |unit: &str| {
         if unit.is_empty() {
             "1".to_owned()

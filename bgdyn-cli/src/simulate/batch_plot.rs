@@ -5,11 +5,11 @@ use std::path::Path;
 use bgdyn_accuracy::svg::{Anchor, Drawing, INK, Marker};
 
 use super::axis::{Axis, LARGEST};
-use super::batch::Told;
+use super::batch::RunSummary;
+use super::batch_values::BatchValues;
 use super::difference::range;
 use super::panel::{BLUE, ORANGE, Panel};
-use super::record::Column;
-use super::varied::Varied;
+use super::run_table::Column;
 
 const PANEL: (f64, f64) = (400.0, 230.0);
 const HEADER: f64 = 60.0;
@@ -29,7 +29,7 @@ pub(crate) fn draw(
     path: &Path,
     title: &str,
     columns: &[Column],
-    (varied, told): (&Varied, &[Told]),
+    (varied, told): (&BatchValues, &[RunSummary]),
 ) -> std::io::Result<()> {
     let across = varied.quantities.len().min(ACROSS);
     let down = columns.len().min(DOWN);
@@ -65,13 +65,13 @@ fn draw_panel(
     d: &mut Drawing,
     (at, width): ((f64, f64), f64),
     (output, row): (&Column, usize),
-    (varied, column): (&Varied, usize),
-    told: &[Told],
+    (varied, column): (&BatchValues, usize),
+    told: &[RunSummary],
 ) {
     let quantity = &varied.quantities[column];
     let single = varied.quantities.len() == 1;
     let all = || varied.runs.iter().map(|run| run[column]).zip(told);
-    let sound = |run: &Told| run.failure.is_none();
+    let sound = |run: &RunSummary| run.failure.is_none();
     let mut points: Vec<(f64, [f64; 3])> = all()
         .filter(|(_, run)| sound(run))
         .map(|(x, run)| (x, run.outputs[row]))

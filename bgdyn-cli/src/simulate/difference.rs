@@ -1,6 +1,6 @@
 //! The distance between two runs of a scene.
 
-use super::record::Record;
+use super::run_table::Record;
 
 /// How far two runs are apart.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,18 +3,19 @@
 mod axis;
 pub(crate) mod batch;
 pub(crate) mod batch_plot;
+pub(crate) mod batch_values;
 mod difference;
 pub(crate) mod page;
 mod panel;
 mod plant;
 pub(crate) mod plot;
 pub(crate) mod progress;
-mod record;
-mod recorder;
 pub(crate) mod report;
-pub(crate) mod varied;
+mod run_recorder;
+mod run_table;
 
 pub use difference::Difference;
+pub(crate) use plant::Evaluation;
 pub use plant::{Evaluated, Form, Numbers, Undefined};
-pub use record::{Column, EnergyAt, Event, Record, Row, Way, columns};
-pub use recorder::{prepared, record, record_from};
+pub use run_recorder::{prepared, record, record_from};
+pub use run_table::{Column, EnergyAt, Event, Record, Row, Way, columns};

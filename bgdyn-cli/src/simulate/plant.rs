@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction};
 use nalgebra::{DMatrix, DVector};
@@ -49,14 +49,14 @@ pub enum Form {
 /// its files give them.
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
-    system: &'a System,
+    system: &'a SceneEquations,
     parameters: Vec<f64>,
-    functions: Arc<Functions>,
+    functions: Arc<SceneFunctions>,
 }
 
 /// What is evaluated of a scene: the same from whichever state it starts.
 #[derive(Debug)]
-struct Functions {
+struct SceneFunctions {
     derivative: Function,
     inputs: Option<Function>,
     events: Option<Function>,
@@ -79,33 +79,35 @@ struct Canonical {
     rates: Function,
 }
 
-type Tried<T> = Result<T, Undefined>;
+/// A value of a scene, or why there is none.
+pub(crate) type Evaluation<T> = Result<T, Undefined>;
 /// What can hold a coordinate, mode by mode.
-type ContactsOf = Tried<Vec<Contact<f64>>>;
+type ContactsOf = Evaluation<Vec<Contact<f64>>>;
 
 impl<'a> Evaluated<'a> {
     /// The scene in these numbers; `slopes` for methods that take the slope of the rates.
-    pub fn new(system: &'a System, form: Form, slopes: bool) -> Self {
+    pub fn new(system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
         let roles = system.roles();
         let if_there = |role| roles.contains(&role).then(|| system.function(role));
         let canonical = || Canonical {
-            to: system.function(Role::ToCanonical),
-            from: system.function(Role::FromCanonical),
-            rates: system.function(Role::CanonicalRates),
+            to: system.function(SceneFunction::ToCanonical),
+            from: system.function(SceneFunction::FromCanonical),
+            rates: system.function(SceneFunction::CanonicalRates),
         };
         let layout = &system.scene.layout;
         let coordinates = system.mode_coordinates().into_iter();
         let mode_velocities = coordinates.map(|j| layout.nq() + j);
-        let functions = Functions {
-            derivative: system.function(Role::Derivative),
-            inputs: if_there(Role::Inputs),
-            events: if_there(Role::Events),
-            contacts: if_there(Role::Contacts),
-            outputs: if_there(Role::Outputs),
-            power: system.function(Role::Power),
-            energy: system.function(Role::Energy),
+        let functions = SceneFunctions {
+            derivative: system.function(SceneFunction::Derivative),
+            inputs: if_there(SceneFunction::Inputs),
+            events: if_there(SceneFunction::Events),
+            contacts: if_there(SceneFunction::Contacts),
+            outputs: if_there(SceneFunction::Outputs),
+            power: system.function(SceneFunction::Power),
+            energy: system.function(SceneFunction::Energy),
             // In momenta the slopes are not known: stages are then solved for without them.
-            jacobian: (slopes && form == Form::Natural).then(|| system.function(Role::Jacobian)),
+            jacobian: (slopes && form == Form::Natural)
+                .then(|| system.function(SceneFunction::Jacobian)),
             canonical: (form == Form::Canonical).then(canonical),
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
             mode_velocities: mode_velocities.collect(),
@@ -117,8 +119,8 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// The same scene as it starts there ([`System::starting`]), with the functions of this one.
-    pub fn starting<'b>(&self, system: &'b System) -> Evaluated<'b> {
+    /// The same scene as it starts there ([`SceneEquations::with_overrides`]), with the functions of this one.
+    pub fn with_overrides<'b>(&self, system: &'b SceneEquations) -> Evaluated<'b> {
         Evaluated {
             system,
             parameters: parameters(system),
@@ -142,7 +144,7 @@ impl<'a> Evaluated<'a> {
     ///
     /// # Errors
     /// Where the mass matrix is singular.
-    pub fn natural(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    pub fn natural(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         match &self.functions.canonical {
             None => Ok(state.clone()),
             Some(canonical) => {
@@ -218,7 +220,7 @@ impl<'a> Evaluated<'a> {
     ///
     /// # Errors
     /// Where the mass matrix is singular and the state is one of momenta.
-    pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<(f64, f64)> {
+    pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<(f64, f64)> {
         let y = self.natural(t, state, modes)?;
         let energy = |y: &Numbers| -> Numbers {
             let at = self.driven(t, y, modes);
@@ -231,7 +233,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// A value that exists where the mass matrix is regular.
-    fn regular(&self, function: &Function, at: Inputs<f64>) -> Tried<Vec<f64>> {
+    fn regular(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
         let (values, refused) = function.evaluate(at);
         match refused {
             None => Ok(values),
@@ -240,7 +242,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// The same of rates, or of columns of rates, which must be finite.
-    fn checked(&self, function: &Function, at: Inputs<f64>) -> Tried<Vec<f64>> {
+    fn checked(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
         let values = self.regular(function, at)?;
         let layout = &self.system.scene.layout;
         match values.iter().position(|x| !x.is_finite()) {
@@ -285,7 +287,7 @@ impl<'a> Evaluated<'a> {
     }
 }
 
-fn parameters(system: &System) -> Vec<f64> {
+fn parameters(system: &SceneEquations) -> Vec<f64> {
     numbers(system.scene.parameters.iter().map(|p| &p.default))
 }
 
@@ -300,7 +302,7 @@ impl Plant for Evaluated<'_> {
     type Entries = Numbers;
     type Error = Undefined;
 
-    fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         if let Some(canonical) = &self.functions.canonical {
             let at = self.arguments(t, state, modes);
             let rates = self.regular(&canonical.rates, at)?;
@@ -316,7 +318,12 @@ impl Plant for Evaluated<'_> {
         Ok(rates.into())
     }
 
-    fn jacobian(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Tried<Jacobian<Numbers>>> {
+    fn jacobian(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+    ) -> Option<Evaluation<Jacobian<Numbers>>> {
         let jacobian = self.functions.jacobian.as_ref()?;
         let values = match self.checked(jacobian, self.arguments(t, y, modes)) {
             Ok(values) => values,
@@ -338,7 +345,7 @@ impl Plant for Evaluated<'_> {
         self.system.scene.layout.nq()
     }
 
-    fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
         let mut rates = y.clone();
         let nq = self.positions();
@@ -346,7 +353,7 @@ impl Plant for Evaluated<'_> {
         Ok(rates)
     }
 
-    fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let Some(events) = &self.functions.events else {
             return Ok(DVector::zeros(0));
         };
@@ -364,7 +371,7 @@ impl Plant for Evaluated<'_> {
         state: &Numbers,
         modes: &Numbers,
         fell: impl Fn(usize) -> bool,
-    ) -> Tried<(Numbers, Numbers)> {
+    ) -> Evaluation<(Numbers, Numbers)> {
         let y = self.natural(t, state, modes)?;
         let (y, held) = self.stiction(t).after_events(&y, modes, fell)?;
         Ok((self.own(t, &y, &held), held))
@@ -376,7 +383,7 @@ impl Plant for Evaluated<'_> {
         state: &Numbers,
         modes: &Numbers,
         rest: f64,
-    ) -> Tried<Option<(Numbers, Numbers)>> {
+    ) -> Evaluation<Option<(Numbers, Numbers)>> {
         let y = self.natural(t, state, modes)?;
         let found = self.stiction(t).resolve(&y, modes, rest)?;
         Ok(found.map(|(y, modes)| (self.own(t, &y, &modes), modes)))
@@ -386,7 +393,7 @@ impl Plant for Evaluated<'_> {
         DVector::zeros(self.system.entries.len())
     }
 
-    fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Numbers> {
+    fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
         Ok(self
             .functions
@@ -396,7 +403,7 @@ impl Plant for Evaluated<'_> {
             .into())
     }
 
-    fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Tried<Power<Numbers>> {
+    fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         let y = self.natural(t, state, modes)?;
         let values = self.regular(&self.functions.power, self.driven(t, &y, modes))?;
         // Of three numbers each the first is supplied, the last dissipated.

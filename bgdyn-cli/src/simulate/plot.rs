@@ -7,7 +7,7 @@ use bgdyn_accuracy::svg::{Anchor, Drawing, INK};
 use super::axis::{Axis, LARGEST};
 use super::difference::range;
 use super::panel::{BLUE, ORANGE, Panel};
-use super::record::{Column, Record};
+use super::run_table::{Column, Record};
 
 const PANEL: (f64, f64) = (560.0, 210.0);
 const HEADER: f64 = 56.0;

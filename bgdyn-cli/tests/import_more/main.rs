@@ -8,6 +8,7 @@ use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::function;
+use bgdyn_codegen::random::Random;
 
 /// The mechanism of a text that has no fault.
 fn mechanism(yaml: &str) -> Mechanism {
@@ -52,19 +53,7 @@ fn near(a: &[f64], b: &[f64], bar: f64) {
     }
 }
 
-/// Evenly spread numbers from −1 to 1, the same in every run.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn many(&mut self, count: usize) -> Vec<f64> {
-        (0..count).map(|_| self.next()).collect()
-    }
+/// So many numbers in −1 … 1.
+fn many(random: &mut Random, count: usize) -> Vec<f64> {
+    (0..count).map(|_| random.signed()).collect()
 }

@@ -1,8 +1,9 @@
 //! Joints locked, chains, frames, effects, `snap`, and what is said of all that.
 
-use super::{Numbers, effects, mechanism, near, pose, value};
+use super::{effects, many, mechanism, near, pose, value};
 use bgdyn_cli::import::{Import, Lock, Options, import_with};
 use bgdyn_codegen::method::Method;
+use bgdyn_codegen::random::Random;
 
 /// A branched robot with tilted axes: the torso carries two arms, the right one a hand with a massless tool.
 const ROBOT: &str = r#"<robot name="two arms">
@@ -46,7 +47,7 @@ fn efforts(yaml: &str, state: [&[f64]; 3]) -> Vec<f64> {
 #[test]
 fn a_locked_joint_is_one_that_rests_there() {
     let whole = made(Options::default()).yaml;
-    let mut numbers = Numbers(3);
+    let mut numbers = Random(3);
     let cases = [
         ("swing", 0, 0.0),
         ("swing", 0, -0.7),
@@ -70,7 +71,7 @@ fn a_locked_joint_is_one_that_rests_there() {
             "{}",
             locked.written
         );
-        let mut all = [(); 3].map(|()| numbers.many(4));
+        let mut all = [(); 3].map(|()| many(&mut numbers, 4));
         let rest = all.clone().map(|mut part| {
             part.remove(at);
             part
@@ -161,12 +162,12 @@ fn a_chain_keeps_what_is_fixed_to_it_and_the_direction_of_gravity() {
             ..Options::default()
         })
     };
-    let mut numbers = Numbers(5);
+    let mut numbers = Random(5);
     // Of the right arm alone, and of what the shoulder carries with the shoulder at 0 and at rest.
     for (base, first) in [("Torso", 1), ("floor", 1), ("right", 2)] {
         for tip in ["tool0", "weight"] {
             let right = chain(base, tip);
-            let mut all = [(); 3].map(|()| numbers.many(4));
+            let mut all = [(); 3].map(|()| many(&mut numbers, 4));
             for part in &mut all {
                 part[..first].fill(0.0);
             }
@@ -209,7 +210,7 @@ fn a_chain_keeps_what_is_fixed_to_it_and_the_direction_of_gravity() {
 #[test]
 fn a_frame_is_where_its_link_would_be() {
     let whole = mechanism(&made(Options::default()).yaml);
-    let q = Numbers(7).many(4);
+    let q = many(&mut Random(7), 4);
     for asked in [&["tool0"][..], &["flange", "tool0"], &["all"]] {
         let framed = made(Options {
             frames: list(asked),

@@ -1,8 +1,9 @@
 //! Tables of Denavit–Hartenberg parameters, against products of their matrices and published arms.
 
-use super::{Numbers, mechanism, near, pose, value};
+use super::{many, mechanism, near, pose, value};
 use bgdyn_cli::import::{Convention, Options, import_table};
 use bgdyn_codegen::method::Method;
+use bgdyn_codegen::random::Random;
 use nalgebra::Matrix4;
 use serde_json::Value;
 
@@ -46,7 +47,7 @@ fn product(rows: &[(bool, bool, [f64; 4])], q: &[f64]) -> Matrix4<f64> {
 /// Random tables of both conventions, also mixed, with quarter turns among the angles.
 #[test]
 fn the_tip_is_where_the_matrices_say() {
-    let mut numbers = Numbers(11);
+    let mut numbers = Random(11);
     for case in 0..60 {
         let mut text = String::from("theta, d, a, alpha, type, convention\n");
         let mut rows = Vec::new();
@@ -58,13 +59,13 @@ fn the_tip_is_where_the_matrices_say() {
                     3.0 * x
                 }
             };
-            let [a, d] = [numbers.next(), numbers.next()];
-            let [alpha, theta] = [quarter(numbers.next()), quarter(numbers.next())];
-            let prismatic = numbers.next() > 0.5;
+            let [a, d] = [numbers.signed(), numbers.signed()];
+            let [alpha, theta] = [quarter(numbers.signed()), quarter(numbers.signed())];
+            let prismatic = numbers.signed() > 0.5;
             let standard = match case % 3 {
                 0 => true,
                 1 => false,
-                _ => numbers.next() > 0.0,
+                _ => numbers.signed() > 0.0,
             };
             let (kind, way) = (
                 ["revolute", "prismatic"][usize::from(prismatic)],
@@ -74,7 +75,7 @@ fn the_tip_is_where_the_matrices_say() {
             rows.push((standard, prismatic, [a, alpha, d, theta]));
         }
         let arm = mechanism(&made(&text, None));
-        let q = numbers.many(rows.len());
+        let q = many(&mut numbers, rows.len());
         let wanted = product(&rows, &q);
         let place = match rows.last().is_some_and(|(standard, ..)| *standard) {
             true => "flange".to_owned(),

@@ -102,6 +102,13 @@ impl Sub for Modulus {
     }
 }
 
+impl Mul<Dd> for Modulus {
+    type Output = Self;
+    fn mul(self, k: Dd) -> Self {
+        self * Modulus::constant(k)
+    }
+}
+
 impl Mul for Modulus {
     type Output = Self;
     fn mul(self, b: Self) -> Self {

@@ -1,6 +1,6 @@
 //! Strings of sums and products, shared by plain text and LaTeX.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, Digits};
 
 use super::form::{Atom, ClosedForm, Factor, Sum, Term};
 use super::polynomial::Angle;
@@ -117,25 +117,16 @@ pub(super) struct Decimal {
 impl Decimal {
     /// `digits`: 1 to 17.
     pub fn new(x: Dd, digits: usize) -> Self {
-        let rounded = format!("{:.*e}", digits.clamp(1, 17) - 1, x.hi());
-        let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
-        let exponent: i32 = exponent.parse().unwrap_or(0);
-        let back: Dd = rounded.parse().unwrap_or(Dd::NAN);
+        let text = Digits::new(x.hi(), digits).to_string();
+        let back: Dd = text.parse().unwrap_or(Dd::NAN);
         let exact = (back - x).hi().abs() <= 1e-29 * x.hi().abs();
-        let plain = (-4..6).contains(&exponent);
-        let shown = if plain {
-            let places = (digits.clamp(1, 17) as i32 - 1 - exponent).max(0) as usize;
-            format!("{:.*}", places, x.hi())
-        } else {
-            mantissa.to_owned()
-        };
-        let shown = match shown.contains('.') {
-            true => shown.trim_end_matches('0').trim_end_matches('.'),
-            false => &shown,
+        let (digits, exponent) = match text.split_once('e') {
+            Some((digits, exponent)) => (digits, exponent.parse().ok()),
+            None => (text.as_str(), None),
         };
         Decimal {
-            digits: shown.to_owned(),
-            exponent: (!plain).then_some(exponent),
+            digits: digits.to_owned(),
+            exponent,
             exact,
         }
     }

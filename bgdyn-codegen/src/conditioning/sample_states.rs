@@ -15,6 +15,7 @@ use crate::expr::Inputs;
 use crate::formulation::geometry::{Body, angle_of, geometry};
 use crate::math::Vec3;
 use crate::mechanism::{Motion, Value};
+use crate::random::Random;
 
 /// Number of random states.
 const RANDOM: u64 = 24;
@@ -55,8 +56,8 @@ pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
             // The first ones all in line, then in line or folded, then any quarter turn.
             let turns = match seed {
                 0 | 1 => 0.0,
-                2 | 3 => 2.0 * random.below(2),
-                _ => random.below(4),
+                2 | 3 => 2.0 * random.below(2) as f64,
+                _ => random.below(4) as f64,
             };
             state.q[j] = at(j, turns, OFF[seed as usize % OFF.len()]);
         }
@@ -136,9 +137,7 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     let mut random = Random(seed);
     let mut all = |size: &dyn Fn(usize) -> f64| -> Vec<f64> {
         let n = graph.coordinates.len();
-        (0..n)
-            .map(|j| (2.0 * random.unit() - 1.0) * size(j))
-            .collect()
+        (0..n).map(|j| random.signed() * size(j)).collect()
     };
     let (fast, forced) = match seed % 4 {
         2 => (1e3, 1.0),
@@ -199,26 +198,4 @@ fn first_moment(graph: &BondGraph, body: &Body) -> Vec3<Dd> {
         sum = sum + r.scale(number(inertial.mass));
     }
     body.axes.transpose() * sum
-}
-
-/// SplitMix64: the same numbers on every machine.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In [0, 1).
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// 0, 1, … below `n`.
-    fn below(&mut self, n: u64) -> f64 {
-        (self.next() % n) as f64
-    }
 }

@@ -21,7 +21,7 @@ use std::fmt;
 use bgdyn_runtime::{Dd, Operations};
 
 use super::count::Counter;
-use super::{Expr, Graph, Node};
+use super::{Graph, Node, Signed};
 
 /// A multiplication or an addition; both took the same time.
 const OPERATION: usize = 100;
@@ -102,7 +102,7 @@ impl fmt::Display for Cost {
         write!(
             f,
             "{} = {} mul + {} add",
-            Hundredths(self.weighted()),
+            hundredths(self.weighted()),
             o.mul,
             o.add
         )?;
@@ -116,28 +116,19 @@ impl fmt::Display for Cost {
             ("+", DEPTH, self.depth, "in a row"),
         ];
         for (sign, weight, n, what) in parts.into_iter().filter(|part| part.2 > 0) {
-            write!(f, " {sign} {} × {n} {what}", Hundredths(weight))?;
+            write!(f, " {sign} {} × {n} {what}", hundredths(weight))?;
         }
         Ok(())
     }
 }
 
-/// A number of hundredths as a decimal with no more places than it needs.
-struct Hundredths(usize);
-
-impl fmt::Display for Hundredths {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (whole, rest) = (self.0 / 100, self.0 % 100);
-        match (rest, rest % 10) {
-            (0, _) => write!(f, "{whole}"),
-            (_, 0) => write!(f, "{whole}.{}", rest / 10),
-            _ => write!(f, "{whole}.{rest:02}"),
-        }
-    }
+/// A number of hundredths, to be printed with no more places than it needs.
+fn hundredths(n: usize) -> f64 {
+    n as f64 / 100.0
 }
 
 /// What computing the outputs once costs.
-pub fn cost(graph: &Graph, outputs: &[Expr]) -> Cost {
+pub fn cost(graph: &Graph, outputs: &[Signed]) -> Cost {
     let reads = reads(graph, outputs);
     let ready = ready(graph, &reads);
     let mut counter = Counter::new(graph.len());
@@ -182,7 +173,7 @@ pub(super) fn ready(graph: &Graph, reads: &[u32]) -> Vec<usize> {
 }
 
 /// How often each node is read, by needed nodes and as an output; 0 for those that are not needed.
-pub(crate) fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
+pub(crate) fn reads(graph: &Graph, outputs: &[Signed]) -> Vec<u32> {
     let mut reads = vec![0; graph.len()];
     for e in outputs {
         reads[e.node.0 as usize] += 1;

@@ -9,6 +9,8 @@ mod reading;
 mod scene;
 mod values;
 
+use bgdyn_runtime::Digits;
+
 pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
 pub(crate) use checking::*;
@@ -22,13 +24,7 @@ pub(crate) use values::*;
 
 /// A number with six digits, for what was computed.
 fn figure(x: f64) -> String {
-    let digits: f64 = format!("{x:.5e}").parse().unwrap_or(x);
-    let plain = digits == 0.0 || (1e-4..1e6).contains(&digits.abs());
-    if plain {
-        format!("{digits}")
-    } else {
-        format!("{digits:e}")
-    }
+    Digits::new(x, 6).to_string()
 }
 
 fn figures(numbers: &[f64]) -> String {

@@ -3,23 +3,23 @@
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Ex};
-use crate::math::{Mat3, Vec3};
+use crate::expr::{Builder, Expr};
+use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::{LinkId, Motion};
 
 /// Placement of every link frame.
 pub(super) struct Placement<'g> {
     /// A_i: link axes in fixed axes.
-    pub(super) rotations: Vec<Mat3<Ex<'g>>>,
+    pub(super) rotations: Vec<Mat3<Expr<'g>>>,
     /// Origins of the link frames, m.
-    pub(super) origins: Vec<Vec3<Ex<'g>>>,
+    pub(super) origins: Vec<Vec3<Expr<'g>>>,
     /// Unit vectors of the joints' axes.
-    pub(super) axes: Vec<Vec3<Ex<'g>>>,
+    pub(super) axes: Vec<Vec3<Expr<'g>>>,
 }
 
 impl<'g> Placement<'g> {
     /// From the base outwards.
-    pub(super) fn new(b: &'g Builder, graph: &Multibody, q: &[Ex<'g>]) -> Self {
+    pub(super) fn new(b: &'g Builder, graph: &Multibody, q: &[Expr<'g>]) -> Self {
         let mut placed = Placement {
             rotations: Vec::new(),
             origins: Vec::new(),
@@ -34,7 +34,10 @@ impl<'g> Placement<'g> {
             }
             let axis = rotation * b.vector(frame.axis);
             match (frame.motion, frame.coordinate) {
-                (Motion::Rotation, Some(j)) => rotation = rotation * turn(b, frame.axis, q[j.0]),
+                (Motion::Rotation, Some(j)) => {
+                    let angle = b.cos_sin(&[q[j.0]], Dd::ZERO);
+                    rotation = rotation * rodrigues(frame.axis, angle, |x| b.constant(x));
+                }
                 (Motion::Translation, Some(j)) => origin = origin + axis.scale(q[j.0]),
                 _ => {}
             }
@@ -46,23 +49,7 @@ impl<'g> Placement<'g> {
     }
 
     /// A point of link i, given in its axes.
-    pub(super) fn point(&self, i: usize, p: Vec3<Ex<'g>>) -> Vec3<Ex<'g>> {
+    pub(super) fn point(&self, i: usize, p: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         self.origins[i] + self.rotations[i] * p
     }
-}
-
-/// Rotation by q about the unit vector n: n nᵀ + cos q (1 − n nᵀ) + sin q [n]×.
-fn turn<'g>(b: &'g Builder, axis: Vec3<Dd>, q: Ex<'g>) -> Mat3<Ex<'g>> {
-    let (cos, sin) = b.cos_sin(&[q], Dd::ZERO);
-    let n = axis.0;
-    Mat3::from_fn(|i, j| {
-        let along = n[i] * n[j];
-        let across = if i == j { Dd::ONE - along } else { -along };
-        let swirl = match (3 + j - i) % 3 {
-            0 => Dd::ZERO,
-            1 => -n[3 - i - j],
-            _ => n[3 - i - j],
-        };
-        b.constant(along) + cos * across + sin * swirl
-    })
 }

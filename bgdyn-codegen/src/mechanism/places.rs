@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::{LinkId, Mechanism, Motion, Pose};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Vec3, rodrigues};
 
 /// At so many positions.
 const POSITIONS: usize = 4;
@@ -13,12 +13,12 @@ const ROUNDING: f64 = 1e-26;
 
 /// The origins of links and frames in the world at sampled positions, m.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Places {
+pub(crate) struct SiteOrigins {
     names: Vec<String>,
     origins: Vec<[Vec3<Dd>; POSITIONS]>,
 }
 
-impl Places {
+impl SiteOrigins {
     /// Those of a mechanism: links first, then frames.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let poses: [Vec<Pose>; POSITIONS] = std::array::from_fn(|k| link_poses(mechanism, k));
@@ -33,7 +33,7 @@ impl Places {
             (frame.name.clone(), origins)
         });
         let (names, origins) = links.chain(frames).unzip();
-        Places { names, origins }
+        SiteOrigins { names, origins }
     }
 
     /// The names.
@@ -72,10 +72,13 @@ fn link_poses(mechanism: &Mechanism, k: usize) -> Vec<Pose> {
         );
         let coordinate = link.joint.coordinate.map(|j| sampled(j.0, k));
         let moved = match (link.joint.kind.motion, coordinate) {
-            (Motion::Rotation, Some(q)) => Pose {
-                rotation: turn(link.joint.axis, q),
-                ..Pose::IDENTITY
-            },
+            (Motion::Rotation, Some(q)) => {
+                let (sin, cos) = q.sin_cos();
+                Pose {
+                    rotation: rodrigues(link.joint.axis, (cos, sin), |x| x),
+                    ..Pose::IDENTITY
+                }
+            }
             (Motion::Translation, Some(q)) => Pose {
                 translation: link.joint.axis.scale(q),
                 ..Pose::IDENTITY
@@ -100,16 +103,4 @@ fn after(outer: Pose, inner: Pose) -> Pose {
         rotation: outer.rotation * inner.rotation,
         translation: outer.translation + outer.rotation * inner.translation,
     }
-}
-
-/// The rotation by an angle about a unit vector.
-fn turn(axis: Vec3<Dd>, angle: Dd) -> Mat3<Dd> {
-    let (sin, cos) = angle.sin_cos();
-    let columns: [Vec3<Dd>; 3] = std::array::from_fn(|j| {
-        let e = Vec3(std::array::from_fn(
-            |i| if i == j { Dd::ONE } else { Dd::ZERO },
-        ));
-        e.scale(cos) + axis.cross(e).scale(sin) + axis.scale(axis.0[j] * (Dd::ONE - cos))
-    });
-    Mat3::from_fn(|i, j| columns[j].0[i])
 }

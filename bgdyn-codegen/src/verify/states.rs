@@ -4,9 +4,10 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::BondGraph;
 use crate::conditioning::rounding_error::in_double_double;
-use crate::conditioning::sample_states::random;
+use crate::conditioning::sample_states;
 use crate::expr::Inputs;
-use crate::system::System;
+use crate::random::Random;
+use crate::system::SceneEquations;
 
 /// Coordinates up to which every state is tried.
 const SMALL: usize = 10;
@@ -14,28 +15,20 @@ const SMALL: usize = 10;
 /// Which of the generic states are tried: slow, fast, under large efforts.
 const GENERIC: [usize; 3] = [0, 2, 3];
 
-/// SplitMix64: the same numbers on every machine.
-pub(super) struct Random(pub u64);
+/// A number in −1 … 1.
+pub(super) fn signed(random: &mut Random) -> Dd {
+    Dd::from_f64(random.signed())
+}
 
-impl Random {
-    /// In −1 … 1.
-    pub fn unit(&mut self) -> Dd {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let z = z ^ (z >> 31);
-        Dd::from_f64((z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
-    }
+/// A direction: numbers in −1 … 1.
+pub(super) fn direction(random: &mut Random, n: usize) -> Vec<Dd> {
+    (0..n).map(|_| signed(random)).collect()
+}
 
-    /// A direction: numbers in −1 … 1.
-    pub fn direction(&mut self, n: usize) -> Vec<Dd> {
-        (0..n).map(|_| self.unit()).collect()
-    }
-
-    fn around(&mut self, start: &[Dd], size: f64) -> Vec<Dd> {
-        let size = Dd::from_f64(size);
-        start.iter().map(|&x| x + size * self.unit()).collect()
-    }
+/// Numbers within `size` of these.
+fn around(random: &mut Random, start: &[Dd], size: f64) -> Vec<Dd> {
+    let size = Dd::from_f64(size);
+    start.iter().map(|&x| x + size * signed(random)).collect()
 }
 
 /// States of a mechanism: three, or one beyond ten coordinates. The first one has run-time
@@ -45,7 +38,7 @@ pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
         0..=SMALL => GENERIC.len(),
         _ => 1,
     };
-    let generic = random(graph);
+    let generic = sample_states::random(graph);
     let mut random = Random(7);
     let chosen = GENERIC[..count].iter().enumerate().map(|(k, &i)| {
         let mut state = in_double_double(&generic[i]);
@@ -61,13 +54,13 @@ pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
 /// so that one that is zero in the file is tried as well.
 fn vary(parameters: &mut [Dd], random: &mut Random) {
     for p in parameters {
-        let (part, more) = (random.unit(), random.unit());
+        let (part, more) = (signed(random), signed(random));
         *p = *p * (Dd::ONE + Dd::from_f64(0.5) * part * part) + Dd::from_f64(0.1) * more * more;
     }
 }
 
 /// States of a scene near its start: all modes slipping, or some of them held.
-pub(super) fn of_scene(system: &System) -> Vec<Inputs<Dd>> {
+pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
     let layout = &system.scene.layout;
     let initial = &system.initial;
     let count = match (layout.nv() <= SMALL, layout.modes.is_empty()) {
@@ -77,27 +70,27 @@ pub(super) fn of_scene(system: &System) -> Vec<Inputs<Dd>> {
     };
     let state = |k: u64| {
         let mut random = Random(100 + k);
-        let v = random.around(&initial.v, 1.0);
+        let v = around(&mut random, &initial.v, 1.0);
         // First-order states differ in size: bristles, volumes of fluid, currents.
         let x = initial.x.iter().map(|&x| {
             let size = if x == Dd::ZERO { Dd::ONE } else { x };
-            x + Dd::from_f64(1e-3) * size * random.unit()
+            x + Dd::from_f64(1e-3) * size * signed(&mut random)
         });
         let x = x.collect();
         let modes = layout.modes.iter().map(|_| {
-            let value = 1.5 * random.unit().to_f64();
+            let value = 1.5 * random.signed();
             let slips = if value < 0.0 { -1.0 } else { 1.0 };
             Dd::from_f64(if k == 0 { slips } else { value.round() })
         });
         Inputs {
             modes: modes.collect(),
-            q: random.around(&initial.q, 0.3),
+            q: around(&mut random, &initial.q, 0.3),
             v,
-            a: random.around(&vec![Dd::ZERO; layout.nv()], 3.0),
+            a: around(&mut random, &vec![Dd::ZERO; layout.nv()], 3.0),
             x,
-            u: random.around(&vec![Dd::ZERO; layout.inputs.len()], 2.0),
+            u: around(&mut random, &vec![Dd::ZERO; layout.inputs.len()], 2.0),
             parameters: system.scene.parameters.iter().map(|p| p.default).collect(),
-            t: Some(random.unit() * random.unit()),
+            t: Some(signed(&mut random) * signed(&mut random)),
             passed: vec![],
         }
     };

@@ -1,30 +1,31 @@
-//! A small deterministic generator (SplitMix64): the same numbers on every machine.
+//! The random numbers of the tests: the same on every machine.
 
-/// The generator's state.
+use bgdyn_codegen::random::Random;
+
+/// A sequence of random numbers.
 #[derive(Clone, Debug)]
-pub struct Rng(u64);
+pub struct Rng(Random);
 
 impl Rng {
-    /// A stream of its own for every seed.
+    /// A sequence of its own for every seed.
     pub fn new(seed: u64) -> Self {
-        Rng(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d)
+        Rng(Random(
+            seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d,
+        ))
     }
 
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.word()
     }
 
     /// In [0, 1).
     pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+        self.0.unit()
     }
 
     /// In (−size, size).
     pub fn within(&mut self, size: f64) -> f64 {
-        (2.0 * self.unit() - 1.0) * size
+        self.0.signed() * size
     }
 
     pub fn chance(&mut self, share: f64) -> bool {
@@ -33,7 +34,7 @@ impl Rng {
 
     /// In 0 .. n.
     pub fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
+        self.0.below(n as u64) as usize
     }
 
     pub fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {

@@ -1,7 +1,8 @@
 //! The laws hold whatever effects are called for together.
 
-use super::common::{Random, scene};
+use super::common::scene;
 use super::{forms, laws};
+use bgdyn_codegen::random::Random;
 
 /// An arm that swings and reaches, with a frame to pull at.
 const ARM: &str = "\
@@ -58,7 +59,7 @@ fn random_combinations_of_effects_balance() {
     for _ in 0..TRIED {
         let mut chosen: Vec<&str> = Vec::new();
         for effects in EFFECTS {
-            if random.unit() > 0.0 {
+            if random.signed() > 0.0 {
                 chosen.extend(effects);
             }
         }

@@ -1,8 +1,9 @@
 //! Effects in random combinations: the laws hold whatever stands beside what.
 
+use bgdyn_codegen::random::Random;
 use std::path::Path;
 
-use super::common::{Random, scene};
+use super::common::scene;
 use super::laws;
 
 /// What a crane may have, each with what it needs.
@@ -46,7 +47,7 @@ fn effects_in_random_combinations_keep_the_laws() {
     for _ in 0..10 {
         let mut effects: Vec<String> = Vec::new();
         for choice in CHOICES {
-            if random.unit() > 0.0 {
+            if random.signed() > 0.0 {
                 let new = entries(choice).into_iter();
                 let new: Vec<String> = new.filter(|e| !effects.contains(e)).collect();
                 effects.extend(new);

@@ -1,12 +1,13 @@
 //! Scenes from files and from text, states to try them in.
 
+use bgdyn_codegen::random::Random;
 use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::refusal::Refusal;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 /// The repository's scene files.
@@ -21,7 +22,7 @@ pub fn specs() -> Vec<PathBuf> {
 }
 
 /// The scene in a file.
-pub fn read(path: &Path) -> System {
+pub fn read(path: &Path) -> SceneEquations {
     let text = std::fs::read_to_string(path).expect("a scene");
     let load = |mechanism: &str| {
         std::fs::read_to_string(beside(path, mechanism)).map_err(|e| e.to_string())
@@ -33,7 +34,7 @@ pub fn read(path: &Path) -> System {
 }
 
 /// A scene from its text and its mechanism's.
-pub fn scene(text: &str, mechanism: &str) -> System {
+pub fn scene(text: &str, mechanism: &str) -> SceneEquations {
     match try_scene(text, mechanism) {
         Ok((system, _)) => system,
         Err(refusal) => panic!("{}", told(&refusal, text)),
@@ -44,7 +45,7 @@ pub fn scene(text: &str, mechanism: &str) -> System {
 pub fn try_scene(
     text: &str,
     mechanism: &str,
-) -> Result<(System, bgdyn_codegen::fault::Faults), Refusal> {
+) -> Result<(SceneEquations, bgdyn_codegen::fault::Faults), Refusal> {
     read_scene(text, "scene", |_| Ok(mechanism.to_owned()))
 }
 
@@ -63,26 +64,15 @@ pub fn told(refusal: &Refusal, text: &str) -> String {
     }
 }
 
-/// Random numbers by a linear congruential generator (Knuth's MMIX).
-pub struct Random(pub u64);
-
-impl Random {
-    /// In −1 … 1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn many(&mut self, n: usize, size: f64) -> Vec<Dd> {
-        (0..n).map(|_| Dd::from_f64(self.unit() * size)).collect()
-    }
+/// So many numbers within `size` of 0.
+fn many(random: &mut Random, n: usize, size: f64) -> Vec<Dd> {
+    (0..n)
+        .map(|_| Dd::from_f64(random.signed() * size))
+        .collect()
 }
 
 /// The winding, the sign and the size of the limit whose mode has this name.
-fn current_limit(system: &System, mode: &str) -> Option<(usize, f64, Dd)> {
+fn current_limit(system: &SceneEquations, mode: &str) -> Option<(usize, f64, Dd)> {
     let sides = [("_upper_limit", 1.0), ("_lower_limit", -1.0)];
     let (name, side) = sides
         .iter()
@@ -94,10 +84,10 @@ fn current_limit(system: &System, mode: &str) -> Option<(usize, f64, Dd)> {
 
 /// A random state of a scene near its start, with random inputs and accelerations; `slipping`
 /// modes, or held ones.
-pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd> {
+pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> Inputs<Dd> {
     let layout = &system.scene.layout;
     let mut around = |start: &[Dd], size: f64| -> Vec<Dd> {
-        let offsets = random.many(start.len(), size);
+        let offsets = many(random, start.len(), size);
         start.iter().zip(offsets).map(|(&s, o)| s + o).collect()
     };
     let q = around(&system.initial.q, 0.3);
@@ -113,16 +103,16 @@ pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd>
             } else {
                 s.to_f64() * 1e-3
             };
-            s + Dd::from_f64(random.unit() * size)
+            s + Dd::from_f64(random.signed() * size)
         })
         .collect();
-    let u = random.many(layout.inputs.len(), 2.0);
-    let a = random.many(layout.nv(), 3.0);
+    let u = many(random, layout.inputs.len(), 2.0);
+    let a = many(random, layout.nv(), 3.0);
     let mut modes = Vec::new();
     let upper = u.first().is_none_or(|u| *u > Dd::ZERO);
     let (coordinates, mut seen) = (system.mode_coordinates(), Vec::new());
     for (k, part) in layout.modes.iter().enumerate() {
-        let sign = if random.unit() < 0.0 { -1.0 } else { 1.0 };
+        let sign = if random.signed() < 0.0 { -1.0 } else { 1.0 };
         if let Some((motor, side, limit)) = current_limit(system, &part.name) {
             // At one of its limits at a time.
             let held = !slipping && (side > 0.0) == upper;
@@ -156,7 +146,7 @@ pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd>
             .position(|i| Some(&i.name) == rate.as_ref());
         let speed = speed.map_or(Dd::ZERO, |i| u[i]);
         v[j] = if slipping {
-            speed + Dd::from_f64(sign * (0.2 + random.unit().abs()))
+            speed + Dd::from_f64(sign * (0.2 + random.signed().abs()))
         } else {
             speed
         };
@@ -169,7 +159,7 @@ pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd>
         u,
         modes,
         parameters: system.scene.parameters.iter().map(|p| p.default).collect(),
-        t: Some(Dd::from_f64(random.unit().abs())),
+        t: Some(Dd::from_f64(random.signed().abs())),
         passed: vec![],
     }
 }

@@ -1,7 +1,8 @@
 //! Stiff and sticking scenes against published or closed solutions.
 
-use super::common::{Random, read};
+use super::common::read;
 use super::one::Tried;
+use bgdyn_codegen::random::Random;
 
 fn scene(name: &str) -> Tried {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/scenes");
@@ -66,8 +67,12 @@ fn lugre_stick_slip_is_that_of_the_article() {
     let ours = |t: f64, y: &[f64]| flow(&tried, y, &[0.1 * t, 0.1]);
     let mut random = Random(5);
     for _ in 0..200 {
-        let speed = 10_f64.powf(4.0 * random.unit() - 2.0);
-        let y = [random.unit(), random.unit() * speed, 1.5e-5 * random.unit()];
+        let speed = 10_f64.powf(4.0 * random.signed() - 2.0);
+        let y = [
+            random.signed(),
+            random.signed() * speed,
+            1.5e-5 * random.signed(),
+        ];
         let (got, wanted) = (ours(3.0, &y), article(3.0, &y));
         for (got, wanted) in got.iter().zip(wanted) {
             let size = wanted.abs().max(1e5_f64.sqrt() * 2.0 * speed).max(1.0);
@@ -100,8 +105,8 @@ fn the_stiff_pendulum_obeys_its_equations() {
     let ours = |_: f64, y: &[f64]| flow(&tried, y, &[]);
     let mut random = Random(6);
     for _ in 0..200 {
-        let [angle, r] = [3.0 * random.unit(), 1.0 + 1e-3 * random.unit()];
-        let [rate, speed] = [4.0 * random.unit(), random.unit()];
+        let [angle, r] = [3.0 * random.signed(), 1.0 + 1e-3 * random.signed()];
+        let [rate, speed] = [4.0 * random.signed(), random.signed()];
         let got = ours(0.0, &[angle, r, rate, speed]);
         let turning = -(9.81 * angle.sin() + 2.0 * speed * rate) / r;
         let stretching = r * rate * rate + 9.81 * angle.cos() - 1e8 * (r - 1.0);
@@ -121,7 +126,7 @@ fn the_stiff_masses_obey_their_equations() {
     let tried = scene("stiff_spring_two_mass");
     let mut random = Random(8);
     for _ in 0..50 {
-        let [x, stretch] = [random.unit(), 1e-5 * random.unit()];
+        let [x, stretch] = [random.signed(), 1e-5 * random.signed()];
         let got = flow(&tried, &[x, stretch, 0.3, -0.2], &[]);
         let first = -100.0 * x + 1e8 * stretch;
         let second = -1e8 * stretch / 2.0;

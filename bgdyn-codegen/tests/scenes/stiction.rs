@@ -2,12 +2,13 @@
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System as Equations;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
+use bgdyn_codegen::system::SceneEquations as Equations;
 use bgdyn_runtime::nalgebra::SVector;
 use bgdyn_runtime::{Balance, Contact, HybridSystem, resolve_stiction};
 
-use super::common::{Random, read, scene};
+use super::common::{read, scene};
 
 /// A scene by the evaluator, as what generated code implements.
 struct Evaluated<const N: usize, const NM: usize, const NU: usize, const NE: usize> {
@@ -24,9 +25,9 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize> Evaluate
         Evaluated {
             nq: layout.nq(),
             nv: layout.nv(),
-            derivative: system.function(Role::Derivative),
-            events: system.function(Role::Events),
-            contacts: system.function(Role::Contacts),
+            derivative: system.function(SceneFunction::Derivative),
+            events: system.function(SceneFunction::Events),
+            contacts: system.function(SceneFunction::Contacts),
         }
     }
 
@@ -265,9 +266,9 @@ fn all_consistent(arm: &Arm, y: &SVector<f64, 6>, u: &SVector<f64, 3>) -> Vec<SV
 fn at_rest(random: &mut Random) -> (SVector<f64, 6>, SVector<f64, 3>) {
     let mut y = SVector::zeros();
     for j in 0..3 {
-        y[j] = 3.0 * random.unit();
+        y[j] = 3.0 * random.signed();
     }
-    (y, SVector::from([0; 3].map(|_| 12.0 * random.unit())))
+    (y, SVector::from([0; 3].map(|_| 12.0 * random.signed())))
 }
 
 /// Where friction is the same at rest and in motion there is one answer, and `resolve_stiction` finds it.

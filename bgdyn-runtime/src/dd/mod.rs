@@ -3,6 +3,7 @@
 mod angle;
 mod arithmetic;
 mod constants;
+mod digits;
 mod elementary;
 mod number;
 mod scalar;
@@ -10,5 +11,6 @@ mod text;
 
 pub(crate) use angle::{Turn, inverse_tau_digits};
 
+pub use digits::Digits;
 pub use number::Dd;
 pub use text::ParseDdError;

@@ -34,18 +34,18 @@ impl fmt::Display for ParseDdError {
 impl core::error::Error for ParseDdError {}
 
 /// Text on the stack; what does not fit is an error of formatting.
-struct Buffer {
+pub(super) struct Buffer {
     bytes: [u8; DIGITS + 32],
     len: usize,
 }
 
 impl Buffer {
-    const EMPTY: Self = Self {
+    pub(super) const EMPTY: Self = Self {
         bytes: [0; DIGITS + 32],
         len: 0,
     };
 
-    fn as_str(&self) -> &str {
+    pub(super) fn as_str(&self) -> &str {
         self.bytes
             .get(..self.len)
             .and_then(|text| str::from_utf8(text).ok())

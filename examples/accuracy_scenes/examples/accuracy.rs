@@ -1,5 +1,5 @@
 //! What accuracy costs in time, on scenes of the repository: error and time of compiled code by
-//! method, step, scalar, formulation and level of effects.
+//! method, step, scalar, formulation and set of effects.
 //!
 //! Writes `accuracy.csv`, `costs.csv`, the figures, `README.md` and `report.html`, which needs nothing but a
 //! browser. Exit 1 where a method that should converge does not.
@@ -7,9 +7,9 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use accuracy_scenes::SUBJECTS;
+use accuracy_scenes::TEST_CASES;
 use bgdyn_accuracy::{
-    Cost, Machine, Plan, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets,
+    Cost, Effort, Machine, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets,
     verdicts,
 };
 
@@ -27,7 +27,7 @@ const AGAIN: &str = "cargo run --release --example accuracy -- --out docs/accura
 
 /// What the user asked for.
 struct Options {
-    plan: Plan,
+    effort: Effort,
     out: PathBuf,
     scenes: Vec<String>,
 }
@@ -36,7 +36,7 @@ impl Options {
     /// Reads the arguments; `None` where help was asked for, and printed.
     fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Option<Self>, String> {
         let mut options = Options {
-            plan: Plan::FULL,
+            effort: Effort::FULL,
             out: PathBuf::from("target/accuracy"),
             scenes: Vec::new(),
         };
@@ -46,16 +46,16 @@ impl Options {
                     println!("{USAGE}");
                     return Ok(None);
                 }
-                "--quick" => options.plan = Plan::QUICK,
+                "--quick" => options.effort = Effort::QUICK,
                 "--out" => options.out = arguments.next().ok_or("`--out` needs a folder")?.into(),
-                name if SUBJECTS.iter().any(|(known, _)| *known == name) => {
+                name if TEST_CASES.iter().any(|(known, _)| *known == name) => {
                     options.scenes.push(argument);
                 }
                 other if other.starts_with('-') => {
                     return Err(format!("unknown argument `{other}`"));
                 }
                 other => {
-                    let all: Vec<&str> = SUBJECTS.iter().map(|(name, _)| *name).collect();
+                    let all: Vec<&str> = TEST_CASES.iter().map(|(name, _)| *name).collect();
                     let all = all.join(", ");
                     return Err(format!("there is no scene `{other}`; there are {all}"));
                 }
@@ -87,20 +87,20 @@ fn main() -> ExitCode {
 /// Studies the scenes and writes what came of it: whether every method converges that should.
 fn run(options: &Options) -> Result<bool, Box<dyn std::error::Error>> {
     let mut studies: Vec<Study> = Vec::new();
-    for (name, subject) in SUBJECTS {
+    for (name, test_case) in TEST_CASES {
         if options.scenes.is_empty() || options.scenes.iter().any(|s| s == name) {
             eprintln!("{name} …");
-            studies.push(study(&subject(), &options.plan).map_err(|e| format!("{name}: {e}"))?);
+            studies.push(study(&test_case(), &options.effort).map_err(|e| format!("{name}: {e}"))?);
         }
     }
-    let sound = studies.iter().filter(|study| !told(study)).count() == 0;
+    let sound = studies.iter().filter(|study| !print_summary(study)).count() == 0;
     write(&studies, &options.out).map_err(|e| format!("{}: {e}", options.out.display()))?;
     println!("wrote {}", options.out.join("report.html").display());
     Ok(sound)
 }
 
 /// Prints the cheapest ways and what does not converge; whether all does.
-fn told(study: &Study) -> bool {
+fn print_summary(study: &Study) -> bool {
     let facts = &study.facts;
     println!("{}", facts.scene);
     for choice in targets(study) {

@@ -2,6 +2,6 @@
 #![forbid(unsafe_code)]
 
 /// Measures a scene.
-type Study = fn() -> bgdyn_accuracy::Subject;
+type Study = fn() -> bgdyn_accuracy::TestCase;
 
 include!(concat!(env!("OUT_DIR"), "/modules.rs"));

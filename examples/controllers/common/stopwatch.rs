@@ -1,4 +1,4 @@
-//! How long a call takes: 1024 random states, the median of several passes over all of them.
+//! How long a call takes: 1024 states, the median of several passes over all of them.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -8,7 +8,7 @@ use bgdyn::Dynamics;
 use super::Joints;
 use super::machine::Machine;
 
-/// Number of random states.
+/// Number of states.
 pub const STATES: usize = 1024;
 /// Number of timed passes; odd, so that there is a median.
 pub const PASSES: usize = 15;
@@ -27,7 +27,7 @@ struct Inputs<const N: usize> {
 
 /// Times the methods a controller or a simulator calls.
 pub fn time<M: Dynamics<f64, N, N>, const N: usize>(model: &M, machine: &Machine<N>) -> Times {
-    let states = random_states(machine);
+    let states = spread_states(machine);
     [
         (
             "inverse_dynamics",
@@ -61,9 +61,9 @@ fn median<R, const N: usize>(states: &[Inputs<N>], call: impl Fn(&Inputs<N>) -> 
 }
 
 /// Positions within the joints' ranges, speeds within their limits, the rest within ±10.
-fn random_states<const N: usize>(machine: &Machine<N>) -> Vec<Inputs<N>> {
-    let mut random = xorshift();
-    let mut within = move |low: f64, high: f64| low + (high - low) * random();
+fn spread_states<const N: usize>(machine: &Machine<N>) -> Vec<Inputs<N>> {
+    let mut share = evenly_spread();
+    let mut within = move |low: f64, high: f64| low + (high - low) * share();
     (0..STATES)
         .map(|_| Inputs {
             q: Joints::from_fn(|i, _| {
@@ -83,13 +83,11 @@ fn random_states<const N: usize>(machine: &Machine<N>) -> Vec<Inputs<N>> {
         .collect()
 }
 
-/// Numbers in [0, 1), the same ones in every run (Marsaglia 2003, 13-7-17).
-fn xorshift() -> impl FnMut() -> f64 {
-    let mut x = 0x9e37_79b9_7f4a_7c15_u64;
+/// Numbers that fill [0, 1) evenly, the same ones in every run: multiples of the golden ratio.
+fn evenly_spread() -> impl FnMut() -> f64 {
+    let mut k = 0.0_f64;
     move || {
-        x ^= x << 13;
-        x ^= x >> 7;
-        x ^= x << 17;
-        (x >> 11) as f64 / (1u64 << 53) as f64
+        k += 1.0;
+        (0.618_033_988_749_894_9 * k).fract()
     }
 }

@@ -5,38 +5,25 @@ use std::path::Path;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::files::{beside, stem};
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::random::Random;
 use bgdyn_codegen::read_scene;
 use bgdyn_runtime::{Canonical, FixedVector, HybridSystem, Slope, StateVector};
 
 /// States per scene.
 const STATES: usize = 200;
 
-/// Random numbers by a linear congruential generator (Knuth's MMIX).
-struct Random(u64);
-
-impl Random {
-    /// In −1 … 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// Numbers of about `size` away from these; those of their own size, such as volumes of fluid,
-    /// stay near it.
-    fn vector<V: FixedVector<Scalar = f64>>(&mut self, around: &V, size: f64) -> V {
-        V::from_entries(|i| {
-            let x = around.entries()[i];
-            x + self.unit() * if x == 0.0 { size } else { 0.02 * x }
-        })
-    }
+/// Numbers of about `size` away from these; those of their own size, such as volumes of fluid,
+/// stay near it.
+fn around<V: FixedVector<Scalar = f64>>(random: &mut Random, start: &V, size: f64) -> V {
+    V::from_entries(|i| {
+        let x = start.entries()[i];
+        x + random.signed() * if x == 0.0 { size } else { 0.02 * x }
+    })
 }
 
 /// The generator's own system of a scene.
-fn generated(path: &Path) -> bgdyn_codegen::system::System {
+fn generated(path: &Path) -> bgdyn_codegen::system::SceneEquations {
     let text = std::fs::read_to_string(path).expect("a scene");
     let load = |mechanism: &str| {
         std::fs::read_to_string(beside(path, mechanism)).map_err(|e| e.to_string())
@@ -47,7 +34,7 @@ fn generated(path: &Path) -> bgdyn_codegen::system::System {
 
 /// What the evaluator is given.
 fn inputs(
-    system: &bgdyn_codegen::system::System,
+    system: &bgdyn_codegen::system::SceneEquations,
     [y, modes, u]: [&[f64]; 3],
     t: f64,
 ) -> Inputs<f64> {
@@ -71,40 +58,40 @@ fn agrees<S: HybridSystem<f64>>(compiled: &S, path: &Path) {
     let nq = system.scene.layout.nq();
     let (start, _) = compiled.start();
     let mut random = Random(2007);
-    let functions: Vec<(Role, _)> = system
+    let functions: Vec<(SceneFunction, _)> = system
         .roles()
         .into_iter()
         .map(|role| (role, system.function(role)))
         .collect();
-    let evaluate = |role: Role, inputs: &Inputs<f64>| -> Vec<f64> {
+    let evaluate = |role: SceneFunction, inputs: &Inputs<f64>| -> Vec<f64> {
         let found = functions.iter().find(|(r, _)| *r == role);
         found.map_or(vec![], |(_, f)| f.evaluate(inputs.clone()).0)
     };
     for k in 0..STATES {
-        let y = random.vector(&start, 0.02);
-        let m = S::Modes::from_entries(|_| (random.unit() * 1.5).round());
-        let u = random.vector(&S::Inputs::zero_vector(), 1.0);
-        let t = random.unit().abs();
+        let y = around(&mut random, &start, 0.02);
+        let m = S::Modes::from_entries(|_| (random.signed() * 1.5).round());
+        let u = around(&mut random, &S::Inputs::zero_vector(), 1.0);
+        let t = random.signed().abs();
         let inputs = inputs(&system, [y.entries(), m.entries(), u.entries()], t);
         let name = &system.scene.name;
         let Ok(rates) = compiled.derivative(&y, &m, &u, t) else {
             panic!("{name}: state {k} is singular");
         };
         let mut wanted = inputs.v[..nq].to_vec();
-        wanted.extend(evaluate(Role::Derivative, &inputs));
+        wanted.extend(evaluate(SceneFunction::Derivative, &inputs));
         assert_eq!(rates.entries(), wanted, "{name}: derivative, state {k}");
         if S::Inputs::LEN > 0 {
             let input = compiled.input(&y, &m, &u, t);
             assert_eq!(
                 input.entries(),
-                evaluate(Role::Inputs, &inputs),
+                evaluate(SceneFunction::Inputs, &inputs),
                 "{name}: input"
             );
         }
         let events = compiled.events(&y, &m, &u, t).expect("regular");
         assert_eq!(
             events.entries(),
-            evaluate(Role::Events, &inputs),
+            evaluate(SceneFunction::Events, &inputs),
             "{name}: events"
         );
         let contacts = compiled.contacts(&y, &m, &u, t).expect("regular");
@@ -112,19 +99,19 @@ fn agrees<S: HybridSystem<f64>>(compiled: &S, path: &Path) {
         let contacts = contacts.flat_map(|c| [c.slip, c.slip_rate, c.holding, c.margin]);
         assert_eq!(
             contacts.collect::<Vec<_>>(),
-            evaluate(Role::Contacts, &inputs),
+            evaluate(SceneFunction::Contacts, &inputs),
             "{name}: contacts"
         );
         let output = compiled.output(&y, &m, &u, t);
         assert_eq!(
             output.entries(),
-            evaluate(Role::Outputs, &inputs),
+            evaluate(SceneFunction::Outputs, &inputs),
             "{name}: output"
         );
         let energy = compiled.energy(&y, &m, &u, t);
         assert_eq!(
             energy.as_ref(),
-            evaluate(Role::Energy, &inputs),
+            evaluate(SceneFunction::Energy, &inputs),
             "{name}: energy"
         );
         let power = compiled.power(&y, &m, &u, t).expect("regular");
@@ -132,7 +119,7 @@ fn agrees<S: HybridSystem<f64>>(compiled: &S, path: &Path) {
         let power = power.flat_map(|b| [b.supplied, b.stored_rate, b.dissipated]);
         assert_eq!(
             power.collect::<Vec<_>>(),
-            evaluate(Role::Power, &inputs),
+            evaluate(SceneFunction::Power, &inputs),
             "{name}: power"
         );
     }
@@ -155,20 +142,20 @@ fn forms_agree<S: Slope<f64> + Canonical<f64>>(compiled: &S, path: &Path) {
     let layout = &system.scene.layout;
     let (nq, nv) = (layout.nq(), layout.nv());
     let functions = [
-        Role::Jacobian,
-        Role::ToCanonical,
-        Role::FromCanonical,
-        Role::CanonicalRates,
+        SceneFunction::Jacobian,
+        SceneFunction::ToCanonical,
+        SceneFunction::FromCanonical,
+        SceneFunction::CanonicalRates,
     ];
     let functions = functions.map(|role| system.function(role));
     let (start, _) = compiled.start();
     let mut random = Random(1984);
     let name = &system.scene.name;
     for k in 0..STATES {
-        let y = random.vector(&start, 0.02);
-        let m = S::Modes::from_entries(|_| (random.unit() * 1.5).round());
-        let u = random.vector(&S::Inputs::zero_vector(), 1.0);
-        let t = random.unit().abs();
+        let y = around(&mut random, &start, 0.02);
+        let m = S::Modes::from_entries(|_| (random.signed() * 1.5).round());
+        let u = around(&mut random, &S::Inputs::zero_vector(), 1.0);
+        let t = random.signed().abs();
         let [jacobian, to, from, rates] = &functions;
         let at = |y: &S::State| inputs(&system, [y.entries(), m.entries(), u.entries()], t);
 

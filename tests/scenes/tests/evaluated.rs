@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use bgdyn_cli::simulate::{Evaluated, Form, Numbers};
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::{
     CanonicalPlant, Gauss2, HybridState, Integrator, Rk4, Rodas4, Run, ScenePlant, StateVector,
 };
 use scenes::{hydraulic_cylinder, scara_everything, stick_slip, stiff_spring_pendulum};
 
 /// A scene of the repository, by its name.
-fn read(name: &str) -> System {
+fn read(name: &str) -> SceneEquations {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/scenes");
     let path: PathBuf = folder.join(format!("{name}.scene.yaml"));
     let text = fs::read_to_string(&path).expect("a scene's file");
@@ -46,7 +46,7 @@ macro_rules! alike {
 
 fn evaluated<M: Integrator<Numbers>>(
     method: M,
-    system: &System,
+    system: &SceneEquations,
     form: Form,
     slopes: bool,
 ) -> Run<Evaluated<'_>, M> {

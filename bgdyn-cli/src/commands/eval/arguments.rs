@@ -33,7 +33,7 @@ pub(crate) struct Eval {
 
 /// What is printed.
 #[derive(Serialize)]
-struct Report<'a> {
+struct EvalReport<'a> {
     function: &'a str,
     /// What the parts of a scene's results are called.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -41,12 +41,12 @@ struct Report<'a> {
     /// One value per state; null where it failed.
     results: Vec<Value>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    errors: Vec<Refused>,
+    errors: Vec<NoClosedForm>,
 }
 
 /// A state without a result.
 #[derive(Serialize)]
-struct Refused {
+struct NoClosedForm {
     state: usize,
     #[serde(flatten)]
     failure: Failure,
@@ -60,7 +60,7 @@ impl Eval {
         states: &[Value],
         value: impl Fn(&Value) -> Result<Value, Failure>,
     ) -> Result<()> {
-        let mut report = Report {
+        let mut report = EvalReport {
             function: &self.method,
             names,
             results: Vec::new(),
@@ -68,7 +68,7 @@ impl Eval {
         };
         for (i, state) in states.iter().enumerate() {
             let value = value(state).unwrap_or_else(|failure| {
-                report.errors.push(Refused { state: i, failure });
+                report.errors.push(NoClosedForm { state: i, failure });
                 Value::Null
             });
             report.results.push(value);

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use bgdyn_codegen::scene::Scene;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use crate::output::print;
+use crate::simulate::batch_values::{self, BatchValues, Given};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{number, quantity, short};
-use crate::simulate::varied::{self, Given, Varied};
 use crate::simulate::{Column, Evaluated, Way, batch, batch_plot};
 use crate::spec_file::read_text;
 use crate::usage::Usage;
@@ -60,7 +60,7 @@ pub(super) struct Many {
 pub(super) struct Batch<'a> {
     pub(super) name: &'a str,
     pub(super) out: &'a Path,
-    pub(super) system: &'a System,
+    pub(super) system: &'a SceneEquations,
     pub(super) plant: &'a Evaluated<'a>,
     pub(super) way: Way,
     pub(super) columns: &'a [Column],
@@ -68,23 +68,23 @@ pub(super) struct Batch<'a> {
 
 impl Many {
     /// The runs asked for; `None` where it is one run only.
-    pub(super) fn varied(&self, scene: &Scene) -> Result<Option<Varied>> {
+    pub(super) fn varied(&self, scene: &Scene) -> Result<Option<BatchValues>> {
         if let Some(path) = &self.batch {
             let text = read_text(path)?;
-            return varied::table(scene, &text, &path.display().to_string()).map(Some);
+            return batch_values::table(scene, &text, &path.display().to_string()).map(Some);
         }
         if !self.sweep.is_empty() {
-            return Ok(Some(varied::grid(scene, &self.sweep)?));
+            return Ok(Some(batch_values::grid(scene, &self.sweep)?));
         }
         if let Some(runs) = self.runs {
-            let varied = varied::chance(scene, &self.random, runs, self.seed)?;
+            let varied = batch_values::chance(scene, &self.random, runs, self.seed)?;
             return Ok(Some(varied));
         }
         Ok(None)
     }
 
     /// Makes the runs, writes table and plot.
-    pub(super) fn run(&self, of: &Batch<'_>, given: &[Given], varied: &Varied) -> Result<()> {
+    pub(super) fn run(&self, of: &Batch<'_>, given: &[Given], varied: &BatchValues) -> Result<()> {
         let twice = varied.quantities.iter();
         if let Some(s) = twice.clone().find(|&s| given.iter().any(|(g, _)| g == s)) {
             let message = format!("`{}` is set, and varied as well: leave one of them", s.name);

@@ -3,7 +3,7 @@
 use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
 
 use super::super::chart::{Chart, Component, Port};
-use super::super::place::{MARGIN, text_width};
+use super::super::layout::{MARGIN, text_width};
 use super::style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
 use super::symbols::{Bond, Point, bar, bond, junction};
 
@@ -13,7 +13,7 @@ const SPACE: f64 = 9.0;
 const SIZE: u32 = 12;
 
 /// A sign with its meaning, line by line.
-pub(super) struct Entry {
+pub(super) struct LegendEntry {
     sign: Sign,
     lines: Vec<String>,
 }
@@ -53,13 +53,13 @@ const COMPLIANCE: &str =
 const GYRATOR: &str = "gyrator, a DC motor: effort on the joint = k N · current, induced voltage = k N · velocity; u is the voltage fed to it, V";
 
 /// The entries for a drawing, in lines of this width.
-pub(super) fn lines(chart: &Chart, width: f64) -> Vec<Entry> {
+pub(super) fn lines(chart: &Chart, width: f64) -> Vec<LegendEntry> {
     let entry = |(sign, words): (Sign, String)| {
         let room = match sign {
             Sign::None => width,
             _ => width - WORDS,
         };
-        Entry {
+        LegendEntry {
             sign,
             lines: wrapped(&words, SIZE, room),
         }
@@ -116,16 +116,16 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
 }
 
 /// How high the entries are, with the margin below.
-pub(super) fn height(entries: &[Entry]) -> f64 {
+pub(super) fn height(entries: &[LegendEntry]) -> f64 {
     entries.iter().map(entry_height).sum::<f64>() + 24.0 + MARGIN
 }
 
-fn entry_height(entry: &Entry) -> f64 {
+fn entry_height(entry: &LegendEntry) -> f64 {
     LINE * entry.lines.len() as f64 + SPACE
 }
 
 /// Writes the entries below `top`.
-pub(super) fn draw(d: &mut Drawing, entries: &[Entry], top: f64) {
+pub(super) fn draw(d: &mut Drawing, entries: &[LegendEntry], top: f64) {
     let mut y = top + 28.0;
     d.line(
         (MARGIN, top + 8.0),

@@ -6,9 +6,9 @@ mod symbols;
 
 use bgdyn_accuracy::svg::{ALARM, Anchor, Drawing, FAINT, INK};
 
-use super::chart::{Chart, Component, Flow, Link, Port, Transformer, lines};
-use super::place::{
-    BOND, Band, Column, DROP, MARGIN, PITCH, Places, SYMBOL, VECTOR, place, text_width,
+use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, lines};
+use super::layout::{
+    BOND, Band, DROP, Layout, MARGIN, PITCH, SYMBOL, VECTOR, VelocityColumn, layout, text_width,
     vector_width, words_width,
 };
 use style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
@@ -27,32 +27,32 @@ impl Chart {
     /// The drawing as the text of an SVG file.
     pub(crate) fn svg(&self) -> String {
         let top = header_height(self);
-        let places = place(self, top);
-        let width = places.right.max(NARROWEST);
+        let layout = layout(self, top);
+        let width = layout.right.max(NARROWEST);
         let legend = legend::lines(self, width.min(WIDEST) - 2.0 * MARGIN);
         let mut d = Drawing::new(
             width.ceil(),
-            (places.bottom + legend::height(&legend)).ceil(),
+            (layout.bottom + legend::height(&legend)).ceil(),
         );
         header(&mut d, self);
-        self.draw(&mut d, &places);
-        legend::draw(&mut d, &legend, places.bottom);
+        self.draw(&mut d, &layout);
+        legend::draw(&mut d, &legend, layout.bottom);
         d.finish()
     }
 
     /// Bars across first, so that the velocities' bars pass over them.
-    fn draw(&self, d: &mut Drawing, places: &Places) {
-        for (link, band) in self.bands().zip(&places.bands) {
+    fn draw(&self, d: &mut Drawing, layout: &Layout) {
+        for (link, band) in self.bands().zip(&layout.bands) {
             let size = (band.right - band.left, band.bottom - band.top);
             d.rectangle((band.left, band.top), size, BAND);
             for (flow, &row) in link.flows.iter().zip(&band.rows) {
-                sum(d, flow, (places, band), row);
+                sum(d, flow, (layout, band), row);
             }
         }
-        for (j, column) in places.columns.iter().enumerate() {
+        for (j, column) in layout.columns.iter().enumerate() {
             head(d, self, j, column);
         }
-        for (link, band) in self.bands().zip(&places.bands) {
+        for (link, band) in self.bands().zip(&layout.bands) {
             d.bold(
                 (band.zero, band.top + 16.0),
                 13,
@@ -69,7 +69,7 @@ impl Chart {
             }
             for (flow, &row) in link.flows.iter().zip(&band.rows) {
                 for transformer in &flow.transformers {
-                    let column = &places.columns[transformer.velocity];
+                    let column = &layout.columns[transformer.velocity];
                     let target = (flow.sums(), band.zero);
                     self.transformer(d, link, transformer, (column, row), target);
                 }
@@ -83,9 +83,9 @@ impl Chart {
     fn transformer(
         &self,
         d: &mut Drawing,
-        link: &Link,
+        link: &ChartLink,
         t: &Transformer,
-        (column, row): (&Column, f64),
+        (column, row): (&VelocityColumn, f64),
         (sums, zero): (bool, f64),
     ) {
         let velocity = &self.velocities[t.velocity];
@@ -123,14 +123,14 @@ impl Chart {
 }
 
 /// The bar across of a flow, up to its 0-junction.
-fn sum(d: &mut Drawing, flow: &Flow, (places, band): (&Places, &Band), row: f64) {
+fn sum(d: &mut Drawing, flow: &Flow, (layout, band): (&Layout, &Band), row: f64) {
     if !flow.sums() {
         return;
     }
     let centres = flow
         .transformers
         .iter()
-        .map(|t| places.columns[t.velocity].x + SYMBOL);
+        .map(|t| layout.columns[t.velocity].x + SYMBOL);
     let first = centres.fold(f64::MAX, f64::min);
     bar(
         d,
@@ -141,7 +141,7 @@ fn sum(d: &mut Drawing, flow: &Flow, (places, band): (&Places, &Band), row: f64)
 }
 
 /// The 1-junction of a velocity, its bar, and what stands on it.
-fn head(d: &mut Drawing, chart: &Chart, j: usize, column: &Column) {
+fn head(d: &mut Drawing, chart: &Chart, j: usize, column: &VelocityColumn) {
     let velocity = &chart.velocities[j];
     let (x, y) = (column.x, column.head);
     clearing(d, (x, y), (x, column.end + 4.0), BAND);

@@ -4,7 +4,7 @@ use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
 use bgdyn_codegen::scene::Scene;
 
-use super::body::{Body, End, Joint, Placed, Point};
+use super::body::{Body, BodyJoint, BodyPoint, End, Placed};
 use super::stops::stops;
 
 /// The bodies of a scene, and where its links stand on them.
@@ -67,7 +67,7 @@ impl Bodies {
         };
         let moved = |s: f64| std::array::from_fn(|k| joint.o[k] + s * along[k]);
         let mut body = Body::new(&link.name, Some(i));
-        body.joint = Some(Joint {
+        body.joint = Some(BodyJoint {
             name: link.joint.name.clone(),
             kind: if slides { "prismatic" } else { "revolute" },
             axis,
@@ -100,7 +100,7 @@ impl Bodies {
         let from = self.all[body].nearest(at);
         let is_load = |e: &Element| e.effect.keyword() == "payload" && e.name == link.name;
         let load = scene.elements.iter().any(is_load);
-        self.all[body].points.push(Point {
+        self.all[body].points.push(BodyPoint {
             name: match load {
                 true => link.name.clone(),
                 false => String::new(),
@@ -108,7 +108,7 @@ impl Bodies {
             mass: Some(mass),
             load,
             from,
-            ..Point::at(at)
+            ..BodyPoint::at(at)
         });
     }
 
@@ -118,12 +118,12 @@ impl Bodies {
             let placed = place.then(&Placed::of(&frame.origin));
             let from = self.all[body].nearest(placed.o);
             let moving = body != 0;
-            self.all[body].points.push(Point {
+            self.all[body].points.push(BodyPoint {
                 name: frame.name.clone(),
                 axes: Some(placed.axes()),
                 beam: moving && from != placed.o,
                 from,
-                ..Point::at(placed.o)
+                ..BodyPoint::at(placed.o)
             });
         }
     }
@@ -141,19 +141,19 @@ impl Bodies {
             }
             let name = self.all[i].link.map(|l| mechanism.links()[l].name.clone());
             let points = &mut self.all[i].points;
-            let far = |p: &&mut Point| p.at.iter().map(|x| x * x).sum::<f64>();
-            let further = |a: &&mut Point, b: &&mut Point| far(a).total_cmp(&far(b));
+            let far = |p: &&mut BodyPoint| p.at.iter().map(|x| x * x).sum::<f64>();
+            let further = |a: &&mut BodyPoint, b: &&mut BodyPoint| far(a).total_cmp(&far(b));
             let frames = points.iter_mut().filter(|p| p.axes.is_some());
             if let Some(tip) = frames.max_by(further) {
                 tip.tip = true;
                 continue;
             }
             let at = points.iter_mut().max_by(further).map_or([0.0; 3], |p| p.at);
-            points.push(Point {
+            points.push(BodyPoint {
                 name: name.unwrap_or_default(),
                 axes: Some(Placed::HERE.axes()),
                 tip: true,
-                ..Point::at(at)
+                ..BodyPoint::at(at)
             });
         }
     }

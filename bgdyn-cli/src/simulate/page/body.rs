@@ -9,8 +9,8 @@ pub(super) struct Body {
     pub(super) name: String,
     /// How it moves; the world does not.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) joint: Option<Joint>,
-    pub(super) points: Vec<Point>,
+    pub(super) joint: Option<BodyJoint>,
+    pub(super) points: Vec<BodyPoint>,
     /// Origins at all rows, three whole numbers each; nothing for the world.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) place: Option<Vec<i64>>,
@@ -24,7 +24,7 @@ pub(super) struct Body {
 
 /// The joint that carries a body.
 #[derive(Serialize)]
-pub(super) struct Joint {
+pub(super) struct BodyJoint {
     pub(super) name: String,
     #[serde(rename = "type")]
     pub(super) kind: &'static str,
@@ -58,7 +58,7 @@ pub(super) struct Stop {
 
 /// A place on a body.
 #[derive(Serialize)]
-pub(super) struct Point {
+pub(super) struct BodyPoint {
     pub(super) at: [f64; 3],
     #[serde(skip_serializing_if = "String::is_empty")]
     pub(super) name: String,
@@ -152,10 +152,10 @@ impl Body {
 
     pub(super) fn beam(&mut self, from: [f64; 3], at: [f64; 3]) {
         if from != at {
-            self.points.push(Point {
+            self.points.push(BodyPoint {
                 beam: true,
                 from,
-                ..Point::at(at)
+                ..BodyPoint::at(at)
             });
         }
     }
@@ -164,7 +164,7 @@ impl Body {
     pub(super) fn nearest(&self, place: [f64; 3]) -> [f64; 3] {
         let sub = |a: [f64; 3], b: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| a[k] - b[k]);
         let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-        let of = |beam: &Point| {
+        let of = |beam: &BodyPoint| {
             let way = sub(beam.at, beam.from);
             let part = (dot(sub(place, beam.from), way) / dot(way, way)).clamp(0.0, 1.0);
             std::array::from_fn(|k| beam.from[k] + part * way[k])
@@ -177,9 +177,9 @@ impl Body {
     }
 }
 
-impl Point {
+impl BodyPoint {
     pub(super) fn at(at: [f64; 3]) -> Self {
-        Point {
+        BodyPoint {
             at,
             name: String::new(),
             beam: false,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::super::difference::range;
-use super::super::record::Column;
+use super::super::run_table::Column;
 
 /// Counts that a curve's range is divided into.
 pub(super) const LEVELS: f64 = 1e5;

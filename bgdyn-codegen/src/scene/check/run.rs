@@ -3,8 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use super::super::{Integration, IntegratorName, StepControl};
-use crate::fault::{Fault, Faults, Place, wording};
-use crate::format::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
+use crate::fault::{Fault, Faults, Location, wording};
+use crate::format::{Dimension, Field, Fields, Key, Located, ParsedValue, Raw, Reads};
 
 /// Step and length of a run whose scene says nothing of them, s.
 const STEP: f64 = 1e-3;
@@ -67,8 +67,8 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
         (None, None) if method.controls_its_error() => StepControl::Tolerance(TOLERANCE),
         (None, None) => StepControl::Step(STEP),
         (Some((step, _)), None) => StepControl::Step(step),
-        (step, Some((tolerance, place))) => {
-            faults.0.extend(misplaced(method, step.is_some(), place));
+        (step, Some((tolerance, location))) => {
+            faults.0.extend(misplaced(method, step.is_some(), location));
             StepControl::Tolerance(tolerance)
         }
     };
@@ -81,14 +81,14 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
 }
 
 /// What is wrong with a tolerance at this place.
-fn misplaced(method: IntegratorName, stepped: bool, place: &Place) -> Option<Fault> {
+fn misplaced(method: IntegratorName, stepped: bool, location: &Location) -> Option<Fault> {
     let name = method.name();
     let choosing = IntegratorName::ALL.into_iter();
     let choosing = choosing.filter(|m| m.controls_its_error());
     let choosing: Vec<&str> = choosing.map(IntegratorName::name).collect();
     match (method.controls_its_error(), stepped) {
-        (false, _) => Some(wording::no_step_control(place, name, &choosing)),
-        (true, true) => Some(wording::step_and_tolerance(place, name)),
+        (false, _) => Some(wording::no_step_control(location, name, &choosing)),
+        (true, true) => Some(wording::step_and_tolerance(location, name)),
         (true, false) => None,
     }
 }
@@ -99,26 +99,28 @@ fn positive<'a>(
     key: &str,
     example: &str,
     faults: &mut Faults,
-) -> Option<(f64, &'a Place)> {
+) -> Option<(f64, &'a Location)> {
     let Some(Located {
-        value: Entry::Number(number),
-        place,
+        value: ParsedValue::Number(number),
+        location,
     }) = fields.get(key)
     else {
         return None;
     };
     if number.value <= Dd::ZERO {
         let text = &number.text;
-        faults.push(wording::integration_not_positive(place, key, text, example));
+        faults.push(wording::integration_not_positive(
+            location, key, text, example,
+        ));
     }
-    Some((number.value.to_f64(), place))
+    Some((number.value.to_f64(), location))
 }
 
 /// The method asked for, RK4 where none is; nothing for a name that is none's.
 fn method(fields: &Fields, faults: &mut Faults) -> Option<IntegratorName> {
     let Some(Located {
-        value: Entry::Text(word),
-        place,
+        value: ParsedValue::Text(word),
+        location,
     }) = fields.get("method")
     else {
         return Some(IntegratorName::Rk4);
@@ -126,7 +128,7 @@ fn method(fields: &Fields, faults: &mut Faults) -> Option<IntegratorName> {
     let found = IntegratorName::named(word);
     if found.is_none() {
         let known = IntegratorName::ALL.map(IntegratorName::name);
-        faults.push(wording::unknown_integrator(place, word, &known));
+        faults.push(wording::unknown_integrator(location, word, &known));
     }
     found
 }

@@ -1,0 +1,175 @@
+//! Plants behind a pointer (trait objects), so that one copy of an integrator serves all scenes of equal dimensions.
+//!
+//! The rates stay compiled code; to call them takes a nanosecond more.
+
+use std::rc::Rc;
+
+use bgdyn_runtime::FixedVector;
+use bgdyn_sim::{Jacobian, Of, Plant, Power, StateVector};
+use nalgebra::SVector;
+
+use crate::integrate::Measured;
+
+/// What integrators call of a plant with states `Y`, modes `M` and events `E`, without types of its own.
+pub(crate) trait PlantObject<Y: StateVector, M, E> {
+    fn rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
+    fn jacobian(&self, t: Of<Y>, y: &Y, modes: &M) -> Option<Result<Jacobian<Y>, String>>;
+    fn positions(&self) -> usize;
+    fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
+    fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String>;
+    fn changes_mode(&self, event: usize) -> bool;
+    fn change(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        fell: &dyn Fn(usize) -> bool,
+    ) -> Result<(Y, M), String>;
+    fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>>;
+}
+
+/// Where there are no rates: the name that the error holds, in quotes.
+fn told<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
+    result.map_err(|e| {
+        let text = format!("{e:?}");
+        let named = text.split('"').nth(1).map(str::to_owned);
+        named.unwrap_or(text)
+    })
+}
+
+impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
+    fn rates(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Result<P::State, String> {
+        told(Plant::rates(self, t, y, modes))
+    }
+
+    fn jacobian(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+    ) -> Option<Result<Jacobian<P::State>, String>> {
+        Plant::jacobian(self, t, y, modes).map(told)
+    }
+
+    fn positions(&self) -> usize {
+        Plant::positions(self)
+    }
+
+    fn position_rates(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+    ) -> Result<P::State, String> {
+        told(Plant::position_rates(self, t, y, modes))
+    }
+
+    fn events(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Result<P::Values, String> {
+        told(Plant::events(self, t, y, modes))
+    }
+
+    fn changes_mode(&self, event: usize) -> bool {
+        Plant::changes_mode(self, event)
+    }
+
+    fn change(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+        fell: &dyn Fn(usize) -> bool,
+    ) -> Result<(P::State, P::Modes), String> {
+        told(Plant::change(self, t, y, modes, fell))
+    }
+
+    fn measured(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Vec<Of<P::State>> {
+        Measured::measured(self, t, y, modes)
+    }
+}
+
+/// A plant behind a pointer.
+pub(crate) struct DynPlant<Y, M, E>(pub Rc<dyn PlantObject<Y, M, E>>);
+
+impl<Y, M, E> Clone for DynPlant<Y, M, E> {
+    fn clone(&self) -> Self {
+        DynPlant(Rc::clone(&self.0))
+    }
+}
+
+impl<Y, M, E> Plant for DynPlant<Y, M, E>
+where
+    Y: FixedVector,
+    M: FixedVector,
+    E: FixedVector<Scalar = Of<Y>>,
+{
+    type State = Y;
+    type Modes = M;
+    type Values = E;
+    // Runs are not audited here.
+    type Entries = SVector<Of<Y>, 0>;
+    type Error = String;
+
+    fn rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String> {
+        self.0.rates(t, y, modes)
+    }
+
+    fn jacobian(&self, t: Of<Y>, y: &Y, modes: &M) -> Option<Result<Jacobian<Y>, String>> {
+        self.0.jacobian(t, y, modes)
+    }
+
+    fn positions(&self) -> usize {
+        self.0.positions()
+    }
+
+    fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String> {
+        self.0.position_rates(t, y, modes)
+    }
+
+    fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String> {
+        // A scene without events is not asked.
+        match E::LEN {
+            0 => Ok(E::zero_vector()),
+            _ => self.0.events(t, y, modes),
+        }
+    }
+
+    fn changes_mode(&self, event: usize) -> bool {
+        self.0.changes_mode(event)
+    }
+
+    fn change(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        fell: impl Fn(usize) -> bool,
+    ) -> Result<(Y, M), String> {
+        self.0.change(t, y, modes, &fell)
+    }
+
+    fn nothing(&self) -> Self::Entries {
+        FixedVector::zero_vector()
+    }
+
+    fn energy(&self, _: Of<Y>, _: &Y, _: &M) -> Result<Self::Entries, String> {
+        Ok(self.nothing())
+    }
+
+    fn power(&self, _: Of<Y>, _: &Y, _: &M) -> Result<Power<Self::Entries>, String> {
+        Ok(Power {
+            supplied: self.nothing(),
+            dissipated: self.nothing(),
+        })
+    }
+}
+
+impl<Y, M, E> Measured for DynPlant<Y, M, E>
+where
+    Y: FixedVector,
+    M: FixedVector,
+    E: FixedVector<Scalar = Of<Y>>,
+{
+    fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>> {
+        self.0.measured(t, y, modes)
+    }
+}

@@ -1,0 +1,288 @@
+//! Builds the drawing of a bond graph, in the order of the tree.
+
+use bgdyn_codegen::bond_graph::{
+    self, BondGraph, BondNetwork, Effort, EffortSource, JunctionId, LinkFrame, Modulus, NodePart,
+    Store, StoreInertia,
+};
+use bgdyn_codegen::math::Vec3;
+use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose, Value};
+use bgdyn_runtime::Dd;
+
+use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, Velocity};
+use super::notation::{coordinates, number, subscript, superscript};
+use super::unfold::Unfolding;
+
+impl Chart {
+    /// The drawing of a mechanism's bond graph.
+    pub(crate) fn new(mechanism: &Mechanism) -> Self {
+        let title = mechanism.label().unwrap_or(mechanism.name());
+        let graph = bond_graph::build(mechanism);
+        let driven = graph.coordinates.iter().map(|c| c.name.clone()).collect();
+        let network = BondNetwork::of_mechanism(&graph, driven);
+        let drive = |part: &NodePart| drive(&graph, part);
+        let mut unfolding = Unfolding::new(&network, &drive);
+        Chart::of_graph(&graph, &mut unfolding, title, mechanism.description())
+    }
+
+    /// The drawing of a bond graph. A flow on which nothing acts is left out.
+    pub(super) fn of_graph(
+        graph: &BondGraph,
+        unfolding: &mut Unfolding<'_>,
+        title: &str,
+        description: Option<&str>,
+    ) -> Self {
+        let links = depth_first(&graph.frames);
+        let of_link = |i: &LinkId| graph.frames[i.0].coordinate;
+        let order: Vec<CoordinateId> = links.iter().filter_map(of_link).collect();
+        let moved = |i: &LinkId| {
+            let junctions = [graph.translation(*i), graph.rotation(*i)];
+            graph.transformers.iter().any(|t| junctions.contains(&t.to))
+        };
+        let (moving, still): (Vec<_>, Vec<_>) = links.into_iter().partition(moved);
+        let name = |i: LinkId| graph.frames[i.0].name.clone();
+        let moving = moving
+            .into_iter()
+            .map(|i| (i, link(graph, unfolding, &order, i)));
+        let (links, folded) = folded(graph, moving.collect());
+        Chart {
+            title: title.to_owned(),
+            description: description.map(str::to_owned),
+            velocities: order
+                .iter()
+                .map(|&j| velocity(graph, unfolding, j))
+                .collect(),
+            links,
+            lines: Vec::new(),
+            sites: Vec::new(),
+            still: still.into_iter().map(name).collect(),
+            folded,
+            notes: Vec::new(),
+        }
+    }
+}
+
+/// The links without those that have no junctions but carry some that have, whose names come beside.
+/// The velocities of the joints of the latter begin at the next link.
+fn folded(graph: &BondGraph, all: Vec<(LinkId, ChartLink)>) -> (Vec<ChartLink>, Vec<String>) {
+    let acting = all.iter().filter(|(_, link)| !link.flows.is_empty());
+    let mut carries_some = vec![false; graph.frames.len()];
+    for (i, _) in acting {
+        let mut carrier = graph.frames[i.0].parent;
+        while let Some(c) = carrier {
+            carries_some[c.0] = true;
+            carrier = graph.frames[c.0].parent;
+        }
+    }
+    let (mut links, mut names) = (Vec::new(), Vec::new());
+    let mut waiting: Vec<usize> = Vec::new();
+    for (i, mut link) in all {
+        if link.flows.is_empty() && carries_some[i.0] {
+            waiting.append(&mut link.velocities);
+            names.push(link.name);
+        } else {
+            link.velocities.splice(0..0, waiting.drain(..));
+            links.push(link);
+        }
+    }
+    (links, names)
+}
+
+/// The links, each before all that it carries and those before the next one.
+fn depth_first(frames: &[LinkFrame]) -> Vec<LinkId> {
+    let carried = |by: Option<LinkId>| {
+        let ids = (0..frames.len()).rev().map(LinkId);
+        ids.filter(move |i| frames[i.0].parent == by)
+    };
+    let mut waiting: Vec<LinkId> = carried(None).collect();
+    let mut order = Vec::with_capacity(frames.len());
+    while let Some(i) = waiting.pop() {
+        order.push(i);
+        waiting.extend(carried(Some(i)));
+    }
+    order
+}
+
+/// What is written beside the drive of a joint.
+pub(super) fn drive(graph: &BondGraph, part: &NodePart) -> Option<String> {
+    let NodePart::Drive(Some(j)) = part else {
+        return None;
+    };
+    let [_, effort] = units(graph, *j);
+    Some(format!("P{}, {effort}", subscript(j.0 + 1)))
+}
+
+/// Units of the velocity of a joint and of its effort.
+fn units(graph: &BondGraph, j: CoordinateId) -> [&'static str; 2] {
+    match graph.coordinates[j.0].motion {
+        Motion::Rotation => ["rad/s", "N·m"],
+        _ => ["m/s", "N"],
+    }
+}
+
+fn velocity(graph: &BondGraph, unfolding: &mut Unfolding<'_>, j: CoordinateId) -> Velocity {
+    let [unit, effort] = units(graph, j);
+    Velocity {
+        symbol: format!("q̇{}", subscript(j.0 + 1)),
+        name: graph.coordinates[j.0].name.clone(),
+        unit,
+        effort,
+        ports: unfolding.ports_at(NodePart::Velocity(j)),
+    }
+}
+
+fn link(
+    graph: &BondGraph,
+    unfolding: &Unfolding<'_>,
+    order: &[CoordinateId],
+    i: LinkId,
+) -> ChartLink {
+    let frame = &graph.frames[i.0];
+    let flows = [('ṙ', graph.translation(i)), ('ω', graph.rotation(i))];
+    let flows = flows.map(|(letter, junction)| Flow {
+        symbol: format!("{letter}{}", subscript(i.0 + 1)),
+        transformers: transformers(graph, order, i, junction),
+        ports: ports(graph, unfolding, i, junction),
+    });
+    let massless = massless(graph, i);
+    let acts = |f: &Flow| !massless && !f.transformers.is_empty() && !f.ports.is_empty();
+    let flows = flows.into_iter().filter(acts);
+    ChartLink {
+        name: frame.name.clone(),
+        velocities: (0..order.len())
+            .filter(|&k| frame.coordinate == Some(order[k]))
+            .collect(),
+        flows: flows.collect(),
+    }
+}
+
+/// Whether a link has neither mass nor inertia: its stores and its weight are nothing.
+fn massless(graph: &BondGraph, i: LinkId) -> bool {
+    let own = [graph.translation(i), graph.rotation(i)];
+    let nothing = |value: &Value| *value == Value::Fixed(Dd::ZERO);
+    let mut stores = graph.stores.iter().filter(|s| own.contains(&s.junction));
+    let sources = graph.sources.iter().filter(|s| own.contains(&s.junction));
+    let mut weights = sources.flat_map(|s| &s.efforts);
+    let empty = |store: &Store| match &store.inertia {
+        StoreInertia::Mass(mass) => nothing(mass),
+        StoreInertia::Tensor(entries) => entries.iter().all(nothing),
+    };
+    stores.all(empty) && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
+}
+
+/// The transformers into a link's flow, in the order of the velocities.
+fn transformers(
+    graph: &BondGraph,
+    order: &[CoordinateId],
+    i: LinkId,
+    junction: JunctionId,
+) -> Vec<Transformer> {
+    let mut found = Vec::new();
+    for (place, &j) in order.iter().enumerate() {
+        let own = |t: &&bond_graph::Transformer| t.from == graph.velocity(j);
+        for t in graph.into(junction).filter(own) {
+            let (n, m) = (subscript(j.0 + 1), i.0 + 1);
+            let name = match junction == graph.translation(i) {
+                true => format!("∂r{}/∂q{n}", subscript(m)),
+                false => format!("ρ{n}{}", superscript(m)),
+            };
+            let all = (0..order.len()).filter(|&k| t.modulus.0.iter().any(|m| varies(m, k)));
+            let numbers: Vec<usize> = all.map(|k| k + 1).collect();
+            found.push(Transformer {
+                velocity: place,
+                name,
+                modulus: t.modulus.0.map(|m| component(m, order.len())).to_vec(),
+                varies: coordinates(&numbers),
+            });
+        }
+    }
+    found
+}
+
+fn varies(modulus: &Modulus, k: usize) -> bool {
+    matches!(modulus, Modulus::Varying(with) if with.contains(CoordinateId(k)))
+}
+
+fn component(modulus: Modulus, nv: usize) -> Component {
+    match modulus {
+        Modulus::Zero => Component::Zero,
+        Modulus::Constant(x) => Component::Constant(number(x.to_f64())),
+        Modulus::Varying(_) if (0..nv).any(|k| varies(&modulus, k)) => Component::Varying,
+        Modulus::Varying(_) => Component::Parameter,
+    }
+}
+
+/// The store and the source on a link's junction. A source without effort is left out.
+fn ports(
+    graph: &BondGraph,
+    unfolding: &Unfolding<'_>,
+    i: LinkId,
+    junction: JunctionId,
+) -> Vec<Port> {
+    let stores = graph.stores.iter().enumerate();
+    let stores = stores.filter(|(_, s)| s.junction == junction);
+    let stores = stores.filter_map(|(k, s)| {
+        let (text, more) = store(graph, i, s);
+        unfolding.part(NodePart::Store(k), text, more)
+    });
+    let sources = graph.sources.iter().enumerate();
+    let sources = sources.filter(|(_, s)| s.junction == junction);
+    let sources =
+        sources.filter_map(|(k, s)| unfolding.part(NodePart::Source(k), source(graph, i, s), None));
+    stores.chain(sources).collect()
+}
+
+fn store(graph: &BondGraph, i: LinkId, store: &Store) -> (String, Option<String>) {
+    let n = subscript(i.0 + 1);
+    match store.inertia {
+        StoreInertia::Mass(mass) => (format!("m{n} = {} kg", value(graph, mass)), None),
+        StoreInertia::Tensor(entries) => tensor(graph, i, entries),
+    }
+}
+
+/// The diagonal, and behind it what else is not zero.
+fn tensor(graph: &BondGraph, i: LinkId, entries: [Value; 6]) -> (String, Option<String>) {
+    let n = subscript(i.0 + 1);
+    if entries == [Value::Fixed(Dd::ZERO); 6] {
+        return (format!("J{n} = 0"), None);
+    }
+    let named = ["xx", "yy", "zz", "xy", "xz", "yz"]
+        .into_iter()
+        .zip(entries);
+    let shown = named.map(|(axes, entry)| (entry, format!("{axes} {}", value(graph, entry))));
+    let (diagonal, others): (Vec<_>, Vec<_>) = shown.enumerate().partition(|(place, _)| *place < 3);
+    let diagonal: Vec<String> = diagonal.into_iter().map(|(_, (_, text))| text).collect();
+    let others = others.into_iter().map(|(_, entry)| entry);
+    let there = others.filter(|(entry, _)| *entry != Value::Fixed(Dd::ZERO));
+    let mut more: Vec<String> = there.map(|(_, text)| text).collect();
+    if graph.frames[i.0].tensor_axes != Pose::IDENTITY.rotation {
+        more.push("in axes of its own".into());
+    }
+    let diagonal = diagonal.join(", ");
+    let more = (!more.is_empty()).then(|| more.join(", "));
+    (format!("J{n} = {diagonal} kg·m²"), more)
+}
+
+fn source(graph: &BondGraph, i: LinkId, source: &EffortSource) -> String {
+    let efforts = source
+        .efforts
+        .iter()
+        .map(|Effort::Weight { mass, gravity }| match mass {
+            Value::Fixed(mass) => vector(gravity.scale(*mass)),
+            Value::Parameter(_) => format!("{}·{}", value(graph, *mass), vector(*gravity)),
+        });
+    let sum = efforts.collect::<Vec<_>>().join(" + ");
+    format!("R{} = {sum} N", subscript(i.0 + 1))
+}
+
+fn vector(v: Vec3<Dd>) -> String {
+    let [x, y, z] = v.0.map(|x| number(x.to_f64()));
+    format!("({x}, {y}, {z})")
+}
+
+/// A number, or the name of the run-time parameter.
+fn value(graph: &BondGraph, value: Value) -> String {
+    match value {
+        Value::Fixed(x) => number(x.to_f64()),
+        Value::Parameter(p) => graph.parameters[p.0].name.clone(),
+    }
+}

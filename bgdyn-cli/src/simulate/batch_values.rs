@@ -1,0 +1,217 @@
+//! Values that override a scene's: from the command line, a file, a grid, or at random.
+
+use anyhow::{Result, anyhow};
+use bgdyn_codegen::random::Random;
+use bgdyn_codegen::scene::{Override, OverrideKind, Scene};
+use bgdyn_runtime::Dd;
+
+use crate::quantity::value_in;
+use crate::usage::Usage;
+
+/// Runs that a batch may have.
+const RUNS: usize = 1_000_000;
+
+/// A quantity and its value, SI units.
+pub(crate) type Given = (Override, Dd);
+
+/// Quantities, and their values run by run.
+#[derive(Default)]
+pub(crate) struct BatchValues {
+    pub(crate) quantities: Vec<Override>,
+    pub(crate) runs: Vec<Vec<f64>>,
+}
+
+impl BatchValues {
+    /// What a run is given, after what all of them are given.
+    pub(crate) fn given(&self, fixed: &[Given], run: &[f64]) -> Vec<Given> {
+        let own = self.quantities.iter().zip(run);
+        let own = own.map(|(s, &x)| (s.clone(), Dd::from_f64(x)));
+        fixed.iter().cloned().chain(own).collect()
+    }
+}
+
+/// `NAME=VALUE`s of the options `--parameter` and `--initial`.
+pub(crate) fn fixed(
+    scene: &Scene,
+    parameters: &[String],
+    initial: &[String],
+) -> Result<Vec<Given>, Usage> {
+    let mut found: Vec<Given> = Vec::new();
+    let parameters = parameters.iter().map(|text| ("parameter", text));
+    let initial = initial.iter().map(|text| ("initial", text));
+    for (option, text) in parameters.chain(initial) {
+        let wrong = |what: String| Usage(format!("`--{option} {text}`: {what}"));
+        let (name, value) = text
+            .split_once('=')
+            .ok_or_else(|| wrong("write NAME=VALUE".into()))?;
+        let is_parameter = option == "parameter";
+        let what = if is_parameter {
+            "parameter"
+        } else {
+            "part of the state"
+        };
+        let wanted = |kind: OverrideKind| kind.is_parameter() == is_parameter;
+        let overrides = scene
+            .override_named(what, name.trim(), wanted)
+            .map_err(wrong)?;
+        if found.iter().any(|(s, _)| *s == overrides) {
+            return Err(wrong(format!("`{}` is set twice", overrides.name)));
+        }
+        let value = value_in(value, overrides.unit).map_err(wrong)?;
+        found.push((overrides, value));
+    }
+    Ok(found)
+}
+
+/// Runs of a table: names of quantities in the first line, a run per further line.
+pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValues> {
+    let mut lines = text.lines().enumerate().filter(|(_, line)| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with('#')
+    });
+    let (_, header) = lines
+        .next()
+        .ok_or_else(|| anyhow!("{shown} is empty: write names of quantities in its first line"))?;
+    let mut varied = BatchValues::default();
+    for field in header.trim_start_matches('\u{feff}').split(',') {
+        let quantity = headed(scene, field.trim()).map_err(|e| anyhow!("{shown}:1: {e}"))?;
+        if varied.quantities.contains(&quantity) {
+            return Err(anyhow!("{shown}:1: `{}` stands there twice", quantity.name));
+        }
+        varied.quantities.push(quantity);
+    }
+    for (i, line) in lines {
+        let at = i + 1;
+        let fields: Vec<&str> = line.split(',').collect();
+        let (found, wanted) = (fields.len(), varied.quantities.len());
+        if found != wanted {
+            return Err(anyhow!(
+                "{shown}:{at}: {found} values for {wanted} quantities"
+            ));
+        }
+        let values = fields.iter().zip(&varied.quantities).map(|(text, s)| {
+            let value = value_in(text, s.unit);
+            let wrong = |what| anyhow!("{shown}:{at}: `{}`: {what}", s.name);
+            Ok(value.map_err(wrong)?.to_f64())
+        });
+        varied.runs.push(values.collect::<Result<_>>()?);
+    }
+    match varied.runs.len() {
+        0 => Err(anyhow!(
+            "{shown} has no runs: write one line of values per run"
+        )),
+        n if n > RUNS => Err(anyhow!("{shown} has {n} runs: more than {RUNS}")),
+        _ => Ok(varied),
+    }
+}
+
+/// A column's name, with or without its unit: `shoulder`, `shoulder [rad]`.
+fn headed(scene: &Scene, field: &str) -> Result<Override, String> {
+    let (name, unit) = match field.split_once('[') {
+        Some((name, rest)) => (name.trim(), Some(rest.trim_end_matches(']').trim())),
+        None => (field, None),
+    };
+    let quantity = named(scene, name)?;
+    let own = if quantity.unit.is_empty() {
+        "1"
+    } else {
+        quantity.unit
+    };
+    match unit.filter(|unit| *unit != own) {
+        Some(unit) => Err(format!("`{name}` in {unit}: values are in SI units, {own}")),
+        None => Ok(quantity),
+    }
+}
+
+fn named(scene: &Scene, name: &str) -> Result<Override, String> {
+    scene.override_named("part of the state or parameter", name, |_| true)
+}
+
+/// Runs over a grid: `NAME=FROM:TO:N` each, the last one fastest.
+pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<BatchValues, Usage> {
+    let mut varied = BatchValues::default();
+    varied.runs.push(vec![]);
+    for text in sweeps {
+        let wrong = |what: String| Usage(format!("`--sweep {text}`: {what}"));
+        let (name, range) = text
+            .split_once('=')
+            .ok_or_else(|| wrong("write NAME=FROM:TO:N".into()))?;
+        let quantity = new(scene, name, &varied).map_err(wrong)?;
+        let parts: Vec<&str> = range.split(':').collect();
+        let [from, to, n] = parts.as_slice() else {
+            return Err(wrong("write NAME=FROM:TO:N".into()));
+        };
+        let [from, to] = ends(from, to, &quantity).map_err(wrong)?;
+        let n: usize = n
+            .trim()
+            .parse()
+            .ok()
+            .filter(|n| *n >= 2)
+            .ok_or_else(|| wrong(format!("`{n}`: write how many values, 2 or more")))?;
+        let total = varied.runs.len().saturating_mul(n);
+        if total > RUNS {
+            return Err(wrong(format!("that makes {total} runs: more than {RUNS}")));
+        }
+        let value = |k: usize| match k + 1 == n {
+            true => to,
+            false => from + (to - from) * (k as f64 / (n - 1) as f64),
+        };
+        let longer = |run: &Vec<f64>, k| run.iter().copied().chain([value(k)]).collect();
+        varied.runs = varied
+            .runs
+            .iter()
+            .flat_map(|run| (0..n).map(move |k| longer(run, k)))
+            .collect();
+        varied.quantities.push(quantity);
+    }
+    Ok(varied)
+}
+
+/// Runs by chance: `NAME=LOW:HIGH` each, evenly distributed and independent.
+pub(crate) fn chance(
+    scene: &Scene,
+    ranges: &[String],
+    runs: usize,
+    seed: u64,
+) -> Result<BatchValues, Usage> {
+    let mut varied = BatchValues::default();
+    let mut of = Vec::new();
+    for text in ranges {
+        let wrong = |what: String| Usage(format!("`--random {text}`: {what}"));
+        let usage = "write NAME=LOW:HIGH";
+        let (name, range) = text.split_once('=').ok_or_else(|| wrong(usage.into()))?;
+        let quantity = new(scene, name, &varied).map_err(wrong)?;
+        let (low, high) = range.split_once(':').ok_or_else(|| wrong(usage.into()))?;
+        let [low, high] = ends(low, high, &quantity).map_err(wrong)?;
+        if low > high {
+            return Err(wrong(format!("{low} is above {high}: {usage}")));
+        }
+        of.push([low, high]);
+        varied.quantities.push(quantity);
+    }
+    if !(1..=RUNS).contains(&runs) {
+        return Err(Usage(format!(
+            "`--runs {runs}`: write a number from 1 to {RUNS}"
+        )));
+    }
+    let mut random = Random(seed);
+    let one = |random: &mut Random| {
+        let value = |&[low, high]: &[f64; 2]| low + (high - low) * random.unit();
+        of.iter().map(value).collect()
+    };
+    varied.runs = (0..runs).map(|_| one(&mut random)).collect();
+    Ok(varied)
+}
+
+fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Override, String> {
+    let quantity = named(scene, name.trim())?;
+    match varied.quantities.contains(&quantity) {
+        true => Err(format!("`{}` is varied twice", quantity.name)),
+        false => Ok(quantity),
+    }
+}
+
+fn ends(low: &str, high: &str, quantity: &Override) -> Result<[f64; 2], String> {
+    let end = |text: &str| value_in(text, quantity.unit).map(|value| value.to_f64());
+    Ok([end(low)?, end(high)?])
+}

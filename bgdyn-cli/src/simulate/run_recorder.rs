@@ -1,0 +1,330 @@
+//! Records a run from its start to its end.
+
+use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
+use bgdyn_codegen::system::SceneEquations;
+use bgdyn_sim::{Dense, Failure, Integrator, Run, Tolerance, WithIntegrator, with_integrator};
+
+use super::plant::{Evaluated, Form, Numbers, Undefined};
+use super::run_table::{EnergyAt, Event, Record, Row, Way};
+
+/// A scene as a plant for the method that it is to be run by.
+pub fn prepared(system: &SceneEquations, method: IntegratorName) -> Evaluated<'_> {
+    let form = match method.needs_canonical() {
+        true => Form::Canonical,
+        false => Form::Natural,
+    };
+    Evaluated::new(system, form, method.needs_jacobian())
+}
+
+/// Runs a scene; `watch` hears now and then which part of it is done.
+///
+/// A run that fails ends early, with its reason in [`Record::failure`].
+///
+/// # Panics
+/// Never: every method of scenes is one of `bgdyn_sim`'s.
+pub fn record(system: &SceneEquations, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
+    record_from(prepared(system, way.integration.method), way, watch)
+}
+
+/// [`record`] of a plant that is there already: [`prepared`] for the method, or as it starts elsewhere.
+///
+/// # Panics
+/// Never.
+pub fn record_from(plant: Evaluated<'_>, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
+    let start = Start { plant, way, watch };
+    // The canonical form is the plant's business.
+    let integrator = way.integration.method.on_velocities();
+    with_integrator(integrator.name(), start).expect("an integrator of the list")
+}
+
+/// A run about to begin.
+struct Start<'a> {
+    plant: Evaluated<'a>,
+    way: &'a Way,
+    watch: &'a mut dyn FnMut(f64),
+}
+
+impl WithIntegrator<Numbers> for Start<'_> {
+    type Output = Record;
+
+    fn with<M: Integrator<Numbers>>(self, method: M) -> Record {
+        let begin = self.plant.begin();
+        let outputs = self.plant.has_outputs();
+        let mut run = Run::by(method, self.plant, begin);
+        if let StepControl::Tolerance(tolerance) = self.way.integration.step_control {
+            run = run.with_tolerance(Tolerance {
+                absolute: tolerance,
+                relative: tolerance,
+            });
+        }
+        if !self.way.audited {
+            run = run.unaudited();
+        }
+        RunRecorder::new(run, outputs, self.way, self.watch).all()
+    }
+}
+
+type Failed = Failure<Numbers, Undefined>;
+
+/// The energy that could move is no less than this share of what is stored: a hundredth of it, which the
+/// account may lack, is the rounding of sums of that size.
+const ROUNDING: f64 = 1e-12;
+
+/// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
+const ZENO_LIMIT: usize = 16;
+
+/// A straight line from a state to where a run is now.
+fn straight<M: Integrator<Numbers>>(
+    t: f64,
+    y: &Numbers,
+    run: &Run<Evaluated<'_>, M>,
+) -> Dense<Numbers> {
+    let mut terms = [const { None }; 7];
+    terms[0] = Some(run.y() - y);
+    Dense::new(t, run.t() - t, y, terms)
+}
+
+/// A run, and what was kept of it so far.
+struct RunRecorder<'a, M: Integrator<Numbers>> {
+    run: Run<Evaluated<'a>, M>,
+    outputs: bool,
+    way: &'a Way,
+    watch: &'a mut dyn FnMut(f64),
+    rows: Vec<Row>,
+    /// How many of the points asked for are among them.
+    points: usize,
+    steps: usize,
+    events: Vec<Event>,
+    energy: Vec<EnergyAt>,
+    moved: f64,
+}
+
+impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
+    fn new(
+        run: Run<Evaluated<'a>, M>,
+        outputs: bool,
+        way: &'a Way,
+        watch: &'a mut dyn FnMut(f64),
+    ) -> Self {
+        RunRecorder {
+            run,
+            outputs,
+            way,
+            watch,
+            rows: vec![],
+            points: 0,
+            steps: 0,
+            events: vec![],
+            energy: vec![],
+            moved: 0.0,
+        }
+    }
+
+    fn all(mut self) -> Record {
+        let failed = self.complete().err();
+        let (t, modes) = (self.run.t(), self.run.modes().clone());
+        if self.rows.last().is_none_or(|row| row.t < t) {
+            let y = self.run.y().clone();
+            self.keep(t, &y, true);
+        }
+        let y = self.run.plant().natural(t, self.run.y(), &modes);
+        Record {
+            rows: self.rows,
+            energy: self.energy,
+            steps: self.steps,
+            events: self.events,
+            kinks: self.run.kinks,
+            t,
+            y: y.unwrap_or_else(|_| self.run.y().clone()),
+            modes,
+            audit: self.run.audit(),
+            moved: self.moved,
+            failure: failed.map(|failure| failure.reason.to_string()),
+        }
+    }
+
+    fn complete(&mut self) -> Result<(), Failed> {
+        let resolved = self.run.resolve_stiction();
+        let begin = self.run.y().clone();
+        self.keep(0.0, &begin, false);
+        resolved?;
+        self.points = 1;
+        let Integration {
+            step_control, end, ..
+        } = self.way.integration;
+        match step_control {
+            StepControl::Tolerance(_) => self.reach(end),
+            StepControl::Step(h) => {
+                let mut steps = 1.0;
+                // A last step that is next to nothing is none.
+                while steps * h < end - 1e-9 * h {
+                    self.reach(steps * h)?;
+                    steps += 1.0;
+                }
+                self.reach(end)
+            }
+        }
+    }
+
+    /// Time between two points, s.
+    fn interval(&self) -> f64 {
+        self.way.integration.end / (self.way.points - 1) as f64
+    }
+
+    /// On to a time, one step of the method after the other.
+    fn reach(&mut self, target: f64) -> Result<(), Failed> {
+        let span = target - self.run.t();
+        let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
+        let mut zeno_count = 0;
+        while target - self.run.t() > rest {
+            let left = target - self.run.t();
+            let before = self.run.modes().clone();
+            let passed = (self.run.events, self.run.kinks);
+            if zeno_count < ZENO_LIMIT {
+                let dense = self.run.advance_densely(left)?;
+                self.sample(&dense, &before, rest);
+            } else {
+                // On without a halt at every kink.
+                let (t, y) = (self.run.t(), self.run.y().clone());
+                self.run.step(match self.way.integration.step_control {
+                    StepControl::Step(_) => left,
+                    StepControl::Tolerance(_) => left.min(self.interval()),
+                })?;
+                self.sample(&straight(t, &y, &self.run), &before, rest);
+            }
+            self.steps += 1;
+            let halted = passed != (self.run.events, self.run.kinks);
+            zeno_count = if halted {
+                (zeno_count + 1) % (ZENO_LIMIT + 1)
+            } else {
+                0
+            };
+            if self.run.events > passed.0 {
+                self.happened(before);
+            }
+            (self.watch)(self.run.t() / self.way.integration.end);
+        }
+        Ok(())
+    }
+
+    /// Keeps the points that lie in a step.
+    fn sample(&mut self, step: &Dense<Numbers>, modes: &Numbers, rest: f64) {
+        let now = self.run.t();
+        while self.points < self.way.points {
+            let last = self.points + 1 == self.way.points;
+            let t = match last {
+                true => self.way.integration.end,
+                false => self.points as f64 * self.interval(),
+            };
+            if t > now + rest {
+                return;
+            }
+            let y = step.at_time(t.min(now));
+            self.keep_with(t, &y, modes, false);
+            self.points += 1;
+        }
+    }
+
+    /// Keeps an event, with the state after it.
+    fn happened(&mut self, before: Numbers) {
+        let (t, y) = (self.run.t(), self.run.y().clone());
+        let after = self.run.modes().clone();
+        self.events.push(Event { t, before, after });
+        self.keep(t, &y, true);
+    }
+
+    fn keep(&mut self, t: f64, state: &Numbers, extra: bool) {
+        let modes = self.run.modes().clone();
+        self.keep_with(t, state, &modes, extra);
+    }
+
+    fn keep_with(&mut self, t: f64, state: &Numbers, modes: &Numbers, extra: bool) {
+        let plant = self.run.plant();
+        let y = plant.natural(t, state, modes);
+        // Where there are no velocities, nothing can be told of them.
+        let y = y.unwrap_or_else(|_| state.map(|_| f64::NAN));
+        let values = match self.outputs {
+            true => plant.output(t, &y, modes),
+            false => y.as_slice().to_vec(),
+        };
+        let inputs = plant.input(t, &y, modes);
+        self.rows.push(Row {
+            t,
+            values,
+            y,
+            modes: modes.clone(),
+            inputs,
+            extra,
+        });
+        self.book();
+    }
+
+    /// Notes the account of the energy where the run is.
+    fn book(&mut self) {
+        if !self.way.audited {
+            return;
+        }
+        let (t, audit) = (self.run.t(), self.run.audit());
+        for part in [&audit.supplied, &audit.stored, &audit.dissipated] {
+            self.moved = self.moved.max(part.lp_norm(1));
+        }
+        let held = self.run.plant().held(t, self.run.y(), self.run.modes());
+        if let Ok((motion, all)) = held {
+            self.moved = self.moved.max(motion).max(ROUNDING * all);
+        }
+        if self.energy.last().is_none_or(|last| last.t < t) {
+            self.energy.push(EnergyAt {
+                t,
+                supplied: audit.supplied.sum(),
+                stored: audit.stored.sum(),
+                dissipated: audit.dissipated.sum(),
+                drift: audit.drift(),
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bgdyn_sim::{INTEGRATORS, IntegratorInfo};
+
+    use super::*;
+
+    /// What is known of an integrator beforehand, in vectors of run-time size.
+    struct Info;
+
+    impl WithIntegrator<Numbers> for Info {
+        type Output = IntegratorInfo;
+
+        fn with<M: Integrator<Numbers>>(self, integrator: M) -> IntegratorInfo {
+            integrator.info()
+        }
+    }
+
+    /// The table of names that a scene can give has the properties of the integrators themselves.
+    #[test]
+    fn integrators_of_scenes_are_those_of_the_list() {
+        for named in IntegratorName::ALL {
+            let (name, on_velocities) = (named.name(), named.on_velocities());
+            let found = with_integrator(on_velocities.name(), Info);
+            let info = found.unwrap_or_else(|| panic!("`{name}` is not in bgdyn-sim"));
+            assert_eq!(
+                named.controls_its_error(),
+                info.estimate.is_some(),
+                "{name}"
+            );
+            assert_eq!(
+                on_velocities.needs_jacobian(),
+                info.reads_jacobian,
+                "{name}"
+            );
+            let canonical = format!("canonical_{}", on_velocities.name());
+            assert_eq!(named.needs_canonical(), name == canonical, "{name}");
+            assert!(!on_velocities.needs_canonical(), "{name}");
+        }
+        // All others have a use of their own: `gauss4` and the reference of accuracy studies.
+        let is_named = |name: &&str| IntegratorName::named(name).is_some();
+        let others = INTEGRATORS.iter().copied().filter(|name| !is_named(name));
+        assert_eq!(others.collect::<Vec<_>>(), ["gauss4", "extrapolation12"]);
+    }
+}
