@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use crate::configuration::{Configuration, Grid, Pace};
+use crate::configuration::{Configuration, Grid, StepControl};
 use crate::step_sequence::Effort;
 
 /// Runs of one measurement at the most.
@@ -14,7 +14,11 @@ const BEST_OF: usize = 3;
 
 /// Time of each of these runs per simulated millisecond, ns: the median of the rounds. Every
 /// round takes all of them in turn, so that what slows the machine down for a while slows all alike.
-pub(crate) fn times(jobs: &[(&Configuration, Pace)], grid: &Grid, effort: &Effort) -> Vec<f64> {
+pub(crate) fn times(
+    jobs: &[(&Configuration, StepControl)],
+    grid: &Grid,
+    effort: &Effort,
+) -> Vec<f64> {
     let repeat: Vec<usize> = jobs
         .iter()
         .map(|job| {
@@ -63,10 +67,17 @@ pub(crate) fn calls(jobs: &[&dyn Fn(usize)], effort: &Effort) -> Vec<f64> {
 }
 
 /// So many runs, s.
-fn seconds((configuration, pace): &(&Configuration, Pace), grid: &Grid, runs: usize) -> f64 {
+fn seconds(
+    (configuration, step_control): &(&Configuration, StepControl),
+    grid: &Grid,
+    runs: usize,
+) -> f64 {
     let begin = Instant::now();
     for _ in 0..runs {
-        let _ = black_box((configuration.run)(black_box(grid), black_box(*pace)));
+        let _ = black_box((configuration.run)(
+            black_box(grid),
+            black_box(*step_control),
+        ));
     }
     begin.elapsed().as_secs_f64()
 }

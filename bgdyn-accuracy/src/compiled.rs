@@ -3,16 +3,15 @@
 use std::hint::black_box;
 use std::rc::Rc;
 
-use bgdyn_runtime::{Canonical, Dd, Slope, System};
+use bgdyn_runtime::{Canonical, Dd, FixedVector, HybridSystem, Slope};
 use bgdyn_sim::{
-    CanonicalScene, Dop853, Dopri5, Extrapolation12, Gauss2, Gauss3, Gauss4, Method, Midpoint,
-    Moment, Real, Rk4, Rodas4, Run, Scene, SemiImplicitEuler, WithMethod,
+    CanonicalPlant, Dopri5, Extrapolation12, HybridState, INTEGRATORS, Integrator, Of, Real, Rk4,
+    Run, ScenePlant, StateVector, WithIntegrator, with_integrator,
 };
-use nalgebra::SVector;
 
-use crate::configuration::{Configuration, Grid, Pace, RunError, Runner, Samples};
+use crate::configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
 use crate::dyn_plant::{DynPlant, PlantObject};
-use crate::integrate::{Integrate, Measured, SampledOutput, numbers};
+use crate::integrate::{Integrate, Measured, numbers};
 use crate::test_case::{TestCase, order};
 
 /// What equations are called that are written as they are by default.
@@ -41,99 +40,68 @@ fn configuration(
 const F64: (&str, f64) = ("f64", f64::EPSILON);
 const F32: (&str, f64) = ("f32", f32::EPSILON as f64);
 
-/// The sizes of a scene, as parameters.
-macro_rules! scenes {
-    ($(
-        $(#[$doc:meta])*
-        $vis:vis fn $name:ident[S: $bound:ident<$t:ident> $(, $M:ident: $m:path)?]($($arg:tt)*) $body:block
-    )*) => { $(
-        $(#[$doc])*
-        $vis fn $name<
-            S,
-            $($M: $m,)?
-            const N: usize,
-            const NM: usize,
-            const NU: usize,
-            const NE: usize,
-            const NY: usize,
-            const NP: usize,
-        >($($arg)*)
-        where
-            S: $bound<$t, N, NM, NU, NE, NY, NP> + 'static,
-        $body
-    )* };
-}
-
-macro_rules! measured {
-    ($plant:ident: $bound:ident, $body:expr) => {
-        impl<
-            S,
-            T: Real,
-            const N: usize,
-            const NM: usize,
-            const NU: usize,
-            const NE: usize,
-            const NY: usize,
-            const NP: usize,
-        > Measured for $plant<'_, S, T, N, NM, NU, NE, NY, NP>
-        where
-            S: $bound<T, N, NM, NU, NE, NY, NP>,
-        {
-            fn measured(&self, t: T, y: &SVector<T, N>, modes: &SVector<T, NM>) -> Vec<T> {
-                let output: fn(&Self, T, &SVector<T, N>, &SVector<T, NM>) -> SVector<T, NY> = $body;
-                output(self, t, y, modes).as_slice().to_vec()
-            }
-        }
-    };
-}
-
-measured!(Scene: System, |plant, t, y, modes| plant.output(t, y, modes));
-measured!(CanonicalScene: Canonical, |plant, t, z, modes| {
-    match plant.to_natural(t, z, modes) {
-        Ok(y) => plant.natural.output(t, &y, modes),
-        Err(_) => SVector::repeat(T::from_f64(f64::NAN)),
+impl<S: HybridSystem<T>, T: Real> Measured for ScenePlant<'_, S, T> {
+    fn measured(&self, t: T, y: &S::State, modes: &S::Modes) -> Vec<T> {
+        self.output(t, y, modes).entries().to_vec()
     }
-});
+}
+
+impl<S: Canonical<T>, T: Real> Measured for CanonicalPlant<'_, S, T> {
+    fn measured(&self, t: T, z: &S::State, modes: &S::Modes) -> Vec<T> {
+        match self.to_natural(t, z, modes) {
+            Ok(y) => Measured::measured(&self.natural, t, &y, modes),
+            Err(_) => vec![T::from_f64(f64::NAN); S::Outputs::LEN],
+        }
+    }
+}
 
 /// A plant as it is run: where it begins, and how.
-struct Started<T: Real, const N: usize, const NM: usize, const NE: usize> {
-    plant: DynPlant<T, N, NM, NE>,
-    begin: Moment<SVector<T, N>, SVector<T, NM>>,
+struct Started<Y: StateVector, M, E> {
+    plant: DynPlant<Y, M, E>,
+    begin: HybridState<Y, M>,
 }
 
-impl<T: Real, const N: usize, const NM: usize, const NE: usize> Started<T, N, NM, NE> {
-    fn new(
-        plant: impl PlantObject<T, N, NM, NE> + 'static,
-        begin: Moment<SVector<T, N>, SVector<T, NM>>,
-    ) -> Rc<Self> {
+impl<Y, M, E> Started<Y, M, E>
+where
+    Y: FixedVector<Scalar: Real> + 'static,
+    M: FixedVector + 'static,
+    E: FixedVector<Scalar = Of<Y>> + 'static,
+{
+    fn new(plant: impl PlantObject<Y, M, E> + 'static, begin: HybridState<Y, M>) -> Rc<Self> {
         let plant = DynPlant(Rc::new(plant));
         Rc::new(Started { plant, begin })
     }
 
-    /// A run by a method.
-    fn run<M: Method<SVector<T, N>>>(
+    /// A run that any integrator can make.
+    fn integrate<'g>(
         &self,
-        method: M,
-        grid: &Grid,
-        pace: Pace,
-    ) -> SampledOutput<T> {
-        let run = Integrate {
+        grid: &'g Grid,
+        step_control: StepControl,
+    ) -> Integrate<'g, DynPlant<Y, M, E>> {
+        Integrate {
             plant: self.plant.clone(),
             begin: black_box(self.begin),
             grid,
-            pace: black_box(pace),
-        };
-        run.with(method)
+            step_control: black_box(step_control),
+        }
     }
 
-    /// The same, for a configuration.
-    fn runner<M: Method<SVector<T, N>>>(self: &Rc<Self>, method: impl Fn() -> M + 'static) -> Runner
-    where
-        T: 'static,
-    {
+    /// Runs by an integrator, for a contender.
+    fn runner<I: Integrator<Y>>(self: &Rc<Self>, integrator: impl Fn() -> I + 'static) -> Runner {
         let started = self.clone();
-        Box::new(move |grid, pace| {
-            Samples::finite(numbers(started.run(method(), grid, pace)?), None)
+        Box::new(move |grid, step_control| {
+            let run = started.integrate(grid, step_control);
+            Samples::finite(numbers(run.with(integrator())?), None)
+        })
+    }
+
+    /// Runs by the integrator of this name, for a configuration.
+    fn runner_by_name(self: &Rc<Self>, name: &'static str) -> Runner {
+        let started = self.clone();
+        Box::new(move |grid, step_control| {
+            let run = started.integrate(grid, step_control);
+            let values = with_integrator(name, run).expect("a name of the list");
+            Samples::finite(numbers(values?), None)
         })
     }
 }
@@ -143,98 +111,91 @@ fn kept<S: 'static>(scene: S) -> &'static S {
     Box::leak(Box::new(scene))
 }
 
+/// The integrator of the reference, which is no contender.
+const REFERENCE: &str = "extrapolation12";
+
 impl TestCase {
-    scenes! {
-        /// The reference: order 12 in double-double by controlled steps.
-        pub fn reference[S: System<Dd>](&mut self, scene: S) {
-            let scene = kept(scene);
-            let started = Started::new(Scene::new(scene), Run::begin(scene));
-            self.reference = Some(Box::new(move |grid, tolerance| {
-                started.run(Extrapolation12::default(), grid, Pace::Tolerance(tolerance))
-            }));
-        }
+    /// The reference: order 12 in double-double by controlled steps.
+    pub fn reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
+        let scene = kept(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        self.reference = Some(Box::new(move |grid, tolerance| {
+            let run = started.integrate(grid, StepControl::Tolerance(tolerance));
+            run.with(Extrapolation12::default())
+        }));
+    }
 
-        /// Every method of bgdyn-sim but the reference's.
-        pub fn methods[S: Slope<f64>](&mut self, scene: S) {
-            let scene = kept(scene);
-            let started = Started::new(Scene::with_slope(scene), Run::begin(scene));
-            let runs: [(&str, Runner); 9] = [
-                ("semi_implicit_euler", started.runner(|| SemiImplicitEuler)),
-                ("rk4", started.runner(|| Rk4)),
-                ("midpoint", started.runner(Midpoint::<f64>::new)),
-                ("gauss2", started.runner(Gauss2::<f64>::new)),
-                ("gauss3", started.runner(Gauss3::<f64>::new)),
-                ("gauss4", started.runner(Gauss4::<f64>::new)),
-                ("rodas4", started.runner(|| Rodas4)),
-                ("dopri5", started.runner(|| Dopri5)),
-                ("dop853", started.runner(|| Dop853)),
-            ];
-            for (method, run) in runs {
-                self.configurations.push(configuration(method, F64, CHEAPEST, run));
-            }
+    /// Every integrator of bgdyn-sim but the reference's.
+    pub fn methods<S: Slope<f64> + 'static>(&mut self, scene: S) {
+        let scene = kept(scene);
+        let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
+        for name in INTEGRATORS.iter().filter(|name| **name != REFERENCE) {
+            let run = started.runner_by_name(name);
+            self.configurations
+                .push(configuration(name, F64, CHEAPEST, run));
         }
+    }
 
-        /// Gauss–Legendre methods on the canonical form.
-        pub fn momenta[S: Canonical<f64>](&mut self, scene: S) {
-            let scene = kept(scene);
-            let plant = CanonicalScene::new(scene);
-            let mut begin = Run::begin(scene);
-            begin.y = plant.to_canonical(begin.t, &begin.y, &begin.modes);
-            let started = Started::new(plant, begin);
-            let runs: [(&str, Runner); 3] = [
-                ("canonical_midpoint", started.runner(Midpoint::<f64>::new)),
-                ("canonical_gauss2", started.runner(Gauss2::<f64>::new)),
-                ("canonical_gauss3", started.runner(Gauss3::<f64>::new)),
-            ];
-            for (method, run) in runs {
-                self.configurations.push(configuration(method, F64, "canonical", run));
-            }
+    /// Gauss–Legendre methods on the canonical form.
+    pub fn momenta<S: Canonical<f64> + 'static>(&mut self, scene: S) {
+        let scene = kept(scene);
+        let plant = CanonicalPlant::new(scene);
+        let mut begin = Run::begin(scene);
+        begin.y = plant.to_canonical(begin.t, &begin.y, &begin.modes);
+        let started = Started::new(plant, begin);
+        for name in ["midpoint", "gauss2", "gauss3"] {
+            let run = started.runner_by_name(name);
+            let method = format!("canonical_{name}");
+            self.configurations
+                .push(configuration(&method, F64, "canonical", run));
         }
+    }
 
-        /// An explicit and a controlled method in `f32`.
-        pub fn single[S: System<f32>](&mut self, scene: S) {
-            let scene = kept(scene);
-            let started = Started::new(Scene::new(scene), Run::begin(scene));
-            let runs: [(&str, Runner); 2] = [
-                ("rk4", started.runner(|| Rk4)),
-                ("dopri5", started.runner(|| Dopri5)),
-            ];
-            for (method, run) in runs {
-                self.configurations.push(configuration(method, F32, CHEAPEST, run));
-            }
+    /// An explicit and a controlled method in `f32`.
+    pub fn single<S: HybridSystem<f32> + 'static>(&mut self, scene: S) {
+        let scene = kept(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        let runs: [(&str, Runner); 2] = [
+            ("rk4", started.runner(|| Rk4)),
+            ("dopri5", started.runner(|| Dopri5)),
+        ];
+        for (method, run) in runs {
+            self.configurations
+                .push(configuration(method, F32, CHEAPEST, run));
         }
+    }
 
-        /// The scene's rates by another formulation, by the classical Runge–Kutta method.
-        pub fn formulation[S: System<f64>](&mut self, name: &str, scene: S) {
-            let scene = kept(scene);
-            let started = Started::new(Scene::new(scene), Run::begin(scene));
-            let run = started.runner(|| Rk4);
-            self.configurations.push(configuration("rk4", F64, name, run));
-        }
+    /// The scene's rates by another formulation, by the classical Runge–Kutta method.
+    pub fn formulation<S: HybridSystem<f64> + 'static>(&mut self, name: &str, scene: S) {
+        let scene = kept(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        let run = started.runner(|| Rk4);
+        self.configurations
+            .push(configuration("rk4", F64, name, run));
+    }
 
-        /// The scene with these effects, by an explicit method: the scene's own.
-        pub fn ablation[S: System<f64>, M: Method<SVector<f64, N>>](
-            &mut self,
-            effects: &str,
-            scene: S,
-            method: impl Fn() -> M + 'static,
-        ) {
-            let scene = kept(scene);
-            let started = Started::new(Scene::new(scene), Run::begin(scene));
-            self.add_ablation(effects, started.runner(method));
-        }
+    /// The scene with these effects, by an explicit method: the scene's own.
+    pub fn ablation<S: HybridSystem<f64> + 'static, I: Integrator<S::State>>(
+        &mut self,
+        effects: &str,
+        scene: S,
+        integrator: impl Fn() -> I + 'static,
+    ) {
+        let scene = kept(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        self.add_ablation(effects, started.runner(integrator));
+    }
 
-        /// The same by a method that takes slopes.
-        pub fn ablation_with_slope[S: Slope<f64>, M: Method<SVector<f64, N>>](
-            &mut self,
-            effects: &str,
-            scene: S,
-            method: impl Fn() -> M + 'static,
-        ) {
-            let scene = kept(scene);
-            let started = Started::new(Scene::with_slope(scene), Run::begin(scene));
-            self.add_ablation(effects, started.runner(method));
-        }
+    /// The same by a method that takes slopes.
+    pub fn ablation_with_slope<S: Slope<f64> + 'static, I: Integrator<S::State>>(
+        &mut self,
+        effects: &str,
+        scene: S,
+        integrator: impl Fn() -> I + 'static,
+    ) {
+        let scene = kept(scene);
+        let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
+        self.add_ablation(effects, started.runner(integrator));
     }
 
     /// A set of effects without which the measured output is not there.

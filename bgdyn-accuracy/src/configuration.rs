@@ -4,27 +4,27 @@ use std::fmt;
 
 /// What the steps of a run go by.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pace {
+pub enum StepControl {
     /// Every step is as long, s; a whole number of them makes an interval between samples.
     Step(f64),
     /// As long as a step's error stays below this, absolute and relative, in SI units.
     Tolerance(f64),
 }
 
-impl Pace {
+impl StepControl {
     /// Its number: s, or none.
     pub fn value(self) -> f64 {
-        let (Pace::Step(x) | Pace::Tolerance(x)) = self;
+        let (StepControl::Step(x) | StepControl::Tolerance(x)) = self;
         x
     }
 }
 
 /// `0.002 s`, or `1e-6`.
-impl fmt::Display for Pace {
+impl fmt::Display for StepControl {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Pace::Step(h) => write!(f, "{} s", crate::format::number(*h)),
-            Pace::Tolerance(tolerance) => write!(f, "{tolerance:e}"),
+            StepControl::Step(h) => write!(f, "{} s", crate::format::number(*h)),
+            StepControl::Tolerance(tolerance) => write!(f, "{tolerance:e}"),
         }
     }
 }
@@ -88,7 +88,7 @@ impl fmt::Display for RunError {
 }
 
 /// Runs a scene from its start to the end of the grid.
-pub type Runner = Box<dyn Fn(&Grid, Pace) -> Result<Samples, RunError>>;
+pub type Runner = Box<dyn Fn(&Grid, StepControl) -> Result<Samples, RunError>>;
 
 /// A way to run a scene.
 pub struct Configuration {

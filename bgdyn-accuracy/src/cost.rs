@@ -3,8 +3,10 @@
 use std::fmt::Debug;
 use std::hint::black_box;
 
-use bgdyn_runtime::System;
-use bgdyn_sim::{Dopri5, Method, Moment, Of, Plant, Real, Run, Scene, Tolerance, WithMethod};
+use bgdyn_runtime::HybridSystem;
+use bgdyn_sim::{
+    Dopri5, HybridState, Integrator, Of, Plant, Real, Run, ScenePlant, Tolerance, WithIntegrator,
+};
 
 use crate::clock::calls;
 use crate::configuration::RunError;
@@ -60,25 +62,25 @@ pub struct CountSteps<P: Plant> {
     /// What is run.
     pub plant: P,
     /// Where it begins.
-    pub begin: Moment<P::State, P::Modes>,
+    pub begin: HybridState<P::State, P::Modes>,
     /// When it ends, s.
     pub end: f64,
 }
 
-impl<P: Plant> WithMethod<P::State> for CountSteps<P>
+impl<P: Plant> WithIntegrator<P::State> for CountSteps<P>
 where
     Of<P::State>: Real,
     P::Error: Debug,
 {
     type Output = Result<usize, RunError>;
 
-    fn with<M: Method<P::State>>(self, method: M) -> Self::Output {
+    fn with<M: Integrator<P::State>>(self, integrator: M) -> Self::Output {
         let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
         let tolerance = Tolerance {
             absolute: number(TOLERANCE),
             relative: number(TOLERANCE),
         };
-        let run = Run::by(method, self.plant, self.begin).unaudited();
+        let run = Run::by(integrator, self.plant, self.begin).unaudited();
         let mut run = run.with_tolerance(tolerance);
         for steps in 0..STEPS {
             let left = self.end - run.t().to_f64();
@@ -99,23 +101,13 @@ where
 
 impl TestCase {
     /// The scene with these effects, whose `derivative` has so many operations: what it costs.
-    pub fn price<
-        S: System<f64, N, NM, NU, NE, NY, NP> + 'static,
-        const N: usize,
-        const NM: usize,
-        const NU: usize,
-        const NE: usize,
-        const NY: usize,
-        const NP: usize,
-    >(
-        &mut self,
-        effects: &str,
-        operations: usize,
-        scene: S,
-    ) {
+    pub fn price<S>(&mut self, effects: &str, operations: usize, scene: S)
+    where
+        S: HybridSystem<f64> + 'static,
+    {
         let scene: &'static S = Box::leak(Box::new(scene));
         let begin = Run::begin(scene);
-        let plant = Scene::new(scene);
+        let plant = ScenePlant::new(scene);
         let input = plant.input(begin.t, &begin.y, &begin.modes);
         let call = move |times: usize| {
             let (y, modes) = (begin.y, begin.modes);
@@ -134,7 +126,7 @@ impl TestCase {
             call: Call::Compiled(Box::new(call)),
             steps: Box::new(move |end| {
                 let count = CountSteps {
-                    plant: Scene::new(scene),
+                    plant: ScenePlant::new(scene),
                     begin: Run::begin(scene),
                     end,
                 };

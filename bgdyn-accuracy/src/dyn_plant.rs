@@ -4,47 +4,28 @@
 
 use std::rc::Rc;
 
-use bgdyn_sim::{Jacobian, Plant, Power, Real};
+use bgdyn_runtime::FixedVector;
+use bgdyn_sim::{Jacobian, Of, Plant, Power, StateVector};
 use nalgebra::SVector;
 
 use crate::integrate::Measured;
 
-/// A vector of numbers.
-type Vector<T, const N: usize> = SVector<T, N>;
-/// State and modes after an event.
-type Changed<T, const N: usize, const NM: usize> = (Vector<T, N>, Vector<T, NM>);
-
-/// What integrators call of a plant, without types of its own.
-pub(crate) trait PlantObject<T: Real, const N: usize, const NM: usize, const NE: usize> {
-    fn rates(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Result<Vector<T, N>, String>;
-    fn jacobian(
-        &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Option<Result<Jacobian<Vector<T, N>>, String>>;
+/// What integrators call of a plant with states `Y`, modes `M` and events `E`, without types of its own.
+pub(crate) trait PlantObject<Y: StateVector, M, E> {
+    fn rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
+    fn jacobian(&self, t: Of<Y>, y: &Y, modes: &M) -> Option<Result<Jacobian<Y>, String>>;
     fn positions(&self) -> usize;
-    fn position_rates(
-        &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Result<Vector<T, N>, String>;
-    fn events(
-        &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Result<Vector<T, NE>, String>;
+    fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
+    fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String>;
     fn changes_mode(&self, event: usize) -> bool;
     fn change(
         &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
         fell: &dyn Fn(usize) -> bool,
-    ) -> Result<Changed<T, N, NM>, String>;
-    fn measured(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Vec<T>;
+    ) -> Result<(Y, M), String>;
+    fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>>;
 }
 
 /// Where there are no rates: the name that the error holds, in quotes.
@@ -56,20 +37,17 @@ fn told<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
     })
 }
 
-impl<T: Real, P, const N: usize, const NM: usize, const NE: usize> PlantObject<T, N, NM, NE> for P
-where
-    P: Measured<State = Vector<T, N>, Modes = Vector<T, NM>, Values = Vector<T, NE>>,
-{
-    fn rates(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Result<Vector<T, N>, String> {
+impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
+    fn rates(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Result<P::State, String> {
         told(Plant::rates(self, t, y, modes))
     }
 
     fn jacobian(
         &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Option<Result<Jacobian<Vector<T, N>>, String>> {
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+    ) -> Option<Result<Jacobian<P::State>, String>> {
         Plant::jacobian(self, t, y, modes).map(told)
     }
 
@@ -79,19 +57,14 @@ where
 
     fn position_rates(
         &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Result<Vector<T, N>, String> {
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+    ) -> Result<P::State, String> {
         told(Plant::position_rates(self, t, y, modes))
     }
 
-    fn events(
-        &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Result<Vector<T, NE>, String> {
+    fn events(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Result<P::Values, String> {
         told(Plant::events(self, t, y, modes))
     }
 
@@ -101,43 +74,46 @@ where
 
     fn change(
         &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
         fell: &dyn Fn(usize) -> bool,
-    ) -> Result<Changed<T, N, NM>, String> {
+    ) -> Result<(P::State, P::Modes), String> {
         told(Plant::change(self, t, y, modes, fell))
     }
 
-    fn measured(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Vec<T> {
+    fn measured(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Vec<Of<P::State>> {
         Measured::measured(self, t, y, modes)
     }
 }
 
 /// A plant behind a pointer.
-#[derive(Clone)]
-pub(crate) struct DynPlant<T: Real, const N: usize, const NM: usize, const NE: usize>(
-    pub Rc<dyn PlantObject<T, N, NM, NE>>,
-);
+pub(crate) struct DynPlant<Y, M, E>(pub Rc<dyn PlantObject<Y, M, E>>);
 
-impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for DynPlant<T, N, NM, NE> {
-    type State = Vector<T, N>;
-    type Modes = Vector<T, NM>;
-    type Values = Vector<T, NE>;
+impl<Y, M, E> Clone for DynPlant<Y, M, E> {
+    fn clone(&self) -> Self {
+        DynPlant(Rc::clone(&self.0))
+    }
+}
+
+impl<Y, M, E> Plant for DynPlant<Y, M, E>
+where
+    Y: FixedVector,
+    M: FixedVector,
+    E: FixedVector<Scalar = Of<Y>>,
+{
+    type State = Y;
+    type Modes = M;
+    type Values = E;
     // Runs are not audited here.
-    type Entries = Vector<T, 0>;
+    type Entries = SVector<Of<Y>, 0>;
     type Error = String;
 
-    fn rates(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Result<Vector<T, N>, String> {
+    fn rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String> {
         self.0.rates(t, y, modes)
     }
 
-    fn jacobian(
-        &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Option<Result<Jacobian<Vector<T, N>>, String>> {
+    fn jacobian(&self, t: Of<Y>, y: &Y, modes: &M) -> Option<Result<Jacobian<Y>, String>> {
         self.0.jacobian(t, y, modes)
     }
 
@@ -145,24 +121,14 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for DynPla
         self.0.positions()
     }
 
-    fn position_rates(
-        &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Result<Vector<T, N>, String> {
+    fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String> {
         self.0.position_rates(t, y, modes)
     }
 
-    fn events(
-        &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
-    ) -> Result<Vector<T, NE>, String> {
+    fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String> {
         // A scene without events is not asked.
-        match NE {
-            0 => Ok(SVector::repeat(T::from_f64(0.0))),
+        match E::LEN {
+            0 => Ok(E::zero_vector()),
             _ => self.0.events(t, y, modes),
         }
     }
@@ -173,28 +139,23 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for DynPla
 
     fn change(
         &self,
-        t: T,
-        y: &Vector<T, N>,
-        modes: &Vector<T, NM>,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
         fell: impl Fn(usize) -> bool,
-    ) -> Result<Changed<T, N, NM>, String> {
+    ) -> Result<(Y, M), String> {
         self.0.change(t, y, modes, &fell)
     }
 
-    fn nothing(&self) -> Vector<T, 0> {
-        SVector::repeat(T::from_f64(0.0))
+    fn nothing(&self) -> Self::Entries {
+        FixedVector::zero_vector()
     }
 
-    fn energy(&self, _: T, _: &Vector<T, N>, _: &Vector<T, NM>) -> Result<Vector<T, 0>, String> {
+    fn energy(&self, _: Of<Y>, _: &Y, _: &M) -> Result<Self::Entries, String> {
         Ok(self.nothing())
     }
 
-    fn power(
-        &self,
-        _: T,
-        _: &Vector<T, N>,
-        _: &Vector<T, NM>,
-    ) -> Result<Power<Vector<T, 0>>, String> {
+    fn power(&self, _: Of<Y>, _: &Y, _: &M) -> Result<Power<Self::Entries>, String> {
         Ok(Power {
             supplied: self.nothing(),
             dissipated: self.nothing(),
@@ -202,10 +163,13 @@ impl<T: Real, const N: usize, const NM: usize, const NE: usize> Plant for DynPla
     }
 }
 
-impl<T: Real, const N: usize, const NM: usize, const NE: usize> Measured
-    for DynPlant<T, N, NM, NE>
+impl<Y, M, E> Measured for DynPlant<Y, M, E>
+where
+    Y: FixedVector,
+    M: FixedVector,
+    E: FixedVector<Scalar = Of<Y>>,
 {
-    fn measured(&self, t: T, y: &Vector<T, N>, modes: &Vector<T, NM>) -> Vec<T> {
+    fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>> {
         self.0.measured(t, y, modes)
     }
 }

@@ -5,15 +5,15 @@
 use std::fmt::Write;
 
 use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
-use bgdyn_codegen::fault::Place as Where;
+use bgdyn_codegen::fault::Location;
 use bgdyn_codegen::format::Located;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::{Method, Role};
+use bgdyn_codegen::method::{Method, SceneFunction};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
-use bgdyn_codegen::scene::{Integrator, Pace, Scene};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::scene::{IntegratorName, Scene, StepControl};
+use bgdyn_codegen::system::SceneEquations;
 
 /// Coordinates up to which the literal sum is written out: it grows with the cube of their number.
 const LITERAL: usize = 4;
@@ -22,8 +22,8 @@ const LITERAL: usize = 4;
 pub const ALL_BUT: &str = "all but ";
 
 /// Operations of one call of the scene's `derivative`; a pair of sine and cosine is one.
-pub fn operations(system: &System) -> usize {
-    let o = system.function(Role::Derivative).operations();
+pub fn operations(system: &SceneEquations) -> usize {
+    let o = system.function(SceneFunction::Derivative).operations();
     o.total() + o.div + o.sqrt + o.sincos + o.other
 }
 
@@ -33,14 +33,14 @@ pub struct Ablation {
     /// Which: `none`, `gravity+inertia`, `all but friction`.
     pub effects: String,
     /// Its equations; `None` where the measured output is not there without the others.
-    pub system: Option<System>,
+    pub system: Option<SceneEquations>,
 }
 
 /// The scene with one output, the measured one: the first place among its outputs, else the first
 /// coordinate of a joint among them, else the first, and where it asks for none the first coordinate.
 ///
 /// `None` where a scene has nothing to measure.
-pub fn measured(system: &System) -> Option<System> {
+pub fn measured(system: &SceneEquations) -> Option<SceneEquations> {
     let outputs = &system.scene.outputs;
     let is_site = |name: &str| system.graph.sites.iter().any(|s| s.name == name);
     let joints = &system.graph.coordinates;
@@ -48,8 +48,8 @@ pub fn measured(system: &System) -> Option<System> {
     let first = |holds: &dyn Fn(&str) -> bool| outputs.iter().find(|o| holds(&o.value)).cloned();
     let coordinate = || {
         let value = joints.first()?.name.clone();
-        let place = Where::file();
-        Some(Located { value, place })
+        let location = Location::file();
+        Some(Located { value, location })
     };
     let found = first(&is_site)
         .or_else(|| first(&is_joint))
@@ -58,15 +58,15 @@ pub fn measured(system: &System) -> Option<System> {
     with_output(&system.scene, found)
 }
 
-fn with_output(scene: &Scene, output: Located<String>) -> Option<System> {
+fn with_output(scene: &Scene, output: Located<String>) -> Option<SceneEquations> {
     let mut scene = scene.clone();
     scene.outputs = vec![output];
-    System::new(scene).ok()
+    SceneEquations::new(scene).ok()
 }
 
 /// The scene with ever more of its effects, family by family, and with all but each one; `system` is
 /// as [`measured`] gives it.
-pub fn ablations(system: &System) -> Vec<Ablation> {
+pub fn ablations(system: &SceneEquations) -> Vec<Ablation> {
     let elements = &system.scene.elements;
     let mut families: Vec<&str> = Vec::new();
     for element in elements {
@@ -77,7 +77,7 @@ pub fn ablations(system: &System) -> Vec<Ablation> {
     let with = |effects: String, kept: &[&str]| {
         let scene = system
             .scene
-            .with_only(|e| kept.contains(&e.effect.family()));
+            .with_effects(|e| kept.contains(&e.effect.family()));
         let system = with_output(&scene, system.scene.outputs[0].clone());
         Ablation { effects, system }
     };
@@ -96,40 +96,18 @@ pub fn ablations(system: &System) -> Vec<Ablation> {
     found
 }
 
-/// How a scene is run by its own method: the method, its constructor, whether it takes slopes.
-struct Own {
-    method: Integrator,
-    constructor: &'static str,
-    slopes: bool,
+/// The scene's own integrator; one on momenta stands for the same on velocities.
+fn own_integrator(system: &SceneEquations) -> IntegratorName {
+    system.scene.integration.method.on_velocities()
 }
 
-/// The scene's own method; one on momenta stands for the same in velocities.
-fn own(system: &System) -> Own {
-    use Integrator as I;
-    let (method, constructor) = match system.scene.integration.method {
-        I::SemiImplicitEuler => (I::SemiImplicitEuler, "SemiImplicitEuler"),
-        I::Rk4 => (I::Rk4, "Rk4"),
-        I::Midpoint | I::CanonicalMidpoint => (I::Midpoint, "Midpoint::<f64>::new()"),
-        I::Gauss2 | I::CanonicalGauss2 => (I::Gauss2, "Gauss2::<f64>::new()"),
-        I::Gauss3 | I::CanonicalGauss3 => (I::Gauss3, "Gauss3::<f64>::new()"),
-        I::Rodas4 => (I::Rodas4, "Rodas4"),
-        I::Dopri5 => (I::Dopri5, "Dopri5"),
-        I::Dop853 => (I::Dop853, "Dop853"),
+/// The integrator and the step control of a scene, as a study names them.
+pub fn own_way(system: &SceneEquations) -> (&'static str, crate::StepControl) {
+    let step_control = match system.scene.integration.step_control {
+        StepControl::Step(h) => crate::StepControl::Step(h),
+        StepControl::Tolerance(tolerance) => crate::StepControl::Tolerance(tolerance),
     };
-    Own {
-        method,
-        constructor,
-        slopes: method.needs_jacobian(),
-    }
-}
-
-/// The method and the pace of a scene, as a study names them.
-pub fn own_way(system: &System) -> (&'static str, crate::Pace) {
-    let pace = match system.scene.integration.pace {
-        Pace::Step(h) => crate::Pace::Step(h),
-        Pace::Tolerance(tolerance) => crate::Pace::Tolerance(tolerance),
-    };
-    (own(system).method.name(), pace)
+    (own_integrator(system).name(), step_control)
 }
 
 /// The text of a module with the scene's name: its variants, and `test_case()`, which gives the
@@ -138,12 +116,12 @@ pub fn own_way(system: &System) -> (&'static str, crate::Pace) {
 ///
 /// # Errors
 /// In a sentence, where the scene has nothing to measure.
-pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
+pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, String> {
     let name = &system.scene.name;
     let full =
         measured(system).ok_or_else(|| format!("the scene `{name}` has nothing to measure"))?;
     let structure = struct_ident(name);
-    let own = own(&full);
+    let own = own_integrator(&full);
     let mut text = format!("/// The scene `{name}` and its variants.\npub mod {name} {{\n");
     let mut calls = String::new();
     let all = Options {
@@ -177,18 +155,20 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
         writeln!(calls, "test_case.formulation({formulation:?}, {model});").expect("text");
     }
     let options = Options {
-        jacobian: own.slopes,
+        jacobian: own.needs_jacobian(),
         ..Options::default()
     };
-    let call = match own.slopes {
+    let call = match own.needs_jacobian() {
         true => "ablation_with_slope",
         false => "ablation",
     };
-    let method = format!("bgdyn_accuracy::bgdyn_sim::{}", own.constructor);
+    // Types of bgdyn-sim are called like the integrators.
+    let integrator = struct_ident(own.name());
+    let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default()");
     let add = |effects: &str, model: &str, text: &mut String| {
         writeln!(text, "test_case.{call}({effects:?}, {model}, || {method});").expect("text");
     };
-    let price = |effects: &str, system: &System, model: &str, text: &mut String| {
+    let price = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
         let count = operations(system);
         writeln!(text, "test_case.price({effects:?}, {count}, {model});").expect("text");
     };
@@ -217,18 +197,18 @@ pub fn variants(system: &System, end: Option<f64>) -> Result<String, String> {
 }
 
 /// Whether a scene's laws have kinks: events that change no mode.
-pub fn kinked(system: &System) -> bool {
+pub fn kinked(system: &SceneEquations) -> bool {
     let layout = &system.scene.layout;
     layout.events.iter().any(|e| layout.mode_of(e).is_none())
 }
 
 /// The call that makes the test case.
-fn opening(full: &System, end: Option<f64>) -> String {
+fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     let scene = &full.scene;
-    let (method, pace) = own_way(full);
-    let pace = match pace {
-        crate::Pace::Step(h) => format!("Step({h:?})"),
-        crate::Pace::Tolerance(t) => format!("Tolerance({t:?})"),
+    let (method, step_control) = own_way(full);
+    let step_control = match step_control {
+        crate::StepControl::Step(h) => format!("Step({h:?})"),
+        crate::StepControl::Tolerance(t) => format!("Tolerance({t:?})"),
     };
     let names = [
         &scene.name,
@@ -238,12 +218,12 @@ fn opening(full: &System, end: Option<f64>) -> String {
     ];
     let end = end.unwrap_or(scene.integration.end);
     format!(
-        "bgdyn_accuracy::TestCase::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::Pace::{pace})"
+        "bgdyn_accuracy::TestCase::new({names:?}, {end:?}, {method:?}, bgdyn_accuracy::StepControl::{step_control})"
     )
 }
 
 /// The functions of the scene with its derivative by each formulation that knows it.
-fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
+fn formulations(full: &SceneEquations) -> Vec<(&'static str, Vec<Function>)> {
     let few = full.graph.coordinates.len() <= LITERAL;
     let mut found = Vec::new();
     for formulation in FORMULATIONS {
@@ -256,7 +236,7 @@ fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
         };
         let functions = scene_functions(full, &Options::default()).into_iter();
         let replaced = functions.map(|f| match f.method {
-            Method::Scene(Role::Derivative) => derivative.clone(),
+            Method::Scene(SceneFunction::Derivative) => derivative.clone(),
             _ => f,
         });
         found.push((name, replaced.collect()));
@@ -265,7 +245,7 @@ fn formulations(full: &System) -> Vec<(&'static str, Vec<Function>)> {
 }
 
 /// One variant's module.
-fn module(system: &System, functions: &[Function], name: &str) -> Result<String, String> {
+fn module(system: &SceneEquations, functions: &[Function], name: &str) -> Result<String, String> {
     let place = OutputOptions::source_text(system.scene.name.clone()).with_module(name)?;
     Ok(source_text(scene_module(system, functions, &place)))
 }

@@ -1,10 +1,9 @@
 //! One run of a plant by a method, sampled at given times.
 
-use bgdyn_sim::{Method, Moment, Plant, Reason, Run, Tolerance, WithMethod};
-use bgdyn_sim::{Of, Real};
+use bgdyn_sim::{HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator};
 use std::fmt::Debug;
 
-use crate::configuration::{Grid, Pace, RunError};
+use crate::configuration::{Grid, RunError, StepControl};
 
 /// A plant with a measured output.
 pub trait Measured: Plant {
@@ -23,33 +22,33 @@ pub struct Integrate<'a, P: Plant> {
     /// What is run.
     pub plant: P,
     /// Where it begins.
-    pub begin: Moment<P::State, P::Modes>,
+    pub begin: HybridState<P::State, P::Modes>,
     /// When it is looked at.
     pub grid: &'a Grid,
     /// What its steps go by.
-    pub pace: Pace,
+    pub step_control: StepControl,
 }
 
 /// The measured output at each sample, or why the run ended early.
 pub(crate) type SampledOutput<T> = Result<Vec<Vec<T>>, RunError>;
 
-impl<P: Measured> WithMethod<P::State> for Integrate<'_, P>
+impl<P: Measured> WithIntegrator<P::State> for Integrate<'_, P>
 where
     Of<P::State>: Real,
 {
     type Output = SampledOutput<Of<P::State>>;
 
-    fn with<M: Method<P::State>>(self, method: M) -> Self::Output {
+    fn with<M: Integrator<P::State>>(self, integrator: M) -> Self::Output {
         let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
         // Divided in the run's own scalar: steps in double-double end where they should.
         let interval = number(self.grid.end) / number(self.grid.samples as f64);
-        let mut run = Run::by(method, self.plant, self.begin).unaudited();
-        let (steps, h) = match self.pace {
-            Pace::Step(h) => {
+        let mut run = Run::by(integrator, self.plant, self.begin).unaudited();
+        let (steps, h) = match self.step_control {
+            StepControl::Step(h) => {
                 let parts = self.grid.parts(h);
                 (parts, interval / number(parts as f64))
             }
-            Pace::Tolerance(tolerance) => {
+            StepControl::Tolerance(tolerance) => {
                 let tolerance = number(tolerance);
                 run = run.with_tolerance(Tolerance {
                     absolute: tolerance,

@@ -49,7 +49,7 @@ mod test_case;
 
 pub use bgdyn_runtime::Dd;
 pub use bgdyn_sim;
-pub use configuration::{Configuration, Grid, Pace, RunError, Runner, Samples};
+pub use configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
 pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 pub use figures::{Figure, figures};
 pub use integrate::{Integrate, Measured};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::configuration::Pace;
+use crate::configuration::StepControl;
 use crate::row::Row;
 use crate::study::{Facts, Study};
 use crate::test_case::order;
@@ -100,7 +100,7 @@ fn stable_step(study: &Study) -> f64 {
     let rows = rows.filter(|r| r.method == "rk4" && r.scalar == "f64");
     let follows = |r: &&Row| r.error.is_some_and(|e| e < COARSE * study.facts.size);
     rows.filter(follows)
-        .map(|r| r.pace.value())
+        .map(|r| r.step_control.value())
         .fold(0.0, f64::max)
 }
 
@@ -112,8 +112,10 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     };
     let rounding = ROUGH * epsilon * facts.floor;
     let held = rows.iter().filter(|r| r.holds());
-    let mut points: Vec<(Pace, f64)> = held.filter_map(|r| Some((r.pace, r.error?))).collect();
-    // The scene's own pace, which comes last, is no part of the sequence.
+    let mut points: Vec<(StepControl, f64)> = held
+        .filter_map(|r| Some((r.step_control, r.error?)))
+        .collect();
+    // The scene's own step control, which comes last, is no part of the sequence.
     let sequence = points
         .windows(2)
         .take_while(|p| p[1].0.value() < p[0].0.value());
@@ -125,14 +127,14 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     // The floor itself says nothing of an order, and neither does what lies beyond it.
     let fine = fine.take_while(|p| p.1 > rounding);
     let logs: Vec<(f64, f64)> = fine.map(|(x, e)| (x.value().ln(), e.ln())).collect();
-    if let Some((Pace::Tolerance(_), _)) = points.first() {
+    if let Some((StepControl::Tolerance(_), _)) = points.first() {
         return match logs.len() {
             0..=2 if reached => Finding::Converges(slope(&logs).unwrap_or(1.0)),
             0..=2 => Finding::TooFew,
             _ => match (judged(slope(&logs), FOLLOWS), points.last()) {
                 // Errors that keep to the tolerance need not follow it: steps end at the samples.
-                (Finding::DoesNot(p), Some((pace, error)))
-                    if *error < KEEPS * pace.value() * facts.size =>
+                (Finding::DoesNot(p), Some((step_control, error)))
+                    if *error < KEEPS * step_control.value() * facts.size =>
                 {
                     Finding::Converges(p)
                 }

@@ -66,7 +66,7 @@ pub fn targets(study: &Study) -> Vec<Choice> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::configuration::Pace;
+    use crate::configuration::StepControl;
     use crate::row::Status;
     use crate::study::Facts;
 
@@ -75,7 +75,7 @@ mod tests {
             scene: "made_up".into(),
             effects: "all".into(),
             method: method.into(),
-            pace: Pace::Step(1e-3),
+            step_control: StepControl::Step(1e-3),
             scalar: "f64".into(),
             formulation: "cheapest".into(),
             error: Some(error),

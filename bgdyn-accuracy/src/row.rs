@@ -1,6 +1,6 @@
 //! A row of `accuracy.csv`, written and read.
 
-use crate::configuration::Pace;
+use crate::configuration::StepControl;
 use crate::table::written;
 
 /// Whether a row's numbers hold.
@@ -24,7 +24,7 @@ pub struct Row {
     /// The method of integration.
     pub method: String,
     /// The step, s, or the tolerance.
-    pub pace: Pace,
+    pub step_control: StepControl,
     /// The scalar: `f64`, `f32`.
     pub scalar: String,
     /// How the equations are written.
@@ -76,7 +76,7 @@ impl Row {
             self.scene.clone(),
             self.effects.clone(),
             self.method.clone(),
-            self.pace.to_string(),
+            self.step_control.to_string(),
             self.scalar.clone(),
             self.formulation.clone(),
             number(self.error),
@@ -91,7 +91,7 @@ impl Row {
             scene,
             effects,
             method,
-            pace,
+            step_control,
             scalar,
             formulation,
             error,
@@ -103,9 +103,9 @@ impl Row {
             _ => text.parse::<f64>().ok().map(Some),
         };
         Some(Row {
-            pace: match pace.strip_suffix(" s") {
-                Some(step) => Pace::Step(step.parse().ok()?),
-                None => Pace::Tolerance(pace.parse().ok()?),
+            step_control: match step_control.strip_suffix(" s") {
+                Some(step) => StepControl::Step(step.parse().ok()?),
+                None => StepControl::Tolerance(step_control.parse().ok()?),
             },
             error: optional(&error)?,
             ns: optional(&ns)?,
@@ -133,7 +133,7 @@ mod tests {
             scene: "arm".into(),
             effects: "all".into(),
             method: "rk4".into(),
-            pace: Pace::Step(0.002),
+            step_control: StepControl::Step(0.002),
             scalar: "f64".into(),
             formulation: "cheapest".into(),
             error: Some(1.25e-7),
@@ -158,7 +158,7 @@ mod tests {
     #[test]
     fn rows_are_read_as_they_were_written() {
         let failed = Row {
-            pace: Pace::Tolerance(1e-6),
+            step_control: StepControl::Tolerance(1e-6),
             error: None,
             ns: None,
             status: Status::Failed("no accelerations (\"turn\", 3),\nat 0 s".into()),

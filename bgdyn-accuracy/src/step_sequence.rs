@@ -2,7 +2,7 @@
 //!
 //! Equal input gives the same rows everywhere.
 
-use crate::configuration::{Configuration, Grid, Pace, RunError};
+use crate::configuration::{Configuration, Grid, RunError, StepControl};
 use crate::integrate::distance;
 
 /// How thorough a study is.
@@ -47,7 +47,7 @@ impl Effort {
 /// What came of one run.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial {
-    pub pace: Pace,
+    pub step_control: StepControl,
     /// The error, and an estimate of the time if the run was not of compiled code.
     pub outcome: Result<(f64, Option<f64>), RunError>,
 }
@@ -77,8 +77,13 @@ impl ErrorScale<'_> {
     }
 
     /// One run.
-    pub fn attempt(&self, configuration: &Configuration, grid: &Grid, pace: Pace) -> Trial {
-        let judged = (configuration.run)(grid, pace).and_then(|ran| {
+    pub fn attempt(
+        &self,
+        configuration: &Configuration,
+        grid: &Grid,
+        step_control: StepControl,
+    ) -> Trial {
+        let judged = (configuration.run)(grid, step_control).and_then(|ran| {
             let error = distance(&ran.values, self.reference);
             if error > LOST * self.size {
                 let why = "unstable: leaves the motion".into();
@@ -87,7 +92,10 @@ impl ErrorScale<'_> {
             Ok((error, ran.estimate))
         });
         let outcome = judged;
-        Trial { pace, outcome }
+        Trial {
+            step_control,
+            outcome,
+        }
     }
 }
 
@@ -111,9 +119,9 @@ pub(crate) fn step_sequence(
         false => effort.steps,
     };
     let least = effort.tolerance.max(configuration.epsilon);
-    let pace = |k: i32| match configuration.controlled {
-        true => Pace::Tolerance(FIRST * 0.1_f64.powi(k)),
-        false => Pace::Step(grid.interval() / f64::from(2_u32.pow(k as u32))),
+    let step_control = |k: i32| match configuration.controlled {
+        true => StepControl::Tolerance(FIRST * 0.1_f64.powi(k)),
+        false => StepControl::Step(grid.interval() / f64::from(2_u32.pow(k as u32))),
     };
     let within = |k: i32| match configuration.controlled {
         true => FIRST * 0.1_f64.powi(k) > 0.5 * least,
@@ -122,7 +130,7 @@ pub(crate) fn step_sequence(
     let mut all: Vec<Trial> = Vec::new();
     let (mut best, mut stalled) = (f64::INFINITY, 0);
     for k in (0..30).take_while(|&k| within(k)) {
-        let tried = scale.attempt(configuration, grid, rounded(pace(k)));
+        let tried = scale.attempt(configuration, grid, rounded(step_control(k)));
         let error = tried.outcome.as_ref().map(|(error, _)| *error).ok();
         all.push(tried);
         if let Some(error) = error {
@@ -145,9 +153,11 @@ pub(crate) fn step_sequence(
 }
 
 /// A tolerance as it is written: 1e-6, not 1.0000000000000002e-6.
-fn rounded(pace: Pace) -> Pace {
-    match pace {
-        Pace::Tolerance(x) => Pace::Tolerance(format!("{x:.0e}").parse().unwrap_or(x)),
+fn rounded(step_control: StepControl) -> StepControl {
+    match step_control {
+        StepControl::Tolerance(x) => {
+            StepControl::Tolerance(format!("{x:.0e}").parse().unwrap_or(x))
+        }
         step => step,
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::clock::times;
-use crate::configuration::{Configuration, Grid, Pace, RunError};
+use crate::configuration::{Configuration, Grid, RunError, StepControl};
 use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
 use crate::row::{Row, Status};
@@ -107,13 +107,13 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
         tried.extend(steps.into_iter().map(|t| (configuration, t)));
     }
     for ablation in &test_case.ablations {
-        let pace = own_pace(test_case, &grid);
+        let step_control = own_step_control(test_case, &grid);
         // A motion far from the reference is a finding here, not a failure.
         let far = ErrorScale {
             size: f64::INFINITY,
             ..scale
         };
-        tried.push((ablation, far.attempt(ablation, &grid, pace)));
+        tried.push((ablation, far.attempt(ablation, &grid, step_control)));
     }
     Ok(Study {
         facts: Facts {
@@ -139,10 +139,12 @@ fn moved(reference: &[Vec<f64>]) -> f64 {
     distance(reference, &still).max(f64::MIN_POSITIVE)
 }
 
-/// The scene's own pace; a step is taken as often as fits between two samples.
-fn own_pace(test_case: &TestCase, grid: &Grid) -> Pace {
+/// The scene's own step control; a step is taken as often as fits between two samples.
+fn own_step_control(test_case: &TestCase, grid: &Grid) -> StepControl {
     match test_case.own.1 {
-        Pace::Step(h) => Pace::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64),
+        StepControl::Step(h) => {
+            StepControl::Step(grid.interval() / grid.parts(h.min(grid.interval())) as f64)
+        }
         tolerance => tolerance,
     }
 }
@@ -151,7 +153,8 @@ fn own_pace(test_case: &TestCase, grid: &Grid) -> Pace {
 fn rows(scene: &str, tried: &[(&Configuration, Trial)], grid: &Grid, effort: &Effort) -> Vec<Row> {
     let measured = |t: &Trial| matches!(t.outcome, Ok((_, None)));
     let jobs = tried.iter().filter(|(_, t)| measured(t));
-    let jobs: Vec<(&Configuration, Pace)> = jobs.map(|(c, t)| (*c, t.pace)).collect();
+    let jobs: Vec<(&Configuration, StepControl)> =
+        jobs.map(|(c, t)| (*c, t.step_control)).collect();
     let mut times = times(&jobs, grid, effort).into_iter();
     let row = |(configuration, t): &(&Configuration, Trial)| {
         let (error, ns, status) = match &t.outcome {
@@ -166,7 +169,7 @@ fn rows(scene: &str, tried: &[(&Configuration, Trial)], grid: &Grid, effort: &Ef
             scene: scene.into(),
             effects: configuration.effects.clone(),
             method: configuration.method.clone(),
-            pace: t.pace,
+            step_control: t.step_control,
             scalar: configuration.scalar.into(),
             formulation: configuration.formulation.clone(),
             error,

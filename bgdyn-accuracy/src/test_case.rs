@@ -1,10 +1,10 @@
 //! A test case: a scene with its reference and its configurations.
 
 use bgdyn_runtime::Dd;
-use bgdyn_sim::{Method, WithMethod, with_method};
+use bgdyn_sim::{Integrator, WithIntegrator, with_integrator};
 use nalgebra::SVector;
 
-use crate::configuration::{Configuration, Grid, Pace, RunError};
+use crate::configuration::{Configuration, Grid, RunError, StepControl};
 use crate::priced::Priced;
 
 /// The measured output at each sample, in double-double, by a tolerance.
@@ -22,8 +22,8 @@ pub struct TestCase {
     pub unit: String,
     /// When it ends, s.
     pub end: f64,
-    /// The scene's own method and pace, by which effects are compared.
-    pub own: (String, Pace),
+    /// The scene's own method and step control, by which effects are compared.
+    pub own: (String, StepControl),
     /// Whether its laws have kinks, which steps end at only as exactly as they are found.
     pub kinked: bool,
     /// The reference.
@@ -32,7 +32,7 @@ pub struct TestCase {
     pub tolerances: (f64, f64),
     /// Ways to run the scene with all effects, each with its own sequence of steps or tolerances.
     pub configurations: Vec<Configuration>,
-    /// The scene with fewer effects, each at the scene's own pace.
+    /// The scene with fewer effects, each at the scene's own step control.
     pub ablations: Vec<Configuration>,
     /// The scene with all effects, and without each: what a call and a run cost.
     pub prices: Vec<Priced>,
@@ -44,7 +44,7 @@ impl TestCase {
         [scene, description, output, unit]: [&str; 4],
         end: f64,
         method: &str,
-        pace: Pace,
+        step_control: StepControl,
     ) -> Self {
         TestCase {
             scene: scene.into(),
@@ -52,7 +52,7 @@ impl TestCase {
             output: output.into(),
             unit: unit.into(),
             end,
-            own: (method.into(), pace),
+            own: (method.into(), step_control),
             kinked: false,
             reference: None,
             tolerances: (1e-20, 1e-18),
@@ -76,20 +76,20 @@ impl std::fmt::Debug for TestCase {
     }
 }
 
-/// What is known of a method beforehand.
+/// What is known of an integrator beforehand.
 struct Known;
 
-impl WithMethod<SVector<f64, 1>> for Known {
+impl WithIntegrator<SVector<f64, 1>> for Known {
     type Output = (u32, bool);
 
-    fn with<M: Method<SVector<f64, 1>>>(self, method: M) -> Self::Output {
-        let facts = method.facts();
-        (facts.order, facts.estimate.is_some())
+    fn with<M: Integrator<SVector<f64, 1>>>(self, integrator: M) -> Self::Output {
+        let info = integrator.info();
+        (info.order, info.estimate.is_some())
     }
 }
 
 /// Order of a method and whether it goes by a tolerance, by its name in scenes: one with `canonical_`
 /// in front is that method on momenta. `None` where there is no such method.
 pub fn order(name: &str) -> Option<(u32, bool)> {
-    with_method(name.strip_prefix("canonical_").unwrap_or(name), Known)
+    with_integrator(name.strip_prefix("canonical_").unwrap_or(name), Known)
 }

@@ -2,8 +2,8 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Configuration, Cost, CountSteps, Effort, Finding, Grid, Pace, RunError, Samples, Status, Study,
-    TestCase, costs_csv, figures, page, rows_csv, study, targets, verdicts,
+    Configuration, Cost, CountSteps, Effort, Finding, Grid, RunError, Samples, Status, StepControl,
+    Study, TestCase, costs_csv, figures, page, rows_csv, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
@@ -17,8 +17,12 @@ const EFFORT: Effort = Effort {
 };
 
 /// ẋ = y, ẏ = −x by the classical Runge–Kutta method, the weights of its slopes given.
-fn oscillator(grid: &Grid, pace: Pace, weights: [f64; 4]) -> Result<Samples, RunError> {
-    let parts = grid.parts(pace.value());
+fn oscillator(
+    grid: &Grid,
+    step_control: StepControl,
+    weights: [f64; 4],
+) -> Result<Samples, RunError> {
+    let parts = grid.parts(step_control.value());
     let h = grid.interval() / parts as f64;
     let rates = |[x, y]: [f64; 2]| [y, -x];
     let at = |[x, y]: [f64; 2], k: f64, [a, b]: [f64; 2]| [x + k * a, y + k * b];
@@ -53,13 +57,13 @@ fn configuration(formulation: &str, weights: [f64; 4]) -> Configuration {
         scalar: "f64",
         epsilon: f64::EPSILON,
         formulation: formulation.into(),
-        run: Box::new(move |grid, pace| oscillator(grid, pace, weights)),
+        run: Box::new(move |grid, step_control| oscillator(grid, step_control, weights)),
     }
 }
 
 fn test_case(configurations: Vec<Configuration>) -> TestCase {
     let words = ["oscillator", "A mass on a spring", "x", "m"];
-    let mut test_case = TestCase::new(words, 2.0, "rk4", Pace::Step(0.05));
+    let mut test_case = TestCase::new(words, 2.0, "rk4", StepControl::Step(0.05));
     test_case.reference = Some(Box::new(|grid, _| {
         let times = (1..=grid.samples).map(|k| grid.interval() * k as f64);
         Ok(times.map(|t| vec![Dd::from_f64(t.cos())]).collect())
@@ -81,7 +85,7 @@ fn errors_are_those_of_the_closed_form() {
     let study = studied(RIGHT);
     // A step multiplies x − iy by R(ih), R(z) = 1 + z + z²/2 + z³/6 + z⁴/24.
     for row in &study.rows[..2] {
-        let h = row.pace.value();
+        let h = row.step_control.value();
         let (re, im) = (1.0 - h * h / 2.0 + h.powi(4) / 24.0, h - h.powi(3) / 6.0);
         let (size, angle) = (re.hypot(im), im.atan2(re));
         let parts = (0.2 / h).round() as i32;
@@ -122,13 +126,15 @@ fn a_wrong_coefficient_is_found() {
 #[test]
 fn a_run_that_fails_is_a_row_with_its_reason() {
     let mut failing = configuration("cheapest", RIGHT);
-    failing.run = Box::new(|grid, pace| match grid.parts(pace.value()) {
-        1 => Err(RunError {
-            t: 0.4,
-            why: "unstable: not finite".into(),
-        }),
-        _ => oscillator(grid, pace, RIGHT),
-    });
+    failing.run = Box::new(
+        |grid, step_control| match grid.parts(step_control.value()) {
+            1 => Err(RunError {
+                t: 0.4,
+                why: "unstable: not finite".into(),
+            }),
+            _ => oscillator(grid, step_control, RIGHT),
+        },
+    );
     let study = study(&test_case(vec![failing]), &EFFORT).expect("a reference");
     let first = &study.rows[0];
     let why = "unstable: not finite at 0.4 s";
@@ -277,11 +283,11 @@ impl Plant for Decay {
 /// ẋ = −x by controlled steps: one step behind the other to the end, more of them for a longer run.
 #[test]
 fn steps_are_counted() {
-    use bgdyn_sim::{Moment, WithMethod};
+    use bgdyn_sim::{HybridState, WithIntegrator};
     let steps = |end: f64| {
         let count = CountSteps {
             plant: Decay,
-            begin: Moment {
+            begin: HybridState {
                 t: 0.0,
                 y: V::repeat(1.0),
                 modes: SVector::zeros(),

@@ -5,13 +5,13 @@ use std::rc::Rc;
 
 use bgdyn_accuracy::generate::{ALL_BUT, ablations, kinked, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Configuration, CountSteps, Integrate, Measured, Pace, Priced, Runner, STEPS_METHOD,
-    Samples, TestCase, order,
+    Call, Configuration, CountSteps, Integrate, Measured, Priced, Runner, STEPS_METHOD, Samples,
+    StepControl, TestCase, order,
 };
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
-use bgdyn_sim::{Jacobian, METHODS, Plant, Power, with_method};
+use bgdyn_sim::{INTEGRATORS, Jacobian, Plant, Power, with_integrator};
 
 use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
 use crate::timing::estimate;
@@ -33,20 +33,20 @@ struct Calls {
 }
 
 impl Calls {
-    fn of(system: &System) -> Self {
+    fn of(system: &SceneEquations) -> Self {
         let roles = system.roles_with(true, false);
-        let one = |role: Role| match roles.contains(&role) {
+        let one = |role: SceneFunction| match roles.contains(&role) {
             true => estimate(system.function(role).operations()),
             false => 0.0,
         };
-        let inputs = one(Role::Inputs);
-        let derivative = one(Role::Derivative);
+        let inputs = one(SceneFunction::Inputs);
+        let derivative = one(SceneFunction::Derivative);
         Calls {
             operations: operations(system),
             derivative,
             rates: derivative + inputs,
-            slopes: one(Role::Jacobian),
-            events: one(Role::Events) + inputs,
+            slopes: one(SceneFunction::Jacobian),
+            events: one(SceneFunction::Events) + inputs,
         }
     }
 }
@@ -62,7 +62,7 @@ struct Counted {
 
 impl Counted {
     /// The scene: it stays, since a study is the program's last act.
-    fn new(system: System) -> Self {
+    fn new(system: SceneEquations) -> Self {
         let calls = Calls::of(&system);
         let system = Box::leak(Box::new(system));
         Counted {
@@ -89,7 +89,7 @@ impl Counted {
                     begin: counted.plant.begin(),
                     end,
                 };
-                with_method(STEPS_METHOD, run).expect("a method of bgdyn-sim")
+                with_integrator(STEPS_METHOD, run).expect("a method of bgdyn-sim")
             }),
         }
     }
@@ -97,15 +97,15 @@ impl Counted {
     /// Runs it by a method of this name.
     fn runner(&self, method: &str) -> Runner {
         let (counted, method) = (self.clone(), method.to_owned());
-        Box::new(move |grid, pace| {
+        Box::new(move |grid, step_control| {
             counted.spent.set(0.0);
             let run = Integrate {
                 plant: counted.clone(),
                 begin: counted.plant.begin(),
                 grid,
-                pace,
+                step_control,
             };
-            let values = with_method(&method, run).expect("a method of bgdyn-sim")?;
+            let values = with_integrator(&method, run).expect("a method of bgdyn-sim")?;
             Samples::finite(values, Some(counted.spent.get()))
         })
     }
@@ -180,10 +180,10 @@ impl Measured for Counted {
 }
 
 /// The scene as a test case; `None` where it has nothing to measure.
-pub(crate) fn test_case(system: &System, end: Option<f64>) -> Option<TestCase> {
+pub(crate) fn test_case(system: &SceneEquations, end: Option<f64>) -> Option<TestCase> {
     let full = measured(system)?;
     let scene = &full.scene;
-    let (method, pace) = own_way(&full);
+    let (method, step_control) = own_way(&full);
     let words = [
         scene.name.as_str(),
         scene.description.as_deref().unwrap_or_default(),
@@ -191,18 +191,18 @@ pub(crate) fn test_case(system: &System, end: Option<f64>) -> Option<TestCase> {
         full.outputs[0].unit,
     ];
     let end = end.unwrap_or(scene.integration.end);
-    let mut test_case = TestCase::new(words, end, method, pace);
+    let mut test_case = TestCase::new(words, end, method, step_control);
     test_case.kinked = kinked(&full);
     test_case.tolerances = TOLERANCES;
     let ablations = ablations(&full);
     let counted = Counted::new(full);
     let reference = counted.runner(REFERENCE);
     test_case.reference = Some(Box::new(move |grid, tolerance| {
-        let ran = reference(grid, Pace::Tolerance(tolerance))?;
+        let ran = reference(grid, StepControl::Tolerance(tolerance))?;
         let row = |row: Vec<f64>| row.into_iter().map(Dd::from_f64).collect();
         Ok(ran.values.into_iter().map(row).collect())
     }));
-    for method in METHODS.iter().filter(|m| **m != REFERENCE) {
+    for method in INTEGRATORS.iter().filter(|m| **m != REFERENCE) {
         let (order, controlled) = order(method)?;
         test_case.configurations.push(Configuration {
             effects: "all".into(),

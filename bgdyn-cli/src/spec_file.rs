@@ -4,14 +4,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use bgdyn_codegen::fault::{Fault, Faults, Place};
+use bgdyn_codegen::fault::{Fault, Faults, Location};
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::format::{parse, parse_scene};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::options::{Options, Unknown, formulation_named, preference_named};
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::refusal::Refusal;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::verify::explain;
 use clap::Args;
 
@@ -76,7 +76,7 @@ impl SpecFile {
             };
             let message =
                 format!("this is a URDF, not a spec: `bgdyn import {file}` writes the spec of it");
-            Fault::new(&Place::file(), "urdf-given", message)
+            Fault::new(&Location::file(), "urdf-given", message)
         })
     }
 
@@ -96,12 +96,12 @@ impl SpecFile {
     }
 
     /// The scene, if it and its mechanism pass, and all that was found.
-    pub(crate) fn read_scene(&self) -> Result<(System, Faults), Refusal> {
+    pub(crate) fn read_scene(&self) -> Result<(SceneEquations, Faults), Refusal> {
         read_scene(&self.text, &self.stem, |path| self.load(path))
     }
 
     /// The scene; what was found goes to stderr.
-    pub(crate) fn scene(&self) -> Result<System> {
+    pub(crate) fn scene(&self) -> Result<SceneEquations> {
         let (system, warnings) = self.read_scene().map_err(|r| self.refused(r))?;
         tell(&self.render(&warnings));
         Ok(system)

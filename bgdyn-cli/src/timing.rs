@@ -7,7 +7,7 @@ use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 use crate::cargo_project::CargoProject;
 
@@ -18,8 +18,7 @@ const STATES: usize = 64;
 const HEAD: &str = r#"//! Written by `bgdyn ops --per-effect`.
 use std::hint::black_box;
 use std::time::Instant;
-use bgdyn::runtime::System;
-use bgdyn::nalgebra::SVector;
+use bgdyn::runtime::{FixedVector, HybridSystem, StateVector};
 
 /// Numbers that spread evenly over −1 … 1: multiples of the golden ratio.
 fn spread() -> impl FnMut() -> f64 {
@@ -31,18 +30,18 @@ fn spread() -> impl FnMut() -> f64 {
 }
 
 /// Median of nine rounds, ns per call of the derivative.
-fn time<S, const N: usize, const M: usize, const U: usize, const E: usize, const Y: usize, const P: usize>(
-    scene: &S,
-) -> f64
-where
-    S: System<f64, N, M, U, E, Y, P>,
-{
+fn time<S: HybridSystem<f64>>(scene: &S) -> f64 {
     let (start, modes) = scene.start();
     let mut unit = spread();
-    let states: Vec<SVector<f64, N>> = (0..STATES)
-        .map(|_| start.map(|x| x + unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }))
+    let states: Vec<S::State> = (0..STATES)
+        .map(|_| {
+            S::State::from_entries(|i| {
+                let x = start.entries()[i];
+                x + unit() * if x.abs() > 10.0 { 0.01 * x } else { 0.3 }
+            })
+        })
         .collect();
-    let input = SVector::<f64, U>::from_fn(|_, _| unit());
+    let input = S::Inputs::from_entries(|_| unit());
     let mut rounds = Vec::new();
     let mut calls = 64;
     while rounds.len() < 9 {
@@ -67,7 +66,7 @@ where
 ///
 /// # Errors
 /// Where there is no cargo, or it cannot have the crates.
-pub(crate) fn times(systems: &[System], bgdyn: &str) -> Result<Vec<f64>> {
+pub(crate) fn times(systems: &[SceneEquations], bgdyn: &str) -> Result<Vec<f64>> {
     let project = CargoProject::new("times", bgdyn, &[])?;
     let (mut modules, mut calls) = (String::new(), String::new());
     for (i, system) in systems.iter().enumerate() {

@@ -23,7 +23,7 @@ pub struct Position {
 
 /// A place in the spec: in its text and in its structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct Location {
     /// Where in the text.
     pub position: Position,
     /// Where in the structure: `links[2].inertia.xx`; empty for the whole file.
@@ -57,12 +57,12 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// A fault at `place` against `rule`.
-    pub fn new(place: &Place, rule: &'static str, message: impl Into<String>) -> Self {
+    /// A fault at `location` against `rule`.
+    pub fn new(location: &Location, rule: &'static str, message: impl Into<String>) -> Self {
         Fault {
             severity: Severity::Fault,
-            position: place.position,
-            path: place.path.clone(),
+            position: location.position,
+            path: location.path.clone(),
             rule,
             message: one_line(message.into()),
             help: None,
@@ -155,10 +155,10 @@ impl Position {
     pub const START: Position = Position { line: 1, column: 1 };
 }
 
-impl Place {
+impl Location {
     /// The whole file.
     pub fn file() -> Self {
-        Place {
+        Location {
             position: Position::START,
             path: String::new(),
         }

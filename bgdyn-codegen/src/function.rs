@@ -6,8 +6,8 @@ use std::ops::Range;
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::Multibody;
-use crate::columns::{Columns, Loops};
-use crate::expr::{Cost, Expr, Graph, Inputs, Operations, cost, count, evaluate};
+use crate::column_loop::{ColumnLoop, LoopedResult};
+use crate::expr::{Cost, Graph, Inputs, Operations, Signed, cost, count, evaluate};
 use crate::method::{Method, Shape};
 
 /// A straight line of code: what it computes. Later blocks read its results as
@@ -15,24 +15,24 @@ use crate::method::{Method, Shape};
 #[derive(Clone, Debug)]
 pub struct Block {
     /// Its results, in order.
-    pub outputs: Vec<Expr>,
+    pub outputs: Vec<Signed>,
     /// Those of its results that are computed in loops; each is one of `outputs` as well.
-    pub products: Vec<Products>,
+    pub products: Vec<InnerProducts>,
 }
 
 /// Entries of a symmetric matrix that are inner products of a vector of their row and one of their
 /// column: M_ij = x₀ y₀ + x₁ y₁ + …, summed in this order. All vectors are equally long.
 #[derive(Clone, Debug, Default)]
-pub struct Products {
+pub struct InnerProducts {
     /// Vectors by row.
-    pub rows: BTreeMap<usize, Vec<Expr>>,
+    pub rows: BTreeMap<usize, Vec<Signed>>,
     /// Vectors by column.
-    pub columns: BTreeMap<usize, Vec<Expr>>,
+    pub columns: BTreeMap<usize, Vec<Signed>>,
     /// The entries: columns, with rows below the diagonal.
     pub runs: Vec<(usize, Range<usize>)>,
 }
 
-impl Products {
+impl InnerProducts {
     /// Row and column of each entry.
     pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
         let runs = self.runs.iter().cloned();
@@ -76,7 +76,7 @@ pub struct Function {
     /// In the order of execution; at least one.
     pub blocks: Vec<Block>,
     /// What follows them: parts of the result that are alike.
-    pub loops: Option<Loops>,
+    pub loops: Option<LoopedResult>,
 }
 
 impl Function {
@@ -86,11 +86,11 @@ impl Function {
         method: Method,
         formulation: String,
         graph: Graph,
-        outputs: Vec<Expr>,
+        outputs: Vec<Signed>,
     ) -> Self {
         // One zero only: a result that is always zero has no sign.
-        let unsigned = |e: Expr| match graph.constant_of(e) {
-            Some(x) if x == Dd::ZERO => Expr::plus(e.node),
+        let unsigned = |e: Signed| match graph.constant_of(e) {
+            Some(x) if x == Dd::ZERO => Signed::plus(e.node),
             _ => e,
         };
         let outputs = outputs.into_iter().map(unsigned).collect();
@@ -119,12 +119,12 @@ impl Function {
     }
 
     /// The loops over columns.
-    pub(crate) fn columns(&self) -> &[Columns] {
+    pub(crate) fn columns(&self) -> &[ColumnLoop] {
         self.loops.as_ref().map_or(&[], |loops| &loops.groups)
     }
 
     /// One column of a loop as a function.
-    pub(crate) fn of_column(&self, columns: &Columns) -> Function {
+    pub(crate) fn of_column(&self, columns: &ColumnLoop) -> Function {
         Function {
             method: self.method,
             name: self.name.clone(),

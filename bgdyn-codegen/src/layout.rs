@@ -9,11 +9,11 @@ use crate::unit::Dimension;
 
 /// A coordinate: a joint's, or one that an effect adds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coordinate {
+pub struct StateCoordinate {
     /// Its name.
     pub name: String,
     /// What stores its momentum.
-    pub store: Store,
+    pub store: MomentumStore,
     /// Whether its position is part of the state; a motor's charge is not.
     pub stored: bool,
     /// What position, velocity and effort measure.
@@ -26,7 +26,7 @@ pub struct Coordinate {
 
 /// What stores a coordinate's momentum.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Store {
+pub enum MomentumStore {
     /// The mechanism's links and rotors.
     Links(CoordinateId),
     /// A store of its own: its effect's file says how large.
@@ -35,7 +35,7 @@ pub enum Store {
 
 /// A part of the state, an input, an event.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct Variable {
     /// Its name.
     pub name: String,
     /// What it measures.
@@ -47,13 +47,13 @@ pub struct Part {
     /// For inputs: the coordinate that a controller on it follows.
     pub follows: Option<String>,
     /// For first-order states: what a scene gives for it at the start, if not the state itself.
-    pub entered: Option<Entered>,
+    pub entered: Option<InitialValueAs>,
 }
 
 /// How a scene gives the start of a state that it does not give directly: of a fluid volume, its
 /// pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Entered {
+pub struct InitialValueAs {
     /// What it measures.
     pub dimension: Dimension,
     /// The least it may be.
@@ -62,9 +62,9 @@ pub struct Entered {
     pub way_out: &'static str,
 }
 
-impl Part {
+impl Variable {
     fn new(name: String, dimension: Dimension, about: String) -> Self {
-        Part {
+        Variable {
             name,
             dimension,
             about,
@@ -77,17 +77,17 @@ impl Part {
 
 /// What the numbers of a scene's state are.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Layout {
+pub struct StateLayout {
     /// Velocities: joints, then other coordinates with positions, then currents.
-    pub coordinates: Vec<Coordinate>,
+    pub coordinates: Vec<StateCoordinate>,
     /// First-order states.
-    pub states: Vec<Part>,
+    pub states: Vec<Variable>,
     /// Modes: −1 and 1 slipping, 0 stuck.
-    pub modes: Vec<Part>,
+    pub modes: Vec<Variable>,
     /// Inputs.
-    pub inputs: Vec<Part>,
+    pub inputs: Vec<Variable>,
     /// Values whose fall through zero is an event.
-    pub events: Vec<Part>,
+    pub events: Vec<Variable>,
 }
 
 /// Level of a reference's time derivative.
@@ -112,7 +112,7 @@ impl Level {
     }
 }
 
-impl Layout {
+impl StateLayout {
     /// Adds a coordinate with this name that stores its own momentum.
     pub fn coordinate(
         &mut self,
@@ -121,9 +121,9 @@ impl Layout {
         stored: bool,
         dimensions: [Dimension; 3],
     ) {
-        let coordinate = Coordinate {
+        let coordinate = StateCoordinate {
             name: name.to_owned(),
-            store: Store::Own(name.to_owned()),
+            store: MomentumStore::Own(name.to_owned()),
             stored,
             dimensions,
             rate_name,
@@ -156,7 +156,7 @@ impl Layout {
 
     /// Adds a first-order state.
     pub fn state(&mut self, name: String, dimension: Dimension, about: String) {
-        self.states.push(Part::new(name, dimension, about));
+        self.states.push(Variable::new(name, dimension, about));
     }
 
     /// Adds a first-order state whose start a scene gives by another quantity, which
@@ -166,27 +166,27 @@ impl Layout {
         name: String,
         dimension: Dimension,
         about: String,
-        entered: Entered,
+        entered: InitialValueAs,
     ) {
-        self.states.push(Part {
+        self.states.push(Variable {
             entered: Some(entered),
-            ..Part::new(name, dimension, about)
+            ..Variable::new(name, dimension, about)
         });
     }
 
     /// Adds a mode.
     pub fn mode(&mut self, name: String, about: String) {
-        self.modes.push(Part::new(name, Dimension::One, about));
+        self.modes.push(Variable::new(name, Dimension::One, about));
     }
 
     /// Adds an input.
     pub fn input(&mut self, name: String, dimension: Dimension, about: String) {
-        self.inputs.push(Part::new(name, dimension, about));
+        self.inputs.push(Variable::new(name, dimension, about));
     }
 
     /// Adds an input that several effects may share: the opening of two valves on one spool.
     pub fn shared_input(&mut self, name: &str, dimension: Dimension, about: String) {
-        let same = |i: &Part| i.name == name && i.dimension == dimension;
+        let same = |i: &Variable| i.name == name && i.dimension == dimension;
         if !self.inputs.iter().any(same) {
             self.input(name.to_owned(), dimension, about);
         }
@@ -197,10 +197,10 @@ impl Layout {
     pub fn drive(&mut self, name: String, coordinate: &str, follows: &str, about: String) {
         let j = self.coordinates.iter().position(|c| c.name == coordinate);
         let dimension = j.map_or(Dimension::One, |j| self.coordinates[j].dimensions[2]);
-        self.inputs.push(Part {
+        self.inputs.push(Variable {
             drives: j,
             follows: Some(follows.to_owned()),
-            ..Part::new(name, dimension, about)
+            ..Variable::new(name, dimension, about)
         });
     }
 
@@ -214,7 +214,7 @@ impl Layout {
 
     /// Adds an event.
     pub fn event(&mut self, name: String, about: String) {
-        self.events.push(Part::new(name, Dimension::One, about));
+        self.events.push(Variable::new(name, Dimension::One, about));
     }
 
     /// Adds a moving reference up to a level of its derivatives; several effects may share it.
@@ -241,7 +241,7 @@ impl Layout {
     }
 
     /// The mode that an event's fall may change; `None` where the law only has a kink.
-    pub fn mode_of(&self, event: &Part) -> Option<usize> {
+    pub fn mode_of(&self, event: &Variable) -> Option<usize> {
         self.modes.iter().position(|m| m.name == event.name)
     }
 

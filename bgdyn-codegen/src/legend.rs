@@ -12,7 +12,7 @@ enum Components {
 }
 
 /// A quantity that formulations name.
-pub struct Quantity {
+pub struct LegendQuantity {
     /// How its names begin: `h`.
     pub prefix: &'static str,
     components: Components,
@@ -27,8 +27,8 @@ const fn quantity(
     components: Components,
     meaning: &'static str,
     unit: &'static str,
-) -> Quantity {
-    Quantity {
+) -> LegendQuantity {
+    LegendQuantity {
         prefix,
         components,
         meaning,
@@ -37,7 +37,7 @@ const fn quantity(
 }
 
 /// In the order of the legend. A unit with an `L` is that of lengths in units of `L` metres.
-pub static QUANTITIES: [Quantity; 30] = {
+pub static QUANTITIES: [LegendQuantity; 30] = {
     use Components::{Matrix, One, Vector};
     [
         quantity("omega", Vector, "angular velocity ω", "rad/s"),
@@ -168,9 +168,9 @@ pub static QUANTITIES: [Quantity; 30] = {
     ]
 };
 
-impl Quantity {
+impl LegendQuantity {
     /// The quantity that a name is one of, and the name of what it belongs to.
-    pub fn of_name(name: &str) -> Option<(&'static Quantity, &str)> {
+    pub fn of_name(name: &str) -> Option<(&'static LegendQuantity, &str)> {
         let (prefix, rest) = name.split_once('_')?;
         let mut found = QUANTITIES.iter().filter(|q| q.prefix == prefix);
         found.find_map(|q| Some((q, q.owner(rest)?)))
@@ -217,7 +217,7 @@ impl Quantity {
 pub static SIGNS: [(&str, &str); 5] = [
     (
         "U = [",
-        "U = [ω̇]× + [ω]×[ω]×: the point s of a body accelerates by a + U s.",
+        "`U = [ω̇]× + [ω]×[ω]×`: the point s of a body accelerates by a + U s.",
     ),
     (
         "U h",
@@ -251,7 +251,7 @@ mod tests {
 
     #[test]
     fn names_are_told_apart_by_their_components() {
-        let found = |name| Quantity::of_name(name).map(|(q, owner)| (q.prefix, owner));
+        let found = |name| LegendQuantity::of_name(name).map(|(q, owner)| (q.prefix, owner));
         assert_eq!(found("h_x_forearm"), Some(("h", "forearm")));
         assert_eq!(found("hc_y_at_elbow"), Some(("hc", "at_elbow")));
         assert_eq!(found("d_xy_forearm"), Some(("d", "forearm")));

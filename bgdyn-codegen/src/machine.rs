@@ -1,6 +1,8 @@
 //! A machine: a mechanism and the effects that its file declares for scenes.
 
-use crate::declaration::{Context, Declared, Kinds, Refused, check_unique_names, declared};
+use crate::declaration::{
+    Declaration, EffectKinds, NameScope, RejectedEffects, check_unique_names, parse_declaration,
+};
 use crate::fault::{Faults, wording};
 use crate::format::Spec;
 use crate::mechanism::{self, Mechanism};
@@ -11,7 +13,7 @@ pub struct Machine {
     /// Links, joints, frames.
     pub mechanism: Mechanism,
     /// What else may act in it, in the file's order.
-    pub effects: Vec<Declared>,
+    pub effects: Vec<Declaration>,
 }
 
 /// Checks a spec against every rule. `stem` is the file's name without its ending, if there is a
@@ -23,7 +25,7 @@ pub fn check(
     spec: &Spec,
     stem: Option<&str>,
     methods: &[String],
-    kinds: &Kinds,
+    kinds: &EffectKinds,
 ) -> (Option<Machine>, Faults) {
     let mut faults = Faults::default();
     let mechanism = mechanism::check(spec, stem, methods, &mut faults);
@@ -39,7 +41,7 @@ pub fn check(
     };
     let still = machine.as_ref().is_some_and(|m| m.mechanism.nv() == 0) && !faults.any_fault();
     if let Some(links) = spec.links.given().filter(|_| still) {
-        faults.push(wording::no_coordinates(&links.place));
+        faults.push(wording::no_coordinates(&links.location));
     }
     faults.sort();
     let sound = spec.complete && !faults.any_fault();
@@ -48,9 +50,9 @@ pub fn check(
 }
 
 /// What can be said of the effects without the mechanism.
-fn alone(spec: &Spec, kinds: &Kinds, faults: &mut Faults) {
+fn alone(spec: &Spec, kinds: &EffectKinds, faults: &mut Faults) {
     for raw in spec.effects.value().into_iter().flatten() {
-        declared(raw, kinds, faults);
+        parse_declaration(raw, kinds, faults);
     }
 }
 
@@ -58,24 +60,24 @@ fn alone(spec: &Spec, kinds: &Kinds, faults: &mut Faults) {
 fn effects(
     spec: &Spec,
     mechanism: &Mechanism,
-    kinds: &Kinds,
+    kinds: &EffectKinds,
     faults: &mut Faults,
-) -> Vec<Declared> {
+) -> Vec<Declaration> {
     let raws = spec.effects.value().map_or(&[][..], Vec::as_slice);
     if raws.is_empty() {
         return Vec::new();
     }
-    let (mut found, mut refused) = (Vec::new(), Refused::default());
+    let (mut found, mut refused) = (Vec::new(), RejectedEffects::default());
     for raw in raws {
-        match declared(raw, kinds, faults) {
+        match parse_declaration(raw, kinds, faults) {
             Some(effect) => found.push(effect),
             None => refused.call(raw, &[], kinds),
         }
     }
     let all = mechanism.joint_names();
     let each = found.iter().cloned();
-    let each: Vec<Declared> = each.flat_map(|d| d.of_each_joint(&all, faults)).collect();
-    let mut context = Context::of(mechanism, Vec::new()).with(each.iter());
+    let each: Vec<Declaration> = each.flat_map(|d| d.of_each_joint(&all, faults)).collect();
+    let mut context = NameScope::of(mechanism, Vec::new()).with(each.iter());
     context.refused = refused;
     check_unique_names(&each, mechanism, faults);
     for effect in &each {

@@ -11,9 +11,9 @@
 //! A function whose digits rest on the order of its operations ([`Function::ordered`]) passes all but
 //! the last as it is.
 
-use crate::cut::{cut, is_cut};
-use crate::expr::{self, Cost, Expr, Graph};
+use crate::expr::{self, Cost, Graph, Signed};
 use crate::function::{Considered, Function};
+use crate::split_blocks::{cut, is_cut};
 
 /// The last passes over a function that is taken.
 pub fn finish(function: Function) -> Function {
@@ -47,7 +47,7 @@ fn reassociate(function: Function) -> Function {
 
 /// Joins products to the sums that read them, and moves signs into these.
 fn fuse(function: Function) -> Function {
-    let join = |graph: Graph, outputs: Vec<Expr>| {
+    let join = |graph: Graph, outputs: Vec<Signed>| {
         let (graph, outputs) = expr::fuse(&graph, &outputs);
         expr::absorb_negations(&graph, &outputs)
     };
@@ -67,7 +67,7 @@ fn fuse(function: Function) -> Function {
 /// A pass over the graph of a function in one block, unless the order of its operations is to stay.
 fn on_one_block(
     mut function: Function,
-    pass: impl FnOnce(Graph, Vec<Expr>) -> (Graph, Vec<Expr>),
+    pass: impl FnOnce(Graph, Vec<Signed>) -> (Graph, Vec<Signed>),
 ) -> Function {
     if let ([block], false) = (&mut function.blocks[..], function.ordered) {
         let graph = std::mem::take(&mut function.graph);

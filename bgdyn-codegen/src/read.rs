@@ -6,13 +6,13 @@ use crate::bond_graph;
 use crate::effect;
 use crate::fault::{Fault, Faults, Severity, wording};
 use crate::files::stem;
-use crate::format::{Joint, Spec, parse, parse_scene};
+use crate::format::{JointSpec, Spec, parse, parse_scene};
 use crate::machine::{self, Machine};
 use crate::mechanism::Mechanism;
 use crate::method;
 use crate::refusal::Refusal;
 use crate::scene::{self, Verdict};
-use crate::system::System;
+use crate::system::SceneEquations;
 
 /// Reads and checks a spec. `stem` is the file's name without its ending, if there is a file; only
 /// what stands before its first dot counts.
@@ -43,13 +43,13 @@ pub fn read(text: &str, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
 fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
     let graph = bond_graph::build(mechanism);
     let links = spec.links.value().into_iter().flatten();
-    let joints: Vec<&Joint> = links.filter_map(|link| link.joint.value()).collect();
+    let joints: Vec<&JointSpec> = links.filter_map(|link| link.joint.value()).collect();
     let found = graph.without_inertia().into_iter().filter_map(|j| {
         let name = &graph.coordinates[j.0].name;
         let joint = joints
             .iter()
             .find(|joint| joint.name.value() == Some(name))?;
-        Some(wording::no_inertia(&joint.place, name))
+        Some(wording::no_inertia(&joint.location, name))
     });
     found.collect()
 }
@@ -63,7 +63,7 @@ pub fn read_scene(
     text: &str,
     stem: &str,
     load: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<(System, Faults), Refusal> {
+) -> Result<(SceneEquations, Faults), Refusal> {
     let (spec, mut faults) = parse_scene(text);
     let Some(spec) = spec else {
         return Err(Refusal::Spec(faults));
@@ -81,7 +81,7 @@ pub fn read_scene(
     let loaded = match load(&path.value) {
         Ok(loaded) => loaded,
         Err(why) => {
-            let fault = wording::mechanism_unreadable(&path.place, &path.value, &why);
+            let fault = wording::mechanism_unreadable(&path.location, &path.value, &why);
             faults.push(fault);
             return Err(Refusal::Spec(alone(faults)));
         }
@@ -100,9 +100,9 @@ pub fn read_scene(
     let (verdict, more) = scene::check(&spec, Some(stem), &machine, &effect::kinds());
     faults.0.extend(more.0);
     let system = match verdict {
-        Verdict::Sound(scene) => System::new(*scene),
+        Verdict::Sound(scene) => SceneEquations::new(*scene),
         Verdict::Drawn(scene) => {
-            let found = System::new(*scene).err().unwrap_or_default();
+            let found = SceneEquations::new(*scene).err().unwrap_or_default();
             faults.0.extend(independent(found, &faults));
             Err(Faults::default())
         }
@@ -118,11 +118,15 @@ pub fn read_scene(
     };
     for element in system.idle() {
         let at = element.name("at").unwrap_or_default();
-        faults.push(wording::no_motion_there(&element.place, &element.name, at));
+        faults.push(wording::no_motion_there(
+            &element.location,
+            &element.name,
+            at,
+        ));
     }
     faults.sort();
     for joint in system.without_inertia() {
-        faults.push(wording::no_inertia_in_scene(&path.place, joint));
+        faults.push(wording::no_inertia_in_scene(&path.location, joint));
     }
     Ok((system, faults))
 }

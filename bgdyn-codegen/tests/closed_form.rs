@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use bgdyn_codegen::closed_form::{LIMIT, Refused, closed_form, latex, text};
+use bgdyn_codegen::closed_form::{LIMIT, NoClosedForm, closed_form, latex, text};
 use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
@@ -187,13 +187,13 @@ fn a_long_mechanism_is_refused() {
     let refused = closed_form(&panda.mechanism, LIMIT).expect_err("too long to be read");
     let soon = matches!(
         refused,
-        Refused::LongSum { .. } | Refused::ManyProducts { .. }
+        NoClosedForm::LongSum { .. } | NoClosedForm::ManyProducts { .. }
     );
     assert!(soon, "{refused}");
     let arm = spec("elastic_arm");
     let form = closed_form(&arm.mechanism, LIMIT).expect("a short one");
     let terms = match closed_form(&arm.mechanism, 5) {
-        Err(Refused::TooLong { terms }) => terms,
+        Err(NoClosedForm::TooLong { terms }) => terms,
         other => panic!("{other:?}"),
     };
     assert!(closed_form(&arm.mechanism, terms).is_ok());

@@ -2,13 +2,13 @@
 
 mod common;
 
-use bgdyn_codegen::expr::{Builder, Cost, Expr, Graph, Leaf, cost};
+use bgdyn_codegen::expr::{Builder, Cost, Graph, Leaf, Signed, cost};
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 use common::{Robot, golden};
 
 /// x·y + z, with a value that nobody needs beside it.
-fn product_and_sum(g: &mut Graph) -> (Expr, Expr) {
+fn product_and_sum(g: &mut Graph) -> (Signed, Signed) {
     let [x, y, z] = [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)));
     let product = g.mul(x, y);
     g.add(y, z);

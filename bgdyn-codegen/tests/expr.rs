@@ -1,19 +1,19 @@
 //! The expression graph: what folds, what is one node, what counts.
 
-use bgdyn_codegen::expr::{Builder, Ex, Expr, Graph, Leaf, Node, Operations, count, reachable};
+use bgdyn_codegen::expr::{Builder, Expr, Graph, Leaf, Node, Operations, Signed, count, reachable};
 use bgdyn_runtime::Dd;
 
 /// Three arguments of a graph.
-fn xyz(g: &mut Graph) -> [Expr; 3] {
+fn xyz(g: &mut Graph) -> [Signed; 3] {
     [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
 }
 
-fn number(g: &mut Graph, x: f64) -> Expr {
+fn number(g: &mut Graph, x: f64) -> Signed {
     g.constant(Dd::from_f64(x))
 }
 
-fn minus(e: Expr) -> Expr {
-    Expr {
+fn minus(e: Signed) -> Signed {
+    Signed {
         negative: !e.negative,
         ..e
     }
@@ -202,8 +202,8 @@ fn constants_pass_through_functions() {
 fn counting() {
     let b = Builder::new();
     let [x, y, z] = [0, 1, 2].map(|k| b.leaf(Leaf::Velocity(k)));
-    let counted = |outputs: &[Ex<'_>]| {
-        let outputs: Vec<Expr> = outputs.iter().map(|e| e.expr()).collect();
+    let counted = |outputs: &[Expr<'_>]| {
+        let outputs: Vec<Signed> = outputs.iter().map(|e| e.expr()).collect();
         b.with_graph(|g| count(g, &outputs))
     };
     // A distinct product counts once, signs and arguments are free, what nobody reads is dead.

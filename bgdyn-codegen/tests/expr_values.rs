@@ -1,11 +1,11 @@
 //! The evaluator and the tangent of every kind of node: `f64` against double-double, derivatives
 //! against differences in double-double, refused pivots.
 
-use bgdyn_codegen::expr::{Expr, Graph, Inputs, Leaf, Tangent, evaluate};
+use bgdyn_codegen::expr::{Graph, Inputs, Leaf, Signed, Tangent, evaluate};
 use bgdyn_runtime::{Dd, Scalar};
 
 /// A function of two arguments, each kind of node by its name.
-type Make = fn(&mut Graph, Expr, Expr) -> Expr;
+type Make = fn(&mut Graph, Signed, Signed) -> Signed;
 
 const KINDS: [(&str, Make); 26] = [
     ("constant", |g, _, _| g.constant(Dd::from_f64(1.5))),
@@ -68,22 +68,22 @@ const KINDS: [(&str, Make); 26] = [
     }),
 ];
 
-fn minus(e: Expr) -> Expr {
-    Expr {
+fn minus(e: Signed) -> Signed {
+    Signed {
         negative: !e.negative,
         ..e
     }
 }
 
 /// x in q, y in v: both kinds of leaf.
-fn graph(make: Make) -> (Graph, Expr) {
+fn graph(make: Make) -> (Graph, Signed) {
     let mut g = Graph::default();
     let (x, y) = (g.leaf(Leaf::Position(0)), g.leaf(Leaf::Velocity(0)));
     let e = make(&mut g, x, y);
     (g, e)
 }
 
-fn at<T: Scalar<Refused = Option<usize>>>(g: &Graph, e: Expr, x: T, y: T) -> T {
+fn at<T: Scalar<Refused = Option<usize>>>(g: &Graph, e: Signed, x: T, y: T) -> T {
     let inputs = Inputs {
         q: vec![x],
         v: vec![y],

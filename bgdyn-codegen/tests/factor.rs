@@ -3,7 +3,7 @@
 
 mod common;
 
-use bgdyn_codegen::expr::{Expr, Graph, Inputs, Leaf, Node, Operations, count, evaluate, factor};
+use bgdyn_codegen::expr::{Graph, Inputs, Leaf, Node, Operations, Signed, count, evaluate, factor};
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
@@ -25,13 +25,13 @@ const ROUNDING: f64 = 1e-30;
 /// added up in it.
 struct Program {
     graph: Graph,
-    outputs: Vec<Expr>,
+    outputs: Vec<Signed>,
     sizes: Vec<f64>,
     arguments: Vec<f64>,
 }
 
-fn minus(e: Expr, negative: bool) -> Expr {
-    Expr {
+fn minus(e: Signed, negative: bool) -> Signed {
+    Signed {
         negative: e.negative ^ negative,
         ..e
     }
@@ -41,7 +41,7 @@ impl Program {
     fn random(rng: &mut Rng, steps: usize) -> Self {
         let mut g = Graph::default();
         let arguments: Vec<f64> = (0..5).map(|_| rng.within(2.0)).collect();
-        let mut made: Vec<(Expr, f64)> = Vec::new();
+        let mut made: Vec<(Signed, f64)> = Vec::new();
         for (k, x) in arguments.iter().enumerate() {
             made.push((g.leaf(Leaf::Position(k)), x.abs()));
         }
@@ -81,7 +81,7 @@ impl Program {
         }
     }
 
-    fn values(&self, graph: &Graph, outputs: &[Expr]) -> Vec<Dd> {
+    fn values(&self, graph: &Graph, outputs: &[Signed]) -> Vec<Dd> {
         let inputs = Inputs {
             q: self.arguments.iter().map(|&x| Dd::from_f64(x)).collect(),
             ..Inputs::default()

@@ -5,7 +5,7 @@ mod common;
 use std::collections::BTreeSet;
 
 use bgdyn_codegen::expr::count;
-use bgdyn_codegen::function::{Function, Products, in_triangle};
+use bgdyn_codegen::function::{Function, InnerProducts, in_triangle};
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 use common::random::Draft;
@@ -17,7 +17,7 @@ const M: Method = Method::MassMatrix;
 /// Of double-double results, relative to their natural size.
 const EXACT: f64 = 1e-28;
 
-fn products(function: &Function) -> &[Products] {
+fn products(function: &Function) -> &[InnerProducts] {
     &function.blocks.last().expect("a block").products
 }
 
@@ -49,7 +49,10 @@ fn common_axes_equal_the_other_ways() {
     let branched = Robot::read(branched, Some("branched"));
     equals_the_other_ways("branched", &branched, &mut Rng::new(1));
     let found = branched.function("common_axes", M);
-    let looped = products(&found).iter().flat_map(Products::places).count();
+    let looped = products(&found)
+        .iter()
+        .flat_map(InnerProducts::places)
+        .count();
     assert!(looped > 100, "{looped} entries in loops");
     for name in ["chain32", "chain64"] {
         equals_the_other_ways(name, &golden::robot(name), &mut Rng::new(1));

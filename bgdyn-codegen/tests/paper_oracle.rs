@@ -6,7 +6,7 @@
 
 mod common;
 
-use bgdyn_codegen::bond_graph::{Inertia, Junction, Modulus};
+use bgdyn_codegen::bond_graph::{Junction, Modulus, StoreInertia};
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Motion};
 use bgdyn_codegen::method::Method;
 use common::kinematics::{
@@ -160,8 +160,8 @@ fn check_structure(robot: &Robot, d: &Derivatives, what: &str) {
         assert_eq!(graph.junctions[to_r.0], Junction::Translation(LinkId(i)));
         assert_eq!(graph.junctions[to_omega.0], Junction::Rotation(LinkId(i)));
         let store = |at| graph.stores.iter().filter(move |s| s.junction == at);
-        assert!(store(to_r).all(|s| matches!(s.inertia, Inertia::Mass(_))));
-        assert!(store(to_omega).all(|s| matches!(s.inertia, Inertia::Tensor(_))));
+        assert!(store(to_r).all(|s| matches!(s.inertia, StoreInertia::Mass(_))));
+        assert!(store(to_omega).all(|s| matches!(s.inertia, StoreInertia::Tensor(_))));
         for at in [to_r, to_omega] {
             assert_eq!(store(at).count(), 1, "{what}");
             let sources = graph.sources.iter().filter(|s| s.junction == at);

@@ -157,7 +157,10 @@ links:
 fn place(spec: &Spec, link: usize) -> (String, String) {
     let link = &spec.links.value().expect("links")[link];
     let mass = link.mass.given().expect("a mass");
-    (mass.place.position.to_string(), mass.place.path.clone())
+    (
+        mass.location.position.to_string(),
+        mass.location.path.clone(),
+    )
 }
 
 #[test]

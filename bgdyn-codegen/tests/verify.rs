@@ -10,11 +10,11 @@ use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Value};
-use bgdyn_codegen::method::{Method, Role};
+use bgdyn_codegen::method::{Method, SceneFunction};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::read_scene;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::verify::{Difference, check_functions, check_scene, explain};
 use bgdyn_runtime::Dd;
 
@@ -42,7 +42,7 @@ fn mechanism(text: &str, name: &str) -> Mechanism {
     mechanism.unwrap_or_else(|| panic!("{}", faults.render(name, text)))
 }
 
-fn scene(text: &str, mechanism: &str) -> System {
+fn scene(text: &str, mechanism: &str) -> SceneEquations {
     let read = read_scene(text, "scene", |_| Ok(mechanism.to_owned()));
     read.unwrap_or_else(|refusal| panic!("{refusal:?}")).0
 }
@@ -55,7 +55,7 @@ fn all() -> Options {
 }
 
 /// Every function, scenes' Jacobian and canonical form with them.
-fn functions(system: &System) -> Vec<Function> {
+fn functions(system: &SceneEquations) -> Vec<Function> {
     let options = Options {
         jacobian: true,
         canonical: true,
@@ -126,7 +126,7 @@ links:
 ";
 
 /// The arm with a full rotor of the elbow on this link.
-fn with_rotor(on: &str) -> System {
+fn with_rotor(on: &str) -> SceneEquations {
     let text = format!(
         "scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products, gravity, motor: \
          {{ type: rotor, joint: elbow, inertia: 2e-4, ratio: 100, on: {on}, axis: [1, 2, 0.5] }}]\n"
@@ -164,7 +164,11 @@ fn noisy_axes_pass() {
 }
 
 /// The functions found to differ from those of `right`, where they are made from a changed graph.
-fn found(right: &System, change: impl Fn(&mut BondGraph), roles: &[Role]) -> Vec<Difference> {
+fn found(
+    right: &SceneEquations,
+    change: impl Fn(&mut BondGraph),
+    roles: &[SceneFunction],
+) -> Vec<Difference> {
     let mut wrong = right.clone();
     change(&mut wrong.graph);
     let mut mixed = functions(right);
@@ -198,12 +202,16 @@ fn a_rotor_left_out_of_the_mass_matrix_is_found() {
             ..own
         });
     };
-    let differing = found(&right, missing, &[Role::Derivative, Role::ToCanonical]);
+    let differing = found(
+        &right,
+        missing,
+        &[SceneFunction::Derivative, SceneFunction::ToCanonical],
+    );
     // The Jacobian and the canonical form are compared with these two.
     for function in ["derivative", "to_canonical"] {
         assert!(names(&differing).contains(&function), "{differing:?}");
     }
-    let inverse = found(&right, missing, &[Role::Inverse]);
+    let inverse = found(&right, missing, &[SceneFunction::Inverse]);
     assert_eq!(names(&inverse), ["inverse"], "{inverse:?}");
 }
 
@@ -212,7 +220,7 @@ fn a_rotor_left_out_of_the_mass_matrix_is_found() {
 fn a_rotor_left_out_of_the_jacobian_is_found() {
     let right = with_rotor("upper");
     let left_out = |graph: &mut BondGraph| graph.multibody.rotors[0].carrier = None;
-    let differing = found(&right, left_out, &[Role::Jacobian]);
+    let differing = found(&right, left_out, &[SceneFunction::Jacobian]);
     assert_eq!(names(&differing), ["jacobian"], "{differing:?}");
     let elsewhere = |graph: &mut BondGraph| {
         let carrier = graph.multibody.rotors[0]
@@ -224,7 +232,7 @@ fn a_rotor_left_out_of_the_jacobian_is_found() {
             ..carrier
         });
     };
-    let differing = found(&right, elsewhere, &[Role::Jacobian]);
+    let differing = found(&right, elsewhere, &[SceneFunction::Jacobian]);
     assert_eq!(names(&differing), ["jacobian"], "{differing:?}");
 }
 
@@ -266,13 +274,13 @@ fn a_turned_sign_is_found_in_every_function_of_a_scene() {
     let right = with_rotor("hand");
     let functions = functions(&right);
     let compared = [
-        Role::Derivative,
-        Role::Inverse,
-        Role::Power,
-        Role::Jacobian,
-        Role::ToCanonical,
-        Role::FromCanonical,
-        Role::CanonicalRates,
+        SceneFunction::Derivative,
+        SceneFunction::Inverse,
+        SceneFunction::Power,
+        SceneFunction::Jacobian,
+        SceneFunction::ToCanonical,
+        SceneFunction::FromCanonical,
+        SceneFunction::CanonicalRates,
     ];
     for role in compared {
         let mut wrong = functions.clone();

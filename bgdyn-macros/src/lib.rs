@@ -88,7 +88,7 @@ fn module(
             .map_err(|e| e.to_string())
     };
     let stand_in = |text: &str, place: &OutputOptions| {
-        pipeline::fallback(
+        pipeline::stub(
             text,
             &bgdyn_codegen::files::stem(Path::new(&place.source)),
             place,

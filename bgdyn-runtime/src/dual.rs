@@ -30,7 +30,7 @@ macro_rules! float_part {
                 offset: (f64, f64),
             ) -> (Self, Self) {
                 let (angle, tail) = exact_sum(angles, offset);
-                sine::one(angle, tail)
+                sine::sin_cos(angle, tail)
             }
         }
     )*};

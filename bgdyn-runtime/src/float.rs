@@ -2,17 +2,17 @@
 
 use nalgebra::SVector;
 
-use crate::root;
-use crate::sine::{self, Pack};
+use crate::sine::{self, SineLanes};
 use crate::singular::{explain, finish, note_refused};
-use crate::two_sum::Split;
+use crate::sqrt::sqrt_f32;
+use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 
 /// How many units in the last place of the subtracted terms a pivot must exceed.
 const PIVOT_ULPS: f64 = 64.0;
 
 /// What lanes and dual numbers need of the numbers they are made of.
-pub(crate) trait Float: Split {
+pub(crate) trait Float: TwoWord {
     /// A pivot must exceed this many times the terms it was subtracted from.
     const PIVOT_FLOOR: Self;
 }
@@ -140,10 +140,10 @@ macro_rules! float_scalar {
             }
         }
 
-        impl Split for $float {
+        impl TwoWord for $float {
             // As `from_f64`.
             #[inline(always)]
-            fn split(hi: f64, lo: f64) -> (Self, Self) {
+            fn two_words(hi: f64, lo: f64) -> (Self, Self) {
                 let sum = hi as $float;
                 (sum, (hi - f64::from(sum) + lo) as $float)
             }
@@ -156,4 +156,4 @@ macro_rules! float_scalar {
 }
 
 float_scalar!(f64, libm::sqrt, libm::exp, libm::log, libm::tanh);
-float_scalar!(f32, root::single, libm::expf, libm::logf, libm::tanhf);
+float_scalar!(f32, sqrt_f32, libm::expf, libm::logf, libm::tanhf);

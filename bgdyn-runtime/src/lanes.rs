@@ -13,7 +13,7 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 use crate::float::Float;
 use crate::sine;
 use crate::singular::{Cause, cause, sum, zero_if_finite};
-use crate::two_sum::Split;
+use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 
 /// There are no accelerations in at least one lane; the other lanes have theirs.
@@ -228,10 +228,10 @@ macro_rules! lane_scalar {
             }
         }
 
-        impl Split for $lanes {
+        impl TwoWord for $lanes {
             #[inline]
-            fn split(hi: f64, lo: f64) -> (Self, Self) {
-                let (hi, lo) = $float::split(hi, lo);
+            fn two_words(hi: f64, lo: f64) -> (Self, Self) {
+                let (hi, lo) = $float::two_words(hi, lo);
                 (Self::splat(hi), Self::splat(lo))
             }
         }

@@ -21,13 +21,15 @@
 //!   `num_dual`. That crate needs `std`; this one still does not use it.
 //! - `serde`: `Serialize` and `Deserialize` for the structs of generated modules (run-time parameters,
 //!   a scene's `State` and `Input`), for [`Limits`] and [`Dd`]; re-exported as `serde`. Stays `no_std`.
+//! - `alloc`: [`StateVector`] for nalgebra's `DVector`, of a size known when running. Needs a heap.
 #![no_std]
-// But for one instruction on some Arm processors: see `root.rs`.
+// But for one instruction on some Arm processors: see `sqrt.rs`.
 #![cfg_attr(
     not(all(target_arch = "arm", target_abi = "eabihf")),
     forbid(unsafe_code)
 )]
 
+mod arrays;
 mod dd;
 mod description;
 #[cfg(feature = "num-dual")]
@@ -40,18 +42,19 @@ mod joint;
 mod lanes;
 mod operations;
 mod pose;
-mod root;
 pub mod rotation;
 mod scalar;
 #[cfg(feature = "serde")]
 mod serial;
-mod settle;
 mod sine;
 mod singular;
-mod storage;
+mod sqrt;
+mod state_vector;
+mod stiction;
 mod system;
 mod two_sum;
 
+pub use arrays::{inner_products, matrix, mirror, vector};
 pub use dd::{Dd, Digits, ParseDdError};
 pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
 #[cfg(feature = "num-dual")]
@@ -71,10 +74,10 @@ pub use serde;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub use serial::{__read_fields, __write_fields};
-pub use settle::{mode_by_slip, settle, settle_by};
 pub use singular::{Cause, Singular};
-pub use storage::{inner_products, matrix, mirror, vector};
-pub use system::{Balance, Canonical, Contact, Slope, System};
+pub use state_vector::{ArrayOf, FixedVector, MatrixOf, StateVector};
+pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};
+pub use system::{Balance, Canonical, Contact, HybridSystem, Slope};
 #[cfg(feature = "wide")]
 pub use wide;
 

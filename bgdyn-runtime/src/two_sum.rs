@@ -3,22 +3,22 @@
 use crate::Scalar;
 
 /// Constants in two words.
-pub(crate) trait Split: Scalar {
+pub(crate) trait TwoWord: Scalar {
     /// The nearest value to `hi`, and the nearest to the rest of `hi + lo`.
-    fn split(hi: f64, lo: f64) -> (Self, Self);
+    fn two_words(hi: f64, lo: f64) -> (Self, Self);
 }
 
 /// The sum of `angles` and `offset`, rounded, and what the rounding leaves, but for a single angle;
 /// in any arithmetic that rounds as `f64` and `f32` do, lane by lane.
 #[inline(always)]
-pub(crate) fn exact_sum<T: Split>(
+pub(crate) fn exact_sum<T: TwoWord>(
     mut angles: impl Iterator<Item = T>,
     offset: (f64, f64),
 ) -> (T, Option<T>) {
     let (mut sum, mut tail) = match offset {
         (0.0, 0.0) => (angles.next().unwrap_or(T::from_f64(0.0)), None),
         (hi, lo) => {
-            let (hi, lo) = T::split(hi, lo);
+            let (hi, lo) = T::two_words(hi, lo);
             (hi, Some(lo))
         }
     };

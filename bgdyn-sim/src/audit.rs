@@ -1,10 +1,10 @@
 //! The energy account of a run.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::coefficient::{Words, decimal, ratio};
 use crate::plant::Power;
-use crate::space::{Of, Space};
+use crate::real::Of;
 
 /// Where the energy of a run went, J: for each entry what it supplied, stores more than at the
 /// start, and dissipated.
@@ -18,7 +18,7 @@ pub struct Audit<E> {
     pub dissipated: E,
 }
 
-impl<E: Space> Audit<E> {
+impl<E: StateVector> Audit<E> {
     /// What the sums do not account for: the integration's error, in J.
     pub fn drift(&self) -> Of<E> {
         let zero = Of::<E>::from_f64(0.0);
@@ -72,7 +72,7 @@ pub(crate) fn quadrature(order: u32) -> &'static [(Words, Words)] {
     if order <= 4 { &TWO } else { &FOUR }
 }
 
-impl<E: Space> Ledger<E> {
+impl<E: StateVector> Ledger<E> {
     /// An empty one.
     pub(crate) fn new(zero: E) -> Self {
         let work = Power {

@@ -10,10 +10,10 @@ use bgdyn_runtime::Scalar;
 
 use crate::audit::Audit;
 use crate::failure::Failure;
-use crate::method::Method;
+use crate::integrator::Integrator;
 use crate::plant::Plant;
-use crate::run::{Moment, Run};
-use crate::space::{Of, Real};
+use crate::real::{Of, Real};
+use crate::run::{HybridState, Run};
 
 /// How many runs go at once where nothing else is said: as many as the machine has cores.
 pub fn cores() -> NonZeroUsize {
@@ -75,7 +75,7 @@ where
     P::Modes: PartialEq,
 {
     /// Where it ended.
-    pub end: Moment<P::State, P::Modes>,
+    pub end: HybridState<P::State, P::Modes>,
     /// The values looked at, at the end.
     pub last: Y,
     /// The least of each, over the ends of all steps.
@@ -88,7 +88,7 @@ where
     pub failure: Option<Failure<P::State, P::Error>>,
 }
 
-/// Takes a run to its end, with the extremes of what `look` sees: [`crate::Scene::output`], or the
+/// Takes a run to its end, with the extremes of what `look` sees: [`crate::ScenePlant::output`], or the
 /// state itself. A run that cannot go on is kept as far as it went.
 pub fn outcome<P, M, Y>(
     mut run: Run<P, M>,
@@ -98,12 +98,12 @@ pub fn outcome<P, M, Y>(
 where
     P: Plant,
     P::Modes: PartialEq,
-    M: Method<P::State>,
+    M: Integrator<P::State>,
     Of<P::State>: Real,
     Y: AsRef<[Of<P::State>]> + AsMut<[Of<P::State>]> + Clone,
 {
     let see = |run: &Run<P, M>| look(run.plant(), run.t(), run.y(), run.modes());
-    let mut failure = run.settle().err();
+    let mut failure = run.resolve_stiction().err();
     let mut last = see(&run);
     let (mut low, mut high) = (last.clone(), last.clone());
     for _ in 0..course.steps {
@@ -119,7 +119,7 @@ where
         }
     }
     Outcome {
-        end: Moment {
+        end: HybridState {
             t: run.t(),
             y: run.y().clone(),
             modes: run.modes().clone(),

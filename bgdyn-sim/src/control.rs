@@ -1,9 +1,9 @@
 //! Step control: chooses the longest steps that the tolerance allows.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::ode::{Ode, ScalarOf};
-use crate::space::{Of, Real, Space, largest};
+use crate::real::{Of, Real, largest};
 
 /// What error a step may have: `absolute` + `relative`·|y|, component by component.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Tolerance<T> {
 
 impl<T: Real> Tolerance<T> {
     /// The error allowed between two states, by component.
-    pub(crate) fn scale<Y: Space<Scalar = T>>(&self, from: &Y, to: &Y) -> Y {
+    pub(crate) fn scale<Y: StateVector<Scalar = T>>(&self, from: &Y, to: &Y) -> Y {
         let mut scale = from.clone();
         for (s, y) in scale.entries_mut().iter_mut().zip(to.entries()) {
             *s = self.absolute + self.relative * s.abs().max(y.abs());

@@ -1,8 +1,8 @@
 //! Dense output: interpolation of the states within a step.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
-use crate::space::{Of, Space};
+use crate::real::Of;
 
 /// The most terms of a polynomial: those of degree 7.
 const TERMS: usize = 7;
@@ -14,14 +14,14 @@ const TERMS: usize = 7;
 /// which is y at θ = 0 and y + r₁ at θ = 1 (Hairer, Nørsett, Wanner, Solving Ordinary Differential
 /// Equations I, II.6).
 #[derive(Clone, Debug)]
-pub struct Dense<Y: Space> {
+pub struct Dense<Y: StateVector> {
     t: Of<Y>,
     h: Of<Y>,
     y: Y,
     terms: [Option<Y>; TERMS],
 }
 
-impl<Y: Space> Dense<Y> {
+impl<Y: StateVector> Dense<Y> {
     /// The polynomial over the step of length `h` from `y` at time `t` with these terms; those after
     /// the first `None` do not count.
     pub fn new(t: Of<Y>, h: Of<Y>, y: &Y, terms: [Option<Y>; TERMS]) -> Self {

@@ -1,11 +1,13 @@
 //! The integrator DOPRI5 by Dormand and Prince (1980), with dense output by Shampine and Hairer.
 
+use bgdyn_runtime::StateVector;
+
 use crate::coefficient::{Words, ZERO, ratio};
 use crate::dense::Dense;
 use crate::failure::Reason;
-use crate::method::{Facts, Method, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
-use crate::space::{Of, Real, Space, largest};
+use crate::real::{Of, Real, largest};
 use crate::tableau::{Stage, all, combined};
 
 /// The pair RK5(4)7M by Dormand and Prince (1980): order 5 with an estimate of order 4, dense output
@@ -85,18 +87,19 @@ const DENSE: [Words; 7] = [
     ratio(69_997_945.0, 29_380_423.0),
 ];
 
-impl<Y: Space> Method<Y> for Dopri5
+impl<Y: StateVector> Integrator<Y> for Dopri5
 where
     Of<Y>: Real,
 {
     type Stages = [Y; 7];
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn info(&self) -> IntegratorInfo {
+        IntegratorInfo {
             name: "dopri5",
             order: 5,
             estimate: Some(5),
             looks: 4,
+            reads_jacobian: false,
         }
     }
 

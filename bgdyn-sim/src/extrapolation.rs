@@ -1,11 +1,11 @@
 //! Extrapolation of the modified midpoint rule.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::failure::Reason;
-use crate::method::{Facts, Method, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
-use crate::space::{Of, Real, Space, largest};
+use crate::real::{Of, Real, largest};
 
 /// The method of Gragg, Bulirsch and Stoer with `K` rows, of order 2K: the modified midpoint rule
 /// with 2, 4, … 2K substeps, extrapolated to none (Gragg 1965; Hairer, Nørsett, Wanner, Solving
@@ -43,14 +43,14 @@ impl<const K: usize> Extrapolation<K> {
     }
 }
 
-impl<Y: Space, const K: usize> Method<Y> for Extrapolation<K>
+impl<Y: StateVector, const K: usize> Integrator<Y> for Extrapolation<K>
 where
     Of<Y>: Real,
 {
     /// The last two extrapolations' difference.
     type Stages = Y;
 
-    fn facts(&self) -> Facts {
+    fn info(&self) -> IntegratorInfo {
         const { assert!(1 < K && K < 10, "two to nine rows") }
         let name = [
             "extrapolation4",
@@ -62,11 +62,12 @@ where
             "extrapolation16",
             "extrapolation18",
         ][K - 2];
-        Facts {
+        IntegratorInfo {
             name,
             order: 2 * K as u32,
             estimate: Some(2 * K as u32 - 1),
             looks: 4,
+            reads_jacobian: false,
         }
     }
 

@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-use crate::space::{Of, Space};
+use bgdyn_runtime::StateVector;
+
+use crate::real::Of;
 
 /// Why a step fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +41,7 @@ pub enum Reason<E> {
 /// Why an integration ended early. It stays where it was: at the end of the last step that
 /// succeeded.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Failure<Y: Space, E> {
+pub struct Failure<Y: StateVector, E> {
     /// Time that was reached, s.
     pub t: Of<Y>,
     /// State that was reached.
@@ -77,7 +79,7 @@ impl<E: fmt::Debug> fmt::Display for Reason<E> {
     }
 }
 
-impl<Y: Space, E: fmt::Debug> fmt::Display for Failure<Y, E> {
+impl<Y: StateVector, E: fmt::Debug> fmt::Display for Failure<Y, E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -89,4 +91,4 @@ impl<Y: Space, E: fmt::Debug> fmt::Display for Failure<Y, E> {
     }
 }
 
-impl<Y: Space, E: fmt::Debug> core::error::Error for Failure<Y, E> {}
+impl<Y: StateVector, E: fmt::Debug> core::error::Error for Failure<Y, E> {}

@@ -11,13 +11,13 @@
 use core::convert::Infallible;
 use core::marker::PhantomData;
 
-use bgdyn_runtime::{Dynamics, Scalar, System};
+use bgdyn_runtime::{Dynamics, FixedVector, HybridSystem, Scalar, Singular, StateVector};
 use nalgebra::SVector;
 
-use crate::method::{Method, Start};
+use crate::integrator::{Integrator, Start};
 use crate::ode::Ode;
+use crate::real::{Of, Real};
 use crate::solver::sum_in_two;
-use crate::space::{Of, Real, Space};
 
 /// A scalar that holds one number per lane; a number by itself has one lane.
 pub trait Lanes: Scalar {
@@ -36,6 +36,13 @@ pub trait Lanes: Scalar {
     fn accelerations<const N: usize>(error: Self::Singular<N>) -> SVector<Self, N>;
 }
 
+/// The error of a scene's `derivative` in lanes, of which some may have succeeded.
+pub trait LaneError<T> {
+    /// The rate number `i` of those that the error stands for (of the velocities, then of the first-order
+    /// states): in the lanes that succeeded, NaN in the others.
+    fn rate(&self, i: usize) -> T;
+}
+
 macro_rules! one_lane {
     ($($float:ident),*) => {$(
         impl Lanes for $float {
@@ -50,8 +57,14 @@ macro_rules! one_lane {
                 self
             }
 
-            fn accelerations<const N: usize>(_: Self::Singular<N>) -> SVector<Self, N> {
-                SVector::repeat($float::NAN)
+            fn accelerations<const N: usize>(error: Singular) -> SVector<Self, N> {
+                SVector::from_fn(|i, _| error.rate(i))
+            }
+        }
+
+        impl LaneError<$float> for Singular {
+            fn rate(&self, _: usize) -> $float {
+                $float::NAN
             }
         }
     )*};
@@ -65,7 +78,7 @@ mod registers {
     use bgdyn_runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
     use nalgebra::SVector;
 
-    use super::Lanes;
+    use super::{LaneError, Lanes};
 
     macro_rules! lanes {
         ($($lanes:ident: $float:ident, $n:literal;)*) => {$(
@@ -84,12 +97,16 @@ mod registers {
                 fn accelerations<const N: usize>(
                     error: LaneSingular<Self, $n, N>,
                 ) -> SVector<Self, N> {
-                    error.accelerations.map(|a| {
-                        let of = |k: usize| match error.joint[k] {
-                            None => a.to_array()[k],
-                            Some(_) => $float::NAN,
-                        };
-                        Self::pack(of)
+                    SVector::from_fn(|i, _| error.rate(i))
+                }
+            }
+
+            impl<const N: usize> LaneError<$lanes> for LaneSingular<$lanes, $n, N> {
+                fn rate(&self, i: usize) -> $lanes {
+                    let rates = self.accelerations[i].to_array();
+                    $lanes::pack(|k| match self.joint[k] {
+                        None => rates[k],
+                        Some(_) => $float::NAN,
                     })
                 }
             }
@@ -172,8 +189,9 @@ where
 }
 
 /// The rates of the first components by those that follow them.
-fn following<T: Scalar, const Y: usize>(positions: usize, y: &SVector<T, Y>) -> SVector<T, Y> {
-    SVector::from_fn(|i, _| {
+fn following<Y: FixedVector>(positions: usize, y: &Y) -> Y {
+    let y = y.entries();
+    Y::from_entries(|i| {
         if i < positions {
             y[positions + i]
         } else {
@@ -184,82 +202,55 @@ fn following<T: Scalar, const Y: usize>(positions: usize, y: &SVector<T, Y>) -> 
 
 /// A scene without dry friction that can hold, in any scalar. Kinks of its laws are stepped over: there
 /// the method loses its order, and [`crate::Run`] would not.
-///
-/// `ND` is the number of velocities and first-order states: what the scene's error names.
 #[derive(Debug)]
-pub struct SmoothScene<
-    'a,
-    T: Lanes,
-    S,
-    const N: usize,
-    const ND: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
-> {
+pub struct SmoothScene<'a, T: Lanes, S: HybridSystem<T>> {
     scene: &'a S,
     /// Inputs that the scene does not drive itself.
-    pub given: SVector<T, NU>,
+    pub given: S::Inputs,
 }
 
-impl<
-    'a,
-    T: Lanes,
-    S,
-    const N: usize,
-    const ND: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
-> SmoothScene<'a, T, S, N, ND, NU, NE, NY, NP>
+impl<'a, T, S> SmoothScene<'a, T, S>
 where
-    S: System<T, N, 0, NU, NE, NY, NP, Singular = T::Singular<ND>>,
+    T: Lanes,
+    S: HybridSystem<T, Modes = SVector<T, 0>, Singular: LaneError<T>>,
 {
     /// The scene, with all given inputs at 0.
     pub fn new(scene: &'a S) -> Self {
-        let given = SVector::repeat(T::from_f64(0.0));
+        let given = S::Inputs::zero_vector();
         SmoothScene { scene, given }
     }
 
     /// All inputs at an instant.
-    pub fn input(&self, t: T, y: &SVector<T, N>) -> SVector<T, NU> {
-        self.scene.input(y, &no_modes(), &self.given, t)
+    pub fn input(&self, t: T, y: &S::State) -> S::Inputs {
+        self.scene
+            .input(y, &S::Modes::zero_vector(), &self.given, t)
     }
 
     /// The outputs that the scene asks for, at an instant.
-    pub fn output(&self, t: T, y: &SVector<T, N>) -> SVector<T, NY> {
+    pub fn output(&self, t: T, y: &S::State) -> S::Outputs {
         let input = self.input(t, y);
-        self.scene.output(y, &no_modes(), &input, t)
+        self.scene.output(y, &S::Modes::zero_vector(), &input, t)
     }
 }
 
-impl<
-    T: Lanes,
-    S,
-    const N: usize,
-    const ND: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
-> Ode for SmoothScene<'_, T, S, N, ND, NU, NE, NY, NP>
+impl<T, S> Ode for SmoothScene<'_, T, S>
 where
-    S: System<T, N, 0, NU, NE, NY, NP, Singular = T::Singular<ND>>,
+    T: Lanes,
+    S: HybridSystem<T, Modes = SVector<T, 0>, Singular: LaneError<T>>,
 {
-    type State = SVector<T, N>;
+    type State = S::State;
     type Error = Infallible;
 
-    fn rates(&self, t: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Infallible> {
+    fn rates(&self, t: T, y: &S::State) -> Result<S::State, Infallible> {
         let input = self.input(t, y);
-        let found = self.scene.derivative(y, &no_modes(), &input, t);
+        let found = self
+            .scene
+            .derivative(y, &S::Modes::zero_vector(), &input, t);
         Ok(found.unwrap_or_else(|error| {
-            let rates: SVector<T, ND> = T::accelerations(error);
             let positions = self.scene.positions();
-            SVector::from_fn(|i, _| match i.checked_sub(positions) {
-                None => y[positions + i],
-                Some(i) => rates[i],
+            S::State::from_entries(|i| match i.checked_sub(positions) {
+                None => y.entries()[positions + i],
+                Some(i) => error.rate(i),
             })
         }))
     }
@@ -268,14 +259,14 @@ where
         self.scene.positions()
     }
 
-    fn position_rates(&self, _: T, y: &SVector<T, N>) -> Result<SVector<T, N>, Infallible> {
+    fn position_rates(&self, _: T, y: &S::State) -> Result<S::State, Infallible> {
         Ok(following(self.scene.positions(), y))
     }
 }
 
 /// Runs in lanes, where they are now.
 #[derive(Clone, Debug)]
-pub struct LaneRun<Y: Space> {
+pub struct LaneRun<Y: StateVector> {
     t: Of<Y>,
     /// What rounding has taken from the time.
     low_time: Of<Y>,
@@ -284,7 +275,7 @@ pub struct LaneRun<Y: Space> {
     ended: Of<Y>,
 }
 
-impl<Y: Space> LaneRun<Y>
+impl<Y: StateVector> LaneRun<Y>
 where
     Of<Y>: Lanes,
 {
@@ -317,7 +308,7 @@ where
     /// A step of the length `h`, s, in all lanes that go on.
     pub fn step<M, O>(&mut self, method: &M, ode: &O, h: f64)
     where
-        M: Method<Y>,
+        M: Integrator<Y>,
         O: Ode<State = Y, Error = Infallible>,
     {
         let (h, one) = (Of::<Y>::from_f64(h), Of::<Y>::from_f64(1.0));
@@ -357,9 +348,4 @@ where
             _ => before.lane(k),
         });
     }
-}
-
-/// The modes of a scene that has none.
-fn no_modes<T: Scalar>() -> SVector<T, 0> {
-    SVector::repeat(T::from_f64(0.0))
 }

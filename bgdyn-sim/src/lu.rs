@@ -1,23 +1,25 @@
 //! LU factorisation with partial pivoting, in any scalar that is one number.
 
-use crate::space::{Of, Real, Space};
+use bgdyn_runtime::{ArrayOf, StateVector};
+
+use crate::real::{Of, Real};
 
 /// A factored square matrix.
 #[derive(Clone, Debug)]
-pub(crate) struct Lu<Y: Space> {
+pub(crate) struct Lu<Y: StateVector> {
     /// Unit lower and upper factors in one matrix.
     factors: Y::Matrix,
     /// The row that came to each place.
-    pivots: Y::Pivots,
+    pivots: ArrayOf<Y, usize>,
 }
 
-impl<Y: Space> Lu<Y>
+impl<Y: StateVector> Lu<Y>
 where
     Of<Y>: Real,
 {
     /// Factors a matrix on the space of `like`; `None` where a pivot is 0 or not finite.
     pub(crate) fn new(mut factors: Y::Matrix, like: &Y) -> Option<Self> {
-        let mut pivots = like.pivots();
+        let mut pivots = like.array(0);
         let n = like.entries().len();
         let sound = factor(Y::columns_mut(&mut factors), pivots.as_mut(), n);
         sound.then_some(Lu { factors, pivots })

@@ -2,14 +2,16 @@
 
 use core::fmt::Debug;
 
-use crate::space::{Of, Space};
+use bgdyn_runtime::StateVector;
+
+use crate::real::Of;
 
 /// The components of an equation's state.
 pub type ScalarOf<O> = Of<<O as Ode>::State>;
 
 /// Slopes of the rates.
 #[derive(Clone, Debug)]
-pub struct Jacobian<Y: Space> {
+pub struct Jacobian<Y: StateVector> {
     /// ∂ẏ/∂y
     pub state: Y::Matrix,
     /// ∂ẏ/∂t
@@ -24,7 +26,7 @@ pub struct Jacobian<Y: Space> {
 /// error, so that the projection keeps the order.
 pub trait Ode {
     /// The states.
-    type State: Space;
+    type State: StateVector;
     /// Why there may be no rates: a singular mass matrix.
     type Error: Debug;
 

@@ -2,8 +2,10 @@
 
 use core::fmt::Debug;
 
+use bgdyn_runtime::StateVector;
+
 use crate::ode::{Jacobian, Ode};
-use crate::space::{Of, Space};
+use crate::real::Of;
 
 /// Power that comes from outside and power that is lost, W, by entry.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,23 +16,22 @@ pub struct Power<E> {
     pub dissipated: E,
 }
 
-/// What the integration's state is at an instant of a plant.
-type StateOf<P> = <P as Plant>::State;
-type Time<P> = Of<StateOf<P>>;
+/// Time, in the scalar of a plant's states.
+pub(crate) type Time<P> = Of<<P as Plant>::State>;
 
 /// A plant: between events an equation ẏ = f(t, y) with its modes held, at events a jump.
 ///
-/// A compiled scene is one by way of [`crate::Scene`]; a scene whose sizes are known at run time can
+/// A compiled scene is one by way of [`crate::ScenePlant`]; a scene whose sizes are known at run time can
 /// be one with `DVector`s.
 pub trait Plant {
     /// The states.
-    type State: Space;
+    type State: StateVector;
     /// The modes.
     type Modes: Clone + Debug;
     /// One number per event.
-    type Values: Space<Scalar = Of<Self::State>>;
+    type Values: StateVector<Scalar = Of<Self::State>>;
     /// One number per entry of the balance of power.
-    type Entries: Space<Scalar = Of<Self::State>>;
+    type Entries: StateVector<Scalar = Of<Self::State>>;
     /// Why there may be no rates: a singular mass matrix.
     type Error: Debug;
 
@@ -117,7 +118,7 @@ pub trait Plant {
     /// # Errors
     /// As [`Plant::rates`].
     #[expect(clippy::type_complexity, reason = "state and modes, where they change")]
-    fn settled(
+    fn resolve_stiction(
         &self,
         t: Time<Self>,
         y: &Self::State,
@@ -156,14 +157,14 @@ pub trait Plant {
 
 /// A plant between two events: the equation with its modes held.
 #[derive(Debug)]
-pub struct Held<'a, P: Plant> {
+pub struct FixedModes<'a, P: Plant> {
     /// The plant.
     pub plant: &'a P,
     /// Its modes.
     pub modes: &'a P::Modes,
 }
 
-impl<P: Plant> Ode for Held<'_, P> {
+impl<P: Plant> Ode for FixedModes<'_, P> {
     type State = P::State;
     type Error = P::Error;
 

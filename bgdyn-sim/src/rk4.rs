@@ -1,10 +1,12 @@
 //! The classical Runge–Kutta method of order 4 (Kutta 1901).
 
+use bgdyn_runtime::StateVector;
+
 use crate::coefficient::{Words, ZERO, ratio};
 use crate::failure::Reason;
-use crate::method::{Facts, Method, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
-use crate::space::{Of, Space};
+use crate::real::Of;
 use crate::tableau::{Stage, all, combined};
 
 /// The classical Runge–Kutta method, of order 4 with fixed steps.
@@ -36,15 +38,16 @@ const WEIGHTS: [Words; 4] = [
     ratio(1.0, 6.0),
 ];
 
-impl<Y: Space> Method<Y> for Rk4 {
+impl<Y: StateVector> Integrator<Y> for Rk4 {
     type Stages = ();
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn info(&self) -> IntegratorInfo {
+        IntegratorInfo {
             name: "rk4",
             order: 4,
             estimate: None,
             looks: 1,
+            reads_jacobian: false,
         }
     }
 

@@ -1,14 +1,14 @@
 //! The Rosenbrock method RODAS4P by Steinebach.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::coefficient::{Words, ZERO, decimal, ratio};
 use crate::dense::Dense;
 use crate::failure::Reason;
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::lu::Lu;
-use crate::method::{Facts, Method, Start, Step};
 use crate::ode::Ode;
-use crate::space::{Of, Real, Space, largest};
+use crate::real::{Of, Real, largest};
 use crate::tableau::combined;
 
 /// RODAS4P: a Rosenbrock method of order 4 with an estimate of order 3 and dense output of order 3,
@@ -24,7 +24,7 @@ use crate::tableau::combined;
 pub struct Rodas4;
 
 /// (I/(hγ) − J) uᵢ = f(t + cᵢh, y + Σ aᵢⱼ uⱼ) + Σ (kᵢⱼ/h) uⱼ + h gᵢ ∂f/∂t
-struct Stage {
+struct RosenbrockStage {
     c: Words,
     a: &'static [Words],
     k: &'static [Words],
@@ -34,26 +34,26 @@ struct Stage {
 const GAMMA: Words = ratio(1.0, 4.0);
 const ONE: Words = ratio(1.0, 1.0);
 
-const STAGES: [Stage; 6] = [
-    Stage {
+const STAGES: [RosenbrockStage; 6] = [
+    RosenbrockStage {
         c: ZERO,
         a: &[],
         k: &[],
         g: GAMMA,
     },
-    Stage {
+    RosenbrockStage {
         c: ratio(3.0, 4.0),
         a: &[decimal("3")],
         k: &[decimal("-12")],
         g: ratio(-1.0, 2.0),
     },
-    Stage {
+    RosenbrockStage {
         c: decimal("0.21"),
         a: &[decimal("1.831036793486759"), decimal("0.4955183967433795")],
         k: &[decimal("-8.791795173947035"), decimal("-2.207865586973518")],
         g: decimal("-0.023504"),
     },
-    Stage {
+    RosenbrockStage {
         c: decimal("0.63"),
         a: &[
             decimal("2.304376582692669"),
@@ -67,7 +67,7 @@ const STAGES: [Stage; 6] = [
         ],
         g: decimal("-0.0362"),
     },
-    Stage {
+    RosenbrockStage {
         c: ONE,
         a: &LAST,
         k: &[
@@ -78,7 +78,7 @@ const STAGES: [Stage; 6] = [
         ],
         g: ZERO,
     },
-    Stage {
+    RosenbrockStage {
         c: ONE,
         a: &[LAST[0], LAST[1], LAST[2], LAST[3], ONE],
         k: &[
@@ -120,19 +120,20 @@ const DENSE: [[Words; 5]; 2] = [
     ],
 ];
 
-impl<Y: Space> Method<Y> for Rodas4
+impl<Y: StateVector> Integrator<Y> for Rodas4
 where
     Of<Y>: Real,
 {
     /// u₁ … u₆
     type Stages = [Y; 6];
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn info(&self) -> IntegratorInfo {
+        IntegratorInfo {
             name: "rodas4",
             order: 4,
             estimate: Some(4),
             looks: 4,
+            reads_jacobian: true,
         }
     }
 
@@ -181,7 +182,7 @@ where
 }
 
 /// I/(hγ) − J, factored.
-fn factors<Y: Space>(jacobian: &Y::Matrix, h: Of<Y>, like: &Y) -> Option<Lu<Y>>
+fn factors<Y: StateVector>(jacobian: &Y::Matrix, h: Of<Y>, like: &Y) -> Option<Lu<Y>>
 where
     Of<Y>: Real,
 {

@@ -3,24 +3,24 @@
 //! An event is looked for at the end of a step; in long steps also at points of the dense output. It is
 //! located by shorter steps of the method itself, so that the state there has the method's order,
 //! whatever the order of the dense output. The step ends just behind the event. Events that change a mode
-//! count when they fall, kinks in either direction. All that fall together are settled together.
+//! count when they fall, kinks in either direction. All joints at rest are decided together.
 
 mod events;
 mod state;
 
 use bgdyn_runtime::Scalar;
 
-pub use self::state::{Moment, Run};
+pub use self::state::{HybridState, Run};
 
-use self::state::{Budget, Failed, Proposed, Refused, Time};
+use self::state::{Budget, Failed, Proposed, Refused};
 use crate::audit::{Ledger, quadrature};
 use crate::dense::Dense;
 use crate::failure::Reason;
-use crate::method::Method;
-use crate::plant::{Held, Plant};
-use crate::space::Real;
+use crate::integrator::Integrator;
+use crate::plant::{FixedModes, Plant, Time};
+use crate::real::Real;
 
-impl<P: Plant, M: Method<P::State>> Run<P, M>
+impl<P: Plant, M: Integrator<P::State>> Run<P, M>
 where
     Time<P>: Real,
 {
@@ -62,23 +62,23 @@ where
         budget: &mut Budget,
         densely: bool,
     ) -> Result<(Time<P>, Option<Dense<P::State>>), Refused<P>> {
-        self.settle_modes()?;
+        self.agree()?;
         if self.audited && !self.ledger.is_open() {
             let energy = self.plant.energy(self.t(), self.y(), &self.modes);
             self.ledger.note(energy.map_err(Reason::Singular)?);
         }
-        let held = Held {
+        let ode = FixedModes {
             plant: &self.plant,
             modes: &self.modes,
         };
-        let mut proposal = self.solver.propose(&held, most)?;
+        let mut proposal = self.solver.propose(&ode, most)?;
         let found = self.first_event(&proposal, budget)?;
         let passed = found.map(|(shorter, passed)| {
             proposal = shorter;
             passed
         });
         let dense = if densely || self.audited {
-            Some(self.solver.dense(&self.held(), &proposal.step)?)
+            Some(self.solver.dense(&self.fixed_modes(), &proposal.step)?)
         } else {
             None
         };
@@ -115,7 +115,7 @@ where
             return Ok(ledger);
         };
         let h = dense.length();
-        for (at, weight) in quadrature(self.solver.method().facts().order) {
+        for (at, weight) in quadrature(self.solver.integrator().info().order) {
             let theta: Time<P> = at.to();
             let t = dense.start() + theta * h;
             let power = self.plant.power(t, &dense.at(theta), &self.modes);

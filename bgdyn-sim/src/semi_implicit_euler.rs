@@ -1,11 +1,11 @@
 //! The semi-implicit Euler method.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::failure::Reason;
-use crate::method::{Facts, Method, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
-use crate::space::{Of, Space};
+use crate::real::Of;
 
 /// The semi-implicit Euler method, of order 1 with fixed steps: velocities and first-order states
 /// move by their rates at the start, then positions by the velocities at the end.
@@ -15,15 +15,16 @@ use crate::space::{Of, Space};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SemiImplicitEuler;
 
-impl<Y: Space> Method<Y> for SemiImplicitEuler {
+impl<Y: StateVector> Integrator<Y> for SemiImplicitEuler {
     type Stages = ();
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn info(&self) -> IntegratorInfo {
+        IntegratorInfo {
             name: "semi_implicit_euler",
             order: 1,
             estimate: None,
             looks: 1,
+            reads_jacobian: false,
         }
     }
 

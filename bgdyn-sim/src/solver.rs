@@ -1,17 +1,17 @@
 //! Advances a state step by step: fixed or controlled steps, plain or compensated sums.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::control::{Controller, Tolerance, first_step};
 use crate::dense::Dense;
 use crate::failure::{Failure, Reason};
-use crate::method::{Method, Start, Step};
+use crate::integrator::{Integrator, Start, Step};
 use crate::ode::Ode;
-use crate::space::{Of, Real, Space, finite};
+use crate::real::{Of, Real, finite};
 
 /// A step that may be taken.
 #[derive(Clone, Debug)]
-pub(crate) struct Proposal<Y: Space, S> {
+pub(crate) struct Proposal<Y: StateVector, S> {
     pub(crate) step: Step<Y, S>,
     /// Time and state where it leads, each with what its rounding leaves.
     pub(crate) t: (Of<Y>, Of<Y>),
@@ -25,8 +25,8 @@ pub(crate) struct Proposal<Y: Space, S> {
 /// With a [`Tolerance`] and a method that estimates its error the steps are controlled, otherwise
 /// they are as long as [`Solver::advance`] says.
 #[derive(Clone, Debug)]
-pub struct Solver<Y: Space, M: Method<Y>> {
-    method: M,
+pub struct Solver<Y: StateVector, M: Integrator<Y>> {
+    integrator: M,
     t: Of<Y>,
     y: Y,
     /// What rounding has taken from the time.
@@ -40,14 +40,14 @@ pub struct Solver<Y: Space, M: Method<Y>> {
     h: Option<Of<Y>>,
 }
 
-impl<Y: Space, M: Method<Y>> Solver<Y, M>
+impl<Y: StateVector, M: Integrator<Y>> Solver<Y, M>
 where
     Of<Y>: Real,
 {
     /// From the state `y` at time `t`.
-    pub fn new(method: M, t: Of<Y>, y: Y) -> Self {
+    pub fn new(integrator: M, t: Of<Y>, y: Y) -> Self {
         Solver {
-            method,
+            integrator,
             t,
             y,
             low_time: Of::<Y>::from_f64(0.0),
@@ -69,14 +69,14 @@ where
     /// With controlled steps, where the method estimates its error.
     #[must_use]
     pub fn with_tolerance(mut self, tolerance: Tolerance<Of<Y>>) -> Self {
-        let estimate = self.method.facts().estimate;
+        let estimate = self.integrator.info().estimate;
         self.control = estimate.map(|estimate| (tolerance, Controller::new(estimate)));
         self
     }
 
-    /// The method.
-    pub fn method(&self) -> &M {
-        &self.method
+    /// The integrator.
+    pub fn integrator(&self) -> &M {
+        &self.integrator
     }
 
     /// Time.
@@ -197,7 +197,7 @@ where
         let mut h = match self.h {
             Some(h) => h,
             None => {
-                let order = self.method.facts().order;
+                let order = self.integrator.info().order;
                 let first = first_step(ode, (self.t, &self.y), &tolerance, order, most);
                 first.map_err(Reason::Singular)?
             }
@@ -214,7 +214,7 @@ where
                 Ok(proposal) => {
                     let scale = tolerance.scale(&self.y, &proposal.y.0);
                     error = self
-                        .method
+                        .integrator
                         .error(&proposal.step, &scale)
                         .map_or(0.0, Real::to_f64);
                     controller.judge(error)
@@ -243,7 +243,7 @@ where
         ode: &O,
         h: Of<Y>,
     ) -> Result<Proposal<Y, M::Stages>, Reason<O::Error>> {
-        let step = self.method.step(ode, &self.start(), h)?;
+        let step = self.integrator.step(ode, &self.start(), h)?;
         let t = sum_in_two(self.t, self.low_time + h);
         let (mut y, low) = match &self.low {
             None => (self.y.plus(Of::<Y>::from_f64(1.0), &step.change), None),
@@ -281,7 +281,7 @@ where
         ode: &O,
         step: &Step<Y, M::Stages>,
     ) -> Result<Dense<Y>, Reason<O::Error>> {
-        self.method.dense(ode, &self.start(), step)
+        self.integrator.dense(ode, &self.start(), step)
     }
 }
 

@@ -1,10 +1,12 @@
 //! Stages of explicit Runge–Kutta methods.
 
+use bgdyn_runtime::StateVector;
+
 use crate::coefficient::Words;
 use crate::failure::Reason;
-use crate::method::Start;
+use crate::integrator::Start;
 use crate::ode::{Ode, ScalarOf};
-use crate::space::{Of, Space};
+use crate::real::Of;
 
 /// A stage: its time c, and the weights a of the rates before it.
 pub(crate) struct Stage {
@@ -13,7 +15,7 @@ pub(crate) struct Stage {
 }
 
 /// Σ wⱼ kⱼ
-pub(crate) fn combined<Y: Space>(weights: &[Words], rates: &[Y]) -> Y {
+pub(crate) fn combined<Y: StateVector>(weights: &[Words], rates: &[Y]) -> Y {
     let mut sum = rates[0].zero();
     for (w, k) in weights.iter().zip(rates) {
         if !w.is_zero() {

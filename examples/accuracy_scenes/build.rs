@@ -7,7 +7,7 @@ use std::{env, fs};
 use bgdyn_accuracy::generate::variants;
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 /// The scenes, and when their runs end where that is not as the file says, s.
 const SCENES: [(&str, Option<f64>); 8] = [
@@ -41,7 +41,7 @@ fn main() {
 }
 
 /// A scene.
-fn read(path: &Path) -> System {
+fn read(path: &Path) -> SceneEquations {
     println!("cargo::rerun-if-changed={}", path.display());
     let text = fs::read_to_string(path).expect("a scene");
     let load = |mechanism: &str| {

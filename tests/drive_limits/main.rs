@@ -2,7 +2,10 @@
 //! the method, and the limits are kept to round-off.
 
 use bgdyn::nalgebra::SVector;
-use bgdyn_sim::{Method, Moment, Plant, Rk4, Run, Scene, Tolerance, WithMethod, with_method};
+use bgdyn_sim::{
+    HybridState, Integrator, Plant, Rk4, Run, ScenePlant, Tolerance, WithIntegrator,
+    with_integrator,
+};
 
 bgdyn::bgdyn!("winding.scene.yaml", jacobian = true);
 bgdyn::bgdyn!("at_once.scene.yaml", jacobian = true);
@@ -24,39 +27,39 @@ struct Ended<const N: usize> {
 
 struct Winding(usize);
 
-impl WithMethod<SVector<f64, 3>> for Winding {
+impl WithIntegrator<SVector<f64, 3>> for Winding {
     type Output = Ended<3>;
 
-    fn with<M: Method<SVector<f64, 3>>>(self, method: M) -> Ended<3> {
+    fn with<M: Integrator<SVector<f64, 3>>>(self, method: M) -> Ended<3> {
         let scene = winding::Winding::<f64>::default();
         let begin = Run::begin(&scene);
-        let run = Run::by(method, Scene::with_slope(&scene), begin);
+        let run = Run::by(method, ScenePlant::with_slope(&scene), begin);
         ended(run, self.0, |y| y[2])
     }
 }
 
 struct AtOnce(usize);
 
-impl WithMethod<SVector<f64, 2>> for AtOnce {
+impl WithIntegrator<SVector<f64, 2>> for AtOnce {
     type Output = Ended<2>;
 
-    fn with<M: Method<SVector<f64, 2>>>(self, method: M) -> Ended<2> {
+    fn with<M: Integrator<SVector<f64, 2>>>(self, method: M) -> Ended<2> {
         let scene = at_once::AtOnce::<f64>::default();
         let begin = Run::begin(&scene);
-        let run = Run::by(method, Scene::with_slope(&scene), begin);
+        let run = Run::by(method, ScenePlant::with_slope(&scene), begin);
         ended(run, self.0, |_| 0.0)
     }
 }
 
 struct Geared(usize);
 
-impl WithMethod<SVector<f64, 3>> for Geared {
+impl WithIntegrator<SVector<f64, 3>> for Geared {
     type Output = Ended<3>;
 
-    fn with<M: Method<SVector<f64, 3>>>(self, method: M) -> Ended<3> {
+    fn with<M: Integrator<SVector<f64, 3>>>(self, method: M) -> Ended<3> {
         let scene = geared::Geared::<f64>::default();
         let begin = Run::begin(&scene);
-        let run = Run::by(method, Scene::with_slope(&scene), begin);
+        let run = Run::by(method, ScenePlant::with_slope(&scene), begin);
         ended(run, self.0, |y| y[2])
     }
 }
@@ -68,7 +71,7 @@ fn ended<P, M, const N: usize>(
 ) -> Ended<N>
 where
     P: Plant<State = SVector<f64, N>>,
-    M: Method<SVector<f64, N>>,
+    M: Integrator<SVector<f64, N>>,
 {
     let mut largest = 0.0_f64;
     for k in 0..steps {
@@ -124,7 +127,7 @@ const FIXED: [(&str, f64); 7] = [
 
 #[test]
 fn a_limited_winding_converges_with_the_order_of_the_method() {
-    let run = |name: &str, steps| with_method(name, Winding(steps)).expect("in the list");
+    let run = |name: &str, steps| with_integrator(name, Winding(steps)).expect("in the list");
     let right = run("gauss3", 9600).y;
     for (name, wanted) in FIXED {
         let runs = [1200, 2400, 4800, 9600].map(|steps| run(name, steps));
@@ -145,7 +148,7 @@ fn a_limited_winding_converges_with_the_order_of_the_method() {
 
 #[test]
 fn a_limited_current_without_inductance_converges_with_the_order_of_the_method() {
-    let run = |name: &str, steps| with_method(name, AtOnce(steps)).expect("in the list");
+    let run = |name: &str, steps| with_integrator(name, AtOnce(steps)).expect("in the list");
     let right = run("gauss3", 4800).y;
     for (name, wanted) in FIXED {
         // Within the step that ends at a kink, stages of explicit methods may pass it by O(h³).
@@ -160,11 +163,11 @@ fn a_limited_current_without_inductance_converges_with_the_order_of_the_method()
 /// Over a reversal under load, and where the losses hold the joint for a while.
 #[test]
 fn a_gear_with_losses_converges_with_the_order_of_the_method() {
-    let run = |name: &str, steps| with_method(name, Geared(steps)).expect("in the list");
+    let run = |name: &str, steps| with_integrator(name, Geared(steps)).expect("in the list");
     let right = run("gauss3", 4800).y;
     for (name, wanted) in FIXED {
         let runs = [300, 600, 1200, 2400].map(|steps| run(name, steps));
-        // Held, let go, a reversal; the load changes its sign twice.
+        // FixedModes, let go, a reversal; the load changes its sign twice.
         let seen: Vec<_> = runs.iter().map(|run| (run.events, run.kinks)).collect();
         assert_eq!(seen, [(3, 2); 4], "{name}");
         let errors = runs.map(|run| (run.y - right).fixed_rows::<2>(0).norm());
@@ -203,7 +206,7 @@ fn controlled_steps_agree_over_the_limits() {
     let scene = winding::Winding::<f64>::default();
     let end = |tolerance: f64| {
         let begin = Run::begin(&scene);
-        let run = Run::by(bgdyn_sim::Dop853, Scene::with_slope(&scene), begin);
+        let run = Run::by(bgdyn_sim::Dop853, ScenePlant::with_slope(&scene), begin);
         let tolerance = Tolerance {
             absolute: tolerance,
             relative: tolerance,
@@ -219,7 +222,7 @@ fn controlled_steps_agree_over_the_limits() {
     }
 }
 
-/// Held, the current does not move, and the power that the amplifier supplies is what the winding
+/// FixedModes, the current does not move, and the power that the amplifier supplies is what the winding
 /// and the joint take.
 #[test]
 fn a_held_current_keeps_the_balance_of_power() {
@@ -244,18 +247,18 @@ fn a_held_current_keeps_the_balance_of_power() {
 fn a_current_beyond_a_lowered_limit_falls_to_it() {
     let mut scene = winding::Winding::<f64>::default();
     let begin = Run::begin(&scene);
-    let mut run = Run::by(Rk4, Scene::new(&scene), begin);
+    let mut run = Run::by(Rk4, ScenePlant::new(&scene), begin);
     for _ in 0..20 {
         run.step(1e-4).expect("a step");
     }
     assert_eq!(run.y()[2], LIMIT);
-    let from = Moment {
+    let from = HybridState {
         t: run.t(),
         y: *run.y(),
         modes: *run.modes(),
     };
     scene.most = 10.0;
-    let mut run = Run::by(Rk4, Scene::new(&scene), from);
+    let mut run = Run::by(Rk4, ScenePlant::new(&scene), from);
     for _ in 0..10 {
         run.step(1e-4).expect("a step");
     }

@@ -6,6 +6,7 @@
 mod circles;
 mod layers;
 mod read;
+mod type_names;
 mod words;
 
 use std::collections::BTreeSet;
@@ -54,6 +55,20 @@ fn folders_import_what_their_line_allows() {
                 .iter()
                 .map(|w| format!("{name}: {w}")),
         );
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// One name, one thing: a reader who knows a type of a crate does not meet another one of its name there.
+#[test]
+fn no_crate_has_two_types_of_one_name() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut wrong = Vec::new();
+    for name in CRATES {
+        let source = root.join(name).join("src");
+        let files = imports(&source).into_keys();
+        let repeated = type_names::repeated(&source, files);
+        wrong.extend(repeated.iter().map(|line| format!("{name}: {line}")));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

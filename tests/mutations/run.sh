@@ -96,7 +96,7 @@ mutate "laws: forward undoes inverse" $src/formulation/solve.rs \
     'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" laws
 mutate "long chains: momenta meet axes" $recursion/common_axes.rs \
     'sum + w * l' 'sum - w * l' "${codegen[@]}" long_chains
-mutate "long chains: signs in tables" $src/products.rs \
+mutate "long chains: signs in tables" $src/inner_products.rs \
     'negative: negative ^ minus' 'negative' "${codegen[@]}" long_chains
 mutate "laws: gravity = dV/dq" $recursion/mass_matrix.rs \
     'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" laws

@@ -4,11 +4,12 @@ use bgdyn_codegen::random::Random;
 use std::num::NonZeroUsize;
 
 use bgdyn::nalgebra::SVector;
+use bgdyn::runtime::HybridSystem;
 use bgdyn::runtime::wide::{f32x4, f32x8, f64x2, f64x4, f64x8};
 use bgdyn::{Dynamics, Scalar};
 use bgdyn_sim::batch::{Course, batch, outcome};
-use bgdyn_sim::lanes::{Driven, LaneRun, Lanes, SmoothScene, packed, unpacked};
-use bgdyn_sim::{Method, Moment, Ode, Rk4, Run, Scene, SemiImplicitEuler, Solver};
+use bgdyn_sim::lanes::{Driven, LaneError, LaneRun, Lanes, SmoothScene, packed, unpacked};
+use bgdyn_sim::{HybridState, Integrator, Ode, Rk4, Run, ScenePlant, SemiImplicitEuler, Solver};
 
 use crate::models::scara4::Scara4;
 use crate::models::spherical_pendulum::SphericalPendulum;
@@ -32,7 +33,7 @@ fn efforts<T: Scalar, const N: usize>(t: T, _: &SVector<T, N>, v: &SVector<T, N>
 }
 
 /// The end of a run of one number at a time.
-fn alone<O: Ode, M: Method<O::State>>(
+fn alone<O: Ode, M: Integrator<O::State>>(
     ode: &O,
     method: M,
     start: O::State,
@@ -58,7 +59,7 @@ fn together<T, M, D, const N: usize, const Y: usize>(
 ) -> Vec<Option<SVector<T::Word, Y>>>
 where
     T: Lanes,
-    M: Method<SVector<T, Y>>,
+    M: Integrator<SVector<T, Y>>,
     D: Dynamics<T, N, N>,
 {
     let ode = Driven::<T, _, _, N, Y>::new(model, efforts);
@@ -122,8 +123,8 @@ fn by_threads(starts: &[SVector<f64, 6>], threads: usize) -> Vec<[SVector<f64, 6
     };
     let one = |&y: &SVector<f64, 6>| {
         let modes = SVector::<f64, 0>::zeros();
-        let from = Moment { t: 0.0, y, modes };
-        let run = Run::by(Rk4, Scene::new(&scene), from);
+        let from = HybridState { t: 0.0, y, modes };
+        let run = Run::by(Rk4, ScenePlant::new(&scene), from);
         // The array of nalgebra's vector as a slice of numbers.
         let seen = outcome(run, course, |plant, t, y, modes| {
             <[f64; 6]>::from(plant.output(t, y, modes))
@@ -145,12 +146,18 @@ fn by_threads(starts: &[SVector<f64, 6>], threads: usize) -> Vec<[SVector<f64, 6
 fn in_lanes<T: Lanes<Word = f64>>(starts: &[SVector<f64, 6>]) -> Vec<[SVector<f64, 6>; 2]>
 where
     PumaDistributed<T>: Default + Sync,
-    PumaDistributed<T>: bgdyn::runtime::System<T, 6, 0, 3, 0, 6, NP, Singular = T::Singular<3>>,
+    PumaDistributed<T>: HybridSystem<
+            T,
+            State = SVector<T, 6>,
+            Modes = SVector<T, 0>,
+            Outputs = SVector<T, 6>,
+            Singular: LaneError<T>,
+        >,
 {
     let scene = PumaDistributed::<T>::default();
     let groups: Vec<&[SVector<f64, 6>]> = starts.chunks(T::LANES).collect();
     let one = |group: &&[SVector<f64, 6>]| {
-        let ode = SmoothScene::<T, _, 6, 3, 3, 0, 6, NP>::new(&scene);
+        let ode = SmoothScene::new(&scene);
         let mut run = LaneRun::new(packed::<T, 6>(group));
         for _ in 0..STEPS {
             run.step(&Rk4, &ode, 1e-3);
@@ -162,9 +169,6 @@ where
     let two = NonZeroUsize::new(2).expect("some");
     batch(&groups, two, one, |_| {}).concat()
 }
-
-/// Entries of the scene's balance of power.
-const NP: usize = 3;
 
 #[test]
 fn a_scene_runs_by_threads_and_in_lanes_as_alone() {

@@ -2,7 +2,9 @@
 //! outside: motions of a block with dry friction, against their closed form.
 
 use bgdyn::nalgebra::SVector;
-use bgdyn_sim::{Dop853, Dopri5, Method, Moment, Rk4, Rodas4, Run, Scene, SemiImplicitEuler};
+use bgdyn_sim::{
+    Dop853, Dopri5, HybridState, Integrator, Rk4, Rodas4, Run, ScenePlant, SemiImplicitEuler,
+};
 
 bgdyn::bgdyn!("drop.scene.yaml");
 bgdyn::bgdyn!("push.scene.yaml", jacobian = true);
@@ -12,8 +14,8 @@ const FRICTION: f64 = 1.0;
 
 type State = SVector<f64, 2>;
 
-fn begin(position: f64, velocity: f64, mode: f64) -> Moment<State, SVector<f64, 1>> {
-    Moment {
+fn begin(position: f64, velocity: f64, mode: f64) -> HybridState<State, SVector<f64, 1>> {
+    HybridState {
         t: 0.0,
         y: State::new(position, velocity),
         modes: SVector::from([mode]),
@@ -33,9 +35,9 @@ fn near(found: f64, expected: f64, method: &str) {
     );
 }
 
-fn falls<M: Method<State>>(method: M, name: &str) {
+fn falls<M: Integrator<State>>(method: M, name: &str) {
     let scene = drop::Drop::<f64>::default();
-    let mut run = Run::by(method, Scene::new(&scene), Run::begin(&scene));
+    let mut run = Run::by(method, ScenePlant::new(&scene), Run::begin(&scene));
     for _ in 0..1000 {
         run.step(1e-3).expect("a step");
     }
@@ -52,11 +54,11 @@ fn a_weight_heavier_than_friction_falls_from_rest() {
     falls(Dop853, "dop853");
 }
 
-fn stops<M: Method<State> + Copy>(method: M, name: &str, mode: f64) {
+fn stops<M: Integrator<State> + Copy>(method: M, name: &str, mode: f64) {
     let scene = push::Push::<f64>::default();
     for direction in [1.0, -1.0] {
         let start = begin(0.5, 2.0 * direction, mode);
-        let mut run = Run::by(method, Scene::with_slope(&scene), start);
+        let mut run = Run::by(method, ScenePlant::with_slope(&scene), start);
         for _ in 0..3000 {
             run.step(1e-3).expect("a step");
         }
@@ -119,7 +121,7 @@ fn an_input_set_between_steps_makes_it_slip() {
 #[test]
 fn a_push_against_the_motion_slows_it_down() {
     let scene = push::Push::<f64>::default();
-    let mut run = Run::by(Rk4, Scene::new(&scene), begin(0.0, 2.0, 0.0));
+    let mut run = Run::by(Rk4, ScenePlant::new(&scene), begin(0.0, 2.0, 0.0));
     run.plant_mut().given[0] = -3.0;
     for _ in 0..250 {
         run.step(1e-3).expect("a step");

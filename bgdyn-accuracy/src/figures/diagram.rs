@@ -1,6 +1,6 @@
 //! The diagram of error against time, both on logarithmic axes.
 
-use crate::configuration::Pace;
+use crate::configuration::StepControl;
 use crate::row::Row;
 use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
 
@@ -203,10 +203,13 @@ fn curve(d: &mut Drawing, series: &Series<'_>, x: &Axis, y: &Axis, floor: f64) {
 /// their steps. A failed tolerance has no such ratio and stands at that run's time.
 fn failures(series: &Series<'_>) -> impl Iterator<Item = f64> {
     let held = series.rows.iter().filter(|r| r.holds());
-    let first = held.clone().next().and_then(|r| Some((r.pace, r.ns?)));
+    let first = held
+        .clone()
+        .next()
+        .and_then(|r| Some((r.step_control, r.ns?)));
     let failed = series.rows.iter().filter(|r| !r.holds());
-    failed.filter_map(move |r| match (first?, r.pace) {
-        ((Pace::Step(h), ns), Pace::Step(failed)) => Some(ns * h / failed),
+    failed.filter_map(move |r| match (first?, r.step_control) {
+        ((StepControl::Step(h), ns), StepControl::Step(failed)) => Some(ns * h / failed),
         ((_, ns), _) => Some(ns),
     })
 }

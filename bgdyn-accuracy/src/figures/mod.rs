@@ -3,7 +3,7 @@
 mod bars;
 mod diagram;
 
-use crate::configuration::Pace;
+use crate::configuration::StepControl;
 use crate::cost::{Cost, METHOD, TOLERANCE};
 use crate::format::{short, step, time};
 use crate::order_check::{Verdict, verdicts};
@@ -73,9 +73,9 @@ pub(crate) fn way(row: &Row) -> String {
         "f64" => "",
         scalar => &format!(" in {scalar}"),
     };
-    match row.pace {
-        Pace::Step(h) => format!("{}{scalar} at {}", row.method, step(h)),
-        Pace::Tolerance(t) => format!("{}{scalar} with the tolerance {t:e}", row.method),
+    match row.step_control {
+        StepControl::Step(h) => format!("{}{scalar} at {}", row.method, step(h)),
+        StepControl::Tolerance(t) => format!("{}{scalar} with the tolerance {t:e}", row.method),
     }
 }
 
@@ -116,15 +116,15 @@ fn series<'a>(
             && r.scalar == verdict.scalar
             && r.formulation == verdict.formulation
     };
-    // The first row of a pace: the ablation `all` repeats the scene's own.
+    // The first row of a step control: the ablation `all` repeats the scene's own.
     let mut rows: Vec<&Row> = Vec::new();
     for row in study.rows.iter().filter(of) {
-        if !rows.iter().any(|r| r.pace == row.pace) {
+        if !rows.iter().any(|r| r.step_control == row.step_control) {
             rows.push(row);
         }
     }
-    // The scene's own pace comes last in the study.
-    rows.sort_by(|a, b| b.pace.value().total_cmp(&a.pace.value()));
+    // The scene's own step control comes last in the study.
+    rows.sort_by(|a, b| b.step_control.value().total_cmp(&a.step_control.value()));
     Series {
         label,
         note: verdict.words(),
@@ -233,11 +233,15 @@ fn formulations(study: &Study) -> Option<Figure> {
         .filter(|v| v.method == "rk4" && v.scalar == "f64");
     let names: Vec<&str> = of_rk4.map(|v| v.formulation.as_str()).collect();
     let base = by("cheapest");
-    let shared = |r: &&&Row| names.iter().all(|n| by(n).iter().any(|o| o.pace == r.pace));
-    let pace = base.iter().rev().find(shared)?.pace;
+    let shared = |r: &&&Row| {
+        names
+            .iter()
+            .all(|n| by(n).iter().any(|o| o.step_control == r.step_control))
+    };
+    let step_control = base.iter().rev().find(shared)?.step_control;
     let line = |name: &&str| {
         let rows = by(name);
-        let at = rows.iter().find(|r| r.pace == pace);
+        let at = rows.iter().find(|r| r.step_control == step_control);
         let errors = rows.iter().filter_map(|r| r.error);
         Line {
             label: (*name).to_owned(),
@@ -261,7 +265,11 @@ fn formulations(study: &Study) -> Option<Figure> {
             title,
             columns: vec![
                 linear(
-                    format!("{}time by rk4 at {}", about(study), step(pace.value())),
+                    format!(
+                        "{}time by rk4 at {}",
+                        about(study),
+                        step(step_control.value())
+                    ),
                     "ns per simulated ms".into(),
                 ),
                 logarithmic(format!("least error of {}", facts.output), study),
@@ -299,9 +307,10 @@ fn ablations<'a>(
         .iter()
         .filter_map(|r| Some((name(&r.effects)?, r)));
     let named: Vec<(&str, &Row)> = named.collect();
-    let pace = named.first()?.1.pace;
+    let step_control = named.first()?.1.step_control;
     let method = &named.first()?.1.method;
-    let own = |r: &&Row| r.effects == "all" && r.pace == pace && r.method == *method;
+    let own =
+        |r: &&Row| r.effects == "all" && r.step_control == step_control && r.method == *method;
     let own = |r: &&Row| own(r) && r.scalar == "f64" && r.formulation == "cheapest";
     // The ablation comes after the method's own sequence of steps, and is timed beside the other ablations.
     Some((study.rows.iter().rfind(own)?, named))

@@ -8,7 +8,7 @@ use bgdyn_accuracy::{
     Effort, Machine, Study, costs_csv, figures, page, rows_csv, study, targets, verdicts,
 };
 use bgdyn_codegen::format::Dimension;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use crate::cargo_project::CargoProject;
@@ -69,7 +69,7 @@ impl Accuracy {
     }
 
     /// The study of compiled code, or of the evaluator where there is no cargo.
-    fn study(&self, system: &System, end: Option<f64>) -> Result<Study> {
+    fn study(&self, system: &SceneEquations, end: Option<f64>) -> Result<Study> {
         let program = match self.compiled(system, end) {
             Ok(text) => text,
             Err(why) => {
@@ -90,7 +90,7 @@ impl Accuracy {
     }
 
     /// What the program prints that studies the compiled scene.
-    fn compiled(&self, system: &System, end: Option<f64>) -> Result<String> {
+    fn compiled(&self, system: &SceneEquations, end: Option<f64>) -> Result<String> {
         let project = CargoProject::new("accuracy", &self.bgdyn, &["bgdyn-accuracy"])?;
         let text = variants(system, end).map_err(|e| anyhow!(e))?;
         project.write("src/scene.rs", &text)?;
@@ -105,7 +105,7 @@ impl Accuracy {
 }
 
 /// The study through the evaluator.
-fn evaluated(system: &System, end: Option<f64>) -> Result<Study> {
+fn evaluated(system: &SceneEquations, end: Option<f64>) -> Result<Study> {
     let test_case = crate::accuracy::test_case(system, end)
         .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
     // The evaluator takes its time.
@@ -143,7 +143,7 @@ fn summary(study: &Study, out: &Path) -> String {
         let ns = row.ns.unwrap_or(f64::NAN);
         text += &format!(
             "{:.0e} {} at {}: {} at {} in {}, {mark}{ns:.0} ns per simulated ms\n",
-            choice.target, facts.unit, facts.output, row.method, row.pace, row.scalar
+            choice.target, facts.unit, facts.output, row.method, row.step_control, row.scalar
         );
     }
     text + &format!("written: {}\n", out.join("report.html").display())

@@ -3,17 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
-use bgdyn_codegen::fault::{Fault, Place, Severity};
+use bgdyn_codegen::fault::{Fault, Location, Severity};
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Parameter, Snapped};
-use bgdyn_codegen::scene::{Part, Solved};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::scene::{Solved, Variable};
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 use serde_json::{Value, json};
 
 use crate::output::{print, tell};
 use crate::spec_file::{SpecFile, shown};
 
-/// Check specs; report every fault with its place
+/// Check specs; report every fault with its location
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  bgdyn check specs/scara.yaml\n  bgdyn check specs/*.yaml --json\n\nExit 1 where any file is refused. With --json: one report, or a list of reports for several files."
@@ -29,7 +29,7 @@ pub(crate) struct Check {
 
 /// What was found in one file.
 #[derive(Default)]
-struct Checked {
+struct CheckedFile {
     ok: bool,
     /// For stdout where no JSON is wanted.
     lines: Vec<String>,
@@ -87,24 +87,24 @@ impl Check {
     }
 }
 
-fn check(path: &Path) -> Checked {
+fn check(path: &Path) -> CheckedFile {
     let spec = match SpecFile::read_any(path) {
         Ok(spec) => spec,
         Err(error) => {
             let error = format!("{error:#}");
-            let fault = Fault::new(&Place::file(), "unreadable", error.clone());
-            return Checked {
+            let fault = Fault::new(&Location::file(), "unreadable", error.clone());
+            return CheckedFile {
                 told: format!("bgdyn: {error}\n"),
                 findings: vec![finding(&fault)],
-                ..Checked::default()
+                ..CheckedFile::default()
             };
         }
     };
     if let Some(fault) = spec.urdf() {
-        return Checked {
+        return CheckedFile {
             told: format!("bgdyn: {}\n", fault.headline(&shown(path))),
             findings: vec![finding(&fault)],
-            ..Checked::default()
+            ..CheckedFile::default()
         };
     }
     match spec.is_scene() {
@@ -113,15 +113,15 @@ fn check(path: &Path) -> Checked {
     }
 }
 
-fn mechanism(spec: &SpecFile) -> Checked {
+fn mechanism(spec: &SpecFile) -> CheckedFile {
     let (mechanism, faults) = spec.read();
-    let mut found = Checked {
+    let mut found = CheckedFile {
         ok: mechanism.is_some(),
         told: spec.render(&faults),
         tally: mechanism.is_none().then(|| faults.tally()),
         model: Some(("model", mechanism.as_ref().map_or(Value::Null, model))),
         findings: faults.0.iter().map(finding).collect(),
-        ..Checked::default()
+        ..CheckedFile::default()
     };
     if let Some(m) = mechanism {
         let names = coordinates(&m).join(", ");
@@ -137,14 +137,14 @@ fn mechanism(spec: &SpecFile) -> Checked {
     found
 }
 
-fn scene(spec: &SpecFile) -> Checked {
+fn scene(spec: &SpecFile) -> CheckedFile {
     let null = Some(("scene", Value::Null));
     let (system, faults) = match spec.read_scene() {
         Ok(read) => read,
         Err(refusal) => {
             let findings = spec.findings(&refusal);
             let (told, why) = spec.refusal(refusal);
-            return Checked {
+            return CheckedFile {
                 told,
                 tally: Some(why),
                 names_its_file: true,
@@ -159,7 +159,7 @@ fn scene(spec: &SpecFile) -> Checked {
                         found
                     })
                     .collect(),
-                ..Checked::default()
+                ..CheckedFile::default()
             };
         }
     };
@@ -175,7 +175,7 @@ fn scene(spec: &SpecFile) -> Checked {
     );
     let solved = system.scene.solved();
     let solved = solved.iter().map(|s| format!("solved: {}", words(s)));
-    Checked {
+    CheckedFile {
         ok: true,
         lines: std::iter::once(ok).chain(solved).collect(),
         told: spec.render(&faults),
@@ -188,8 +188,12 @@ fn scene(spec: &SpecFile) -> Checked {
 
 /// What snapping changed, on one line.
 pub(crate) fn snapped_words(snapped: &Snapped) -> String {
-    let Snapped { count, most, place } = snapped;
-    let path = &place.path;
+    let Snapped {
+        count,
+        most,
+        location,
+    } = snapped;
+    let path = &location.path;
     let what = match count {
         1 => format!("1 direction, {most:.1e} rad off (`{path}`)"),
         _ => format!("{count} directions, the farthest {most:.1e} rad off (`{path}`)"),
@@ -207,10 +211,10 @@ fn words(solved: &Solved) -> String {
     format!("{elements}{nodes}: {}", solved.how)
 }
 
-fn scene_model(system: &System) -> Value {
+fn scene_model(system: &SceneEquations) -> Value {
     let scene = &system.scene;
     let layout = &scene.layout;
-    let names = |parts: &[Part]| parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+    let names = |parts: &[Variable]| parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
     let coordinates: Vec<&str> = layout.coordinates.iter().map(|c| c.name.as_str()).collect();
     let effects: Vec<&str> = scene.elements.iter().map(|e| e.name.as_str()).collect();
     let solved: Vec<Value> = scene
@@ -254,7 +258,7 @@ fn model(mechanism: &Mechanism) -> Value {
         "nv": mechanism.nv(),
         "coordinates": coordinates(mechanism),
         "parameters": parameters,
-        "snapped": mechanism.snapped().map(|s| json!({ "count": s.count, "most": s.most, "path": s.place.path })),
+        "snapped": mechanism.snapped().map(|s| json!({ "count": s.count, "most": s.most, "path": s.location.path })),
     })
 }
 

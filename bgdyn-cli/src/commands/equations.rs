@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::closed_form::{LIMIT, Refused, closed_form, latex, text};
+use bgdyn_codegen::closed_form::{LIMIT, NoClosedForm, closed_form, latex, text};
 use clap::{Args, ValueEnum};
 
 use crate::output::print;
@@ -63,10 +63,10 @@ impl Equations {
     }
 
     /// A refusal with the way out.
-    fn refused(&self, refused: &Refused) -> anyhow::Error {
+    fn refused(&self, refused: &NoClosedForm) -> anyhow::Error {
         let (file, limit) = (self.file.display(), self.limit);
         match refused {
-            Refused::NotTrigonometric => anyhow!("{file}: no closed form: {refused}"),
+            NoClosedForm::NotTrigonometric => anyhow!("{file}: no closed form: {refused}"),
             _ => anyhow!(
                 "{file}: too long for a closed form: {refused}, and the limit is {limit} terms; \
                  give joints that may stand still the type `fixed`, or allow more by `--limit N`"

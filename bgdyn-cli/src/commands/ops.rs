@@ -11,7 +11,7 @@ use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::{function, scene_functions};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 use serde::{Serialize, Serializer};
 
@@ -72,7 +72,7 @@ impl Ops {
         print(&(report + "\n"))
     }
 
-    fn scene(&self, system: &System, options: &Options) -> Result<()> {
+    fn scene(&self, system: &SceneEquations, options: &Options) -> Result<()> {
         let misplaced = options.of_mechanisms();
         if !misplaced.is_empty() {
             return Err(unknown(misplaced).into());

@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use nalgebra::DMatrix;
 use serde::Serialize;
 
@@ -30,11 +30,12 @@ struct VariantCost {
 }
 
 /// Prints the table of a scene's effects: added one at a time, and all but one.
-pub(super) fn report(whole: &System, json: bool, bgdyn: &str) -> Result<()> {
-    let (titles, systems): (Vec<String>, Vec<System>) = variants(whole)?.into_iter().unzip();
+pub(super) fn report(whole: &SceneEquations, json: bool, bgdyn: &str) -> Result<()> {
+    let (titles, systems): (Vec<String>, Vec<SceneEquations>) =
+        variants(whole)?.into_iter().unzip();
     let functions: Vec<Function> = systems
         .iter()
-        .map(|s| s.function(Role::Derivative))
+        .map(|s| s.function(SceneFunction::Derivative))
         .collect();
     let measured = times(&systems, bgdyn);
     if let Err(why) = &measured {
@@ -68,7 +69,7 @@ pub(super) fn report(whole: &System, json: bool, bgdyn: &str) -> Result<()> {
     }
 }
 
-fn names(system: &System) -> Vec<String> {
+fn names(system: &SceneEquations) -> Vec<String> {
     system
         .scene
         .elements
@@ -78,11 +79,12 @@ fn names(system: &System) -> Vec<String> {
 }
 
 /// The scene without effects, with one more each time, and without each one in turn.
-fn variants(whole: &System) -> Result<Vec<(String, System)>> {
+fn variants(whole: &SceneEquations) -> Result<Vec<(String, SceneEquations)>> {
     let all = names(whole);
     let with = |names: &[&String]| {
-        let scene = whole.scene.with_only(|e| names.contains(&&e.name));
-        System::new(scene).map_err(|_| anyhow::anyhow!("the scene cannot do without its effects"))
+        let scene = whole.scene.with_effects(|e| names.contains(&&e.name));
+        SceneEquations::new(scene)
+            .map_err(|_| anyhow::anyhow!("the scene cannot do without its effects"))
     };
     let mut found = vec![("links with point masses".to_owned(), with(&[])?)];
     let mut so_far: Vec<&String> = Vec::new();
@@ -100,7 +102,7 @@ fn variants(whole: &System) -> Result<Vec<(String, System)>> {
 }
 
 /// 1 / |λ| of the fastest mode at the start.
-fn fastest(system: &System, derivative: &Function) -> Option<f64> {
+fn fastest(system: &SceneEquations, derivative: &Function) -> Option<f64> {
     let slope = system.slope(derivative, &system.start())?;
     let n = slope.len();
     let matrix = DMatrix::from_fn(n, n, |i, j| slope[i][j]);

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::format::Dimension;
-use bgdyn_codegen::scene::{Integration, Integrator, Pace};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use self::many::{Batch, Many};
@@ -112,8 +112,10 @@ impl Simulate {
             print(&format!("{}\n", summary(&file.stem, &way.integration)))?;
             return self.many.run(&batch, &given, &varied);
         }
-        let system = system.starting(&given).map_err(|f| start_refused(&f))?;
-        let plant = plant.starting(&system);
+        let system = system
+            .with_overrides(&given)
+            .map_err(|f| start_refused(&f))?;
+        let plant = plant.with_overrides(&system);
         let run = watched("run", &plant, &way);
         let files = self.write(&file.stem, &columns, &run)?;
         print(&format!(
@@ -143,7 +145,7 @@ impl Simulate {
     fn page(
         &self,
         name: &str,
-        (system, way): (&System, &Way),
+        (system, way): (&SceneEquations, &Way),
         columns: &[Column],
         run: &Record,
         report: String,
@@ -182,20 +184,22 @@ impl Simulate {
     ) -> Result<Integration, Usage> {
         let method = match &self.method {
             None => scene.method,
-            Some(name) => Integrator::named(name).ok_or_else(|| {
-                let all: Vec<&str> = Integrator::ALL.iter().map(|m| m.name()).collect();
+            Some(name) => IntegratorName::named(name).ok_or_else(|| {
+                let all: Vec<&str> = IntegratorName::ALL.iter().map(|m| m.name()).collect();
                 let all = all.join(", ");
                 Usage(format!("there is no method `{name}`; there are {all}"))
             })?,
         };
-        let pace = match (given.step, given.tolerance) {
-            (Some(step), _) => Pace::Step(step),
-            (_, Some(tolerance)) => Pace::Tolerance(tolerance),
-            _ => scene.pace,
+        let step_control = match (given.step, given.tolerance) {
+            (Some(step), _) => StepControl::Step(step),
+            (_, Some(tolerance)) => StepControl::Tolerance(tolerance),
+            _ => scene.step_control,
         };
-        if matches!(pace, Pace::Tolerance(_)) && !method.controls_its_error() {
+        if matches!(step_control, StepControl::Tolerance(_)) && !method.controls_its_error() {
             let name = method.name();
-            let all = Integrator::ALL.iter().filter(|m| m.controls_its_error());
+            let all = IntegratorName::ALL
+                .iter()
+                .filter(|m| m.controls_its_error());
             let all: Vec<&str> = all.map(|m| m.name()).collect();
             let all = all.join(", ");
             return Err(Usage(format!(
@@ -203,7 +207,7 @@ impl Simulate {
             )));
         }
         let end = given.end.unwrap_or(scene.end);
-        if let Pace::Step(h) = pace
+        if let StepControl::Step(h) = step_control
             && end / h > STEPS
         {
             let steps = number(end / h);
@@ -211,7 +215,11 @@ impl Simulate {
                 "{steps} steps of {h} s to t = {end} s: that is more than {STEPS:e}; take a longer step"
             )));
         }
-        Ok(Integration { method, pace, end })
+        Ok(Integration {
+            method,
+            step_control,
+            end,
+        })
     }
 
     /// Writes table and plot; gives what is said of them.
@@ -250,21 +258,25 @@ fn watched(what: &'static str, plant: &Evaluated<'_>, way: &Way) -> Record {
 
 /// "stick_slip: rk4 in steps of 0.001 s, to t = 5 s"
 fn summary(name: &str, integration: &Integration) -> String {
-    let Integration { method, pace, end } = integration;
-    let pace = match pace {
-        Pace::Step(h) => format!("in steps of {} s", short(*h)),
-        Pace::Tolerance(t) => format!("with the tolerance {}", short(*t)),
+    let Integration {
+        method,
+        step_control,
+        end,
+    } = integration;
+    let step_control = match step_control {
+        StepControl::Step(h) => format!("in steps of {} s", short(*h)),
+        StepControl::Tolerance(t) => format!("with the tolerance {}", short(*t)),
     };
     let end = short(*end);
-    format!("{name}: {} {pace}, to t = {end} s", method.name())
+    format!("{name}: {} {step_control}, to t = {end} s", method.name())
 }
 
 /// Compares the run with a finer one; gives what is told of it.
 fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) -> Result<String> {
     let finer = watched("once more, finer", plant, &way.finer());
-    let against = match way.integration.pace {
-        Pace::Step(_) => "half the step",
-        Pace::Tolerance(_) => "a tenth of the tolerance",
+    let against = match way.integration.step_control {
+        StepControl::Step(_) => "half the step",
+        StepControl::Tolerance(_) => "a tenth of the tolerance",
     };
     if let Some(reason) = finer.failure {
         let t = short(finer.t);

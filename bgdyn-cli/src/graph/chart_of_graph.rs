@@ -1,8 +1,8 @@
 //! Builds the drawing of a bond graph, in the order of the tree.
 
 use bgdyn_codegen::bond_graph::{
-    self, BondGraph, BondNetwork, Effort, Inertia, JunctionId, LinkFrame, Modulus, NodePart,
-    Source, Store,
+    self, BondGraph, BondNetwork, Effort, EffortSource, JunctionId, LinkFrame, Modulus, NodePart,
+    Store, StoreInertia,
 };
 use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose, Value};
@@ -163,8 +163,8 @@ fn massless(graph: &BondGraph, i: LinkId) -> bool {
     let sources = graph.sources.iter().filter(|s| own.contains(&s.junction));
     let mut weights = sources.flat_map(|s| &s.efforts);
     let empty = |store: &Store| match &store.inertia {
-        Inertia::Mass(mass) => nothing(mass),
-        Inertia::Tensor(entries) => entries.iter().all(nothing),
+        StoreInertia::Mass(mass) => nothing(mass),
+        StoreInertia::Tensor(entries) => entries.iter().all(nothing),
     };
     stores.all(empty) && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
 }
@@ -234,8 +234,8 @@ fn ports(
 fn store(graph: &BondGraph, i: LinkId, store: &Store) -> (String, Option<String>) {
     let n = subscript(i.0 + 1);
     match store.inertia {
-        Inertia::Mass(mass) => (format!("m{n} = {} kg", value(graph, mass)), None),
-        Inertia::Tensor(entries) => tensor(graph, i, entries),
+        StoreInertia::Mass(mass) => (format!("m{n} = {} kg", value(graph, mass)), None),
+        StoreInertia::Tensor(entries) => tensor(graph, i, entries),
     }
 }
 
@@ -262,7 +262,7 @@ fn tensor(graph: &BondGraph, i: LinkId, entries: [Value; 6]) -> (String, Option<
     (format!("J{n} = {diagonal} kg·m²"), more)
 }
 
-fn source(graph: &BondGraph, i: LinkId, source: &Source) -> String {
+fn source(graph: &BondGraph, i: LinkId, source: &EffortSource) -> String {
     let efforts = source
         .efforts
         .iter()

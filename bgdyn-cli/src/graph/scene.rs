@@ -1,7 +1,7 @@
 //! What a scene's effects add to the drawing: nodes at joints, and flows along lines and at places of links.
 
-use bgdyn_codegen::bond_graph::{BondGraph, GraphNode, NodePart, PlacePort, PortPlace};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::bond_graph::{BondGraph, GraphNode, NodePart, PlacePort, PortSite};
+use bgdyn_codegen::system::SceneEquations;
 
 use super::chart::{Chart, ChartLink, Component, Flow, Transformer};
 use super::chart_of_graph::drive;
@@ -10,7 +10,7 @@ use super::unfold::Unfolding;
 
 impl Chart {
     /// The drawing of a scene.
-    pub(crate) fn of_scene(system: &System) -> Self {
+    pub(crate) fn of_scene(system: &SceneEquations) -> Self {
         let (scene, graph, network) = (&system.scene, &system.graph, &system.network);
         let drive = |part: &NodePart| drive(graph, part);
         let mut unfolding = Unfolding::new(network, &drive);
@@ -20,13 +20,13 @@ impl Chart {
         for port in network.ports.iter().filter(|p| !p.coordinates.is_empty()) {
             let own = unfolding.ports_of(port.junction);
             let (name, symbol, partial, all) = match &port.place {
-                PortPlace::Line([a, b]) => {
+                PortSite::Line([a, b]) => {
                     lines += 1;
                     let n = subscript(lines);
                     let name = format!("{a} – {b}, m/s");
                     (name, format!("ṡ{n}"), format!("∂s{n}/∂q"), &mut chart.lines)
                 }
-                PortPlace::Site(site) => {
+                PortSite::Site(site) => {
                     sites += 1;
                     let n = subscript(sites);
                     let name = format!("{site}, rad/s and m/s");
@@ -64,7 +64,7 @@ impl Chart {
 }
 
 /// The elements of which no node has been met, though they have some.
-fn not_met<'a>(system: &'a System, unfolding: &Unfolding<'_>) -> Vec<&'a str> {
+fn not_met<'a>(system: &'a SceneEquations, unfolding: &Unfolding<'_>) -> Vec<&'a str> {
     let network = &system.network;
     let elements = system.scene.elements.iter().enumerate();
     let missing = elements.filter(|(at, _)| {

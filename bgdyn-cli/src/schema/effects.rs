@@ -46,13 +46,11 @@ pub(super) fn reads(reads: Reads) -> Value {
     match reads {
         Reads::Number(fit) => value(fit),
         Reads::Word(words) => json!({ "enum": words }),
-        Reads::Coordinate | Reads::Joint | Reads::Place | Reads::Node | Reads::Input => {
-            identifier()
-        }
+        Reads::Coordinate | Reads::Joint | Reads::Site | Reads::Node | Reads::Input => identifier(),
         Reads::Joints => {
             json!({ "anyOf": [{ "const": "all" }, { "type": "array", "items": identifier() }] })
         }
-        Reads::Places => {
+        Reads::Sites => {
             json!({ "type": "array", "items": identifier(), "minItems": 2, "maxItems": 2 })
         }
         Reads::Vector(fit) => triple(value(fit)),

@@ -6,7 +6,7 @@
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::format::Dimension;
-use bgdyn_codegen::scene::Integrator;
+use bgdyn_codegen::scene::IntegratorName;
 use serde_json::{Map, Value, json};
 
 use super::effects::{effects, reads};
@@ -178,7 +178,7 @@ fn one_of(keys: &[(&str, Value)]) -> Value {
 }
 
 fn integration() -> Value {
-    let methods = Integrator::ALL.map(Integrator::name);
+    let methods = IntegratorName::ALL.map(IntegratorName::name);
     let time = || quantity(&[Dimension::Time]);
     let keys = [
         ("method", json!({ "enum": methods })),

@@ -3,7 +3,7 @@
 use std::iter::once;
 use std::num::NonZeroUsize;
 
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 use super::batch_values::{BatchValues, Given};
 use crate::table;
@@ -28,7 +28,7 @@ pub(crate) struct RunSummary {
 
 /// Runs a scene for every row of `varied`, by so many threads; `watch` hears how many are done.
 pub(crate) fn run(
-    system: &System,
+    system: &SceneEquations,
     plant: &Evaluated<'_>,
     way: &Way,
     (fixed, varied): (&[Given], &BatchValues),
@@ -36,11 +36,11 @@ pub(crate) fn run(
     watch: impl FnMut(usize),
 ) -> Vec<RunSummary> {
     let one = |values: &Vec<f64>| {
-        let system = match system.starting(&varied.given(fixed, values)) {
+        let system = match system.with_overrides(&varied.given(fixed, values)) {
             Ok(system) => system,
             Err(faults) => return refused(&faults),
         };
-        let run = record_from(plant.starting(&system), way, &mut |_| {});
+        let run = record_from(plant.with_overrides(&system), way, &mut |_| {});
         let last = run.rows.last().map_or(&[][..], |row| &row.values);
         let outputs = last.iter().enumerate().map(|(i, &end)| {
             let (low, high) = range(run.rows.iter().map(|row| row.values[i]));

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::scene::{Scene, Settable, SettableKind};
+use bgdyn_codegen::scene::{Override, OverrideKind, Scene};
 use bgdyn_runtime::Dd;
 
 use crate::quantity::value_in;
@@ -13,12 +13,12 @@ use crate::usage::Usage;
 const RUNS: usize = 1_000_000;
 
 /// A quantity and its value, SI units.
-pub(crate) type Given = (Settable, Dd);
+pub(crate) type Given = (Override, Dd);
 
 /// Quantities, and their values run by run.
 #[derive(Default)]
 pub(crate) struct BatchValues {
-    pub(crate) quantities: Vec<Settable>,
+    pub(crate) quantities: Vec<Override>,
     pub(crate) runs: Vec<Vec<f64>>,
 }
 
@@ -51,15 +51,15 @@ pub(crate) fn fixed(
         } else {
             "part of the state"
         };
-        let wanted = |kind: SettableKind| kind.is_parameter() == is_parameter;
-        let settable = scene
-            .settable_named(what, name.trim(), wanted)
+        let wanted = |kind: OverrideKind| kind.is_parameter() == is_parameter;
+        let overrides = scene
+            .override_named(what, name.trim(), wanted)
             .map_err(wrong)?;
-        if found.iter().any(|(s, _)| *s == settable) {
-            return Err(wrong(format!("`{}` is set twice", settable.name)));
+        if found.iter().any(|(s, _)| *s == overrides) {
+            return Err(wrong(format!("`{}` is set twice", overrides.name)));
         }
-        let value = value_in(value, settable.unit).map_err(wrong)?;
-        found.push((settable, value));
+        let value = value_in(value, overrides.unit).map_err(wrong)?;
+        found.push((overrides, value));
     }
     Ok(found)
 }
@@ -104,7 +104,7 @@ pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValue
 }
 
 /// A column's name, with or without its unit: `shoulder`, `shoulder [rad]`.
-fn headed(scene: &Scene, field: &str) -> Result<Settable, String> {
+fn headed(scene: &Scene, field: &str) -> Result<Override, String> {
     let (name, unit) = match field.split_once('[') {
         Some((name, rest)) => (name.trim(), Some(rest.trim_end_matches(']').trim())),
         None => (field, None),
@@ -121,8 +121,8 @@ fn headed(scene: &Scene, field: &str) -> Result<Settable, String> {
     }
 }
 
-fn named(scene: &Scene, name: &str) -> Result<Settable, String> {
-    scene.settable_named("part of the state or parameter", name, |_| true)
+fn named(scene: &Scene, name: &str) -> Result<Override, String> {
+    scene.override_named("part of the state or parameter", name, |_| true)
 }
 
 /// Runs over a grid: `NAME=FROM:TO:N` each, the last one fastest.
@@ -201,7 +201,7 @@ pub(crate) fn chance(
     Ok(varied)
 }
 
-fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Settable, String> {
+fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Override, String> {
     let quantity = named(scene, name.trim())?;
     match varied.quantities.contains(&quantity) {
         true => Err(format!("`{}` is varied twice", quantity.name)),
@@ -209,7 +209,7 @@ fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Settable, Stri
     }
 }
 
-fn ends(low: &str, high: &str, quantity: &Settable) -> Result<[f64; 2], String> {
+fn ends(low: &str, high: &str, quantity: &Override) -> Result<[f64; 2], String> {
     let end = |text: &str| value_in(text, quantity.unit).map(|value| value.to_f64());
     Ok([end(low)?, end(high)?])
 }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
-use bgdyn_runtime::{Contact, Dd, mode_by_slip, settle_by};
-use bgdyn_sim::{Jacobian, Moment, Plant, Power, resting_slip};
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::{Contact, Dd};
+use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction};
 use nalgebra::{DMatrix, DVector};
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
@@ -49,7 +49,7 @@ pub enum Form {
 /// its files give them.
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
-    system: &'a System,
+    system: &'a SceneEquations,
     parameters: Vec<f64>,
     functions: Arc<SceneFunctions>,
 }
@@ -67,8 +67,8 @@ struct SceneFunctions {
     jacobian: Option<Function>,
     canonical: Option<Canonical>,
     event_modes: Vec<Option<usize>>,
-    /// The coordinate of each mode.
-    mode_coordinates: Vec<usize>,
+    /// The component of the state that is the velocity of each mode's coordinate.
+    mode_velocities: Vec<usize>,
 }
 
 /// The functions of the canonical form.
@@ -81,31 +81,36 @@ struct Canonical {
 
 /// A value of a scene, or why there is none.
 pub(crate) type Evaluation<T> = Result<T, Undefined>;
+/// What can hold a coordinate, mode by mode.
+type ContactsOf = Evaluation<Vec<Contact<f64>>>;
 
 impl<'a> Evaluated<'a> {
     /// The scene in these numbers; `slopes` for methods that take the slope of the rates.
-    pub fn new(system: &'a System, form: Form, slopes: bool) -> Self {
+    pub fn new(system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
         let roles = system.roles();
         let if_there = |role| roles.contains(&role).then(|| system.function(role));
         let canonical = || Canonical {
-            to: system.function(Role::ToCanonical),
-            from: system.function(Role::FromCanonical),
-            rates: system.function(Role::CanonicalRates),
+            to: system.function(SceneFunction::ToCanonical),
+            from: system.function(SceneFunction::FromCanonical),
+            rates: system.function(SceneFunction::CanonicalRates),
         };
         let layout = &system.scene.layout;
+        let coordinates = system.mode_coordinates().into_iter();
+        let mode_velocities = coordinates.map(|j| layout.nq() + j);
         let functions = SceneFunctions {
-            derivative: system.function(Role::Derivative),
-            inputs: if_there(Role::Inputs),
-            events: if_there(Role::Events),
-            contacts: if_there(Role::Contacts),
-            outputs: if_there(Role::Outputs),
-            power: system.function(Role::Power),
-            energy: system.function(Role::Energy),
+            derivative: system.function(SceneFunction::Derivative),
+            inputs: if_there(SceneFunction::Inputs),
+            events: if_there(SceneFunction::Events),
+            contacts: if_there(SceneFunction::Contacts),
+            outputs: if_there(SceneFunction::Outputs),
+            power: system.function(SceneFunction::Power),
+            energy: system.function(SceneFunction::Energy),
             // In momenta the slopes are not known: stages are then solved for without them.
-            jacobian: (slopes && form == Form::Natural).then(|| system.function(Role::Jacobian)),
+            jacobian: (slopes && form == Form::Natural)
+                .then(|| system.function(SceneFunction::Jacobian)),
             canonical: (form == Form::Canonical).then(canonical),
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
-            mode_coordinates: system.mode_coordinates(),
+            mode_velocities: mode_velocities.collect(),
         };
         Evaluated {
             system,
@@ -114,8 +119,8 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// The same scene as it starts there ([`System::starting`]), with the functions of this one.
-    pub fn starting<'b>(&self, system: &'b System) -> Evaluated<'b> {
+    /// The same scene as it starts there ([`SceneEquations::with_overrides`]), with the functions of this one.
+    pub fn with_overrides<'b>(&self, system: &'b SceneEquations) -> Evaluated<'b> {
         Evaluated {
             system,
             parameters: parameters(system),
@@ -124,11 +129,11 @@ impl<'a> Evaluated<'a> {
     }
 
     /// Where the scene begins, at t = 0.
-    pub fn begin(&self) -> Moment<Numbers, Numbers> {
+    pub fn begin(&self) -> HybridState<Numbers, Numbers> {
         let start = &self.system.initial;
         let y = numbers(start.q.iter().chain(&start.v).chain(&start.x)).into();
         let modes = numbers(&start.modes).into();
-        Moment {
+        HybridState {
             t: 0.0,
             y: self.own(0.0, &y, &modes),
             modes,
@@ -258,7 +263,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// What can hold a coordinate, mode by mode, at y.
-    fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Vec<Contact<f64>>> {
+    fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> ContactsOf {
         let Some(contacts) = &self.functions.contacts else {
             return Ok(vec![]);
         };
@@ -272,32 +277,17 @@ impl<'a> Evaluated<'a> {
         Ok(values.chunks_exact(4).map(one).collect())
     }
 
-    /// What slipped comes to rest, what was held breaks away; all joints at rest are decided
-    /// together.
-    fn changed(
-        &self,
-        t: f64,
-        y: Numbers,
-        modes: &Numbers,
-        fell: impl Fn(usize) -> bool,
-    ) -> Evaluation<(Numbers, Numbers)> {
-        let (mut rested, mut held) = (y, modes.clone());
-        let of_modes = self.functions.event_modes.iter().enumerate();
-        let fallen = of_modes.filter(|&(event, _)| fell(event));
-        for mode in fallen.filter_map(|(_, mode)| *mode) {
-            if held[mode] != 0.0 {
-                // What the search for the instant has left of its slip would stay for ever.
-                let slip = self.contacts(t, &rested, &held)?[mode].slip;
-                rested[self.positions() + self.functions.mode_coordinates[mode]] -= slip;
-                held[mode] = 0.0;
-            }
+    /// What can hold a coordinate at a time.
+    fn stiction(&self, t: f64) -> Stiction<'_, impl Fn(&Numbers, &Numbers) -> ContactsOf> {
+        Stiction {
+            event_modes: &self.functions.event_modes,
+            mode_velocities: &self.functions.mode_velocities,
+            contacts: move |y: &Numbers, modes: &Numbers| self.contacts(t, y, modes),
         }
-        let held = settle_by(&held, 0.0, |modes| self.contacts(t, &rested, modes))?;
-        Ok((rested, held))
     }
 }
 
-fn parameters(system: &System) -> Vec<f64> {
+fn parameters(system: &SceneEquations) -> Vec<f64> {
     numbers(system.scene.parameters.iter().map(|p| &p.default))
 }
 
@@ -383,11 +373,11 @@ impl Plant for Evaluated<'_> {
         fell: impl Fn(usize) -> bool,
     ) -> Evaluation<(Numbers, Numbers)> {
         let y = self.natural(t, state, modes)?;
-        let (y, held) = self.changed(t, y, modes, fell)?;
+        let (y, held) = self.stiction(t).after_events(&y, modes, fell)?;
         Ok((self.own(t, &y, &held), held))
     }
 
-    fn settled(
+    fn resolve_stiction(
         &self,
         t: f64,
         state: &Numbers,
@@ -395,18 +385,8 @@ impl Plant for Evaluated<'_> {
         rest: f64,
     ) -> Evaluation<Option<(Numbers, Numbers)>> {
         let y = self.natural(t, state, modes)?;
-        let (mut rested, mut now) = (y.clone(), modes.clone());
-        for (k, contact) in self.contacts(t, &y, modes)?.iter().enumerate() {
-            let velocity = self.positions() + self.functions.mode_coordinates[k];
-            let at_rest = resting_slip(contact.slip, y[velocity], rest);
-            now[k] = mode_by_slip(modes[k], contact.slip, at_rest);
-            if now[k] == 0.0 && modes[k] != 0.0 {
-                rested[velocity] -= contact.slip;
-            }
-        }
-        let now = settle_by(&now, 0.0, |modes| self.contacts(t, &rested, modes))?;
-        let changed = now != *modes || rested != y;
-        Ok(changed.then(|| (self.own(t, &rested, &now), now)))
+        let found = self.stiction(t).resolve(&y, modes, rest)?;
+        Ok(found.map(|(y, modes)| (self.own(t, &y, &modes), modes)))
     }
 
     fn nothing(&self) -> Numbers {

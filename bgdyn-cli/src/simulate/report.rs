@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::iter::once;
 
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Digits;
 
 use crate::table;
@@ -25,7 +25,7 @@ pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
 }
 
 /// Steps, events, the last state and the energy's account.
-pub(crate) fn report(system: &System, record: &Record) -> String {
+pub(crate) fn report(system: &SceneEquations, record: &Record) -> String {
     let mut text = format!("steps: {}", record.steps);
     if record.kinks > 0 {
         let _ = write!(text, ", kinks of laws passed: {}", record.kinks);
@@ -37,7 +37,7 @@ pub(crate) fn report(system: &System, record: &Record) -> String {
     text
 }
 
-fn events(system: &System, record: &Record) -> String {
+fn events(system: &SceneEquations, record: &Record) -> String {
     let mut text = format!("events: {}\n", record.events.len());
     for event in record.events.iter().take(EVENTS) {
         let _ = writeln!(
@@ -54,7 +54,7 @@ fn events(system: &System, record: &Record) -> String {
 }
 
 /// What an event changed: "`belt` is held".
-pub(crate) fn changes(system: &System, event: &Event) -> String {
+pub(crate) fn changes(system: &SceneEquations, event: &Event) -> String {
     let modes = system.scene.layout.modes.iter().enumerate();
     let changed = modes.filter(|&(i, _)| event.before[i] != event.after[i]);
     let told: Vec<String> = changed
@@ -71,7 +71,7 @@ pub(crate) fn changes(system: &System, event: &Event) -> String {
 }
 
 /// Where the run ended, part by part: "slide" and "0.1 m".
-fn parts(system: &System, record: &Record) -> Vec<[String; 2]> {
+fn parts(system: &SceneEquations, record: &Record) -> Vec<[String; 2]> {
     let columns = state_columns(system);
     let values = columns.into_iter().zip(record.y.iter());
     let state = values.map(|(c, &x)| [c.name, quantity(x, c.unit)]);
@@ -80,7 +80,7 @@ fn parts(system: &System, record: &Record) -> Vec<[String; 2]> {
     state.chain(modes).collect()
 }
 
-fn state(system: &System, record: &Record) -> String {
+fn state(system: &SceneEquations, record: &Record) -> String {
     let parts = parts(system, record);
     let width = parts.iter().map(|p| p[0].len()).max().unwrap_or(0);
     let mut text = format!("state at t = {} s:\n", short(record.t));
@@ -91,7 +91,7 @@ fn state(system: &System, record: &Record) -> String {
 }
 
 /// Where a run ended, on one line.
-pub(crate) fn place(system: &System, record: &Record) -> String {
+pub(crate) fn place(system: &SceneEquations, record: &Record) -> String {
     let parts = parts(system, record).into_iter();
     let told: Vec<String> = parts
         .map(|[name, value]| format!("{name} = {value}"))
@@ -99,7 +99,7 @@ pub(crate) fn place(system: &System, record: &Record) -> String {
     told.join(", ")
 }
 
-fn energy(system: &System, record: &Record) -> String {
+fn energy(system: &SceneEquations, record: &Record) -> String {
     let names = system.entries.iter().map(|entry| entry.name.as_str());
     let names: Vec<&str> = names.chain(["sum"]).collect();
     let width = names.iter().map(|n| n.len()).max().unwrap_or(0).max(9);

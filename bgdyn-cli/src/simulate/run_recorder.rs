@@ -1,14 +1,14 @@
 //! Records a run from its start to its end.
 
-use bgdyn_codegen::scene::{Integration, Integrator, Pace};
-use bgdyn_codegen::system::System;
-use bgdyn_sim::{Dense, Failure, Method, Run, Tolerance, WithMethod, with_method};
+use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
+use bgdyn_codegen::system::SceneEquations;
+use bgdyn_sim::{Dense, Failure, Integrator, Run, Tolerance, WithIntegrator, with_integrator};
 
 use super::plant::{Evaluated, Form, Numbers, Undefined};
 use super::run_table::{EnergyAt, Event, Record, Row, Way};
 
 /// A scene as a plant for the method that it is to be run by.
-pub fn prepared(system: &System, method: Integrator) -> Evaluated<'_> {
+pub fn prepared(system: &SceneEquations, method: IntegratorName) -> Evaluated<'_> {
     let form = match method.needs_canonical() {
         true => Form::Canonical,
         false => Form::Natural,
@@ -22,7 +22,7 @@ pub fn prepared(system: &System, method: Integrator) -> Evaluated<'_> {
 ///
 /// # Panics
 /// Never: every method of scenes is one of `bgdyn_sim`'s.
-pub fn record(system: &System, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
+pub fn record(system: &SceneEquations, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
     record_from(prepared(system, way.integration.method), way, watch)
 }
 
@@ -32,13 +32,9 @@ pub fn record(system: &System, way: &Way, watch: &mut dyn FnMut(f64)) -> Record 
 /// Never.
 pub fn record_from(plant: Evaluated<'_>, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
     let start = Start { plant, way, watch };
-    with_method(plain(way.integration.method), start).expect("a method of the list")
-}
-
-/// What `bgdyn_sim` calls a method: the canonical form is the plant's business there.
-fn plain(method: Integrator) -> &'static str {
-    let name = method.name();
-    name.strip_prefix("canonical_").unwrap_or(name)
+    // The canonical form is the plant's business.
+    let integrator = way.integration.method.on_velocities();
+    with_integrator(integrator.name(), start).expect("an integrator of the list")
 }
 
 /// A run about to begin.
@@ -48,14 +44,14 @@ struct Start<'a> {
     watch: &'a mut dyn FnMut(f64),
 }
 
-impl WithMethod<Numbers> for Start<'_> {
+impl WithIntegrator<Numbers> for Start<'_> {
     type Output = Record;
 
-    fn with<M: Method<Numbers>>(self, method: M) -> Record {
+    fn with<M: Integrator<Numbers>>(self, method: M) -> Record {
         let begin = self.plant.begin();
         let outputs = self.plant.has_outputs();
         let mut run = Run::by(method, self.plant, begin);
-        if let Pace::Tolerance(tolerance) = self.way.integration.pace {
+        if let StepControl::Tolerance(tolerance) = self.way.integration.step_control {
             run = run.with_tolerance(Tolerance {
                 absolute: tolerance,
                 relative: tolerance,
@@ -75,10 +71,10 @@ type Failed = Failure<Numbers, Undefined>;
 const ROUNDING: f64 = 1e-12;
 
 /// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
-const CROWDED: usize = 16;
+const ZENO_LIMIT: usize = 16;
 
 /// A straight line from a state to where a run is now.
-fn straight<M: Method<Numbers>>(
+fn straight<M: Integrator<Numbers>>(
     t: f64,
     y: &Numbers,
     run: &Run<Evaluated<'_>, M>,
@@ -89,7 +85,7 @@ fn straight<M: Method<Numbers>>(
 }
 
 /// A run, and what was kept of it so far.
-struct RunRecorder<'a, M: Method<Numbers>> {
+struct RunRecorder<'a, M: Integrator<Numbers>> {
     run: Run<Evaluated<'a>, M>,
     outputs: bool,
     way: &'a Way,
@@ -103,7 +99,7 @@ struct RunRecorder<'a, M: Method<Numbers>> {
     moved: f64,
 }
 
-impl<'a, M: Method<Numbers>> RunRecorder<'a, M> {
+impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
     fn new(
         run: Run<Evaluated<'a>, M>,
         outputs: bool,
@@ -148,15 +144,17 @@ impl<'a, M: Method<Numbers>> RunRecorder<'a, M> {
     }
 
     fn complete(&mut self) -> Result<(), Failed> {
-        let settled = self.run.settle();
+        let resolved = self.run.resolve_stiction();
         let begin = self.run.y().clone();
         self.keep(0.0, &begin, false);
-        settled?;
+        resolved?;
         self.points = 1;
-        let Integration { pace, end, .. } = self.way.integration;
-        match pace {
-            Pace::Tolerance(_) => self.reach(end),
-            Pace::Step(h) => {
+        let Integration {
+            step_control, end, ..
+        } = self.way.integration;
+        match step_control {
+            StepControl::Tolerance(_) => self.reach(end),
+            StepControl::Step(h) => {
                 let mut steps = 1.0;
                 // A last step that is next to nothing is none.
                 while steps * h < end - 1e-9 * h {
@@ -177,27 +175,27 @@ impl<'a, M: Method<Numbers>> RunRecorder<'a, M> {
     fn reach(&mut self, target: f64) -> Result<(), Failed> {
         let span = target - self.run.t();
         let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
-        let mut crowded = 0;
+        let mut zeno_count = 0;
         while target - self.run.t() > rest {
             let left = target - self.run.t();
             let before = self.run.modes().clone();
             let passed = (self.run.events, self.run.kinks);
-            if crowded < CROWDED {
+            if zeno_count < ZENO_LIMIT {
                 let dense = self.run.advance_densely(left)?;
                 self.sample(&dense, &before, rest);
             } else {
                 // On without a halt at every kink.
                 let (t, y) = (self.run.t(), self.run.y().clone());
-                self.run.step(match self.way.integration.pace {
-                    Pace::Step(_) => left,
-                    Pace::Tolerance(_) => left.min(self.interval()),
+                self.run.step(match self.way.integration.step_control {
+                    StepControl::Step(_) => left,
+                    StepControl::Tolerance(_) => left.min(self.interval()),
                 })?;
                 self.sample(&straight(t, &y, &self.run), &before, rest);
             }
             self.steps += 1;
             let halted = passed != (self.run.events, self.run.kinks);
-            crowded = if halted {
-                (crowded + 1) % (CROWDED + 1)
+            zeno_count = if halted {
+                (zeno_count + 1) % (ZENO_LIMIT + 1)
             } else {
                 0
             };
@@ -288,13 +286,45 @@ impl<'a, M: Method<Numbers>> RunRecorder<'a, M> {
 
 #[cfg(test)]
 mod tests {
+    use bgdyn_sim::{INTEGRATORS, IntegratorInfo};
+
     use super::*;
 
-    #[test]
-    fn every_method_of_scenes_is_one_of_the_integrators() {
-        for method in Integrator::ALL {
-            let name = plain(method);
-            assert!(bgdyn_sim::METHODS.contains(&name), "{name}");
+    /// What is known of an integrator beforehand, in vectors of run-time size.
+    struct Info;
+
+    impl WithIntegrator<Numbers> for Info {
+        type Output = IntegratorInfo;
+
+        fn with<M: Integrator<Numbers>>(self, integrator: M) -> IntegratorInfo {
+            integrator.info()
         }
+    }
+
+    /// The table of names that a scene can give has the properties of the integrators themselves.
+    #[test]
+    fn integrators_of_scenes_are_those_of_the_list() {
+        for named in IntegratorName::ALL {
+            let (name, on_velocities) = (named.name(), named.on_velocities());
+            let found = with_integrator(on_velocities.name(), Info);
+            let info = found.unwrap_or_else(|| panic!("`{name}` is not in bgdyn-sim"));
+            assert_eq!(
+                named.controls_its_error(),
+                info.estimate.is_some(),
+                "{name}"
+            );
+            assert_eq!(
+                on_velocities.needs_jacobian(),
+                info.reads_jacobian,
+                "{name}"
+            );
+            let canonical = format!("canonical_{}", on_velocities.name());
+            assert_eq!(named.needs_canonical(), name == canonical, "{name}");
+            assert!(!on_velocities.needs_canonical(), "{name}");
+        }
+        // All others have a use of their own: `gauss4` and the reference of accuracy studies.
+        let is_named = |name: &&str| IntegratorName::named(name).is_some();
+        let others = INTEGRATORS.iter().copied().filter(|name| !is_named(name));
+        assert_eq!(others.collect::<Vec<_>>(), ["gauss4", "extrapolation12"]);
     }
 }

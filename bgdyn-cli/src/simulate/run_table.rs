@@ -1,7 +1,7 @@
 //! The record of a run: its points, and how they were computed.
 
-use bgdyn_codegen::scene::{Integration, Pace};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::scene::{Integration, StepControl};
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::Audit;
 
 use super::plant::Numbers;
@@ -28,7 +28,7 @@ pub(crate) fn headed(name: &str, unit: &str) -> String {
 }
 
 /// The parts of a scene's state, in the order of y.
-pub(crate) fn state_columns(system: &System) -> Vec<Column> {
+pub(crate) fn state_columns(system: &SceneEquations) -> Vec<Column> {
     let layout = &system.scene.layout;
     let column = |name: &str, unit| Column {
         name: name.to_owned(),
@@ -44,7 +44,7 @@ pub(crate) fn state_columns(system: &System) -> Vec<Column> {
 }
 
 /// What is told of a scene: its outputs, or its whole state where it names none.
-pub fn columns(system: &System) -> Vec<Column> {
+pub fn columns(system: &SceneEquations) -> Vec<Column> {
     if system.outputs.is_empty() {
         return state_columns(system);
     }
@@ -141,9 +141,9 @@ impl Way {
     /// The same run, but for an error far below its own: half the step, a tenth of the tolerance.
     #[must_use]
     pub fn finer(mut self) -> Self {
-        self.integration.pace = match self.integration.pace {
-            Pace::Step(h) => Pace::Step(0.5 * h),
-            Pace::Tolerance(tolerance) => Pace::Tolerance(0.1 * tolerance),
+        self.integration.step_control = match self.integration.step_control {
+            StepControl::Step(h) => StepControl::Step(0.5 * h),
+            StepControl::Tolerance(tolerance) => StepControl::Tolerance(0.1 * tolerance),
         };
         self.audited = false;
         self

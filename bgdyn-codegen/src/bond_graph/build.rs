@@ -4,8 +4,8 @@ use bgdyn_runtime::Dd;
 
 use super::pattern::{Coordinates, Modulus};
 use super::{
-    BondGraph, Coordinate, Effort, Inertia, Junction, JunctionId, LinkFrame, Multibody, Site,
-    Source, Store, Transformer,
+    BondGraph, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody, Site,
+    Store, StoreInertia, Transformer,
 };
 use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
@@ -97,11 +97,11 @@ fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
     graph.stores.extend([
         Store {
             junction: translation,
-            inertia: Inertia::Mass(mass),
+            inertia: StoreInertia::Mass(mass),
         },
         Store {
             junction: rotation,
-            inertia: Inertia::Tensor(link.inertial.inertia.entries),
+            inertia: StoreInertia::Tensor(link.inertial.inertia.entries),
         },
     ]);
     let weight = Effort::Weight {
@@ -110,11 +110,11 @@ fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
     };
     let still = graph.gravity.0.iter().all(|&g| g == Dd::ZERO);
     graph.sources.extend([
-        Source {
+        EffortSource {
             junction: translation,
             efforts: if still { vec![] } else { vec![weight] },
         },
-        Source {
+        EffortSource {
             junction: rotation,
             efforts: vec![],
         },
@@ -123,14 +123,14 @@ fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
 
 /// Pattern of a link frame's axes and origin in fixed axes.
 #[derive(Clone, Copy)]
-struct Place {
+struct PosePattern {
     rotation: Mat3<Modulus>,
     origin: Vec3<Modulus>,
     axis: Vec3<Modulus>,
 }
 
-fn places(frames: &[LinkFrame]) -> Vec<Place> {
-    let mut places: Vec<Place> = Vec::with_capacity(frames.len());
+fn places(frames: &[LinkFrame]) -> Vec<PosePattern> {
+    let mut places: Vec<PosePattern> = Vec::with_capacity(frames.len());
     for frame in frames {
         let parent = frame.parent.map(|p| places[p.0]);
         places.push(place(frame, parent));
@@ -138,7 +138,7 @@ fn places(frames: &[LinkFrame]) -> Vec<Place> {
     places
 }
 
-fn place(frame: &LinkFrame, parent: Option<Place>) -> Place {
+fn place(frame: &LinkFrame, parent: Option<PosePattern>) -> PosePattern {
     let Pose {
         rotation,
         translation,
@@ -161,7 +161,7 @@ fn place(frame: &LinkFrame, parent: Option<Place>) -> Place {
             Motion::None => {}
         }
     }
-    Place {
+    PosePattern {
         rotation,
         origin,
         axis,
@@ -169,7 +169,7 @@ fn place(frame: &LinkFrame, parent: Option<Place>) -> Place {
 }
 
 /// ρ_j^i and ∂r_i/∂q_j for every coordinate on the path from the base to link i.
-fn add_transformers(graph: &mut BondGraph, places: &[Place], i: LinkId) {
+fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
     let com = graph.frames[i.0].com.map(|c| match c {
         Value::Fixed(c) => Modulus::constant(c),
         // A parameter keeps its place but has no value yet.
@@ -202,7 +202,7 @@ fn add_transformers(graph: &mut BondGraph, places: &[Place], i: LinkId) {
 /// Summed link by link, so that what both have in common is left out.
 fn lever(
     frames: &[LinkFrame],
-    places: &[Place],
+    places: &[PosePattern],
     l: LinkId,
     i: LinkId,
     com: Vec3<Modulus>,

@@ -8,7 +8,7 @@
 
 mod build;
 mod causality;
-mod inert;
+mod massless;
 mod multibody;
 mod network;
 mod node;
@@ -25,7 +25,7 @@ pub use build::build;
 pub use causality::Causality;
 pub use multibody::{Coordinate, Gyrostat, LinkFrame, Multibody, Rotor, Site, SiteId};
 pub use network::BondNetwork;
-pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortPlace, PowerTerm};
+pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortSite, PowerTerm};
 pub use pattern::Modulus;
 
 /// A junction of [`BondGraph::junctions`].
@@ -45,7 +45,7 @@ pub enum Junction {
 
 /// What an inertial store stores.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Inertia {
+pub enum StoreInertia {
     /// Mass m_i, kg.
     Mass(Value),
     /// Tensor J_i⁰ about the centre of mass in [`LinkFrame::tensor_axes`], kg·m²: xx, yy, zz, xy,
@@ -59,7 +59,7 @@ pub struct Store {
     /// Where it is.
     pub junction: JunctionId,
     /// What it stores.
-    pub inertia: Inertia,
+    pub inertia: StoreInertia,
 }
 
 /// An active effort that is not a drive.
@@ -76,7 +76,7 @@ pub enum Effort {
 
 /// An effort source: R_i or M_i, the sum of its efforts.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Source {
+pub struct EffortSource {
     /// Where it is.
     pub junction: JunctionId,
     /// What acts; nothing in the sum is a source of zero effort.
@@ -104,7 +104,7 @@ pub struct BondGraph {
     /// Inertial stores, two per link.
     pub stores: Vec<Store>,
     /// Effort sources R_i and M_i, two per link.
-    pub sources: Vec<Source>,
+    pub sources: Vec<EffortSource>,
     /// Modulated transformers.
     pub transformers: Vec<Transformer>,
 }
@@ -120,8 +120,8 @@ impl Deref for BondGraph {
 impl BondGraph {
     /// The same graph without weights, link tensors and velocity products: what every scene begins
     /// with, and adds to.
-    pub fn bare(mut self) -> Self {
-        let rotational = |s: &Store| matches!(s.inertia, Inertia::Tensor(_));
+    pub fn without_loads(mut self) -> Self {
+        let rotational = |s: &Store| matches!(s.inertia, StoreInertia::Tensor(_));
         self.stores.retain(|s| !rotational(s));
         for source in &mut self.sources {
             source.efforts.clear();
@@ -135,7 +135,7 @@ impl BondGraph {
     }
 
     /// Gives every link its weight.
-    pub fn weigh(&mut self, gravity: Vec3<Dd>) {
+    pub fn add_gravity(&mut self, gravity: Vec3<Dd>) {
         self.multibody.gravity = gravity;
         for i in 0..self.frames.len() {
             let mass = self.inertial(LinkId(i)).mass;
@@ -148,13 +148,13 @@ impl BondGraph {
     }
 
     /// Gives every link its tensor.
-    pub fn distribute(&mut self, mechanism: &Mechanism) {
+    pub fn add_link_inertia(&mut self, mechanism: &Mechanism) {
         for (i, link) in mechanism.links().iter().enumerate() {
             let entries = link.inertial.inertia.entries;
             self.multibody.inertials[i].inertia.entries = entries;
             self.stores.push(Store {
                 junction: self.rotation(LinkId(i)),
-                inertia: Inertia::Tensor(entries),
+                inertia: StoreInertia::Tensor(entries),
             });
         }
     }

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::node::{
-    Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortPlace, PowerTerm,
+    Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortSite, PowerTerm,
 };
 use super::{BondGraph, Junction, JunctionId};
 use crate::mechanism::{CoordinateId, LinkId};
@@ -84,7 +84,7 @@ impl BondNetwork {
             let store = self.add_part(NodeKind::Inertia, NodePart::Store(k));
             self.bond(one, store);
         }
-        let acts = |s: &super::Source| s.junction == junction && !s.efforts.is_empty();
+        let acts = |s: &super::EffortSource| s.junction == junction && !s.efforts.is_empty();
         for (k, _) in matching(&graph.sources, acts) {
             let source = self.add_part(NodeKind::EffortSource, NodePart::Source(k));
             self.bond(source, one);
@@ -214,14 +214,14 @@ impl BondNetwork {
     }
 
     /// The 1-junction of the flow at a place, with the transformers from the velocities that move it.
-    pub fn port(&mut self, place: PortPlace) -> GraphNodeId {
+    pub fn port(&mut self, place: PortSite) -> GraphNodeId {
         if let Some(port) = self.ports.iter().find(|port| port.place == place) {
             return port.junction;
         }
         let of = |name: &String| self.movers.get(name).cloned().unwrap_or_default();
         let coordinates: BTreeSet<CoordinateId> = match &place {
-            PortPlace::Line([a, b]) => of(a).symmetric_difference(&of(b)).copied().collect(),
-            PortPlace::Site(name) => of(name),
+            PortSite::Line([a, b]) => of(a).symmetric_difference(&of(b)).copied().collect(),
+            PortSite::Site(name) => of(name),
         };
         let part = NodePart::Port(self.ports.len());
         let junction = self.add_part(NodeKind::One, part);

@@ -147,7 +147,7 @@ impl Bond {
 
 /// Where an effect acts that acts on no coordinate of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PortPlace {
+pub enum PortSite {
     /// Along the line between two places: its flow is the rate of the length, m/s.
     Line([String; 2]),
     /// On a link, at the origin of a place: its flow is [ω; v], rad/s and m/s.
@@ -158,7 +158,7 @@ pub enum PortPlace {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacePort {
     /// Where.
-    pub place: PortPlace,
+    pub place: PortSite,
     /// The coordinates that change it.
     pub coordinates: BTreeSet<CoordinateId>,
     /// The 1-junction of its flow.

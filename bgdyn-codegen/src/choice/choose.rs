@@ -13,7 +13,7 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use super::keep_digits::{Checked, check, sort};
+use super::keep_digits::{CheckedCandidate, check, sort};
 use crate::bond_graph::BondGraph;
 use crate::conditioning::error_bounds::{BoundReport, ErrorBounds};
 use crate::formulation::{
@@ -95,7 +95,7 @@ impl<'a> Choice<'a> {
     }
 
     /// The functions of the formulation asked for, where it knows the method.
-    fn asked_for(&self, method: Method) -> Vec<Checked> {
+    fn asked_for(&self, method: Method) -> Vec<CheckedCandidate> {
         let Some(asked) = self.asked.filter(|f| f.knows(method)) else {
             return Vec::new();
         };
@@ -124,8 +124,8 @@ impl<'a> Choice<'a> {
         &self,
         offered: &[Offered],
         method: Method,
-        check: impl Fn(Function) -> Checked,
-    ) -> Vec<Checked> {
+        check: impl Fn(Function) -> CheckedCandidate,
+    ) -> Vec<CheckedCandidate> {
         let make = |(formulation, offer): &Offered| {
             let (report, mut candidate) = check(self.make(*formulation, method)?);
             if let Offer::Instead(Some(reason)) = offer {
@@ -135,7 +135,7 @@ impl<'a> Choice<'a> {
         };
         let level = |wanted: fn(&Offer) -> bool| offered.iter().filter(move |(_, o)| wanted(o));
         let instead = level(|offer| matches!(offer, Offer::Instead(_)));
-        let mut made: Vec<Checked> = instead.filter_map(make).collect();
+        let mut made: Vec<CheckedCandidate> = instead.filter_map(make).collect();
         if made.is_empty() {
             made.extend(level(|offer| *offer == Offer::Candidate).filter_map(make));
         }
@@ -158,7 +158,7 @@ impl<'a> Choice<'a> {
 }
 
 /// A function whose digits are not checked.
-fn unchecked(plain: Function) -> Checked {
+fn unchecked(plain: Function) -> CheckedCandidate {
     let generated = factor(plain.clone());
     (BoundReport::default(), Candidate { plain, generated })
 }

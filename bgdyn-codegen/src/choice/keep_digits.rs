@@ -27,12 +27,12 @@ use crate::passes::factor;
 const PRICE: f64 = 1.05;
 
 /// A candidate, and its errors compared with the bounds.
-pub(super) type Checked = (BoundReport, Candidate);
+pub(super) type CheckedCandidate = (BoundReport, Candidate);
 
 /// A function with its errors: factored, unless that brings it near the bounds, or beyond, and nearer
 /// than it was. As factoring saves little, that is judged without rounding any argument; but where no digit
 /// is lost, no more is paid than [`PRICE`].
-pub(super) fn check(bounds: &ErrorBounds, plain: Function) -> Checked {
+pub(super) fn check(bounds: &ErrorBounds, plain: Function) -> CheckedCandidate {
     let (report, generated) = factor_with_care(bounds, &plain);
     (report, Candidate { plain, generated })
 }
@@ -62,7 +62,7 @@ fn cost(function: &Function) -> f64 {
 /// Sorts functions for one method: accepted are those that meet the bounds, the cheapest first; where
 /// there are none, the one that comes nearest. But where one that costs less loses no digit, and they cost
 /// more than [`PRICE`] times as much, that one. Each says what is wrong with those that exceed them.
-pub(super) fn sort(mut tried: Vec<Checked>) -> Candidates {
+pub(super) fn sort(mut tried: Vec<CheckedCandidate>) -> Candidates {
     tried.sort_by_key(|(_, candidate)| candidate.generated.cost().weighted());
     let wrong: String = tried
         .iter()
@@ -72,7 +72,7 @@ pub(super) fn sort(mut tried: Vec<Checked>) -> Candidates {
             format!("; {}: {report}", name.unwrap_or_default())
         })
         .collect();
-    let (mut accepted, mut borderline): (Vec<Checked>, Vec<Checked>) =
+    let (mut accepted, mut borderline): (Vec<CheckedCandidate>, Vec<CheckedCandidate>) =
         tried.into_iter().partition(|(report, _)| report.holds());
     if let Some(k) = spared(&accepted, &borderline) {
         let (report, mut candidate) = borderline.remove(k);
@@ -84,7 +84,7 @@ pub(super) fn sort(mut tried: Vec<Checked>) -> Candidates {
         accepted.extend((!borderline.is_empty()).then(|| borderline.remove(0)));
     }
     borderline.retain(|(report, _)| report.within_a_digit());
-    let explained = |(_, mut candidate): Checked| {
+    let explained = |(_, mut candidate): CheckedCandidate| {
         candidate.generated.formulation += &wrong;
         candidate
     };
@@ -99,8 +99,8 @@ pub(super) fn sort(mut tried: Vec<Checked>) -> Candidates {
 
 /// Of the functions that exceed the bounds and lose no digit the cheapest, where it is to be taken: those
 /// that meet them cost too much for what they keep, or there are none.
-fn spared(accepted: &[Checked], borderline: &[Checked]) -> Option<usize> {
-    let price = |(_, candidate): &Checked| cost(&candidate.generated);
+fn spared(accepted: &[CheckedCandidate], borderline: &[CheckedCandidate]) -> Option<usize> {
+    let price = |(_, candidate): &CheckedCandidate| cost(&candidate.generated);
     let k = borderline
         .iter()
         .position(|(report, _)| report.almost_holds())?;

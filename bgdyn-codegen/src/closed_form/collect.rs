@@ -4,31 +4,31 @@ use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
-use super::definition::{Definition, Names, number};
+use super::definition::{Definition, NamesOfSums, number};
 use super::form::{Atom, Factor, Sum, Term};
 use super::polynomial::{CANCELLED, Polynomial, Symbol};
 use super::tidy::{Entry, tidy};
-use crate::mechanism::Letter;
+use crate::mechanism::NumberSymbol;
 
 /// q̈_k, q̇_k q̇_l or nothing: what a coefficient stands before.
-type Motion = Vec<(Atom, u32)>;
+type VelocityProduct = Vec<(Atom, u32)>;
 
 /// The coefficient of a motion.
-struct Coefficient {
-    motion: Motion,
+struct TermCoefficient {
+    motion: VelocityProduct,
     entries: Vec<Entry>,
 }
 
 /// An effort's coefficients.
 pub(super) struct Collected {
-    accelerations: Vec<Coefficient>,
-    velocities: Vec<Coefficient>,
-    rest: Vec<Coefficient>,
+    accelerations: Vec<TermCoefficient>,
+    velocities: Vec<TermCoefficient>,
+    rest: Vec<TermCoefficient>,
 }
 
 impl Collected {
     /// The terms of an effort by what they stand before.
-    pub fn new(effort: &Polynomial, letters: &[Letter]) -> Self {
+    pub fn new(effort: &Polynomial, letters: &[NumberSymbol]) -> Self {
         let mut motions: BTreeMap<Vec<(Symbol, u32)>, BTreeMap<_, Entry>> = BTreeMap::new();
         let largest = effort.terms().map(|(_, value)| value.hi().abs());
         let largest = largest.fold(0.0, f64::max);
@@ -40,7 +40,7 @@ impl Collected {
             for &(symbol, n) in &monomial.powers {
                 match symbol {
                     Symbol::Velocity(_) | Symbol::Acceleration(_) => motion.push((symbol, n)),
-                    Symbol::Letter(l) if !letters[l].run_time => product.push((l, n)),
+                    Symbol::NumberSymbol(l) if !letters[l].run_time => product.push((l, n)),
                     _ => powers.push((symbol, n)),
                 }
             }
@@ -61,7 +61,7 @@ impl Collected {
                 Some((Symbol::Velocity(_), _)) => &mut collected.velocities,
                 Some(_) => &mut collected.accelerations,
             };
-            list.push(Coefficient {
+            list.push(TermCoefficient {
                 motion: motion.into_iter().map(atom).collect(),
                 entries: tidy(entries.into_values().collect()),
             });
@@ -84,7 +84,7 @@ impl Collected {
     }
 
     /// The effort as it is printed.
-    pub fn print(&self, names: &mut Names<'_>) -> Sum {
+    pub fn print(&self, names: &mut NamesOfSums<'_>) -> Sum {
         let mut sum = Sum::new();
         for coefficient in &self.accelerations {
             sum.extend(inertial(coefficient, names));
@@ -101,7 +101,7 @@ impl Collected {
 
 fn atom((symbol, n): (Symbol, u32)) -> (Atom, u32) {
     let atom = match symbol {
-        Symbol::Letter(l) => Atom::Letter(l),
+        Symbol::NumberSymbol(l) => Atom::NumberSymbol(l),
         Symbol::Position(j) => Atom::Position(j),
         Symbol::Velocity(j) => Atom::Velocity(j),
         Symbol::Acceleration(j) => Atom::Acceleration(j),
@@ -115,7 +115,7 @@ fn powers(of: &[(Atom, u32)]) -> Vec<Factor> {
 }
 
 /// One product: number, letters, sines, motion.
-fn printed(entry: &Entry, names: &mut Names<'_>, motion: Vec<Factor>) -> Term {
+fn printed(entry: &Entry, names: &mut NamesOfSums<'_>, motion: Vec<Factor>) -> Term {
     let (scale, primitive) = entry.definition.primitive();
     let mut factors = number(scale);
     factors.extend(names.factors(&primitive));
@@ -128,7 +128,7 @@ fn printed(entry: &Entry, names: &mut Names<'_>, motion: Vec<Factor>) -> Term {
 }
 
 /// M_jk q̈_k: the entry of the mass matrix in parentheses where it is a sum.
-fn inertial(coefficient: &Coefficient, names: &mut Names<'_>) -> Option<Term> {
+fn inertial(coefficient: &TermCoefficient, names: &mut NamesOfSums<'_>) -> Option<Term> {
     let motion = powers(&coefficient.motion);
     if let [one] = &coefficient.entries[..] {
         return Some(printed(one, names, motion));
@@ -157,11 +157,11 @@ struct Shared<'a> {
     primitive: Definition,
     shape: Vec<(Atom, u32)>,
     /// The number before each product.
-    products: Vec<(Dd, &'a Motion)>,
+    products: Vec<(Dd, &'a VelocityProduct)>,
 }
 
 /// The velocity terms, those with common letters and sines together.
-fn shared(velocities: &[Coefficient]) -> Vec<Shared<'_>> {
+fn shared(velocities: &[TermCoefficient]) -> Vec<Shared<'_>> {
     let mut all: Vec<Shared<'_>> = Vec::new();
     for coefficient in velocities {
         for entry in &coefficient.entries {
@@ -189,12 +189,12 @@ impl Shared<'_> {
     /// Whether a number is a small whole multiple of those before the products, or they of it.
     fn commensurable(&self, scale: Dd) -> bool {
         let whole = |x: f64| (1..=4).any(|n| (x - f64::from(n)).abs() < 1e-12);
-        let ratio = |&(k, _): &(Dd, &Motion)| (scale / k).hi().abs();
+        let ratio = |&(k, _): &(Dd, &VelocityProduct)| (scale / k).hi().abs();
         let ratios: Vec<f64> = self.products.iter().map(ratio).collect();
         ratios.iter().all(|&r| whole(r) || whole(1.0 / r))
     }
 
-    fn print(&self, names: &mut Names<'_>) -> Term {
+    fn print(&self, names: &mut NamesOfSums<'_>) -> Term {
         if let [(_, motion)] = &self.products[..] {
             return printed(self.entry, names, powers(motion));
         }
@@ -219,10 +219,10 @@ impl Shared<'_> {
 
     /// The rate that all products share, where none is a square.
     fn common_rate(&self) -> Option<&Atom> {
-        let mixed = |(_, motion): &(Dd, &Motion)| motion.len() == 2;
+        let mixed = |(_, motion): &(Dd, &VelocityProduct)| motion.len() == 2;
         let (_, first) = self.products.iter().all(mixed).then(|| &self.products[0])?;
         let shared = |rate: &Atom| {
-            let has = |(_, motion): &(Dd, &Motion)| motion.iter().any(|(a, _)| a == rate);
+            let has = |(_, motion): &(Dd, &VelocityProduct)| motion.iter().any(|(a, _)| a == rate);
             self.products.iter().all(has)
         };
         first.iter().map(|(rate, _)| rate).find(|rate| shared(rate))
@@ -230,10 +230,10 @@ impl Shared<'_> {
 
     /// The products over the least number before one of them, without the rate that they share.
     fn sum(&self, least: Dd, negative: bool, common: Option<&Atom>) -> Sum {
-        let product = |(k, motion): &(Dd, &Motion)| {
+        let product = |(k, motion): &(Dd, &VelocityProduct)| {
             let mut factors = number(*k / least);
             let left = motion.iter().filter(|(rate, _)| Some(rate) != common);
-            factors.extend(powers(&left.cloned().collect::<Motion>()));
+            factors.extend(powers(&left.cloned().collect::<VelocityProduct>()));
             Term {
                 negative: (*k < Dd::ZERO) != negative,
                 factors,

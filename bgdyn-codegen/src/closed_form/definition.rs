@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::form::{Atom, Factor, NamedSum, Sum, Term};
 use super::polynomial::CANCELLED;
-use crate::mechanism::Letter;
+use crate::mechanism::NumberSymbol;
 
 /// Longer sums get a name.
 const WRITTEN_OUT: usize = 5;
@@ -68,7 +68,7 @@ impl Definition {
         (first, self.scaled(Dd::ONE / first))
     }
 
-    fn value(&self, letters: &[Letter]) -> Dd {
+    fn value(&self, letters: &[NumberSymbol]) -> Dd {
         let mut sum = Dd::ZERO;
         for (powers, &number) in &self.0 {
             let all = powers.iter().flat_map(|&(l, n)| (0..n).map(move |_| l));
@@ -77,7 +77,7 @@ impl Definition {
         sum
     }
 
-    fn dimension(&self, letters: &[Letter]) -> [i32; 3] {
+    fn dimension(&self, letters: &[NumberSymbol]) -> [i32; 3] {
         let first = self.0.keys().next().into_iter().flatten();
         first.fold([0; 3], |sum, &(l, n)| {
             std::array::from_fn(|d| sum[d] + n as i32 * letters[l].dimension[d])
@@ -86,17 +86,17 @@ impl Definition {
 }
 
 /// The sums met so far, and the names of the long ones.
-pub(super) struct Names<'a> {
-    letters: &'a [Letter],
+pub(super) struct NamesOfSums<'a> {
+    letters: &'a [NumberSymbol],
     /// Whether the equations are short enough to be written in letters.
     short: bool,
     named: Vec<Definition>,
 }
 
-impl<'a> Names<'a> {
+impl<'a> NamesOfSums<'a> {
     /// For equations of so many products of letters.
-    pub fn new(letters: &'a [Letter], products: usize) -> Self {
-        Names {
+    pub fn new(letters: &'a [NumberSymbol], products: usize) -> Self {
+        NamesOfSums {
             letters,
             short: products <= SHORT,
             named: Vec::new(),
@@ -164,7 +164,7 @@ impl<'a> Names<'a> {
             (others.copied().collect(), value)
         };
         let rest = Definition(definition.0.iter().map(rest).collect());
-        (vec![Factor::Power(Atom::Letter(g), 1)], rest)
+        (vec![Factor::Power(Atom::NumberSymbol(g), 1)], rest)
     }
 
     fn name(&mut self, primitive: &Definition) -> usize {
@@ -213,7 +213,7 @@ impl<'a> Names<'a> {
         };
         let mut sorted = letters.to_vec();
         sorted.sort_by_key(|&(l, _)| (rank(l), l));
-        let power = |(l, n)| Factor::Power(Atom::Letter(l), n);
+        let power = |(l, n)| Factor::Power(Atom::NumberSymbol(l), n);
         sorted.into_iter().map(power).collect()
     }
 }

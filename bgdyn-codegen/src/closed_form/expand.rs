@@ -2,21 +2,21 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Refused;
+use super::NoClosedForm;
 use super::polynomial::{Angle, Polynomial, Symbol, combined};
-use crate::expr::{Expr, Graph, Leaf, Node, NodeId, reachable};
+use crate::expr::{Graph, Leaf, Node, NodeId, Signed, reachable};
 
 /// What the leaves of a graph stand for.
 pub(super) struct Leaves {
     /// For each coordinate the group of parallel axes of its angle, or what it is as a displacement.
-    pub positions: Vec<Coordinate>,
+    pub positions: Vec<CoordinateForm>,
     /// For each run-time parameter.
     pub parameters: Vec<Polynomial>,
 }
 
 /// What a coordinate is in a polynomial.
 #[derive(Clone, Copy)]
-pub(super) enum Coordinate {
+pub(super) enum CoordinateForm {
     /// An angle of this group.
     Angle(usize),
     /// The displacement of a joint.
@@ -38,10 +38,10 @@ pub(super) struct Budget {
 /// The outputs as polynomials.
 pub(super) fn expand(
     graph: &Graph,
-    outputs: &[Expr],
+    outputs: &[Signed],
     leaves: &Leaves,
     budget: Budget,
-) -> Result<Vec<Polynomial>, Refused> {
+) -> Result<Vec<Polynomial>, NoClosedForm> {
     let needed = reachable(graph, outputs);
     let mut expansion = Expansion {
         graph,
@@ -72,23 +72,23 @@ impl Expansion<'_> {
         match *self.graph.node(id) {
             Node::Angle(..) => true,
             Node::Leaf(Leaf::Position(j)) => {
-                matches!(self.leaves.positions[j], Coordinate::Angle(_))
+                matches!(self.leaves.positions[j], CoordinateForm::Angle(_))
             }
             _ => false,
         }
     }
 
-    fn at(&self, id: NodeId) -> Result<&Polynomial, Refused> {
+    fn at(&self, id: NodeId) -> Result<&Polynomial, NoClosedForm> {
         self.made[id.place()]
             .as_ref()
-            .ok_or(Refused::NotTrigonometric)
+            .ok_or(NoClosedForm::NotTrigonometric)
     }
 
-    fn signed(&self, e: Expr) -> Result<Polynomial, Refused> {
+    fn signed(&self, e: Signed) -> Result<Polynomial, NoClosedForm> {
         Ok(Polynomial::default().plus(self.at(e.node)?, e.negative))
     }
 
-    fn step(&mut self, id: NodeId) -> Result<Polynomial, Refused> {
+    fn step(&mut self, id: NodeId) -> Result<Polynomial, NoClosedForm> {
         let made = match self.graph.node(id) {
             Node::Constant(c) => Polynomial::number(c.value()),
             Node::Leaf(leaf) => self.leaf(*leaf)?,
@@ -100,65 +100,65 @@ impl Expansion<'_> {
             }
             Node::Sin(angle) => self.wave(*angle, true)?,
             Node::Cos(angle) => self.wave(*angle, false)?,
-            _ => return Err(Refused::NotTrigonometric),
+            _ => return Err(NoClosedForm::NotTrigonometric),
         };
         if made.len() > self.budget.terms {
-            return Err(Refused::LongSum { terms: made.len() });
+            return Err(NoClosedForm::LongSum { terms: made.len() });
         }
         Ok(made)
     }
 
-    fn leaf(&self, leaf: Leaf) -> Result<Polynomial, Refused> {
+    fn leaf(&self, leaf: Leaf) -> Result<Polynomial, NoClosedForm> {
         Ok(match leaf {
             Leaf::Position(j) => match self.leaves.positions[j] {
-                Coordinate::Angle(_) => return Err(Refused::NotTrigonometric),
-                Coordinate::Displacement(j) => Polynomial::symbol(Symbol::Position(j)),
-                Coordinate::Length(letter) => Polynomial::symbol(Symbol::Letter(letter)),
+                CoordinateForm::Angle(_) => return Err(NoClosedForm::NotTrigonometric),
+                CoordinateForm::Displacement(j) => Polynomial::symbol(Symbol::Position(j)),
+                CoordinateForm::Length(letter) => Polynomial::symbol(Symbol::NumberSymbol(letter)),
             },
             Leaf::Velocity(j) => self.moving(j, Symbol::Velocity(j)),
             Leaf::Acceleration(j) => self.moving(j, Symbol::Acceleration(j)),
             Leaf::Parameter(p) => self.leaves.parameters[p].clone(),
-            _ => return Err(Refused::NotTrigonometric),
+            _ => return Err(NoClosedForm::NotTrigonometric),
         })
     }
 
     /// A rate, but for lengths, which have none.
     fn moving(&self, j: usize, symbol: Symbol) -> Polynomial {
         match self.leaves.positions[j] {
-            Coordinate::Length(_) => Polynomial::default(),
+            CoordinateForm::Length(_) => Polynomial::default(),
             _ => Polynomial::symbol(symbol),
         }
     }
 
-    fn product(&mut self, a: NodeId, b: NodeId) -> Result<Polynomial, Refused> {
+    fn product(&mut self, a: NodeId, b: NodeId) -> Result<Polynomial, NoClosedForm> {
         let products = self.at(a)?.len() * self.at(b)?.len();
         self.budget.spent = self.budget.spent.saturating_add(products);
         if self.budget.spent > self.budget.products {
             let products = self.budget.spent;
-            return Err(Refused::ManyProducts { products });
+            return Err(NoClosedForm::ManyProducts { products });
         }
         Ok(self.at(a)?.times(self.at(b)?))
     }
 
     /// The sine or cosine of a coordinate, or of a sum of coordinates and a constant.
-    fn wave(&self, of: NodeId, sine: bool) -> Result<Polynomial, Refused> {
+    fn wave(&self, of: NodeId, sine: bool) -> Result<Polynomial, NoClosedForm> {
         let (terms, offset) = match self.graph.node(of) {
             Node::Leaf(Leaf::Position(_)) => (vec![(of, 1)], Dd::ZERO),
             Node::Angle(terms, offset, negative) => {
-                let sign = |e: &Expr| if e.negative { -1 } else { 1 };
+                let sign = |e: &Signed| if e.negative { -1 } else { 1 };
                 let terms = terms.iter().map(|e| (e.node, sign(e))).collect();
                 let offset = offset.value();
                 (terms, if *negative { -offset } else { offset })
             }
-            _ => return Err(Refused::NotTrigonometric),
+            _ => return Err(NoClosedForm::NotTrigonometric),
         };
         let mut angles: std::collections::BTreeMap<usize, Angle> = Default::default();
         for (node, n) in terms {
             let Node::Leaf(Leaf::Position(j)) = *self.graph.node(node) else {
-                return Err(Refused::NotTrigonometric);
+                return Err(NoClosedForm::NotTrigonometric);
             };
-            let Coordinate::Angle(group) = self.leaves.positions[j] else {
-                return Err(Refused::NotTrigonometric);
+            let CoordinateForm::Angle(group) = self.leaves.positions[j] else {
+                return Err(NoClosedForm::NotTrigonometric);
             };
             let angle = angles.entry(group).or_default();
             *angle = combined(angle, &[(j, 1)], n);

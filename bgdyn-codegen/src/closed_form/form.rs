@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::polynomial::Angle;
-use crate::mechanism::{Letter, Motion};
+use crate::mechanism::{Motion, NumberSymbol};
 
 /// P_j(q, q̇, q̈) of a mechanism in closed form.
 #[derive(Clone, Debug)]
@@ -15,7 +15,7 @@ pub struct ClosedForm {
     /// The links, by which letters are numbered.
     pub links: Vec<String>,
     /// What the equations are written in.
-    pub letters: Vec<Letter>,
+    pub letters: Vec<NumberSymbol>,
     /// Sums of letters that have a name of their own: a₁, a₂, …
     pub constants: Vec<NamedSum>,
     /// P_j: terms with accelerations, then with velocities, then without either; N·m or N.
@@ -62,7 +62,7 @@ pub enum Factor {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Atom {
     /// One of [`ClosedForm::letters`].
-    Letter(usize),
+    NumberSymbol(usize),
     /// One of [`ClosedForm::constants`].
     Constant(usize),
     /// q_j
@@ -110,7 +110,7 @@ impl ClosedForm {
 fn gather(sum: &Sum, met: &mut Vec<usize>) {
     for factor in sum.iter().flat_map(|term| &term.factors) {
         match factor {
-            Factor::Power(Atom::Letter(letter), _) => met.push(*letter),
+            Factor::Power(Atom::NumberSymbol(letter), _) => met.push(*letter),
             Factor::Sum(sum) | Factor::Square(sum) => gather(sum, met),
             _ => {}
         }

@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::form::{Atom, ClosedForm, Sum};
 use super::notation::{Decimal, Notation, effort, terms, unit};
-use crate::mechanism::Letter;
+use crate::mechanism::NumberSymbol;
 
 /// P_j and what they are written in as two environments `align*`, values to so many significant
 /// digits (1 to 17). Comments say which joint a coordinate belongs to.
@@ -85,7 +85,7 @@ impl Notation for Typeset<'_> {
 
     fn symbol(&self, atom: &Atom, power: u32) -> String {
         let base = match atom {
-            Atom::Letter(l) => symbol(&self.form.letters[*l]),
+            Atom::NumberSymbol(l) => symbol(&self.form.letters[*l]),
             Atom::Constant(i) => format!("a_{{{}}}", i + 1),
             Atom::Position(j) => format!("q_{{{}}}", j + 1),
             Atom::Velocity(j) => format!("\\dot{{q}}_{{{}}}", j + 1),
@@ -110,7 +110,7 @@ impl Notation for Typeset<'_> {
 }
 
 /// `m_{2}`, `J_{zz,1}`; a run-time parameter's own name, upright.
-fn symbol(letter: &Letter) -> String {
+fn symbol(letter: &NumberSymbol) -> String {
     if letter.run_time {
         return format!("\\mathrm{{{}}}", escaped(&letter.symbol));
     }

@@ -3,7 +3,7 @@
 //! No generated code is made from it.
 //!
 //! 1. The expression graph of the literal sum (6), made for the mechanism with letters for its numbers
-//!    ([`Mechanism::lettered`]). The letters are run-time parameters, and prismatic joints of massless
+//!    ([`Mechanism::symbolic`]). The letters are run-time parameters, and prismatic joints of massless
 //!    links that never move.
 //! 2. Polynomials in normal form (`polynomial.rs`, `expand.rs`). For each group of parallel axes a term
 //!    holds at most one sine or cosine, of a sum of multiples of their angles. So every trigonometric
@@ -29,16 +29,18 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{self, BondGraph, Effort};
 use crate::formulation::{self, Prepared};
-use crate::mechanism::{Letter, Lettered, LinkId, Mechanism, Motion, ParameterId, Value};
+use crate::mechanism::{
+    LinkId, Mechanism, Motion, NumberSymbol, ParameterId, SymbolicMechanism, Value,
+};
 use crate::method::Method;
 use collect::Collected;
-use definition::Names;
-use expand::{Budget, Coordinate, Leaves};
+use definition::NamesOfSums;
+use expand::{Budget, CoordinateForm, Leaves};
 pub use form::{Atom, ClosedForm, Factor, NamedSum, Sum, Term};
 pub use latex::latex;
 pub use polynomial::Angle;
 use polynomial::{Polynomial, Symbol};
-pub use refused::Refused;
+pub use refused::NoClosedForm;
 pub use text::text;
 
 /// The usual limit: what can still be read.
@@ -53,13 +55,13 @@ const PRODUCTS: usize = 250;
 ///
 /// # Errors
 /// Where the equations, or the sums on the way to them, are longer.
-pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Refused> {
-    let lettered = mechanism.lettered();
-    let mut graph = bond_graph::build(&lettered.mechanism);
-    let mut letters = lettered.letters.clone();
+pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, NoClosedForm> {
+    let symbolic = mechanism.symbolic();
+    let mut graph = bond_graph::build(&symbolic.mechanism);
+    let mut letters = symbolic.letters.clone();
     let leaves = Leaves {
-        positions: coordinates(mechanism, &lettered),
-        parameters: weigh(&mut graph, &lettered, &mut letters),
+        positions: coordinates(mechanism, &symbolic),
+        parameters: weigh(&mut graph, &symbolic, &mut letters),
     };
     let literal = formulation::by_name("literal").expect("the specification is always there");
     let function = literal.function(&Prepared::new(&graph), Method::InverseDynamics);
@@ -77,10 +79,10 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, Re
     let efforts: Vec<Collected> = efforts.collect();
     let terms = efforts.iter().map(Collected::len).sum();
     if terms > limit {
-        return Err(Refused::TooLong { terms });
+        return Err(NoClosedForm::TooLong { terms });
     }
     let products = efforts.iter().map(Collected::products).sum();
-    let mut names = Names::new(&letters, products);
+    let mut names = NamesOfSums::new(&letters, products);
     let efforts = efforts.iter().map(|e| e.print(&mut names)).collect();
     let constants = names.into_constants();
     let form = ClosedForm {
@@ -100,8 +102,8 @@ fn joints(mechanism: &Mechanism) -> Vec<(String, Motion)> {
     joints.map(|j| (j.name.clone(), j.kind.motion)).collect()
 }
 
-/// What each coordinate of the lettered mechanism is.
-fn coordinates(mechanism: &Mechanism, lettered: &Lettered) -> Vec<Coordinate> {
+/// What each coordinate of the symbolic mechanism is.
+fn coordinates(mechanism: &Mechanism, symbolic: &SymbolicMechanism) -> Vec<CoordinateForm> {
     let mut groups: Vec<usize> = Vec::new();
     for (j, &link) in mechanism.coordinates().iter().enumerate() {
         let before = parallel_before(mechanism, link);
@@ -109,11 +111,11 @@ fn coordinates(mechanism: &Mechanism, lettered: &Lettered) -> Vec<Coordinate> {
     }
     let own = joints(mechanism).into_iter().enumerate();
     let own = own.map(|(j, (_, motion))| match motion {
-        Motion::Rotation => Coordinate::Angle(groups[j]),
-        _ => Coordinate::Displacement(j),
+        Motion::Rotation => CoordinateForm::Angle(groups[j]),
+        _ => CoordinateForm::Displacement(j),
     });
-    let lengths = lettered.lengths.iter().copied();
-    own.chain(lengths.map(Coordinate::Length)).collect()
+    let lengths = symbolic.lengths.iter().copied();
+    own.chain(lengths.map(CoordinateForm::Length)).collect()
 }
 
 /// The next coordinate on the way to the base that is an angle, if its axis is parallel to the link's.
@@ -135,14 +137,18 @@ fn parallel_before(mechanism: &Mechanism, link: LinkId) -> Option<usize> {
     None
 }
 
-/// What the run-time parameters of the lettered mechanism stand for. Weights become products of a
+/// What the run-time parameters of the symbolic mechanism stand for. Weights become products of a
 /// mass and of `g`, the last letter.
-fn weigh(graph: &mut BondGraph, lettered: &Lettered, letters: &mut Vec<Letter>) -> Vec<Polynomial> {
+fn weigh(
+    graph: &mut BondGraph,
+    symbolic: &SymbolicMechanism,
+    letters: &mut Vec<NumberSymbol>,
+) -> Vec<Polynomial> {
     let letter = |&(letter, opposite): &(usize, bool)| {
-        let symbol = Polynomial::symbol(Symbol::Letter(letter));
+        let symbol = Polynomial::symbol(Symbol::NumberSymbol(letter));
         Polynomial::default().plus(&symbol, opposite)
     };
-    let mut parameters: Vec<Polynomial> = lettered.parameters.iter().map(letter).collect();
+    let mut parameters: Vec<Polynomial> = symbolic.parameters.iter().map(letter).collect();
     let components = graph.gravity.0;
     let across = components.iter().filter(|&&x| x != Dd::ZERO).count();
     let size = match across {
@@ -151,7 +157,7 @@ fn weigh(graph: &mut BondGraph, lettered: &Lettered, letters: &mut Vec<Letter>) 
         _ => graph.gravity.dot(graph.gravity).sqrt(),
     };
     let taken = letters.iter().any(|l| l.symbol == "g");
-    letters.push(Letter {
+    letters.push(NumberSymbol {
         symbol: "g".into(),
         component: "",
         of: if taken { vec![0] } else { vec![] },
@@ -160,7 +166,7 @@ fn weigh(graph: &mut BondGraph, lettered: &Lettered, letters: &mut Vec<Letter>) 
         dimension: [0, 1, -2],
         run_time: false,
     });
-    let g = Polynomial::symbol(Symbol::Letter(letters.len() - 1));
+    let g = Polynomial::symbol(Symbol::NumberSymbol(letters.len() - 1));
     for effort in graph.sources.iter_mut().flat_map(|s| &mut s.efforts) {
         let Effort::Weight { mass, gravity } = effort;
         *gravity = gravity.map(|x| x / size);

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Why there is no closed form.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Refused {
+pub enum NoClosedForm {
     /// The equations have more terms than the limit.
     TooLong {
         /// Terms of all P_j.
@@ -24,18 +24,18 @@ pub enum Refused {
     NotTrigonometric,
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for NoClosedForm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refused::TooLong { terms } => write!(f, "its equations have {terms} terms"),
-            Refused::LongSum { terms } => {
+            NoClosedForm::TooLong { terms } => write!(f, "its equations have {terms} terms"),
+            NoClosedForm::LongSum { terms } => {
                 write!(f, "a sum on the way to its equations has {terms} terms")
             }
-            Refused::ManyProducts { products } => write!(
+            NoClosedForm::ManyProducts { products } => write!(
                 f,
                 "the way to its equations takes {products} products of two terms and more"
             ),
-            Refused::NotTrigonometric => {
+            NoClosedForm::NotTrigonometric => {
                 write!(
                     f,
                     "its equations hold more than sines, cosines, products and sums"
@@ -45,4 +45,4 @@ impl fmt::Display for Refused {
     }
 }
 
-impl std::error::Error for Refused {}
+impl std::error::Error for NoClosedForm {}

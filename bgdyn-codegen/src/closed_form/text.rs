@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::form::{Atom, ClosedForm, Sum};
 use super::notation::{Decimal, Notation, effort, sum, terms, unit};
-use crate::mechanism::{Letter, Motion};
+use crate::mechanism::{Motion, NumberSymbol};
 
 /// Longer lines are broken.
 const WIDTH: usize = 96;
@@ -153,7 +153,7 @@ impl Notation for Plain<'_> {
 
     fn symbol(&self, atom: &Atom, power: u32) -> String {
         let base = match atom {
-            Atom::Letter(l) => symbol(&self.form.letters[*l]),
+            Atom::NumberSymbol(l) => symbol(&self.form.letters[*l]),
             Atom::Constant(i) => format!("a{}", subscript(&[i + 1])),
             Atom::Position(j) => format!("q{}", subscript(&[j + 1])),
             Atom::Velocity(j) => format!("q\u{307}{}", subscript(&[j + 1])),
@@ -174,7 +174,7 @@ impl Notation for Plain<'_> {
 }
 
 /// `m₂`, `Jzz₁`, `l₁,₂`; a run-time parameter's own name.
-fn symbol(letter: &Letter) -> String {
+fn symbol(letter: &NumberSymbol) -> String {
     let of = subscript(&letter.of);
     format!("{}{}{of}", letter.symbol, letter.component)
 }

@@ -8,7 +8,7 @@ use super::polynomial::{Angle, Monomial, Symbol, combined, signed};
 type Waves = Vec<(bool, Angle)>;
 
 /// A group, and what two terms hold of it.
-type Difference<'a> = (usize, &'a [(bool, Angle)], &'a [(bool, Angle)]);
+type AngleDifference<'a> = (usize, &'a [(bool, Angle)], &'a [(bool, Angle)]);
 
 /// A coefficient's term: a sum of letters times powers of positions and run-time parameters, sines
 /// and cosines.
@@ -43,7 +43,7 @@ impl Entry {
         let mut shape: Vec<(Atom, u32)> = Vec::new();
         for &(symbol, n) in &self.powers {
             let atom = match symbol {
-                Symbol::Letter(l) => Atom::Letter(l),
+                Symbol::NumberSymbol(l) => Atom::NumberSymbol(l),
                 Symbol::Position(j) => Atom::Position(j),
                 Symbol::Velocity(j) => Atom::Velocity(j),
                 Symbol::Acceleration(j) => Atom::Acceleration(j),
@@ -70,12 +70,12 @@ impl Entry {
     }
 
     /// The group in which two entries differ, if it is one only, with the waves of each in it.
-    fn differs<'a>(&'a self, other: &'a Self) -> Option<Difference<'a>> {
+    fn differs<'a>(&'a self, other: &'a Self) -> Option<AngleDifference<'a>> {
         if self.powers != other.powers {
             return None;
         }
         let groups = self.waves.iter().chain(&other.waves).map(|(g, _)| *g);
-        let mut found: Option<Difference<'_>> = None;
+        let mut found: Option<AngleDifference<'_>> = None;
         for group in groups {
             let (a, b) = (self.of(group), other.of(group));
             if a != b && found.is_some_and(|(g, ..)| g != group) {

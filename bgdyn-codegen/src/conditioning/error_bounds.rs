@@ -25,7 +25,7 @@ use bgdyn_runtime::Dd;
 use super::reference_solution::{MassAndBias, ReferenceSolution, Rounding, norm, product};
 use super::sample_states::{least_inertia, near_singular, random, subsample};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Expr, Graph, Inputs, copy_into, evaluate};
+use crate::expr::{Graph, Inputs, Signed, copy_into, evaluate};
 use crate::formulation::geometry::Geometry;
 use crate::formulation::mass_and_bias;
 use crate::function::{Function, in_triangle};
@@ -124,7 +124,7 @@ pub(crate) struct ErrorBounds {
     answers: Vec<ReferenceSolution>,
     /// The lower triangle of M, row by row, and h.
     made: Graph,
-    outputs: Vec<Expr>,
+    outputs: Vec<Signed>,
 }
 
 impl ErrorBounds {

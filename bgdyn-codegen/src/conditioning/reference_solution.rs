@@ -90,7 +90,7 @@ impl ReferenceSolution {
         if round_trip {
             inputs.u = here.efforts(&inputs.a);
         }
-        let factor = Factor::new(here.mass.clone())?;
+        let factor = CholeskyFactor::new(here.mass.clone())?;
         let exact = factor.solve(here.drive(&in_double_double(&inputs).u));
         let rough: Vec<Vec<f64>> = rows(&here.mass, Dd::to_f64);
         let rough_factor = factor.rounded();
@@ -133,7 +133,7 @@ impl ReferenceSolution {
             }
             of[joint] *= Dd::ONE + half;
             let there = terms(&inputs);
-            if let Some(factor) = Factor::new(there.mass.clone()) {
+            if let Some(factor) = CholeskyFactor::new(there.mass.clone()) {
                 let found = factor.solve(there.drive(&here.u));
                 let by = found.iter().zip(&self.exact);
                 sum.accelerations += norm(by.map(|(&x, &y)| (x - y).to_f64()));
@@ -144,7 +144,7 @@ impl ReferenceSolution {
                 sum.efforts[i] += (met - u).to_f64().abs();
             }
         }
-        if let Some(factor) = Factor::new(self.mass.clone()) {
+        if let Some(factor) = CholeskyFactor::new(self.mass.clone()) {
             for joint in 0..n {
                 let mut efforts = vec![Dd::ZERO; n];
                 efforts[joint] = here.u[joint] * half;
@@ -163,12 +163,12 @@ fn rows<T: Copy, U>(m: &[Vec<T>], f: impl Fn(T) -> U + Copy) -> Vec<Vec<U>> {
 }
 
 /// M = Lᵀ D L, from the last coordinate to the first, in numbers.
-struct Factor<T> {
+struct CholeskyFactor<T> {
     /// L below its unit diagonal, D⁻¹ on the diagonal.
     l: Vec<Vec<T>>,
 }
 
-impl Factor<Dd> {
+impl CholeskyFactor<Dd> {
     /// Nothing where a pivot is lost.
     fn new(mut m: Vec<Vec<Dd>>) -> Option<Self> {
         let n = m.len();
@@ -188,17 +188,17 @@ impl Factor<Dd> {
                 m[k][i] = l;
             }
         }
-        Some(Factor { l: m })
+        Some(CholeskyFactor { l: m })
     }
 
-    fn rounded(&self) -> Factor<f64> {
-        Factor {
+    fn rounded(&self) -> CholeskyFactor<f64> {
+        CholeskyFactor {
             l: rows(&self.l, Dd::to_f64),
         }
     }
 }
 
-impl<T: Scalar> Factor<T> {
+impl<T: Scalar> CholeskyFactor<T> {
     /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
     fn solve(&self, mut x: Vec<T>) -> Vec<T> {
         let n = x.len();

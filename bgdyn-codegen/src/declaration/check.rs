@@ -2,18 +2,18 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Checked, Context, Declared, Element, Given, Quantity};
-use crate::fault::{Fault, Faults, Place, wording};
-use crate::format::{Dimension, Entry, Key, Located, Number, Reads, misfit};
+use super::{Declaration, Element, ElementValue, NameScope, Quantity, ValueCheck};
+use crate::fault::{Fault, Faults, Location, wording};
+use crate::format::{Dimension, Key, Located, Number, ParsedValue, Reads, misfit};
 use crate::mechanism::Motion;
 use crate::name::is_identifier;
 
-impl Declared {
+impl Declaration {
     /// The element, if its names are known and its numbers obey its rules.
-    pub fn element(&self, context: &Context, faults: &mut Faults) -> Option<Element> {
+    pub fn element(&self, context: &NameScope, faults: &mut Faults) -> Option<Element> {
         let before = faults.count();
         let joint = match self.fields.get("joint").map(|e| &e.value) {
-            Some(Entry::Text(joint)) => Some(joint.as_str()),
+            Some(ParsedValue::Text(joint)) => Some(joint.as_str()),
             _ => None,
         };
         // What acts along a line acts on a length.
@@ -21,19 +21,20 @@ impl Declared {
         let mut element = Element {
             name: self.name.value.clone(),
             effect: self.effect,
-            place: self.name.place.clone(),
+            location: self.name.location.clone(),
             values: Vec::new(),
         };
         for key in self.effect.keys() {
             match self.fields.get(key.name) {
                 Some(Located {
-                    value: Entry::Group(numbers),
+                    value: ParsedValue::Group(numbers),
                     ..
                 }) => {
                     for (name, number) in numbers {
                         let fit = dimensions(key.reads);
-                        let checked = quantity(&number.value, &number.place, fit, motion, faults);
-                        let checked = checked.map(Checked::Number);
+                        let checked =
+                            quantity(&number.value, &number.location, fit, motion, faults);
+                        let checked = checked.map(ElementValue::Number);
                         element.values.extend(checked.map(|c| (*name, c)));
                     }
                 }
@@ -42,15 +43,15 @@ impl Declared {
                     element.values.extend(checked.map(|c| (key.name, c)));
                 }
                 None if key.needed => {
-                    let (place, name) = (&self.name.place, &self.name.value);
+                    let (location, name) = (&self.name.location, &self.name.value);
                     faults.push(wording::effect_key_missing(
-                        place, name, key.name, key.about,
+                        location, name, key.name, key.about,
                     ));
                 }
                 None => {
                     let limit = context.limit_for(self.effect, joint, key);
                     let quantity = limit.map(|limit| self.limit(key, limit, motion));
-                    let checked = quantity.map(|q| (key.name, Checked::Number(q)));
+                    let checked = quantity.map(|q| (key.name, ElementValue::Number(q)));
                     element.values.extend(checked);
                 }
             }
@@ -58,7 +59,7 @@ impl Declared {
         if faults.count() > before {
             return None;
         }
-        self.effect.rules(&mut Given {
+        self.effect.check_values(&mut ValueCheck {
             element: &element,
             faults,
         });
@@ -76,69 +77,71 @@ impl Declared {
             parameter: None,
             dimension,
             text: format!("{limit} {}", dimension.si()),
-            place: self.name.place.clone(),
+            location: self.name.location.clone(),
         }
     }
 
     fn checked(
         &self,
         key: &Key,
-        entry: &Located<Entry>,
+        entry: &Located<ParsedValue>,
         joint: Option<Motion>,
-        context: &Context,
+        context: &NameScope,
         faults: &mut Faults,
-    ) -> Option<Checked> {
-        let place = &entry.place;
+    ) -> Option<ElementValue> {
+        let location = &entry.location;
         match (&entry.value, key.reads) {
-            (Entry::Number(number), Reads::Number(fit)) => {
-                quantity(number, place, fit, joint, faults).map(Checked::Number)
+            (ParsedValue::Number(number), Reads::Number(fit)) => {
+                quantity(number, location, fit, joint, faults).map(ElementValue::Number)
             }
-            (Entry::Text(word), reads) => {
+            (ParsedValue::Text(word), reads) => {
                 let known = known(reads, context);
                 if let Some(known) = known.filter(|known| !known.contains(&word.as_str())) {
-                    faults.push(unknown(key, word, place, &known, context));
+                    faults.push(unknown(key, word, location, &known, context));
                     return None;
                 }
                 if reads == Reads::Input && !is_identifier(word) {
-                    faults.push(wording::not_identifier(place, word));
+                    faults.push(wording::not_identifier(location, word));
                 }
-                Some(Checked::Name(word.clone()))
+                Some(ElementValue::Name(word.clone()))
             }
-            (Entry::Pair(names), _) => {
-                let known = known(Reads::Place, context).unwrap_or_default();
+            (ParsedValue::Pair(names), _) => {
+                let known = known(Reads::Site, context).unwrap_or_default();
                 for name in names.iter().filter(|n| !known.contains(&n.value.as_str())) {
-                    faults.push(unknown(key, &name.value, &name.place, &known, context));
+                    faults.push(unknown(key, &name.value, &name.location, &known, context));
                 }
                 let [a, b] = names.each_ref().map(|name| name.value.as_str());
-                if let Some(distance) = context.places.constant_distance(a, b) {
+                if let Some(distance) = context.sites.constant_distance(a, b) {
                     faults.push(wording::constant_distance(
-                        place,
+                        location,
                         &self.name.value,
                         [a, b],
                         distance,
                     ));
                 }
-                Some(Checked::Names(names.each_ref().map(|n| n.value.clone())))
+                Some(ElementValue::Names(
+                    names.each_ref().map(|n| n.value.clone()),
+                ))
             }
-            (Entry::Vector(vector), _) => {
-                Some(Checked::Vector(vector.each_ref().map(|n| n.value.value)))
-            }
-            (Entry::Words(words), reads) => {
+            (ParsedValue::Vector(vector), _) => Some(ElementValue::Vector(
+                vector.each_ref().map(|n| n.value.value),
+            )),
+            (ParsedValue::Words(words), reads) => {
                 let known = known(reads, context).unwrap_or_default();
                 for word in words.iter().filter(|w| !known.contains(&w.value.as_str())) {
-                    faults.push(unknown(key, &word.value, &word.place, &known, context));
+                    faults.push(unknown(key, &word.value, &word.location, &known, context));
                 }
-                Some(Checked::Words(
+                Some(ElementValue::Words(
                     words.iter().map(|w| w.value.clone()).collect(),
                 ))
             }
-            (Entry::Number(_) | Entry::Group(_), _) => None,
+            (ParsedValue::Number(_) | ParsedValue::Group(_), _) => None,
         }
     }
 }
 
 /// The names that may stand behind a key; `None` where any may.
-fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
+fn known(reads: Reads, context: &NameScope) -> Option<Vec<&str>> {
     Some(match reads {
         Reads::Word([]) => return None,
         Reads::Word(words) | Reads::Words(words) => words.to_vec(),
@@ -152,7 +155,7 @@ fn known(reads: Reads, context: &Context) -> Option<Vec<&str>> {
             let own = joints.filter(|n| !context.added.contains(n));
             own.map(String::as_str).collect()
         }
-        Reads::Place | Reads::Places => context.places.names().iter().map(String::as_str).collect(),
+        Reads::Site | Reads::Sites => context.sites.names().iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
         Reads::Joints | Reads::Input | Reads::Number(_) | Reads::Vector(_) | Reads::Group(..) => {
             return None;
@@ -168,17 +171,23 @@ fn dimensions(reads: Reads) -> &'static [Dimension] {
     }
 }
 
-fn unknown(key: &Key, word: &str, place: &Place, known: &[&str], context: &Context) -> Fault {
+fn unknown(
+    key: &Key,
+    word: &str,
+    location: &Location,
+    known: &[&str],
+    context: &NameScope,
+) -> Fault {
     if context.locked.iter().any(|joint| joint == word) {
-        return wording::joint_is_locked(place, word);
+        return wording::joint_is_locked(location, word);
     }
     let what = match key.reads {
         Reads::Coordinate | Reads::Joint => "moving joint",
-        Reads::Place | Reads::Places => "link or frame",
+        Reads::Site | Reads::Sites => "link or frame",
         Reads::Node => "hydraulic node",
         _ => "choice",
     };
-    let fault = wording::unknown_reference(place, (what, word), known, (key.name, key.about));
+    let fault = wording::unknown_reference(location, (what, word), known, (key.name, key.about));
     let brought = matches!(key.reads, Reads::Coordinate | Reads::Node);
     match brought && context.refused.may_bring(word) {
         true => fault.following(),
@@ -197,7 +206,7 @@ fn of_motion(fit: &'static [Dimension], motion: Option<Motion>) -> &'static [Dim
 
 fn quantity(
     number: &Number,
-    place: &Place,
+    location: &Location,
     fit: &'static [Dimension],
     joint: Option<Motion>,
     faults: &mut Faults,
@@ -205,7 +214,7 @@ fn quantity(
     let fit = of_motion(fit, joint);
     let located = Located {
         value: number.clone(),
-        place: place.clone(),
+        location: location.clone(),
     };
     if let Some(fault) = misfit(&located, fit) {
         faults.push(fault);
@@ -215,7 +224,7 @@ fn quantity(
         && !is_identifier(&parameter.value)
     {
         faults.push(wording::parameter_not_identifier(
-            &parameter.place,
+            &parameter.location,
             &parameter.value,
         ));
     }
@@ -224,6 +233,6 @@ fn quantity(
         parameter: number.parameter.as_ref().map(|p| p.value.clone()),
         dimension: fit[0],
         text: number.text.clone(),
-        place: place.clone(),
+        location: location.clone(),
     })
 }

@@ -2,9 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::fault::{Faults, Place};
+use crate::fault::{Faults, Location};
 use crate::format::{Dimension, Key, Reads};
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 use crate::mechanism::{Limits, Mechanism};
 
 /// A number of an effect: folded into the code, or a public field of the generated struct.
@@ -19,12 +19,12 @@ pub struct Quantity {
     /// As it stands in the file.
     pub text: String,
     /// Where.
-    pub place: Place,
+    pub location: Location,
 }
 
 /// A checked value.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Checked {
+pub enum ElementValue {
     /// A number.
     Number(Quantity),
     /// A word, or the name of a coordinate, a place, a node or an input.
@@ -43,15 +43,15 @@ pub struct Element {
     /// Its name.
     pub name: String,
     /// What it is.
-    pub effect: &'static dyn Declaration,
+    pub effect: &'static dyn EffectKind,
     /// Where it stands in the file.
-    pub place: Place,
+    pub location: Location,
     /// Its values by key.
-    pub values: Vec<(&'static str, Checked)>,
+    pub values: Vec<(&'static str, ElementValue)>,
 }
 
 /// A kind of effect, as files declare it: all but its equations.
-pub trait Declaration: Sync {
+pub trait EffectKind: Sync {
     /// The word after `type`.
     fn keyword(&self) -> &'static str;
 
@@ -115,25 +115,25 @@ pub trait Declaration: Sync {
     }
 
     /// What its numbers must obey.
-    fn rules(&self, _: &mut Given<'_>) {}
+    fn check_values(&self, _: &mut ValueCheck<'_>) {}
 
     /// What it must obey beside the scene's other effects.
-    fn fits(&self, _: &Element, _: &Beside<'_>, _: &mut Faults) {}
+    fn check_in_scene(&self, _: &Element, _: &SceneContext<'_>, _: &mut Faults) {}
 
     /// What it changes in the mechanism, before there is a graph.
-    fn reduce(&self, _: &Element, _: &mut Mechanism) {}
+    fn modify_mechanism(&self, _: &Element, _: &mut Mechanism) {}
 
     /// Coordinates, states, modes, inputs and events that it adds.
-    fn declare(&self, _: &Element, _: &mut Layout) {}
+    fn declare(&self, _: &Element, _: &mut StateLayout) {}
 
     /// Whether a first-order state is its own.
-    fn keeps(&self, element: &Element, state: &str) -> bool {
+    fn owns_state(&self, element: &Element, state: &str) -> bool {
         element.name == state
     }
 }
 
 /// What an effect finds beside it in its scene.
-pub struct Beside<'a> {
+pub struct SceneContext<'a> {
     /// The scene's effects, itself among them.
     pub elements: &'a [Element],
     /// The mechanism, locked joints welded.
@@ -141,7 +141,7 @@ pub struct Beside<'a> {
 }
 
 /// What an effect's rules look at, and where they report.
-pub struct Given<'a> {
+pub struct ValueCheck<'a> {
     /// The element, its values of the right kind.
     pub element: &'a Element,
     /// What is wrong with it.
@@ -150,14 +150,14 @@ pub struct Given<'a> {
 
 impl Element {
     /// What stands behind a key.
-    pub fn get(&self, key: &str) -> Option<&Checked> {
+    pub fn get(&self, key: &str) -> Option<&ElementValue> {
         self.values.iter().find(|(k, _)| *k == key).map(|(_, v)| v)
     }
 
     /// The number behind a key.
     pub fn quantity(&self, key: &str) -> Option<&Quantity> {
         match self.get(key) {
-            Some(Checked::Number(quantity)) => Some(quantity),
+            Some(ElementValue::Number(quantity)) => Some(quantity),
             _ => None,
         }
     }
@@ -171,7 +171,7 @@ impl Element {
     /// Its numbers by key.
     pub fn quantities(&self) -> impl Iterator<Item = (&'static str, &Quantity)> {
         self.values.iter().filter_map(|(key, value)| match value {
-            Checked::Number(quantity) => Some((*key, quantity)),
+            ElementValue::Number(quantity) => Some((*key, quantity)),
             _ => None,
         })
     }
@@ -179,7 +179,7 @@ impl Element {
     /// The word or name behind a key.
     pub fn name(&self, key: &str) -> Option<&str> {
         match self.get(key) {
-            Some(Checked::Name(name)) => Some(name),
+            Some(ElementValue::Name(name)) => Some(name),
             _ => None,
         }
     }
@@ -187,7 +187,7 @@ impl Element {
     /// The two names behind a key.
     pub fn names(&self, key: &str) -> Option<&[String; 2]> {
         match self.get(key) {
-            Some(Checked::Names(names)) => Some(names),
+            Some(ElementValue::Names(names)) => Some(names),
             _ => None,
         }
     }
@@ -200,7 +200,7 @@ impl Element {
     /// The words behind a key.
     pub fn words(&self, key: &str) -> Option<&[String]> {
         match self.get(key) {
-            Some(Checked::Words(words)) => Some(words),
+            Some(ElementValue::Words(words)) => Some(words),
             _ => None,
         }
     }
@@ -221,7 +221,7 @@ impl Element {
     /// The three numbers behind a key.
     pub fn vector(&self, key: &str) -> Option<[Dd; 3]> {
         match self.get(key) {
-            Some(Checked::Vector(vector)) => Some(*vector),
+            Some(ElementValue::Vector(vector)) => Some(*vector),
             _ => None,
         }
     }
@@ -236,13 +236,13 @@ pub(super) fn node_names(name: &str, sides: &[&str]) -> Vec<String> {
     sides.iter().map(of).collect()
 }
 
-impl std::fmt::Debug for dyn Declaration {
+impl std::fmt::Debug for dyn EffectKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.keyword())
     }
 }
 
-impl PartialEq for dyn Declaration {
+impl PartialEq for dyn EffectKind {
     fn eq(&self, other: &Self) -> bool {
         self.keyword() == other.keyword()
     }

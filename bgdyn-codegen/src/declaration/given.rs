@@ -2,10 +2,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Checked, Given, Quantity};
-use crate::fault::{Fault, Place, wording};
+use super::{ElementValue, Quantity, ValueCheck};
+use crate::fault::{Fault, Location, wording};
 
-impl Given<'_> {
+impl ValueCheck<'_> {
     /// The number behind a key.
     pub fn number(&self, key: &str) -> Option<&Quantity> {
         self.element.quantity(key)
@@ -17,16 +17,16 @@ impl Given<'_> {
     }
 
     /// Where a key's value stands; the element's place without one.
-    pub fn place(&self, key: &str) -> Place {
+    pub fn location(&self, key: &str) -> Location {
         self.number(key)
-            .map_or_else(|| self.element.place.clone(), |q| q.place.clone())
+            .map_or_else(|| self.element.location.clone(), |q| q.location.clone())
     }
 
     /// The numbers behind these keys must not be negative.
     pub fn not_negative(&mut self, keys: &[&str], why: &str) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value < Dd::ZERO) {
-                let fault = wording::negative_value(&q.place, key, &q.text, why);
+                let fault = wording::negative_value(&q.location, key, &q.text, why);
                 self.report(fault);
             }
         }
@@ -36,7 +36,7 @@ impl Given<'_> {
     pub fn positive(&mut self, keys: &[&str], why: &str) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value <= Dd::ZERO) {
-                let fault = wording::value_not_positive(&q.place, key, &q.text, why);
+                let fault = wording::value_not_positive(&q.location, key, &q.text, why);
                 self.report(fault);
             }
         }
@@ -45,7 +45,7 @@ impl Given<'_> {
     /// The number behind this key must not be greater than 1.
     pub fn at_most_one(&mut self, key: &str, why: &str) {
         if let Some(q) = self.number(key).filter(|q| q.value > Dd::ONE) {
-            let fault = wording::value_above_one(&q.place, key, &q.text, why);
+            let fault = wording::value_above_one(&q.location, key, &q.text, why);
             self.report(fault);
         }
     }
@@ -55,7 +55,7 @@ impl Given<'_> {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.parameter.is_some()) {
                 let kind = self.element.effect.keyword();
-                let fault = wording::value_cannot_be_parameter(&q.place, key, kind);
+                let fault = wording::value_cannot_be_parameter(&q.location, key, kind);
                 self.report(fault);
             }
         }
@@ -67,7 +67,7 @@ impl Given<'_> {
             && a.value > b.value
         {
             let (smaller, larger) = ((small, a.text.as_str()), (large, b.text.as_str()));
-            let fault = wording::values_out_of_order(&b.place, smaller, larger, why);
+            let fault = wording::values_out_of_order(&b.location, smaller, larger, why);
             self.report(fault);
         }
     }
@@ -82,7 +82,7 @@ impl Given<'_> {
         if given.len() != 1 {
             let element = self.element;
             self.report(wording::not_one_port(
-                &element.place,
+                &element.location,
                 &element.name,
                 &given,
                 keys,
@@ -97,6 +97,6 @@ impl Given<'_> {
 
     /// Whether the key names this word.
     pub fn says(&self, key: &str, word: &str) -> bool {
-        matches!(self.element.get(key), Some(Checked::Name(name)) if name == word)
+        matches!(self.element.get(key), Some(ElementValue::Name(name)) if name == word)
     }
 }

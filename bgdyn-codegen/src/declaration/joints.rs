@@ -2,9 +2,9 @@
 //!
 //! It stands for one effect per joint, called NAME_JOINT, with the same values.
 
-use super::{Declaration, Declared};
+use super::{Declaration, EffectKind};
 use crate::fault::{Faults, wording};
-use crate::format::{Entry, Fields, Key, Located, Reads};
+use crate::format::{Fields, Key, Located, ParsedValue, Reads};
 
 /// The key of several joints.
 pub const JOINTS: Key = Key {
@@ -19,7 +19,7 @@ const JOINT: &str = "joint";
 
 /// The keys that an effect is declared with: its own, and that of several joints where it acts on
 /// one.
-pub fn keys_declared(effect: &dyn Declaration) -> Vec<Key> {
+pub fn keys_declared(effect: &dyn EffectKind) -> Vec<Key> {
     let mut keys = effect.keys().to_vec();
     if let Some(at) = keys.iter().position(|key| key.name == JOINT) {
         keys.insert(at + 1, JOINTS);
@@ -27,7 +27,7 @@ pub fn keys_declared(effect: &dyn Declaration) -> Vec<Key> {
     keys
 }
 
-impl Declared {
+impl Declaration {
     /// Whether it stands for one effect per joint.
     pub fn has_joints(&self) -> bool {
         self.fields.get(JOINTS.name).is_some()
@@ -35,12 +35,12 @@ impl Declared {
 
     /// One effect for each of its joints, or itself where it has no `joints`. `all` are the names
     /// that the word stands for.
-    pub fn of_each_joint(self, all: &[&str], faults: &mut Faults) -> Vec<Declared> {
+    pub fn of_each_joint(self, all: &[&str], faults: &mut Faults) -> Vec<Declaration> {
         let Some(joints) = self.fields.get(JOINTS.name).cloned() else {
             return vec![self];
         };
         if let Some(joint) = self.fields.get(JOINT) {
-            faults.push(wording::joint_and_joints(&joint.place, &self.name.value));
+            faults.push(wording::joint_and_joints(&joint.location, &self.name.value));
             return vec![];
         }
         let Some(names) = names(&joints, all, faults) else {
@@ -49,10 +49,10 @@ impl Declared {
         let own = self.fields.without(JOINTS.name);
         let one = |joint: Located<String>| {
             let name = format!("{}_{}", self.name.value, joint.value);
-            Declared {
+            Declaration {
                 name: Located {
                     value: name,
-                    place: self.name.place.clone(),
+                    location: self.name.location.clone(),
                 },
                 effect: self.effect,
                 fields: own.clone().with(JOINT, joint),
@@ -75,30 +75,30 @@ impl Declared {
 
 /// The joints meant, each once.
 fn names(
-    joints: &Located<Entry>,
+    joints: &Located<ParsedValue>,
     all: &[&str],
     faults: &mut Faults,
 ) -> Option<Vec<Located<String>>> {
-    let place = &joints.place;
+    let location = &joints.location;
     match &joints.value {
-        Entry::Text(word) if word == "all" => {
+        ParsedValue::Text(word) if word == "all" => {
             let located = |name: &&str| Located {
                 value: (*name).to_owned(),
-                place: place.clone(),
+                location: location.clone(),
             };
             Some(all.iter().map(located).collect())
         }
-        Entry::Words(words) => {
+        ParsedValue::Words(words) => {
             for (i, word) in words.iter().enumerate() {
                 if words[..i].iter().any(|other| other.value == word.value) {
-                    faults.push(wording::joint_listed_twice(&word.place, &word.value));
+                    faults.push(wording::joint_listed_twice(&word.location, &word.value));
                     return None;
                 }
             }
             Some(words.clone())
         }
         _ => {
-            faults.push(wording::joints_of_wrong_kind(place));
+            faults.push(wording::joints_of_wrong_kind(location));
             None
         }
     }

@@ -2,7 +2,6 @@
 //!
 //! Their equations are in [`crate::effect`].
 
-mod called;
 mod check;
 mod declared;
 mod element;
@@ -10,17 +9,18 @@ mod given;
 mod joints;
 mod kinds;
 mod once;
+mod parse;
 mod refused;
 mod scope;
 mod series;
 
-pub use called::{called, declared};
-pub use declared::Declared;
-pub use element::{Beside, Checked, Declaration, Element, Given, Quantity};
+pub use declared::Declaration;
+pub use element::{EffectKind, Element, ElementValue, Quantity, SceneContext, ValueCheck};
 pub use joints::keys_declared;
-pub use kinds::Kinds;
+pub use kinds::EffectKinds;
 pub(crate) use once::once_per_joint;
-pub use refused::Refused;
-pub use scope::Context;
+pub use parse::{parse_declaration, resolve_call};
+pub use refused::RejectedEffects;
+pub use scope::NameScope;
 pub(crate) use scope::check_unique_names;
 pub use series::Chain;

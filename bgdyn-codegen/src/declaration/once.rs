@@ -14,7 +14,7 @@ pub(crate) fn once_per_joint(elements: &[Element], faults: &mut Faults) {
             let names = [first.name.as_str(), &element.name];
             let joint = joint.unwrap_or_default();
             faults.push(wording::two_of_type_at_joint(
-                &element.place,
+                &element.location,
                 names,
                 kind,
                 &joint,

@@ -1,11 +1,11 @@
 //! The names that refused effects may have defined, so that uses of them are not reported as well.
 
-use super::{Declared, Kinds};
-use crate::format::{Entry, Key, Raw, Reads};
+use super::{Declaration, EffectKinds};
+use crate::format::{Key, ParsedValue, Raw, Reads};
 
 /// What effects that were refused may have brought.
 #[derive(Clone, Debug, Default)]
-pub struct Refused {
+pub struct RejectedEffects {
     /// Beginnings of the names that they may have brought.
     words: Vec<String>,
     /// Their families; `None` for one whose type is not known.
@@ -14,14 +14,14 @@ pub struct Refused {
     unread: bool,
 }
 
-impl Refused {
+impl RejectedEffects {
     /// That effects of any kind and name are missing.
     pub(crate) fn unread(&mut self) {
         self.unread = true;
     }
 
     /// An entry of a scene's list from which there is no effect; the mechanism declares `known`.
-    pub(crate) fn call(&mut self, raw: &Raw, known: &[Declared], kinds: &Kinds) {
+    pub(crate) fn call(&mut self, raw: &Raw, known: &[Declaration], kinds: &EffectKinds) {
         let name = &raw.name.value;
         let own = known.iter().find(|d| d.name.value == *name);
         let word = raw.peek("type").map_or(name.clone(), |word| word.value);
@@ -34,7 +34,7 @@ impl Refused {
         self.words.extend(inputs.map(|input| input.value));
         self.words.push(name.clone());
         // A word that is none may be meant for any of the mechanism's.
-        let meant = |d: &&Declared| own.is_none_or(|own| own.name.value == d.name.value);
+        let meant = |d: &&Declaration| own.is_none_or(|own| own.name.value == d.name.value);
         if own.is_some() || !raw.is_mapping() {
             for declared in known.iter().filter(meant) {
                 self.words_of(declared);
@@ -44,15 +44,15 @@ impl Refused {
     }
 
     /// An effect that breaks a rule.
-    pub(crate) fn effect(&mut self, declared: &Declared) {
+    pub(crate) fn effect(&mut self, declared: &Declaration) {
         self.words_of(declared);
         self.families.push(Some(declared.effect.family()));
     }
 
-    fn words_of(&mut self, declared: &Declared) {
+    fn words_of(&mut self, declared: &Declaration) {
         self.words.push(declared.name.value.clone());
         for key in inputs(declared.effect.keys()) {
-            if let Some(Entry::Text(input)) = declared.fields.get(key).map(|e| &e.value) {
+            if let Some(ParsedValue::Text(input)) = declared.fields.get(key).map(|e| &e.value) {
                 self.words.push(input.clone());
             }
         }

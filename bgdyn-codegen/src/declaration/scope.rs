@@ -1,13 +1,13 @@
 //! Names: the ones that effects may refer to, and the ones that effects take themselves.
 
-use super::{Declaration, Declared, Refused};
+use super::{Declaration, EffectKind, RejectedEffects};
 use crate::fault::{Faults, wording};
-use crate::format::{Entry, Key};
-use crate::mechanism::{Limits, LinkId, Mechanism, Motion, Places};
+use crate::format::{Key, ParsedValue};
+use crate::mechanism::{Limits, LinkId, Mechanism, Motion, SiteOrigins};
 
 /// The names that an effect may refer to.
 #[derive(Clone, Debug, Default)]
-pub struct Context {
+pub struct NameScope {
     /// Moving joints and the coordinates that effects add, with the dimension pair's index: 0 for
     /// a rotation, 1 for a translation.
     pub coordinates: Vec<(String, Motion)>,
@@ -18,16 +18,16 @@ pub struct Context {
     /// Joints that a scene locks.
     pub locked: Vec<String>,
     /// Links and frames.
-    pub(crate) places: Places,
+    pub(crate) sites: SiteOrigins,
     /// Hydraulic nodes.
     pub nodes: Vec<String>,
     /// What effects that were refused may have brought.
-    pub refused: Refused,
+    pub refused: RejectedEffects,
 }
 
-impl Context {
+impl NameScope {
     /// The names of a mechanism; `locked` are joints that a scene holds.
-    pub fn of(mechanism: &Mechanism, locked: Vec<String>) -> Context {
+    pub fn of(mechanism: &Mechanism, locked: Vec<String>) -> NameScope {
         let coordinate = |&link: &LinkId| {
             let joint = &mechanism.links()[link.0].joint;
             (joint.name.clone(), joint.kind.motion)
@@ -36,36 +36,36 @@ impl Context {
             let joint = &mechanism.links()[link.0].joint;
             (joint.name.clone(), joint.limits)
         };
-        Context {
+        NameScope {
             coordinates: mechanism.coordinates().iter().map(coordinate).collect(),
             limits: mechanism.coordinates().iter().map(limits).collect(),
             added: Vec::new(),
             locked,
-            places: Places::new(mechanism),
+            sites: SiteOrigins::new(mechanism),
             nodes: Vec::new(),
-            refused: Refused::default(),
+            refused: RejectedEffects::default(),
         }
     }
 
     /// The same with what these effects add.
-    pub fn with<'a>(mut self, declared: impl Iterator<Item = &'a Declared> + Clone) -> Self {
+    pub fn with<'a>(mut self, declared: impl Iterator<Item = &'a Declaration> + Clone) -> Self {
         for d in declared.clone().filter(|d| d.effect.adds_coordinate()) {
             let on = match d.fields.get("joint").map(|j| &j.value) {
-                Some(Entry::Text(joint)) => self.motion_of(joint),
+                Some(ParsedValue::Text(joint)) => self.motion_of(joint),
                 _ => None,
             };
             let motion = on.unwrap_or(Motion::Rotation);
             self.coordinates.push((d.name.value.clone(), motion));
             self.added.push(d.name.value.clone());
         }
-        self.nodes.extend(declared.flat_map(Declared::nodes));
+        self.nodes.extend(declared.flat_map(Declaration::nodes));
         self
     }
 
     /// What an effect on a joint takes from the joint's limits for a key that it lacks.
     pub(super) fn limit_for(
         &self,
-        effect: &dyn Declaration,
+        effect: &dyn EffectKind,
         joint: Option<&str>,
         key: &Key,
     ) -> Option<f64> {
@@ -84,12 +84,12 @@ impl Context {
 
 /// The names of effects and of their nodes are parts of the state's, so they must be no joint's
 /// and each must be the only one.
-pub(crate) fn check_unique_names(all: &[Declared], mechanism: &Mechanism, faults: &mut Faults) {
+pub(crate) fn check_unique_names(all: &[Declaration], mechanism: &Mechanism, faults: &mut Faults) {
     let joints = mechanism.links().iter().map(|l| &l.joint.name);
     let bodies = mechanism.links().iter().map(|l| &l.name);
     let frames = mechanism.frames().iter().map(|f| &f.name);
     let known: Vec<&String> = joints.chain(bodies).chain(frames).collect();
-    let own = |declared: &Declared| {
+    let own = |declared: &Declaration| {
         let mut own = declared.nodes();
         own.push(declared.name.value.clone());
         own.sort();
@@ -97,15 +97,15 @@ pub(crate) fn check_unique_names(all: &[Declared], mechanism: &Mechanism, faults
         own
     };
     for (i, declared) in all.iter().enumerate() {
-        let place = &declared.name.place;
+        let location = &declared.name.location;
         for name in own(declared) {
             if known.contains(&&name) {
-                faults.push(wording::effect_has_name_of_body(place, &name));
+                faults.push(wording::effect_has_name_of_body(location, &name));
             }
             let other = all[..i].iter().find(|other| own(other).contains(&name));
             if let Some(other) = other.filter(|other| other.name.value != declared.name.value) {
                 let other = &other.name.value;
-                faults.push(wording::effect_has_name_of_effect(place, &name, other));
+                faults.push(wording::effect_has_name_of_effect(location, &name, other));
             }
         }
     }

@@ -4,10 +4,10 @@
 use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::{EffortSums, Hold};
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::{Hold, Laws};
-use crate::layout::{Layout, Level};
+use crate::layout::{Level, StateLayout};
 
 pub(super) struct Coulomb;
 
@@ -30,7 +30,7 @@ const STATIC: Key = Key {
     about: "F_s, the largest effort at rest; F_k without it",
 };
 
-impl Declaration for Coulomb {
+impl EffectKind for Coulomb {
     fn keyword(&self) -> &'static str {
         "coulomb"
     }
@@ -55,12 +55,12 @@ impl Declaration for Coulomb {
         true
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.not_negative(&["kinetic"], "friction opposes the motion");
-        given.ordered("kinetic", "static", REST_HOLDS_MORE);
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.not_negative(&["kinetic"], "friction opposes the motion");
+        check.ordered("kinetic", "static", REST_HOLDS_MORE);
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
         let mode = format!("whether `{joint}` slips (−1, 1: the sign of its slip) or is held (0)");
         layout.mode(name.clone(), mode);
@@ -78,17 +78,17 @@ impl Effect for Coulomb {
         nodes::add_acting(element, NodeKind::Resistor, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let port = laws.port(element);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let port = sums.port(element);
         let reference = element.name("reference");
-        let counterpart = [Level::Rate, Level::Acceleration].map(|l| laws.reference(reference, l));
-        let kinetic = laws.number(element, &KINETIC);
-        let limit = laws.optional(element, &STATIC).unwrap_or(kinetic);
-        let mode = laws.mode(&element.name);
+        let counterpart = [Level::Rate, Level::Acceleration].map(|l| sums.reference(reference, l));
+        let kinetic = sums.number(element, &KINETIC);
+        let limit = sums.optional(element, &STATIC).unwrap_or(kinetic);
+        let mode = sums.mode(&element.name);
         let effort = -(mode * kinetic);
-        laws.push(&port, effort);
-        laws.dissipate(-(effort * (port.rate - counterpart[0])));
-        laws.supply(effort * counterpart[0]);
-        laws.contact(&element.name, &port, counterpart, Hold::Within(limit));
+        sums.push(&port, effort);
+        sums.dissipate(-(effort * (port.rate - counterpart[0])));
+        sums.supply(effort * counterpart[0]);
+        sums.contact(&element.name, &port, counterpart, Hold::Within(limit));
     }
 }

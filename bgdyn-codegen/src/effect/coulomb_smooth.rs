@@ -8,10 +8,10 @@ use super::coulomb::EFFORT;
 use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::EffortSums;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(super) struct CoulombSmooth;
 
@@ -37,7 +37,7 @@ const KINETIC: Key = Key {
     about: "F, the effort far above the width",
 };
 
-impl Declaration for CoulombSmooth {
+impl EffectKind for CoulombSmooth {
     fn keyword(&self) -> &'static str {
         "coulomb_smooth"
     }
@@ -58,12 +58,12 @@ impl Declaration for CoulombSmooth {
         &[KINETIC, WIDTH, JOINT, REFERENCE]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.not_negative(&["kinetic"], "friction opposes the motion");
-        given.positive(&["width"], NO_WIDTH);
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.not_negative(&["kinetic"], "friction opposes the motion");
+        check.positive(&["width"], NO_WIDTH);
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         slip::declare(element, layout);
     }
 }
@@ -73,9 +73,9 @@ impl Effect for CoulombSmooth {
         nodes::add_acting(element, NodeKind::Resistor, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        slip::resist(element, laws, |laws, s| {
-            let number = |key| laws.number(element, key);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        slip::resist(element, sums, |sums, s| {
+            let number = |key| sums.number(element, key);
             -(number(&KINETIC) * (s / number(&WIDTH)).tanh())
         });
     }

@@ -4,10 +4,10 @@ use super::spring::{BETWEEN, MAYBE_JOINT};
 use super::viscous::{EFFORT_PER_RATE, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::EffortSums;
 use crate::format::Key;
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(super) struct Damper;
 
@@ -18,7 +18,7 @@ const DAMPING: Key = Key {
     about: "b, effort per rate",
 };
 
-impl Declaration for Damper {
+impl EffectKind for Damper {
     fn keyword(&self) -> &'static str {
         "damper"
     }
@@ -39,12 +39,12 @@ impl Declaration for Damper {
         &[DAMPING, MAYBE_JOINT, BETWEEN, REFERENCE]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.one_of(&["joint", "between"]);
-        given.not_negative(&["damping"], "a negative damping would drive the motion");
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.one_of(&["joint", "between"]);
+        check.not_negative(&["damping"], "a negative damping would drive the motion");
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         slip::declare(element, layout);
     }
 }
@@ -54,9 +54,9 @@ impl Effect for Damper {
         nodes::add_acting(element, NodeKind::Resistor, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        slip::resist(element, laws, |laws, s| {
-            -(laws.number(element, &DAMPING) * s)
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        slip::resist(element, sums, |sums, s| {
+            -(sums.number(element, &DAMPING) * s)
         });
     }
 }

@@ -15,12 +15,12 @@ use super::gear::declare_mode;
 use super::viscous::JOINT;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
-use crate::expr::Ex;
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::{EffortSums, Hold};
+use crate::expr::Expr;
 use crate::fault::wording;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::{Hold, Laws};
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(super) struct DcMotor;
 
@@ -92,7 +92,7 @@ static KEYS: [Key; 8] = [
     JOINT,
 ];
 
-impl Declaration for DcMotor {
+impl EffectKind for DcMotor {
     fn keyword(&self) -> &'static str {
         "dc_motor"
     }
@@ -113,22 +113,22 @@ impl Declaration for DcMotor {
         &KEYS
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.not_negative(&["resistance"], "no winding has it");
-        given.positive(
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.not_negative(&["resistance"], "no winding has it");
+        check.positive(
             &["inductance"],
             "leave it out for the motor without inductance, whose current follows from the voltage at once",
         );
-        given.positive(
+        check.positive(
             &["voltage_limit", "current_limit", "efficiency"],
             "leave it out where nothing limits the motor",
         );
-        let no_resistance = given.value_or("resistance", 1.0) == 0.0;
-        if no_resistance && given.number("inductance").is_none() {
-            let place = given.place("resistance");
-            given.report(wording::motor_without_impedance(&place));
+        let no_resistance = check.value_or("resistance", 1.0) == 0.0;
+        if no_resistance && check.number("inductance").is_none() {
+            let location = check.location("resistance");
+            check.report(wording::motor_without_impedance(&location));
         }
-        given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
+        check.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
     }
 
     fn algebraic(&self, element: &Element) -> Option<&'static str> {
@@ -136,7 +136,7 @@ impl Declaration for DcMotor {
         at_once.then_some("without inductance: R i + k N q̇ = u solved for i")
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
         let about = format!("voltage of `{name}`");
         if element.quantity("inductance").is_some() {
@@ -179,43 +179,43 @@ impl Effect for DcMotor {
         }
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let joint = laws.port(element);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let joint = sums.port(element);
         let circuit = Circuit {
             element,
-            induced: gyrator(element, laws) * joint.rate,
-            resistance: laws.number(element, &RESISTANCE),
-            asked: supplied_voltage(element, laws),
+            induced: gyrator(element, sums) * joint.rate,
+            resistance: sums.number(element, &RESISTANCE),
+            asked: supplied_voltage(element, sums),
         };
-        let flowing = match laws.optional(element, &INDUCTANCE) {
-            Some(inductance) => circuit.with_inductance(inductance, laws),
-            None => circuit.at_once(laws),
+        let flowing = match sums.optional(element, &INDUCTANCE) {
+            Some(inductance) => circuit.with_inductance(inductance, sums),
+            None => circuit.at_once(sums),
         };
-        let torque = gyrator(element, laws) * flowing.current;
+        let torque = gyrator(element, sums) * flowing.current;
         let mode = named(element, GEAR);
-        let geared = match laws.gear(element, &EFFICIENCY, &mode) {
+        let geared = match sums.gear(element, &EFFICIENCY, &mode) {
             Some(gear) => {
-                laws.load((element, &mode), gear, &joint, torque);
-                gear.behind(laws.b, torque)
+                sums.load((element, &mode), gear, &joint, torque);
+                gear.behind(sums.b, torque)
             }
             None => torque,
         };
-        laws.push(&joint, geared);
-        laws.supply(flowing.supplied * flowing.current);
+        sums.push(&joint, geared);
+        sums.supply(flowing.supplied * flowing.current);
         let heat = circuit.resistance * flowing.current * flowing.current;
-        laws.dissipate(heat + (torque - geared) * joint.rate);
+        sums.dissipate(heat + (torque - geared) * joint.rate);
         let name = &element.name;
-        laws.reading(
+        sums.reading(
             format!("{name}_torque"),
             geared,
-            laws.port_units(element)[2],
+            sums.port_units(element)[2],
             "effort of the motor at the joint".into(),
         );
         if element.quantity("inductance").is_none() {
             let about = "A".into();
-            laws.reading(format!("{name}_current"), flowing.current, "A", about);
+            sums.reading(format!("{name}_current"), flowing.current, "A", about);
         }
-        laws.reading(
+        sums.reading(
             format!("{name}_voltage"),
             flowing.measured,
             "V",
@@ -225,10 +225,10 @@ impl Effect for DcMotor {
 }
 
 /// k N, of the motor with its gear.
-fn gyrator<'g>(element: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
-    let one = laws.b.number(1.0);
-    let ratio = laws.optional(element, &RATIO).unwrap_or(one);
-    laws.number(element, &TORQUE_CONSTANT) * ratio
+fn gyrator<'g>(element: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
+    let one = sums.b.number(1.0);
+    let ratio = sums.optional(element, &RATIO).unwrap_or(one);
+    sums.number(element, &TORQUE_CONSTANT) * ratio
 }
 
 /// The part of the name of the gear's mode.
@@ -243,7 +243,7 @@ fn named(element: &Element, part: &str) -> String {
 const SIDES: [(&str, f64); 2] = [("upper_limit", 1.0), ("lower_limit", -1.0)];
 
 /// The kinks of the limits, and the modes of a current that is held.
-fn declare_limits(element: &Element, layout: &mut Layout) {
+fn declare_limits(element: &Element, layout: &mut StateLayout) {
     let name = &element.name;
     if element.quantity(VOLTAGE_LIMIT.name).is_some() {
         let about = format!("the voltage of `{name}` reaches its limit, or leaves it");
@@ -268,11 +268,11 @@ fn declare_limits(element: &Element, layout: &mut Layout) {
 }
 
 /// The voltage within the supply's limit.
-fn supplied_voltage<'g>(element: &Element, laws: &mut Laws<'g, '_>) -> Ex<'g> {
-    let asked = laws.input(&element.name);
-    match laws.optional(element, &VOLTAGE_LIMIT) {
-        Some(limit) if laws.limited() => {
-            laws.event(&named(element, VOLTAGE_LIMIT.name), limit - asked.abs());
+fn supplied_voltage<'g>(element: &Element, sums: &mut EffortSums<'g, '_>) -> Expr<'g> {
+    let asked = sums.input(&element.name);
+    match sums.optional(element, &VOLTAGE_LIMIT) {
+        Some(limit) if sums.limited() => {
+            sums.event(&named(element, VOLTAGE_LIMIT.name), limit - asked.abs());
             asked.max(-limit).min(limit)
         }
         _ => asked,
@@ -283,40 +283,40 @@ fn supplied_voltage<'g>(element: &Element, laws: &mut Laws<'g, '_>) -> Ex<'g> {
 struct Circuit<'g, 'e> {
     element: &'e Element,
     /// k N q̇
-    induced: Ex<'g>,
+    induced: Expr<'g>,
     /// R
-    resistance: Ex<'g>,
+    resistance: Expr<'g>,
     /// u, within the supply's limit.
-    asked: Ex<'g>,
+    asked: Expr<'g>,
 }
 
 /// What flows through a motor.
 struct Flowing<'g> {
-    current: Ex<'g>,
+    current: Expr<'g>,
     /// The voltage at the motor, as the law has it.
-    supplied: Ex<'g>,
+    supplied: Expr<'g>,
     /// The same for those who measure it: where nothing limits it, what is asked for to the last bit.
-    measured: Ex<'g>,
+    measured: Expr<'g>,
 }
 
 impl<'g> Circuit<'g, '_> {
     /// The limit of the current, where there is one.
-    fn current_limit(&self, laws: &Laws<'g, '_>) -> Option<Ex<'g>> {
-        let limit = laws.optional(self.element, &CURRENT_LIMIT);
-        limit.filter(|_| laws.limited())
+    fn current_limit(&self, sums: &EffortSums<'g, '_>) -> Option<Expr<'g>> {
+        let limit = sums.optional(self.element, &CURRENT_LIMIT);
+        limit.filter(|_| sums.limited())
     }
 
     /// The current that follows from the voltage at once: R i + k N q̇ = u, solved for i.
-    fn at_once(&self, laws: &mut Laws<'g, '_>) -> Flowing<'g> {
+    fn at_once(&self, sums: &mut EffortSums<'g, '_>) -> Flowing<'g> {
         let wanted = (self.asked - self.induced) / self.resistance;
-        let Some(limit) = self.current_limit(laws) else {
+        let Some(limit) = self.current_limit(sums) else {
             return Flowing {
                 current: wanted,
                 supplied: self.resistance * wanted + self.induced,
                 measured: self.asked,
             };
         };
-        laws.event(
+        sums.event(
             &named(self.element, CURRENT_LIMIT.name),
             limit - wanted.abs(),
         );
@@ -333,15 +333,15 @@ impl<'g> Circuit<'g, '_> {
     }
 
     /// The current that the inductance keeps; its acceleration is that of an own coordinate.
-    fn with_inductance(&self, inductance: Ex<'g>, laws: &mut Laws<'g, '_>) -> Flowing<'g> {
-        let current = laws.own_velocity(self.element);
-        let (free, applied) = match self.current_limit(laws) {
-            Some(limit) => self.held(current, limit, laws),
+    fn with_inductance(&self, inductance: Expr<'g>, sums: &mut EffortSums<'g, '_>) -> Flowing<'g> {
+        let current = sums.own_velocity(self.element);
+        let (free, applied) = match self.current_limit(sums) {
+            Some(limit) => self.held(current, limit, sums),
             None => (self.asked, self.asked),
         };
-        laws.inertia(self.element, inductance);
+        sums.inertia(self.element, inductance);
         let rest = free - self.resistance * current - self.induced;
-        laws.push_own(self.element, rest);
+        sums.push_own(self.element, rest);
         Flowing {
             current,
             supplied: applied,
@@ -351,17 +351,22 @@ impl<'g> Circuit<'g, '_> {
 
     /// The voltage that drives the current where nothing holds it, and the one that is applied where
     /// the amplifier holds |i| to the limit I.
-    fn held(&self, current: Ex<'g>, limit: Ex<'g>, laws: &mut Laws<'g, '_>) -> (Ex<'g>, Ex<'g>) {
-        let half = laws.b.number(0.5);
-        let port = laws.coordinate(&self.element.name);
-        let still = laws.b.zero();
+    fn held(
+        &self,
+        current: Expr<'g>,
+        limit: Expr<'g>,
+        sums: &mut EffortSums<'g, '_>,
+    ) -> (Expr<'g>, Expr<'g>) {
+        let half = sums.b.number(0.5);
+        let port = sums.coordinate(&self.element.name);
+        let still = sums.b.zero();
         // With this voltage the current stays as it is.
         let keeps = self.resistance * current + self.induced;
         let (mut free, mut applied) = (self.asked, self.asked);
         for (side, sign) in SIDES {
             let at = limit * Dd::from_f64(sign);
             let name = named(self.element, side);
-            let mode = laws.mode(&name);
+            let mode = sums.mode(&name);
             // Beyond the limit, what would keep the current at it brings it back.
             let back = self.resistance * at + self.induced;
             let (hold, back) = match sign > 0.0 {
@@ -371,7 +376,7 @@ impl<'g> Circuit<'g, '_> {
             let beyond = |yes, no| half.if_less(mode * Dd::from_f64(sign), yes, no);
             (free, applied) = (beyond(back, free), beyond(back, applied));
             applied = mode.abs().if_less(half, keeps, applied);
-            laws.contact(&name, &port, [at, still], hold);
+            sums.contact(&name, &port, [at, still], hold);
         }
         (free, applied)
     }

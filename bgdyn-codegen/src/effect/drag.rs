@@ -4,10 +4,10 @@
 use super::wrench::{AT, act, moves, twist};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
+use crate::effort_sums::EffortSums;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
 use crate::math::Vec3;
 
 pub(super) struct Drag;
@@ -35,7 +35,7 @@ const LINEAR: Key = number("linear", &[Dimension::Damping], "c₁, force per spe
 
 static KEYS: [Key; 4] = [AT, LINEAR, QUADRATIC, ANGULAR];
 
-impl Declaration for Drag {
+impl EffectKind for Drag {
     fn keyword(&self) -> &'static str {
         "drag"
     }
@@ -56,15 +56,18 @@ impl Declaration for Drag {
         &KEYS
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
         let numbers = ["linear", "quadratic", "angular"];
-        given.not_negative(&numbers, "a negative drag would drive the link");
-        if numbers.iter().all(|key| given.number(key).is_none()) {
-            given.report(wording::no_drag(&given.element.place, &given.element.name));
+        check.not_negative(&numbers, "a negative drag would drive the link");
+        if numbers.iter().all(|key| check.number(key).is_none()) {
+            check.report(wording::no_drag(
+                &check.element.location,
+                &check.element.name,
+            ));
         }
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         moves(element, beside, faults);
     }
 }
@@ -75,18 +78,18 @@ impl Effect for Drag {
         network.add_on(site, NodeKind::Resistor, nodes::label(element));
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let site = laws.site(element.name(AT.name).unwrap_or_default());
-        let jacobian = laws.jacobian(site);
-        let [wx, wy, wz, vx, vy, vz] = twist(&jacobian, laws);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let site = sums.site(element.name(AT.name).unwrap_or_default());
+        let jacobian = sums.jacobian(site);
+        let [wx, wy, wz, vx, vy, vz] = twist(&jacobian, sums);
         let (omega, v) = (Vec3([wx, wy, wz]), Vec3([vx, vy, vz]));
-        let [linear, angular] = [&LINEAR, &ANGULAR].map(|key| laws.number(element, key));
-        let factor = match laws.optional(element, &QUADRATIC) {
+        let [linear, angular] = [&LINEAR, &ANGULAR].map(|key| sums.number(element, key));
+        let factor = match sums.optional(element, &QUADRATIC) {
             Some(quadratic) => linear + quadratic * v.dot(v).sqrt(),
             None => linear,
         };
         let ([mx, my, mz], [fx, fy, fz]) = (omega.scale(-angular).0, v.scale(-factor).0);
-        act(&jacobian, &[mx, my, mz, fx, fy, fz], laws);
-        laws.dissipate(factor * v.dot(v) + angular * omega.dot(omega));
+        act(&jacobian, &[mx, my, mz, fx, fy, fz], sums);
+        sums.dissipate(factor * v.dot(v) + angular * omega.dot(omega));
     }
 }

@@ -8,12 +8,12 @@
 use super::viscous::JOINT;
 use super::{Effect, nodes};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::{EffortSums, load_event};
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::{Laws, load_event};
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
-pub(super) struct Gear;
+pub(super) struct GearEffect;
 
 const EFFICIENCY: Key = Key {
     name: "efficiency",
@@ -22,7 +22,7 @@ const EFFICIENCY: Key = Key {
     about: "η, greater than 0, at most 1",
 };
 
-impl Declaration for Gear {
+impl EffectKind for GearEffect {
     fn keyword(&self) -> &'static str {
         "gear"
     }
@@ -47,20 +47,20 @@ impl Declaration for Gear {
         true
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.positive(
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.positive(
             &["efficiency"],
             "a gear that lets nothing through is a lock",
         );
-        given.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
+        check.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         declare_mode(element, &element.name, layout);
     }
 }
 
-impl Effect for Gear {
+impl Effect for GearEffect {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
         let joint = element.name("joint").unwrap_or_default();
         let efficiency = nodes::number(element, "η", EFFICIENCY.name);
@@ -68,14 +68,14 @@ impl Effect for Gear {
         network.set_powers(gear, nodes::gear_losses(element));
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        laws.gear_of_drive(element, &EFFICIENCY);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        sums.gear_of_drive(element, &EFFICIENCY);
     }
 }
 
 /// Declares the mode of a gear with losses, with its event, and the event of its load's change of
 /// sign, which is a kink of the law.
-pub(super) fn declare_mode(element: &Element, mode: &str, layout: &mut Layout) {
+pub(super) fn declare_mode(element: &Element, mode: &str, layout: &mut StateLayout) {
     let joint = element.name("joint").unwrap_or_default();
     let about =
         format!("whether `{joint}` moves (−1, 1: the sign of its rate) or its gear holds it (0)");

@@ -2,15 +2,15 @@
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
-use crate::declaration::{Declaration, Element};
+use crate::declaration::{EffectKind, Element};
+use crate::effort_sums::EffortSums;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
 use crate::math::Vec3;
 use crate::mechanism::Mechanism;
 
 pub(super) struct Gravity;
 
-impl Declaration for Gravity {
+impl EffectKind for Gravity {
     fn keyword(&self) -> &'static str {
         "gravity"
     }
@@ -42,9 +42,9 @@ impl Declaration for Gravity {
 }
 
 impl Effect for Gravity {
-    fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
+    fn modify_graph(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
         let other = element.vector("acceleration").map(Vec3);
-        graph.weigh(other.unwrap_or(mechanism.gravity()));
+        graph.add_gravity(other.unwrap_or(mechanism.gravity()));
     }
 
     fn elements(&self, _: &Element, _: &[Element], network: &mut BondNetwork) {
@@ -52,9 +52,9 @@ impl Effect for Gravity {
     }
 
     /// V = −Σ m_i g · r_i
-    fn law(&self, _: &Element, laws: &mut Laws<'_, '_>) {
-        if let [energy] = laws.potential_energy()[..] {
-            laws.store(energy);
+    fn law(&self, _: &Element, sums: &mut EffortSums<'_, '_>) {
+        if let [energy] = sums.potential_energy()[..] {
+            sums.store(energy);
         }
     }
 }

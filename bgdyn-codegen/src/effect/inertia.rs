@@ -3,13 +3,13 @@
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
-use crate::declaration::{Declaration, Element};
+use crate::declaration::{EffectKind, Element};
 use crate::format::{Key, Reads};
 use crate::mechanism::Mechanism;
 
 pub(super) struct LinkInertia;
 
-impl Declaration for LinkInertia {
+impl EffectKind for LinkInertia {
     fn keyword(&self) -> &'static str {
         "inertia"
     }
@@ -41,9 +41,9 @@ impl Declaration for LinkInertia {
 }
 
 impl Effect for LinkInertia {
-    fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
+    fn modify_graph(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
         if element.name("stage") != Some("lumped") {
-            graph.distribute(mechanism);
+            graph.add_link_inertia(mechanism);
         }
     }
 

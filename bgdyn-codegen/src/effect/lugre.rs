@@ -14,11 +14,11 @@ use super::stribeck::{KINETIC, curve};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::EffortSums;
 use crate::fault::wording;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::{Layout, Level};
+use crate::layout::{Level, StateLayout};
 
 pub(super) struct LuGre;
 
@@ -53,7 +53,7 @@ const STRIBECK_SPEED: Key = Key {
     about: "v_s, speed of the Stribeck curve; needed where F_s is given",
 };
 
-impl Declaration for LuGre {
+impl EffectKind for LuGre {
     fn keyword(&self) -> &'static str {
         "lugre"
     }
@@ -83,28 +83,28 @@ impl Declaration for LuGre {
         ]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.positive(
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.positive(
             &["stiffness", "kinetic", "stribeck_speed"],
             "without it the law has no rest: leave the effect out",
         );
-        given.not_negative(&["damping", "viscous"], "it would drive the joint");
-        given.ordered("kinetic", "static", REST_HOLDS_MORE);
-        if given.number("static").is_some() && given.number("stribeck_speed").is_none() {
-            let place = given.place("static");
-            given.report(wording::no_stribeck_speed(&place));
+        check.not_negative(&["damping", "viscous"], "it would drive the joint");
+        check.ordered("kinetic", "static", REST_HOLDS_MORE);
+        if check.number("static").is_some() && check.number("stribeck_speed").is_none() {
+            let location = check.location("static");
+            check.report(wording::no_stribeck_speed(&location));
         }
-        let [damping, viscous] = ["damping", "viscous"].map(|key| given.value_or(key, 0.0));
-        let kinetic = given.value_or("kinetic", 1.0);
-        let excess = (given.value_or("static", kinetic) - kinetic) / kinetic;
+        let [damping, viscous] = ["damping", "viscous"].map(|key| check.value_or(key, 0.0));
+        let kinetic = check.value_or("kinetic", 1.0);
+        let excess = (check.value_or("static", kinetic) - kinetic) / kinetic;
         if viscous < damping * excess {
-            let place = given.place("damping");
+            let location = check.location("damping");
             let least = damping * excess;
-            given.report(wording::friction_feeds_energy(&place, least));
+            check.report(wording::friction_feeds_energy(&location, least));
         }
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let joint = element.name("joint").unwrap_or_default();
         let dimension = layout.position_of(joint);
         let about = format!("deflection of the bristles at `{joint}`");
@@ -122,22 +122,22 @@ impl Effect for LuGre {
         network.set_powers(friction, &[PowerTerm::Stored, PowerTerm::Dissipated]);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let port = laws.port(element);
-        let counterpart = laws.reference(element.name("reference"), Level::Rate);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let port = sums.port(element);
+        let counterpart = sums.reference(element.name("reference"), Level::Rate);
         let slip = port.rate - counterpart;
-        let z = laws.state(&element.name);
-        let number = |key: &Key| laws.number(element, key);
+        let z = sums.state(&element.name);
+        let number = |key: &Key| sums.number(element, key);
         let (stiffness, damping, viscous) =
             (number(&STIFFNESS), number(&DAMPING), number(&VISCOUS));
-        let rate = slip - stiffness * slip.abs() * z / curve(element, laws, slip);
-        laws.flow(&element.name, rate);
+        let rate = slip - stiffness * slip.abs() * z / curve(element, sums, slip);
+        sums.flow(&element.name, rate);
         let effort = -(stiffness * z + damping * rate + viscous * slip);
-        laws.push(&port, effort);
-        laws.supply(effort * counterpart);
-        laws.store(stiffness * z * z * Dd::from_f64(0.5));
+        sums.push(&port, effort);
+        sums.supply(effort * counterpart);
+        sums.store(stiffness * z * z * Dd::from_f64(0.5));
         // What the slip takes less what the bristles store: σ₀ z ż.
-        laws.dissipate(-(effort * slip) - stiffness * z * rate);
-        laws.event(&element.name, slip);
+        sums.dissipate(-(effort * slip) - stiffness * z * rate);
+        sums.event(&element.name, slip);
     }
 }

@@ -2,7 +2,7 @@
 //! [`EFFECTS`].
 //!
 //! An effect is an element of the bond graph. Its file says what its keys mean, what it adds to
-//! the state ([`Declaration::declare`]), and its constitutive law ([`Effect::law`]): efforts on
+//! the state ([`EffectKind::declare`]), and its constitutive law ([`Effect::law`]): efforts on
 //! junctions, rates of states, and what it supplies, stores and dissipates.
 
 mod law;
@@ -29,7 +29,7 @@ mod velocity_products;
 mod viscous;
 mod wrench;
 
-use crate::declaration::{Declaration, Element, Kinds};
+use crate::declaration::{EffectKind, EffectKinds, Element};
 pub use law::Effect;
 
 /// Every effect there is.
@@ -46,8 +46,8 @@ pub static EFFECTS: [&dyn Effect; 27] = [
     &damper::Damper,
     &stop::Stop,
     &series_elastic::SeriesElastic,
-    &gear::Gear,
-    &rotor::Rotor,
+    &gear::GearEffect,
+    &rotor::RotorEffect,
     &dc_motor::DcMotor,
     &hydraulic::Fluid,
     &hydraulic::Supply,
@@ -58,14 +58,14 @@ pub static EFFECTS: [&dyn Effect; 27] = [
     &hydraulic::Orifice,
     &hydraulic::Leakage,
     &hydraulic::FourWayValve,
-    &wrench::Wrench,
+    &wrench::WrenchEffect,
     &drag::Drag,
     &payload::Payload,
 ];
 
 /// Their declarations.
-pub fn kinds() -> Kinds {
-    Kinds::new(EFFECTS.into_iter().map(|effect| effect as &dyn Declaration))
+pub fn kinds() -> EffectKinds {
+    EffectKinds::new(EFFECTS.into_iter().map(|effect| effect as &dyn EffectKind))
 }
 
 /// The effect that an element is of.

@@ -1,6 +1,6 @@
 //! Nodes of the bond graph that several effects add in the same way, and what is written beside them.
 
-use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind, PortPlace, PowerTerm};
+use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind, PortSite, PowerTerm};
 use crate::declaration::Element;
 
 /// `seal (viscous)`
@@ -17,7 +17,7 @@ pub(super) fn number(element: &Element, symbol: &str, key: &str) -> String {
 /// places.
 pub(super) fn port(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
     match element.names("between") {
-        Some(ends) => network.port(PortPlace::Line(ends.clone())),
+        Some(ends) => network.port(PortSite::Line(ends.clone())),
         None => network.velocity(element.name("joint").unwrap_or_default()),
     }
 }
@@ -25,7 +25,7 @@ pub(super) fn port(element: &Element, network: &mut BondNetwork) -> GraphNodeId 
 /// The 1-junction of the motion of the place that the element acts at.
 pub(super) fn site(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
     let name = element.name("at").unwrap_or_default();
-    network.port(PortPlace::Site(name.to_owned()))
+    network.port(PortSite::Site(name.to_owned()))
 }
 
 /// A resistor or a compliance at the element's port. Where a reference moves by itself it acts on the

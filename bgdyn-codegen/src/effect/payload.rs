@@ -7,7 +7,7 @@ use bgdyn_runtime::Dd;
 use super::Effect;
 use super::wrench::{AT, moves};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::fault::Faults;
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
@@ -25,7 +25,7 @@ const INERTIA: [&str; 6] = [
     "inertia.yz",
 ];
 
-impl Declaration for Payload {
+impl EffectKind for Payload {
     fn keyword(&self) -> &'static str {
         "payload"
     }
@@ -66,21 +66,21 @@ impl Declaration for Payload {
         ]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.not_negative(&["mass"], "no body has it");
-        let entries = INERTIA.map(|key| given.number(key).map_or(Dd::ZERO, |q| q.value));
-        let first = INERTIA.into_iter().find(|key| given.number(key).is_some());
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.not_negative(&["mass"], "no body has it");
+        let entries = INERTIA.map(|key| check.number(key).map_or(Dd::ZERO, |q| q.value));
+        let first = INERTIA.into_iter().find(|key| check.number(key).is_some());
         if let Some(first) = first {
-            let place = given.place(first);
-            check_tensor(&place, &entries, given.faults);
+            let location = check.location(first);
+            check_tensor(&location, &entries, check.faults);
         }
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         moves(element, beside, faults);
     }
 
-    fn reduce(&self, element: &Element, mechanism: &mut Mechanism) {
+    fn modify_mechanism(&self, element: &Element, mechanism: &mut Mechanism) {
         let mut value = |key: &str| match element.quantity(key) {
             None => Value::Fixed(Dd::ZERO),
             Some(q) => match &q.parameter {

@@ -5,15 +5,15 @@ use bgdyn_runtime::Dd;
 
 use super::{Effect, nodes};
 use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::fault::wording;
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
 
-pub(super) struct Rotor;
+pub(super) struct RotorEffect;
 
-impl Declaration for Rotor {
+impl EffectKind for RotorEffect {
     fn keyword(&self) -> &'static str {
         "rotor"
     }
@@ -52,7 +52,7 @@ impl Declaration for Rotor {
             },
             Key {
                 name: "on",
-                reads: Reads::Place,
+                reads: Reads::Site,
                 needed: false,
                 about: "the link or frame that the motor sits on: the full rotor, with its gyroscopic terms",
             },
@@ -65,15 +65,15 @@ impl Declaration for Rotor {
         ]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.not_negative(&["inertia"], "no body has it");
-        if given.element.vector("axis").is_some() && given.element.name("on").is_none() {
-            given.report(wording::rotor_axis_without_link(&given.element.place));
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.not_negative(&["inertia"], "no body has it");
+        if check.element.vector("axis").is_some() && check.element.name("on").is_none() {
+            check.report(wording::rotor_axis_without_link(&check.element.location));
         }
     }
 
     /// Run-time parameters become the mechanism's, which its graph can refer to.
-    fn reduce(&self, element: &Element, mechanism: &mut Mechanism) {
+    fn modify_mechanism(&self, element: &Element, mechanism: &mut Mechanism) {
         for (key, quantity) in element.quantities() {
             if let Some(name) = &quantity.parameter {
                 let (meaning, unit) = (element.meaning(key), quantity.dimension.si());
@@ -83,8 +83,8 @@ impl Declaration for Rotor {
     }
 }
 
-impl Effect for Rotor {
-    fn alter(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
+impl Effect for RotorEffect {
+    fn modify_graph(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
         let value = |key: &str, usual: f64| {
             let Some(quantity) = element.quantity(key) else {
                 return Value::Fixed(Dd::from_f64(usual));

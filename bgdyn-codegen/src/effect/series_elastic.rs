@@ -11,10 +11,10 @@ use bgdyn_runtime::Dd;
 use super::viscous::{EFFORT_PER_RATE, JOINT};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::EffortSums;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(super) struct SeriesElastic;
 
@@ -43,7 +43,7 @@ const RATIO: Key = Key {
     about: "N, turns of the rotor per turn of the joint; 1 without it",
 };
 
-impl Declaration for SeriesElastic {
+impl EffectKind for SeriesElastic {
     fn keyword(&self) -> &'static str {
         "series_elastic"
     }
@@ -68,19 +68,19 @@ impl Declaration for SeriesElastic {
         true
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.positive(
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.positive(
             &["stiffness"],
             "without a spring nothing connects the drive with its joint",
         );
-        given.not_negative(&["damping"], "a negative damping would drive the motion");
-        given.positive(
+        check.not_negative(&["damping"], "a negative damping would drive the motion");
+        check.positive(
             &["inertia", "ratio"],
             "without a rotor there is nothing on the drive's side: use `type: spring`",
         );
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let joint = element.name("joint").unwrap_or_default();
         layout.coordinate_beside(&element.name, joint);
     }
@@ -107,25 +107,28 @@ impl Effect for SeriesElastic {
         nodes::add_rotor(element, drive, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let (joint, drive) = (laws.port(element), laws.coordinate(&element.name));
-        let (stretch, rate) = (drive.place - joint.place, drive.rate - joint.rate);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let (joint, drive) = (sums.port(element), sums.coordinate(&element.name));
+        let (stretch, rate) = (
+            drive.displacement - joint.displacement,
+            drive.rate - joint.rate,
+        );
         let (stiffness, damping) = (
-            laws.number(element, &STIFFNESS),
-            laws.number(element, &DAMPING),
+            sums.number(element, &STIFFNESS),
+            sums.number(element, &DAMPING),
         );
         let effort = stiffness * stretch + damping * rate;
-        laws.push(&joint, effort);
-        laws.push(&drive, -effort);
-        laws.store(stiffness * stretch * stretch * Dd::from_f64(0.5));
-        laws.dissipate(damping * rate * rate);
-        let one = laws.b.number(1.0);
-        let ratio = laws.optional(element, &RATIO).unwrap_or(one);
-        laws.inertia(element, ratio * ratio * laws.number(element, &INERTIA));
-        laws.reading(
+        sums.push(&joint, effort);
+        sums.push(&drive, -effort);
+        sums.store(stiffness * stretch * stretch * Dd::from_f64(0.5));
+        sums.dissipate(damping * rate * rate);
+        let one = sums.b.number(1.0);
+        let ratio = sums.optional(element, &RATIO).unwrap_or(one);
+        sums.inertia(element, ratio * ratio * sums.number(element, &INERTIA));
+        sums.reading(
             format!("{}_effort", element.name),
             effort,
-            laws.port_units(element)[2],
+            sums.port_units(element)[2],
             "effort of spring and damper on the joint".into(),
         );
     }

@@ -2,13 +2,13 @@
 //! its counterpart, and takes from it all the power it is given.
 
 use crate::declaration::Element;
-use crate::expr::Ex;
+use crate::effort_sums::EffortSums;
+use crate::expr::Expr;
 use crate::format::Dimension;
-use crate::laws::Laws;
-use crate::layout::{Layout, Level};
+use crate::layout::{Level, StateLayout};
 
 /// The counterpart's speed is an input, where there is one.
-pub(super) fn declare(element: &Element, layout: &mut Layout) {
+pub(super) fn declare(element: &Element, layout: &mut StateLayout) {
     if let Some(reference) = element.name("reference") {
         let dimension = match element.name("joint") {
             Some(joint) => layout.position_of(joint),
@@ -22,14 +22,14 @@ pub(super) fn declare(element: &Element, layout: &mut Layout) {
 /// brings τ ṙ.
 pub(super) fn resist<'g>(
     element: &Element,
-    laws: &mut Laws<'g, '_>,
-    effort: impl FnOnce(&Laws<'g, '_>, Ex<'g>) -> Ex<'g>,
+    sums: &mut EffortSums<'g, '_>,
+    effort: impl FnOnce(&EffortSums<'g, '_>, Expr<'g>) -> Expr<'g>,
 ) {
-    let port = laws.port(element);
-    let counterpart = laws.reference(element.name("reference"), Level::Rate);
+    let port = sums.port(element);
+    let counterpart = sums.reference(element.name("reference"), Level::Rate);
     let slip = port.rate - counterpart;
-    let effort = effort(laws, slip);
-    laws.push(&port, effort);
-    laws.dissipate(-(effort * slip));
-    laws.supply(effort * counterpart);
+    let effort = effort(sums, slip);
+    sums.push(&port, effort);
+    sums.dissipate(-(effort * slip));
+    sums.supply(effort * counterpart);
 }

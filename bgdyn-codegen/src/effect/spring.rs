@@ -5,10 +5,10 @@ use bgdyn_runtime::Dd;
 use super::viscous::REFERENCE;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::EffortSums;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::{Layout, Level};
+use crate::layout::{Level, StateLayout};
 
 pub(super) struct Spring;
 
@@ -23,7 +23,7 @@ pub(super) const MAYBE_JOINT: Key = Key {
 /// The two places between which an effect acts.
 pub(super) const BETWEEN: Key = Key {
     name: "between",
-    reads: Reads::Places,
+    reads: Reads::Sites,
     needed: false,
     about: "two links or frames: it acts along the line between their origins",
 };
@@ -47,7 +47,7 @@ const PRELOAD: Key = Key {
     about: "f₀, effort at rest, towards smaller s where positive",
 };
 
-impl Declaration for Spring {
+impl EffectKind for Spring {
     fn keyword(&self) -> &'static str {
         "spring"
     }
@@ -68,12 +68,12 @@ impl Declaration for Spring {
         &[STIFFNESS, REST, PRELOAD, MAYBE_JOINT, BETWEEN, REFERENCE]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.one_of(&["joint", "between"]);
-        given.not_negative(&["stiffness"], "a negative stiffness pushes away from rest");
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.one_of(&["joint", "between"]);
+        check.not_negative(&["stiffness"], "a negative stiffness pushes away from rest");
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         if let Some(reference) = element.name("reference") {
             let dimension = match element.name("joint") {
                 Some(joint) => layout.position_of(joint),
@@ -89,19 +89,19 @@ impl Effect for Spring {
         nodes::add_acting(element, NodeKind::Compliance, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let port = laws.port(element);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let port = sums.port(element);
         let reference = element.name("reference");
-        let [place, rate] = [Level::Position, Level::Rate].map(|l| laws.reference(reference, l));
-        let stretch = port.place - place - laws.number(element, &REST);
+        let [location, rate] = [Level::Position, Level::Rate].map(|l| sums.reference(reference, l));
+        let stretch = port.displacement - location - sums.number(element, &REST);
         let (stiffness, preload) = (
-            laws.number(element, &STIFFNESS),
-            laws.number(element, &PRELOAD),
+            sums.number(element, &STIFFNESS),
+            sums.number(element, &PRELOAD),
         );
         let effort = -(stiffness * stretch) - preload;
-        laws.push(&port, effort);
-        laws.store(stretch * (stiffness * stretch * Dd::from_f64(0.5) + preload));
+        sums.push(&port, effort);
+        sums.store(stretch * (stiffness * stretch * Dd::from_f64(0.5) + preload));
         // The counterpart is pulled along: the effort's reaction moves with ṙ.
-        laws.supply(effort * rate);
+        sums.supply(effort * rate);
     }
 }

@@ -15,12 +15,12 @@ use super::coulomb_smooth::SPEED;
 use super::viscous::JOINT;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
-use crate::declaration::{Declaration, Element, Given};
-use crate::expr::Ex;
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::{EffortSums, Port};
+use crate::expr::Expr;
 use crate::fault::wording;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::{Laws, Port};
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 use crate::mechanism::Limits;
 
 pub(super) struct Stop;
@@ -58,7 +58,7 @@ const UPPER: Key = Key {
     about: "where the upper stop begins; the joint's upper limit without it",
 };
 
-impl Declaration for Stop {
+impl EffectKind for Stop {
     fn keyword(&self) -> &'static str {
         "stop"
     }
@@ -87,25 +87,25 @@ impl Declaration for Stop {
         }
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.fixed(&["restitution", "impact_speed"]);
-        given.positive(
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.fixed(&["restitution", "impact_speed"]);
+        check.positive(
             &["stiffness", "impact_speed"],
             "a scene without stops leaves the effect out",
         );
-        given.positive(
+        check.positive(
             &["restitution"],
             "no damping takes all the speed from an impact: write a small one, 0.01",
         );
-        given.at_most_one("restitution", "an impact would give back more than it took");
-        given.ordered("lower", "upper", "the joint moves between its stops");
-        if given.number("lower").or(given.number("upper")).is_none() {
-            let joint = given.element.name("joint").unwrap_or_default();
-            given.report(wording::no_stops(&given.element.place, joint));
+        check.at_most_one("restitution", "an impact would give back more than it took");
+        check.ordered("lower", "upper", "the joint moves between its stops");
+        if check.number("lower").or(check.number("upper")).is_none() {
+            let joint = check.element.name("joint").unwrap_or_default();
+            check.report(wording::no_stops(&check.element.location, joint));
         }
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
         layout.event(begins(name), format!("`{joint}` meets a stop"));
         layout.event(ends(name), format!("`{joint}` leaves a stop"));
@@ -121,29 +121,29 @@ impl Effect for Stop {
         network.set_powers(stop, &[PowerTerm::Stored, PowerTerm::Dissipated]);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let port = laws.port(element);
-        let zero = laws.b.zero();
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let port = sums.port(element);
+        let zero = sums.b.zero();
         // How far the stops are away; 0 within them.
         let (mut pushed, mut gap, mut follows) = (zero, None, zero);
         for (key, outwards) in [(&LOWER, -1.0), (&UPPER, 1.0)] {
-            let Some(at) = laws.optional(element, key) else {
+            let Some(at) = sums.optional(element, key) else {
                 continue;
             };
             let outwards = Dd::from_f64(outwards);
-            let depth = (port.place - at) * outwards;
-            let side = one_side(element, laws, &port, depth, outwards);
+            let depth = (port.displacement - at) * outwards;
+            let side = one_side(element, sums, &port, depth, outwards);
             (pushed, follows) = (pushed + side.effort, follows + side.follows);
-            gap = Some(gap.map_or(-depth, |other: Ex<'_>| other.min(-depth)));
+            gap = Some(gap.map_or(-depth, |other: Expr<'_>| other.min(-depth)));
         }
         let gap = gap.unwrap_or(zero);
-        laws.event(&begins(&element.name), gap);
-        laws.event(&ends(&element.name), -gap);
-        laws.event(&pulled(&element.name), follows);
-        laws.reading(
+        sums.event(&begins(&element.name), gap);
+        sums.event(&ends(&element.name), -gap);
+        sums.event(&pulled(&element.name), follows);
+        sums.reading(
             format!("{}_effort", element.name),
             pushed,
-            laws.port_units(element)[2],
+            sums.port_units(element)[2],
             "effort of the stops on the joint".into(),
         );
     }
@@ -164,32 +164,32 @@ fn pulled(name: &str) -> String {
 /// What one stop does.
 struct Side<'g> {
     /// The effort it has on the joint.
-    effort: Ex<'g>,
+    effort: Expr<'g>,
     /// The force its law has without the limit that it never pulls.
-    follows: Ex<'g>,
+    follows: Expr<'g>,
 }
 
 /// One stop; `depth` is negative before it is met.
 fn one_side<'g>(
     element: &Element,
-    laws: &mut Laws<'g, '_>,
+    sums: &mut EffortSums<'g, '_>,
     port: &Port<'g>,
-    depth: Ex<'g>,
+    depth: Expr<'g>,
     outwards: Dd,
 ) -> Side<'g> {
-    let zero = laws.b.zero();
+    let zero = sums.b.zero();
     let value = |key| element.quantity(key).map_or(Dd::ONE, |q| q.value);
-    let damping = laws
+    let damping = sums
         .b
         .constant(damping(value("restitution"), value("impact_speed")));
     let (depth, rate) = (depth.max(zero), port.rate * outwards);
-    let elastic = laws.number(element, &STIFFNESS) * depth;
-    let follows = damping * rate + laws.b.number(1.0);
+    let elastic = sums.number(element, &STIFFNESS) * depth;
+    let follows = damping * rate + sums.b.number(1.0);
     let force = elastic * follows.max(zero);
     let effort = force * -outwards;
-    laws.push(port, effort);
-    laws.store(elastic * depth * Dd::from_f64(0.5));
-    laws.dissipate((force - elastic) * rate);
+    sums.push(port, effort);
+    sums.store(elastic * depth * Dd::from_f64(0.5));
+    sums.dissipate((force - elastic) * rate);
     Side {
         effort,
         follows: elastic * follows,

@@ -11,12 +11,12 @@ use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
-use crate::expr::Ex;
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::EffortSums;
+use crate::expr::Expr;
 use crate::fault::wording;
 use crate::format::Key;
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(super) struct Stribeck;
 
@@ -51,7 +51,7 @@ const DAMPING: Key = Key {
     about: "b, viscous friction; 0 without it",
 };
 
-impl Declaration for Stribeck {
+impl EffectKind for Stribeck {
     fn keyword(&self) -> &'static str {
         "stribeck"
     }
@@ -80,24 +80,24 @@ impl Declaration for Stribeck {
         ]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.not_negative(&["kinetic", "damping"], "friction opposes the motion");
-        given.ordered("kinetic", "static", REST_HOLDS_MORE);
-        given.positive(
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.not_negative(&["kinetic", "damping"], "friction opposes the motion");
+        check.ordered("kinetic", "static", REST_HOLDS_MORE);
+        check.positive(
             &["stribeck_speed"],
             "friction without the curve is `type: coulomb_smooth`",
         );
-        given.positive(&["width"], NO_WIDTH);
-        let [width, speed] = ["width", "stribeck_speed"].map(|key| given.value_or(key, 0.0));
+        check.positive(&["width"], NO_WIDTH);
+        let [width, speed] = ["width", "stribeck_speed"].map(|key| check.value_or(key, 0.0));
         if speed > 0.0 && width > speed {
-            let place = given.place("width");
-            let text = |key| given.number(key).map_or("", |q| q.text.as_str());
+            let location = check.location("width");
+            let text = |key| check.number(key).map_or("", |q| q.text.as_str());
             let (width, speed) = (text("width"), text("stribeck_speed"));
-            given.report(wording::width_above_stribeck_speed(&place, width, speed));
+            check.report(wording::width_above_stribeck_speed(&location, width, speed));
         }
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         slip::declare(element, layout);
     }
 }
@@ -107,19 +107,19 @@ impl Effect for Stribeck {
         nodes::add_acting(element, NodeKind::Resistor, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        slip::resist(element, laws, |laws, s| {
-            let number = |key| laws.number(element, key);
-            let friction = curve(element, laws, s) * (s / number(&WIDTH)).tanh();
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        slip::resist(element, sums, |sums, s| {
+            let number = |key| sums.number(element, key);
+            let friction = curve(element, sums, s) * (s / number(&WIDTH)).tanh();
             -(friction + number(&DAMPING) * s)
         });
     }
 }
 
 /// F_c + (F_s − F_c) exp(−(s/v_s)²); F_c where no `static` is given.
-pub(super) fn curve<'g>(element: &Element, laws: &Laws<'g, '_>, slip: Ex<'g>) -> Ex<'g> {
-    let kinetic = laws.number(element, &KINETIC);
-    let [rest, speed] = [&STATIC, &STRIBECK_SPEED].map(|key| laws.optional(element, key));
+pub(super) fn curve<'g>(element: &Element, sums: &EffortSums<'g, '_>, slip: Expr<'g>) -> Expr<'g> {
+    let kinetic = sums.number(element, &KINETIC);
+    let [rest, speed] = [&STATIC, &STRIBECK_SPEED].map(|key| sums.optional(element, key));
     match (rest, speed) {
         (Some(rest), Some(speed)) => {
             let ratio = slip / speed;

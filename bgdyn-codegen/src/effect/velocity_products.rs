@@ -3,13 +3,13 @@
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
-use crate::declaration::{Declaration, Element};
+use crate::declaration::{EffectKind, Element};
 use crate::format::Key;
 use crate::mechanism::Mechanism;
 
 pub(super) struct VelocityProducts;
 
-impl Declaration for VelocityProducts {
+impl EffectKind for VelocityProducts {
     fn keyword(&self) -> &'static str {
         "velocity_products"
     }
@@ -36,7 +36,7 @@ impl Declaration for VelocityProducts {
 }
 
 impl Effect for VelocityProducts {
-    fn alter(&self, _: &Element, _: &Mechanism, graph: &mut BondGraph) {
+    fn modify_graph(&self, _: &Element, _: &Mechanism, graph: &mut BondGraph) {
         graph.multibody.velocity_products = true;
     }
 

@@ -2,10 +2,10 @@
 
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::effort_sums::EffortSums;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(super) struct Viscous;
 
@@ -36,7 +36,7 @@ const DAMPING: Key = Key {
     about: "b, effort per rate",
 };
 
-impl Declaration for Viscous {
+impl EffectKind for Viscous {
     fn keyword(&self) -> &'static str {
         "viscous"
     }
@@ -57,11 +57,11 @@ impl Declaration for Viscous {
         &[DAMPING, JOINT, REFERENCE]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.not_negative(&["damping"], "a negative damping would drive the joint");
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.not_negative(&["damping"], "a negative damping would drive the joint");
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         slip::declare(element, layout);
     }
 }
@@ -71,9 +71,9 @@ impl Effect for Viscous {
         nodes::add_acting(element, NodeKind::Resistor, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        slip::resist(element, laws, |laws, s| {
-            -(laws.number(element, &DAMPING) * s)
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        slip::resist(element, sums, |sums, s| {
+            -(sums.number(element, &DAMPING) * s)
         });
     }
 }

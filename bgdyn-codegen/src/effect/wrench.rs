@@ -3,20 +3,20 @@
 
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Beside, Declaration, Element, Given};
-use crate::expr::Ex;
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
+use crate::effort_sums::EffortSums;
+use crate::expr::Expr;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 use crate::math::Vec3;
 
-pub(super) struct Wrench;
+pub(super) struct WrenchEffect;
 
 /// The place of a link that an effect acts at.
 pub(super) const AT: Key = Key {
     name: "at",
-    reads: Reads::Place,
+    reads: Reads::Site,
     needed: true,
     about: "the link or frame at whose origin it acts",
 };
@@ -32,12 +32,12 @@ fn components(element: &Element) -> Vec<&'static str> {
 }
 
 /// Refuses a place that cannot move.
-pub(super) fn moves(element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+pub(super) fn moves(element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
     let mut frames = beside.mechanism.frames().iter();
     let at = element.name(AT.name).unwrap_or_default();
     if frames.any(|f| f.name == at && f.link.is_none()) {
         faults.push(wording::acts_on_the_world(
-            &element.place,
+            &element.location,
             &element.name,
             at,
         ));
@@ -45,28 +45,32 @@ pub(super) fn moves(element: &Element, beside: &Beside<'_>, faults: &mut Faults)
 }
 
 /// V = Σ_j J_j q̇_j, angular part first, world axes.
-pub(super) fn twist<'g>(jacobian: &[[Ex<'g>; 6]], laws: &Laws<'g, '_>) -> [Ex<'g>; 6] {
+pub(super) fn twist<'g>(jacobian: &[[Expr<'g>; 6]], sums: &EffortSums<'g, '_>) -> [Expr<'g>; 6] {
     std::array::from_fn(|i| {
-        let products = jacobian.iter().zip(&laws.v).map(|(j, &v)| j[i] * v);
-        products.fold(laws.b.zero(), |sum, x| sum + x)
+        let products = jacobian.iter().zip(&sums.v).map(|(j, &v)| j[i] * v);
+        products.fold(sums.b.zero(), |sum, x| sum + x)
     })
 }
 
 /// Σ a_i b_i
-pub(super) fn dot<'g>(a: &[Ex<'g>; 6], b: &[Ex<'g>; 6], laws: &Laws<'g, '_>) -> Ex<'g> {
+pub(super) fn dot<'g>(a: &[Expr<'g>; 6], b: &[Expr<'g>; 6], sums: &EffortSums<'g, '_>) -> Expr<'g> {
     let products = a.iter().zip(b).map(|(&a, &b)| a * b);
-    products.fold(laws.b.zero(), |sum, x| sum + x)
+    products.fold(sums.b.zero(), |sum, x| sum + x)
 }
 
 /// τ_j += J_jᵀ w
-pub(super) fn act<'g>(jacobian: &[[Ex<'g>; 6]], wrench: &[Ex<'g>; 6], laws: &mut Laws<'g, '_>) {
+pub(super) fn act<'g>(
+    jacobian: &[[Expr<'g>; 6]],
+    wrench: &[Expr<'g>; 6],
+    sums: &mut EffortSums<'g, '_>,
+) {
     for (j, column) in jacobian.iter().enumerate() {
-        let effort = dot(column, wrench, laws);
-        laws.push_on(j, effort);
+        let effort = dot(column, wrench, sums);
+        sums.push_on(j, effort);
     }
 }
 
-impl Declaration for Wrench {
+impl EffectKind for WrenchEffect {
     fn keyword(&self) -> &'static str {
         "wrench"
     }
@@ -101,25 +105,25 @@ impl Declaration for Wrench {
         ]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        let Some(asked) = given.element.words("components") else {
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        let Some(asked) = check.element.words("components") else {
             return;
         };
         let twice = (1..asked.len()).find(|&i| asked[..i].contains(&asked[i]));
-        let place = &given.element.place;
+        let location = &check.element.location;
         let fault = match twice {
-            Some(i) => wording::repeated_component(place, &asked[i]),
-            None if asked.is_empty() => wording::no_components(place),
+            Some(i) => wording::repeated_component(location, &asked[i]),
+            None if asked.is_empty() => wording::no_components(location),
             None => return,
         };
-        given.report(fault);
+        check.report(fault);
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         moves(element, beside, faults);
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let (name, at) = (&element.name, element.name(AT.name).unwrap_or_default());
         let axes = match element.name("axes") {
             Some("link") => "its own axes",
@@ -136,31 +140,31 @@ impl Declaration for Wrench {
     }
 }
 
-impl Effect for Wrench {
+impl Effect for WrenchEffect {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
         let site = nodes::site(element, network);
         network.add_on(site, NodeKind::EffortSource, nodes::label(element));
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let site = laws.site(element.name(AT.name).unwrap_or_default());
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let site = sums.site(element.name(AT.name).unwrap_or_default());
         let inputs = components(element);
-        let given = COMPONENTS.map(|c| match inputs.contains(&c) {
-            true => laws.input(&format!("{}_{c}", element.name)),
-            false => laws.b.zero(),
+        let check = COMPONENTS.map(|c| match inputs.contains(&c) {
+            true => sums.input(&format!("{}_{c}", element.name)),
+            false => sums.b.zero(),
         });
-        let [mx, my, mz, fx, fy, fz] = given;
+        let [mx, my, mz, fx, fy, fz] = check;
         let wrench = if element.name("axes") == Some("link") {
-            let axes = laws.pose(site).0;
+            let axes = sums.pose(site).0;
             let (moment, force) = (axes * Vec3([mx, my, mz]), axes * Vec3([fx, fy, fz]));
             let ([mx, my, mz], [fx, fy, fz]) = (moment.0, force.0);
             [mx, my, mz, fx, fy, fz]
         } else {
-            given
+            check
         };
-        let jacobian = laws.jacobian(site);
-        act(&jacobian, &wrench, laws);
-        let power = dot(&wrench, &twist(&jacobian, laws), laws);
-        laws.supply(power);
+        let jacobian = sums.jacobian(site);
+        act(&jacobian, &wrench, sums);
+        let power = dot(&wrench, &twist(&jacobian, sums), sums);
+        sums.supply(power);
     }
 }

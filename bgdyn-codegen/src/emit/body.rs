@@ -7,7 +7,7 @@ use quote::{ToTokens, format_ident, quote};
 
 use super::code::{Naming, is_part, leaves};
 use super::columns::columns;
-use super::entries::{Entries, Places};
+use super::entries::{Entries, EntryTargets};
 use super::explain::explain;
 use super::loops;
 use super::tokens::{argument_type, ident};
@@ -19,7 +19,7 @@ use crate::model::Model;
 
 /// What a method consists of: its body, and the private functions of its blocks if it has
 /// several.
-pub(super) struct Body {
+pub(super) struct FunctionBody {
     pub(super) body: TokenStream,
     pub(super) blocks: Vec<TokenStream>,
 }
@@ -29,9 +29,9 @@ pub(super) struct Body {
 pub(super) fn body(
     function: &Function,
     naming: &Naming<'_>,
-    places: Option<Places>,
+    places: Option<EntryTargets>,
     finish: impl Fn(&[TokenStream]) -> TokenStream,
-) -> Body {
+) -> FunctionBody {
     let shape = function.shape();
     if let [block] = function.blocks.as_slice() {
         let mut writer = Writer::new(function, naming, &block.outputs);
@@ -41,7 +41,7 @@ pub(super) fn body(
         let statements = writer.block(&block.outputs, function);
         // Only of shapes that are returned unchecked.
         if let Some(result) = writer.written() {
-            return Body {
+            return FunctionBody {
                 body: quote! { #statements #result },
                 blocks: vec![],
             };
@@ -52,7 +52,7 @@ pub(super) fn body(
         });
         let (loops, results) = with_loops(function, naming, writer.results(&block.outputs));
         let result = finish(&results);
-        return Body {
+        return FunctionBody {
             body: quote! { #refused #statements #loops #result },
             blocks: vec![],
         };
@@ -70,7 +70,7 @@ pub(super) fn body(
     if looped {
         let matrix = loops::matrix(function, naming, last);
         let body = quote! { #calls #matrix };
-        return Body { body, blocks };
+        return FunctionBody { body, blocks };
     }
     let refused = shape
         .checked()
@@ -84,7 +84,7 @@ pub(super) fn body(
     let results = (0..last_block.outputs.len()).map(element).collect();
     let (loops, results) = with_loops(function, naming, results);
     let result = finish(&results);
-    Body {
+    FunctionBody {
         body: quote! { #refused #calls #loops #result },
         blocks,
     }

@@ -6,11 +6,11 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::tokens::ident;
-use crate::expr::{Expr, Graph, Leaf, Node, NodeId, reachable};
+use crate::expr::{Graph, Leaf, Node, NodeId, Signed, reachable};
 use crate::interface::SceneInterface;
 use crate::method::Argument;
 use crate::model::Model;
-use crate::scene::{Layout, Part};
+use crate::scene::{StateLayout, Variable};
 
 /// How tightly a piece of code binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -66,7 +66,7 @@ pub(super) struct Naming<'a> {
     /// Run-time parameters.
     pub(super) parameters: Vec<&'a str>,
     /// The parts of a scene's state and inputs; `None` for a mechanism.
-    pub(super) layout: Option<&'a Layout>,
+    pub(super) layout: Option<&'a StateLayout>,
     /// Whether formulas are infix.
     pub(super) plain: bool,
 }
@@ -120,7 +120,8 @@ impl<'a> Naming<'a> {
             }
             (Argument::Modes, Some(layout)) => {
                 let modes = layout.modes.iter().enumerate();
-                let named = |(i, m): (usize, &Part)| (Leaf::Mode(i), format!("{}_mode", m.name));
+                let named =
+                    |(i, m): (usize, &Variable)| (Leaf::Mode(i), format!("{}_mode", m.name));
                 modes.map(named).collect()
             }
             _ => vec![],
@@ -148,7 +149,7 @@ impl<'a> Naming<'a> {
 }
 
 /// The leaves that the outputs read.
-pub(super) fn leaves(graph: &Graph, outputs: &[Expr]) -> BTreeSet<Leaf> {
+pub(super) fn leaves(graph: &Graph, outputs: &[Signed]) -> BTreeSet<Leaf> {
     let needed = reachable(graph, outputs);
     let nodes = (0..needed.len())
         .filter(|&i| needed[i])

@@ -7,7 +7,7 @@ use super::code::{Naming, atom};
 use super::names::LoopArrays;
 use super::tokens::COMMENT;
 use super::writer::Writer;
-use crate::columns::{Columns, Loops, OWN, Part, SHARED};
+use crate::column_loop::{ColumnLoop, LoopedResult, OWN, ResultSource, SHARED};
 use crate::expr::{Leaf, Node, NodeId};
 use crate::function::Function;
 
@@ -15,16 +15,16 @@ use crate::function::Function;
 /// that the blocks give.
 pub(super) fn columns(
     function: &Function,
-    loops: &Loops,
+    loops: &LoopedResult,
     naming: &Naming<'_>,
     stage: &[TokenStream],
 ) -> (TokenStream, Vec<TokenStream>) {
     let groups = loops.groups.iter().enumerate();
     let code = groups.map(|(k, group)| one(function, group, &LoopArrays::of(k), naming, stage));
     let code = code.collect();
-    let value = |part: &Part| match *part {
-        Part::Stage(k) => stage[k].clone(),
-        Part::Column { group, column, row } => {
+    let value = |part: &ResultSource| match *part {
+        ResultSource::Stage(k) => stage[k].clone(),
+        ResultSource::Column { group, column, row } => {
             let LoopArrays { found, .. } = LoopArrays::of(group);
             let (row, column) = (place(row), place(column));
             quote! { #found[#row][#column] }
@@ -35,7 +35,7 @@ pub(super) fn columns(
 
 fn one(
     function: &Function,
-    group: &Columns,
+    group: &ColumnLoop,
     arrays: &LoopArrays,
     naming: &Naming<'_>,
     stage: &[TokenStream],

@@ -9,7 +9,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::expr::{Expr, NodeId, QuickMap};
+use crate::expr::{NodeId, QuickMap, Signed};
 use crate::method::Shape;
 
 /// Results with fewer entries are put together at the end: there is nothing to be gained.
@@ -19,15 +19,15 @@ const LEAST: usize = 16;
 pub(super) const NAME: &str = "entries";
 
 /// Code of the places where each output of a function stands.
-pub(super) type Places = Vec<Vec<TokenStream>>;
+pub(super) type EntryTargets = Vec<Vec<TokenStream>>;
 
 /// A result that is written entry by entry.
 pub(super) struct Entries<'a> {
-    pub(super) outputs: &'a [Expr],
+    pub(super) outputs: &'a [Signed],
     /// Which outputs a node is.
     pub(super) of: QuickMap<NodeId, Vec<usize>>,
     /// Where each output stands in the result.
-    pub(super) places: Places,
+    pub(super) places: EntryTargets,
     /// The whole result from its outputs.
     pub(super) whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
     /// Whether any entry has been written.
@@ -37,7 +37,7 @@ pub(super) struct Entries<'a> {
 impl<'a> Entries<'a> {
     /// For an array.
     pub(super) fn of_array(
-        outputs: &'a [Expr],
+        outputs: &'a [Signed],
         whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
     ) -> Option<Self> {
         let name = format_ident!("{NAME}");
@@ -50,8 +50,8 @@ impl<'a> Entries<'a> {
 
     /// For a result whose outputs stand in these places; nothing where it is put together at the end.
     pub(super) fn new(
-        outputs: &'a [Expr],
-        places: Places,
+        outputs: &'a [Signed],
+        places: EntryTargets,
         whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
     ) -> Option<Self> {
         let count: usize = places.iter().map(Vec::len).sum();
@@ -73,7 +73,7 @@ impl<'a> Entries<'a> {
 }
 
 /// Where the outputs of a function stand in its matrices; nothing for other results.
-pub(super) fn places(shape: Shape, nv: usize) -> Option<Places> {
+pub(super) fn places(shape: Shape, nv: usize) -> Option<EntryTargets> {
     let name = format_ident!("{NAME}");
     let place = |matrix: Option<usize>, i: usize, j: usize| {
         let matrix = matrix.map(index).map(|k| quote! { [#k] });

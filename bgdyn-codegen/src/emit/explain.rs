@@ -8,7 +8,7 @@ use quote::quote;
 use super::code::Naming;
 use super::tokens::{argument_type, ident};
 use crate::function::Function;
-use crate::method::{Argument, Method, Role};
+use crate::method::{Argument, Method, SceneFunction};
 
 /// The methods that the checked ones among these functions call, one for each list of arguments;
 /// `error` is the type of the error.
@@ -49,8 +49,8 @@ pub(super) fn explain(method: Method) -> TokenStream {
 /// What a method's explainer is called.
 fn name(method: Method) -> &'static str {
     match method {
-        Method::Scene(Role::FromCanonical) => "explain_from_canonical",
-        Method::Scene(Role::CanonicalRates) => "explain_canonical_rates",
+        Method::Scene(SceneFunction::FromCanonical) => "explain_from_canonical",
+        Method::Scene(SceneFunction::CanonicalRates) => "explain_canonical_rates",
         _ => "explain",
     }
 }

@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 
 use crate::expr::{Graph, Node, NodeId, reachable};
 use crate::function::Function;
-use crate::legend::{AXES, QUANTITIES, Quantity, SIGNS};
+use crate::legend::{AXES, LegendQuantity, QUANTITIES, SIGNS};
 
 /// Lines of documentation: what the names and signs in the code mean; none where there are none.
 pub(super) fn legend(functions: &[Function]) -> Vec<String> {
     let (mut patterns, mut titles) = (BTreeSet::new(), BTreeSet::new());
     for function in functions {
         for id in nodes(function) {
-            let name = name(&function.graph, id).and_then(Quantity::of_name);
+            let name = name(&function.graph, id).and_then(LegendQuantity::of_name);
             patterns.extend(name.map(|(quantity, _)| quantity.pattern()));
             titles.extend(function.graph.section(id));
         }

@@ -10,22 +10,23 @@ use quote::quote;
 
 use super::code::Naming;
 use super::writer::Writer;
-use crate::expr::Expr;
-use crate::function::{Block, Function, Products, in_triangle};
+use crate::expr::Signed;
+use crate::function::{Block, Function, InnerProducts, in_triangle};
 
 /// Code of the matrix of a block with products.
 pub(super) fn matrix(function: &Function, naming: &Naming<'_>, block: &Block) -> TokenStream {
     let products = &block.products;
-    let looped: BTreeSet<(usize, usize)> = products.iter().flat_map(Products::places).collect();
+    let looped: BTreeSet<(usize, usize)> =
+        products.iter().flat_map(InnerProducts::places).collect();
     let triangle = (0..).flat_map(|row| (0..=row).map(move |column| (row, column)));
     let alone = triangle.take(block.outputs.len());
     let alone: Vec<(usize, usize)> = alone.filter(|place| !looped.contains(place)).collect();
     let entry = |&(row, column): &(usize, usize)| block.outputs[in_triangle(row, column)];
-    let written: Vec<Expr> = alone.iter().map(entry).collect();
+    let written: Vec<Signed> = alone.iter().map(entry).collect();
     let vectors = products
         .iter()
         .flat_map(|p| p.rows.values().chain(p.columns.values()));
-    let all: Vec<Expr> = written.iter().chain(vectors.flatten()).copied().collect();
+    let all: Vec<Signed> = written.iter().chain(vectors.flatten()).copied().collect();
     let mut writer = Writer::new(function, naming, &all);
     let statements = writer.block(&all, function);
     let values = writer.results(&written);
@@ -47,7 +48,7 @@ pub(super) fn matrix(function: &Function, naming: &Naming<'_>, block: &Block) ->
 }
 
 /// The call that computes products: a vector for each run, the rows' vectors component by component.
-fn inner_products(writer: &mut Writer<'_>, products: &Products) -> TokenStream {
+fn inner_products(writer: &mut Writer<'_>, products: &InnerProducts) -> TokenStream {
     let columns = products.runs.iter().map(|(column, _)| {
         let values = writer.results(&products.columns[column]);
         quote! { [#(#values),*] }

@@ -6,7 +6,6 @@ mod columns;
 mod constants;
 mod entries;
 mod explain;
-mod fallback;
 mod legend;
 mod loops;
 mod module;
@@ -19,14 +18,15 @@ mod sines;
 mod source_text;
 mod statements;
 mod store;
+mod stub;
 mod tokens;
 mod traits;
 mod writer;
 
-pub use fallback::fallback;
 pub use module::module;
 pub use output_options::OutputOptions;
-pub use scene::{scene_fallback, scene_module};
+pub use scene::{scene_module, scene_stub};
 #[cfg(feature = "source")]
 pub use source_text::source_text;
+pub use stub::stub;
 pub use tokens::struct_ident;

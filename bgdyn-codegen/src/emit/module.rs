@@ -116,7 +116,7 @@ fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenSt
         |values: &[TokenStream]| body::result(function.method, model.mechanism.nv(), values);
     let naming = code::Naming::of_model(model, output.plain);
     let places = entries::places(function.shape(), model.mechanism.nv());
-    let body::Body { body, blocks } = body::body(function, &naming, places, finish);
+    let body::FunctionBody { body, blocks } = body::body(function, &naming, places, finish);
     quote! {
         #(#[doc = #docs])*
         pub fn #name(&self, #(#names: #types),*) -> #result {

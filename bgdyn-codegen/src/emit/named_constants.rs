@@ -9,7 +9,7 @@ use quote::quote;
 use super::names::Names;
 use super::tokens::{COMMENT, number};
 use crate::expr::Name;
-use crate::legend::{QUANTITIES, Quantity};
+use crate::legend::{LegendQuantity, QUANTITIES};
 
 /// The numbers with names that a block uses, in the order of their use.
 #[derive(Default)]
@@ -44,7 +44,7 @@ impl NamedConstants {
 /// What a number of this name is: its meaning, whose it is, its unit.
 fn about(name: &Name, length: f64) -> String {
     let sign = if name.negative { ", times −1" } else { "" };
-    match Quantity::of_name(&name.text) {
+    match LegendQuantity::of_name(&name.text) {
         Some((quantity, owner)) => {
             let (meaning, unit) = (quantity.meaning, quantity.unit_in(length));
             format!(" `{owner}`: {meaning}, {unit}{sign}")

@@ -6,7 +6,7 @@ use quote::quote;
 use super::code::{Binding, SinePair};
 use super::tokens::number;
 use super::writer::Writer;
-use crate::expr::{Expr, Leaf, Node, NodeId};
+use crate::expr::{Leaf, Node, NodeId, Signed};
 
 /// Angles of one call at the most: the lanes of the widest register.
 const AT_ONCE: usize = 8;
@@ -112,7 +112,7 @@ impl Writer<'_> {
     /// The terms of an angle; its offset if it is a sum.
     fn terms(&mut self, angle: NodeId) -> (Vec<TokenStream>, Option<TokenStream>) {
         let Node::Angle(terms, offset, negative) = self.graph.node(angle).clone() else {
-            return (vec![self.operand(Expr::plus(angle), Binding::Sum)], None);
+            return (vec![self.operand(Signed::plus(angle), Binding::Sum)], None);
         };
         let terms = terms.iter();
         let terms = terms.map(|&t| self.operand(t, Binding::Sum)).collect();

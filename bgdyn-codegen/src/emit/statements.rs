@@ -8,16 +8,16 @@ use super::code::{Binding, Code, atom, leaves};
 use super::named_constants::unit_of_length;
 use super::tokens::number;
 use super::writer::Writer;
-use crate::expr::{Expr, Node, NodeId};
+use crate::expr::{Node, NodeId, Signed};
 use crate::function::Function;
-use crate::legend::Quantity;
+use crate::legend::LegendQuantity;
 
 /// Operations in one statement at the most: what a reader takes in at a glance.
 const STATEMENT: usize = 6;
 
 impl Writer<'_> {
     /// Statements that compute a block.
-    pub(super) fn block(&mut self, outputs: &[Expr], function: &Function) -> TokenStream {
+    pub(super) fn block(&mut self, outputs: &[Signed], function: &Function) -> TokenStream {
         let arguments = self.arguments(function, &leaves(self.graph, outputs));
         let unit = self.first_unit();
         for i in 0..self.needed.len() {
@@ -54,13 +54,13 @@ impl Writer<'_> {
             return None;
         }
         let names = nodes.filter_map(|id| self.graph.name(id));
-        let quantities = names.filter_map(|name| Quantity::of_name(&name.text));
+        let quantities = names.filter_map(|name| LegendQuantity::of_name(&name.text));
         let patterns = quantities.map(|(quantity, _)| quantity.pattern()).collect();
         Some(unit_of_length(unit, &patterns))
     }
 
     /// Code of the block's results.
-    pub(super) fn results(&mut self, outputs: &[Expr]) -> Vec<TokenStream> {
+    pub(super) fn results(&mut self, outputs: &[Signed]) -> Vec<TokenStream> {
         outputs
             .iter()
             .map(|&e| self.operand(e, Binding::Sum))

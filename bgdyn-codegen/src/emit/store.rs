@@ -7,7 +7,7 @@ use super::code::{Binding, atom};
 use super::entries::{Entries, NAME};
 use super::tokens::COMMENT;
 use super::writer::Writer;
-use crate::expr::{Expr, Node, NodeId};
+use crate::expr::{Node, NodeId, Signed};
 
 impl Writer<'_> {
     /// The result, if it was written entry by entry; if not although it was to be, all are constants.
@@ -47,8 +47,8 @@ impl Writer<'_> {
             self.push(first, quote! { let #variable = #tokens; });
             self.code[first.0 as usize] = Some(atom(quote! { #variable }));
         }
-        let first_value = self.operand(Expr::plus(first), Binding::Sum);
-        let value = |e: &Expr| match self.constant(e.node) {
+        let first_value = self.operand(Signed::plus(first), Binding::Sum);
+        let value = |e: &Signed| match self.constant(e.node) {
             Some(value) if e.negative => quote! { -#value },
             Some(value) => value,
             None => first_value.clone(),

@@ -11,7 +11,7 @@ use super::entries::{self, Entries};
 use super::named_constants::{NamedConstants, unit_of_length};
 use super::names::{Names, loop_names};
 use super::tokens::{COMMENT, ident};
-use crate::expr::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
+use crate::expr::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
 use crate::function::Function;
 use crate::method::Shape;
 
@@ -43,7 +43,7 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(function: &'a Function, naming: &'a Naming<'a>, outputs: &[Expr]) -> Self {
+    pub(super) fn new(function: &'a Function, naming: &'a Naming<'a>, outputs: &[Signed]) -> Self {
         let graph = &function.graph;
         let mut names = Names::default();
         let reserved = ["q", "v", "a", "tau", "k", "refused", entries::NAME];
@@ -79,7 +79,7 @@ impl<'a> Writer<'a> {
     }
 
     /// How often each node stands in the code.
-    fn count_uses(&mut self, outputs: &[Expr], shape: Shape) {
+    fn count_uses(&mut self, outputs: &[Signed], shape: Shape) {
         // The entries off the diagonal of a symmetric matrix stand in it twice.
         let times = if shape == Shape::Symmetric { 2 } else { 1 };
         for e in outputs {
@@ -186,7 +186,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn operation(&mut self, node: &Node) -> Code {
-        let plus = Expr::plus;
+        let plus = Signed::plus;
         match node {
             Node::Add(a, b) => {
                 let left = self.operand(plus(*a), Binding::Sum);
@@ -264,7 +264,7 @@ impl<'a> Writer<'a> {
     }
 
     /// a b + c, or c − a b where `negative`, for readers.
-    fn infix(&mut self, a: Expr, b: Expr, negative: bool, c: Expr) -> Code {
+    fn infix(&mut self, a: Signed, b: Signed, negative: bool, c: Signed) -> Code {
         let left = self.operand(a, Binding::Product);
         let right = self.operand(b, Binding::Atom);
         let tokens = if negative && !c.negative {
@@ -273,7 +273,7 @@ impl<'a> Writer<'a> {
         } else {
             let minus = negative.then(|| quote! { - });
             let sign = if c.negative { quote!(-) } else { quote!(+) };
-            let c = self.operand(Expr::plus(c.node), Binding::Product);
+            let c = self.operand(Signed::plus(c.node), Binding::Product);
             quote! { #minus #left * #right #sign #c }
         };
         Code {
@@ -283,7 +283,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn call(&mut self, name: &str, operands: &[Expr]) -> Code {
+    fn call(&mut self, name: &str, operands: &[Signed]) -> Code {
         let name = ident(name);
         let operands: Vec<_> = operands
             .iter()
@@ -300,7 +300,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Code of a signed operand, in parentheses where its place binds tighter.
-    pub(super) fn operand(&mut self, e: Expr, place: Binding) -> TokenStream {
+    pub(super) fn operand(&mut self, e: Signed, place: Binding) -> TokenStream {
         let code = self.code[e.node.0 as usize]
             .clone()
             .unwrap_or_else(unreachable_node);

@@ -3,11 +3,11 @@
 //! The operations stay as they are; the critical path becomes shorter.
 
 use super::cost::{latency, reads};
-use super::{Expr, Graph, Node, NodeId, QuickMap};
+use super::{Graph, Node, NodeId, QuickMap, Signed};
 
 /// Copies of `outputs` in a graph of their own, with the terms of every sum in the order in which
 /// they are there. Sums that something else reads as well, or that have a name, stay terms.
-pub fn reassociate(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn reassociate(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let mut sums = Sums {
         from,
         reads: reads(from, outputs),
@@ -34,7 +34,7 @@ struct Sums<'a> {
     from: &'a Graph,
     reads: Vec<u32>,
     to: Graph,
-    copies: QuickMap<NodeId, Expr>,
+    copies: QuickMap<NodeId, Signed>,
     /// When each node of `to` is there, in multiplications.
     ready: Vec<usize>,
 }
@@ -63,12 +63,12 @@ impl Sums<'_> {
             .collect()
     }
 
-    fn at(&self, e: Expr) -> Expr {
+    fn at(&self, e: Signed) -> Signed {
         self.copies[&e.node].flipped(e.negative)
     }
 
     /// The same operation on the copies.
-    fn copied(&mut self, node: &Node) -> Expr {
+    fn copied(&mut self, node: &Node) -> Signed {
         let copies = &self.copies;
         let copy = self
             .to
@@ -91,10 +91,10 @@ impl Sums<'_> {
     }
 
     /// The sum with its terms in the order in which they are there.
-    fn sum(&mut self, id: NodeId) -> Expr {
+    fn sum(&mut self, id: NodeId) -> Signed {
         let mut terms = Vec::new();
-        self.terms(Expr::plus(id), &mut terms);
-        let mut terms: Vec<(usize, Expr)> = terms
+        self.terms(Signed::plus(id), &mut terms);
+        let mut terms: Vec<(usize, Signed)> = terms
             .into_iter()
             .map(|term| (self.arrival(term), self.at(term)))
             .collect();
@@ -112,11 +112,11 @@ impl Sums<'_> {
     }
 
     /// The terms of a sum, those of its parts among them.
-    fn terms(&self, e: Expr, terms: &mut Vec<Expr>) {
+    fn terms(&self, e: Signed, terms: &mut Vec<Signed>) {
         let Node::Add(a, b) = self.from.node(e.node) else {
             unreachable!("only sums have terms")
         };
-        for term in [Expr::plus(*a), *b] {
+        for term in [Signed::plus(*a), *b] {
             let term = term.flipped(e.negative);
             match self.is_part(term.node) {
                 true => self.terms(term, terms),
@@ -127,7 +127,7 @@ impl Sums<'_> {
 
     /// When a term can be added: a product that nothing else reads goes in together with its
     /// multiplication.
-    fn arrival(&self, term: Expr) -> usize {
+    fn arrival(&self, term: Signed) -> usize {
         let ready = self.ready[self.at(term).node.0 as usize];
         let is_product = matches!(self.from.node(term.node), Node::Mul(..));
         match is_product && self.reads[term.node.0 as usize] == 1 {
@@ -144,11 +144,11 @@ mod tests {
     use super::*;
     use crate::expr::{Inputs, Leaf, cost, evaluate};
 
-    fn xyz(g: &mut Graph) -> [Expr; 3] {
+    fn xyz(g: &mut Graph) -> [Signed; 3] {
         [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
     }
 
-    fn minus(e: Expr) -> Expr {
+    fn minus(e: Signed) -> Signed {
         e.flipped(true)
     }
 
@@ -176,7 +176,7 @@ mod tests {
             q: [0.3, 0.7, -1.9].map(Dd::from_f64).to_vec(),
             ..Inputs::default()
         };
-        let at = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs(), &mut None)[0];
+        let at = |g: &Graph, outputs: &[Signed]| evaluate(g, outputs, &inputs(), &mut None)[0];
         let off = at(&h, &outputs) - at(&g, &[total]);
         assert!(off.abs() < Dd::from_f64(1e-30), "{off}");
     }

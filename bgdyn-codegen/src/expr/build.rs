@@ -9,7 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use bgdyn_runtime::Dd;
 
 use super::fold::cancelling_sum;
-use super::{Expr, Graph, Leaf};
+use super::{Graph, Leaf, Signed};
 use crate::math::Vec3;
 
 /// A graph under construction.
@@ -32,18 +32,18 @@ impl From<Graph> for Builder {
 
 /// An expression of a graph under construction.
 #[derive(Clone, Copy)]
-pub struct Ex<'g> {
+pub struct Expr<'g> {
     builder: &'g Builder,
-    value: Value,
+    value: Operand,
 }
 
 /// What an expression is.
 #[derive(Clone, Copy, PartialEq)]
-enum Value {
+enum Operand {
     /// A number; no node of its own yet.
     Number(Dd),
     /// A node that is no constant.
-    Node(Expr),
+    Node(Signed),
 }
 
 impl Builder {
@@ -65,21 +65,21 @@ impl Builder {
         self.graph.into_inner()
     }
 
-    fn make(&self, f: impl FnOnce(&mut Graph) -> Expr) -> Ex<'_> {
+    fn make(&self, f: impl FnOnce(&mut Graph) -> Signed) -> Expr<'_> {
         let mut graph = self.graph.borrow_mut();
         let expr = f(&mut graph);
         let value = match graph.constant_of(expr) {
-            Some(x) => Value::Number(x),
-            None => Value::Node(expr),
+            Some(x) => Operand::Number(x),
+            None => Operand::Node(expr),
         };
-        Ex {
+        Expr {
             builder: self,
             value,
         }
     }
 
     /// An expression made in this graph.
-    pub fn ex(&self, expr: Expr) -> Ex<'_> {
+    pub fn ex(&self, expr: Signed) -> Expr<'_> {
         self.make(|_| expr)
     }
 
@@ -101,47 +101,47 @@ impl Builder {
     }
 
     /// A number.
-    pub fn constant(&self, x: Dd) -> Ex<'_> {
-        Ex {
+    pub fn constant(&self, x: Dd) -> Expr<'_> {
+        Expr {
             builder: self,
-            value: Value::Number(x),
+            value: Operand::Number(x),
         }
     }
 
     /// Zero.
-    pub fn zero(&self) -> Ex<'_> {
+    pub fn zero(&self) -> Expr<'_> {
         self.constant(Dd::ZERO)
     }
 
     /// A small number such as 1, 2 or ½.
-    pub fn number(&self, x: f64) -> Ex<'_> {
+    pub fn number(&self, x: f64) -> Expr<'_> {
         self.constant(Dd::from_f64(x))
     }
 
     /// A vector of numbers.
-    pub fn vector(&self, v: Vec3<Dd>) -> Vec3<Ex<'_>> {
+    pub fn vector(&self, v: Vec3<Dd>) -> Vec3<Expr<'_>> {
         v.map(|x| self.constant(x))
     }
 
     /// An argument.
-    pub fn leaf(&self, leaf: Leaf) -> Ex<'_> {
+    pub fn leaf(&self, leaf: Leaf) -> Expr<'_> {
         self.make(|g| g.leaf(leaf))
     }
 
     /// Cosine and sine of the exact sum of angles and a constant.
-    pub fn cos_sin(&self, angles: &[Ex<'_>], offset: Dd) -> (Ex<'_>, Ex<'_>) {
-        let terms: Vec<Expr> = angles.iter().map(|a| a.expr()).collect();
+    pub fn cos_sin(&self, angles: &[Expr<'_>], offset: Dd) -> (Expr<'_>, Expr<'_>) {
+        let terms: Vec<Signed> = angles.iter().map(|a| a.expr()).collect();
         let angle = self.graph.borrow_mut().angle(&terms, offset);
         (self.make(|g| g.cos(angle)), self.make(|g| g.sin(angle)))
     }
 }
 
-impl<'g> Ex<'g> {
+impl<'g> Expr<'g> {
     /// The expression in the graph.
-    pub fn expr(self) -> Expr {
+    pub fn expr(self) -> Signed {
         match self.value {
-            Value::Number(x) => self.builder.graph.borrow_mut().constant(x),
-            Value::Node(expr) => expr,
+            Operand::Number(x) => self.builder.graph.borrow_mut().constant(x),
+            Operand::Node(expr) => expr,
         }
     }
 
@@ -152,8 +152,8 @@ impl<'g> Ex<'g> {
     /// Its value, if it is a constant.
     pub fn as_constant(self) -> Option<Dd> {
         match self.value {
-            Value::Number(x) => Some(x),
-            Value::Node(_) => None,
+            Operand::Number(x) => Some(x),
+            Operand::Node(_) => None,
         }
     }
 
@@ -167,8 +167,8 @@ impl<'g> Ex<'g> {
         if !self.builder.silent {
             let mut graph = self.builder.graph.borrow_mut();
             match self.value {
-                Value::Node(expr) => graph.set_name(expr, name),
-                Value::Number(x) => graph.set_constant_name(x, name, false),
+                Operand::Node(expr) => graph.set_name(expr, name),
+                Operand::Number(x) => graph.set_constant_name(x, name, false),
             }
         }
         self
@@ -177,7 +177,7 @@ impl<'g> Ex<'g> {
     /// The same for what the mechanism gives: a number that several quantities share has no name.
     pub fn named_alone(self, name: impl FnOnce() -> String) -> Self {
         match self.value {
-            Value::Number(x) if !self.builder.silent => {
+            Operand::Number(x) if !self.builder.silent => {
                 let mut graph = self.builder.graph.borrow_mut();
                 graph.set_constant_name(x, name, true);
                 self
@@ -198,12 +198,12 @@ impl<'g> Ex<'g> {
         self.builder.make(|g| g.sqrt(value))
     }
 
-    fn of(self, f: impl FnOnce(&mut Graph, Expr) -> Expr) -> Self {
+    fn of(self, f: impl FnOnce(&mut Graph, Signed) -> Signed) -> Self {
         let value = self.expr();
         self.builder.make(|g| f(g, value))
     }
 
-    fn of_two(self, b: Self, f: impl FnOnce(&mut Graph, Expr, Expr) -> Expr) -> Self {
+    fn of_two(self, b: Self, f: impl FnOnce(&mut Graph, Signed, Signed) -> Signed) -> Self {
         let (x, y) = (self.expr(), b.expr());
         self.builder.make(|g| f(g, x, y))
     }
@@ -258,72 +258,72 @@ impl<'g> Ex<'g> {
     /// k times it.
     fn times(self, k: Dd) -> Self {
         match self.value {
-            Value::Number(x) => self.number(k * x),
-            Value::Node(_) if k == Dd::ZERO => self.number(k),
-            Value::Node(_) if k == Dd::ONE => self,
-            Value::Node(x) => self.builder.make(|g| g.times(k, x)),
+            Operand::Number(x) => self.number(k * x),
+            Operand::Node(_) if k == Dd::ZERO => self.number(k),
+            Operand::Node(_) if k == Dd::ONE => self,
+            Operand::Node(x) => self.builder.make(|g| g.times(k, x)),
         }
     }
 
     /// It and k.
     fn and(self, k: Dd) -> Self {
         match self.value {
-            Value::Number(x) => self.number(cancelling_sum(x, k)),
-            Value::Node(_) if k == Dd::ZERO => self,
-            Value::Node(x) => self.builder.make(|g| g.add_constant(x, k)),
+            Operand::Number(x) => self.number(cancelling_sum(x, k)),
+            Operand::Node(_) if k == Dd::ZERO => self,
+            Operand::Node(x) => self.builder.make(|g| g.add_constant(x, k)),
         }
     }
 }
 
-impl PartialEq for Ex<'_> {
+impl PartialEq for Expr<'_> {
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value
     }
 }
 
-impl std::fmt::Debug for Ex<'_> {
+impl std::fmt::Debug for Expr<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.value {
-            Value::Number(x) => x.fmt(f),
-            Value::Node(expr) => expr.fmt(f),
+            Operand::Number(x) => x.fmt(f),
+            Operand::Node(expr) => expr.fmt(f),
         }
     }
 }
 
-impl Add for Ex<'_> {
+impl Add for Expr<'_> {
     type Output = Self;
     fn add(self, b: Self) -> Self {
         match (self.value, b.value) {
-            (_, Value::Number(k)) => self.and(k),
-            (Value::Number(k), _) => b.and(k),
-            (Value::Node(x), Value::Node(y)) => self.builder.make(|g| g.add(x, y)),
+            (_, Operand::Number(k)) => self.and(k),
+            (Operand::Number(k), _) => b.and(k),
+            (Operand::Node(x), Operand::Node(y)) => self.builder.make(|g| g.add(x, y)),
         }
     }
 }
 
-impl Sub for Ex<'_> {
+impl Sub for Expr<'_> {
     type Output = Self;
     fn sub(self, b: Self) -> Self {
         self + -b
     }
 }
 
-impl Mul for Ex<'_> {
+impl Mul for Expr<'_> {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
         match (self.value, b.value) {
-            (_, Value::Number(k)) => self.times(k),
-            (Value::Number(k), _) => b.times(k),
-            (Value::Node(x), Value::Node(y)) => self.builder.make(|g| g.mul(x, y)),
+            (_, Operand::Number(k)) => self.times(k),
+            (Operand::Number(k), _) => b.times(k),
+            (Operand::Node(x), Operand::Node(y)) => self.builder.make(|g| g.mul(x, y)),
         }
     }
 }
 
-impl Div for Ex<'_> {
+impl Div for Expr<'_> {
     type Output = Self;
     fn div(self, b: Self) -> Self {
         match b.value {
-            Value::Number(k) if k != Dd::ZERO => self.times(Dd::ONE / k),
+            Operand::Number(k) if k != Dd::ZERO => self.times(Dd::ONE / k),
             _ => {
                 let (x, y) = (self.expr(), b.expr());
                 self.builder.make(|g| g.div(x, y))
@@ -332,18 +332,18 @@ impl Div for Ex<'_> {
     }
 }
 
-impl Neg for Ex<'_> {
+impl Neg for Expr<'_> {
     type Output = Self;
     fn neg(self) -> Self {
         let value = match self.value {
-            Value::Number(x) => Value::Number(-x),
-            Value::Node(expr) => Value::Node(expr.flipped(true)),
+            Operand::Number(x) => Operand::Number(-x),
+            Operand::Node(expr) => Operand::Node(expr.flipped(true)),
         };
-        Ex { value, ..self }
+        Expr { value, ..self }
     }
 }
 
-impl Mul<Dd> for Ex<'_> {
+impl Mul<Dd> for Expr<'_> {
     type Output = Self;
     fn mul(self, k: Dd) -> Self {
         self.times(k)

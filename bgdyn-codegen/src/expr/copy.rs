@@ -1,15 +1,15 @@
 //! Copies expressions from one graph to another and replaces leaves.
 
-use super::{Expr, Graph, Leaf, Node, NodeId, QuickMap, reachable};
+use super::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
 
 /// Copies of `outputs` in `to`; `leaf` may give another expression for a leaf. Everything is
 /// folded anew.
 pub fn copy_into(
     to: &mut Graph,
     from: &Graph,
-    outputs: &[Expr],
-    mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Expr>,
-) -> Vec<Expr> {
+    outputs: &[Signed],
+    mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Signed>,
+) -> Vec<Signed> {
     let needed = reachable(from, outputs);
     let wanted = (0..from.len()).filter(|&i| needed[i]);
     remade(to, from, outputs, wanted, |to, id, at| {
@@ -25,11 +25,11 @@ pub fn copy_into(
 pub(super) fn remade(
     to: &mut Graph,
     from: &Graph,
-    outputs: &[Expr],
+    outputs: &[Signed],
     nodes: impl Iterator<Item = usize>,
-    mut make: impl FnMut(&mut Graph, NodeId, &dyn Fn(Expr) -> Expr) -> Expr,
-) -> Vec<Expr> {
-    let mut copies: QuickMap<NodeId, Expr> = QuickMap::default();
+    mut make: impl FnMut(&mut Graph, NodeId, &dyn Fn(Signed) -> Signed) -> Signed,
+) -> Vec<Signed> {
+    let mut copies: QuickMap<NodeId, Signed> = QuickMap::default();
     let titles = to.adopt_sections(from);
     for id in nodes.map(NodeId::at) {
         to.reopen_section(from, id, titles);
@@ -45,8 +45,8 @@ pub(super) fn remade(
 
 impl Graph {
     /// The node's operation on other operands, folded.
-    pub(crate) fn rebuilt(&mut self, node: &Node, at: impl Fn(Expr) -> Expr) -> Expr {
-        let plus = |id: &NodeId| at(Expr::plus(*id));
+    pub(crate) fn rebuilt(&mut self, node: &Node, at: impl Fn(Signed) -> Signed) -> Signed {
+        let plus = |id: &NodeId| at(Signed::plus(*id));
         match node {
             Node::Constant(c) => self.constant(c.value()),
             Node::Leaf(l) => self.leaf(*l),
@@ -58,7 +58,7 @@ impl Graph {
             }
             Node::Sqrt(a) => self.sqrt(at(*a)),
             Node::Angle(terms, offset, negative) => {
-                let terms: Vec<Expr> = terms.iter().map(|&t| at(t)).collect();
+                let terms: Vec<Signed> = terms.iter().map(|&t| at(t)).collect();
                 let offset = offset.value();
                 self.angle(&terms, if *negative { -offset } else { offset })
             }
@@ -71,7 +71,7 @@ impl Graph {
             Node::Min(a, b) => self.min(at(*a), at(*b)),
             Node::Max(a, b) => self.max(at(*a), at(*b)),
             Node::Sign(a) => self.sign(plus(a)),
-            Node::Less(a, b) => Expr::plus(self.less(at(*a), at(*b))),
+            Node::Less(a, b) => Signed::plus(self.less(at(*a), at(*b))),
             Node::Select(condition, a, b) => {
                 let condition = plus(condition).node;
                 self.select(condition, at(*a), at(*b))

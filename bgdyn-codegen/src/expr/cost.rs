@@ -21,7 +21,7 @@ use std::fmt;
 use bgdyn_runtime::{Dd, Operations};
 
 use super::count::Counter;
-use super::{Expr, Graph, Node};
+use super::{Graph, Node, Signed};
 
 /// A multiplication or an addition; both took the same time.
 const OPERATION: usize = 100;
@@ -128,7 +128,7 @@ fn hundredths(n: usize) -> f64 {
 }
 
 /// What computing the outputs once costs.
-pub fn cost(graph: &Graph, outputs: &[Expr]) -> Cost {
+pub fn cost(graph: &Graph, outputs: &[Signed]) -> Cost {
     let reads = reads(graph, outputs);
     let ready = ready(graph, &reads);
     let mut counter = Counter::new(graph.len());
@@ -173,7 +173,7 @@ pub(super) fn ready(graph: &Graph, reads: &[u32]) -> Vec<usize> {
 }
 
 /// How often each node is read, by needed nodes and as an output; 0 for those that are not needed.
-pub(crate) fn reads(graph: &Graph, outputs: &[Expr]) -> Vec<u32> {
+pub(crate) fn reads(graph: &Graph, outputs: &[Signed]) -> Vec<u32> {
     let mut reads = vec![0; graph.len()];
     for e in outputs {
         reads[e.node.0 as usize] += 1;

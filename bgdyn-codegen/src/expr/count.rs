@@ -7,10 +7,10 @@
 
 use bgdyn_runtime::Operations;
 
-use super::{Expr, Graph, Node};
+use super::{Graph, Node, Signed};
 
 /// Which nodes the outputs need: one truth value per node.
-pub fn reachable(graph: &Graph, outputs: &[Expr]) -> Vec<bool> {
+pub fn reachable(graph: &Graph, outputs: &[Signed]) -> Vec<bool> {
     let mut needed = vec![false; graph.len()];
     for e in outputs {
         needed[e.node.0 as usize] = true;
@@ -24,7 +24,7 @@ pub fn reachable(graph: &Graph, outputs: &[Expr]) -> Vec<bool> {
 }
 
 /// The operations that computing the outputs once takes.
-pub fn count(graph: &Graph, outputs: &[Expr]) -> Operations {
+pub fn count(graph: &Graph, outputs: &[Signed]) -> Operations {
     let needed = reachable(graph, outputs);
     let mut counter = Counter::new(graph.len());
     for (node, needed) in graph.nodes.iter().zip(needed) {

@@ -4,16 +4,16 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Expr, Graph, Leaf, Node, NodeId};
+use super::{Graph, Leaf, Node, NodeId, Signed};
 
 /// A forward-mode pass over a graph under construction; remembers the tangents it made.
 pub struct Tangent<S> {
     seed: S,
     /// The tangents made, by node.
-    made: Vec<Option<Expr>>,
+    made: Vec<Option<Signed>>,
 }
 
-impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
+impl<S: FnMut(&mut Graph, Leaf) -> Option<Signed>> Tangent<S> {
     /// A pass in which `seed` gives the tangent of a leaf, `None` for one held constant.
     pub fn new(seed: S) -> Self {
         Tangent {
@@ -23,7 +23,7 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
     }
 
     /// The tangent of `e`.
-    pub fn of(&mut self, g: &mut Graph, e: Expr) -> Expr {
+    pub fn of(&mut self, g: &mut Graph, e: Signed) -> Signed {
         // Operands first, by a stack of our own: graphs are deeper than the call stack likes.
         let mut stack = vec![e.node];
         if self.made.len() < g.len() {
@@ -48,14 +48,14 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
         self.d(e)
     }
 
-    fn d(&self, e: Expr) -> Expr {
+    fn d(&self, e: Signed) -> Signed {
         let tangent = self.made[e.node.0 as usize].expect("operands are first");
         tangent.flipped(e.negative)
     }
 
-    fn step(&mut self, g: &mut Graph, id: NodeId) -> Expr {
-        let this = Expr::plus(id);
-        let plus = Expr::plus;
+    fn step(&mut self, g: &mut Graph, id: NodeId) -> Signed {
+        let this = Signed::plus(id);
+        let plus = Signed::plus;
         let zero = g.constant(Dd::ZERO);
         match g.node(id).clone() {
             Node::Constant(_) | Node::Less(..) => zero,
@@ -128,7 +128,7 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Expr>> Tangent<S> {
         }
     }
 
-    fn product(&self, g: &mut Graph, a: Expr, b: Expr) -> Expr {
+    fn product(&self, g: &mut Graph, a: Signed, b: Signed) -> Signed {
         let (da, db) = (self.d(a), self.d(b));
         let (left, right) = (g.mul(da, b), g.mul(a, db));
         g.add(left, right)

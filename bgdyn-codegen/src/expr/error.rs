@@ -10,7 +10,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Expr, Graph, Node, NodeId, QuickMap};
+use super::{Graph, Node, NodeId, QuickMap, Signed};
 
 /// Of a sine or cosine of an exact angle, in units of eps/2.
 const SINE: f64 = 4.0;
@@ -21,7 +21,7 @@ pub enum Bound {
     /// This many times |x|.
     Relative(f64),
     /// The value of an expression.
-    Absolute(Expr),
+    Absolute(Signed),
 }
 
 /// What is known of a node.
@@ -40,7 +40,7 @@ pub struct ErrorBound {
 
 impl ErrorBound {
     /// The bound for the rounding error of `e`.
-    pub fn of(&mut self, g: &mut Graph, e: Expr) -> Bound {
+    pub fn of(&mut self, g: &mut Graph, e: Signed) -> Bound {
         // Operands first, by a stack of our own: graphs are deeper than the call stack likes.
         let mut stack = vec![e.node];
         while let Some(&id) = stack.last() {
@@ -63,7 +63,7 @@ impl ErrorBound {
     }
 
     fn step(&self, g: &mut Graph, id: NodeId) -> Known {
-        let plus = Expr::plus;
+        let plus = Signed::plus;
         let known = |bound, positive| Known { bound, positive };
         match g.node(id).clone() {
             Node::Constant(c) => {
@@ -122,12 +122,12 @@ impl ErrorBound {
         }
     }
 
-    fn sum(&self, g: &mut Graph, id: NodeId, a: Expr, b: Expr) -> Known {
+    fn sum(&self, g: &mut Graph, id: NodeId, a: Signed, b: Signed) -> Known {
         let (ka, kb) = (self.made[&a.node], self.made[&b.node]);
         self.sum_of(g, id, (a, ka), (b, kb))
     }
 
-    fn sum_of(&self, g: &mut Graph, id: NodeId, a: (Expr, Known), b: (Expr, Known)) -> Known {
+    fn sum_of(&self, g: &mut Graph, id: NodeId, a: (Signed, Known), b: (Signed, Known)) -> Known {
         let ((a, ka), (b, kb)) = (a, b);
         let positive = ka.positive && kb.positive && !a.negative && !b.negative;
         if let (true, Bound::Relative(x), Bound::Relative(y)) = (positive, ka.bound, kb.bound) {
@@ -139,14 +139,14 @@ impl ErrorBound {
             self.as_expression(g, b, kb.bound),
         );
         let brought = g.add(a, b);
-        let bound = self.rounded(g, brought, Expr::plus(id));
+        let bound = self.rounded(g, brought, Signed::plus(id));
         Known { bound, positive }
     }
 
     fn product(&self, g: &mut Graph, id: NodeId, a: NodeId, b: NodeId) -> Known {
         let (ka, kb) = (self.made[&a], self.made[&b]);
         let positive = a == b || (ka.positive && kb.positive);
-        let (a, b) = (Expr::plus(a), Expr::plus(b));
+        let (a, b) = (Signed::plus(a), Signed::plus(b));
         // Scaling by a power of two is exact.
         let scaling = g.constant_of(a).is_some_and(power_of_two);
         let bound = match (ka.bound, kb.bound) {
@@ -164,13 +164,13 @@ impl ErrorBound {
                 let (left, right) = (self.size(g, a), self.size(g, b));
                 let (left, right) = (g.mul(left, y), g.mul(right, x));
                 let brought = g.add(left, right);
-                self.rounded(g, brought, Expr::plus(id))
+                self.rounded(g, brought, Signed::plus(id))
             }
         };
         Known { bound, positive }
     }
 
-    fn scaled_error(&self, g: &mut Graph, a: (Expr, f64), b: (Expr, Expr)) -> Bound {
+    fn scaled_error(&self, g: &mut Graph, a: (Signed, f64), b: (Signed, Signed)) -> Bound {
         let own = self.scaled(g, b.0, a.1);
         let brought = g.add(b.1, own);
         let size = self.size(g, a.0);
@@ -184,15 +184,15 @@ impl ErrorBound {
             (Bound::Relative(x), Bound::Relative(y)) => Bound::Relative(x + y + 1.0),
             _ => {
                 // (δa + |a/b| δb) / |b|
-                let this = Expr::plus(id);
+                let this = Signed::plus(id);
                 let (da, db) = (
-                    self.absolute(g, Expr::plus(a)),
-                    self.absolute(g, Expr::plus(b)),
+                    self.absolute(g, Signed::plus(a)),
+                    self.absolute(g, Signed::plus(b)),
                 );
                 let size = if positive { this } else { g.abs(this) };
                 let share = g.mul(size, db);
                 let brought = g.add(da, share);
-                let below = self.size(g, Expr::plus(b));
+                let below = self.size(g, Signed::plus(b));
                 let brought = g.div(brought, below);
                 let own = if positive { this } else { g.abs(this) };
                 Bound::Absolute(g.add(brought, own))
@@ -202,11 +202,11 @@ impl ErrorBound {
     }
 
     /// The bound as an expression.
-    fn absolute(&self, g: &mut Graph, e: Expr) -> Expr {
+    fn absolute(&self, g: &mut Graph, e: Signed) -> Signed {
         self.as_expression(g, e, self.made[&e.node].bound)
     }
 
-    fn as_expression(&self, g: &mut Graph, e: Expr, bound: Bound) -> Expr {
+    fn as_expression(&self, g: &mut Graph, e: Signed, bound: Bound) -> Signed {
         match bound {
             Bound::Relative(k) => self.scaled(g, e, k),
             Bound::Absolute(bound) => bound,
@@ -214,28 +214,28 @@ impl ErrorBound {
     }
 
     /// k |e|
-    fn scaled(&self, g: &mut Graph, e: Expr, k: f64) -> Expr {
+    fn scaled(&self, g: &mut Graph, e: Signed, k: f64) -> Signed {
         let (k, size) = (g.constant(Dd::from_f64(k)), self.size(g, e));
         g.mul(k, size)
     }
 
     /// |e|, factor by factor, so that sizes of factors are shared.
-    fn size(&self, g: &mut Graph, e: Expr) -> Expr {
-        let e = Expr::plus(e.node);
+    fn size(&self, g: &mut Graph, e: Signed) -> Signed {
+        let e = Signed::plus(e.node);
         if self.made.get(&e.node).is_some_and(|known| known.positive) {
             return e;
         }
         match *g.node(e.node) {
-            Node::Mul(k, x) if g.constant_of(Expr::plus(k)).is_some() => {
-                let size = self.size(g, Expr::plus(x));
-                g.mul(Expr::plus(k), size)
+            Node::Mul(k, x) if g.constant_of(Signed::plus(k)).is_some() => {
+                let size = self.size(g, Signed::plus(x));
+                g.mul(Signed::plus(k), size)
             }
             _ => g.abs(e),
         }
     }
 
     /// What was brought along, and the rounding of the result itself.
-    fn rounded(&self, g: &mut Graph, brought: Expr, result: Expr) -> Bound {
+    fn rounded(&self, g: &mut Graph, brought: Signed, result: Signed) -> Bound {
         let size = self.size(g, result);
         Bound::Absolute(g.add(brought, size))
     }

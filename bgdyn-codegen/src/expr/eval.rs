@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Scalar;
 
-use super::{Expr, Graph, Leaf, Node, reachable};
+use super::{Graph, Leaf, Node, Signed, reachable};
 
 /// What the leaves stand for.
 #[derive(Clone, Debug, Default)]
@@ -66,7 +66,7 @@ impl<T: Scalar> Inputs<T> {
 /// If `inputs` lacks a leaf that the outputs read.
 pub fn evaluate<T: Scalar>(
     graph: &Graph,
-    outputs: &[Expr],
+    outputs: &[Signed],
     inputs: &Inputs<T>,
     refused: &mut T::Refused,
 ) -> Vec<T> {
@@ -92,7 +92,7 @@ struct Evaluation<T: Scalar> {
 }
 
 impl<T: Scalar> Evaluation<T> {
-    fn get(&self, e: Expr) -> T {
+    fn get(&self, e: Signed) -> T {
         let x = self.values[e.node.0 as usize];
         if e.negative { -x } else { x }
     }

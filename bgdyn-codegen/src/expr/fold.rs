@@ -2,26 +2,26 @@
 
 use bgdyn_runtime::{Dd, Scalar};
 
-use super::{Constant, Expr, Graph, Leaf, Node, NodeId};
+use super::{Constant, Graph, Leaf, Node, NodeId, Signed};
 
 /// Sums of constants smaller than this part of their terms are cancellations, hence zero.
 const CANCELLED: f64 = 1.0 / (1u128 << 98) as f64;
 
 impl Graph {
     /// A number.
-    pub fn constant(&mut self, x: Dd) -> Expr {
+    pub fn constant(&mut self, x: Dd) -> Signed {
         let negative = x < Dd::ZERO;
         let node = self.intern(Node::Constant(Constant::new(if negative { -x } else { x })));
-        Expr { node, negative }
+        Signed { node, negative }
     }
 
     /// An argument of the function.
-    pub fn leaf(&mut self, leaf: Leaf) -> Expr {
-        Expr::plus(self.intern(Node::Leaf(leaf)))
+    pub fn leaf(&mut self, leaf: Leaf) -> Signed {
+        Signed::plus(self.intern(Node::Leaf(leaf)))
     }
 
     /// a + b
-    pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
+    pub fn add(&mut self, a: Signed, b: Signed) -> Signed {
         match (self.constant_of(a), self.constant_of(b)) {
             (Some(x), Some(y)) => return self.constant(cancelling_sum(x, y)),
             (Some(x), None) if x == Dd::ZERO => return b,
@@ -34,15 +34,15 @@ impl Graph {
         let ((ka, xa), (kb, xb)) = (self.coefficient(a), self.coefficient(b));
         if xa == xb {
             let k = self.constant(cancelling_sum(ka, kb));
-            return self.mul(k, Expr::plus(xa));
+            return self.mul(k, Signed::plus(xa));
         }
         self.intern_sum(a, b)
     }
 
     /// x + k for a constant k: (y + k₀) + k = y + (k₀ + k).
-    pub(super) fn add_constant(&mut self, x: Expr, k: Dd) -> Expr {
+    pub(super) fn add_constant(&mut self, x: Signed, k: Dd) -> Signed {
         if let Node::Add(p, q) = *self.node(x.node) {
-            let (p, q) = (Expr::plus(p).flipped(x.negative), q.flipped(x.negative));
+            let (p, q) = (Signed::plus(p).flipped(x.negative), q.flipped(x.negative));
             for (constant, rest) in [(p, q), (q, p)] {
                 if let Some(k0) = self.constant_of(constant) {
                     let sum = self.constant(cancelling_sum(k0, k));
@@ -54,20 +54,20 @@ impl Graph {
         self.intern_sum(x, k)
     }
 
-    fn intern_sum(&mut self, a: Expr, b: Expr) -> Expr {
+    fn intern_sum(&mut self, a: Signed, b: Signed) -> Signed {
         let (a, b) = if a.node <= b.node { (a, b) } else { (b, a) };
         let node = self.intern(Node::Add(a.node, b.flipped(a.negative)));
-        Expr {
+        Signed {
             node,
             negative: a.negative,
         }
     }
 
     /// x = k·y with the constant factor k, 1 where there is none.
-    fn coefficient(&self, x: Expr) -> (Dd, NodeId) {
+    fn coefficient(&self, x: Signed) -> (Dd, NodeId) {
         let sign = if x.negative { -Dd::ONE } else { Dd::ONE };
         if let Node::Mul(k, y) = *self.node(x.node)
-            && let Some(k) = self.constant_of(Expr::plus(k))
+            && let Some(k) = self.constant_of(Signed::plus(k))
         {
             return (k * sign, y);
         }
@@ -75,11 +75,11 @@ impl Graph {
     }
 
     /// a · b
-    pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
+    pub fn mul(&mut self, a: Signed, b: Signed) -> Signed {
         let negative = a.negative ^ b.negative;
         let (ka, kb) = (
-            self.constant_of(Expr::plus(a.node)),
-            self.constant_of(Expr::plus(b.node)),
+            self.constant_of(Signed::plus(a.node)),
+            self.constant_of(Signed::plus(b.node)),
         );
         let (k, x) = match (ka, kb) {
             (Some(x), Some(y)) => return self.constant(x * y).flipped(negative),
@@ -87,39 +87,39 @@ impl Graph {
             (None, Some(k)) => (k, a.node),
             (None, None) => {
                 let node = self.intern(Node::Mul(a.node.min(b.node), a.node.max(b.node)));
-                return Expr { node, negative };
+                return Signed { node, negative };
             }
         };
         self.scale(k, x).flipped(negative)
     }
 
     /// k · x for a constant k.
-    pub(super) fn times(&mut self, k: Dd, x: Expr) -> Expr {
+    pub(super) fn times(&mut self, k: Dd, x: Signed) -> Signed {
         let negative = k < Dd::ZERO;
         let size = if negative { -k } else { k };
         self.scale(size, x.node).flipped(negative ^ x.negative)
     }
 
     /// k · x for a constant k ≥ 0; the constant is the first operand, and there is only one.
-    fn scale(&mut self, k: Dd, x: NodeId) -> Expr {
+    fn scale(&mut self, k: Dd, x: NodeId) -> Signed {
         if k == Dd::ZERO {
             return self.constant(Dd::ZERO);
         }
-        let (k0, x) = self.coefficient(Expr::plus(x));
+        let (k0, x) = self.coefficient(Signed::plus(x));
         let k = k * k0;
         if k == Dd::ONE {
-            return Expr::plus(x);
+            return Signed::plus(x);
         }
         let k = self.constant(k);
         let node = self.intern(Node::Mul(k.node, x));
-        Expr {
+        Signed {
             node,
             negative: k.negative,
         }
     }
 
     /// a / b; by a constant it becomes a product.
-    pub fn div(&mut self, a: Expr, b: Expr) -> Expr {
+    pub fn div(&mut self, a: Signed, b: Signed) -> Signed {
         if let Some(k) = self.constant_of(b)
             && k != Dd::ZERO
         {
@@ -130,25 +130,25 @@ impl Graph {
             return a;
         }
         let node = self.intern(Node::Div(a.node, b.node));
-        Expr {
+        Signed {
             node,
             negative: a.negative ^ b.negative,
         }
     }
 
     /// a · b + c as one node: for passes that fuse.
-    pub fn mul_add(&mut self, a: Expr, b: Expr, c: Expr) -> Expr {
+    pub fn mul_add(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
         let product_negative = a.negative ^ b.negative;
         let (x, y) = (a.node.min(b.node), a.node.max(b.node));
-        Expr::plus(self.intern(Node::MulAdd(x, y, product_negative, c)))
+        Signed::plus(self.intern(Node::MulAdd(x, y, product_negative, c)))
     }
 
     /// The exact sum of angles and a constant, rad; for [`Graph::sin`] and [`Graph::cos`].
     ///
     /// Equal angles of opposite sign cancel; the order of the terms does not matter. The first
     /// term is positive, the returned sign carries the rest.
-    pub fn angle(&mut self, terms: &[Expr], offset: Dd) -> Expr {
-        let mut sorted: Vec<Expr> = Vec::with_capacity(terms.len());
+    pub fn angle(&mut self, terms: &[Signed], offset: Dd) -> Signed {
+        let mut sorted: Vec<Signed> = Vec::with_capacity(terms.len());
         for &term in terms {
             match sorted.iter().position(|&t| t == term.flipped(true)) {
                 Some(opposite) => {
@@ -170,17 +170,17 @@ impl Graph {
         let negative = offset < Dd::ZERO;
         let size = Constant::new(if negative { -offset } else { offset });
         let node = self.intern(Node::Angle(sorted.into(), size, negative));
-        Expr {
+        Signed {
             node,
             negative: flip,
         }
     }
 
     /// sin a
-    pub fn sin(&mut self, a: Expr) -> Expr {
+    pub fn sin(&mut self, a: Signed) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(x.sin_cos().0),
-            None => Expr {
+            None => Signed {
                 node: self.intern(Node::Sin(a.node)),
                 negative: a.negative,
             },
@@ -188,49 +188,49 @@ impl Graph {
     }
 
     /// cos a
-    pub fn cos(&mut self, a: Expr) -> Expr {
+    pub fn cos(&mut self, a: Signed) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(x.sin_cos().1),
-            None => Expr::plus(self.intern(Node::Cos(a.node))),
+            None => Signed::plus(self.intern(Node::Cos(a.node))),
         }
     }
 
     /// √a
-    pub fn sqrt(&mut self, a: Expr) -> Expr {
+    pub fn sqrt(&mut self, a: Signed) -> Signed {
         self.unary(a, Scalar::sqrt, Node::Sqrt)
     }
 
     /// eᵃ
-    pub fn exp(&mut self, a: Expr) -> Expr {
+    pub fn exp(&mut self, a: Signed) -> Signed {
         self.unary(a, Scalar::exp, Node::Exp)
     }
 
     /// ln a
-    pub fn ln(&mut self, a: Expr) -> Expr {
+    pub fn ln(&mut self, a: Signed) -> Signed {
         self.unary(a, Scalar::ln, Node::Ln)
     }
 
-    fn unary(&mut self, a: Expr, fold: fn(Dd) -> Dd, node: fn(Expr) -> Node) -> Expr {
+    fn unary(&mut self, a: Signed, fold: fn(Dd) -> Dd, node: fn(Signed) -> Node) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(fold(x)),
-            None => Expr::plus(self.intern(node(a))),
+            None => Signed::plus(self.intern(node(a))),
         }
     }
 
     /// tanh a
-    pub fn tanh(&mut self, a: Expr) -> Expr {
+    pub fn tanh(&mut self, a: Signed) -> Signed {
         self.odd(a, Scalar::tanh, Node::Tanh)
     }
 
     /// −1, 0, 1
-    pub fn sign(&mut self, a: Expr) -> Expr {
+    pub fn sign(&mut self, a: Signed) -> Signed {
         self.odd(a, Scalar::sign, Node::Sign)
     }
 
-    fn odd(&mut self, a: Expr, fold: fn(Dd) -> Dd, node: fn(NodeId) -> Node) -> Expr {
+    fn odd(&mut self, a: Signed, fold: fn(Dd) -> Dd, node: fn(NodeId) -> Node) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(fold(x)),
-            None => Expr {
+            None => Signed {
                 node: self.intern(node(a.node)),
                 negative: a.negative,
             },
@@ -238,49 +238,49 @@ impl Graph {
     }
 
     /// |a|
-    pub fn abs(&mut self, a: Expr) -> Expr {
+    pub fn abs(&mut self, a: Signed) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(Scalar::abs(x)),
-            None => Expr::plus(self.intern(Node::Abs(a.node))),
+            None => Signed::plus(self.intern(Node::Abs(a.node))),
         }
     }
 
     /// The smaller of a and b.
-    pub fn min(&mut self, a: Expr, b: Expr) -> Expr {
+    pub fn min(&mut self, a: Signed, b: Signed) -> Signed {
         match (self.constant_of(a), self.constant_of(b)) {
             (Some(x), Some(y)) => self.constant(Scalar::min(x, y)),
             _ if a == b => a,
-            _ => Expr::plus(self.intern(Node::Min(a.min(b), a.max(b)))),
+            _ => Signed::plus(self.intern(Node::Min(a.min(b), a.max(b)))),
         }
     }
 
     /// The larger of a and b.
-    pub fn max(&mut self, a: Expr, b: Expr) -> Expr {
+    pub fn max(&mut self, a: Signed, b: Signed) -> Signed {
         match (self.constant_of(a), self.constant_of(b)) {
             (Some(x), Some(y)) => self.constant(Scalar::max(x, y)),
             _ if a == b => a,
-            _ => Expr::plus(self.intern(Node::Max(a.min(b), a.max(b)))),
+            _ => Signed::plus(self.intern(Node::Max(a.min(b), a.max(b)))),
         }
     }
 
     /// The condition a < b, for [`Graph::select`].
-    pub fn less(&mut self, a: Expr, b: Expr) -> NodeId {
+    pub fn less(&mut self, a: Signed, b: Signed) -> NodeId {
         self.intern(Node::Less(a, b))
     }
 
     /// `a` where the condition holds, else `b`.
-    pub fn select(&mut self, condition: NodeId, a: Expr, b: Expr) -> Expr {
+    pub fn select(&mut self, condition: NodeId, a: Signed, b: Signed) -> Signed {
         if a == b {
             return a;
         }
-        Expr::plus(self.intern(Node::Select(condition, a, b)))
+        Signed::plus(self.intern(Node::Select(condition, a, b)))
     }
 
     /// A pivot with its check; see [`Node::Pivot`].
-    pub fn pivot(&mut self, value: Expr, magnitude: Expr, joint: usize) -> Expr {
+    pub fn pivot(&mut self, value: Signed, magnitude: Signed, joint: usize) -> Signed {
         match (self.constant_of(value), self.constant_of(magnitude)) {
             (Some(x), Some(m)) if x > Dd::ZERO && m == Dd::ZERO => value,
-            _ => Expr::plus(self.intern(Node::Pivot(value, magnitude, joint))),
+            _ => Signed::plus(self.intern(Node::Pivot(value, magnitude, joint))),
         }
     }
 }

@@ -3,12 +3,12 @@
 //! A machine with fused multiply-adds executes it as one instruction.
 
 use super::copy::remade;
-use super::{Expr, Graph, Node, NodeId, cost};
+use super::{Graph, Node, NodeId, Signed, cost};
 
 /// Copies of `outputs` in a graph of their own, with every addition of a product that nothing else
 /// reads as a [`Node::MulAdd`]. The count of operations stays. Of two such products the one that is
 /// there later is joined: the other is done by then.
-pub fn fuse(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn fuse(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let reads = cost::reads(from, outputs);
     let ready = cost::ready(from, &reads);
     let is_free = |id: NodeId| reads[id.0 as usize] == 1 && matches!(from.node(id), Node::Mul(..));
@@ -36,13 +36,13 @@ pub fn fuse(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
         let (Some(second), Node::Add(a, b)) = (joined(node), node) else {
             return to.rebuilt(node, at);
         };
-        let a = Expr::plus(*a);
+        let a = Signed::plus(*a);
         let (product, rest) = if second { (*b, a) } else { (a, *b) };
         let Node::Mul(x, y) = from.node(product.node) else {
             unreachable!("only products are joined")
         };
-        let x = at(Expr::plus(*x)).flipped(product.negative);
-        to.mul_add(x, at(Expr::plus(*y)), at(rest))
+        let x = at(Signed::plus(*x)).flipped(product.negative);
+        to.mul_add(x, at(Signed::plus(*y)), at(rest))
     });
     (to, outputs)
 }
@@ -52,11 +52,11 @@ mod tests {
     use super::*;
     use crate::expr::{Inputs, Leaf, count, evaluate};
 
-    fn xyz(g: &mut Graph) -> [Expr; 3] {
+    fn xyz(g: &mut Graph) -> [Signed; 3] {
         [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
     }
 
-    fn minus(e: Expr) -> Expr {
+    fn minus(e: Signed) -> Signed {
         e.flipped(true)
     }
 
@@ -84,7 +84,7 @@ mod tests {
             q: vec![3.0, 5.0, 2.25],
             ..Inputs::default()
         };
-        let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
+        let value = |g: &Graph, outputs: &[Signed]| evaluate(g, outputs, &inputs, &mut None);
         assert_eq!(value(&joined, &found), value(&g, &outputs));
     }
 }

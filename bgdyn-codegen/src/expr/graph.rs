@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::index::Index;
 use super::naming::{Name, Section, Title};
-use super::node::{Constant, Expr, Node, NodeId};
+use super::node::{Constant, Node, NodeId, Signed};
 
 /// The nodes, operands before users.
 #[derive(Clone, Debug, Default)]
@@ -66,7 +66,7 @@ impl Graph {
     }
 
     /// The value of a constant expression.
-    pub fn constant_of(&self, e: Expr) -> Option<Dd> {
+    pub fn constant_of(&self, e: Signed) -> Option<Dd> {
         match self.node(e.node) {
             Node::Constant(c) => Some(if e.negative { -c.value() } else { c.value() }),
             _ => None,

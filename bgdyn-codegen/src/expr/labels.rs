@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::graph::Graph;
 use super::naming::{Name, Section, Title};
-use super::node::{Constant, Expr, Node, NodeId};
+use super::node::{Constant, Node, NodeId, Signed};
 
 impl Graph {
     /// The name that a formulation gave to a node, for readers of the output.
@@ -15,7 +15,7 @@ impl Graph {
     }
 
     /// Names an expression; the first name of its node stays.
-    pub(crate) fn set_name(&mut self, e: Expr, text: impl FnOnce() -> String) {
+    pub(crate) fn set_name(&mut self, e: Signed, text: impl FnOnce() -> String) {
         if !matches!(self.node(e.node), Node::Constant(_) | Node::Leaf(_)) {
             let named = || Name {
                 text: text(),
@@ -52,7 +52,7 @@ impl Graph {
     }
 
     /// Names `copy` as the node `id` of another graph, of which it is a copy.
-    pub(crate) fn copy_name(&mut self, copy: Expr, from: &Graph, id: NodeId) {
+    pub(crate) fn copy_name(&mut self, copy: Signed, from: &Graph, id: NodeId) {
         if let Some(name) = from.name(id) {
             self.set_name(copy.flipped(name.negative), || name.text.clone());
         }

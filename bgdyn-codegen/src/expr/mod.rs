@@ -1,6 +1,6 @@
 //! The expression graph: each value of a function is one node, shared and folded.
 //!
-//! A node is made once ([`Graph`] is hash-consed); what refers to it is an [`Expr`], a node with a
+//! A node is made once ([`Graph`] is hash-consed); what refers to it is an [`Signed`], a node with a
 //! sign, so that negation is free and x − y, y − x are one node. Constants are double-double and
 //! folded exactly enough to prove one regrouping equal to another. Counting, evaluation,
 //! differentiation and emission are passes over the graph and live in their own files.
@@ -26,7 +26,7 @@ mod signs;
 
 pub use arrange::reassociate;
 pub use bgdyn_runtime::Operations;
-pub use build::{Builder, Ex};
+pub use build::{Builder, Expr};
 pub use copy::copy_into;
 pub(crate) use cost::reads;
 pub use cost::{Cost, cost};
@@ -39,6 +39,6 @@ pub use fuse::fuse;
 pub use graph::Graph;
 pub(crate) use index::QuickMap;
 pub use naming::Name;
-pub use node::{Constant, Expr, Leaf, Node, NodeId};
+pub use node::{Constant, Leaf, Node, NodeId, Signed};
 pub use quotient::fold_reciprocals;
 pub use signs::absorb_negations;

@@ -24,16 +24,16 @@ impl NodeId {
 
 /// A node with a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Expr {
+pub struct Signed {
     /// The node.
     pub node: NodeId,
     /// Whether its value is taken with the opposite sign.
     pub negative: bool,
 }
 
-impl Expr {
+impl Signed {
     pub(crate) fn plus(node: NodeId) -> Self {
-        Expr {
+        Signed {
             node,
             negative: false,
         }
@@ -41,7 +41,7 @@ impl Expr {
 
     /// The same value with its sign flipped where `flip` holds.
     pub(crate) fn flipped(self, flip: bool) -> Self {
-        Expr {
+        Signed {
             negative: self.negative ^ flip,
             ..self
         }
@@ -108,42 +108,42 @@ pub enum Node {
     /// An argument.
     Leaf(Leaf),
     /// a ± b.
-    Add(NodeId, Expr),
+    Add(NodeId, Signed),
     /// a · b.
     Mul(NodeId, NodeId),
     /// a / b.
     Div(NodeId, NodeId),
     /// a · b + c in one rounding where the machine has it; `true`: the product's sign is flipped.
-    MulAdd(NodeId, NodeId, bool, Expr),
+    MulAdd(NodeId, NodeId, bool, Signed),
     /// √a.
-    Sqrt(Expr),
+    Sqrt(Signed),
     /// Σ ±angle + offset, carried exactly into the sine; read by [`Node::Sin`], [`Node::Cos`] only.
-    Angle(Box<[Expr]>, Constant, bool),
+    Angle(Box<[Signed]>, Constant, bool),
     /// Sine of an [`Node::Angle`] or of any value.
     Sin(NodeId),
     /// Cosine.
     Cos(NodeId),
     /// eᵃ.
-    Exp(Expr),
+    Exp(Signed),
     /// ln a.
-    Ln(Expr),
+    Ln(Signed),
     /// tanh a.
     Tanh(NodeId),
     /// |a|.
     Abs(NodeId),
     /// The smaller one.
-    Min(Expr, Expr),
+    Min(Signed, Signed),
     /// The larger one.
-    Max(Expr, Expr),
+    Max(Signed, Signed),
     /// −1, 0, 1.
     Sign(NodeId),
     /// a < b: a truth value, read by [`Node::Select`] only.
-    Less(Expr, Expr),
+    Less(Signed, Signed),
     /// The first value where the condition holds, else the second.
-    Select(NodeId, Expr, Expr),
+    Select(NodeId, Signed, Signed),
     /// A pivot of a factorisation of the mass matrix: the value, the size of what was subtracted
     /// in it, the joint to name where it is refused.
-    Pivot(Expr, Expr, usize),
+    Pivot(Signed, Signed, usize),
 }
 
 impl Node {
@@ -183,8 +183,8 @@ impl Node {
 impl Node {
     /// The node with each operand replaced. Where the node has no place for a sign, the
     /// replacement must have none.
-    pub(crate) fn map_operands(self, mut f: impl FnMut(Expr) -> Expr) -> Node {
-        let plain = |id: NodeId, f: &mut dyn FnMut(Expr) -> Expr| f(Expr::plus(id)).node;
+    pub(crate) fn map_operands(self, mut f: impl FnMut(Signed) -> Signed) -> Node {
+        let plain = |id: NodeId, f: &mut dyn FnMut(Signed) -> Signed| f(Signed::plus(id)).node;
         match self {
             Node::Constant(_) | Node::Leaf(_) => self,
             Node::Add(a, b) => Node::Add(plain(a, &mut f), f(b)),
@@ -214,7 +214,7 @@ impl Node {
 
     /// Its hash: a short way for what there is most of.
     pub(super) fn quick_hash(&self) -> u64 {
-        let signed = |e: &Expr| u64::from(e.node.0) << 1 | u64::from(e.negative);
+        let signed = |e: &Signed| u64::from(e.node.0) << 1 | u64::from(e.negative);
         match self {
             Node::Constant(c) => mix(mix(1, c.hi), c.lo),
             Node::Add(a, b) => mix(mix(2, u64::from(a.0)), signed(b)),

@@ -6,10 +6,10 @@
 use bgdyn_runtime::Dd;
 
 use super::copy::remade;
-use super::{Expr, Graph, Node, NodeId, reads};
+use super::{Graph, Node, NodeId, Signed, reads};
 
 /// The same values without reciprocals that one product alone reads.
-pub fn fold_reciprocals(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn fold_reciprocals(from: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed>) {
     let reads = reads(&from, &outputs);
     let is_one = |id: NodeId| matches!(from.node(id), Node::Constant(c) if c.value() == Dd::ONE);
     // y of a node 1/y that nothing else reads.
@@ -46,7 +46,7 @@ pub fn fold_reciprocals(from: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
         &outputs,
         nodes,
         |to, id, at| match quotient(id) {
-            Some((x, y, _)) => to.div(at(Expr::plus(x)), at(Expr::plus(y))),
+            Some((x, y, _)) => to.div(at(Signed::plus(x)), at(Signed::plus(y))),
             None => to.rebuilt(from.node(id), at),
         },
     );
@@ -60,11 +60,11 @@ mod tests {
     use super::*;
     use crate::expr::{Inputs, Leaf, count, evaluate};
 
-    fn xyz(g: &mut Graph) -> [Expr; 3] {
+    fn xyz(g: &mut Graph) -> [Signed; 3] {
         [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
     }
 
-    fn minus(e: Expr) -> Expr {
+    fn minus(e: Signed) -> Signed {
         e.flipped(true)
     }
 

@@ -6,10 +6,10 @@
 //! with it. Results are the same but for the sign of zero.
 
 use super::copy::remade;
-use super::{Expr, Graph, Node, NodeId, reachable};
+use super::{Graph, Node, NodeId, Signed, reachable};
 
 /// Copies of `outputs` in a graph of their own, without the signs that can be had for nothing.
-pub fn absorb_negations(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub fn absorb_negations(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let needed = reachable(from, outputs);
     let flips = flips(from, outputs, &needed);
     let mut to = Graph::default();
@@ -18,24 +18,24 @@ pub fn absorb_negations(from: &Graph, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
         let flip = flips[id.place()];
         let node = match *from.node(id) {
             Node::MulAdd(a, b, negative, c) => {
-                let [a, b] = [a, b].map(|x| at(Expr::plus(x)));
+                let [a, b] = [a, b].map(|x| at(Signed::plus(x)));
                 let product = negative ^ a.negative ^ b.negative ^ flip;
                 Node::MulAdd(a.node, b.node, product, at(c).flipped(flip))
             }
-            Node::Add(a, b) if flip => Node::Add(at(b).node, at(Expr::plus(a)).flipped(true)),
+            Node::Add(a, b) if flip => Node::Add(at(b).node, at(Signed::plus(a)).flipped(true)),
             ref node => node.clone().map_operands(at),
         };
-        Expr::plus(to.intern(node)).flipped(flip)
+        Signed::plus(to.intern(node)).flipped(flip)
     });
     (to, outputs)
 }
 
 /// The sums that are to be computed with the opposite sign: those that are read so where a sign costs
 /// an instruction, oftener than otherwise, and elsewhere only where it costs none.
-fn flips(graph: &Graph, outputs: &[Expr], needed: &[bool]) -> Vec<bool> {
+fn flips(graph: &Graph, outputs: &[Signed], needed: &[bool]) -> Vec<bool> {
     let mut gain = vec![0_i32; graph.len()];
     let mut bound = vec![false; graph.len()];
-    let mut tally = |e: Expr| gain[e.node.place()] += if e.negative { 1 } else { -1 };
+    let mut tally = |e: Signed| gain[e.node.place()] += if e.negative { 1 } else { -1 };
     outputs.iter().copied().for_each(&mut tally);
     for i in (0..graph.len()).filter(|&i| needed[i]) {
         match *graph.node(NodeId(i as u32)) {
@@ -59,11 +59,11 @@ mod tests {
     use super::*;
     use crate::expr::{Inputs, Leaf, count, evaluate};
 
-    fn xyz(g: &mut Graph) -> [Expr; 3] {
+    fn xyz(g: &mut Graph) -> [Signed; 3] {
         [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)))
     }
 
-    fn minus(e: Expr) -> Expr {
+    fn minus(e: Signed) -> Signed {
         e.flipped(true)
     }
 
@@ -88,7 +88,7 @@ mod tests {
             q: vec![3.0, 5.0, -2.5],
             ..Inputs::default()
         };
-        let value = |g: &Graph, outputs: &[Expr]| evaluate(g, outputs, &inputs, &mut None);
+        let value = |g: &Graph, outputs: &[Signed]| evaluate(g, outputs, &inputs, &mut None);
         assert_eq!(value(&moved, &found), value(&g, &outputs));
     }
 }

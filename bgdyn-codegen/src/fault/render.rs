@@ -99,11 +99,11 @@ fn source_line(source: &str, number: usize) -> Option<&str> {
 /// What of `line` is shown, and how many columns stand before the caret.
 fn excerpt(line: &str, column: usize) -> (String, usize) {
     let characters: Vec<char> = line.chars().collect();
-    let place = column.saturating_sub(1).min(characters.len());
+    let location = column.saturating_sub(1).min(characters.len());
     let start = if characters.len() <= EXCERPT_WIDTH {
         0
     } else {
-        place.saturating_sub(EXCERPT_WIDTH / 2)
+        location.saturating_sub(EXCERPT_WIDTH / 2)
     };
     let printable = |c: &char| if c.is_control() { ' ' } else { *c };
     let shown: String = characters[start..]
@@ -111,19 +111,19 @@ fn excerpt(line: &str, column: usize) -> (String, usize) {
         .take(EXCERPT_WIDTH)
         .map(printable)
         .collect();
-    (shown.trim_end().to_owned(), place - start)
+    (shown.trim_end().to_owned(), location - start)
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::fault::{Fault, Faults, Place, Position};
+    use crate::fault::{Fault, Faults, Location, Position};
 
     fn fault(line: usize, column: usize) -> Fault {
-        let place = Place {
+        let location = Location {
             position: Position { line, column },
             path: "links[0].mass".into(),
         };
-        Fault::new(&place, "negative-mass", "the mass is -1").with_help("leave it out")
+        Fault::new(&location, "negative-mass", "the mass is -1").with_help("leave it out")
     }
 
     #[test]

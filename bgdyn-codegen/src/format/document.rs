@@ -1,13 +1,13 @@
 //! A mechanism's file as data: links, joints, inertias, frames.
 
 use super::{Field, Number, Raw, Vector};
-use crate::fault::Place;
+use crate::fault::Location;
 
 /// A mechanism's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
     /// The file's mapping.
-    pub place: Place,
+    pub location: Location,
     /// Whether everything in the file could be read; nothing is built from half a spec.
     pub complete: bool,
     /// Version of the format.
@@ -23,18 +23,18 @@ pub struct Spec {
     /// Angle within which directions are taken as exact.
     pub snap: Field<Number>,
     /// The links; those that are no mapping are left out.
-    pub links: Field<Vec<Link>>,
+    pub links: Field<Vec<LinkSpec>>,
     /// The named frames; those that are no mapping are left out.
-    pub frames: Field<Vec<Frame>>,
+    pub frames: Field<Vec<FrameSpec>>,
     /// What acts in it beside its links, by name, unread.
     pub effects: Field<Vec<Raw>>,
 }
 
 /// An entry of `links`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Link {
+pub struct LinkSpec {
     /// The link's mapping.
-    pub place: Place,
+    pub location: Location,
     /// Its name.
     pub name: Field<String>,
     /// Its name elsewhere.
@@ -42,22 +42,22 @@ pub struct Link {
     /// Name of the link that carries it.
     pub parent: Field<String>,
     /// How it is carried.
-    pub joint: Field<Joint>,
+    pub joint: Field<JointSpec>,
     /// Mass.
     pub mass: Field<Number>,
     /// Centre of mass.
     pub com: Field<Vector>,
     /// Tensor, or the solid that it is of.
-    pub inertia: Field<Inertia>,
+    pub inertia: Field<InertiaSpec>,
     /// `allow`, or a slip.
     pub nonphysical: Field<String>,
 }
 
 /// A link's `joint`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
+pub struct JointSpec {
     /// The joint's mapping.
-    pub place: Place,
+    pub location: Location,
     /// Its name.
     pub name: Field<String>,
     /// Its name elsewhere.
@@ -69,7 +69,7 @@ pub struct Joint {
     /// Place of the link in the parent.
     pub origin: Field<Origin>,
     /// Limits.
-    pub limits: Field<Limits>,
+    pub limits: Field<LimitsSpec>,
 }
 
 /// A placement: `xyz` and `rpy`.
@@ -83,7 +83,7 @@ pub struct Origin {
 
 /// A joint's `limits`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Limits {
+pub struct LimitsSpec {
     /// Smallest coordinate.
     pub lower: Field<Number>,
     /// Largest coordinate.
@@ -96,7 +96,7 @@ pub struct Limits {
 
 /// A link's `inertia`: entries of a tensor, or a solid of even density.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Inertia {
+pub struct InertiaSpec {
     /// xx, yy, zz, xy, xz, yz: entries of the tensor.
     pub entries: [Field<Number>; 6],
     /// xy, xz, yz: products of inertia, ∫xy dm, in place of the tensor's entries.
@@ -115,14 +115,14 @@ pub struct Inertia {
     pub axis: Field<Vector>,
 }
 
-/// The keys of [`Inertia::lengths`].
+/// The keys of [`InertiaSpec::lengths`].
 pub const LENGTHS: [&str; 3] = ["radius", "inner_radius", "length"];
 
 /// An entry of `frames`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
+pub struct FrameSpec {
     /// The frame's mapping.
-    pub place: Place,
+    pub location: Location,
     /// Its name.
     pub name: Field<String>,
     /// Its name elsewhere.

@@ -1,6 +1,6 @@
 //! A value with its position in the file, and the state of a key: absent, unreadable, given.
 
-use crate::fault::Place;
+use crate::fault::Location;
 
 /// A value and where it stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub struct Located<T> {
     /// The value.
     pub value: T,
     /// Where it stands.
-    pub place: Place,
+    pub location: Location,
 }
 
 /// What became of a key of a mapping.

@@ -12,19 +12,19 @@ const DEPTH: usize = 64;
 
 /// A value and where it stands.
 #[derive(Debug)]
-pub(super) struct Node {
+pub(super) struct TextNode {
     /// Where it begins.
     pub(super) position: Position,
     /// Where its tag stands, if it has one.
     pub(super) tag: Option<String>,
     /// What it is.
-    pub(super) shape: Shape,
+    pub(super) shape: NodeShape,
     depth: usize,
 }
 
 /// What a node is.
 #[derive(Debug)]
-pub(super) enum Shape {
+pub(super) enum NodeShape {
     /// Text, not yet a type.
     Scalar {
         /// Quotes and line folding undone.
@@ -33,14 +33,14 @@ pub(super) enum Shape {
         plain: bool,
     },
     /// A list.
-    List(Vec<Rc<Node>>),
+    List(Vec<Rc<TextNode>>),
     /// Keys and values in turn.
-    Map(Vec<(Rc<Node>, Rc<Node>)>),
+    Map(Vec<(Rc<TextNode>, Rc<TextNode>)>),
 }
 
 /// The document's root, or nothing for an empty file.
-pub(super) fn index(text: &str) -> Result<Option<Rc<Node>>, Fault> {
-    let mut builder = Builder::default();
+pub(super) fn index(text: &str) -> Result<Option<Rc<TextNode>>, Fault> {
+    let mut builder = IndexBuilder::default();
     let mut parser: Parser<'_, StrInput<'_>> = Parser::new_from_str(text);
     while let Some(next) = parser.next_event() {
         let (event, span) = next.map_err(|e| scan_fault(&e))?;
@@ -92,29 +92,29 @@ struct Open {
     anchor: usize,
     is_map: bool,
     depth: usize,
-    items: Vec<Rc<Node>>,
+    items: Vec<Rc<TextNode>>,
 }
 
 #[derive(Default)]
-struct Builder {
+struct IndexBuilder {
     documents: usize,
     open: Vec<Open>,
-    anchors: BTreeMap<usize, Rc<Node>>,
-    root: Option<Rc<Node>>,
+    anchors: BTreeMap<usize, Rc<TextNode>>,
+    root: Option<Rc<TextNode>>,
 }
 
-impl Builder {
+impl IndexBuilder {
     fn take(&mut self, event: Event<'_>, position: Position) -> Result<(), Fault> {
         let tag_text =
             |t: Option<std::borrow::Cow<'_, saphyr_parser::Tag>>| t.map(|t| t.to_string());
         match event {
             Event::DocumentStart(_) => self.document(position),
             Event::Scalar(text, style, anchor, tag) => {
-                let shape = Shape::Scalar {
+                let shape = NodeShape::Scalar {
                     text: text.into_owned(),
                     plain: style == ScalarStyle::Plain,
                 };
-                let node = Node {
+                let node = TextNode {
                     position,
                     tag: tag_text(tag),
                     shape,
@@ -168,7 +168,7 @@ impl Builder {
         let shape = if open.is_map {
             pairs(open.items)
         } else {
-            Shape::List(open.items)
+            NodeShape::List(open.items)
         };
         let depth = open.depth + 1;
         if depth > DEPTH {
@@ -176,7 +176,7 @@ impl Builder {
         }
         self.close(
             open.anchor,
-            Node {
+            TextNode {
                 position: open.position,
                 tag: open.tag,
                 shape,
@@ -185,12 +185,12 @@ impl Builder {
         )
     }
 
-    fn close(&mut self, anchor: usize, node: Node) -> Result<(), Fault> {
+    fn close(&mut self, anchor: usize, node: TextNode) -> Result<(), Fault> {
         let node = Rc::new(node);
         if anchor != 0 {
             self.anchors.insert(anchor, Rc::clone(&node));
         }
-        self.place(node);
+        self.location(node);
         Ok(())
     }
 
@@ -199,11 +199,11 @@ impl Builder {
             return Err(wording::cyclic_alias(position));
         }
         let node = self.anchors.get(&anchor).map(Rc::clone);
-        self.place(node.ok_or_else(|| wording::yaml_syntax(position, "unknown anchor"))?);
+        self.location(node.ok_or_else(|| wording::yaml_syntax(position, "unknown anchor"))?);
         Ok(())
     }
 
-    fn place(&mut self, node: Rc<Node>) {
+    fn location(&mut self, node: Rc<TextNode>) {
         match self.open.last_mut() {
             Some(open) => {
                 open.depth = open.depth.max(node.depth);
@@ -214,11 +214,11 @@ impl Builder {
     }
 }
 
-fn pairs(items: Vec<Rc<Node>>) -> Shape {
+fn pairs(items: Vec<Rc<TextNode>>) -> NodeShape {
     let mut pairs = Vec::with_capacity(items.len() / 2);
     let mut items = items.into_iter();
     while let (Some(key), Some(value)) = (items.next(), items.next()) {
         pairs.push((key, value));
     }
-    Shape::Map(pairs)
+    NodeShape::Map(pairs)
 }

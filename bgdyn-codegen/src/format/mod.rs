@@ -15,11 +15,13 @@ mod walk;
 mod yaml;
 
 pub use crate::unit::{Dimension, Unit};
-pub use document::{Frame, Inertia, Joint, LENGTHS, Limits, Link, Origin, Spec};
+pub use document::{
+    FrameSpec, InertiaSpec, JointSpec, LENGTHS, LimitsSpec, LinkSpec, Origin, Spec,
+};
 pub use field::{Field, Located};
 pub(crate) use number::misfit;
 pub use number::quantity;
 pub use parse::parse;
-pub use raw::{Entry, Fields, Key, Raw, Reads};
+pub use raw::{Fields, Key, ParsedValue, Raw, Reads};
 pub use scene::{SceneSpec, is_scene, parse_scene};
 pub use value::{Number, Vector};

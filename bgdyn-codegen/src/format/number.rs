@@ -2,40 +2,40 @@
 
 use bgdyn_runtime::Dd;
 
-use super::yaml::Kind;
+use super::yaml::YamlKind;
 use super::{Located, Number};
-use crate::fault::{Fault, Place, wording};
+use crate::fault::{Fault, Location, wording};
 use crate::unit::{Dimension, Unit};
 
 /// Sizes a number may have unless it is 0: beyond them no product would be safe from overflow.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// The number that stands at `place` as a scalar of the given kind.
+/// The number that stands at `location` as a scalar of the given kind.
 pub(super) fn number(
-    kind: Kind,
+    kind: YamlKind,
     text: &str,
-    place: &Place,
+    location: &Location,
     fit: &[Dimension],
 ) -> Result<Number, Fault> {
     if non_finite(text) {
-        return Err(wording::non_finite(place, text));
+        return Err(wording::non_finite(location, text));
     }
     let (mantissa, exponent, rest) =
-        decimal(text).ok_or_else(|| wording::not_a_number(place, text, fit))?;
-    if kind == Kind::Number && !rest.is_empty() {
-        return Err(wording::not_decimal(place, text));
+        decimal(text).ok_or_else(|| wording::not_a_number(location, text, fit))?;
+    if kind == YamlKind::Number && !rest.is_empty() {
+        return Err(wording::not_decimal(location, text));
     }
     let unit = match rest {
         "" => None,
-        unit => Some(fitting(unit, text, place, fit)?),
+        unit => Some(fitting(unit, text, location, fit)?),
     };
     let value =
-        value(mantissa, exponent, unit).ok_or_else(|| wording::out_of_range(place, text))?;
-    if unit.is_none() && kind != Kind::Number {
+        value(mantissa, exponent, unit).ok_or_else(|| wording::out_of_range(location, text))?;
+    if unit.is_none() && kind != YamlKind::Number {
         return Err(wording::number_as_text(
-            place,
+            location,
             text,
-            kind == Kind::Text { quoted: true },
+            kind == YamlKind::Text { quoted: true },
         ));
     }
     Ok(Number {
@@ -53,17 +53,17 @@ pub(super) fn number(
 pub fn quantity(text: &str, fit: &[Dimension]) -> Result<Number, Fault> {
     let bare = decimal(text).is_some_and(|(_, _, rest)| rest.is_empty());
     let kind = match bare {
-        true => Kind::Number,
-        false => Kind::Text { quoted: false },
+        true => YamlKind::Number,
+        false => YamlKind::Text { quoted: false },
     };
-    number(kind, text.trim(), &Place::file(), fit)
+    number(kind, text.trim(), &Location::file(), fit)
 }
 
 /// Whether a number with its unit measures one of `fit`.
 pub(crate) fn misfit(number: &Located<Number>, fit: &[Dimension]) -> Option<Fault> {
     let unit = number.value.unit?;
     let fits = fit.contains(&unit.dimension);
-    (!fits).then(|| wording::unit_misfit(&number.place, &number.value.text, unit, fit))
+    (!fits).then(|| wording::unit_misfit(&number.location, &number.value.text, unit, fit))
 }
 
 fn non_finite(text: &str) -> bool {
@@ -120,15 +120,15 @@ fn power(text: &str) -> (i32, &str) {
 fn fitting(
     unit: &str,
     text: &str,
-    place: &Place,
+    location: &Location,
     fit: &[Dimension],
 ) -> Result<&'static Unit, Fault> {
-    let found = Unit::find(unit).ok_or_else(|| wording::unknown_unit(place, text, unit, fit))?;
+    let found = Unit::find(unit).ok_or_else(|| wording::unknown_unit(location, text, unit, fit))?;
     let fits = fit.contains(&found.dimension);
     if fits {
         Ok(found)
     } else {
-        Err(wording::unit_misfit(place, text, found, fit))
+        Err(wording::unit_misfit(location, text, found, fit))
     }
 }
 

@@ -3,7 +3,8 @@
 use super::walk::{At, Mapping, Reader};
 use super::yaml::{self, Data};
 use super::{
-    Field, Frame, Inertia, Joint, LENGTHS, Limits, Link, Located, Number, Origin, Spec, Vector,
+    Field, FrameSpec, InertiaSpec, JointSpec, LENGTHS, LimitsSpec, LinkSpec, Located, Number,
+    Origin, Spec, Vector,
 };
 use crate::fault::{Faults, wording};
 use crate::unit::Dimension;
@@ -73,12 +74,12 @@ impl Reader {
             effects: self.field(&map, "effects", |r, at| {
                 r.table(at, ("effects by name", "`name: { type: viscous, … }`"))
             }),
-            place: map.place,
+            location: map.location,
             complete: false,
         })
     }
 
-    fn link(&mut self, at: &At<'_>) -> Option<Link> {
+    fn link(&mut self, at: &At<'_>) -> Option<LinkSpec> {
         let keys = [
             "name",
             "label",
@@ -94,7 +95,7 @@ impl Reader {
             ("a link", "`- name: …` and its other keys below"),
             &keys,
         )?;
-        Some(Link {
+        Some(LinkSpec {
             name: self.needed(&map, "name", "`name: …`, the link's name", Self::text),
             label: self.text_field(&map, "label"),
             parent: self.text_field(&map, "parent"),
@@ -105,18 +106,18 @@ impl Reader {
             }),
             inertia: self.field(&map, "inertia", Self::inertia),
             nonphysical: self.text_field(&map, "nonphysical"),
-            place: map.place,
+            location: map.location,
         })
     }
 
-    fn joint(&mut self, at: &At<'_>) -> Option<Joint> {
+    fn joint(&mut self, at: &At<'_>) -> Option<JointSpec> {
         let keys = ["name", "label", "type", "axis", "origin", "limits"];
         let map = self.mapping(
             at,
             ("a joint", "`{ name: …, type: revolute, axis: z }`"),
             &keys,
         )?;
-        Some(Joint {
+        Some(JointSpec {
             name: self.text_field(&map, "name"),
             label: self.text_field(&map, "label"),
             kind: self.needed(
@@ -128,7 +129,7 @@ impl Reader {
             axis: self.field(&map, "axis", Self::axis),
             origin: self.field(&map, "origin", Self::origin),
             limits: self.field(&map, "limits", Self::limits),
-            place: map.place,
+            location: map.location,
         })
     }
 
@@ -140,12 +141,12 @@ impl Reader {
             Some(letter) => (-1.0, letter),
             None => (1.0, text.as_str()),
         };
-        let Some(place) = ["x", "y", "z"].iter().position(|l| *l == letter) else {
-            self.faults.push(wording::unknown_axis(&at.place, text));
+        let Some(location) = ["x", "y", "z"].iter().position(|l| *l == letter) else {
+            self.faults.push(wording::unknown_axis(&at.location, text));
             return None;
         };
         Some(std::array::from_fn(|i| {
-            let value = Dd::from_f64(if i == place { sign } else { 0.0 });
+            let value = Dd::from_f64(if i == location { sign } else { 0.0 });
             let value = Number {
                 value,
                 unit: None,
@@ -154,7 +155,7 @@ impl Reader {
             };
             Located {
                 value,
-                place: at.place.clone(),
+                location: at.location.clone(),
             }
         }))
     }
@@ -174,7 +175,7 @@ impl Reader {
         })
     }
 
-    fn limits(&mut self, at: &At<'_>) -> Option<Limits> {
+    fn limits(&mut self, at: &At<'_>) -> Option<LimitsSpec> {
         let keys = ["lower", "upper", "velocity", "effort"];
         let map = self.mapping(
             at,
@@ -185,7 +186,7 @@ impl Reader {
             &keys,
         )?;
         let position = [Dimension::Angle, Dimension::Length];
-        Some(Limits {
+        Some(LimitsSpec {
             lower: self.number_field(&map, "lower", &position),
             upper: self.number_field(&map, "upper", &position),
             velocity: self.number_field(
@@ -197,7 +198,7 @@ impl Reader {
         })
     }
 
-    fn inertia(&mut self, at: &At<'_>) -> Option<Inertia> {
+    fn inertia(&mut self, at: &At<'_>) -> Option<InertiaSpec> {
         let entries = ["xx", "yy", "zz", "xy", "xz", "yz"];
         let others = ["products", "about", "rpy", "solid", "size", "axis"];
         let keys: Vec<&'static str> = [&entries[..], &others, &LENGTHS].concat();
@@ -206,7 +207,7 @@ impl Reader {
             "`{ xx: …, yy: …, zz: … }` or `{ solid: box, size: [x, y, z] }`",
         );
         let map = self.mapping(at, what, &keys)?;
-        Some(Inertia {
+        Some(InertiaSpec {
             entries: entries
                 .map(|key| self.field(&map, key, |r, at| r.value(at, &[Dimension::Inertia]))),
             products: self.field(&map, "products", Self::products),
@@ -226,7 +227,7 @@ impl Reader {
         Some(keys.map(|key| self.number_field(&map, key, &[Dimension::Inertia])))
     }
 
-    fn frame(&mut self, at: &At<'_>) -> Option<Frame> {
+    fn frame(&mut self, at: &At<'_>) -> Option<FrameSpec> {
         let keys = ["name", "link", "origin", "label"];
         let map = self.mapping(
             at,
@@ -236,7 +237,7 @@ impl Reader {
             ),
             &keys,
         )?;
-        Some(Frame {
+        Some(FrameSpec {
             name: self.needed(&map, "name", "`name: …`, the frame's name", Self::text),
             label: self.text_field(&map, "label"),
             link: self.needed(
@@ -246,7 +247,7 @@ impl Reader {
                 Self::text,
             ),
             origin: self.field(&map, "origin", Self::origin),
-            place: map.place,
+            location: map.location,
         })
     }
 

@@ -3,10 +3,10 @@
 //! They keep the values and positions of the file until that step says what it expects.
 
 use super::walk::{At, Reader};
-use super::yaml::{Data, Kind, Tree};
+use super::yaml::{Data, YamlKind, YamlTree};
 use super::{Located, Number, Vector};
 use crate::fault::wording::Wanted;
-use crate::fault::{Faults, Place};
+use crate::fault::{Faults, Location};
 use crate::unit::Dimension;
 
 /// A named entry, unread.
@@ -15,9 +15,9 @@ pub struct Raw {
     /// The key before it; for a bare word of a list, that word.
     pub name: Located<String>,
     /// What stands behind the key.
-    pub place: Place,
+    pub location: Location,
     /// `None` for a bare word of a list.
-    tree: Option<Tree>,
+    tree: Option<YamlTree>,
 }
 
 /// What may stand behind a key.
@@ -35,9 +35,9 @@ pub enum Reads {
     /// `all`, or a list of names of coordinates.
     Joints,
     /// The name of a link or a frame.
-    Place,
+    Site,
     /// The names of two of them.
-    Places,
+    Sites,
     /// The name of a hydraulic node: a supply, a tank, a line, a cylinder's side.
     Node,
     /// The name of an input.
@@ -66,7 +66,7 @@ pub struct Key {
 
 /// What was read behind a key.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Entry {
+pub enum ParsedValue {
     /// A number.
     Number(Number),
     /// A name or a word.
@@ -83,11 +83,11 @@ pub enum Entry {
 
 /// The keys of an entry with what was read behind them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Fields(Vec<(&'static str, Located<Entry>)>);
+pub struct Fields(Vec<(&'static str, Located<ParsedValue>)>);
 
 impl Fields {
     /// What stands behind a key.
-    pub fn get(&self, key: &str) -> Option<&Located<Entry>> {
+    pub fn get(&self, key: &str) -> Option<&Located<ParsedValue>> {
         self.0.iter().find(|(k, _)| *k == key).map(|(_, e)| e)
     }
 
@@ -109,22 +109,26 @@ impl Fields {
 
     /// These and a name behind a key.
     pub fn with(mut self, key: &'static str, name: Located<String>) -> Fields {
-        let (value, place) = (Entry::Text(name.value), name.place);
-        self.0.push((key, Located { value, place }));
+        let (value, location) = (ParsedValue::Text(name.value), name.location);
+        self.0.push((key, Located { value, location }));
         self
     }
 
     /// The same as if they stood at this place: of another file.
-    pub fn placed(mut self, place: &Place) -> Fields {
+    pub fn placed(mut self, location: &Location) -> Fields {
         for (_, entry) in &mut self.0 {
-            entry.place = place.clone();
+            entry.location = location.clone();
             match &mut entry.value {
-                Entry::Words(words) => words.iter_mut().for_each(|w| w.place = place.clone()),
-                Entry::Pair(names) => names.iter_mut().for_each(|n| n.place = place.clone()),
-                Entry::Group(numbers) => {
+                ParsedValue::Words(words) => {
+                    words.iter_mut().for_each(|w| w.location = location.clone())
+                }
+                ParsedValue::Pair(names) => {
+                    names.iter_mut().for_each(|n| n.location = location.clone())
+                }
+                ParsedValue::Group(numbers) => {
                     numbers
                         .iter_mut()
-                        .for_each(|(_, n)| n.place = place.clone());
+                        .for_each(|(_, n)| n.location = location.clone());
                 }
                 _ => {}
             }
@@ -136,7 +140,7 @@ impl Fields {
 impl Raw {
     pub(super) fn word(name: Located<String>) -> Self {
         Raw {
-            place: name.place.clone(),
+            location: name.location.clone(),
             name,
             tree: None,
         }
@@ -145,7 +149,7 @@ impl Raw {
     pub(super) fn entry(name: Located<String>, at: &At<'_>) -> Self {
         Raw {
             name,
-            place: at.place.clone(),
+            location: at.location.clone(),
             tree: Some(at.tree.clone()),
         }
     }
@@ -153,7 +157,7 @@ impl Raw {
     fn at(&self) -> Option<At<'_>> {
         self.tree.as_ref().map(|tree| At {
             tree,
-            place: self.place.clone(),
+            location: self.location.clone(),
         })
     }
 
@@ -171,7 +175,7 @@ impl Raw {
     pub fn as_word(&self) -> Option<&str> {
         match &self.tree.as_ref()?.data {
             Data::Scalar {
-                kind: Kind::Text { .. },
+                kind: YamlKind::Text { .. },
                 text,
             } => Some(text),
             _ => None,
@@ -188,9 +192,9 @@ impl Raw {
         match &entry.value.data {
             Data::Scalar { text, .. } => Some(Located {
                 value: text.clone(),
-                place: Place {
+                location: Location {
                     position: entry.value.position,
-                    path: format!("{}.{key}", self.place.path),
+                    path: format!("{}.{key}", self.location.path),
                 },
             }),
             _ => None,
@@ -221,7 +225,7 @@ impl Raw {
         let value = self.with(faults, |r, at| r.number(at, fit))?;
         Some(Located {
             value,
-            place: self.place.clone(),
+            location: self.location.clone(),
         })
     }
 
@@ -234,8 +238,8 @@ impl Raw {
         let fields = match keys.first() {
             Some(key) if !matches!(at.tree.data, Data::Map(_)) => {
                 reader.entry(&at, key).map(|value| {
-                    let place = at.place.clone();
-                    Fields(vec![(key.name, Located { value, place })])
+                    let location = at.location.clone();
+                    Fields(vec![(key.name, Located { value, location })])
                 })
             }
             _ => reader.fields(&at, what, keys),
@@ -272,50 +276,52 @@ impl Reader {
         (self.faults.count() == before).then_some(fields)
     }
 
-    fn entry(&mut self, at: &At<'_>, key: &Key) -> Option<Entry> {
+    fn entry(&mut self, at: &At<'_>, key: &Key) -> Option<ParsedValue> {
         match key.reads {
-            Reads::Number(fit) => self.value(at, fit).map(Entry::Number),
+            Reads::Number(fit) => self.value(at, fit).map(ParsedValue::Number),
             Reads::Word(_)
             | Reads::Coordinate
             | Reads::Joint
-            | Reads::Place
+            | Reads::Site
             | Reads::Node
-            | Reads::Input => self.text(at).map(Entry::Text),
-            Reads::Vector(fit) => self.vector(at, fit).map(|v| Entry::Vector(Box::new(v))),
+            | Reads::Input => self.text(at).map(ParsedValue::Text),
+            Reads::Vector(fit) => self
+                .vector(at, fit)
+                .map(|v| ParsedValue::Vector(Box::new(v))),
             Reads::Joints if !matches!(at.tree.data, Data::List(_)) => {
-                self.text(at).map(Entry::Text)
+                self.text(at).map(ParsedValue::Text)
             }
             Reads::Words(_) | Reads::Joints => {
                 let items = self.list(at, ("a list of words", "`[fx, fz]`"))?;
                 let word = |at: &At<'_>| {
                     Some(Located {
                         value: self.text(at)?,
-                        place: at.place.clone(),
+                        location: at.location.clone(),
                     })
                 };
                 items
                     .iter()
                     .map(word)
                     .collect::<Option<_>>()
-                    .map(Entry::Words)
+                    .map(ParsedValue::Words)
             }
-            Reads::Group(names, fit) => self.group(at, names, fit).map(Entry::Group),
-            Reads::Places => {
+            Reads::Group(names, fit) => self.group(at, names, fit).map(ParsedValue::Group),
+            Reads::Sites => {
                 let items = self.list(at, ("two names", "`[one, other]`"))?;
                 let mut names = items.iter().map(|at| {
                     Some(Located {
                         value: self.text(at)?,
-                        place: at.place.clone(),
+                        location: at.location.clone(),
                     })
                 });
                 let pair = [names.next().flatten()?, names.next().flatten()?];
                 if names.next().is_some() {
-                    let place = &at.place;
-                    let fault = crate::fault::wording::not_two_names(place, items.len());
+                    let location = &at.location;
+                    let fault = crate::fault::wording::not_two_names(location, items.len());
                     self.faults.push(fault);
                     return None;
                 }
-                Some(Entry::Pair(pair))
+                Some(ParsedValue::Pair(pair))
             }
         }
     }
@@ -363,8 +369,8 @@ impl Reader {
             if matches!(item.tree.data, Data::Map(_)) {
                 calls.extend(self.table(&item, what).unwrap_or_default());
             } else if let Some(value) = self.text(&item) {
-                let place = item.place.clone();
-                calls.push(Raw::word(Located { value, place }));
+                let location = item.location.clone();
+                calls.push(Raw::word(Located { value, location }));
             }
         }
         Some(calls)

@@ -4,13 +4,13 @@ use super::index::root_keys;
 use super::walk::{At, Reader};
 use super::yaml;
 use super::{Dimension, Field, Located, Number, Raw};
-use crate::fault::{Faults, Place};
+use crate::fault::{Faults, Location};
 
 /// A scene's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpec {
     /// The file's mapping.
-    pub place: Place,
+    pub location: Location,
     /// Whether everything in the file could be read; nothing is built from half a spec.
     pub complete: bool,
     /// Version of the format.
@@ -92,9 +92,9 @@ impl Reader {
         let version = "`scene: 1`, the version of the format";
         let path = "`mechanism: …`, the path of the mechanism's file, from this one";
         let whole = |name: &str, at: &At<'_>| {
-            let place = at.place.clone();
+            let location = at.location.clone();
             let value = name.to_owned();
-            Raw::entry(Located { value, place }, at)
+            Raw::entry(Located { value, location }, at)
         };
         Some(SceneSpec {
             version: self.needed(&map, SCENE, version, |r, at| {
@@ -120,7 +120,7 @@ impl Reader {
                 r.calls(at, ("a list of names", "`[shoulder, tool]`"))
             }),
             integration: self.field(&map, "integration", |_, at| Some(whole("integration", at))),
-            place: map.place,
+            location: map.location,
             complete: false,
             effects_read: false,
         })

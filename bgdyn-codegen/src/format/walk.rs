@@ -1,10 +1,10 @@
 //! Typed readers of mappings, lists, texts and numbers, which note every fault and continue.
 
 use super::number::number;
-use super::yaml::{Data, Entry, Kind, Tree};
+use super::yaml::{Data, YamlEntry, YamlKind, YamlTree};
 use super::{Field, Located, Number, Vector};
 use crate::fault::wording::Wanted;
-use crate::fault::{Faults, Place, wording};
+use crate::fault::{Faults, Location, wording};
 use crate::unit::Dimension;
 
 /// The key that makes a mapping a run-time parameter.
@@ -13,15 +13,15 @@ const PARAMETER: &str = "parameter";
 /// A value and its path.
 #[derive(Clone, Debug)]
 pub(super) struct At<'t> {
-    pub(super) tree: &'t Tree,
-    pub(super) place: Place,
+    pub(super) tree: &'t YamlTree,
+    pub(super) location: Location,
 }
 
 /// A mapping whose keys are known to the format.
 #[derive(Debug)]
 pub(super) struct Mapping<'t> {
-    pub(super) place: Place,
-    entries: Vec<&'t Entry>,
+    pub(super) location: Location,
+    entries: Vec<&'t YamlEntry>,
     merged: bool,
 }
 
@@ -32,21 +32,21 @@ pub(super) struct Reader {
 }
 
 impl<'t> At<'t> {
-    pub(super) fn root(tree: &'t Tree) -> Self {
+    pub(super) fn root(tree: &'t YamlTree) -> Self {
         At {
             tree,
-            place: Place {
+            location: Location {
                 position: tree.position,
                 path: String::new(),
             },
         }
     }
 
-    fn item(&self, tree: &'t Tree, index: usize) -> Self {
-        let path = format!("{}[{index}]", self.place.path);
+    fn item(&self, tree: &'t YamlTree, index: usize) -> Self {
+        let path = format!("{}[{index}]", self.location.path);
         At {
             tree,
-            place: Place {
+            location: Location {
                 position: tree.position,
                 path,
             },
@@ -61,13 +61,13 @@ impl<'t> Mapping<'t> {
             .iter()
             .find(|e| e.key.as_deref() == Some(key))?;
         let position = entry.value.position;
-        let place = Place {
+        let location = Location {
             position,
-            path: join(&self.place.path, key),
+            path: join(&self.location.path, key),
         };
         Some(At {
             tree: &entry.value,
-            place,
+            location,
         })
     }
 }
@@ -91,14 +91,14 @@ impl Reader {
         self.refuse_tag(at);
         let Data::Map(entries) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
             return None;
         };
         if !keys.contains(&PARAMETER) && self.refuse_parameter(at) {
             return None;
         }
         let mut mapping = Mapping {
-            place: at.place.clone(),
+            location: at.location.clone(),
             entries: Vec::new(),
             merged: false,
         };
@@ -108,30 +108,30 @@ impl Reader {
         Some(mapping)
     }
 
-    fn key<'t>(&mut self, entry: &'t Entry, keys: &[&'static str], mapping: &mut Mapping<'t>) {
-        let here = |path: String| Place {
+    fn key<'t>(&mut self, entry: &'t YamlEntry, keys: &[&'static str], mapping: &mut Mapping<'t>) {
+        let here = |path: String| Location {
             position: entry.position,
             path,
         };
         let Some(key) = &entry.key else {
-            let place = here(mapping.place.path.clone());
-            return self.faults.push(wording::key_not_text(&place, keys));
+            let location = here(mapping.location.path.clone());
+            return self.faults.push(wording::key_not_text(&location, keys));
         };
         if key == "<<" {
             mapping.merged = true;
             return self
                 .faults
-                .push(wording::merge_key(&here(mapping.place.path.clone())));
+                .push(wording::merge_key(&here(mapping.location.path.clone())));
         }
         if !keys.contains(&key.as_str()) {
-            let place = here(mapping.place.path.clone());
-            return self.faults.push(wording::unknown_key(&place, key, keys));
+            let location = here(mapping.location.path.clone());
+            return self.faults.push(wording::unknown_key(&location, key, keys));
         }
         if let Some(first) = mapping.entries.iter().find(|e| e.key.as_ref() == Some(key)) {
-            let place = here(join(&mapping.place.path, key));
+            let location = here(join(&mapping.location.path, key));
             return self
                 .faults
-                .push(wording::repeated_key(&place, key, first.position));
+                .push(wording::repeated_key(&location, key, first.position));
         }
         mapping.entries.push(entry);
     }
@@ -145,7 +145,7 @@ impl Reader {
         self.refuse_tag(at);
         let Data::Map(entries) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
             return None;
         };
         if self.refuse_parameter(at) {
@@ -153,32 +153,33 @@ impl Reader {
         }
         let mut found: Vec<(Located<String>, At<'t>)> = Vec::new();
         for entry in entries {
-            let path = join(&at.place.path, entry.key.as_deref().unwrap_or("?"));
-            let at_key = |position| Place {
+            let path = join(&at.location.path, entry.key.as_deref().unwrap_or("?"));
+            let at_key = |position| Location {
                 position,
                 path: path.clone(),
             };
-            let place = at_key(entry.position);
+            let location = at_key(entry.position);
             let Some(key) = &entry.key else {
-                self.faults.push(wording::key_not_text(&place, &[]));
+                self.faults.push(wording::key_not_text(&location, &[]));
                 continue;
             };
             if key == "<<" {
-                self.faults.push(wording::merge_key(&place));
+                self.faults.push(wording::merge_key(&location));
                 continue;
             }
             if let Some((first, _)) = found.iter().find(|(name, _)| name.value == *key) {
-                let first = first.place.position;
-                self.faults.push(wording::repeated_key(&place, key, first));
+                let first = first.location.position;
+                self.faults
+                    .push(wording::repeated_key(&location, key, first));
                 continue;
             }
             let name = Located {
                 value: key.clone(),
-                place,
+                location,
             };
             let tree = &entry.value;
-            let place = at_key(tree.position);
-            found.push((name, At { tree, place }));
+            let location = at_key(tree.position);
+            found.push((name, At { tree, location }));
         }
         Some(found)
     }
@@ -201,7 +202,7 @@ impl Reader {
         match read(self, &at) {
             Some(value) => Field::Given(Located {
                 value,
-                place: at.place,
+                location: at.location,
             }),
             None => Field::Broken,
         }
@@ -218,7 +219,7 @@ impl Reader {
         let field = self.field(mapping, key, read);
         if field.is_absent() {
             self.faults
-                .push(wording::missing_key(&mapping.place, key, what));
+                .push(wording::missing_key(&mapping.location, key, what));
             return Field::Broken;
         }
         field
@@ -232,7 +233,7 @@ impl Reader {
         }
         let Data::List(items) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.place, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
             return None;
         };
         Some(
@@ -252,12 +253,12 @@ impl Reader {
         }
         match &at.tree.data {
             Data::Scalar {
-                kind: Kind::Text { .. },
+                kind: YamlKind::Text { .. },
                 text,
             } => Some(text.clone()),
             _ => {
                 self.faults.push(wording::wrong_type(
-                    &at.place,
+                    &at.location,
                     ("text", "it between quotes: `\"…\"`"),
                     &describe(at.tree),
                 ));
@@ -273,18 +274,18 @@ impl Reader {
             return None;
         }
         let Data::Scalar {
-            kind: kind @ (Kind::Number | Kind::Text { .. }),
+            kind: kind @ (YamlKind::Number | YamlKind::Text { .. }),
             text,
         } = &at.tree.data
         else {
             self.faults.push(wording::wrong_type(
-                &at.place,
+                &at.location,
                 ("a number", "`1.5`, or with a unit: `5 mm`"),
                 &describe(at.tree),
             ));
             return None;
         };
-        number(*kind, text, &at.place, fit)
+        number(*kind, text, &at.location, fit)
             .map_err(|fault| self.faults.push(fault))
             .ok()
     }
@@ -333,12 +334,12 @@ impl Reader {
                 let value = read(self, &item)?;
                 Some(Located {
                     value,
-                    place: item.place,
+                    location: item.location,
                 })
             })
             .collect();
         if count != 3 {
-            self.faults.push(wording::wrong_length(&at.place, count));
+            self.faults.push(wording::wrong_length(&at.location, count));
             return None;
         }
         numbers
@@ -352,45 +353,45 @@ impl Reader {
     fn refuse_parameter(&mut self, at: &At<'_>) -> bool {
         let found = is_parameter(at.tree);
         if found {
-            self.faults.push(wording::misplaced_parameter(&at.place));
+            self.faults.push(wording::misplaced_parameter(&at.location));
         }
         found
     }
 
     fn refuse_tag(&mut self, at: &At<'_>) {
         if let Some(tag) = &at.tree.tag {
-            self.faults.push(wording::tag(&at.place, tag));
+            self.faults.push(wording::tag(&at.location, tag));
         }
     }
 }
 
 /// Whether the tree is written as a run-time parameter.
-fn is_parameter(tree: &Tree) -> bool {
-    let named = |entry: &Entry| entry.key.as_deref() == Some(PARAMETER);
+fn is_parameter(tree: &YamlTree) -> bool {
+    let named = |entry: &YamlEntry| entry.key.as_deref() == Some(PARAMETER);
     matches!(&tree.data, Data::Map(entries) if entries.iter().any(named))
 }
 
 /// What stands at a place, for messages.
-fn describe(tree: &Tree) -> String {
+fn describe(tree: &YamlTree) -> String {
     match &tree.data {
         Data::List(items) => format!("a list of {}", items.len()),
         Data::Map(_) => "a mapping".to_owned(),
         Data::Scalar {
-            kind: Kind::Nothing,
+            kind: YamlKind::Nothing,
             ..
         } => "nothing".to_owned(),
         Data::Scalar {
-            kind: Kind::Truth,
+            kind: YamlKind::Truth,
             text,
         } => {
             format!("the truth value {}", wording::quote(text))
         }
         Data::Scalar {
-            kind: Kind::Number,
+            kind: YamlKind::Number,
             text,
         } => format!("the number {}", wording::quote(text)),
         Data::Scalar {
-            kind: Kind::Text { .. },
+            kind: YamlKind::Text { .. },
             text,
         } => {
             format!("the text {}", wording::quote(text))

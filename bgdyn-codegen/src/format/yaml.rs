@@ -7,12 +7,12 @@ use serde::de::{
     Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 
-use super::index::{Node, Shape, index};
+use super::index::{NodeShape, TextNode, index};
 use crate::fault::{Fault, Faults, Position, wording};
 
 /// A typed value and where it stands.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tree {
+pub(super) struct YamlTree {
     pub(super) position: Position,
     pub(super) tag: Option<String>,
     pub(super) data: Data,
@@ -21,14 +21,14 @@ pub(super) struct Tree {
 /// What a value is.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Data {
-    Scalar { kind: Kind, text: String },
-    List(Vec<Tree>),
-    Map(Vec<Entry>),
+    Scalar { kind: YamlKind, text: String },
+    List(Vec<YamlTree>),
+    Map(Vec<YamlEntry>),
 }
 
 /// The type of a scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum YamlKind {
     Nothing,
     Truth,
     Number,
@@ -37,14 +37,14 @@ pub(super) enum Kind {
 
 /// A key with its value; `key` is empty for a key that is no scalar.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
+pub(super) struct YamlEntry {
     pub(super) key: Option<String>,
     pub(super) position: Position,
-    pub(super) value: Tree,
+    pub(super) value: YamlTree,
 }
 
 /// The file's tree, if its YAML is sound.
-pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Tree> {
+pub(super) fn read(text: &str, faults: &mut Faults) -> Option<YamlTree> {
     match tree(text) {
         Ok(tree) => Some(tree),
         Err(fault) => {
@@ -54,26 +54,26 @@ pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Tree> {
     }
 }
 
-fn tree(text: &str) -> Result<Tree, Fault> {
+fn tree(text: &str) -> Result<YamlTree, Fault> {
     let root = index(text)?.ok_or_else(wording::empty_file)?;
     let typed: Typed = serde_yaml::from_str(text).map_err(|e| serde_fault(&e))?;
     join(&root, typed)
 }
 
 fn serde_fault(error: &serde_yaml::Error) -> Fault {
-    let place = error.location();
-    let position = place.map(|l| Position {
+    let location = error.location();
+    let position = location.map(|l| Position {
         line: l.line().max(1),
         column: l.column().max(1),
     });
     wording::yaml_syntax(position.unwrap_or(Position::START), &error.to_string())
 }
 
-fn join(node: &Node, typed: Typed) -> Result<Tree, Fault> {
+fn join(node: &TextNode, typed: Typed) -> Result<YamlTree, Fault> {
     let data = match (&node.shape, typed) {
-        (Shape::Scalar { text, plain }, Typed::Scalar(kind)) => {
-            let kind = if let Kind::Text { .. } = kind {
-                Kind::Text { quoted: !plain }
+        (NodeShape::Scalar { text, plain }, Typed::Scalar(kind)) => {
+            let kind = if let YamlKind::Text { .. } = kind {
+                YamlKind::Text { quoted: !plain }
             } else {
                 kind
             };
@@ -82,11 +82,11 @@ fn join(node: &Node, typed: Typed) -> Result<Tree, Fault> {
                 text: text.clone(),
             }
         }
-        (Shape::List(nodes), Typed::List(items)) if nodes.len() == items.len() => {
+        (NodeShape::List(nodes), Typed::List(items)) if nodes.len() == items.len() => {
             let pairs = nodes.iter().zip(items);
             Data::List(pairs.map(|(n, t)| join(n, t)).collect::<Result<_, _>>()?)
         }
-        (Shape::Map(nodes), Typed::Map(items)) if nodes.len() == items.len() => {
+        (NodeShape::Map(nodes), Typed::Map(items)) if nodes.len() == items.len() => {
             let pairs = nodes.iter().zip(items);
             Data::Map(
                 pairs
@@ -96,19 +96,19 @@ fn join(node: &Node, typed: Typed) -> Result<Tree, Fault> {
         }
         _ => return Err(wording::yaml_ambiguous(node.position)),
     };
-    Ok(Tree {
+    Ok(YamlTree {
         position: node.position,
         tag: node.tag.clone(),
         data,
     })
 }
 
-fn entry(key: &Node, value: &Node, typed: Typed) -> Result<Entry, Fault> {
+fn entry(key: &TextNode, value: &TextNode, typed: Typed) -> Result<YamlEntry, Fault> {
     let text = match &key.shape {
-        Shape::Scalar { text, .. } => Some(text.clone()),
-        Shape::List(_) | Shape::Map(_) => None,
+        NodeShape::Scalar { text, .. } => Some(text.clone()),
+        NodeShape::List(_) | NodeShape::Map(_) => None,
     };
-    Ok(Entry {
+    Ok(YamlEntry {
         key: text,
         position: key.position,
         value: join(value, typed)?,
@@ -117,7 +117,7 @@ fn entry(key: &Node, value: &Node, typed: Typed) -> Result<Entry, Fault> {
 
 /// The types that serde_yaml sees; repeated keys stay, so that the reader can show both.
 enum Typed {
-    Scalar(Kind),
+    Scalar(YamlKind),
     List(Vec<Typed>),
     Map(Vec<Typed>),
 }
@@ -146,21 +146,21 @@ impl<'de> Visitor<'de> for TypedVisitor {
     }
 
     scalars! {
-        visit_bool(bool) = Kind::Truth;
-        visit_i64(i64) = Kind::Number;
-        visit_u64(u64) = Kind::Number;
-        visit_i128(i128) = Kind::Number;
-        visit_u128(u128) = Kind::Number;
-        visit_f64(f64) = Kind::Number;
-        visit_str(&str) = Kind::Text { quoted: false };
+        visit_bool(bool) = YamlKind::Truth;
+        visit_i64(i64) = YamlKind::Number;
+        visit_u64(u64) = YamlKind::Number;
+        visit_i128(i128) = YamlKind::Number;
+        visit_u128(u128) = YamlKind::Number;
+        visit_f64(f64) = YamlKind::Number;
+        visit_str(&str) = YamlKind::Text { quoted: false };
     }
 
     fn visit_unit<E>(self) -> Result<Typed, E> {
-        Ok(Typed::Scalar(Kind::Nothing))
+        Ok(Typed::Scalar(YamlKind::Nothing))
     }
 
     fn visit_none<E>(self) -> Result<Typed, E> {
-        Ok(Typed::Scalar(Kind::Nothing))
+        Ok(Typed::Scalar(YamlKind::Nothing))
     }
 
     fn visit_some<D: Deserializer<'de>>(self, deserializer: D) -> Result<Typed, D::Error> {

@@ -1,20 +1,20 @@
 //! The arguments of a method, and the numbers of the spec, as expressions.
 
 use crate::bond_graph::{Multibody, Rotor};
-use crate::expr::{Builder, Ex, Leaf};
+use crate::expr::{Builder, Expr, Leaf};
 use crate::mechanism::{ParameterId, Value};
 use crate::method::{Argument, Method};
 
 /// The arguments of a method as expressions; what it does not take is zero.
 pub(super) struct Arguments<'g> {
     /// Positions.
-    pub q: Vec<Ex<'g>>,
+    pub q: Vec<Expr<'g>>,
     /// Velocities.
-    pub v: Vec<Ex<'g>>,
+    pub v: Vec<Expr<'g>>,
     /// Accelerations.
-    pub a: Vec<Ex<'g>>,
+    pub a: Vec<Expr<'g>>,
     /// Joint efforts.
-    pub tau: Vec<Ex<'g>>,
+    pub tau: Vec<Expr<'g>>,
     /// Whether the active efforts act.
     pub active: bool,
 }
@@ -23,7 +23,7 @@ impl<'g> Arguments<'g> {
     /// Those that the method takes.
     pub fn new(b: &'g Builder, graph: &Multibody, method: Method) -> Self {
         let n = graph.coordinates.len();
-        let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Ex<'g>> {
+        let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Expr<'g>> {
             (0..n)
                 .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
                 .collect()
@@ -44,17 +44,17 @@ impl<'g> Arguments<'g> {
 }
 
 /// What a rotor adds to a joint's inertia: N² J.
-pub(super) fn reflected<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
+pub(super) fn reflected<'g>(b: &'g Builder, rotor: &Rotor) -> Expr<'g> {
     spin(b, rotor) * value(b, rotor.ratio)
 }
 
 /// Momentum of a rotor about its axis per unit rate of the joint: N J.
-pub(super) fn spin<'g>(b: &'g Builder, rotor: &Rotor) -> Ex<'g> {
+pub(super) fn spin<'g>(b: &'g Builder, rotor: &Rotor) -> Expr<'g> {
     value(b, rotor.inertia) * value(b, rotor.ratio)
 }
 
 /// A number of the spec as an expression.
-pub(super) fn value<'g>(b: &'g Builder, value: Value) -> Ex<'g> {
+pub(super) fn value<'g>(b: &'g Builder, value: Value) -> Expr<'g> {
     match value {
         Value::Fixed(x) => b.constant(x),
         Value::Parameter(ParameterId(p)) => b.leaf(Leaf::Parameter(p)),

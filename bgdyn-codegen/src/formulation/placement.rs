@@ -3,23 +3,23 @@
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::{LinkId, Motion};
 
 /// Placement of every link frame.
 pub(super) struct Placement<'g> {
     /// A_i: link axes in fixed axes.
-    pub(super) rotations: Vec<Mat3<Ex<'g>>>,
+    pub(super) rotations: Vec<Mat3<Expr<'g>>>,
     /// Origins of the link frames, m.
-    pub(super) origins: Vec<Vec3<Ex<'g>>>,
+    pub(super) origins: Vec<Vec3<Expr<'g>>>,
     /// Unit vectors of the joints' axes.
-    pub(super) axes: Vec<Vec3<Ex<'g>>>,
+    pub(super) axes: Vec<Vec3<Expr<'g>>>,
 }
 
 impl<'g> Placement<'g> {
     /// From the base outwards.
-    pub(super) fn new(b: &'g Builder, graph: &Multibody, q: &[Ex<'g>]) -> Self {
+    pub(super) fn new(b: &'g Builder, graph: &Multibody, q: &[Expr<'g>]) -> Self {
         let mut placed = Placement {
             rotations: Vec::new(),
             origins: Vec::new(),
@@ -49,7 +49,7 @@ impl<'g> Placement<'g> {
     }
 
     /// A point of link i, given in its axes.
-    pub(super) fn point(&self, i: usize, p: Vec3<Ex<'g>>) -> Vec3<Ex<'g>> {
+    pub(super) fn point(&self, i: usize, p: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         self.origins[i] + self.rotations[i] * p
     }
 }

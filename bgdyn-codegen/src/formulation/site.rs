@@ -1,31 +1,31 @@
 //! What a site's methods return, from its pose and the columns of its Jacobian.
 
-use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
+use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 
 /// Velocity of a site for a unit rate of one joint, fixed axes.
 #[derive(Clone, Copy)]
-pub(super) struct Column<'g> {
+pub(super) struct JacobianColumn<'g> {
     /// ω, rad/s
-    pub(super) angular: Vec3<Ex<'g>>,
+    pub(super) angular: Vec3<Expr<'g>>,
     /// Velocity of the site's origin, m/s.
-    pub(super) linear: Vec3<Ex<'g>>,
+    pub(super) linear: Vec3<Expr<'g>>,
 }
 
 /// Pose of a site and how the joints move it, fixed axes.
 pub(super) struct SiteMotion<'g> {
     /// Its axes.
-    pub(super) rotation: Mat3<Ex<'g>>,
+    pub(super) rotation: Mat3<Expr<'g>>,
     /// Its origin, m.
-    pub(super) origin: Vec3<Ex<'g>>,
+    pub(super) origin: Vec3<Expr<'g>>,
     /// A column per coordinate; `None` where it moves nothing.
-    pub(super) columns: Vec<Option<Column<'g>>>,
+    pub(super) columns: Vec<Option<JacobianColumn<'g>>>,
 }
 
 impl<'g> SiteMotion<'g> {
     /// The expressions of one of a site's methods.
-    pub(super) fn outputs(&self, b: &'g Builder, method: Method, v: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    pub(super) fn outputs(&self, b: &'g Builder, method: Method, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
         match method {
             Method::Pose(_) => self
                 .rotation
@@ -42,7 +42,7 @@ impl<'g> SiteMotion<'g> {
     }
 
     /// Σ columns · v, angular part first.
-    fn velocity(&self, b: &'g Builder, v: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    fn velocity(&self, b: &'g Builder, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let (mut angular, mut linear) = (Vec3([b.zero(); 3]), Vec3([b.zero(); 3]));
         for (column, &rate) in self.columns.iter().zip(v) {
             if let Some(column) = column {
@@ -53,14 +53,15 @@ impl<'g> SiteMotion<'g> {
         angular.0.into_iter().chain(linear.0).collect()
     }
 
-    fn jacobian(&self, b: &'g Builder) -> Vec<Ex<'g>> {
+    fn jacobian(&self, b: &'g Builder) -> Vec<Expr<'g>> {
         let zero = Vec3([b.zero(); 3]);
-        let none = Column {
+        let none = JacobianColumn {
             angular: zero,
             linear: zero,
         };
-        let columns: Vec<Column<'g>> = self.columns.iter().map(|c| c.unwrap_or(none)).collect();
-        let row = |part: fn(&Column<'g>) -> Vec3<Ex<'g>>, i: usize| {
+        let columns: Vec<JacobianColumn<'g>> =
+            self.columns.iter().map(|c| c.unwrap_or(none)).collect();
+        let row = |part: fn(&JacobianColumn<'g>) -> Vec3<Expr<'g>>, i: usize| {
             columns.iter().map(move |c| part(c).0[i])
         };
         let angular = (0..3).flat_map(|i| row(|c| c.angular, i));
@@ -70,7 +71,7 @@ impl<'g> SiteMotion<'g> {
 }
 
 /// Rates of change along the motion, the velocities held.
-fn rates<'g>(b: &'g Builder, x: &[Ex<'g>], v: &[Ex<'g>]) -> Vec<Ex<'g>> {
+fn rates<'g>(b: &'g Builder, x: &[Expr<'g>], v: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let velocities: Vec<_> = v.iter().map(|v| v.expr()).collect();
     let mut rate = Tangent::new(|_: &mut Graph, leaf| match leaf {
         Leaf::Position(j) => Some(velocities[j]),

@@ -2,23 +2,23 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 
 /// The factors of M = Lᵀ D L, from the last coordinate to the first, which keeps the zeros of a
 /// branching mechanism (Featherstone 2005). Every pivot is checked.
-struct Factor<'g> {
+struct PivotFactor<'g> {
     b: &'g Builder,
     /// L below its unit diagonal.
-    l: Vec<Vec<Ex<'g>>>,
+    l: Vec<Vec<Expr<'g>>>,
     /// D⁻¹
-    inverse: Vec<Ex<'g>>,
+    inverse: Vec<Expr<'g>>,
 }
 
-impl<'g> Factor<'g> {
+impl<'g> PivotFactor<'g> {
     /// Factors the lower triangle of M.
-    fn new(b: &'g Builder, mut mass: Vec<Vec<Ex<'g>>>) -> Self {
+    fn new(b: &'g Builder, mut mass: Vec<Vec<Expr<'g>>>) -> Self {
         let n = mass.len();
-        let original: Vec<Ex<'g>> = (0..n).map(|k| mass[k][k]).collect();
+        let original: Vec<Expr<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
         b.section(|| "M = Lᵀ D L, from the last joint to the first".into());
         for k in (0..n).rev() {
@@ -49,7 +49,7 @@ impl<'g> Factor<'g> {
                 mass[k][i] = l;
             }
         }
-        Factor {
+        PivotFactor {
             b,
             l: mass,
             inverse,
@@ -57,7 +57,7 @@ impl<'g> Factor<'g> {
     }
 
     /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
-    fn solve(&self, mut x: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+    fn solve(&self, mut x: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
         let n = x.len();
         self.b.section(|| "Lᵀ y = f, L x = D⁻¹ y".into());
         for k in (0..n).rev() {
@@ -76,6 +76,10 @@ impl<'g> Factor<'g> {
 }
 
 /// Solves M x = f for one f.
-pub(crate) fn ltdl<'g>(b: &'g Builder, mass: Vec<Vec<Ex<'g>>>, f: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
-    Factor::new(b, mass).solve(f)
+pub(crate) fn ltdl<'g>(
+    b: &'g Builder,
+    mass: Vec<Vec<Expr<'g>>>,
+    f: Vec<Expr<'g>>,
+) -> Vec<Expr<'g>> {
+    PivotFactor::new(b, mass).solve(f)
 }

@@ -2,7 +2,7 @@
 
 mod scene;
 
-use crate::format::{Field, Link, Spec};
+use crate::format::{Field, LinkSpec, Spec};
 use crate::mechanism::joint::{JOINT_TYPES, Motion};
 use crate::name::is_identifier;
 pub use scene::SceneInterface;
@@ -58,7 +58,7 @@ impl Interface {
     }
 }
 
-fn links(spec: &Spec) -> Option<&[Link]> {
+fn links(spec: &Spec) -> Option<&[LinkSpec]> {
     spec.links.value().map(Vec::as_slice)
 }
 
@@ -71,7 +71,7 @@ fn frames(spec: &Spec) -> Vec<String> {
 }
 
 /// The name of the link's joint, if it seems to move.
-fn moving_joint(link: &Link) -> Option<String> {
+fn moving_joint(link: &LinkSpec) -> Option<String> {
     let joint = match &link.joint {
         Field::Absent => return None,
         Field::Broken => return Some(String::new()),

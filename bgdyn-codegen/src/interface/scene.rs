@@ -8,8 +8,8 @@ use crate::format::{Dimension, Located, Raw, SceneSpec, parse_scene};
 use crate::machine::Machine;
 use crate::mechanism::{CoordinateId, Parameter};
 use crate::name::is_identifier;
-use crate::scene::{self, Coordinate, Initial, Layout, Part, Store};
-use crate::system::{Named, System};
+use crate::scene::{self, Initial, MomentumStore, StateCoordinate, StateLayout, Variable};
+use crate::system::{Named, SceneEquations};
 
 /// The interface of a scene's module without the functions behind it.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct SceneInterface {
     /// The scene's name.
     pub name: String,
     /// What the state and the inputs are made of.
-    pub layout: Layout,
+    pub layout: StateLayout,
     /// Where the scene begins.
     pub initial: Initial,
     /// The parts of its outputs.
@@ -32,7 +32,7 @@ pub struct SceneInterface {
 
 impl SceneInterface {
     /// Of a sound scene.
-    pub fn of(system: &System) -> Self {
+    pub fn of(system: &SceneEquations) -> Self {
         SceneInterface {
             name: system.scene.name.clone(),
             layout: system.scene.layout.clone(),
@@ -81,7 +81,7 @@ impl SceneInterface {
         }
         let layout = &mut self.layout;
         for word in words(spec.initial.value()) {
-            let stored = |c: &Coordinate| c.stored && c.name == word || c.rate_name == word;
+            let stored = |c: &StateCoordinate| c.stored && c.name == word || c.rate_name == word;
             let known = layout.coordinates.iter().any(stored)
                 || layout.states.iter().any(|s| s.name == word);
             match word.strip_suffix("_mode") {
@@ -119,7 +119,7 @@ impl SceneInterface {
         let new = |seen: &mut BTreeSet<String>, name: &str| seen.insert(name.to_owned());
         let layout = &mut self.layout;
         let mut seen = BTreeSet::new();
-        let fresh = |c: &Coordinate| new(&mut seen, &c.name) && new(&mut seen, &c.rate_name);
+        let fresh = |c: &StateCoordinate| new(&mut seen, &c.name) && new(&mut seen, &c.rate_name);
         layout.coordinates.retain(fresh);
         layout.states.retain(|s| new(&mut seen, &s.name));
         layout
@@ -166,18 +166,18 @@ fn joints(mechanism: &str) -> SceneInterface {
     let known = super::Interface::guess(mechanism, "mechanism");
     let names = known.into_iter().flat_map(|known| known.joints);
     let names = names.filter(|name| is_identifier(name));
-    let coordinate = |(j, name): (usize, String)| Coordinate {
+    let coordinate = |(j, name): (usize, String)| StateCoordinate {
         rate_name: format!("{name}_rate"),
         name,
-        store: Store::Links(CoordinateId(j)),
+        store: MomentumStore::Links(CoordinateId(j)),
         stored: true,
         dimensions: [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
         starts_with: None,
     };
     SceneInterface {
-        layout: Layout {
+        layout: StateLayout {
             coordinates: names.enumerate().map(coordinate).collect(),
-            ..Layout::default()
+            ..StateLayout::default()
         },
         ..nothing()
     }
@@ -187,7 +187,7 @@ fn nothing() -> SceneInterface {
     let own = ["links", "drives", "dropped_velocity_products"];
     SceneInterface {
         name: String::new(),
-        layout: Layout::default(),
+        layout: StateLayout::default(),
         initial: Initial::default(),
         outputs: Vec::new(),
         entries: own.map(named).to_vec(),
@@ -204,8 +204,8 @@ fn named(name: &str) -> Named {
     }
 }
 
-fn part(name: &str) -> Part {
-    Part {
+fn part(name: &str) -> Variable {
+    Variable {
         name: name.to_owned(),
         dimension: Dimension::One,
         about: String::new(),

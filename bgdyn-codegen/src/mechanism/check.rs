@@ -16,7 +16,7 @@ use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
-use order::Tree;
+use order::LinkTree;
 use parameters::Parameters;
 
 /// The only version of the format there is.
@@ -39,10 +39,10 @@ pub(crate) fn check(
     let links = spec.links.value().map_or(&[][..], Vec::as_slice);
     let frames = spec.frames.value().map_or(&[][..], Vec::as_slice);
     if let Some(none) = spec.links.given().filter(|links| links.value.is_empty()) {
-        faults.push(wording::no_links(&none.place));
+        faults.push(wording::no_links(&none.location));
     }
     names::check(links, frames, faults);
-    let tree = Tree::new(links, frames, faults);
+    let tree = LinkTree::new(links, frames, faults);
     let mut parameters = Parameters::new(methods);
     let bodies = links
         .iter()
@@ -75,7 +75,7 @@ fn format(spec: &Spec, faults: &mut Faults) {
         && format.value.value != Dd::from_f64(f64::from(FORMAT))
     {
         faults.push(wording::unknown_format(
-            &format.place,
+            &format.location,
             &format.value.text,
             FORMAT,
         ));
@@ -88,7 +88,7 @@ fn standard_gravity() -> Vec3<Dd> {
 }
 
 /// A link without its place in the tree.
-struct Body {
+struct CheckedLink {
     name: String,
     label: Option<String>,
     joint: Joint,
@@ -96,14 +96,14 @@ struct Body {
 }
 
 fn body(
-    link: &format::Link,
+    link: &format::LinkSpec,
     directions: &Directions,
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
-) -> Option<Body> {
+) -> Option<CheckedLink> {
     let joint = joint::joint(link, directions, faults);
     let inertial = inertial(link, directions, parameters, faults);
-    Some(Body {
+    Some(CheckedLink {
         name: link.name.value()?.clone(),
         label: text(&link.label),
         joint: joint?,
@@ -113,13 +113,13 @@ fn body(
 
 /// Where a number may be a run-time parameter. Its default obeys the rules for numbers.
 fn inertial(
-    link: &format::Link,
+    link: &format::LinkSpec,
     directions: &Directions,
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<Inertial> {
     if let Some(mass) = link.mass.given().filter(|mass| mass.value.value < Dd::ZERO) {
-        faults.push(wording::negative_mass(&mass.place, &mass.value.text));
+        faults.push(wording::negative_mass(&mass.location, &mass.value.text));
     }
     let name = link.name.value().map_or("", String::as_str);
     let zero = Value::Fixed(Dd::ZERO);
@@ -149,8 +149,8 @@ fn inertial(
 }
 
 fn frame(
-    frame: &format::Frame,
-    tree: &Tree<'_>,
+    frame: &format::FrameSpec,
+    tree: &LinkTree<'_>,
     directions: &Directions,
     faults: &mut Faults,
 ) -> Option<Frame> {
@@ -165,10 +165,13 @@ fn frame(
 }
 
 /// The links in their order, and the link of every coordinate.
-fn assemble(mut bodies: Vec<Option<Body>>, tree: &Tree<'_>) -> Option<(Vec<Link>, Vec<LinkId>)> {
+fn assemble(
+    mut bodies: Vec<Option<CheckedLink>>,
+    tree: &LinkTree<'_>,
+) -> Option<(Vec<Link>, Vec<LinkId>)> {
     let (mut links, mut coordinates) = (Vec::with_capacity(bodies.len()), Vec::new());
     for &index in &tree.sequence {
-        let Body {
+        let CheckedLink {
             name,
             label,
             mut joint,

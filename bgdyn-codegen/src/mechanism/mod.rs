@@ -5,20 +5,20 @@
 
 mod check;
 pub mod joint;
-mod lettered;
 mod places;
+mod symbolic;
 
 use std::fmt;
 
 use bgdyn_runtime::Dd;
 
-use crate::fault::Place;
+use crate::fault::Location;
 use crate::math::{Mat3, Vec3};
 pub(crate) use check::check;
 pub(crate) use check::check_tensor;
 pub use joint::{JointType, Motion};
-pub use lettered::{Letter, Lettered};
-pub(crate) use places::Places;
+pub(crate) use places::SiteOrigins;
+pub use symbolic::{NumberSymbol, SymbolicMechanism};
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -182,7 +182,7 @@ pub struct Snapped {
     /// The farthest that one of their numbers was moved: rad, or of an axis's length.
     pub most: f64,
     /// Where that is.
-    pub place: Place,
+    pub location: Location,
 }
 
 /// A mechanism that passed every check.

@@ -13,12 +13,12 @@ const ROUNDING: f64 = 1e-26;
 
 /// The origins of links and frames in the world at sampled positions, m.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Places {
+pub(crate) struct SiteOrigins {
     names: Vec<String>,
     origins: Vec<[Vec3<Dd>; POSITIONS]>,
 }
 
-impl Places {
+impl SiteOrigins {
     /// Those of a mechanism: links first, then frames.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let poses: [Vec<Pose>; POSITIONS] = std::array::from_fn(|k| link_poses(mechanism, k));
@@ -33,7 +33,7 @@ impl Places {
             (frame.name.clone(), origins)
         });
         let (names, origins) = links.chain(frames).unzip();
-        Places { names, origins }
+        SiteOrigins { names, origins }
     }
 
     /// The names.

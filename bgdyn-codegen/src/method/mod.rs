@@ -2,11 +2,11 @@
 //!
 //! The formulations, the emitter and the command line read them.
 
-mod role;
+mod scene_function;
 
 use crate::bond_graph::{Site, SiteId};
 use crate::fault::unknown_name;
-pub use role::Role;
+pub use scene_function::SceneFunction;
 
 /// An argument of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,7 +139,7 @@ pub enum Method {
     /// Its acceleration where the joints' accelerations are zero.
     JacobianDotV(SiteId),
     /// A function of a scene.
-    Scene(Role),
+    Scene(SceneFunction),
 }
 
 /// Names of all methods that a generated struct may have, whatever its places are called.
@@ -254,15 +254,15 @@ impl Method {
             Method::Bias | Method::KineticEnergy | Method::CoriolisMatrix => &[Q, V],
             Method::Velocity(_) | Method::JacobianDotV(_) => &[Q, V],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
-            Method::Scene(Role::Inverse) => &[
+            Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
                 Argument::Accelerations,
                 Argument::Input,
                 Argument::Time,
             ],
-            Method::Scene(Role::ToCanonical) => &[Argument::State],
-            Method::Scene(Role::FromCanonical) => &[Argument::Canonical],
-            Method::Scene(Role::CanonicalRates) => &[
+            Method::Scene(SceneFunction::ToCanonical) => &[Argument::State],
+            Method::Scene(SceneFunction::FromCanonical) => &[Argument::Canonical],
+            Method::Scene(SceneFunction::CanonicalRates) => &[
                 Argument::Canonical,
                 Argument::Modes,
                 Argument::Input,
@@ -286,7 +286,11 @@ impl Method {
             Method::Velocity(_) | Method::JacobianDotV(_) => Shape::Spatial,
             Method::Jacobian(_) => Shape::Jacobian,
             Method::Scene(
-                Role::Energy | Role::Inverse | Role::Inputs | Role::Outputs | Role::ToCanonical,
+                SceneFunction::Energy
+                | SceneFunction::Inverse
+                | SceneFunction::Inputs
+                | SceneFunction::Outputs
+                | SceneFunction::ToCanonical,
             ) => Shape::Parts,
             Method::Scene(_) => Shape::CheckedParts,
         }

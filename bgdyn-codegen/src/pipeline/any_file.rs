@@ -10,7 +10,7 @@ use crate::options::Options;
 use crate::refusal::Refusal;
 
 /// From a spec's text to the tokens of its module, with warnings if there are any. `stem` is the
-/// file's stem, `place` says where and from what the code is generated. A scene's mechanism is read by
+/// file's stem, `output` says where and from what the code is generated. A scene's mechanism is read by
 /// `load`, from the path that the scene writes.
 ///
 /// # Errors
@@ -18,12 +18,12 @@ use crate::refusal::Refusal;
 pub fn generate_file(
     text: &str,
     stem: &str,
-    place: &OutputOptions,
+    output: &OutputOptions,
     options: &Options,
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<(TokenStream, Faults), Refusal> {
     match is_scene(text) {
-        true => scene::generate_scene(text, stem, place, options, load),
-        false => mechanism::generate(text, stem, place, options),
+        true => scene::generate_scene(text, stem, output, options, load),
+        false => mechanism::generate(text, stem, output, options),
     }
 }

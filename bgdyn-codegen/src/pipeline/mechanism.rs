@@ -22,7 +22,7 @@ use crate::verify::check_functions;
 pub fn generate(
     text: &str,
     stem: &str,
-    place: &emit::OutputOptions,
+    output: &emit::OutputOptions,
     options: &Options,
 ) -> Result<(TokenStream, Faults), Refusal> {
     let (mechanism, findings) = read(text, Some(stem));
@@ -34,7 +34,7 @@ pub fn generate(
         let name = model.mechanism.name();
         Refusal::unless_equal(check_functions(name, &model.bond_graph, &model.functions))?;
     }
-    Ok((emit::module(&model, place), findings))
+    Ok((emit::module(&model, output), findings))
 }
 
 /// Builds the bond graph of a mechanism and chooses a function for each method asked for.

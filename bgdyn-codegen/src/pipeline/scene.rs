@@ -8,14 +8,14 @@ use crate::function::Function;
 use crate::options::Options;
 use crate::read::read_scene;
 use crate::refusal::Refusal;
-use crate::system::System;
+use crate::system::SceneEquations;
 use crate::verify::check_scene;
 
 /// From a scene's text to the tokens of its module; see [`super::generate_file`].
 pub(super) fn generate_scene(
     text: &str,
     stem: &str,
-    place: &emit::OutputOptions,
+    output: &emit::OutputOptions,
     options: &Options,
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<(TokenStream, Faults), Refusal> {
@@ -28,12 +28,12 @@ pub(super) fn generate_scene(
     if options.verify {
         Refusal::unless_equal(check_scene(&system, &functions))?;
     }
-    Ok((emit::scene_module(&system, &functions, place), findings))
+    Ok((emit::scene_module(&system, &functions, output), findings))
 }
 
 /// The functions of a scene: the usual ones, what its method of integration needs, and what is
 /// asked for.
-pub fn scene_functions(system: &System, options: &Options) -> Vec<Function> {
+pub fn scene_functions(system: &SceneEquations, options: &Options) -> Vec<Function> {
     let roles = system.roles_with(options.jacobian, options.canonical);
     let roles = roles.into_iter();
     roles.map(|role| system.function(role)).collect()

@@ -73,8 +73,8 @@ pub(super) fn chains(elements: &[Element], faults: &mut Faults) -> Vec<Chain> {
     // What no chain has reached runs in a circle.
     let reached = |j: &Element| chains.iter().any(|c| c.through.contains(&j.name));
     if let Some(junction) = junctions.iter().find(|j| !reached(j)) {
-        let (name, place) = (&junction.name, &junction.place);
-        faults.push(wording::circle_without_volume(place, name));
+        let (name, location) = (&junction.name, &junction.location);
+        faults.push(wording::circle_without_volume(location, name));
     }
     chains
 }
@@ -86,18 +86,18 @@ pub(super) fn is_solvable(element: &Element, elements: &[Element]) -> bool {
 
 /// Why the pressure of a junction cannot be solved for.
 fn unsolvable(junction: &Element, elements: &[Element]) -> Option<Fault> {
-    let (name, place) = (junction.name.as_str(), &junction.place);
+    let (name, location) = (junction.name.as_str(), &junction.location);
     let joined = elements.iter().filter(|e| e.joins().contains(&name));
     let joined: Vec<&Element> = joined.collect();
     let names: Vec<&str> = joined.iter().map(|e| e.name.as_str()).collect();
     let varies = match joined.as_slice() {
-        [] | [_] => return Some(wording::dead_end(place, name, names.first().copied())),
+        [] | [_] => return Some(wording::dead_end(location, name, names.first().copied())),
         [a, b] => Some([a, b].into_iter().find(|e| !e.effect.in_series(e))?),
         _ => None,
     };
     let varies = varies.map(|e| e.name.as_str());
     Some(wording::junction_without_volume(
-        place, name, &names, varies,
+        location, name, &names, varies,
     ))
 }
 

@@ -1,28 +1,28 @@
-//! The settings of a scene's integration: method, step or tolerance, end.
+//! The settings of a scene's integration, and the table of the integrators that it can name.
 
 /// How a scene asks to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integration {
-    /// The method.
-    pub method: Integrator,
-    /// What its steps go by.
-    pub pace: Pace,
+    /// The integrator.
+    pub method: IntegratorName,
+    /// How its steps are chosen.
+    pub step_control: StepControl,
     /// When it ends, s.
     pub end: f64,
 }
 
-/// What steps go by.
+/// How steps are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pace {
+pub enum StepControl {
     /// Every step is as long, s.
     Step(f64),
     /// As long as the error of a step stays below this, absolute and relative.
     Tolerance(f64),
 }
 
-/// A method of integration.
+/// An integrator, by the name that scenes give it. [`TABLE`] has its properties.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Integrator {
+pub enum IntegratorName {
     /// Semi-implicit Euler: velocities first, positions with the new ones.
     SemiImplicitEuler,
     /// The classical Runge–Kutta method of order 4.
@@ -47,59 +47,94 @@ pub enum Integrator {
     Dop853,
 }
 
-impl Integrator {
-    /// Every method there is.
-    pub const ALL: [Integrator; 11] = [
-        Integrator::SemiImplicitEuler,
-        Integrator::Rk4,
-        Integrator::Midpoint,
-        Integrator::Gauss2,
-        Integrator::Gauss3,
-        Integrator::CanonicalMidpoint,
-        Integrator::CanonicalGauss2,
-        Integrator::CanonicalGauss3,
-        Integrator::Rodas4,
-        Integrator::Dopri5,
-        Integrator::Dop853,
-    ];
+/// What an integrator reads of a scene beside its rates.
+#[derive(Clone, Copy)]
+enum Reads {
+    /// Nothing.
+    Rates,
+    /// The slope ∂ẏ/∂y.
+    Jacobian,
+    /// The canonical form: it is this integrator on momenta in place of velocities.
+    Canonical(IntegratorName),
+}
+
+use IntegratorName as I;
+use Reads::{Canonical, Jacobian, Rates};
+
+/// The integrators in the order of the enum: name, whether it can choose its steps by a tolerance, what
+/// it reads. A test of the command `bgdyn` compares every line with the integrator of that name.
+const TABLE: [(IntegratorName, &str, bool, Reads); 11] = [
+    (I::SemiImplicitEuler, "semi_implicit_euler", false, Rates),
+    (I::Rk4, "rk4", false, Rates),
+    (I::Midpoint, "midpoint", false, Jacobian),
+    (I::Gauss2, "gauss2", false, Jacobian),
+    (I::Gauss3, "gauss3", false, Jacobian),
+    (
+        I::CanonicalMidpoint,
+        "canonical_midpoint",
+        false,
+        Canonical(I::Midpoint),
+    ),
+    (
+        I::CanonicalGauss2,
+        "canonical_gauss2",
+        false,
+        Canonical(I::Gauss2),
+    ),
+    (
+        I::CanonicalGauss3,
+        "canonical_gauss3",
+        false,
+        Canonical(I::Gauss3),
+    ),
+    (I::Rodas4, "rodas4", true, Jacobian),
+    (I::Dopri5, "dopri5", true, Rates),
+    (I::Dop853, "dop853", true, Rates),
+];
+
+impl IntegratorName {
+    /// Every integrator there is.
+    pub const ALL: [IntegratorName; TABLE.len()] = {
+        let mut all = [I::Rk4; TABLE.len()];
+        let mut i = 0;
+        while i < all.len() {
+            all[i] = TABLE[i].0;
+            assert!(all[i] as usize == i, "in the order of the enum");
+            i += 1;
+        }
+        all
+    };
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Integrator::SemiImplicitEuler => "semi_implicit_euler",
-            Integrator::Rk4 => "rk4",
-            Integrator::Midpoint => "midpoint",
-            Integrator::Gauss2 => "gauss2",
-            Integrator::Gauss3 => "gauss3",
-            Integrator::CanonicalMidpoint => "canonical_midpoint",
-            Integrator::CanonicalGauss2 => "canonical_gauss2",
-            Integrator::CanonicalGauss3 => "canonical_gauss3",
-            Integrator::Rodas4 => "rodas4",
-            Integrator::Dopri5 => "dopri5",
-            Integrator::Dop853 => "dop853",
-        }
+        TABLE[self as usize].1
     }
 
-    /// The method with this name.
+    /// The integrator with this name.
     pub fn named(name: &str) -> Option<Self> {
-        Integrator::ALL.into_iter().find(|m| m.name() == name)
+        Self::ALL.into_iter().find(|i| i.name() == name)
     }
 
     /// Whether it can choose its steps by a tolerance.
     pub fn controls_its_error(self) -> bool {
-        use Integrator::{Dop853, Dopri5, Rodas4};
-        matches!(self, Rodas4 | Dopri5 | Dop853)
+        TABLE[self as usize].2
     }
 
     /// Whether it takes the slope ∂ẏ/∂y: to solve for its stages in (q, v).
     pub fn needs_jacobian(self) -> bool {
-        use Integrator::{Gauss2, Gauss3, Midpoint, Rodas4};
-        matches!(self, Midpoint | Gauss2 | Gauss3 | Rodas4)
+        matches!(TABLE[self as usize].3, Jacobian)
     }
 
     /// Whether it runs on momenta in place of velocities.
     pub fn needs_canonical(self) -> bool {
-        use Integrator::{CanonicalGauss2, CanonicalGauss3, CanonicalMidpoint};
-        matches!(self, CanonicalMidpoint | CanonicalGauss2 | CanonicalGauss3)
+        matches!(TABLE[self as usize].3, Canonical(_))
+    }
+
+    /// The same integrator on velocities: itself, where it is not one on momenta.
+    pub fn on_velocities(self) -> Self {
+        match TABLE[self as usize].3 {
+            Canonical(same) => same,
+            Rates | Jacobian => self,
+        }
     }
 }

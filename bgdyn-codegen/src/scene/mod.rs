@@ -3,28 +3,30 @@
 //! Only [`check`] can construct a [`Scene`]; nothing later checks again or fails on what a user
 //! wrote.
 
+mod ablate;
 mod causality;
 mod check;
 mod integration;
-mod reduce;
+mod lock;
+mod overrides;
 mod signal;
-mod start;
-mod subset;
 
 use bgdyn_runtime::Dd;
 
 pub use crate::declaration::Chain;
 use crate::declaration::Element;
-use crate::fault::Place;
+use crate::fault::Location;
 use crate::format::{Located, Raw};
-pub use crate::layout::{Coordinate, Entered, Layout, Level, Part, Store};
+pub use crate::layout::{
+    InitialValueAs, Level, MomentumStore, StateCoordinate, StateLayout, Variable,
+};
 use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
 pub(crate) use check::sketch;
 pub use check::{Verdict, check, check_alone};
-pub use integration::{Integration, Integrator, Pace};
-pub use signal::{Drive, Signal};
-pub use start::{Settable, SettableKind};
+pub use integration::{Integration, IntegratorName, StepControl};
+pub use overrides::{Override, OverrideKind};
+pub use signal::{InputSource, Waveform};
 
 /// A scene that passed every check.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,11 +42,11 @@ pub struct Scene {
     /// Elements in series, with one flow through all.
     pub chains: Vec<Chain>,
     /// What the state is made of.
-    pub layout: Layout,
+    pub layout: StateLayout,
     /// Run-time parameters: the mechanism's, then the effects'.
     pub parameters: Vec<Parameter>,
     /// What drives each input.
-    pub drives: Vec<Drive>,
+    pub drives: Vec<InputSource>,
     /// Initial positions, velocities and first-order states.
     pub initial: Initial,
     /// What is wanted of it, by name.
@@ -52,12 +54,12 @@ pub struct Scene {
     /// How it is run.
     pub integration: Integration,
     /// What the file says of inputs and initial values, for scenes with fewer effects.
-    written: Written,
+    written: FileEntries,
 }
 
 /// Entries as they stand in the file.
 #[derive(Clone, Debug, PartialEq)]
-struct Written {
+struct FileEntries {
     inputs: Vec<Raw>,
     initial: Vec<Raw>,
     /// The mechanism before effects change its links.
@@ -69,19 +71,19 @@ struct Written {
 impl Scene {
     /// Where the mode with this number is stated: in the file, or for a start in place of the file's.
     /// Nothing where it is left to the run.
-    pub fn stated_mode(&self, mode: usize) -> Option<Place> {
+    pub fn stated_mode(&self, mode: usize) -> Option<Location> {
         if let Some(modes) = &self.written.modes {
-            return modes.contains(&mode).then(Place::file);
+            return modes.contains(&mode).then(Location::file);
         }
         let name = mode_name(&self.layout.modes[mode]);
         let mut all = self.written.initial.iter();
         all.find(|raw| raw.name.value == name)
-            .map(|raw| raw.name.place.clone())
+            .map(|raw| raw.name.location.clone())
     }
 }
 
 /// The name of a mode as a part of the state.
-pub fn mode_name(part: &Part) -> String {
+pub fn mode_name(part: &Variable) -> String {
     format!("{}_mode", part.name)
 }
 

@@ -2,12 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::fault::{Faults, Place, wording};
+use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Raw};
 
 /// A course in time.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Signal {
+pub enum Waveform {
     /// One value.
     Constant(Dd),
     /// from + rate·t
@@ -34,17 +34,17 @@ pub enum Signal {
 
 /// What drives an input.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Drive {
+pub enum InputSource {
     /// The caller, in Rust.
     Given,
     /// A course in time.
-    Course(Signal),
+    Course(Waveform),
     /// The time derivative of another input's course: the rate of a reference.
     RateOf(usize),
     /// u = k (r − q) + d (ṙ − q̇)
     Pd {
         /// r
-        target: Signal,
+        target: Waveform,
         /// k
         stiffness: Dd,
         /// d
@@ -53,7 +53,7 @@ pub enum Drive {
     /// u = P(q, q̇, a) at a = r̈ + d (ṙ − q̇) + k (r − q) (Luh, Walker, Paul 1980).
     ComputedTorque {
         /// r
-        target: Signal,
+        target: Waveform,
         /// k, 1/s²
         stiffness: Dd,
         /// d, 1/s
@@ -73,34 +73,39 @@ pub(super) fn drive(
     follows: Option<Dimension>,
     effort: bool,
     faults: &mut Faults,
-) -> Option<Drive> {
+) -> Option<InputSource> {
     if raw.as_word() == Some("given") {
-        return Some(Drive::Given);
+        return Some(InputSource::Given);
     }
     if !raw.is_mapping() {
-        return signal(raw, dimension, faults).map(Drive::Course);
+        return signal(raw, dimension, faults).map(InputSource::Course);
     }
     let entries = raw.entries(("what drives the input", "`{ constant: 2 }`"), faults);
     let [only] = entries.as_slice() else {
-        faults.push(wording::not_one_source(&raw.place, BUILT_IN));
+        faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
     };
     let word = only.name.value.as_str();
     if !matches!(word, "pd" | "computed_torque") {
-        return signal(raw, dimension, faults).map(Drive::Course);
+        return signal(raw, dimension, faults).map(InputSource::Course);
     }
     if word == "computed_torque" && follows.is_some() && !effort {
-        faults.push(wording::computed_torque_without_effort(&only.name.place));
+        faults.push(wording::computed_torque_without_effort(&only.name.location));
         return None;
     }
     let Some(position) = follows else {
-        faults.push(wording::controller_without_joint(&only.name.place, word));
+        faults.push(wording::controller_without_joint(&only.name.location, word));
         return None;
     };
     controller(only, word, position, faults)
 }
 
-fn controller(raw: &Raw, word: &str, position: Dimension, faults: &mut Faults) -> Option<Drive> {
+fn controller(
+    raw: &Raw,
+    word: &str,
+    position: Dimension,
+    faults: &mut Faults,
+) -> Option<InputSource> {
     let entries = raw.entries(
         (
             "a controller",
@@ -118,21 +123,21 @@ fn controller(raw: &Raw, word: &str, position: Dimension, faults: &mut Faults) -
             "damping" => gains[1] = gain(faults)?.value.value,
             other => {
                 let known = &["target", "stiffness", "damping"];
-                return unknown_key(&entry.name.place, other, known, faults);
+                return unknown_key(&entry.name.location, other, known, faults);
             }
         }
     }
     if target.is_none() && !entries.iter().any(|e| e.name.value == "target") {
-        faults.push(wording::controller_without_target(&raw.place));
+        faults.push(wording::controller_without_target(&raw.location));
     }
     let (target, [stiffness, damping]) = (target?, gains);
     Some(match word {
-        "pd" => Drive::Pd {
+        "pd" => InputSource::Pd {
             target,
             stiffness,
             damping,
         },
-        _ => Drive::ComputedTorque {
+        _ => InputSource::ComputedTorque {
             target,
             stiffness,
             damping,
@@ -141,33 +146,37 @@ fn controller(raw: &Raw, word: &str, position: Dimension, faults: &mut Faults) -
 }
 
 /// Reads a course of this dimension.
-pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
     let fit = [dimension];
     if !raw.is_mapping() {
         let value = raw.number(&fit, faults)?.value.value;
-        return Some(Signal::Constant(value));
+        return Some(Waveform::Constant(value));
     }
     let entries = raw.entries(("a course in time", "`{ constant: 2 }`"), faults);
     let [only] = entries.as_slice() else {
-        faults.push(wording::not_one_source(&raw.place, BUILT_IN));
+        faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
     };
     match only.name.value.as_str() {
         "constant" => only
             .number(&fit, faults)
-            .map(|n| Signal::Constant(n.value.value)),
+            .map(|n| Waveform::Constant(n.value.value)),
         "ramp" => ramp(only, dimension, faults),
         "harmonic" => harmonic(only, dimension, faults),
         "table" => table(only, dimension, faults),
         other => {
-            faults.push(wording::unknown_source(&only.name.place, other, BUILT_IN));
+            faults.push(wording::unknown_source(
+                &only.name.location,
+                other,
+                BUILT_IN,
+            ));
             None
         }
     }
 }
 
 /// A ramp; its numbers are of the input's dimension.
-fn ramp(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+fn ramp(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
     let mut found = [Dd::ZERO; 2];
     for entry in raw.entries(("a ramp", "`{ from: 0, rate: 0.1 }`"), faults) {
         match entry.name.value.as_str() {
@@ -180,14 +189,14 @@ fn ramp(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> 
                 };
                 found[1] = entry.number(&[fit], faults)?.value.value;
             }
-            other => return unknown_key(&entry.name.place, other, &["from", "rate"], faults),
+            other => return unknown_key(&entry.name.location, other, &["from", "rate"], faults),
         }
     }
     let [from, rate] = found;
-    Some(Signal::Ramp { from, rate })
+    Some(Waveform::Ramp { from, rate })
 }
 
-fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
     let mut own = [Dd::ZERO; 2];
     let mut time = [Dd::ZERO; 2];
     let example = "`{ amplitude: 2, frequency: 1 Hz }`";
@@ -200,12 +209,12 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Sign
             "phase" => time[1] = read(Dimension::Angle)?,
             other => {
                 let known = &["amplitude", "frequency", "phase", "offset"];
-                return unknown_key(&entry.name.place, other, known, faults);
+                return unknown_key(&entry.name.location, other, known, faults);
             }
         }
     }
     let ([amplitude, offset], [frequency, phase]) = (own, time);
-    Some(Signal::Harmonic {
+    Some(Waveform::Harmonic {
         amplitude,
         frequency,
         phase,
@@ -214,35 +223,35 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Sign
 }
 
 fn unknown_key<R>(
-    place: &Place,
+    location: &Location,
     key: &str,
     known: &[&'static str],
     faults: &mut Faults,
 ) -> Option<R> {
-    faults.push(wording::unknown_key(place, key, known));
+    faults.push(wording::unknown_key(location, key, known));
     None
 }
 
-fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Signal> {
+fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
     let example = ("a list of points", "`[[0 s, 0], [1 s, 2]]`");
     let mut points: Vec<[Dd; 2]> = Vec::new();
     for row in raw.items(example, faults)? {
         let pair = row.items(("a point", "`[0.5 s, 2]`"), faults)?;
         let [t, value] = pair.as_slice() else {
-            faults.push(wording::not_a_point(&row.place));
+            faults.push(wording::not_a_point(&row.location));
             return None;
         };
         let time = t.number(&[Dimension::Time], faults)?.value;
         let value = value.number(&[dimension], faults)?.value.value;
         if points.last().is_some_and(|last| last[0] >= time.value) {
-            faults.push(wording::times_not_increasing(&t.place, &time.text));
+            faults.push(wording::times_not_increasing(&t.location, &time.text));
             return None;
         }
         points.push([time.value, value]);
     }
     if points.is_empty() {
-        faults.push(wording::empty_table(&raw.place));
+        faults.push(wording::empty_table(&raw.location));
         return None;
     }
-    Some(Signal::Table(points))
+    Some(Waveform::Table(points))
 }

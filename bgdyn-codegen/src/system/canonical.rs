@@ -10,18 +10,18 @@ use bgdyn_runtime::Dd;
 use super::coordinate_rows::own_inertia;
 use super::holds::{Holds, held};
 use super::jacobian::{Response, expressions};
-use super::{Laws, System};
+use super::{EffortSums, SceneEquations};
 use crate::bond_graph::BondGraph;
 use crate::choice::Choice;
-use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
+use crate::effort_sums::copied;
+use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
-use crate::laws::copied;
 use crate::math::Vec3;
-use crate::method::{Method, Role};
+use crate::method::{Method, SceneFunction};
 
 /// How momenta are computed.
 #[derive(Clone, Copy)]
-enum Momenta {
+enum MomentumFunction {
     /// M times v.
     Product,
     /// Inverse dynamics without weight and velocity products at the accelerations v.
@@ -37,45 +37,47 @@ enum Drift {
     Energy,
 }
 
-impl Momenta {
-    const ALL: [Momenta; 2] = [Momenta::Product, Momenta::Recursion];
+impl MomentumFunction {
+    const ALL: [MomentumFunction; 2] = [MomentumFunction::Product, MomentumFunction::Recursion];
 
     fn name(self) -> &'static str {
         match self {
-            Momenta::Product => "M v",
-            Momenta::Recursion => "M v as inverse dynamics without weight at accelerations v",
+            MomentumFunction::Product => "M v",
+            MomentumFunction::Recursion => {
+                "M v as inverse dynamics without weight at accelerations v"
+            }
         }
     }
 
     /// Momenta of the joints.
-    fn of_joints<'g>(self, system: &System, laws: &Laws<'g, '_>) -> Vec<Ex<'g>> {
+    fn of_joints<'g>(self, system: &SceneEquations, sums: &EffortSums<'g, '_>) -> Vec<Expr<'g>> {
         let n = system.graph.coordinates.len();
         match self {
-            Momenta::Product => {
-                let mass = Holds::new(laws);
+            MomentumFunction::Product => {
+                let mass = Holds::new(sums);
                 let row = |i: usize| {
-                    let terms = (0..n).map(|j| mass.entry(i, j) * laws.v[j]);
-                    terms.fold(laws.b.zero(), |sum, x| sum + x)
+                    let terms = (0..n).map(|j| mass.entry(i, j) * sums.v[j]);
+                    terms.fold(sums.b.zero(), |sum, x| sum + x)
                 };
                 (0..n).map(row).collect()
             }
-            Momenta::Recursion => {
+            MomentumFunction::Recursion => {
                 let still = weightless(&system.graph);
-                let velocities = expressions(&laws.v);
+                let velocities = expressions(&sums.v);
                 let placed = |_: &mut Graph, leaf| match leaf {
                     Leaf::Acceleration(j) => Some(velocities[j]),
                     _ => None,
                 };
-                copied(laws.b, (&still, None), Method::InverseDynamics, placed)
+                copied(sums.b, (&still, None), Method::InverseDynamics, placed)
             }
         }
     }
 
     /// Momenta of all coordinates.
-    fn of_all<'g>(self, system: &System, laws: &Laws<'g, '_>) -> Vec<Ex<'g>> {
-        let mut all = self.of_joints(system, laws);
+    fn of_all<'g>(self, system: &SceneEquations, sums: &EffortSums<'g, '_>) -> Vec<Expr<'g>> {
+        let mut all = self.of_joints(system, sums);
         for j in all.len()..system.scene.layout.nv() {
-            all.push(own_inertia(laws, j) * laws.v[j]);
+            all.push(own_inertia(sums, j) * sums.v[j]);
         }
         all
     }
@@ -93,21 +95,21 @@ fn weightless(graph: &BondGraph) -> BondGraph {
 }
 
 /// The ways to the momenta of a state.
-pub(super) fn momenta(system: &System) -> Vec<Function> {
-    let ways = Momenta::ALL.into_iter();
-    let with = |way: Momenta| {
+pub(super) fn momenta(system: &SceneEquations) -> Vec<Function> {
+    let ways = MomentumFunction::ALL.into_iter();
+    let with = |way: MomentumFunction| {
         let b = Builder::new();
         let outputs = {
-            let laws = system.laws_under_driven_inputs(&b);
-            expressions(&way.of_all(system, &laws))
+            let sums = system.laws_under_driven_inputs(&b);
+            expressions(&way.of_all(system, &sums))
         };
-        system.flat(Role::ToCanonical, way.name().into(), b, outputs)
+        system.flat(SceneFunction::ToCanonical, way.name().into(), b, outputs)
     };
     ways.map(with).collect()
 }
 
 /// The ways to the velocities of momenta, which stand in their place among the leaves.
-pub(super) fn velocities(system: &System) -> Vec<Function> {
+pub(super) fn velocities(system: &SceneEquations) -> Vec<Function> {
     let choice = Choice::new(&system.graph, None);
     let ways = choice.forward_dynamics();
     let with = |forward: &Function| {
@@ -116,26 +118,26 @@ pub(super) fn velocities(system: &System) -> Vec<Function> {
         let name = format!("M⁻¹ p; {}", forward.formulation);
         Function {
             ordered: forward.ordered,
-            ..system.flat(Role::FromCanonical, name, b, outputs)
+            ..system.flat(SceneFunction::FromCanonical, name, b, outputs)
         }
     };
     ways.map(with).collect()
 }
 
 /// v = M⁻¹ p by a way to forward dynamics.
-fn solved<'g>(system: &System, b: &'g Builder, forward: &Function) -> Vec<Ex<'g>> {
+fn solved<'g>(system: &SceneEquations, b: &'g Builder, forward: &Function) -> Vec<Expr<'g>> {
     let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
-    let laws = system.laws_under_driven_inputs(b);
-    let momenta = &laws.v;
+    let sums = system.laws_under_driven_inputs(b);
+    let momenta = &sums.v;
     let mut all = Response::new(forward).solve(b, &momenta[..n]);
     for j in n..nv {
-        all.push(momenta[j] / own_inertia(&laws, j));
+        all.push(momenta[j] / own_inertia(&sums, j));
     }
     all
 }
 
 /// The ways to the rates at momenta: q̇, ṗ, ẋ.
-pub(super) fn rates(system: &System) -> Vec<Function> {
+pub(super) fn rates(system: &SceneEquations) -> Vec<Function> {
     // Without velocity products the bias lacks what Lagrange's equations have.
     let drifts: &[Drift] = match system.graph.velocity_products {
         true => &[Drift::Momenta, Drift::Energy],
@@ -159,38 +161,38 @@ pub(super) fn rates(system: &System) -> Vec<Function> {
         let name = format!("{}; M⁻¹ p; {}", drift.name(), forward.formulation);
         Function {
             ordered: forward.ordered,
-            ..system.flat(Role::CanonicalRates, name, b, outputs)
+            ..system.flat(SceneFunction::CanonicalRates, name, b, outputs)
         }
     };
     drifts.iter().map(with).collect()
 }
 
 /// q̇, ṗ and ẋ, with velocities among the leaves.
-fn at_velocities(system: &System, drift: Drift) -> (Graph, Vec<Expr>) {
+fn at_velocities(system: &SceneEquations, drift: Drift) -> (Graph, Vec<Signed>) {
     let b = Builder::new();
     let (nq, n) = (system.scene.layout.nq(), system.graph.coordinates.len());
     let outputs = {
-        let laws = system.laws_under_driven_inputs(&b);
-        let bias = laws.method(Method::Bias);
-        let drifts = drift.of_joints(system, &laws, &bias);
-        let free = |j: usize| laws.effort(j) + drifts.get(j).copied().unwrap_or(b.zero());
-        let mut momenta: Vec<Ex<'_>> = (0..laws.v.len()).map(free).collect();
-        if !laws.contacts().is_empty() {
-            let accelerations = held(system, &laws, &b).accelerations;
-            let holds = Holds::new(&laws);
+        let sums = system.laws_under_driven_inputs(&b);
+        let bias = sums.method(Method::Bias);
+        let drifts = drift.of_joints(system, &sums, &bias);
+        let free = |j: usize| sums.effort(j) + drifts.get(j).copied().unwrap_or(b.zero());
+        let mut momenta: Vec<Expr<'_>> = (0..sums.v.len()).map(free).collect();
+        if !sums.contacts().is_empty() {
+            let accelerations = held(system, &sums, &b).accelerations;
+            let holds = Holds::new(&sums);
             for (j, momentum) in momenta.iter_mut().enumerate() {
                 let moved = if j < n {
                     let terms = (0..n).map(|k| holds.entry(j, k) * accelerations[k]);
                     terms.fold(bias[j] + drifts[j], |sum, x| sum + x)
                 } else {
-                    own_inertia(&laws, j) * accelerations[j]
+                    own_inertia(&sums, j) * accelerations[j]
                 };
                 *momentum = holds.at.choose(j, moved, *momentum);
             }
         }
-        let places = laws.v[..nq].iter().copied();
-        let states = laws.rates().iter().copied();
-        let all: Vec<Ex<'_>> = places.chain(momenta).chain(states).collect();
+        let places = sums.v[..nq].iter().copied();
+        let states = sums.rates().iter().copied();
+        let all: Vec<Expr<'_>> = places.chain(momenta).chain(states).collect();
         expressions(&all)
     };
     (b.into_graph(), outputs)
@@ -205,25 +207,31 @@ impl Drift {
     }
 
     /// Ṁ v − bias at the joints.
-    fn of_joints<'g>(self, system: &System, laws: &Laws<'g, '_>, bias: &[Ex<'g>]) -> Vec<Ex<'g>> {
-        let b = laws.b;
+    fn of_joints<'g>(
+        self,
+        system: &SceneEquations,
+        sums: &EffortSums<'g, '_>,
+        bias: &[Expr<'g>],
+    ) -> Vec<Expr<'g>> {
+        let b = sums.b;
         let n = system.graph.coordinates.len();
         match self {
             Drift::Momenta => {
-                let rates = expressions(&laws.v);
+                let rates = expressions(&sums.v);
                 let mut along = Tangent::new(|_: &mut Graph, leaf| match leaf {
                     Leaf::Position(j) => Some(rates[j]),
                     _ => None,
                 });
-                let momenta = expressions(&Momenta::Product.of_joints(system, laws)).into_iter();
+                let momenta =
+                    expressions(&MomentumFunction::Product.of_joints(system, sums)).into_iter();
                 let moved = momenta.map(|p| b.ex(b.with_graph(|g| along.of(g, p))));
                 moved.zip(bias).map(|(moved, &bias)| moved - bias).collect()
             }
             Drift::Energy => {
-                let kinetic = laws.method(Method::KineticEnergy)[0];
-                let gravity = laws.method(Method::Gravity);
+                let kinetic = sums.method(Method::KineticEnergy)[0];
+                let gravity = sums.method(Method::Gravity);
                 (0..n)
-                    .map(|j| laws.slope(kinetic, j) - gravity[j])
+                    .map(|j| sums.slope(kinetic, j) - gravity[j])
                     .collect()
             }
         }

@@ -1,19 +1,19 @@
 //! Rows of the equations of motion: the links' accelerations, and the inertia of other coordinates.
 
-use super::System;
-use crate::expr::{Builder, Ex, Expr, Graph, Leaf, copy_into};
+use super::SceneEquations;
+use crate::effort_sums::EffortSums;
+use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
 use crate::function::Function;
-use crate::laws::Laws;
 
 /// Forward dynamics under the efforts of the laws.
 pub(super) fn link_accelerations<'g>(
     b: &'g Builder,
     forward: &Function,
-    laws: &Laws<'g, '_>,
-    system: &System,
-) -> Vec<Ex<'g>> {
-    let efforts: Vec<Expr> = (0..system.graph.coordinates.len())
-        .map(|j| laws.effort(j).expr())
+    sums: &EffortSums<'g, '_>,
+    system: &SceneEquations,
+) -> Vec<Expr<'g>> {
+    let efforts: Vec<Signed> = (0..system.graph.coordinates.len())
+        .map(|j| sums.effort(j).expr())
         .collect();
     let placed = |_: &mut Graph, leaf| match leaf {
         Leaf::Input(j) => Some(efforts[j]),
@@ -25,6 +25,6 @@ pub(super) fn link_accelerations<'g>(
 }
 
 /// Inertia of a coordinate that stores its own momentum.
-pub(super) fn own_inertia<'g>(laws: &Laws<'g, '_>, j: usize) -> Ex<'g> {
-    laws.inertia_of(j).unwrap_or(laws.b.number(1.0))
+pub(super) fn own_inertia<'g>(sums: &EffortSums<'g, '_>, j: usize) -> Expr<'g> {
+    sums.inertia_of(j).unwrap_or(sums.b.number(1.0))
 }

@@ -3,16 +3,16 @@
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::holds::{Holding, held, own_accelerations};
 use super::summed::summed;
-use super::{Laws, Own, System};
+use super::{ActuatorEfforts, EffortSums, SceneEquations};
 use crate::choice::Choice;
-use crate::expr::{Builder, Ex, Expr, Leaf};
+use crate::effort_sums::copied;
+use crate::expr::{Builder, Expr, Leaf, Signed};
 use crate::formulation::Formulation;
 use crate::function::Function;
-use crate::laws::copied;
-use crate::method::{Method, Role};
+use crate::method::{Method, SceneFunction};
 
 /// The ways to v̇ and ẋ.
-pub(super) fn derivatives(system: &System) -> Vec<Function> {
+pub(super) fn derivatives(system: &SceneEquations) -> Vec<Function> {
     if system.may_hold_joints() {
         return vec![with_modes(system, None)];
     }
@@ -23,7 +23,7 @@ pub(super) fn derivatives(system: &System) -> Vec<Function> {
 
 /// The way to v̇ and ẋ on this formulation; `None` where it does not know what that takes.
 pub(super) fn derivative_by(
-    system: &System,
+    system: &SceneEquations,
     formulation: &'static dyn Formulation,
 ) -> Option<Function> {
     if !system.may_hold_joints() {
@@ -36,60 +36,77 @@ pub(super) fn derivative_by(
 }
 
 /// v̇ and ẋ where joints may be held.
-fn with_modes(system: &System, asked: Option<&'static dyn Formulation>) -> Function {
-    system.one(Role::Derivative, |system, b| {
-        let mut laws = summed(b, &system.scene, &system.graph, Own::Inputs);
-        laws.asked = asked;
-        rates(system, &laws, b)
+fn with_modes(system: &SceneEquations, asked: Option<&'static dyn Formulation>) -> Function {
+    system.one(SceneFunction::Derivative, |system, b| {
+        let mut sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
+        sums.asked = asked;
+        rates(system, &sums, b)
     })
 }
 
 /// v̇ and ẋ on a way to forward dynamics.
-fn without_modes(system: &System, forward: &Function) -> Function {
+fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
     let b = Builder::new();
-    let outputs: Vec<Expr> = {
-        let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
-        let joints = link_accelerations(&b, forward, &laws, system);
-        let all = joined(system, &laws, joints).into_iter();
-        all.map(Ex::expr).collect()
+    let outputs: Vec<Signed> = {
+        let sums = summed(
+            &b,
+            &system.scene,
+            &system.graph,
+            ActuatorEfforts::FromInputs,
+        );
+        let joints = link_accelerations(&b, forward, &sums, system);
+        let all = joined(system, &sums, joints).into_iter();
+        all.map(Expr::expr).collect()
     };
     let name = format!("{}; under the scene's efforts", forward.formulation);
     Function {
         ordered: forward.ordered,
-        ..system.flat(Role::Derivative, name, b, outputs)
+        ..system.flat(SceneFunction::Derivative, name, b, outputs)
     }
 }
 
 /// The joints' accelerations with those of the other coordinates, and ẋ.
-pub(super) fn joined<'g>(system: &System, laws: &Laws<'g, '_>, joints: Vec<Ex<'g>>) -> Vec<Ex<'g>> {
+pub(super) fn joined<'g>(
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+    joints: Vec<Expr<'g>>,
+) -> Vec<Expr<'g>> {
     let mut all = joints;
-    all.extend(own_accelerations(system, laws, &Holding::new(laws)));
-    all.extend(laws.rates());
+    all.extend(own_accelerations(system, sums, &Holding::new(sums)));
+    all.extend(sums.rates());
     all
 }
 
 /// v̇ and ẋ, whatever the modes are.
-pub(super) fn rates<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Vec<Ex<'g>> {
-    let mut all = held(system, laws, b).accelerations;
-    all.extend(laws.rates());
+pub(super) fn rates<'g>(
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+    b: &'g Builder,
+) -> Vec<Expr<'g>> {
+    let mut all = held(system, sums, b).accelerations;
+    all.extend(sums.rates());
     all
 }
 
 /// The own effort of each coordinate behind given accelerations.
-pub(super) fn inverse<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let laws = summed(b, &system.scene, &system.graph, Own::Sought);
+pub(super) fn inverse<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
+    let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
     let nv = system.scene.layout.nv();
-    let given: Vec<Ex<'g>> = (0..nv).map(|j| b.leaf(Leaf::Acceleration(j))).collect();
-    efforts(system, &laws, &given)
+    let given: Vec<Expr<'g>> = (0..nv).map(|j| b.leaf(Leaf::Acceleration(j))).collect();
+    efforts(system, &sums, &given)
 }
 
 /// The own effort of each coordinate at these accelerations: everything the laws do but the
 /// coordinates' own efforts is taken off.
-pub(super) fn efforts<'g>(system: &System, laws: &Laws<'g, '_>, at: &[Ex<'g>]) -> Vec<Ex<'g>> {
-    let placed: Vec<Expr> = at.iter().map(|a| a.expr()).collect();
+pub(super) fn efforts<'g>(
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+    at: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
+    let placed: Vec<Signed> = at.iter().map(|a| a.expr()).collect();
     let links = copied(
-        laws.b,
-        (&system.graph, laws.asked),
+        sums.b,
+        (&system.graph, sums.asked),
         Method::InverseDynamics,
         |_, leaf| match leaf {
             Leaf::Acceleration(j) => Some(placed[j]),
@@ -99,9 +116,9 @@ pub(super) fn efforts<'g>(system: &System, laws: &Laws<'g, '_>, at: &[Ex<'g>]) -
     let all = (0..at.len()).map(|j| {
         let inertial = match links.get(j) {
             Some(&effort) => effort,
-            None => own_inertia(laws, j) * at[j],
+            None => own_inertia(sums, j) * at[j],
         };
-        laws.before_gear(j, inertial - laws.effort(j))
+        sums.before_gear(j, inertial - sums.effort(j))
     });
     all.collect()
 }

@@ -2,15 +2,15 @@
 
 use super::summed::summed;
 use crate::bond_graph::{BondGraph, BondNetwork};
-use crate::expr::{Builder, Ex, Expr};
+use crate::effort_sums::ActuatorEfforts;
+use crate::expr::{Builder, Expr, Signed};
 use crate::function::Function;
-use crate::laws::Own;
-use crate::method::{Method, Role};
+use crate::method::{Method, SceneFunction};
 use crate::scene::{Initial, Scene};
 
 /// The equations of a scene.
 #[derive(Clone, Debug)]
-pub struct System {
+pub struct SceneEquations {
     /// The scene.
     pub scene: Scene,
     /// The bond graph of its mechanism, with what its effects change in it.
@@ -36,13 +36,13 @@ pub struct Named {
     pub about: String,
 }
 
-impl System {
+impl SceneEquations {
     /// The coordinate that each mode may hold.
     pub fn mode_coordinates(&self) -> Vec<usize> {
         let b = Builder::silent();
-        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
+        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
         let mut found = vec![0; self.scene.layout.modes.len()];
-        for contact in laws.contacts() {
+        for contact in sums.contacts() {
             found[contact.mode] = contact.coordinate;
         }
         found
@@ -51,21 +51,21 @@ impl System {
     /// The function of a role in one block, with what `made` gives as its outputs.
     pub(super) fn one(
         &self,
-        role: Role,
-        made: impl for<'g> FnOnce(&System, &'g Builder) -> Vec<Ex<'g>>,
+        role: SceneFunction,
+        made: impl for<'g> FnOnce(&SceneEquations, &'g Builder) -> Vec<Expr<'g>>,
     ) -> Function {
         let b = Builder::new();
-        let outputs: Vec<Expr> = made(self, &b).into_iter().map(Ex::expr).collect();
+        let outputs: Vec<Signed> = made(self, &b).into_iter().map(Expr::expr).collect();
         self.flat(role, "scene".into(), b, outputs)
     }
 
     /// The function of a role in one block, with these outputs.
     pub(super) fn flat(
         &self,
-        role: Role,
+        role: SceneFunction,
         formulation: String,
         b: Builder,
-        outputs: Vec<Expr>,
+        outputs: Vec<Signed>,
     ) -> Function {
         let method = Method::Scene(role);
         Function::flat(&self.graph, method, formulation, b.into_graph(), outputs)

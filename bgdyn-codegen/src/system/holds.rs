@@ -2,13 +2,13 @@
 
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::summed::summed;
-use super::{Laws, Own, System};
+use super::{ActuatorEfforts, EffortSums, SceneEquations};
 use crate::choice::Choice;
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::formulation;
 use crate::method::Method;
 
-impl System {
+impl SceneEquations {
     /// Whether anything may hold a joint of the links, whose row of M q̈ = f then falls out.
     pub(super) fn may_hold_joints(&self) -> bool {
         let joints = self.graph.coordinates.len();
@@ -20,34 +20,38 @@ impl System {
 /// What holding joints adds to the equations.
 pub(super) struct Held<'g> {
     /// Of every coordinate.
-    pub accelerations: Vec<Ex<'g>>,
+    pub accelerations: Vec<Expr<'g>>,
     /// For each contact the effort that it holds its joint with; what is left over of the
     /// equation where it slips is nothing.
-    pub holding: Vec<Ex<'g>>,
+    pub holding: Vec<Expr<'g>>,
 }
 
 /// Accelerations where some coordinates are held.
-pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> Held<'g> {
+pub(super) fn held<'g>(
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+    b: &'g Builder,
+) -> Held<'g> {
     let n = system.graph.coordinates.len();
-    let own_holding = |j: usize, a: Ex<'g>| own_inertia(laws, j) * a - laws.effort(j);
-    if laws.contacts().iter().all(|c| c.coordinate >= n) {
+    let own_holding = |j: usize, a: Expr<'g>| own_inertia(sums, j) * a - sums.effort(j);
+    if sums.contacts().iter().all(|c| c.coordinate >= n) {
         let choice = Choice::new(&system.graph, None);
         let mut ways = choice.forward_dynamics();
         let forward = ways.next().expect("there is a way");
-        let mut accelerations = link_accelerations(b, forward, laws, system);
-        accelerations.extend(own_accelerations(system, laws, &Holding::new(laws)));
-        let contacts = laws.contacts().iter().map(|c| c.coordinate);
+        let mut accelerations = link_accelerations(b, forward, sums, system);
+        accelerations.extend(own_accelerations(system, sums, &Holding::new(sums)));
+        let contacts = sums.contacts().iter().map(|c| c.coordinate);
         return Held {
             holding: contacts.map(|j| own_holding(j, accelerations[j])).collect(),
             accelerations,
         };
     }
-    let holds = Holds::new(laws);
-    let bias = laws.method(Method::Bias);
-    let force: Vec<Ex<'g>> = (0..n).map(|j| laws.effort(j) - bias[j]).collect();
+    let holds = Holds::new(sums);
+    let bias = sums.method(Method::Bias);
+    let force: Vec<Expr<'g>> = (0..n).map(|j| sums.effort(j) - bias[j]).collect();
     let mut accelerations = holds.solve(b, &force, &holds.at.counterparts);
-    accelerations.extend(own_accelerations(system, laws, &holds.at));
-    let holding = laws.contacts().iter().map(|c| {
+    accelerations.extend(own_accelerations(system, sums, &holds.at));
+    let holding = sums.contacts().iter().map(|c| {
         let j = c.coordinate;
         if j >= n {
             return own_holding(j, accelerations[j]);
@@ -63,48 +67,48 @@ pub(super) fn held<'g>(system: &System, laws: &Laws<'g, '_>, b: &'g Builder) -> 
 
 /// Accelerations of the coordinates that store their own momentum: I v̇ = E, or held.
 pub(super) fn own_accelerations<'g>(
-    system: &System,
-    laws: &Laws<'g, '_>,
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
     holding: &Holding<'g>,
-) -> Vec<Ex<'g>> {
+) -> Vec<Expr<'g>> {
     let own = system.graph.coordinates.len()..system.scene.layout.nv();
-    let free = |j| laws.effort(j) / own_inertia(laws, j);
+    let free = |j| sums.effort(j) / own_inertia(sums, j);
     own.map(|j| holding.known(j, free(j), &holding.counterparts[j]))
         .collect()
 }
 
 /// Which coordinates may be held, and how they move then.
 pub(super) struct Holding<'g> {
-    half: Ex<'g>,
+    half: Expr<'g>,
     /// Of each coordinate, r̈ of what may hold it.
-    pub counterparts: Vec<Vec<Ex<'g>>>,
+    pub counterparts: Vec<Vec<Expr<'g>>>,
     /// The modes of these.
-    modes: Vec<Vec<Ex<'g>>>,
+    modes: Vec<Vec<Expr<'g>>>,
 }
 
 impl<'g> Holding<'g> {
-    pub(super) fn new(laws: &Laws<'g, '_>) -> Self {
-        let nv = laws.v.len();
+    pub(super) fn new(sums: &EffortSums<'g, '_>) -> Self {
+        let nv = sums.v.len();
         let mut holding = Holding {
-            half: laws.b.number(0.5),
+            half: sums.b.number(0.5),
             counterparts: vec![Vec::new(); nv],
             modes: vec![Vec::new(); nv],
         };
-        for c in laws.contacts() {
+        for c in sums.contacts() {
             holding.counterparts[c.coordinate].push(c.reference[1]);
-            holding.modes[c.coordinate].push(laws.mode_at(c.mode));
+            holding.modes[c.coordinate].push(sums.mode_at(c.mode));
         }
         holding
     }
 
     /// `yes` where coordinate `j` is held, else `no`.
-    pub(super) fn choose(&self, j: usize, yes: Ex<'g>, no: Ex<'g>) -> Ex<'g> {
+    pub(super) fn choose(&self, j: usize, yes: Expr<'g>, no: Expr<'g>) -> Expr<'g> {
         let modes = self.modes[j].iter();
         modes.fold(no, |no, mode| mode.abs().if_less(self.half, yes, no))
     }
 
     /// What holds the coordinate has of these where it is held, else `free`.
-    pub(super) fn known(&self, j: usize, free: Ex<'g>, counterparts: &[Ex<'g>]) -> Ex<'g> {
+    pub(super) fn known(&self, j: usize, free: Expr<'g>, counterparts: &[Expr<'g>]) -> Expr<'g> {
         let all = self.modes[j].iter().zip(counterparts);
         all.fold(free, |free, (mode, &reference)| {
             mode.abs().if_less(self.half, reference, free)
@@ -119,24 +123,24 @@ pub(super) struct Holds<'g> {
     /// Which may be held.
     pub at: Holding<'g>,
     /// Lower triangle of M.
-    triangle: Vec<Ex<'g>>,
+    triangle: Vec<Expr<'g>>,
     /// Number of coordinates that M is about.
     n: usize,
 }
 
 impl<'g> Holds<'g> {
-    pub(super) fn new(laws: &Laws<'g, '_>) -> Self {
-        let triangle = laws.method(Method::MassMatrix);
+    pub(super) fn new(sums: &EffortSums<'g, '_>) -> Self {
+        let triangle = sums.method(Method::MassMatrix);
         let n = (0..).find(|n| n * (n + 1) / 2 == triangle.len());
         Holds {
-            at: Holding::new(laws),
+            at: Holding::new(sums),
             n: n.unwrap_or(0),
             triangle,
         }
     }
 
     /// M_ij
-    pub(super) fn entry(&self, i: usize, j: usize) -> Ex<'g> {
+    pub(super) fn entry(&self, i: usize, j: usize) -> Expr<'g> {
         self.triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)]
     }
 
@@ -145,11 +149,11 @@ impl<'g> Holds<'g> {
     pub(super) fn solve(
         &self,
         b: &'g Builder,
-        force: &[Ex<'g>],
-        counterparts: &[Vec<Ex<'g>>],
-    ) -> Vec<Ex<'g>> {
+        force: &[Expr<'g>],
+        counterparts: &[Vec<Expr<'g>>],
+    ) -> Vec<Expr<'g>> {
         let (zero, one) = (b.zero(), b.number(1.0));
-        let mut mass: Vec<Vec<Ex<'g>>> = Vec::new();
+        let mut mass: Vec<Vec<Expr<'g>>> = Vec::new();
         let mut right = force.to_vec();
         for i in 0..self.n {
             let row = (0..=i).map(|j| {
@@ -160,7 +164,7 @@ impl<'g> Holds<'g> {
             mass.push(row.collect());
             for j in (0..self.n).filter(|&j| j != i) {
                 let moved = counterparts[j].iter().map(|&r| self.entry(i, j) * r);
-                let moved: Vec<Ex<'g>> = moved.collect();
+                let moved: Vec<Expr<'g>> = moved.collect();
                 right[i] = right[i] - self.at.known(j, zero, &moved);
             }
         }
@@ -172,18 +176,18 @@ impl<'g> Holds<'g> {
 
 /// Values whose fall through zero is an event. A contact's: its slip in the direction it slips in,
 /// or how much more it would hold.
-pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
-    let of_contacts = if laws.contacts().is_empty() {
+pub(super) fn events<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
+    let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
+    let of_contacts = if sums.contacts().is_empty() {
         vec![]
     } else {
-        let holding = held(system, &laws, b).holding;
+        let holding = held(system, &sums, b).holding;
         let half = b.number(0.5);
-        let contacts = laws.contacts().iter().zip(holding);
+        let contacts = sums.contacts().iter().zip(holding);
         contacts
             .map(|(c, holding)| {
-                let mode = laws.mode_at(c.mode);
-                let margin = laws.margin(c, holding);
+                let mode = sums.mode_at(c.mode);
+                let margin = sums.margin(c, holding);
                 let name = &system.scene.layout.modes[c.mode].name;
                 (
                     name.clone(),
@@ -192,11 +196,11 @@ pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
             })
             .collect()
     };
-    let value = |part: &crate::scene::Part| {
+    let value = |part: &crate::scene::Variable| {
         let contact = of_contacts.iter().find(|(name, _)| *name == part.name);
         contact
             .map(|(_, value)| *value)
-            .or_else(|| laws.event_named(&part.name))
+            .or_else(|| sums.event_named(&part.name))
             .unwrap_or(b.number(1.0))
     };
     system.scene.layout.events.iter().map(value).collect()
@@ -204,21 +208,24 @@ pub(super) fn events<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
 
 /// For each mode: its slip, the acceleration of its slip, the effort it holds or would have to hold
 /// to keep its present acceleration, and what is left until it gives way.
-pub(super) fn contacts<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
-    let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
-    contacts_under(system, &laws)
+pub(super) fn contacts<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
+    let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
+    contacts_under(system, &sums)
         .into_iter()
         .flatten()
         .collect()
 }
 
 /// The same for each mode, under these laws.
-pub(super) fn contacts_under<'g>(system: &System, laws: &Laws<'g, '_>) -> Vec<[Ex<'g>; 4]> {
-    let held = held(system, laws, laws.b);
-    let mut rows = vec![[laws.b.zero(); 4]; system.scene.layout.modes.len()];
-    for (c, holding) in laws.contacts().iter().zip(held.holding) {
+pub(super) fn contacts_under<'g>(
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+) -> Vec<[Expr<'g>; 4]> {
+    let held = held(system, sums, sums.b);
+    let mut rows = vec![[sums.b.zero(); 4]; system.scene.layout.modes.len()];
+    for (c, holding) in sums.contacts().iter().zip(held.holding) {
         let relative = held.accelerations[c.coordinate] - c.reference[1];
-        rows[c.mode] = [c.slip, relative, holding, laws.margin(c, holding)];
+        rows[c.mode] = [c.slip, relative, holding, sums.margin(c, holding)];
     }
     rows
 }

@@ -1,19 +1,19 @@
 //! Elements that do nothing: no joint moves the place where they act in a direction in which they act.
 
-use super::System;
+use super::SceneEquations;
 use super::summed::summed;
-use crate::bond_graph::PortPlace;
+use crate::bond_graph::PortSite;
 use crate::declaration::Element;
+use crate::effort_sums::ActuatorEfforts;
 use crate::expr::Builder;
-use crate::laws::Own;
 
-impl System {
+impl SceneEquations {
     /// Elements that act at a place of a link, but take and give no power in any state: the Jacobian of the
     /// place is zero in the directions in which they act. Those whose numbers are all zero are left out.
     pub fn idle(&self) -> Vec<&Element> {
         let b = Builder::silent();
-        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
-        let elements = self.scene.elements.iter().zip(laws.balances()).enumerate();
+        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
+        let elements = self.scene.elements.iter().zip(sums.balances()).enumerate();
         let idle = elements.filter(|(at, (element, balance))| {
             let powers = [balance.supplied, balance.stored, balance.dissipated];
             let mut numbers = element.quantities().peekable();
@@ -30,7 +30,7 @@ impl System {
         sites.any(|port| {
             let mut bonds = network.bonds_at(port.junction);
             let is_own = |node: usize| network.nodes[node].element == Some(element);
-            matches!(port.place, PortPlace::Site(_))
+            matches!(port.place, PortSite::Site(_))
                 && bonds.any(|(_, bond)| is_own(bond.other(port.junction).0))
         })
     }

@@ -10,19 +10,19 @@ use bgdyn_runtime::Dd;
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::dynamics::{joined, rates};
 use super::holds::Holds;
-use super::{Laws, Own, System, signals};
+use super::{ActuatorEfforts, EffortSums, SceneEquations, signals};
 use crate::choice::Choice;
-use crate::expr::{Builder, Ex, Expr, Graph, Leaf, Tangent, copy_into};
+use crate::effort_sums::copied;
+use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
-use crate::laws::copied;
-use crate::method::{Method, Role};
+use crate::method::{Method, SceneFunction};
 
 /// Coordinates up to which ẏ's own graph is differentiated to see whether that costs less: beyond
 /// them it costs more, and its factoring takes long.
 const SMALL: usize = 4;
 
 /// The ways to the Jacobian: column by column, y's parts and then t, the rates v̇ and ẋ of each.
-pub(super) fn ways(system: &System) -> Vec<Function> {
+pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
     let mut ways = implicit(system);
     if system.graph.coordinates.len() <= SMALL {
         ways.push(differentiated(system));
@@ -31,7 +31,7 @@ pub(super) fn ways(system: &System) -> Vec<Function> {
 }
 
 /// What the columns are slopes along.
-fn leaves(system: &System) -> impl Iterator<Item = Leaf> + use<> {
+fn leaves(system: &SceneEquations) -> impl Iterator<Item = Leaf> + use<> {
     let layout = &system.scene.layout;
     let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
     let y = (0..nq)
@@ -41,7 +41,7 @@ fn leaves(system: &System) -> impl Iterator<Item = Leaf> + use<> {
 }
 
 /// ∂/∂leaf of expressions.
-fn slopes<'g>(b: &'g Builder, leaf: Leaf, of: impl Iterator<Item = Ex<'g>>) -> Vec<Ex<'g>> {
+fn slopes<'g>(b: &'g Builder, leaf: Leaf, of: impl Iterator<Item = Expr<'g>>) -> Vec<Expr<'g>> {
     let seed = |g: &mut Graph, l| (l == leaf).then(|| g.constant(Dd::ONE));
     let mut tangent = Tangent::new(seed);
     of.map(|x| x.expr())
@@ -50,15 +50,15 @@ fn slopes<'g>(b: &'g Builder, leaf: Leaf, of: impl Iterator<Item = Ex<'g>>) -> V
 }
 
 /// The expressions without their graph.
-pub(super) fn expressions(all: &[Ex<'_>]) -> Vec<Expr> {
+pub(super) fn expressions(all: &[Expr<'_>]) -> Vec<Signed> {
     all.iter().map(|x| x.expr()).collect()
 }
 
 /// The graph of ẏ differentiated.
-fn differentiated(system: &System) -> Function {
+fn differentiated(system: &SceneEquations) -> Function {
     let b = Builder::new();
-    let derivative = system.chosen(Role::Derivative);
-    let outputs: Vec<Expr> = {
+    let derivative = system.chosen(SceneFunction::Derivative);
+    let outputs: Vec<Signed> = {
         let inputs = expressions(&system.driven_inputs(&b));
         let placed = |_: &mut Graph, leaf| match leaf {
             Leaf::Input(i) => Some(inputs[i]),
@@ -66,46 +66,46 @@ fn differentiated(system: &System) -> Function {
         };
         let of = &derivative.blocks[0].outputs;
         let rates = b.with_graph(|g| copy_into(g, &derivative.graph, of, placed));
-        let rates: Vec<Ex<'_>> = rates.into_iter().map(|e| b.ex(e)).collect();
+        let rates: Vec<Expr<'_>> = rates.into_iter().map(|e| b.ex(e)).collect();
         let columns = leaves(system).map(|leaf| slopes(&b, leaf, rates.iter().copied()));
         expressions(&columns.flatten().collect::<Vec<_>>())
     };
     let name = format!("{}; differentiated", derivative.formulation);
     Function {
         ordered: derivative.ordered,
-        ..system.flat(Role::Jacobian, name, b, outputs)
+        ..system.flat(SceneFunction::Jacobian, name, b, outputs)
     }
 }
 
 /// M ∂v̇ = ∂E − ∂P, with each way to M⁻¹.
-fn implicit(system: &System) -> Vec<Function> {
+fn implicit(system: &SceneEquations) -> Vec<Function> {
     if system.may_hold_joints() {
         let b = Builder::new();
         let columns = {
-            let laws = system.laws_under_driven_inputs(&b);
-            let holds = Holds::new(&laws);
-            let rates = rates(system, &laws, &b);
-            columns(system, &laws, &rates, &holds, None)
+            let sums = system.laws_under_driven_inputs(&b);
+            let holds = Holds::new(&sums);
+            let rates = rates(system, &sums, &b);
+            columns(system, &sums, &rates, &holds, None)
         };
         let name = "M ∂v̇ = ∂E − ∂P, joints held or free".to_owned();
-        return vec![system.flat(Role::Jacobian, name, b, columns)];
+        return vec![system.flat(SceneFunction::Jacobian, name, b, columns)];
     }
     let choice = Choice::new(&system.graph, None);
     let ways = choice.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let columns = {
-            let laws = system.laws_under_driven_inputs(&b);
-            let holds = Holds::new(&laws);
-            let joints = link_accelerations(&b, forward, &laws, system);
-            let rates = joined(system, &laws, joints);
+            let sums = system.laws_under_driven_inputs(&b);
+            let holds = Holds::new(&sums);
+            let joints = link_accelerations(&b, forward, &sums, system);
+            let rates = joined(system, &sums, joints);
             let response = Response::new(forward);
-            columns(system, &laws, &rates, &holds, Some(&response))
+            columns(system, &sums, &rates, &holds, Some(&response))
         };
         let name = format!("M ∂v̇ = ∂E − ∂P; {}", forward.formulation);
         Function {
             ordered: forward.ordered,
-            ..system.flat(Role::Jacobian, name, b, columns)
+            ..system.flat(SceneFunction::Jacobian, name, b, columns)
         }
     };
     ways.map(with).collect()
@@ -113,13 +113,13 @@ fn implicit(system: &System) -> Vec<Function> {
 
 /// The columns of the Jacobian. M⁻¹ f is that of `response`, or of the joints held or free.
 fn columns<'g>(
-    system: &System,
-    laws: &Laws<'g, '_>,
-    rates: &[Ex<'g>],
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+    rates: &[Expr<'g>],
     holds: &Holds<'g>,
     response: Option<&Response>,
-) -> Vec<Expr> {
-    let b = laws.b;
+) -> Vec<Signed> {
+    let b = sums.b;
     let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
     let at = expressions(&rates[..n]);
     let links = Method::InverseDynamicsDerivatives;
@@ -135,14 +135,14 @@ fn columns<'g>(
     };
     let mut all = Vec::new();
     for leaf in leaves(system) {
-        let efforts = (0..n).map(|j| laws.effort(j));
-        let own = (n..nv).map(|j| laws.effort(j) / own_inertia(laws, j));
-        let states = laws.rates().iter().copied();
+        let efforts = (0..n).map(|j| sums.effort(j));
+        let own = (n..nv).map(|j| sums.effort(j) / own_inertia(sums, j));
+        let states = sums.rates().iter().copied();
         let driven = slopes(b, leaf, efforts.chain(own).chain(states));
-        let counterparts: Vec<Vec<Ex<'g>>> = (holds.at.counterparts.iter())
+        let counterparts: Vec<Vec<Expr<'g>>> = (holds.at.counterparts.iter())
             .map(|all| slopes(b, leaf, all.iter().copied()))
             .collect();
-        let force: Vec<Ex<'g>> = (0..n).map(|i| driven[i] - of_links(i, leaf)).collect();
+        let force: Vec<Expr<'g>> = (0..n).map(|i| driven[i] - of_links(i, leaf)).collect();
         all.extend(match response {
             Some(response) => response.solve(b, &force),
             None => holds.solve(b, &force, &counterparts),
@@ -157,7 +157,7 @@ fn columns<'g>(
 pub(super) struct Response {
     graph: Graph,
     /// Of the efforts that stand for the accelerations among the leaves.
-    outputs: Vec<Expr>,
+    outputs: Vec<Signed>,
 }
 
 impl Response {
@@ -176,7 +176,7 @@ impl Response {
     }
 
     /// M⁻¹ f
-    pub(super) fn solve<'g>(&self, b: &'g Builder, force: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    pub(super) fn solve<'g>(&self, b: &'g Builder, force: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let force = expressions(force);
         let placed = |_: &mut Graph, leaf| match leaf {
             Leaf::Acceleration(j) => Some(force[j]),
@@ -187,9 +187,9 @@ impl Response {
     }
 }
 
-impl System {
+impl SceneEquations {
     /// The inputs: what the scene drives itself, and the rest as given.
-    pub(super) fn driven_inputs<'g>(&self, b: &'g Builder) -> Vec<Ex<'g>> {
+    pub(super) fn driven_inputs<'g>(&self, b: &'g Builder) -> Vec<Expr<'g>> {
         match self.scene.layout.inputs.is_empty() {
             true => vec![],
             false => signals::inputs(self, b),
@@ -197,8 +197,14 @@ impl System {
     }
 
     /// The laws under those inputs.
-    pub(super) fn laws_under_driven_inputs<'g, 'a>(&'a self, b: &'g Builder) -> Laws<'g, 'a> {
+    pub(super) fn laws_under_driven_inputs<'g, 'a>(&'a self, b: &'g Builder) -> EffortSums<'g, 'a> {
         let inputs = || self.driven_inputs(b);
-        summed_under(b, &self.scene, (&self.graph, None), Own::Inputs, inputs)
+        summed_under(
+            b,
+            &self.scene,
+            (&self.graph, None),
+            ActuatorEfforts::FromInputs,
+            inputs,
+        )
     }
 }

@@ -24,29 +24,31 @@ use summed::summed;
 
 use crate::bond_graph::{self, BondGraph, BondNetwork};
 use crate::effect;
-use crate::expr::{Builder, Ex};
+pub use crate::effort_sums::{
+    ActuatorEfforts, Balance, Contact, EffortSums, Hold, LossyGear, Port, Reading,
+};
+use crate::expr::{Builder, Expr};
 use crate::fault::{Faults, wording};
 use crate::format::Dimension;
 use crate::formulation::Formulation;
 use crate::function::Function;
-pub use crate::laws::{Balance, Contact, Gear, Hold, Laws, Own, Port, Reading};
-use crate::method::{Method, Role};
+use crate::method::{Method, SceneFunction};
 use crate::passes::{cheapest, factor, finish};
-use crate::scene::{Scene, Settable};
-pub use equations::{Named, System};
+use crate::scene::{Override, Scene};
+pub use equations::{Named, SceneEquations};
 
-impl System {
+impl SceneEquations {
     /// The equations of a scene.
     ///
     /// # Errors
     /// Outputs that the scene does not have; values that do not stay positive over the limits of
     /// the joints; stated modes that contradict the state.
     pub fn new(scene: Scene) -> Result<Self, Faults> {
-        let mut graph = bond_graph::build(&scene.mechanism).bare();
+        let mut graph = bond_graph::build(&scene.mechanism).without_loads();
         for element in &scene.elements {
-            effect::of(element).alter(element, &scene.mechanism, &mut graph);
+            effect::of(element).modify_graph(element, &scene.mechanism, &mut graph);
         }
-        let mut system = System {
+        let mut system = SceneEquations {
             initial: scene.initial.clone(),
             outputs: Vec::new(),
             entries: Vec::new(),
@@ -56,12 +58,17 @@ impl System {
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
-        let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
-        let entries = balance::entries(&system, &laws);
-        let outputs = outputs(&system, &laws, &mut faults);
+        let sums = summed(
+            &b,
+            &system.scene,
+            &system.graph,
+            ActuatorEfforts::FromInputs,
+        );
+        let entries = balance::entries(&system, &sums);
+        let outputs = outputs(&system, &sums, &mut faults);
         let outputs = outputs.into_iter().map(|(named, _)| named).collect();
-        range::check(&system.scene, &laws, &mut faults);
-        drop(laws);
+        range::check(&system.scene, &sums, &mut faults);
+        drop(sums);
         (system.entries, system.outputs) = (entries, outputs);
         system.started(faults)
     }
@@ -72,17 +79,22 @@ impl System {
     /// # Errors
     /// Values that a state cannot have, or with which something is not positive that must be; modes
     /// that contradict the state.
-    pub fn starting(&self, values: &[(Settable, Dd)]) -> Result<Self, Faults> {
-        let scene = self.scene.starting(values)?;
-        let mut system = System {
+    pub fn with_overrides(&self, values: &[(Override, Dd)]) -> Result<Self, Faults> {
+        let scene = self.scene.with_overrides(values)?;
+        let mut system = SceneEquations {
             scene,
             ..self.clone()
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
-        let laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
-        range::check(&system.scene, &laws, &mut faults);
-        drop(laws);
+        let sums = summed(
+            &b,
+            &system.scene,
+            &system.graph,
+            ActuatorEfforts::FromInputs,
+        );
+        range::check(&system.scene, &sums, &mut faults);
+        drop(sums);
         system.initial = system.scene.initial.clone();
         system.started(faults)
     }
@@ -90,8 +102,8 @@ impl System {
     /// Joints that nothing in the scene gives inertia, in any position.
     pub fn without_inertia(&self) -> Vec<&str> {
         let b = Builder::silent();
-        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
-        let mass = laws.method(Method::MassMatrix);
+        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
+        let mass = sums.method(Method::MassMatrix);
         let coordinates = self.graph.coordinates.iter().enumerate();
         let diagonal = |j: usize| mass[j * (j + 1) / 2 + j];
         // Positions without any symmetry; a diagonal entry of M is a sum of squares.
@@ -103,70 +115,74 @@ impl System {
             ..self.scene.initial.clone()
         };
         coordinates
-            .filter(|(j, _)| laws.at_start(diagonal(*j), &at).to_f64() <= 1e-24)
+            .filter(|(j, _)| sums.at_start(diagonal(*j), &at).to_f64() <= 1e-24)
             .map(|(_, c)| c.name.as_str())
             .collect()
     }
 
     /// The roles this scene has functions for, with those that its method of integration needs.
-    pub fn roles(&self) -> Vec<Role> {
+    pub fn roles(&self) -> Vec<SceneFunction> {
         self.roles_with(false, false)
     }
 
     /// The same, where the Jacobian and the canonical form may be asked for besides.
-    pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<Role> {
+    pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<SceneFunction> {
         let layout = &self.scene.layout;
         let method = self.scene.integration.method;
-        let has = |role: &Role| match role {
-            Role::Inputs => !layout.inputs.is_empty(),
-            Role::Events => !layout.events.is_empty(),
-            Role::Contacts => !layout.modes.is_empty(),
-            Role::Outputs => !self.outputs.is_empty(),
-            Role::Derivative | Role::Inverse | Role::Power | Role::Energy => true,
-            Role::Jacobian => jacobian || method.needs_jacobian(),
-            Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
-                canonical || method.needs_canonical()
-            }
+        let has = |role: &SceneFunction| match role {
+            SceneFunction::Inputs => !layout.inputs.is_empty(),
+            SceneFunction::Events => !layout.events.is_empty(),
+            SceneFunction::Contacts => !layout.modes.is_empty(),
+            SceneFunction::Outputs => !self.outputs.is_empty(),
+            SceneFunction::Derivative
+            | SceneFunction::Inverse
+            | SceneFunction::Power
+            | SceneFunction::Energy => true,
+            SceneFunction::Jacobian => jacobian || method.needs_jacobian(),
+            SceneFunction::ToCanonical
+            | SceneFunction::FromCanonical
+            | SceneFunction::CanonicalRates => canonical || method.needs_canonical(),
         };
-        Role::ALL.into_iter().filter(has).collect()
+        SceneFunction::ALL.into_iter().filter(has).collect()
     }
 
     /// The function of a role.
-    pub fn function(&self, role: Role) -> Function {
+    pub fn function(&self, role: SceneFunction) -> Function {
         finish(self.chosen(role))
     }
 
     /// The same in one block.
-    fn chosen(&self, role: Role) -> Function {
+    fn chosen(&self, role: SceneFunction) -> Function {
         let factored = self.ways(role).into_iter().map(factor);
         let best = match role {
-            Role::Jacobian | Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
-                cheapest(factored)
-            }
+            SceneFunction::Jacobian
+            | SceneFunction::ToCanonical
+            | SceneFunction::FromCanonical
+            | SceneFunction::CanonicalRates => cheapest(factored),
             _ => factored.min_by_key(|f| f.operations().total()),
         };
         best.expect("every role has a function")
     }
 
     /// The ways to the function of a role, before factoring. All give the same.
-    pub fn ways(&self, role: Role) -> Vec<Function> {
+    pub fn ways(&self, role: SceneFunction) -> Vec<Function> {
         match role {
-            Role::Derivative => dynamics::derivatives(self),
-            Role::Inverse => vec![self.one(role, dynamics::inverse)],
-            Role::Inputs => vec![self.one(role, signals::inputs)],
-            Role::Events => vec![self.one(role, holds::events)],
-            Role::Contacts => vec![self.one(role, holds::contacts)],
-            Role::Power => vec![self.one(role, balance::power)],
-            Role::Energy => vec![self.one(role, balance::energy)],
-            Role::Outputs => vec![self.one(role, |system, b| {
-                let laws = summed(b, &system.scene, &system.graph, Own::Inputs);
-                let found = outputs(system, &laws, &mut Faults::default());
+            SceneFunction::Derivative => dynamics::derivatives(self),
+            SceneFunction::Inverse => vec![self.one(role, dynamics::inverse)],
+            SceneFunction::Inputs => vec![self.one(role, signals::inputs)],
+            SceneFunction::Events => vec![self.one(role, holds::events)],
+            SceneFunction::Contacts => vec![self.one(role, holds::contacts)],
+            SceneFunction::Power => vec![self.one(role, balance::power)],
+            SceneFunction::Energy => vec![self.one(role, balance::energy)],
+            SceneFunction::Outputs => vec![self.one(role, |system, b| {
+                let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
+                let found = outputs(system, &sums, &mut Faults::default());
                 found.into_iter().map(|(_, e)| e).collect()
             })],
-            Role::Jacobian => jacobian::ways(self),
-            Role::ToCanonical => canonical::momenta(self),
-            Role::FromCanonical => canonical::velocities(self),
-            Role::CanonicalRates => canonical::rates(self),
+            SceneFunction::Jacobian => jacobian::ways(self),
+            SceneFunction::ToCanonical => canonical::momenta(self),
+            SceneFunction::FromCanonical => canonical::velocities(self),
+            SceneFunction::CanonicalRates => canonical::rates(self),
         }
     }
 
@@ -178,11 +194,11 @@ impl System {
     }
 
     /// The derivative with one effort of its own at every coordinate, in place of the accelerations
-    /// among the leaves: undoes [`Role::Inverse`].
+    /// among the leaves: undoes [`SceneFunction::Inverse`].
     pub fn driven(&self) -> Function {
-        self.one(Role::Derivative, |system, b| {
-            let laws = summed(b, &system.scene, &system.graph, Own::Everywhere);
-            dynamics::rates(system, &laws, b)
+        self.one(SceneFunction::Derivative, |system, b| {
+            let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Each);
+            dynamics::rates(system, &sums, b)
         })
     }
 }
@@ -201,27 +217,31 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
 }
 
 /// The outputs asked for, with their expressions.
-fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec<(Named, Ex<'g>)> {
+fn outputs<'g>(
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+    faults: &mut Faults,
+) -> Vec<(Named, Expr<'g>)> {
     let layout = &system.scene.layout;
-    let mut known: Vec<(Named, Ex<'g>)> = Vec::new();
-    let about = |c: &crate::scene::Coordinate, k: usize| {
+    let mut known: Vec<(Named, Expr<'g>)> = Vec::new();
+    let about = |c: &crate::scene::StateCoordinate, k: usize| {
         let what = ["position", "velocity"][k];
         format!("{what} of `{}`, {}", c.name, c.dimensions[k].si())
     };
-    let mut add = |name: &str, unit: &'static str, about: &str, value: Ex<'g>| {
+    let mut add = |name: &str, unit: &'static str, about: &str, value: Expr<'g>| {
         let (name, about) = (name.to_owned(), about.to_owned());
         known.push((Named { name, unit, about }, value));
     };
     for (j, c) in layout.coordinates.iter().enumerate() {
         if c.stored {
-            add(&c.name, c.dimensions[0].si(), &about(c, 0), laws.q[j]);
+            add(&c.name, c.dimensions[0].si(), &about(c, 0), sums.q[j]);
         }
-        add(&c.rate_name, c.dimensions[1].si(), &about(c, 1), laws.v[j]);
+        add(&c.rate_name, c.dimensions[1].si(), &about(c, 1), sums.v[j]);
     }
-    for reading in laws.readings() {
+    for reading in sums.readings() {
         add(&reading.name, reading.unit, &reading.about, reading.value);
     }
-    for (part, &x) in layout.states.iter().zip(laws.states()) {
+    for (part, &x) in layout.states.iter().zip(sums.states()) {
         add(&part.name, part.dimension.si(), &part.about, x);
     }
     let mut wanted = Vec::new();
@@ -236,7 +256,7 @@ fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec
             .iter()
             .position(|s| s.name == output.value);
         if let Some(site) = site {
-            let pose = laws.method(Method::Pose(bond_graph::SiteId(site)));
+            let pose = sums.method(Method::Pose(bond_graph::SiteId(site)));
             for (axis, &p) in ["x", "y", "z"].into_iter().zip(&pose[9..]) {
                 let name = format!("{}_{axis}", output.value);
                 let about = format!("{axis} of `{}` in the world, m", output.value);
@@ -248,7 +268,7 @@ fn outputs<'g>(system: &System, laws: &Laws<'g, '_>, faults: &mut Faults) -> Vec
         let names = known.iter().map(|(n, _)| n.name.as_str());
         let sites = system.graph.sites.iter().map(|s| s.name.as_str());
         let all: Vec<&str> = names.chain(sites).collect();
-        let (place, name) = (&output.place, &output.value);
+        let (place, name) = (&output.location, &output.value);
         faults.push(wording::unknown_output(place, name, &all));
     }
     wanted

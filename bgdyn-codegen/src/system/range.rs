@@ -4,23 +4,23 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Laws;
+use super::EffortSums;
+use crate::effort_sums::Condition;
 use crate::fault::{Faults, wording};
-use crate::laws::Condition;
-use crate::scene::{Initial, Scene, Store};
+use crate::scene::{Initial, MomentumStore, Scene};
 
 /// Points between a joint's limits.
 const POINTS: u32 = 64;
 
 /// Notes the values that do not stay positive.
-pub(super) fn check(scene: &Scene, laws: &Laws<'_, '_>, faults: &mut Faults) {
-    for condition in laws.conditions() {
-        if let Some((value, when)) = violated(condition, scene, laws) {
+pub(super) fn check(scene: &Scene, sums: &EffortSums<'_, '_>, faults: &mut Faults) {
+    for condition in sums.conditions() {
+        if let Some((value, when)) = violated(condition, scene, sums) {
             let value = value.to_f64();
             let element = &scene.elements[condition.element];
             let found = (condition.what.as_str(), value, when.as_str());
             faults.push(wording::not_positive(
-                &element.place,
+                &element.location,
                 found,
                 condition.way_out,
             ));
@@ -32,18 +32,18 @@ pub(super) fn check(scene: &Scene, laws: &Laws<'_, '_>, faults: &mut Faults) {
 fn violated<'g>(
     condition: &Condition<'g>,
     scene: &Scene,
-    laws: &Laws<'g, '_>,
+    sums: &EffortSums<'g, '_>,
 ) -> Option<(Dd, String)> {
     let start = &scene.initial;
-    let value_at = |initial: &Initial| laws.at_start(condition.value, initial);
+    let value_at = |initial: &Initial| sums.at_start(condition.value, initial);
     let wrong = |value: &Dd| value.to_f64().is_nan() || *value <= Dd::ZERO;
     let first = Some(value_at(start)).filter(wrong);
     if let Some(value) = first {
         return Some((value, "at the start".into()));
     }
-    for j in laws.positions_of(condition.value) {
+    for j in sums.positions_of(condition.value) {
         let coordinate = &scene.layout.coordinates[j];
-        let Store::Links(id) = &coordinate.store else {
+        let MomentumStore::Links(id) = &coordinate.store else {
             continue;
         };
         let limits = scene.mechanism.joint(*id).limits;
@@ -56,8 +56,8 @@ fn violated<'g>(
             moved.q[j] = Dd::from_f64(q);
             if let Some(value) = Some(value_at(&moved)).filter(wrong) {
                 let (name, unit) = (&coordinate.name, coordinate.dimensions[0].si());
-                let place = format!("where `{name}` is {q:.4} {unit}, within its limits");
-                return Some((value, place));
+                let location = format!("where `{name}` is {q:.4} {unit}, within its limits");
+                return Some((value, location));
             }
         }
     }

@@ -4,45 +4,49 @@
 use super::coordinate_rows::own_inertia;
 use super::dynamics::efforts;
 use super::summed::summed_by;
-use super::{Laws, Own, System};
-use crate::expr::{Builder, Ex, Leaf};
+use super::{ActuatorEfforts, EffortSums, SceneEquations};
+use crate::effort_sums::copied;
+use crate::expr::{Builder, Expr, Leaf};
 use crate::formulation;
 use crate::function::Function;
-use crate::laws::copied;
-use crate::method::{Method, Role};
+use crate::method::{Method, SceneFunction};
 
-impl System {
+impl SceneEquations {
     /// The two sides of the equations of motion at given accelerations, and the rates of the
     /// first-order states: P_j of each coordinate, then E_j of each, then ẋ. P is the literal sum,
     /// or I_j q̈_j for a coordinate that stores its own momentum. Efforts in N·m or N.
     pub fn both_sides(&self) -> Function {
-        self.one(Role::Inverse, |system, b| {
-            let laws = literal_laws(system, b, Own::Inputs);
-            let asked = (&system.graph, laws.asked);
+        self.one(SceneFunction::Inverse, |system, b| {
+            let sums = literal_laws(system, b, ActuatorEfforts::FromInputs);
+            let asked = (&system.graph, sums.asked);
             let links = copied(b, asked, Method::InverseDynamics, |_, _| None);
             let nv = system.scene.layout.nv();
             let mut sides = links;
             for j in sides.len()..nv {
-                sides.push(own_inertia(&laws, j) * b.leaf(Leaf::Acceleration(j)));
+                sides.push(own_inertia(&sums, j) * b.leaf(Leaf::Acceleration(j)));
             }
-            sides.extend((0..nv).map(|j| laws.effort(j)));
-            sides.extend(laws.rates());
+            sides.extend((0..nv).map(|j| sums.effort(j)));
+            sides.extend(sums.rates());
             sides
         })
     }
 
-    /// [`Role::Inverse`] with P by the literal sum.
+    /// [`SceneFunction::Inverse`] with P by the literal sum.
     pub fn literal_inverse(&self) -> Function {
-        self.one(Role::Inverse, |system, b| {
-            let laws = literal_laws(system, b, Own::Sought);
+        self.one(SceneFunction::Inverse, |system, b| {
+            let sums = literal_laws(system, b, ActuatorEfforts::Unknown);
             let nv = system.scene.layout.nv();
-            let given: Vec<Ex<'_>> = (0..nv).map(|j| b.leaf(Leaf::Acceleration(j))).collect();
-            efforts(system, &laws, &given)
+            let given: Vec<Expr<'_>> = (0..nv).map(|j| b.leaf(Leaf::Acceleration(j))).collect();
+            efforts(system, &sums, &given)
         })
     }
 }
 
-fn literal_laws<'g, 'a>(system: &'a System, b: &'g Builder, own: Own) -> Laws<'g, 'a> {
+fn literal_laws<'g, 'a>(
+    system: &'a SceneEquations,
+    b: &'g Builder,
+    own: ActuatorEfforts,
+) -> EffortSums<'g, 'a> {
     let literal = Some(formulation::specification());
     summed_by(b, &system.scene, &system.graph, own, literal)
 }

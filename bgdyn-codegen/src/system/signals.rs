@@ -4,35 +4,35 @@ use super::summed::summed;
 use bgdyn_runtime::Dd;
 
 use super::dynamics::efforts;
-use super::{Laws, Own, System};
-use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
-use crate::scene::{Drive, Signal};
+use super::{ActuatorEfforts, EffortSums, SceneEquations};
+use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
+use crate::scene::{InputSource, Waveform};
 
 /// Every input: built in, or as the caller gives it.
-pub(super) fn inputs<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
+pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let layout = &system.scene.layout;
-    let laws = summed(b, &system.scene, &system.graph, Own::Sought);
+    let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
     let followed = |i: usize| {
         let name = layout.inputs[i].follows.as_deref();
         name.and_then(|name| layout.coordinate_named(name))
     };
-    let torques = computed_torques(system, b, &laws, &followed);
-    let mut values: Vec<Ex<'g>> = Vec::new();
+    let torques = computed_torques(system, b, &sums, &followed);
+    let mut values: Vec<Expr<'g>> = Vec::new();
     for (i, drive) in system.scene.drives.iter().enumerate() {
         values.push(match drive {
-            Drive::Given => b.leaf(Leaf::Input(i)),
-            Drive::Course(signal) => course(b, signal),
-            Drive::RateOf(_) => rate_of(system, b, i),
-            Drive::Pd {
+            InputSource::Given => b.leaf(Leaf::Input(i)),
+            InputSource::Course(signal) => course(b, signal),
+            InputSource::RateOf(_) => rate_of(system, b, i),
+            InputSource::Pd {
                 target,
                 stiffness,
                 damping,
             } => {
                 let wanted = course(b, target);
                 let j = followed(i).unwrap_or(0);
-                (wanted - laws.q[j]) * *stiffness + (rate(b, wanted) - laws.v[j]) * *damping
+                (wanted - sums.q[j]) * *stiffness + (rate(b, wanted) - sums.v[j]) * *damping
             }
-            Drive::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
+            InputSource::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
         });
     }
     values
@@ -40,16 +40,16 @@ pub(super) fn inputs<'g>(system: &System, b: &'g Builder) -> Vec<Ex<'g>> {
 
 /// The inverse dynamics of the whole scene at the accelerations that the controllers want.
 fn computed_torques<'g>(
-    system: &System,
+    system: &SceneEquations,
     b: &'g Builder,
-    laws: &Laws<'g, '_>,
+    sums: &EffortSums<'g, '_>,
     followed: &dyn Fn(usize) -> Option<usize>,
-) -> Vec<Ex<'g>> {
+) -> Vec<Expr<'g>> {
     let n = system.scene.layout.nv();
-    let mut wanted: Vec<Option<Ex<'g>>> = vec![None; n];
+    let mut wanted: Vec<Option<Expr<'g>>> = vec![None; n];
     for (i, drive) in system.scene.drives.iter().enumerate() {
         if let (
-            Drive::ComputedTorque {
+            InputSource::ComputedTorque {
                 target,
                 stiffness,
                 damping,
@@ -59,28 +59,28 @@ fn computed_torques<'g>(
         {
             let place = course(b, target);
             let speed = rate(b, place);
-            let error = (place - laws.q[j]) * *stiffness + (speed - laws.v[j]) * *damping;
+            let error = (place - sums.q[j]) * *stiffness + (speed - sums.v[j]) * *damping;
             wanted[j] = Some(rate(b, speed) + error);
         }
     }
     if wanted.iter().all(Option::is_none) {
         return vec![];
     }
-    let at: Vec<Ex<'g>> = wanted.into_iter().map(|a| a.unwrap_or(b.zero())).collect();
-    efforts(system, laws, &at)
+    let at: Vec<Expr<'g>> = wanted.into_iter().map(|a| a.unwrap_or(b.zero())).collect();
+    efforts(system, sums, &at)
 }
 
 /// The rate of the input that this one is the rate of, or the rate of its rate.
-fn rate_of<'g>(system: &System, b: &'g Builder, i: usize) -> Ex<'g> {
+fn rate_of<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
     match &system.scene.drives[i] {
-        Drive::RateOf(base) => rate(b, rate_of(system, b, *base)),
-        Drive::Course(signal) => course(b, signal),
+        InputSource::RateOf(base) => rate(b, rate_of(system, b, *base)),
+        InputSource::Course(signal) => course(b, signal),
         _ => b.leaf(Leaf::Input(i)),
     }
 }
 
 /// d/dt
-fn rate<'g>(b: &'g Builder, x: Ex<'g>) -> Ex<'g> {
+fn rate<'g>(b: &'g Builder, x: Expr<'g>) -> Expr<'g> {
     let seed = |g: &mut Graph, leaf| (leaf == Leaf::Time).then(|| g.constant(Dd::ONE));
     let x = x.expr();
     let rate = b.with_graph(|g| Tangent::new(seed).of(g, x));
@@ -88,12 +88,12 @@ fn rate<'g>(b: &'g Builder, x: Ex<'g>) -> Ex<'g> {
 }
 
 /// A course in time.
-fn course<'g>(b: &'g Builder, signal: &Signal) -> Ex<'g> {
+fn course<'g>(b: &'g Builder, signal: &Waveform) -> Expr<'g> {
     let t = b.leaf(Leaf::Time);
     match signal {
-        Signal::Constant(x) => b.constant(*x),
-        Signal::Ramp { from, rate } => b.constant(*from) + t * *rate,
-        Signal::Harmonic {
+        Waveform::Constant(x) => b.constant(*x),
+        Waveform::Ramp { from, rate } => b.constant(*from) + t * *rate,
+        Waveform::Harmonic {
             amplitude,
             frequency,
             phase,
@@ -103,12 +103,12 @@ fn course<'g>(b: &'g Builder, signal: &Signal) -> Ex<'g> {
             let (_, sine) = b.cos_sin(&[t * (*frequency * turn)], *phase);
             b.constant(*offset) + sine * *amplitude
         }
-        Signal::Table(points) => table(b, t, points),
+        Waveform::Table(points) => table(b, t, points),
     }
 }
 
 /// Straight lines between points, held before the first and after the last.
-fn table<'g>(b: &'g Builder, t: Ex<'g>, points: &[[Dd; 2]]) -> Ex<'g> {
+fn table<'g>(b: &'g Builder, t: Expr<'g>, points: &[[Dd; 2]]) -> Expr<'g> {
     let number = |x: Dd| b.constant(x);
     let last = points[points.len() - 1];
     let pieces = points.windows(2).rev();

@@ -1,12 +1,12 @@
 //! The slope of a scene's rates at an instant: its fastest time constants.
 
-use super::System;
-use crate::expr::{Builder, Expr, Graph, Inputs, Leaf, Tangent};
+use super::SceneEquations;
+use crate::expr::{Builder, Graph, Inputs, Leaf, Signed, Tangent};
 use crate::function::Function;
-use crate::method::Role;
+use crate::method::SceneFunction;
 use bgdyn_runtime::Dd;
 
-impl System {
+impl SceneEquations {
     /// The scene's start as the evaluator takes it, with the inputs that the scene drives itself
     /// at t = 0 and 0 for those that are given.
     pub fn start(&self) -> Inputs<f64> {
@@ -22,8 +22,11 @@ impl System {
             t: Some(0.0),
             ..Inputs::default()
         };
-        if self.roles().contains(&Role::Inputs) {
-            start.u = self.function(Role::Inputs).evaluate(start.clone()).0;
+        if self.roles().contains(&SceneFunction::Inputs) {
+            start.u = self
+                .function(SceneFunction::Inputs)
+                .evaluate(start.clone())
+                .0;
         }
         start
     }
@@ -42,9 +45,9 @@ impl System {
             return None;
         };
         let b = Builder::from(derivative.graph.clone());
-        let mut rates: Vec<Expr> = (0..nq).map(|j| b.leaf(Leaf::Velocity(j)).expr()).collect();
+        let mut rates: Vec<Signed> = (0..nq).map(|j| b.leaf(Leaf::Velocity(j)).expr()).collect();
         rates.extend(&block.outputs);
-        let columns: Vec<Vec<Expr>> = leaves
+        let columns: Vec<Vec<Signed>> = leaves
             .iter()
             .map(|&leaf| {
                 let seed = |g: &mut Graph, l| (l == leaf).then(|| g.constant(Dd::ONE));
@@ -56,7 +59,7 @@ impl System {
             })
             .collect();
         let n = leaves.len();
-        let all: Vec<Expr> = columns.concat();
+        let all: Vec<Signed> = columns.concat();
         let graph = b.into_graph();
         let mut refused = None;
         let values = crate::expr::evaluate(&graph, &all, at, &mut refused);

@@ -2,31 +2,31 @@
 //! rest of the state.
 
 use super::summed::summed;
-use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, settle_by};
+use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, resolve_stiction_by};
 use nalgebra::DVector;
 
 use super::holds::contacts_under;
-use super::{Laws, Own, System};
+use super::{ActuatorEfforts, EffortSums, SceneEquations};
 use crate::declaration::Element;
 use crate::effect;
-use crate::expr::{Builder, Ex, Expr, Inputs, Leaf, Node, NodeId, evaluate, reachable};
+use crate::expr::{Builder, Expr, Inputs, Leaf, Node, NodeId, Signed, evaluate, reachable};
 use crate::fault::wording::{self, WhyWrong, WrongMode};
-use crate::fault::{Fault, Faults, Place};
+use crate::fault::{Fault, Faults, Location};
 use crate::scene::{Scene, mode_name};
 
 /// A slip that counts as none: what the rounding of two rates leaves, rad/s, m/s or A.
 const NO_SLIP: f64 = 64.0 * f64::EPSILON;
 
-impl System {
+impl SceneEquations {
     /// The same with its first-order states and modes at the start.
     ///
     /// # Errors
     /// The `faults` so far, and stated modes that contradict the rest of the state.
-    pub(super) fn started(mut self, mut faults: Faults) -> Result<System, Faults> {
+    pub(super) fn started(mut self, mut faults: Faults) -> Result<SceneEquations, Faults> {
         let b = Builder::silent();
-        let laws = summed(&b, &self.scene, &self.graph, Own::Inputs);
-        let states = states(&self.scene, &laws);
-        drop(laws);
+        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
+        let states = states(&self.scene, &sums);
+        drop(sums);
         self.initial.x = states;
         if !faults.any_fault() && !self.scene.layout.modes.is_empty() {
             self.initial.modes = modes(&self, &mut faults);
@@ -39,22 +39,22 @@ impl System {
 }
 
 /// First-order states at the start: what the scene gives, as its effects store it.
-fn states(scene: &Scene, laws: &Laws<'_, '_>) -> Vec<Dd> {
+fn states(scene: &Scene, sums: &EffortSums<'_, '_>) -> Vec<Dd> {
     let given = &scene.initial;
     let parts = scene.layout.states.iter().zip(&given.x);
-    let value = |(part, &x): (&crate::scene::Part, &Dd)| {
-        let stored = stored(scene, laws, &part.name, x);
-        laws.at_start(stored, given)
+    let value = |(part, &x): (&crate::scene::Variable, &Dd)| {
+        let stored = stored(scene, sums, &part.name, x);
+        sums.at_start(stored, given)
     };
     parts.map(value).collect()
 }
 
 /// What a first-order state stores where the scene gives `x` for it.
-fn stored<'g>(scene: &Scene, laws: &Laws<'g, '_>, state: &str, x: Dd) -> Ex<'g> {
-    let given = laws.b.constant(x);
-    let owner = |e: &&Element| e.effect.keeps(e, state);
+fn stored<'g>(scene: &Scene, sums: &EffortSums<'g, '_>, state: &str, x: Dd) -> Expr<'g> {
+    let given = sums.b.constant(x);
+    let owner = |e: &&Element| e.effect.owns_state(e, state);
     match scene.elements.iter().find(owner) {
-        Some(element) => effect::of(element).start(element, laws, state, given),
+        Some(element) => effect::of(element).initial_state(element, sums, state, given),
         None => given,
     }
 }
@@ -62,7 +62,7 @@ fn stored<'g>(scene: &Scene, laws: &Laws<'g, '_>, state: &str, x: Dd) -> Ex<'g> 
 /// The modes at the start: what moves slips the way it moves, what is at rest holds where it can. A
 /// mode that is stated and is another one is a fault, unless inputs decide that only the caller knows;
 /// these are 0 here.
-fn modes(system: &System, faults: &mut Faults) -> Vec<Dd> {
+fn modes(system: &SceneEquations, faults: &mut Faults) -> Vec<Dd> {
     let start = Start::of(system);
     let stated = DVector::from_vec(system.initial.modes.clone());
     let moving = start
@@ -75,38 +75,38 @@ fn modes(system: &System, faults: &mut Faults) -> Vec<Dd> {
     });
     let by_slip = DVector::from_iterator(stated.len(), by_slip);
     let contacts = |modes: &DVector<Dd>| Ok::<_, ()>(start.contacts(modes));
-    let Ok(settled) = settle_by(&by_slip, Dd::ZERO, contacts) else {
+    let Ok(resolved) = resolve_stiction_by(&by_slip, Dd::ZERO, contacts) else {
         return system.initial.modes.clone();
     };
     for k in 0..stated.len() {
-        let place = system.scene.stated_mode(k).filter(|_| !start.by_caller[k]);
-        if let Some(place) = place.filter(|_| stated[k] != settled[k]) {
-            faults.push(start.contradiction(&place, k, &stated, settled[k]));
+        let location = system.scene.stated_mode(k).filter(|_| !start.by_caller[k]);
+        if let Some(location) = location.filter(|_| stated[k] != resolved[k]) {
+            faults.push(start.contradiction(&location, k, &stated, resolved[k]));
         }
     }
-    settled.as_slice().to_vec()
+    resolved.as_slice().to_vec()
 }
 
 /// The contacts of a scene at its start, at any modes.
 struct Start<'a> {
-    system: &'a System,
+    system: &'a SceneEquations,
     graph: crate::expr::Graph,
     /// Four numbers for each mode.
-    rows: Vec<Expr>,
+    rows: Vec<Signed>,
     /// For each mode, whether an input that the caller gives decides.
     by_caller: Vec<bool>,
 }
 
 impl<'a> Start<'a> {
-    fn of(system: &'a System) -> Self {
+    fn of(system: &'a SceneEquations) -> Self {
         let b = Builder::silent();
-        let rows: Vec<Expr> = {
-            let laws = system.laws_under_driven_inputs(&b);
-            let all = contacts_under(system, &laws).into_iter().flatten();
+        let rows: Vec<Signed> = {
+            let sums = system.laws_under_driven_inputs(&b);
+            let all = contacts_under(system, &sums).into_iter().flatten();
             all.map(|x| x.expr()).collect()
         };
         let graph = b.into_graph();
-        let given = |row: &[Expr]| {
+        let given = |row: &[Signed]| {
             let needed = reachable(&graph, row);
             let input =
                 |i: &usize| matches!(graph.node(NodeId(*i as u32)), Node::Leaf(Leaf::Input(_)));
@@ -145,7 +145,13 @@ impl<'a> Start<'a> {
     }
 
     /// The fault of the mode `k` that the scene states among `modes`; `right` is the one it has.
-    fn contradiction(&self, place: &Place, k: usize, modes: &DVector<Dd>, right: Dd) -> Fault {
+    fn contradiction(
+        &self,
+        location: &Location,
+        k: usize,
+        modes: &DVector<Dd>,
+        right: Dd,
+    ) -> Fault {
         let layout = &self.system.scene.layout;
         let coordinate = &layout.coordinates[self.system.mode_coordinates()[k]];
         let [_, rate, effort] = coordinate.dimensions.map(|d| d.si());
@@ -168,6 +174,6 @@ impl<'a> Start<'a> {
             units: [rate, effort],
             why,
         };
-        wording::wrong_mode(place, &mode)
+        wording::wrong_mode(location, &mode)
     }
 }

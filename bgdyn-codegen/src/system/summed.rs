@@ -2,10 +2,10 @@
 
 use crate::bond_graph::BondGraph;
 use crate::effect;
-use crate::expr::{Builder, Ex, Leaf};
+use crate::effort_sums::{ActuatorEfforts, EffortSums};
+use crate::expr::{Builder, Expr, Leaf};
 use crate::formulation::Formulation;
-use crate::laws::{Laws, Own};
-use crate::layout::Part;
+use crate::layout::Variable;
 use crate::scene::Scene;
 
 /// Every law of the scene, summed.
@@ -13,8 +13,8 @@ pub(super) fn summed<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
     graph: &'a BondGraph,
-    own: Own,
-) -> Laws<'g, 'a> {
+    own: ActuatorEfforts,
+) -> EffortSums<'g, 'a> {
     summed_by(b, scene, graph, own, None)
 }
 
@@ -23,11 +23,11 @@ pub(super) fn summed_by<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
     graph: &'a BondGraph,
-    own: Own,
+    own: ActuatorEfforts,
     asked: Option<&'static dyn Formulation>,
-) -> Laws<'g, 'a> {
-    let input = |(i, part): (usize, &Part)| match part.drives {
-        Some(_) if own != Own::Inputs => b.zero(),
+) -> EffortSums<'g, 'a> {
+    let input = |(i, part): (usize, &Variable)| match part.drives {
+        Some(_) if own != ActuatorEfforts::FromInputs => b.zero(),
         _ => b.leaf(Leaf::Input(i)),
     };
     let inputs = || scene.layout.inputs.iter().enumerate().map(input).collect();
@@ -39,27 +39,27 @@ pub(super) fn summed_under<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
     graph: (&'a BondGraph, Option<&'static dyn Formulation>),
-    own: Own,
-    inputs: impl FnOnce() -> Vec<Ex<'g>>,
-) -> Laws<'g, 'a> {
-    let mut laws = Laws::empty(b, scene, graph, own, inputs);
+    own: ActuatorEfforts,
+    inputs: impl FnOnce() -> Vec<Expr<'g>>,
+) -> EffortSums<'g, 'a> {
+    let mut sums = EffortSums::empty(b, scene, graph, own, inputs);
     for (at, element) in scene.elements.iter().enumerate() {
-        laws.begin(at);
+        sums.begin(at);
         b.section(|| format!("{}: {}", element.name, element.effect.summary()));
-        effect::of(element).law(element, &mut laws);
+        effect::of(element).law(element, &mut sums);
     }
-    laws
+    sums
 }
 
 #[cfg(test)]
 mod tests {
     use super::summed;
     use crate::bond_graph::BondNetwork;
-    use crate::declaration::{Declaration, Element};
+    use crate::declaration::{EffectKind, Element};
     use crate::effect::Effect;
+    use crate::effort_sums::{ActuatorEfforts, EffortSums};
     use crate::expr::Builder;
     use crate::format::{Dimension, Key, Reads};
-    use crate::laws::{Laws, Own};
 
     const MECHANISM: &str = "{ format: 1, name: one, links: [{ name: arm, joint: { name: hinge, type: revolute, axis: y }, mass: 1 }] }";
     const SCENE: &str = "{ scene: 1, name: swing, mechanism: one.yaml, effects: [bearing: { type: viscous, joint: hinge, damping: 1 }] }";
@@ -76,9 +76,9 @@ mod tests {
     };
 
     /// An effect whose law reads what its tests say.
-    struct Probe(fn(&Element, &mut Laws<'_, '_>));
+    struct Probe(fn(&Element, &mut EffortSums<'_, '_>));
 
-    impl Declaration for Probe {
+    impl EffectKind for Probe {
         fn keyword(&self) -> &'static str {
             "probe"
         }
@@ -99,13 +99,13 @@ mod tests {
     impl Effect for Probe {
         fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {}
 
-        fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-            (self.0)(element, laws);
+        fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+            (self.0)(element, sums);
         }
     }
 
     /// What the law of a probe called `needle` panics with, if it does.
-    fn panic_of(law: fn(&Element, &mut Laws<'_, '_>)) -> Option<String> {
+    fn panic_of(law: fn(&Element, &mut EffortSums<'_, '_>)) -> Option<String> {
         let read = crate::read_scene(SCENE, "swing", |_| Ok(MECHANISM.to_owned()));
         let (system, _) = read.expect("a sound scene");
         let (b, probe) = (Builder::silent(), &*Box::leak(Box::new(Probe(law))));
@@ -114,24 +114,29 @@ mod tests {
             effect: probe,
             ..system.scene.elements[0].clone()
         };
-        let mut laws = summed(&b, &system.scene, &system.graph, Own::Inputs);
-        let run = std::panic::AssertUnwindSafe(|| probe.law(&element, &mut laws));
+        let mut sums = summed(
+            &b,
+            &system.scene,
+            &system.graph,
+            ActuatorEfforts::FromInputs,
+        );
+        let run = std::panic::AssertUnwindSafe(|| probe.law(&element, &mut sums));
         let panic = std::panic::catch_unwind(run).err()?;
         Some(*panic.downcast::<String>().expect("a message"))
     }
 
     #[test]
     fn a_declared_key_without_a_value_is_zero() {
-        let law = |element: &Element, laws: &mut Laws<'_, '_>| {
-            assert!(laws.number(element, &DECLARED).is_zero());
+        let law = |element: &Element, sums: &mut EffortSums<'_, '_>| {
+            assert!(sums.number(element, &DECLARED).is_zero());
         };
         assert_eq!(panic_of(law), None);
     }
 
     #[test]
     fn an_undeclared_key_is_named_with_its_effect_and_element() {
-        let said = panic_of(|element, laws| {
-            laws.number(element, &UNDECLARED);
+        let said = panic_of(|element, sums| {
+            sums.number(element, &UNDECLARED);
         });
         let expected = "the law of the effect `probe` (element `needle`) uses the key `undeclared`, which is not declared";
         assert_eq!(said.as_deref(), Some(expected));
@@ -139,28 +144,28 @@ mod tests {
 
     #[test]
     fn every_other_undeclared_name_is_refused() {
-        type Law = fn(&Element, &mut Laws<'_, '_>);
+        type Law = fn(&Element, &mut EffortSums<'_, '_>);
         let lookups: [(&str, Law); 9] = [
-            ("state", |_, laws| {
-                let _ = laws.state("nowhere");
+            ("state", |_, sums| {
+                let _ = sums.state("nowhere");
             }),
-            ("mode", |_, laws| {
-                let _ = laws.mode("nowhere");
+            ("mode", |_, sums| {
+                let _ = sums.mode("nowhere");
             }),
-            ("input", |_, laws| {
-                let _ = laws.input("nowhere");
+            ("input", |_, sums| {
+                let _ = sums.input("nowhere");
             }),
-            ("coordinate", |_, laws| {
-                let _ = laws.coordinate("nowhere");
+            ("coordinate", |_, sums| {
+                let _ = sums.coordinate("nowhere");
             }),
-            ("site", |_, laws| {
-                let _ = laws.site("nowhere");
+            ("site", |_, sums| {
+                let _ = sums.site("nowhere");
             }),
-            ("event", |_, laws| laws.event("nowhere", laws.t)),
-            ("state", |_, laws| laws.flow("nowhere", laws.t)),
-            ("element", |_, laws| laws.supply_by("nowhere", laws.t)),
-            ("coordinate", |element, laws| {
-                laws.push_own(element, laws.t);
+            ("event", |_, sums| sums.event("nowhere", sums.t)),
+            ("state", |_, sums| sums.flow("nowhere", sums.t)),
+            ("element", |_, sums| sums.supply_by("nowhere", sums.t)),
+            ("coordinate", |element, sums| {
+                sums.push_own(element, sums.t);
             }),
         ];
         for (kind, law) in lookups {

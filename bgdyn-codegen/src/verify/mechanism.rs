@@ -18,7 +18,7 @@ use crate::random::Random;
 /// Compares functions of a mechanism with the literal sum for its bond graph: at three states, or
 /// at one beyond ten coordinates. At most one difference for each function.
 pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) -> Vec<Difference> {
-    let literal = Literal::new(graph);
+    let literal = LiteralValues::new(graph);
     let states = of_mechanism(graph).into_iter();
     let states: Vec<State> = states.map(|at| State::new(&literal, at)).collect();
     let found = functions.iter().filter_map(|function| {
@@ -35,16 +35,16 @@ pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) ->
 }
 
 /// The literal sum of a bond graph.
-struct Literal<'a> {
+struct LiteralValues<'a> {
     prepared: Prepared<'a>,
     inverse: Function,
 }
 
-impl<'a> Literal<'a> {
+impl<'a> LiteralValues<'a> {
     fn new(graph: &'a BondGraph) -> Self {
         let prepared = Prepared::new(graph);
         let inverse = specification().function(&prepared, Method::InverseDynamics);
-        Literal {
+        LiteralValues {
             inverse: inverse.expect("the literal sum knows inverse dynamics"),
             prepared,
         }
@@ -92,7 +92,7 @@ struct State {
 }
 
 impl State {
-    fn new(literal: &Literal<'_>, at: Inputs<Dd>) -> Self {
+    fn new(literal: &LiteralValues<'_>, at: Inputs<Dd>) -> Self {
         let zero = vec![Dd::ZERO; at.q.len()];
         let mut state = State {
             at_rest: literal.efforts(&at, &zero, &zero),
@@ -111,14 +111,14 @@ impl State {
     }
 
     /// M(q) x = P(q, 0, x) − P(q, 0, 0)
-    fn inertial(&self, literal: &Literal<'_>, x: &[Dd]) -> Vec<Dd> {
+    fn inertial(&self, literal: &LiteralValues<'_>, x: &[Dd]) -> Vec<Dd> {
         let moved = literal.efforts(&self.at, &self.zero(), x);
         minus(&moved, &self.at_rest)
     }
 
     /// The size of the terms of M(q) x, which cancel where x is large and M nearly singular: the
     /// largest product with other signs of the components of x.
-    fn size_of_product(&self, literal: &Literal<'_>, x: &[Dd]) -> f64 {
+    fn size_of_product(&self, literal: &LiteralValues<'_>, x: &[Dd]) -> f64 {
         let products = turned(x).map(|x| largest(&self.inertial(literal, &x)));
         products.into_iter().fold(0.0, f64::max)
     }
@@ -128,7 +128,7 @@ impl State {
 struct Subject<'a> {
     name: &'a str,
     function: &'a Function,
-    literal: &'a Literal<'a>,
+    literal: &'a LiteralValues<'a>,
     /// The function as the literal sum writes it, once a law has asked for it.
     form: OnceCell<Option<Function>>,
 }

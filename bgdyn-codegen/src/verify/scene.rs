@@ -8,17 +8,17 @@ use super::dual::{Direction, Dual, along, rates, values};
 use super::states::{direction, of_scene, signed};
 use crate::expr::Inputs;
 use crate::function::Function;
-use crate::method::{Method, Role};
+use crate::method::{Method, SceneFunction};
 use crate::random::Random;
-use crate::system::System;
+use crate::system::SceneEquations;
 
 /// Compares functions of a scene at two or three states, or at one beyond ten coordinates: the
 /// derivative and the inverse with the literal sum under the scene's laws, the power with zero, the
 /// Jacobian and the canonical form with the derivative in dual numbers. At most one difference for each
 /// function. Energies, events, inputs and outputs are read by the others or stand for themselves.
-pub fn check_scene(system: &System, functions: &[Function]) -> Vec<Difference> {
+pub fn check_scene(system: &SceneEquations, functions: &[Function]) -> Vec<Difference> {
     let held = system.mode_coordinates();
-    let scene = Checked {
+    let scene = CheckedScene {
         system,
         functions,
         sides: system.both_sides(),
@@ -38,8 +38,8 @@ pub fn check_scene(system: &System, functions: &[Function]) -> Vec<Difference> {
 /// Rates of first-order states below this, times what is allowed, are zero: SI units.
 const LEAST_RATE: f64 = 1e-12;
 
-struct Checked<'a> {
-    system: &'a System,
+struct CheckedScene<'a> {
+    system: &'a SceneEquations,
     functions: &'a [Function],
     /// P, E and ẋ at given accelerations.
     sides: Function,
@@ -49,30 +49,39 @@ struct Checked<'a> {
     held: Vec<usize>,
 }
 
-impl Checked<'_> {
-    fn check(&self, role: Role, function: &Function, at: &Inputs<Dd>) -> Option<Difference> {
+impl CheckedScene<'_> {
+    fn check(
+        &self,
+        role: SceneFunction,
+        function: &Function,
+        at: &Inputs<Dd>,
+    ) -> Option<Difference> {
         let (found, refused) = function.evaluate(at.clone());
         if refused.is_some() {
             return None;
         }
         match role {
-            Role::Derivative => self.derivative(function, at, &found),
-            Role::Inverse => {
+            SceneFunction::Derivative => self.derivative(function, at, &found),
+            SceneFunction::Inverse => {
                 let expected = self.inverse.evaluate(at.clone()).0;
                 let text = "own efforts = P(q, v, a) − E";
                 let size = largest(&self.sides_at(&at.a, at));
                 self.compare(function, (text, EXACT), (&found, &expected), size, at)
             }
-            Role::Power => self.power(function, at, &found),
-            Role::Jacobian => self.jacobian(function, at, &found),
-            Role::ToCanonical => self.momenta(function, at, &found),
-            Role::FromCanonical => {
+            SceneFunction::Power => self.power(function, at, &found),
+            SceneFunction::Jacobian => self.jacobian(function, at, &found),
+            SceneFunction::ToCanonical => self.momenta(function, at, &found),
+            SceneFunction::FromCanonical => {
                 let (found, _) = function.evaluate(self.canonical(at)?);
                 let text = "velocities of the momenta of v = v";
                 self.compare(function, (text, SOLVED), (&found, &at.v), 0.0, at)
             }
-            Role::CanonicalRates => self.canonical_rates(function, at),
-            Role::Inputs | Role::Events | Role::Contacts | Role::Energy | Role::Outputs => None,
+            SceneFunction::CanonicalRates => self.canonical_rates(function, at),
+            SceneFunction::Inputs
+            | SceneFunction::Events
+            | SceneFunction::Contacts
+            | SceneFunction::Energy
+            | SceneFunction::Outputs => None,
         }
     }
 
@@ -88,7 +97,7 @@ impl Checked<'_> {
         differs((&self.system.scene.name, function), &law, sides, size, at)
     }
 
-    fn function(&self, role: Role) -> Option<&Function> {
+    fn function(&self, role: SceneFunction) -> Option<&Function> {
         let wanted = Method::Scene(role);
         self.functions.iter().find(|f| f.method == wanted)
     }
@@ -174,9 +183,9 @@ impl Checked<'_> {
 
     /// v̇ and ẋ under the inputs that the scene drives.
     fn rates(&self, at: &Inputs<Dual>) -> Option<Vec<Dual>> {
-        let derivative = self.function(Role::Derivative)?;
+        let derivative = self.function(SceneFunction::Derivative)?;
         let mut driven = at.clone();
-        if let Some(inputs) = self.function(Role::Inputs) {
+        if let Some(inputs) = self.function(SceneFunction::Inputs) {
             driven.u = inputs.evaluate(at.clone()).0;
         }
         let (rates, refused) = derivative.evaluate(driven);
@@ -196,7 +205,10 @@ impl Checked<'_> {
 
     /// The same state with momenta in place of velocities.
     fn canonical(&self, at: &Inputs<Dd>) -> Option<Inputs<Dd>> {
-        let momenta = self.function(Role::ToCanonical)?.evaluate(at.clone()).0;
+        let momenta = self
+            .function(SceneFunction::ToCanonical)?
+            .evaluate(at.clone())
+            .0;
         Some(Inputs {
             v: momenta,
             ..at.clone()
@@ -223,7 +235,7 @@ impl Checked<'_> {
             x: derivative[nv..].to_vec(),
             t: Dd::ONE,
         };
-        let momenta = self.function(Role::ToCanonical)?;
+        let momenta = self.function(SceneFunction::ToCanonical)?;
         let momentum_rates = rates(&momenta.evaluate(along(at, &motion)).0);
         let expected = [&motion.q[..], &momentum_rates, &motion.x].concat();
         let law = ("rates of q, p and x along the motion", SOLVED);

@@ -7,7 +7,7 @@ use crate::conditioning::rounding_error::in_double_double;
 use crate::conditioning::sample_states;
 use crate::expr::Inputs;
 use crate::random::Random;
-use crate::system::System;
+use crate::system::SceneEquations;
 
 /// Coordinates up to which every state is tried.
 const SMALL: usize = 10;
@@ -60,7 +60,7 @@ fn vary(parameters: &mut [Dd], random: &mut Random) {
 }
 
 /// States of a scene near its start: all modes slipping, or some of them held.
-pub(super) fn of_scene(system: &System) -> Vec<Inputs<Dd>> {
+pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
     let layout = &system.scene.layout;
     let initial = &system.initial;
     let count = match (layout.nv() <= SMALL, layout.modes.is_empty()) {

@@ -163,7 +163,7 @@ fn what_snapping_changes_is_told_with_how_far() {
     let told = |snap: &str, rpy: &str, axis: &str| {
         let mechanism = spec(snap, rpy, axis);
         let found = mechanism.snapped().cloned();
-        found.map(|s| (s.count, format!("{:.1e}", s.most), s.place.path))
+        found.map(|s| (s.count, format!("{:.1e}", s.most), s.location.path))
     };
     let (plain, slanted) = ("[0, 0, 0]", "[1, 0.5, 0]");
     // The rounding of an f64 is none.

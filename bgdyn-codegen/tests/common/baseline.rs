@@ -5,7 +5,7 @@
 //!
 //! The links' own frames are taken as they are written; each joint's axis must be z there.
 
-use bgdyn_codegen::expr::{Builder, Ex, Expr, Graph, Leaf, Operations, count};
+use bgdyn_codegen::expr::{Builder, Expr, Graph, Leaf, Operations, Signed, count};
 use bgdyn_codegen::math::{Mat3, Vec3};
 use bgdyn_codegen::mechanism::{Link, Mechanism, Motion, Value};
 use bgdyn_runtime::Dd;
@@ -155,13 +155,13 @@ fn regrouped(mechanism: &Mechanism, zero: Zero) -> Vec<Body> {
 /// ω, ω̇ and the acceleration of the origin less gravity, in the link's axes.
 #[derive(Clone, Copy)]
 struct Moving<'g> {
-    omega: Vec3<Ex<'g>>,
-    omega_dot: Vec3<Ex<'g>>,
-    a: Vec3<Ex<'g>>,
+    omega: Vec3<Expr<'g>>,
+    omega_dot: Vec3<Expr<'g>>,
+    a: Vec3<Expr<'g>>,
 }
 
 /// U = [ω̇]× + [ω]×[ω]×
-fn u_of<'g>(omega: Vec3<Ex<'g>>, omega_dot: Vec3<Ex<'g>>) -> Mat3<Ex<'g>> {
+fn u_of<'g>(omega: Vec3<Expr<'g>>, omega_dot: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
     let ([x, y, z], [dx, dy, dz]) = (omega.0, omega_dot.0);
     let (xx, yy, zz) = (x * x, y * y, z * z);
     Mat3([
@@ -172,11 +172,11 @@ fn u_of<'g>(omega: Vec3<Ex<'g>>, omega_dot: Vec3<Ex<'g>>) -> Mat3<Ex<'g>> {
 }
 
 /// The graph of inverse dynamics.
-pub fn inverse_dynamics(mechanism: &Mechanism, moment: Moment, zero: Zero) -> (Graph, Vec<Expr>) {
+pub fn inverse_dynamics(mechanism: &Mechanism, moment: Moment, zero: Zero) -> (Graph, Vec<Signed>) {
     let b = Builder::new();
     let outputs = {
         let efforts = efforts(&b, mechanism, moment, &regrouped(mechanism, zero));
-        efforts.into_iter().map(Ex::expr).collect()
+        efforts.into_iter().map(Expr::expr).collect()
     };
     (b.into_graph(), outputs)
 }
@@ -196,7 +196,7 @@ fn efforts<'g>(
     mechanism: &Mechanism,
     moment: Moment,
     bodies: &[Body],
-) -> Vec<Ex<'g>> {
+) -> Vec<Expr<'g>> {
     let links = mechanism.links();
     let base = Moving {
         omega: Vec3([b.zero(); 3]),
@@ -237,7 +237,7 @@ fn load<'g>(
     motion: &Moving<'g>,
     body: &Body,
     moment: Moment,
-) -> (Vec3<Ex<'g>>, Vec3<Ex<'g>>) {
+) -> (Vec3<Expr<'g>>, Vec3<Expr<'g>>) {
     let (omega, u) = (motion.omega, u_of(motion.omega, motion.omega_dot));
     let h = b.vector(body.first);
     let d = body.pseudo.0;
@@ -274,14 +274,14 @@ fn load<'g>(
 struct Joint<'g> {
     motion: Motion,
     /// The joint's axes at coordinate zero, in the parent's.
-    rotation: Mat3<Ex<'g>>,
+    rotation: Mat3<Expr<'g>>,
     /// The link's origin in the parent's axes, and in those of the joint.
-    place: Vec3<Ex<'g>>,
-    place_here: Vec3<Ex<'g>>,
+    place: Vec3<Expr<'g>>,
+    place_here: Vec3<Expr<'g>>,
     /// cos q and sin q.
-    turn: (Ex<'g>, Ex<'g>),
-    rate: Ex<'g>,
-    acceleration: Ex<'g>,
+    turn: (Expr<'g>, Expr<'g>),
+    rate: Expr<'g>,
+    acceleration: Expr<'g>,
 }
 
 impl<'g> Joint<'g> {
@@ -298,7 +298,7 @@ impl<'g> Joint<'g> {
             );
         }
         let back = origin.rotation.transpose();
-        let along = |place: Vec3<Ex<'g>>, axis: Vec3<Dd>| match motion {
+        let along = |place: Vec3<Expr<'g>>, axis: Vec3<Dd>| match motion {
             Motion::Translation => place + axis.map(|x| q * x),
             _ => place,
         };
@@ -321,7 +321,7 @@ impl<'g> Joint<'g> {
         let back = self.rotation.transpose();
         let u = u_of(parent.omega, parent.omega_dot);
         let (c, s) = self.turn;
-        let turned = |v: Vec3<Ex<'g>>| {
+        let turned = |v: Vec3<Expr<'g>>| {
             let [x, y, z] = v.0;
             Vec3([c * x + s * y, c * y - s * x, z])
         };
@@ -349,9 +349,13 @@ impl<'g> Joint<'g> {
     }
 
     /// Force and moment about the parent's origin, in its axes.
-    fn inwards(&self, force: Vec3<Ex<'g>>, moment: Vec3<Ex<'g>>) -> (Vec3<Ex<'g>>, Vec3<Ex<'g>>) {
+    fn inwards(
+        &self,
+        force: Vec3<Expr<'g>>,
+        moment: Vec3<Expr<'g>>,
+    ) -> (Vec3<Expr<'g>>, Vec3<Expr<'g>>) {
         let (c, s) = self.turn;
-        let turned = |v: Vec3<Ex<'g>>| {
+        let turned = |v: Vec3<Expr<'g>>| {
             let [x, y, z] = v.0;
             Vec3([c * x - s * y, s * x + c * y, z])
         };

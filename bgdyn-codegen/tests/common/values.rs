@@ -1,6 +1,6 @@
 //! Every method of a robot by both formulations, ready to be evaluated and differentiated.
 
-use bgdyn_codegen::expr::{Expr, Graph, Leaf, Tangent, evaluate};
+use bgdyn_codegen::expr::{Graph, Leaf, Signed, Tangent, evaluate};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::{Dd, Scalar};
@@ -55,7 +55,7 @@ pub fn derivative(function: &Function, s: &State, along: &Direction<'_>) -> Vec<
         Some(g.constant(Dd::from_f64(x)))
     };
     let mut tangent = Tangent::new(seed);
-    let outputs: Vec<Expr> = function.blocks[0]
+    let outputs: Vec<Signed> = function.blocks[0]
         .outputs
         .iter()
         .map(|&e| tangent.of(&mut graph, e))

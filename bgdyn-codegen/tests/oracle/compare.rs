@@ -3,8 +3,8 @@
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::verify::{check_scene, explain};
 use bgdyn_runtime::Dd;
 
@@ -36,7 +36,7 @@ const STEP: f64 = 1e-10;
 pub struct Pair {
     pub written: Written,
     pub oracle: Scene,
-    pub system: System,
+    pub system: SceneEquations,
     derivatives: Vec<Function>,
     energy: Function,
     power: Function,
@@ -64,31 +64,35 @@ pub struct Worst {
 }
 
 impl Pair {
-    pub fn new(written: Written, system: System, depth: Depth) -> Self {
-        let made = |role: Role| match depth {
+    pub fn new(written: Written, system: SceneEquations, depth: Depth) -> Self {
+        let made = |role: SceneFunction| match depth {
             Depth::Whole => vec![system.function(role)],
             Depth::Part(_) => system.ways(role),
         };
         let by = |name: &&str| system.derivative_by(by_name(name)?);
-        let mut derivatives = vec![system.function(Role::Derivative)];
-        derivatives.extend(system.ways(Role::Derivative));
+        let mut derivatives = vec![system.function(SceneFunction::Derivative)];
+        derivatives.extend(system.ways(SceneFunction::Derivative));
         let jacobians = match depth {
             Depth::Part(seed) => {
                 derivatives.extend(by(&WAYS[seed as usize % WAYS.len()]));
                 let wanted = seed % 3 == 0;
-                if wanted { made(Role::Jacobian) } else { vec![] }
+                if wanted {
+                    made(SceneFunction::Jacobian)
+                } else {
+                    vec![]
+                }
             }
             Depth::Whole => {
                 derivatives.extend(WAYS.iter().filter_map(by));
-                made(Role::Jacobian)
+                made(SceneFunction::Jacobian)
             }
         };
         let one = |role| made(role).swap_remove(0);
         Pair {
             oracle: Scene::read(&written.scene, &written.mechanism),
             derivatives,
-            energy: one(Role::Energy),
-            power: one(Role::Power),
+            energy: one(SceneFunction::Energy),
+            power: one(SceneFunction::Power),
             jacobians,
             written,
             system,

@@ -4,21 +4,21 @@ use std::collections::BTreeMap;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 /// A scene with one state of it.
 pub struct Bench {
-    pub system: System,
+    pub system: SceneEquations,
     /// The state, the inputs, the accelerations.
     pub at: Inputs<Dd>,
-    functions: BTreeMap<Role, Function>,
+    functions: BTreeMap<SceneFunction, Function>,
 }
 
 impl Bench {
     /// The scene at its start, inputs and accelerations zero.
-    pub fn new(system: System) -> Self {
+    pub fn new(system: SceneEquations) -> Self {
         let layout = &system.scene.layout;
         let at = Inputs {
             q: system.initial.q.clone(),
@@ -67,7 +67,7 @@ impl Bench {
     }
 
     /// The value of a role's function here.
-    pub fn value(&mut self, role: Role) -> Vec<Dd> {
+    pub fn value(&mut self, role: SceneFunction) -> Vec<Dd> {
         let system = &self.system;
         let function = self.functions.entry(role);
         let function = function.or_insert_with(|| system.function(role));
@@ -79,27 +79,27 @@ impl Bench {
     /// v̇ of a coordinate.
     pub fn acceleration(&mut self, name: &str) -> Dd {
         let j = self.coordinate(name);
-        self.value(Role::Derivative)[j]
+        self.value(SceneFunction::Derivative)[j]
     }
 
     /// ẋ of a first-order state.
     pub fn rate(&mut self, name: &str) -> Dd {
         let i = self.system.scene.layout.nv() + self.state(name);
-        self.value(Role::Derivative)[i]
+        self.value(SceneFunction::Derivative)[i]
     }
 
     /// An output by its name.
     pub fn output(&mut self, name: &str) -> Dd {
         let found = self.system.outputs.iter().position(|o| o.name == name);
         let i = found.unwrap_or_else(|| panic!("no output {name}"));
-        self.value(Role::Outputs)[i]
+        self.value(SceneFunction::Outputs)[i]
     }
 
     /// Power supplied, rate of the energy stored, power dissipated by an effect.
     pub fn power(&mut self, name: &str) -> [Dd; 3] {
         let found = self.system.entries.iter().position(|e| e.name == name);
         let i = found.unwrap_or_else(|| panic!("no entry {name}"));
-        let all = self.value(Role::Power);
+        let all = self.value(SceneFunction::Power);
         [all[3 * i], all[3 * i + 1], all[3 * i + 2]]
     }
 }

@@ -4,8 +4,8 @@ use bgdyn_codegen::random::Random;
 use std::path::Path;
 
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::method::{Method, Role};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::{Method, SceneFunction};
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 use super::bench::{Bench, agree, dd};
@@ -24,7 +24,7 @@ fn ur5() -> String {
 const GRIP: &str = "{ xyz: [20 mm, -10 mm, 90 mm], rpy: [0.3, -0.2, 0.5] }";
 
 /// The UR5 with these effects beside gravity and inertia.
-fn arm(effects: &str) -> System {
+fn arm(effects: &str) -> SceneEquations {
     let text = format!(
         "scene: 1\nmechanism: ur5.yaml\neffects:\n  - gravity\n  - inertia\n  - velocity_products\n{effects}"
     );
@@ -92,7 +92,10 @@ fn a_wrench_acts_through_the_jacobian() {
                 w
             };
             let jacobian = site("grip", Method::Jacobian, &pushed.at);
-            let [with, without] = [pushed.value(Role::Inverse), free.value(Role::Inverse)];
+            let [with, without] = [
+                pushed.value(SceneFunction::Inverse),
+                free.value(SceneFunction::Inverse),
+            ];
             for j in 0..6 {
                 let effort = (0..6).fold(Dd::ZERO, |sum, i| sum + jacobian[6 * i + j] * world[i]);
                 agree("τ", without[j] - with[j], effort, 10.0, EXACT);
@@ -125,7 +128,10 @@ fn a_wrench_has_the_components_asked_for() {
         bench.give("push_fz", 12.0);
         bench.give("push_mx", -3.0);
     }
-    let [some, all] = [some.value(Role::Derivative), all.value(Role::Derivative)];
+    let [some, all] = [
+        some.value(SceneFunction::Derivative),
+        all.value(SceneFunction::Derivative),
+    ];
     for (some, all) in some.iter().zip(&all) {
         agree("v̇", *some, *all, 1.0, EXACT);
     }
@@ -146,7 +152,10 @@ fn drag_opposes_the_motion_of_its_place() {
         let wrench: Vec<Dd> = (0..6)
             .map(|i| -velocity[i] * if i < 3 { dd("0.4") } else { factor })
             .collect();
-        let [with, without] = [wet.value(Role::Inverse), dry.value(Role::Inverse)];
+        let [with, without] = [
+            wet.value(SceneFunction::Inverse),
+            dry.value(SceneFunction::Inverse),
+        ];
         for j in 0..6 {
             let effort = (0..6).fold(Dd::ZERO, |sum, i| sum + jacobian[6 * i + j] * wrench[i]);
             agree("τ", without[j] - with[j], effort, 10.0, EXACT);
@@ -160,7 +169,10 @@ fn drag_opposes_the_motion_of_its_place() {
     // Nothing moves, nothing resists.
     wet.at.v.fill(Dd::ZERO);
     dry.at.v.fill(Dd::ZERO);
-    let [with, without] = [wet.value(Role::Inverse), dry.value(Role::Inverse)];
+    let [with, without] = [
+        wet.value(SceneFunction::Inverse),
+        dry.value(SceneFunction::Inverse),
+    ];
     for (with, without) in with.iter().zip(&without) {
         agree("at rest", *with, *without, 10.0, 1e-28);
     }
@@ -169,7 +181,7 @@ fn drag_opposes_the_motion_of_its_place() {
 /// A part as an effect at the grip, and the same as a link of the mechanism.
 const PART: &str = "  - part: { type: payload, at: grip, mass: 1.5 kg, com: [10 mm, 0, 40 mm], inertia: { xx: 0.002, yy: 0.002, zz: 0.0008, xy: 0.0001 } }\n";
 
-fn with_a_link() -> System {
+fn with_a_link() -> SceneEquations {
     let link = format!(
         "  - name: piece
     parent: wrist_3
@@ -187,7 +199,7 @@ frames:"
 #[test]
 fn a_payload_is_a_link() {
     let (effect, link) = (arm(PART), with_a_link());
-    for role in [Role::Derivative, Role::Inverse] {
+    for role in [SceneFunction::Derivative, SceneFunction::Inverse] {
         let [one, other] = [&effect, &link].map(|s| s.function(role).operations());
         assert_eq!(one, other, "{role:?}");
     }
@@ -195,7 +207,12 @@ fn a_payload_is_a_link() {
     let mut random = Random(6);
     for _ in 0..5 {
         anywhere(&mut random, &mut effect, &mut link);
-        for role in [Role::Derivative, Role::Inverse, Role::Energy, Role::Power] {
+        for role in [
+            SceneFunction::Derivative,
+            SceneFunction::Inverse,
+            SceneFunction::Energy,
+            SceneFunction::Power,
+        ] {
             let [one, other] = [effect.value(role), link.value(role)];
             for (one, other) in one.iter().zip(&other) {
                 agree(role.name(), *one, *other, 1.0, EXACT);
@@ -229,8 +246,8 @@ fn a_payload_is_let_go() {
         for (mass, other) in [(2.0, &mut fixed), (0.0, &mut free)] {
             loaded.set("m", mass);
             let [one, other] = [
-                loaded.value(Role::Derivative),
-                other.value(Role::Derivative),
+                loaded.value(SceneFunction::Derivative),
+                other.value(SceneFunction::Derivative),
             ];
             for (one, other) in one.iter().zip(&other) {
                 agree("v̇", *one, *other, 1.0, 1e-22);

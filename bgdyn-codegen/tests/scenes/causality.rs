@@ -4,7 +4,7 @@ use bgdyn_codegen::random::Random;
 use std::collections::BTreeSet;
 
 use bgdyn_codegen::bond_graph::{Causality, GraphNodeId, NodeKind};
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 use super::bench::{Bench, agree, dd};
@@ -183,7 +183,7 @@ fn what_needs_a_missing_effect_falls_away() {
     );
     let whole = scene(&text, BLOCK).scene;
     let without = |gone: &str| {
-        let rest = whole.with_only(|e| e.name != gone);
+        let rest = whole.with_effects(|e| e.name != gone);
         assert!(rest.chains.is_empty());
         let names = rest.elements.iter().map(|e| e.name.clone());
         names.collect::<Vec<_>>()
@@ -192,7 +192,7 @@ fn what_needs_a_missing_effect_falls_away() {
     assert_eq!(without("first"), ["left", "right", "oil"]);
     assert_eq!(without("tee"), ["left", "right", "oil"]);
     assert_eq!(without("left"), ["right", "oil"]);
-    let all = whole.with_only(|_| true);
+    let all = whole.with_effects(|_| true);
     assert_eq!((all.elements.len(), all.chains.len()), (6, 1));
 }
 
@@ -290,7 +290,7 @@ fn a_motor_without_both_is_named() {
 }
 
 /// The names of elements that nodes of the bond graph belong to, and of hydraulic junctions.
-fn names_of(system: &System, nodes: &[GraphNodeId]) -> BTreeSet<String> {
+fn names_of(system: &SceneEquations, nodes: &[GraphNodeId]) -> BTreeSet<String> {
     let element = |id: &GraphNodeId| {
         let at = system.network.nodes[id.0].element?;
         Some(system.scene.elements[at].name.clone())

@@ -7,7 +7,7 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::refusal::Refusal;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 /// The repository's scene files.
@@ -22,7 +22,7 @@ pub fn specs() -> Vec<PathBuf> {
 }
 
 /// The scene in a file.
-pub fn read(path: &Path) -> System {
+pub fn read(path: &Path) -> SceneEquations {
     let text = std::fs::read_to_string(path).expect("a scene");
     let load = |mechanism: &str| {
         std::fs::read_to_string(beside(path, mechanism)).map_err(|e| e.to_string())
@@ -34,7 +34,7 @@ pub fn read(path: &Path) -> System {
 }
 
 /// A scene from its text and its mechanism's.
-pub fn scene(text: &str, mechanism: &str) -> System {
+pub fn scene(text: &str, mechanism: &str) -> SceneEquations {
     match try_scene(text, mechanism) {
         Ok((system, _)) => system,
         Err(refusal) => panic!("{}", told(&refusal, text)),
@@ -45,7 +45,7 @@ pub fn scene(text: &str, mechanism: &str) -> System {
 pub fn try_scene(
     text: &str,
     mechanism: &str,
-) -> Result<(System, bgdyn_codegen::fault::Faults), Refusal> {
+) -> Result<(SceneEquations, bgdyn_codegen::fault::Faults), Refusal> {
     read_scene(text, "scene", |_| Ok(mechanism.to_owned()))
 }
 
@@ -72,7 +72,7 @@ fn many(random: &mut Random, n: usize, size: f64) -> Vec<Dd> {
 }
 
 /// The winding, the sign and the size of the limit whose mode has this name.
-fn current_limit(system: &System, mode: &str) -> Option<(usize, f64, Dd)> {
+fn current_limit(system: &SceneEquations, mode: &str) -> Option<(usize, f64, Dd)> {
     let sides = [("_upper_limit", 1.0), ("_lower_limit", -1.0)];
     let (name, side) = sides
         .iter()
@@ -84,7 +84,7 @@ fn current_limit(system: &System, mode: &str) -> Option<(usize, f64, Dd)> {
 
 /// A random state of a scene near its start, with random inputs and accelerations; `slipping`
 /// modes, or held ones.
-pub fn state(system: &System, random: &mut Random, slipping: bool) -> Inputs<Dd> {
+pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> Inputs<Dd> {
     let layout = &system.scene.layout;
     let mut around = |start: &[Dd], size: f64| -> Vec<Dd> {
         let offsets = many(random, start.len(), size);

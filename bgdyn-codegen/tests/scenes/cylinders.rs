@@ -3,7 +3,7 @@
 use bgdyn_codegen::random::Random;
 use std::path::Path;
 
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_runtime::Dd;
 use serde_json::Value;
 
@@ -77,7 +77,7 @@ fn a_stiff_cylinder_has_the_rates_of_its_reference() {
 #[test]
 fn a_stiff_cylinder_follows_its_reference() {
     let system = spec("hydraulic_cylinder").system;
-    let function = system.function(Role::Derivative);
+    let function = system.function(SceneFunction::Derivative);
     let start = bgdyn_codegen::expr::Inputs {
         u: vec![-1000.0],
         t: Some(0.0),
@@ -157,7 +157,10 @@ fn cylinders_between_lugs_have_their_length_and_rate() {
         }
         (free.at.q, free.at.v, free.at.a) =
             (bench.at.q.clone(), bench.at.v.clone(), bench.at.a.clone());
-        let [with, without] = [bench.value(Role::Inverse), free.value(Role::Inverse)];
+        let [with, without] = [
+            bench.value(SceneFunction::Inverse),
+            free.value(SceneFunction::Inverse),
+        ];
         let mut powers = Dd::ZERO;
         let arms = [("luff", luff), ("fold", fold)].map(|(joint, geometry)| {
             let j = bench.coordinate(joint);
@@ -205,7 +208,7 @@ fn cylinders_between_lugs_have_their_length_and_rate() {
 }
 
 /// The crane without its cylinders.
-fn without_cylinders() -> bgdyn_codegen::system::System {
+fn without_cylinders() -> bgdyn_codegen::system::SceneEquations {
     let mechanism =
         std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/crane.yaml"));
     let text = "scene: 1\nmechanism: crane.yaml\neffects: [gravity, inertia, velocity_products, slew_friction, load]\n";
@@ -269,7 +272,10 @@ outputs: [ram_length, ram_force]
             EXACT,
         );
         let force = bench.output("ram_force");
-        let [with, without] = [bench.value(Role::Inverse), free.value(Role::Inverse)];
+        let [with, without] = [
+            bench.value(SceneFunction::Inverse),
+            free.value(SceneFunction::Inverse),
+        ];
         let mut rate = Dd::ZERO;
         for j in 0..2 {
             let h = dd("1e-9");

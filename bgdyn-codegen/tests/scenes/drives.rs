@@ -1,8 +1,8 @@
 //! Gears and series elasticity: their laws, and that other effects act on a drive.
 
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 use super::common::{scene, state, told, try_scene};
@@ -12,7 +12,7 @@ use super::one::{BLOCK, MASS, Tried, close, refused, text};
 /// The drive of the tests, K = 50, D = 3, N²J = 4·0.25 = 1 kg.
 const DRIVE: &str = "drive: { type: series_elastic, joint: slide, stiffness: 50 N/m, damping: 3 N*s/m, inertia: 0.25 kg, ratio: 2 }";
 
-fn with(effects: &[&str], more: &str) -> System {
+fn with(effects: &[&str], more: &str) -> SceneEquations {
     scene(&text(effects, more), BLOCK)
 }
 
@@ -30,7 +30,7 @@ fn a_gear_loses_on_both_ways() {
         at.modes[0] = v;
         close(MASS * tried.rates(at.clone())[0], wanted);
         // What is lost: (u − τ) v, which is never less than nothing.
-        let power = tried.system.function(Role::Power);
+        let power = tried.system.function(SceneFunction::Power);
         let (values, _) = power.evaluate(at);
         close(values[2], (u - wanted) * v);
         assert!(values[2] > 0.0);
@@ -47,7 +47,7 @@ fn a_gear_holds_its_joint_against_less_than_its_losses() {
     let friction = "dry: { type: coulomb, joint: slide, kinetic: 0.5, static: 1 }";
     for (effects, own) in [(&[gear, push][..], 0.0), (&[gear, push, friction][..], 1.0)] {
         let tried = Tried::new(with(effects, "inputs: { slide: given, push_fx: given }\n"));
-        let contacts = tried.system.function(Role::Contacts);
+        let contacts = tried.system.function(SceneFunction::Contacts);
         // u and the push against it.
         for (u, push) in [
             (3.0, -3.0),
@@ -122,7 +122,7 @@ fn dry_friction_holds_a_drive() {
     let system = with(&[DRIVE, friction], "inputs: { drive: given }\n");
     laws::hold(&system);
     let tried = Tried::new(system);
-    let contacts = tried.system.function(Role::Contacts);
+    let contacts = tried.system.function(SceneFunction::Contacts);
     // Inputs in the scene's order.
     let inputs = tried.system.scene.layout.inputs.iter();
     let names: Vec<&str> = inputs.map(|i| i.name.as_str()).collect();
@@ -152,7 +152,7 @@ fn a_controller_follows_a_drive() {
     let controller =
         "inputs: { drive: { computed_torque: { target: 0.4, stiffness: 100, damping: 20 } } }\n";
     let tried = Tried::new(with(&[DRIVE], controller));
-    let input = tried.system.function(Role::Inputs);
+    let input = tried.system.function(SceneFunction::Inputs);
     let (values, _) = input.evaluate(tried.at(&[0.1, 0.3], &[0.2, -0.5], &[], &[0.0]));
     let wanted = 100.0 * (0.4 - 0.3) + 20.0 * 0.5;
     close(values[0], wanted + 50.0 * 0.2 + 3.0 * -0.7);
@@ -274,7 +274,11 @@ links:
         set.parameters = ["2e-4", "40"]
             .map(|x| x.parse().expect("a number"))
             .to_vec();
-        for role in [Role::Derivative, Role::Inverse, Role::Power] {
+        for role in [
+            SceneFunction::Derivative,
+            SceneFunction::Inverse,
+            SceneFunction::Power,
+        ] {
             let wanted: Vec<Dd> = known.function(role).evaluate(at.clone()).0;
             let found: Vec<Dd> = open.function(role).evaluate(set.clone()).0;
             for (found, wanted) in found.iter().zip(&wanted) {

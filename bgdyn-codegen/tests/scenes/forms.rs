@@ -4,10 +4,10 @@
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::passes::factor;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 use super::common::{read, specs, state};
@@ -18,7 +18,7 @@ const STATES: u64 = 2;
 
 /// What is compared.
 struct Tried<'a> {
-    system: &'a System,
+    system: &'a SceneEquations,
     derivative: Function,
     /// The derivative by each formulation that knows what it rests on.
     formulations: Vec<Function>,
@@ -30,24 +30,24 @@ struct Tried<'a> {
 }
 
 /// Compares in random states, with joints slipping, held, or some of each.
-pub fn hold(system: &System) {
-    let all = |role: Role| -> Vec<Function> {
+pub fn hold(system: &SceneEquations) {
+    let all = |role: SceneFunction| -> Vec<Function> {
         let ways = system.ways(role).into_iter();
         ways.map(factor).collect()
     };
     let driven = !system.scene.layout.inputs.is_empty();
     let tried = Tried {
         system,
-        derivative: system.function(Role::Derivative),
+        derivative: system.function(SceneFunction::Derivative),
         formulations: FORMULATIONS
             .iter()
             .filter_map(|f| system.derivative_by(*f))
             .collect(),
-        inputs: driven.then(|| system.function(Role::Inputs)),
-        jacobians: all(Role::Jacobian),
-        momenta: all(Role::ToCanonical),
-        velocities: all(Role::FromCanonical),
-        rates: all(Role::CanonicalRates),
+        inputs: driven.then(|| system.function(SceneFunction::Inputs)),
+        jacobians: all(SceneFunction::Jacobian),
+        momenta: all(SceneFunction::ToCanonical),
+        velocities: all(SceneFunction::FromCanonical),
+        rates: all(SceneFunction::CanonicalRates),
     };
     let kinds: &[usize] = match system.scene.layout.modes.len() {
         0 => &[0],

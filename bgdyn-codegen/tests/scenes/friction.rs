@@ -1,6 +1,6 @@
 //! Friction: its laws, what they refuse, and that they never drive.
 
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 
 use super::common::{scene, try_scene};
 use super::laws;
@@ -47,7 +47,12 @@ fn a_flat_stribeck_curve_is_coulombs() {
         "it: { type: stribeck, joint: slide, kinetic: 3 N, static: 3 N, stribeck_speed: 0.2 m/s, width: 10 mm/s }",
     );
     let smooth = block("it: { type: coulomb_smooth, joint: slide, kinetic: 3 N, width: 10 mm/s }");
-    let count = |tried: &super::one::Tried| tried.system.function(Role::Derivative).operations();
+    let count = |tried: &super::one::Tried| {
+        tried
+            .system
+            .function(SceneFunction::Derivative)
+            .operations()
+    };
     for s in SLIPS {
         close(flat.effort(0.0, s, &[]), smooth.effort(0.0, s, &[]));
     }
@@ -235,13 +240,13 @@ fn lugre_friction_gives_energy_only_where_it_warns() {
 fn passive_bristles_never_lose_less_than_nothing() {
     let dissipated = |viscous: f64, v: f64, z: f64| {
         let tried = super::one::block(&bristles(viscous));
-        let power = tried.system.function(Role::Power);
+        let power = tried.system.function(SceneFunction::Power);
         let (values, _) = power.evaluate(tried.at(&[0.0], &[v], &[z], &[]));
         values[2]
     };
     let passive = scene(&text(&[&bristles(PASSIVE_FROM)], ""), BLOCK);
     let tried = super::one::Tried::new(passive);
-    let power = tried.system.function(Role::Power);
+    let power = tried.system.function(SceneFunction::Power);
     let mut least = f64::INFINITY;
     for i in -30..=30 {
         for k in -40..=20 {

@@ -1,9 +1,9 @@
 //! One declaration for several joints.
 
 use bgdyn_codegen::fault::Faults;
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 use super::common::{scene, state, told, try_scene};
 
@@ -42,15 +42,15 @@ fn called(effects: &str) -> String {
     format!("scene: 1\nmechanism: arm.yaml\neffects:\n  - inertia\n  - gravity\n{effects}")
 }
 
-fn names(system: &System) -> Vec<&str> {
+fn names(system: &SceneEquations) -> Vec<&str> {
     let all = system.scene.elements.iter().map(|e| e.name.as_str());
     all.filter(|n| !["inertia", "gravity"].contains(n))
         .collect()
 }
 
 /// Both scenes have the same accelerations, whatever their effects are called.
-fn same(one: &System, other: &System) {
-    let [a, b] = [one, other].map(|s| s.function(Role::Derivative));
+fn same(one: &SceneEquations, other: &SceneEquations) {
+    let [a, b] = [one, other].map(|s| s.function(SceneFunction::Derivative));
     for seed in 0..4 {
         let at = state(one, &mut Random(seed), true);
         let mut there = at.clone();

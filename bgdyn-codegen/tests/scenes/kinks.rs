@@ -1,11 +1,11 @@
 //! Wherever the derivative of a scene has a kink, an event says so: a run that did not stop there would
 //! lose the order of its method in silence.
 
-use bgdyn_codegen::expr::{Expr, Graph, Inputs, Node, NodeId, evaluate, reachable};
+use bgdyn_codegen::expr::{Graph, Inputs, Node, NodeId, Signed, evaluate, reachable};
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Dd, Scalar};
 
 use super::common::{read, scene, specs, state};
@@ -18,14 +18,14 @@ const NEAR: f64 = 1e-13;
 /// Slopes that differ by less than this part of them are equal; their error is of the size of NEAR².
 const NO_KINK: f64 = 1e-9;
 
-fn expr(node: NodeId) -> Expr {
+fn expr(node: NodeId) -> Signed {
     let negative = false;
-    Expr { node, negative }
+    Signed { node, negative }
 }
 
 /// What is compared on the way to these outputs: a branch changes where the two are equal, or where
 /// the first passes through zero.
-fn compared(graph: &Graph, outputs: &[Expr]) -> Vec<(Expr, Option<Expr>)> {
+fn compared(graph: &Graph, outputs: &[Signed]) -> Vec<(Signed, Option<Signed>)> {
     let needed = reachable(graph, outputs);
     let nodes = (0..graph.len()).filter(|&i| needed[i]);
     let switch = |i: usize| match graph.node(NodeId::at(i)) {
@@ -60,13 +60,13 @@ impl Segment<'_> {
         }
     }
 
-    fn values(&self, of: &[Expr], part: Dd) -> Vec<Dd> {
+    fn values(&self, of: &[Signed], part: Dd) -> Vec<Dd> {
         let graph = &self.derivative.graph;
         evaluate(graph, of, &self.at(part), &mut Dd::none_refused())
     }
 
     /// Which side of a comparison a state is on.
-    fn side(&self, (a, b): (Expr, Option<Expr>), part: Dd) -> bool {
+    fn side(&self, (a, b): (Signed, Option<Signed>), part: Dd) -> bool {
         match b {
             None => self.values(&[a], part)[0] < Dd::ZERO,
             Some(b) => {
@@ -77,7 +77,7 @@ impl Segment<'_> {
     }
 
     /// Where the side changes, between 0 and 1.
-    fn change(&self, of: (Expr, Option<Expr>)) -> Option<Dd> {
+    fn change(&self, of: (Signed, Option<Signed>)) -> Option<Dd> {
         let (mut low, mut high) = (Dd::ZERO, Dd::ONE);
         let first = self.side(of, low);
         if self.side(of, high) == first {
@@ -128,7 +128,7 @@ impl Segment<'_> {
 }
 
 /// A state far from the start: beyond stops and ends. No current is beyond its limit: no run gets there.
-fn far(system: &System, random: &mut Random) -> Inputs<Dd> {
+fn far(system: &SceneEquations, random: &mut Random) -> Inputs<Dd> {
     let mut at = state(system, random, true);
     for (mode, part) in at.modes.iter_mut().zip(&system.scene.layout.modes) {
         for (limit, within) in [("_upper_limit", -1.0), ("_lower_limit", 1.0)] {
@@ -150,10 +150,10 @@ fn numbers(of: &[Dd]) -> Vec<f64> {
 }
 
 /// The kinks found in a scene.
-fn kinks(system: &System) -> usize {
-    let derivative = &system.ways(Role::Derivative)[0];
-    let events = system.roles().contains(&Role::Events);
-    let events = events.then(|| system.function(Role::Events));
+fn kinks(system: &SceneEquations) -> usize {
+    let derivative = &system.ways(SceneFunction::Derivative)[0];
+    let events = system.roles().contains(&SceneFunction::Events);
+    let events = events.then(|| system.function(SceneFunction::Events));
     let all = compared(&derivative.graph, &derivative.blocks[0].outputs);
     let mut found = 0;
     for seed in 0..SEGMENTS {

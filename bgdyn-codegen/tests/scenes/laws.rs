@@ -1,9 +1,9 @@
 //! What every scene obeys: the balance of power, and that the inverse undoes the derivative.
 
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 use super::common::state;
@@ -13,7 +13,7 @@ const STATES: u64 = 20;
 
 /// The functions that the laws are about.
 pub struct Tried<'a> {
-    system: &'a System,
+    system: &'a SceneEquations,
     power: Function,
     inverse: Function,
     driven: Function,
@@ -21,14 +21,14 @@ pub struct Tried<'a> {
 }
 
 /// Holds the laws in random states.
-pub fn hold(system: &System) {
+pub fn hold(system: &SceneEquations) {
     let modes = !system.scene.layout.modes.is_empty();
     let tried = Tried {
         system,
-        power: system.function(Role::Power),
-        inverse: system.function(Role::Inverse),
+        power: system.function(SceneFunction::Power),
+        inverse: system.function(SceneFunction::Inverse),
         driven: system.driven(),
-        contacts: modes.then(|| system.function(Role::Contacts)),
+        contacts: modes.then(|| system.function(SceneFunction::Contacts)),
     };
     for seed in 0..STATES {
         tried.balance(seed, true);

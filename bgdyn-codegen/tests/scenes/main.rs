@@ -31,10 +31,10 @@ mod refused_phases;
 #[path = "../common/rng.rs"]
 mod rng;
 mod rotors;
-mod settle;
 mod springs;
 mod staged;
 mod start;
+mod stiction;
 mod written;
 mod zero;
 

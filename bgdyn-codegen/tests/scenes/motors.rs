@@ -1,6 +1,6 @@
 //! What motors report beside their torque.
 
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 
 use super::common::scene;
 use super::one::{BLOCK, Tried, close, text};
@@ -9,7 +9,7 @@ use super::one::{BLOCK, Tried, close, text};
 fn applied(motor: &str, asked: f64, speed: f64, current: Option<f64>) -> f64 {
     let more = "inputs: { it: given }\noutputs: [it_voltage]\n";
     let tried = Tried::new(scene(&text(&[motor], more), BLOCK));
-    let outputs = tried.system.function(Role::Outputs);
+    let outputs = tried.system.function(SceneFunction::Outputs);
     let rates: Vec<f64> = [speed].into_iter().chain(current).collect();
     let (values, _) = outputs.evaluate(tried.at(&[0.0], &rates, &[], &[asked]));
     assert_eq!(tried.system.outputs[0].unit, "V");

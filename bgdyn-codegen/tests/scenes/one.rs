@@ -2,8 +2,8 @@
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Scalar;
 
 use super::common::{scene, told, try_scene};
@@ -25,7 +25,7 @@ pub const MASS: f64 = 2.0;
 
 /// A mechanism under effects, and its derivative.
 pub struct Tried {
-    pub system: System,
+    pub system: SceneEquations,
     derivative: Function,
 }
 
@@ -44,8 +44,8 @@ pub fn block(effect: &str) -> Tried {
 }
 
 impl Tried {
-    pub fn new(system: System) -> Self {
-        let derivative = system.function(Role::Derivative);
+    pub fn new(system: SceneEquations) -> Self {
+        let derivative = system.function(SceneFunction::Derivative);
         Tried { system, derivative }
     }
 

@@ -10,8 +10,8 @@ use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::format::{Key, Reads};
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 
 use super::common::scene;
 use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
@@ -25,7 +25,7 @@ fn docs() -> PathBuf {
 }
 
 /// The scene of the arm and the sled with an effect, and without.
-fn pair(effect: &dyn Effect) -> [System; 2] {
+fn pair(effect: &dyn Effect) -> [SceneEquations; 2] {
     let start = "initial: { turn: 0.5, slide: 0.05, slide_rate: 0.6 }\n";
     let all = ALL.replace("inputs: { turn: given, slide: given }\n", start);
     if effect.built_in() {
@@ -56,10 +56,10 @@ fn pair(effect: &dyn Effect) -> [System; 2] {
 }
 
 /// Positions of turn and slide over time.
-fn run(system: &System) -> Vec<[f64; 2]> {
-    let derivative = system.function(Role::Derivative);
+fn run(system: &SceneEquations) -> Vec<[f64; 2]> {
+    let derivative = system.function(SceneFunction::Derivative);
     let layout = &system.scene.layout;
-    let contacts = (!layout.modes.is_empty()).then(|| system.function(Role::Contacts));
+    let contacts = (!layout.modes.is_empty()).then(|| system.function(SceneFunction::Contacts));
     let mut at = system.start();
     // What a caller would give: 4 V, 4 N, a valve open by half.
     for (value, part) in at.u.iter_mut().zip(&layout.inputs) {
@@ -223,16 +223,16 @@ fn reads(key: &Key) -> String {
         Reads::Coordinate => "a coordinate".into(),
         Reads::Joint => "a joint".into(),
         Reads::Joints => "`all` or a list of coordinates".into(),
-        Reads::Place => "a link or frame".into(),
-        Reads::Places => "two links or frames".into(),
+        Reads::Site => "a link or frame".into(),
+        Reads::Sites => "two links or frames".into(),
         Reads::Node => "a node".into(),
         Reads::Input => "name of an input".into(),
         Reads::Group(..) => "numbers by name".into(),
     }
 }
 
-fn cost(system: &System) -> (usize, usize, usize) {
-    let operations = system.function(Role::Derivative).operations();
+fn cost(system: &SceneEquations) -> (usize, usize, usize) {
+    let operations = system.function(SceneFunction::Derivative).operations();
     let layout = &system.scene.layout;
     let states = layout.nq() + layout.nv() + layout.nx() + layout.modes.len();
     (
@@ -246,7 +246,7 @@ fn signed(more: usize, less: usize) -> String {
     format!("{:+}", more as isize - less as isize)
 }
 
-fn section(effect: &dyn Effect, pair: &[System; 2]) -> String {
+fn section(effect: &dyn Effect, pair: &[SceneEquations; 2]) -> String {
     let mut text = format!("## `{}`\n\n", effect.keyword());
     let summary = effect.summary();
     let mut letters = summary.chars();

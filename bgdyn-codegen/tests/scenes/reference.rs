@@ -3,7 +3,7 @@
 use bgdyn_codegen::random::Random;
 use std::path::Path;
 
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_runtime::Dd;
 
 use super::common::{read, state};
@@ -20,7 +20,7 @@ fn number(text: &str) -> Dd {
 /// The rates of a scene in random states against these, written with its q, v, x, u.
 fn equals(name: &str, rates: impl Fn(&[Dd], &[Dd], &[Dd], &[Dd], &[Dd]) -> Vec<Dd>) {
     let system = read(&file(name));
-    let derivative = system.function(Role::Derivative);
+    let derivative = system.function(SceneFunction::Derivative);
     for seed in 0..40 {
         let at = state(&system, &mut Random(seed), true);
         let wanted = rates(&at.q, &at.v, &at.x, &at.u, &at.modes);

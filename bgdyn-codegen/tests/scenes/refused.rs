@@ -84,20 +84,27 @@ fn a_method_and_what_its_steps_go_by_fit_together() {
 
 #[test]
 fn a_run_is_as_the_scene_says() {
-    use bgdyn_codegen::scene::{Integration, Integrator, Pace};
+    use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
     let run = |text: &str| {
         let text = format!("scene: 1\nmechanism: arm.yaml\neffects: [inertia]\n{text}");
         scene(&text, MECHANISM).scene.integration
     };
-    let wanted = |method, pace, end| Integration { method, pace, end };
-    let usual = wanted(Integrator::Rk4, Pace::Step(1e-3), 1.0);
+    let wanted = |method, step_control, end| Integration {
+        method,
+        step_control,
+        end,
+    };
+    let usual = wanted(IntegratorName::Rk4, StepControl::Step(1e-3), 1.0);
     assert_eq!(run(""), usual);
     let text = "integration: { method: rodas4, end: 2 s }";
-    let chosen = wanted(Integrator::Rodas4, Pace::Tolerance(1e-8), 2.0);
+    let chosen = wanted(IntegratorName::Rodas4, StepControl::Tolerance(1e-8), 2.0);
     assert_eq!(run(text), chosen);
     let text = "integration: { method: dopri5, step: 2 ms }";
-    assert_eq!(run(text), wanted(Integrator::Dopri5, Pace::Step(2e-3), 1.0));
-    for method in Integrator::ALL {
+    assert_eq!(
+        run(text),
+        wanted(IntegratorName::Dopri5, StepControl::Step(2e-3), 1.0)
+    );
+    for method in IntegratorName::ALL {
         let text = format!("integration: {{ method: {} }}", method.name());
         assert_eq!(run(&text).method, method);
     }

@@ -10,7 +10,7 @@ use super::rng::Rng;
 use super::{forms, laws};
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
 /// Three joints in a row and a branch from the first link, one of them a slide.
@@ -51,7 +51,7 @@ links:
 const JOINTS: [&str; 5] = ["shoulder", "elbow", "wrist", "lift", "nod"];
 const LINKS: [&str; 5] = ["upper", "fore", "hand", "mast", "head"];
 
-fn with_rotors(rotors: &[(&str, &str)]) -> System {
+fn with_rotors(rotors: &[(&str, &str)]) -> SceneEquations {
     let mut text = "scene: 1\nmechanism: tree.yaml\neffects:\n  - inertia\n  - velocity_products\n  - gravity\n".to_owned();
     for (k, (joint, on)) in rotors.iter().enumerate() {
         let axis = [[1.0, 2.0, 0.5], [0.0, -1.0, 0.25], [0.3, 0.0, 0.0]][k % 3];
@@ -61,7 +61,7 @@ fn with_rotors(rotors: &[(&str, &str)]) -> System {
 }
 
 /// M, the inverse and its slopes by the recursion equal those of the literal sum.
-fn equals_the_literal_sum(system: &System) {
+fn equals_the_literal_sum(system: &SceneEquations) {
     for method in [
         Method::MassMatrix,
         Method::Bias,
@@ -225,7 +225,7 @@ fn random_scenes_with_full_rotors_keep_the_laws_and_the_jacobian() {
 }
 
 /// Accelerations by every formulation equal those of the literal sum.
-fn moves_as_the_literal_sum(system: &System) {
+fn moves_as_the_literal_sum(system: &SceneEquations) {
     let by = |name: &str| system.derivative_by(by_name(name).expect("a formulation"));
     let literal = by("literal").expect("the literal sum");
     for name in [

@@ -1,6 +1,6 @@
 //! Springs, dampers, stops: their laws and what they refuse.
 
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_runtime::{Dd, Scalar};
 
 use super::common::{scene, told, try_scene};
@@ -195,7 +195,7 @@ fn contact_begins_and_ends_at_events() {
         .map(|e| e.name.as_str())
         .collect();
     assert_eq!(names, ["it_begins", "it_ends", "it_pulled"]);
-    let events = tried.system.function(Role::Events);
+    let events = tried.system.function(SceneFunction::Events);
     for (q, gap) in [(0.0, 0.1), (0.19, 0.01), (0.21, -0.01), (-0.13, -0.03)] {
         let (values, _) = events.evaluate(tried.at(&[q], &[0.3], &[], &[]));
         assert!(
@@ -310,7 +310,7 @@ fn stops_report_their_effort() {
     let effect =
         "it: { type: stop, joint: slide, stiffness: 1e4, restitution: 0.5, impact_speed: 2 }";
     let tried = Tried::new(scene(&text(&[effect], "outputs: [it_effort]\n"), BLOCK));
-    let outputs = tried.system.function(Role::Outputs);
+    let outputs = tried.system.function(SceneFunction::Outputs);
     let (values, _) = outputs.evaluate(tried.at(&[0.21], &[0.3], &[], &[]));
     close(
         values[0],

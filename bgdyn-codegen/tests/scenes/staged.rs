@@ -9,8 +9,8 @@ use std::path::Path;
 use bgdyn_accuracy::dark::with_dark_mode;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::system::SceneEquations;
 
 use super::common::{read, scene};
 
@@ -56,7 +56,7 @@ fn root() -> &'static Path {
 }
 
 /// Lumped and distributed, every joint free.
-fn free(study: &Study) -> [System; 2] {
+fn free(study: &Study) -> [SceneEquations; 2] {
     let file = root().join(format!("specs/{}.yaml", study.name));
     let mechanism = std::fs::read_to_string(file).expect("a mechanism");
     ["", ", inertia"].map(|inertia| {
@@ -68,7 +68,7 @@ fn free(study: &Study) -> [System; 2] {
 }
 
 /// The scenes that move.
-fn moving(study: &Study) -> [System; 2] {
+fn moving(study: &Study) -> [SceneEquations; 2] {
     ["lumped", "distributed"].map(|stage| {
         let file = format!("specs/scenes/{}_{stage}.scene.yaml", study.scenes);
         read(&root().join(file))
@@ -76,8 +76,8 @@ fn moving(study: &Study) -> [System; 2] {
 }
 
 /// Efforts along the path: there and back, at rest at both ends.
-fn efforts(study: &Study, system: &System) -> Vec<Vec<f64>> {
-    let inverse = system.function(Role::Inverse);
+fn efforts(study: &Study, system: &SceneEquations) -> Vec<Vec<f64>> {
+    let inverse = system.function(SceneFunction::Inverse);
     let mut at = system.start();
     let point = |k: usize| {
         let w = TAU / study.period;
@@ -95,9 +95,9 @@ fn efforts(study: &Study, system: &System) -> Vec<Vec<f64>> {
 }
 
 /// Positions over time, at `POINTS` + 1 instants, and the time at the end.
-fn motion(system: &System) -> (Vec<Vec<f64>>, f64) {
-    let derivative = system.function(Role::Derivative);
-    let inputs = system.function(Role::Inputs);
+fn motion(system: &SceneEquations) -> (Vec<Vec<f64>>, f64) {
+    let derivative = system.function(SceneFunction::Derivative);
+    let inputs = system.function(SceneFunction::Inputs);
     let (h, end) = (1e-3, system.scene.integration.end);
     let steps = (end / h).round() as usize;
     let mut at = system.start();
@@ -150,13 +150,13 @@ fn apart([lumped, distributed]: &[Vec<f64>; 2]) -> f64 {
     largest(lumped.iter().zip(distributed).map(|(x, y)| y - x))
 }
 
-fn unit(system: &System, j: usize) -> (&'static str, &'static str) {
+fn unit(system: &SceneEquations, j: usize) -> (&'static str, &'static str) {
     let rotates = system.graph.coordinates[j].motion == bgdyn_codegen::mechanism::Motion::Rotation;
     if rotates { ("rad", "N·m") } else { ("m", "N") }
 }
 
 /// The names of the coordinates that move.
-fn names(system: &System) -> Vec<String> {
+fn names(system: &SceneEquations) -> Vec<String> {
     let coordinates = system.graph.coordinates.iter();
     coordinates.map(|c| c.name.clone()).collect()
 }
@@ -223,7 +223,7 @@ fn figure(panels: &[Panel], end: f64) -> String {
 }
 
 /// Operations of a function, and its sines.
-fn count(system: &System, role: Role) -> String {
+fn count(system: &SceneEquations, role: SceneFunction) -> String {
     let o = system.function(role).operations();
     format!("{} ({} sincos)", o.mul + o.add, o.sincos)
 }
@@ -239,11 +239,19 @@ fn section(study: &Study, write: bool) -> String {
     } else {
         ""
     };
-    let mut rows = vec![("`inverse`".to_owned(), &free, Role::Inverse)];
+    let mut rows = vec![("`inverse`".to_owned(), &free, SceneFunction::Inverse)];
     if !locked.is_empty() {
-        rows.push((format!("`inverse`{locked}"), &moving, Role::Inverse));
+        rows.push((
+            format!("`inverse`{locked}"),
+            &moving,
+            SceneFunction::Inverse,
+        ));
     }
-    rows.push((format!("`derivative`{locked}"), &moving, Role::Derivative));
+    rows.push((
+        format!("`derivative`{locked}"),
+        &moving,
+        SceneFunction::Derivative,
+    ));
     for (what, systems, role) in rows {
         let [lumped, distributed] = [0, 1].map(|k| count(&systems[k], role));
         writeln!(text, "| {what} | {lumped} | {distributed} |").unwrap();

@@ -2,7 +2,7 @@
 
 use super::common::{scene, told, try_scene};
 use super::one::text;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 /// 2 kg on a vertical slide.
 const BLOCK: &str = "format: 1\nlinks:\n  - name: block\n    joint: { name: slide, type: prismatic, axis: z }\n    mass: 2 kg\n";
@@ -15,7 +15,7 @@ fn falling(more: &str) -> String {
 }
 
 fn modes(text: &str) -> Vec<f64> {
-    let system: System = scene(text, BLOCK);
+    let system: SceneEquations = scene(text, BLOCK);
     system.initial.modes.iter().map(|m| m.to_f64()).collect()
 }
 

@@ -2,16 +2,16 @@
 
 use bgdyn_codegen::effect::EFFECTS;
 use bgdyn_codegen::emit::{OutputOptions, scene_module};
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 use super::common::{scene, state};
 use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 
-fn text(system: &System) -> String {
+fn text(system: &SceneEquations) -> String {
     let place = OutputOptions::source_text("scene.yaml".into());
     let functions = scene_functions(system, &Options::default());
     scene_module(system, &functions, &place).to_string()
@@ -53,7 +53,7 @@ fn what_every_mechanism_has_leaves_no_trace_either() {
     );
     // Without velocity products no velocity is read but to say how the positions change.
     let quasi_static = scene(&ALL.replace(", velocity_products", ""), &with);
-    let body = quasi_static.function(Role::Derivative);
+    let body = quasi_static.function(SceneFunction::Derivative);
     let reads = bgdyn_codegen::expr::reachable(&body.graph, &body.blocks[0].outputs);
     let leaf = |i: usize| body.graph.node(bgdyn_codegen::expr::NodeId::at(i));
     let velocities = (0..reads.len()).filter(|&i| {
@@ -68,7 +68,7 @@ fn what_every_mechanism_has_leaves_no_trace_either() {
 #[test]
 fn a_strength_of_zero_changes_nothing() {
     let plain = scene(ALL, &mechanism("", TENSOR, ""));
-    let derivative = plain.function(Role::Derivative);
+    let derivative = plain.function(SceneFunction::Derivative);
     for (kind, key, written) in [
         (
             "viscous",
@@ -96,9 +96,9 @@ fn a_strength_of_zero_changes_nothing() {
             let text = ALL.replace("velocity_products]", "velocity_products, extra]");
             scene(&text, &mechanism("", TENSOR, &declared))
         };
-        let zero = called("0").function(Role::Derivative);
+        let zero = called("0").function(SceneFunction::Derivative);
         let open = called("{ parameter: strength, value: 0 }");
-        let parametric = open.function(Role::Derivative);
+        let parametric = open.function(SceneFunction::Derivative);
         for seed in 0..50 {
             let exact = state(&open, &mut Random(seed), true);
             let inputs = bgdyn_codegen::expr::Inputs {

@@ -1,23 +1,23 @@
 //! Sine and cosine of angles of any size: the branch-free kernel, or exact reduction for large ones.
 
-use super::kernel::sin_cos;
+use super::kernel::sin_cos_in_range;
+use super::lanes::SineLanes;
 use super::large;
-use super::pack::Pack;
 
 /// Numbers whose sines are known for angles of any size.
-pub(crate) trait AnySize: Pack {
+pub(crate) trait AnySize: SineLanes {
     /// Sine and cosine of `self` + `tail` where not all angles are within the limit: reduced exactly,
     /// each by itself.
-    fn beyond(self, tail: Self) -> (Self, Self);
+    fn sin_cos_large(self, tail: Self) -> (Self, Self);
 }
 
 /// Sine and cosine of a + tail; `tail` is what the rounding of a sum a has left.
 #[inline(always)]
-pub(crate) fn one<T: AnySize>(angle: T, tail: Option<T>) -> (T, T) {
+pub(crate) fn sin_cos<T: AnySize>(angle: T, tail: Option<T>) -> (T, T) {
     if angle.within() {
-        sin_cos(angle, tail)
+        sin_cos_in_range(angle, tail)
     } else {
-        angle.beyond(tail.unwrap_or(T::splat(0.0)))
+        angle.sin_cos_large(tail.unwrap_or(T::splat(0.0)))
     }
 }
 
@@ -25,8 +25,8 @@ macro_rules! scalars {
     ($($float:ident),+) => {$(
         impl AnySize for $float {
             #[cold]
-            fn beyond(self, tail: Self) -> (Self, Self) {
-                large::sin_cos(self, tail)
+            fn sin_cos_large(self, tail: Self) -> (Self, Self) {
+                large::sin_cos_reduced(self, tail)
             }
         }
     )+};
@@ -38,10 +38,10 @@ macro_rules! lanes {
     ($($lanes:ident),+) => {$(
         impl AnySize for wide::$lanes {
             #[cold]
-            fn beyond(self, tail: Self) -> (Self, Self) {
+            fn sin_cos_large(self, tail: Self) -> (Self, Self) {
                 let (mut s, mut c) = (self.to_array(), tail.to_array());
                 for (s, c) in s.iter_mut().zip(&mut c) {
-                    (*s, *c) = one(*s, Some(*c));
+                    (*s, *c) = sin_cos(*s, Some(*c));
                 }
                 (Self::new(s), Self::new(c))
             }

@@ -1,11 +1,11 @@
 //! The branch-free kernel of sine and cosine: reduction by parts of π/2, then two polynomials.
 
-use super::pack::{Coefficients, Pack, Polynomial};
+use super::lanes::{Coefficients, Polynomial, SineLanes};
 
-/// Sine and cosine of `angle` + `tail`, for an angle within [`Pack::LIMIT`] and a tail of half a
+/// Sine and cosine of `angle` + `tail`, for an angle within [`SineLanes::LIMIT`] and a tail of half a
 /// unit in its last place at most.
 #[inline(always)]
-pub(crate) fn sin_cos<P: Pack>(angle: P, tail: Option<P>) -> (P, P) {
+pub(crate) fn sin_cos_in_range<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P) {
     let (quarters, r, low) = reduced(angle, tail);
     let (s, c) = of_rest(r, low);
     P::turned(quarters, s, c)
@@ -13,7 +13,7 @@ pub(crate) fn sin_cos<P: Pack>(angle: P, tail: Option<P>) -> (P, P) {
 
 /// n, with its last two digits at the end of the significand, and angle + tail − n π/2 as r + low.
 #[inline(always)]
-fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
+fn reduced<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P, P) {
     let Coefficients {
         exact,
         middle,
@@ -57,7 +57,7 @@ fn reduced<P: Pack>(angle: P, tail: Option<P>) -> (P, P, P) {
 /// sin r = r + r³ S(r²), cos r = 1 − r²/2 + r⁴ C(r²). The large terms are added last, so that theirs
 /// are the only roundings that count; 1 − r²/2 keeps what its rounding leaves.
 #[inline(always)]
-pub(super) fn of_rest<P: Pack>(r: P, low: P) -> (P, P) {
+pub(super) fn of_rest<P: SineLanes>(r: P, low: P) -> (P, P) {
     let Coefficients { sine, cosine, .. } = P::COEFFICIENTS;
     let (one, half) = (P::splat(1.0), P::splat(0.5));
     let square = r * r;
@@ -73,7 +73,7 @@ pub(super) fn of_rest<P: Pack>(r: P, low: P) -> (P, P) {
 
 /// By pairs, so that half of the steps wait for each other.
 #[inline(always)]
-fn polynomial<P: Pack>(x: P, coefficients: Polynomial) -> P {
+fn polynomial<P: SineLanes>(x: P, coefficients: Polynomial) -> P {
     let square = x * x;
     let pair = |constant, linear| x.fused(P::splat(linear), P::splat(constant));
     match coefficients {

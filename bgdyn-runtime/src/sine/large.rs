@@ -4,15 +4,15 @@
 //! is a fraction of a turn in fixed point, from which whole turns drop out by themselves.
 
 use super::kernel::of_rest;
-use super::pack::Pack;
+use super::lanes::SineLanes;
 use crate::dd::{Turn, inverse_tau_digits};
 
 /// Scalars with an exact reduction.
-pub(crate) trait Large: Pack {
+pub(crate) trait ExactReduction: SineLanes {
     /// The quarter turn nearest to the finite angle `self` + `tail`, modulo 4, and the radians from
     /// there in two words.
-    fn split(self, tail: Self) -> (u32, Self, Self);
-    /// n as [`Pack::turned`] takes it.
+    fn reduce_exactly(self, tail: Self) -> (u32, Self, Self);
+    /// n as [`SineLanes::turned`] takes it.
     fn quarters(n: u32) -> Self;
     /// Whether it is a number.
     fn finite(self) -> bool;
@@ -21,17 +21,17 @@ pub(crate) trait Large: Pack {
 /// Sine and cosine of `angle` + `tail`, of any size; NaN where the angle is none.
 #[cold]
 #[inline(never)]
-pub(super) fn sin_cos<T: Large>(angle: T, tail: T) -> (T, T) {
+pub(super) fn sin_cos_reduced<T: ExactReduction>(angle: T, tail: T) -> (T, T) {
     if !angle.finite() {
         return (T::splat(f64::NAN), T::splat(f64::NAN));
     }
-    let (n, r, low) = angle.split(tail);
+    let (n, r, low) = angle.reduce_exactly(tail);
     let (s, c) = of_rest(r, low);
     T::turned(T::quarters(n), s, c)
 }
 
-impl Large for f64 {
-    fn split(self, tail: f64) -> (u32, f64, f64) {
+impl ExactReduction for f64 {
+    fn reduce_exactly(self, tail: f64) -> (u32, f64, f64) {
         let turn = Turn::of_word(self).plus(Turn::of_word(tail));
         let (quarter, radians) = turn.split();
         (quarter as u32, radians.hi(), radians.lo())
@@ -64,8 +64,8 @@ fn turn_of(x: f32) -> u64 {
 }
 
 /// In whole numbers and `f32` only: a controller without double precision has nothing else.
-impl Large for f32 {
-    fn split(self, tail: f32) -> (u32, f32, f32) {
+impl ExactReduction for f32 {
+    fn reduce_exactly(self, tail: f32) -> (u32, f32, f32) {
         let turn = turn_of(self).wrapping_add(turn_of(tail));
         let shifted = turn.wrapping_add(EIGHTH);
         let (quarter, rest) = (shifted / QUARTER, (shifted % QUARTER).wrapping_sub(EIGHTH));

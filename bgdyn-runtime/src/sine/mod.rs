@@ -1,6 +1,6 @@
 //! Sine and cosine in `f64` and `f32`: of one angle, of SIMD lanes, of all angles of a call, bit for bit alike.
 //!
-//! An angle x within [`Pack::LIMIT`] is taken as n quarter turns and a rest r in ±π/4, in two words
+//! An angle x within [`SineLanes::LIMIT`] is taken as n quarter turns and a rest r in ±π/4, in two words
 //! (Cody and Waite 1980): π/2 is cut into parts that are so short that n times them is exact. Then
 //! sin r and cos r are polynomials, and n says which is which and with what sign. There is no branch
 //! on the way, so that several angles go through in lanes and every angle takes the same time.
@@ -12,9 +12,9 @@
 //! is smaller than |q|·eps. `tests/sine.rs` measures both.
 
 /// Angles of a call that are taken at once: the lanes of the widest register.
-const AT_ONCE: usize = 8;
+const MAX_BATCH: usize = 8;
 
-/// The step with k = 0, 1, … below `count`, which is [`AT_ONCE`] at most, each a constant to the
+/// The step with k = 0, 1, … below `count`, which is [`MAX_BATCH`] at most, each a constant to the
 /// compiler: so arrays of numbers stay in registers.
 macro_rules! unrolled {
     ($count:expr, |$k:ident| $step:expr) => {
@@ -36,13 +36,13 @@ macro_rules! methods {
     () => {
         #[inline(always)]
         fn sin_cos(self) -> (Self, Self) {
-            $crate::sine::one(self, None)
+            $crate::sine::sin_cos(self, None)
         }
 
         #[inline(always)]
         fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
             let (angle, tail) = $crate::two_sum::exact_sum(angles.iter().copied(), offset);
-            $crate::sine::one(angle, tail)
+            $crate::sine::sin_cos(angle, tail)
         }
 
         #[inline(always)]
@@ -50,7 +50,7 @@ macro_rules! methods {
             angles: [&[Self]; K],
             offsets: [(f64, f64); K],
         ) -> [(Self, Self); K] {
-            $crate::sine::all(angles, offsets)
+            $crate::sine::sin_cos_batch(angles, offsets)
         }
     };
 }
@@ -58,28 +58,28 @@ pub(crate) use methods;
 
 mod any_size;
 mod kernel;
+mod lanes;
 mod large;
-mod pack;
 
-use crate::two_sum::{Split, exact_sum};
-pub(crate) use any_size::{AnySize, one};
-use kernel::sin_cos;
-pub(crate) use pack::Pack;
+use crate::two_sum::{TwoWord, exact_sum};
+pub(crate) use any_size::{AnySize, sin_cos};
+use kernel::sin_cos_in_range;
+pub(crate) use lanes::SineLanes;
 
 /// Sines and cosines of all angles of a call: each of the exact sum of its `angles` and its offset.
 #[inline(always)]
-pub(crate) fn all<T: AtOnce, const K: usize>(
+pub(crate) fn sin_cos_batch<T: Batch, const K: usize>(
     angles: [&[T]; K],
     offsets: [(f64, f64); K],
 ) -> [(T, T); K] {
     let zero = T::from_f64(0.0);
-    if K > AT_ONCE {
+    if K > MAX_BATCH {
         return core::array::from_fn(|k| {
             let (angle, tail) = exact_sum(angles[k].iter().copied(), offsets[k]);
-            one(angle, tail)
+            sin_cos(angle, tail)
         });
     }
-    let mut sums = Sums {
+    let mut sums = AngleSums {
         angles: [zero; K],
         tails: [zero; K],
         are_sums: [false; K],
@@ -90,17 +90,17 @@ pub(crate) fn all<T: AtOnce, const K: usize>(
         sums.tails[k] = tail.unwrap_or(zero);
         sums.are_sums[k] = tail.is_some();
     });
-    if let Some(found) = T::at_once(&sums) {
+    if let Some(found) = T::sin_cos_in_lanes(&sums) {
         return found;
     }
     let mut found = [(zero, zero); K];
-    unrolled!(K, |k| found[k] = apart(sums.angles[k], sums.tails[k]));
+    unrolled!(K, |k| found[k] = out_of_line(sums.angles[k], sums.tails[k]));
     found
 }
 
 /// Angles of a call. Arrays of numbers, one for each part: of an array of pairs compilers load wide
 /// registers from what was just stored in halves, and wait for it.
-pub(crate) struct Sums<T, const K: usize> {
+pub(crate) struct AngleSums<T, const K: usize> {
     /// The sums, rounded.
     angles: [T; K],
     /// What rounding has left.
@@ -109,27 +109,27 @@ pub(crate) struct Sums<T, const K: usize> {
     are_sums: [bool; K],
 }
 
-/// [`one`], out of the way of calls whose angles are all within the limit: handed over as an array,
+/// [`sin_cos`], out of the way of calls whose angles are all within the limit: handed over as an array,
 /// they would be stored in each of those.
 #[cold]
 #[inline(never)]
-fn apart<T: AnySize>(angle: T, tail: T) -> (T, T) {
-    one(angle, Some(tail))
+fn out_of_line<T: AnySize>(angle: T, tail: T) -> (T, T) {
+    sin_cos(angle, Some(tail))
 }
 
 /// Numbers whose sines can be taken several at once.
-pub(crate) trait AtOnce: AnySize + Split {
+pub(crate) trait Batch: AnySize + TwoWord {
     /// Sines and cosines of the sums; nothing where not all of them are within the limit.
-    fn at_once<const K: usize>(sums: &Sums<Self, K>) -> Option<[(Self, Self); K]>;
+    fn sin_cos_in_lanes<const K: usize>(sums: &AngleSums<Self, K>) -> Option<[(Self, Self); K]>;
 }
 
 /// Fills lanes with one angle after the other, several at a time; what is left over goes in fewer.
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-macro_rules! at_once {
+macro_rules! batch_in_lanes {
     ($float:ident: $($lanes:ident $n:literal from $least:literal),+) => {
-        impl AtOnce for $float {
+        impl Batch for $float {
             #[inline(always)]
-            fn at_once<const K: usize>(sums: &Sums<$float, K>) -> Option<[($float, $float); K]> {
+            fn sin_cos_in_lanes<const K: usize>(sums: &AngleSums<$float, K>) -> Option<[($float, $float); K]> {
                 let mut found = [(0.0, 0.0); K];
                 let mut done = 0;
                 $(if K - done >= $least {
@@ -145,7 +145,7 @@ macro_rules! at_once {
                         return None;
                     }
                     let tails = any.then(|| wide::$lanes::new(tails));
-                    let (s, c) = sin_cos(angles, tails);
+                    let (s, c) = sin_cos_in_range(angles, tails);
                     let (s, c) = (s.to_array(), c.to_array());
                     unrolled!($n, |k| if done + k < K {
                         found[done + k] = (s[k], c[k]);
@@ -158,7 +158,7 @@ macro_rules! at_once {
                     if !angle.within() {
                         return None;
                     }
-                    found[K - 1] = sin_cos(angle, sums.are_sums[K - 1].then_some(tail));
+                    found[K - 1] = sin_cos_in_range(angle, sums.are_sums[K - 1].then_some(tail));
                 }
                 Some(found)
             }
@@ -173,16 +173,16 @@ macro_rules! at_once {
 ))]
 macro_rules! one_by_one {
     ($($lanes:ty),+) => {$(
-        impl AtOnce for $lanes {
+        impl Batch for $lanes {
             #[inline(always)]
-            fn at_once<const K: usize>(sums: &Sums<Self, K>) -> Option<[(Self, Self); K]> {
+            fn sin_cos_in_lanes<const K: usize>(sums: &AngleSums<Self, K>) -> Option<[(Self, Self); K]> {
                 let mut within = true;
                 unrolled!(K, |k| within &= sums.angles[k].within());
                 let mut found = [(Self::splat(0.0), Self::splat(0.0)); K];
                 if within {
                     unrolled!(K, |k| {
                         let tail = sums.are_sums[k].then_some(sums.tails[k]);
-                        found[k] = sin_cos(sums.angles[k], tail);
+                        found[k] = sin_cos_in_range(sums.angles[k], tail);
                     });
                 }
                 within.then_some(found)
@@ -206,17 +206,17 @@ one_by_one!(f64, f32);
     any(target_arch = "x86_64", target_arch = "aarch64"),
     target_feature = "avx512f"
 ))]
-at_once!(f64: f64x8 8 from 5, f64x4 4 from 3, f64x2 2 from 2);
+batch_in_lanes!(f64: f64x8 8 from 5, f64x4 4 from 3, f64x2 2 from 2);
 #[cfg(all(
     any(target_arch = "x86_64", target_arch = "aarch64"),
     not(target_feature = "avx512f"),
     target_feature = "avx"
 ))]
-at_once!(f64: f64x4 4 from 3, f64x4 4 from 3, f64x2 2 from 2);
+batch_in_lanes!(f64: f64x4 4 from 3, f64x4 4 from 3, f64x2 2 from 2);
 #[cfg(all(
     any(target_arch = "x86_64", target_arch = "aarch64"),
     not(target_feature = "avx")
 ))]
-at_once!(f64: f64x2 2 from 2, f64x2 2 from 2, f64x2 2 from 2, f64x2 2 from 2);
+batch_in_lanes!(f64: f64x2 2 from 2, f64x2 2 from 2, f64x2 2 from 2, f64x2 2 from 2);
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-at_once!(f32: f32x8 8 from 5, f32x4 4 from 2);
+batch_in_lanes!(f32: f32x8 8 from 5, f32x4 4 from 2);

@@ -2,14 +2,14 @@
 
 mod coefficients;
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 use coefficients::{DENSE, FIFTH, MORE, STAGES, THIRD, WEIGHTS};
 
 use crate::dense::Dense;
 use crate::failure::Reason;
-use crate::method::{Facts, Method, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
-use crate::space::{Of, Real, Space, largest};
+use crate::real::{Of, Real, largest};
 use crate::tableau::{all, combined, fill};
 
 /// DOP853: order 8 with estimates of orders 5 and 3, dense output of order 7 (Hairer, Nørsett,
@@ -23,18 +23,19 @@ pub struct Dop853;
 /// Rates at the twelve stages and at the end.
 type Rates<Y> = [Y; 13];
 
-impl<Y: Space> Method<Y> for Dop853
+impl<Y: StateVector> Integrator<Y> for Dop853
 where
     Of<Y>: Real,
 {
     type Stages = Rates<Y>;
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn info(&self) -> IntegratorInfo {
+        IntegratorInfo {
             name: "dop853",
             order: 8,
             estimate: Some(8),
             looks: 8,
+            reads_jacobian: false,
         }
     }
 

@@ -8,7 +8,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::lu;
-use crate::space::Real;
+use crate::real::Real;
 
 /// Times c, weights a of the stages, weights b of the step, and d with b = Aᵀ d.
 #[derive(Clone, Debug)]

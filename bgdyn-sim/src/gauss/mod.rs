@@ -1,18 +1,18 @@
 //! The Gauss–Legendre methods: the implicit midpoint rule, and methods of 2 and more stages.
 
 mod coefficients;
+mod convergence;
 mod newton;
-mod watch;
 
-use bgdyn_runtime::Scalar as _;
+use bgdyn_runtime::{Scalar as _, StateVector};
 use coefficients::{Coefficients, Split};
+use convergence::ConvergenceMonitor;
 use newton::Blocks;
-use watch::Watch;
 
 use crate::failure::Reason;
-use crate::method::{Facts, Method, Start, Step};
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::{Ode, ScalarOf};
-use crate::space::{Of, Real, Space};
+use crate::real::{Of, Real};
 
 /// The Gauss–Legendre method with `S` stages, of order 2S with fixed steps (Butcher 1964; Hairer,
 /// Lubich, Wanner, Geometric Numerical Integration, II.1 and VIII.6).
@@ -55,12 +55,12 @@ impl<T: Real, const S: usize> Gauss<T, S> {
     }
 
     /// zᵢ = h Σ aᵢⱼ fⱼ, the stages' displacements.
-    fn displacements<Y: Space<Scalar = T>>(&self, rates: &[Y; S], h: T) -> [Y; S] {
+    fn displacements<Y: StateVector<Scalar = T>>(&self, rates: &[Y; S], h: T) -> [Y; S] {
         core::array::from_fn(|i| weighed_exactly(&self.of.a[i], rates).times(h))
     }
 
     /// Rates at the stages, as the polynomial of the step before has them.
-    fn continued<Y: Space<Scalar = T>>(&self, before: &Step<Y, [Y; S]>, h: T) -> [Y; S] {
+    fn continued<Y: StateVector<Scalar = T>>(&self, before: &Step<Y, [Y; S]>, h: T) -> [Y; S] {
         let (one, c) = (T::from_f64(1.0), &self.of.c);
         core::array::from_fn(|i| {
             let x = one + c[i] * h / before.h;
@@ -81,7 +81,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         displacements: &[O::State; S],
     ) -> Result<[O::State; S], Reason<O::Error>>
     where
-        O::State: Space<Scalar = T>,
+        O::State: StateVector<Scalar = T>,
     {
         let mut rates = displacements.clone();
         for (rate, &c) in rates.iter_mut().zip(&self.of.c) {
@@ -100,16 +100,16 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         guess: [O::State; S],
     ) -> Solved<O, S>
     where
-        O::State: Space<Scalar = T>,
+        O::State: StateVector<Scalar = T>,
     {
         let mut z = self.displacements(&guess, h);
-        let mut watch = Watch::new(at.1.zero());
+        let mut monitor = ConvergenceMonitor::new(at.1.zero());
         loop {
             let rates = self.rates(ode, at, h, &z)?;
             let next = self.displacements(&rates, h);
             let changes = core::array::from_fn(|i| next[i].plus(-T::from_f64(1.0), &z[i]));
             z = next;
-            if watch.ends(at.1, &z, &changes)? {
+            if monitor.ends(at.1, &z, &changes)? {
                 // Those of the solution: the last ones were a change behind, in every step alike.
                 let rates = self.rates(ode, at, h, &z)?;
                 let change = weighed_exactly(&self.of.b, &rates).times(h);
@@ -126,10 +126,10 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         at: (T, &O::State),
         h: T,
         guess: [O::State; S],
-        jacobian: &<O::State as Space>::Matrix,
+        jacobian: &<O::State as StateVector>::Matrix,
     ) -> Solved<O, S>
     where
-        O::State: Space<Scalar = T>,
+        O::State: StateVector<Scalar = T>,
     {
         let blocks = Blocks::new(
             &self.of.a.map(|row| row.map(Split::whole)),
@@ -139,7 +139,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         )
         .ok_or(Reason::SingularMatrix)?;
         let mut z = self.displacements(&guess, h);
-        let mut watch = Watch::new(sizes::<O::State>(jacobian, at.1).times(h.abs()));
+        let mut monitor = ConvergenceMonitor::new(sizes::<O::State>(jacobian, at.1).times(h.abs()));
         loop {
             let rates = self.rates(ode, at, h, &z)?;
             let mut changes = self.displacements(&rates, h);
@@ -150,7 +150,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
             for (z, change) in z.iter_mut().zip(&changes) {
                 z.add(T::from_f64(1.0), change);
             }
-            if watch.ends(at.1, &z, &changes)? {
+            if monitor.ends(at.1, &z, &changes)? {
                 return Ok((rates, weighed(&self.of.d, &z)));
             }
         }
@@ -158,7 +158,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
 }
 
 /// |J| |y|, component by component.
-fn sizes<Y: Space>(jacobian: &Y::Matrix, y: &Y) -> Y {
+fn sizes<Y: StateVector>(jacobian: &Y::Matrix, y: &Y) -> Y {
     let mut matrix = jacobian.clone();
     for m in Y::columns_mut(&mut matrix) {
         *m = m.abs();
@@ -171,7 +171,7 @@ fn sizes<Y: Space>(jacobian: &Y::Matrix, y: &Y) -> Y {
 }
 
 /// Σ wⱼ xⱼ, the weights in two parts each.
-fn weighed_exactly<Y: Space, const S: usize>(weights: &[Split<Of<Y>>; S], x: &[Y; S]) -> Y
+fn weighed_exactly<Y: StateVector, const S: usize>(weights: &[Split<Of<Y>>; S], x: &[Y; S]) -> Y
 where
     Of<Y>: Real,
 {
@@ -180,7 +180,7 @@ where
 }
 
 /// Σ wⱼ xⱼ
-fn weighed<Y: Space, const S: usize>(weights: &[Of<Y>; S], x: &[Y; S]) -> Y {
+fn weighed<Y: StateVector, const S: usize>(weights: &[Of<Y>; S], x: &[Y; S]) -> Y {
     let mut sum = x[0].times(weights[0]);
     for (&w, x) in weights.iter().zip(x).skip(1) {
         sum.add(w, x);
@@ -188,14 +188,14 @@ fn weighed<Y: Space, const S: usize>(weights: &[Of<Y>; S], x: &[Y; S]) -> Y {
     sum
 }
 
-impl<Y: Space, const S: usize> Method<Y> for Gauss<Of<Y>, S>
+impl<Y: StateVector, const S: usize> Integrator<Y> for Gauss<Of<Y>, S>
 where
     Of<Y>: Real,
 {
     /// Rates at the stages.
     type Stages = [Y; S];
 
-    fn facts(&self) -> Facts {
+    fn info(&self) -> IntegratorInfo {
         let (name, order) = [
             ("midpoint", 2),
             ("gauss2", 4),
@@ -204,11 +204,12 @@ where
             ("gauss5", 10),
             ("gauss6", 12),
         ][S - 1];
-        Facts {
+        IntegratorInfo {
             name,
             order,
             estimate: None,
             looks: 1,
+            reads_jacobian: true,
         }
     }
 

@@ -1,19 +1,19 @@
 //! Linear equations of a simplified Newton step.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::lu::Lu;
-use crate::space::{Of, Real, Space};
+use crate::real::{Of, Real};
 
 /// I − h A ⊗ J, factored block by block: a lower factor with the blocks `lower` beside the diagonal
 /// and those of `diagonal`, and an upper one with the identity there and the blocks `upper`.
-pub(super) struct Blocks<Y: Space, const S: usize> {
+pub(super) struct Blocks<Y: StateVector, const S: usize> {
     diagonal: [Option<Lu<Y>>; S],
     /// Beside the diagonal: below it of the lower factor, above it of the upper one.
     beside: [[Y::Matrix; S]; S],
 }
 
-impl<Y: Space, const S: usize> Blocks<Y, S>
+impl<Y: StateVector, const S: usize> Blocks<Y, S>
 where
     Of<Y>: Real,
 {
@@ -68,7 +68,7 @@ where
 }
 
 /// 1 or 0 on the diagonal, less k·J.
-fn shifted<Y: Space>(identity: bool, k: Of<Y>, jacobian: &Y::Matrix, like: &Y) -> Y::Matrix {
+fn shifted<Y: StateVector>(identity: bool, k: Of<Y>, jacobian: &Y::Matrix, like: &Y) -> Y::Matrix {
     let mut matrix = like.matrix();
     for (m, &j) in Y::columns_mut(&mut matrix)
         .iter_mut()
@@ -86,7 +86,7 @@ fn shifted<Y: Space>(identity: bool, k: Of<Y>, jacobian: &Y::Matrix, like: &Y) -
 }
 
 /// m ← m − left·right
-fn take_product<Y: Space>(m: &mut Y::Matrix, left: &Y::Matrix, right: &Y::Matrix, like: &Y) {
+fn take_product<Y: StateVector>(m: &mut Y::Matrix, left: &Y::Matrix, right: &Y::Matrix, like: &Y) {
     let n = like.entries().len();
     let (left, right) = (Y::columns(left), Y::columns(right));
     let m = Y::columns_mut(m);

@@ -1,13 +1,13 @@
 //! Events within a step: detection, location, and the changes that follow.
 
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{Scalar, StateVector};
 
-use super::state::{Budget, EVENTS, Proposed, Refused, Run, Time};
+use super::state::{Budget, EVENTS, Proposed, Refused, Run};
 use crate::failure::Reason;
-use crate::locate::first_passage;
-use crate::method::Method;
-use crate::plant::Plant;
-use crate::space::{Real, Space};
+use crate::integrator::Integrator;
+use crate::plant::{Plant, Time};
+use crate::real::Real;
+use crate::zero_crossing::first_passage;
 
 /// The values of all events at the beginning of a step and just behind the first passage.
 pub(super) struct Passed<V> {
@@ -32,7 +32,7 @@ fn passage<T: Real>(before: T, now: T, changes_mode: bool) -> Option<(T, bool)> 
     }
 }
 
-impl<P: Plant, M: Method<P::State>> Run<P, M>
+impl<P: Plant, M: Integrator<P::State>> Run<P, M>
 where
     Time<P>: Real,
 {
@@ -162,11 +162,11 @@ where
         before: &P::Values,
         budget: &Budget,
     ) -> Result<Option<((Time<P>, Time<P>), Time<P>)>, Refused<P>> {
-        let looks = self.solver.method().facts().looks;
+        let looks = self.solver.integrator().info().looks;
         if looks < 2 {
             return Ok(None);
         }
-        let dense = self.solver.dense(&self.held(), &whole.step)?;
+        let dense = self.solver.dense(&self.fixed_modes(), &whole.step)?;
         let values =
             |theta: Time<P>| self.values(dense.start() + theta * dense.length(), &dense.at(theta));
         let number = |n: u32| Time::<P>::from_f64(n.into());
@@ -197,7 +197,8 @@ where
         whole: &Proposed<P, M>,
         theta: Time<P>,
     ) -> Result<Proposed<P, M>, Refused<P>> {
-        self.solver.attempt(&self.held(), whole.step.h * theta)
+        self.solver
+            .attempt(&self.fixed_modes(), whole.step.h * theta)
     }
 
     /// State and modes after the events that a step has passed; `None` where all of them are kinks.
@@ -212,7 +213,7 @@ where
         if !(0..passed.before.entries().len()).any(fell) {
             return Ok(None);
         }
-        if budget.events == 0 || self.crowded == EVENTS {
+        if budget.events == 0 || self.zeno_count == EVENTS {
             return Err(Reason::TooManyEvents { events: EVENTS });
         }
         let after = self.plant.change(step.t.0, &step.y.0, &self.modes, fell);
@@ -233,7 +234,11 @@ where
         if fell > 0 {
             let apart = self.t() - self.last_event;
             let close = Time::<P>::EPSILON.sqrt() * self.t().abs();
-            self.crowded = if apart < close { self.crowded + 1 } else { 0 };
+            self.zeno_count = if apart < close {
+                self.zeno_count + 1
+            } else {
+                0
+            };
             budget.events -= 1;
             self.events += fell;
             self.last_event = self.t();

@@ -1,21 +1,20 @@
 //! The state of a run between two steps: plant, modes, solver and energy account.
 
-use bgdyn_runtime::{Scalar, System};
-use nalgebra::SVector;
+use bgdyn_runtime::{HybridSystem, Scalar, StateVector};
 
 use crate::audit::{Audit, Ledger};
 use crate::control::Tolerance;
 use crate::failure::{Failure, Reason};
-use crate::method::Method;
-use crate::plant::{Held, Plant};
+use crate::integrator::Integrator;
+use crate::plant::{FixedModes, Plant, Time};
+use crate::real::{Of, Real};
 use crate::rk4::Rk4;
-use crate::scene::Scene;
+use crate::scene_plant::ScenePlant;
 use crate::solver::{Proposal, Solver};
-use crate::space::{Of, Real, Space};
 
-/// A plant at an instant.
+/// Time, state and modes of a plant at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment<Y: Space, M> {
+pub struct HybridState<Y: StateVector, M> {
     /// Time, s.
     pub t: Of<Y>,
     /// State: positions, velocities, first-order states.
@@ -24,11 +23,10 @@ pub struct Moment<Y: Space, M> {
     pub modes: M,
 }
 
-pub(super) type Time<P> = Of<<P as Plant>::State>;
 pub(super) type Failed<P> = Failure<<P as Plant>::State, <P as Plant>::Error>;
 pub(super) type Refused<P> = Reason<<P as Plant>::Error>;
 pub(super) type Proposed<P, M> =
-    Proposal<<P as Plant>::State, <M as Method<<P as Plant>::State>>::Stages>;
+    Proposal<<P as Plant>::State, <M as Integrator<<P as Plant>::State>>::Stages>;
 
 /// Events within one call of [`Run::step`] at the most.
 pub(super) const EVENTS: usize = 64;
@@ -45,19 +43,19 @@ pub(super) enum Agreement {
     /// Inputs or parameters may have changed since.
     Disturbed,
     /// They do.
-    Settled,
+    Reached,
 }
 
 /// A run of a plant by a method; [`Rk4`] where nothing else is said.
 ///
-/// Modes are settled when the run begins and after [`Run::plant_mut`]: a joint that moves slips, one
-/// at rest holds where it can, whatever the modes it begins with say.
+/// When the run begins and after [`Run::plant_mut`] the modes are made to agree with the state: a joint
+/// that moves slips, one at rest holds where it can, whatever the modes it begins with say.
 ///
 /// A step ends at an event and goes on from there: at a change of a mode with the state after it, at
 /// a kink so that the method keeps its order. Where a step fails the run stays at the last good
 /// state.
 #[derive(Debug)]
-pub struct Run<P: Plant, M: Method<P::State> = Rk4> {
+pub struct Run<P: Plant, M: Integrator<P::State> = Rk4> {
     pub(super) plant: P,
     pub(super) modes: P::Modes,
     pub(super) solver: Solver<P::State, M>,
@@ -71,7 +69,7 @@ pub struct Run<P: Plant, M: Method<P::State> = Rk4> {
     /// Kinks that were passed, so far.
     pub kinks: usize,
     /// Events that followed each other in next to no time.
-    pub(super) crowded: usize,
+    pub(super) zeno_count: usize,
     pub(super) agreement: Agreement,
 }
 
@@ -90,49 +88,36 @@ impl Budget {
     }
 }
 
-impl<
-    'a,
-    S,
-    T: Real,
-    const N: usize,
-    const NM: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
-> Run<Scene<'a, S, T, N, NM, NU, NE, NY, NP>, Rk4>
-where
-    S: System<T, N, NM, NU, NE, NY, NP>,
-{
+impl<'a, S: HybridSystem<T>, T: Real> Run<ScenePlant<'a, S, T>, Rk4> {
     /// From where the scene begins, by [`Rk4`].
     pub fn new(scene: &'a S) -> Self {
-        Run::by(Rk4, Scene::new(scene), Self::begin(scene))
+        Run::by(Rk4, ScenePlant::new(scene), Self::begin(scene))
     }
 
     /// Where the scene begins, at t = 0.
-    pub fn begin(scene: &S) -> Moment<SVector<T, N>, SVector<T, NM>> {
+    pub fn begin(scene: &S) -> HybridState<S::State, S::Modes> {
         let (y, modes) = scene.start();
         let t = T::from_f64(0.0);
-        Moment { t, y, modes }
+        HybridState { t, y, modes }
     }
 }
 
-impl<P: Plant, M: Method<P::State>> Run<P, M>
+impl<P: Plant, M: Integrator<P::State>> Run<P, M>
 where
     Time<P>: Real,
 {
-    /// From a moment, by a method.
-    pub fn by(method: M, plant: P, from: Moment<P::State, P::Modes>) -> Self {
+    /// From a state at a time, by an integrator.
+    pub fn by(integrator: M, plant: P, from: HybridState<P::State, P::Modes>) -> Self {
         Run {
             ledger: Ledger::new(plant.nothing()),
             plant,
             modes: from.modes,
-            solver: Solver::new(method, from.t, from.y),
+            solver: Solver::new(integrator, from.t, from.y),
             audited: true,
             events: 0,
             last_event: Time::<P>::from_f64(0.0),
             kinks: 0,
-            crowded: 0,
+            zeno_count: 0,
             agreement: Agreement::Unknown,
         }
     }
@@ -183,11 +168,11 @@ where
         &self.plant
     }
 
-    /// The plant, to change its given inputs or its parameters. Modes are settled before the next
-    /// step.
+    /// The plant, to change its given inputs or its parameters. Which joints hold is decided
+    /// anew before the next step.
     pub fn plant_mut(&mut self) -> &mut P {
         self.solver.forget();
-        if self.agreement == Agreement::Settled {
+        if self.agreement == Agreement::Reached {
             self.agreement = Agreement::Disturbed;
         }
         &mut self.plant
@@ -198,29 +183,32 @@ where
         self.ledger.audit()
     }
 
-    pub(super) fn held(&self) -> Held<'_, P> {
-        Held {
+    pub(super) fn fixed_modes(&self) -> FixedModes<'_, P> {
+        FixedModes {
             plant: &self.plant,
             modes: &self.modes,
         }
     }
 
-    /// Settles the modes now, where the next step would: for those who look at them before.
+    /// Decides now which joints hold, where the next step would: for those who look at the modes before.
     ///
     /// # Errors
     /// Where the plant has no rates in this state.
-    pub fn settle(&mut self) -> Result<(), Failed<P>> {
-        let settled = self.settle_modes();
-        settled.map_err(|reason| self.solver.failure(reason))
+    pub fn resolve_stiction(&mut self) -> Result<(), Failed<P>> {
+        let resolved = self.agree();
+        resolved.map_err(|reason| self.solver.failure(reason))
     }
 
-    pub(super) fn settle_modes(&mut self) -> Result<(), Refused<P>> {
+    /// Makes the modes agree with the state, where they may not.
+    pub(super) fn agree(&mut self) -> Result<(), Refused<P>> {
         let rest = match self.agreement {
-            Agreement::Settled => return Ok(()),
+            Agreement::Reached => return Ok(()),
             Agreement::Unknown => Time::<P>::from_f64(0.0),
             Agreement::Disturbed => Time::<P>::from_f64(DRIFT),
         };
-        let found = self.plant.settled(self.t(), self.y(), &self.modes, rest);
+        let found = self
+            .plant
+            .resolve_stiction(self.t(), self.y(), &self.modes, rest);
         if let Some((y, modes)) = found.map_err(Reason::Singular)? {
             self.modes = modes;
             self.solver.restart(y);
@@ -229,7 +217,7 @@ where
                 self.last_event = self.t();
             }
         }
-        self.agreement = Agreement::Settled;
+        self.agreement = Agreement::Reached;
         Ok(())
     }
 }

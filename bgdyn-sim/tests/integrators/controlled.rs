@@ -1,13 +1,13 @@
 //! Step control: errors follow the tolerance, in `f64` and in double-double.
 
 use bgdyn_runtime::Dd;
-use bgdyn_sim::{Dop853, Dopri5, Extrapolation12, Method, Real, Rodas4, Solver, Tolerance};
+use bgdyn_sim::{Dop853, Dopri5, Extrapolation12, Integrator, Real, Rodas4, Solver, Tolerance};
 use nalgebra::SVector;
 
 use crate::problems::{Known, distance, known, ode};
 
 /// Error at t = 3 and the number of steps.
-fn run<T: Real, M: Method<SVector<T, 4>>>(method: M, tolerance: f64) -> (f64, u32) {
+fn run<T: Real, M: Integrator<SVector<T, 4>>>(method: M, tolerance: f64) -> (f64, u32) {
     let problem = Known { slopes: true };
     let both = T::from_f64(tolerance);
     let mut solver = Solver::new(method, T::from_f64(0.0), known(T::from_f64(0.0)));
@@ -30,11 +30,11 @@ fn run<T: Real, M: Method<SVector<T, 4>>>(method: M, tolerance: f64) -> (f64, u3
 
 #[test]
 fn errors_and_steps_follow_the_tolerance() {
-    fn check<M: Method<SVector<f64, 4>>>(method: impl Fn() -> M, tolerances: [f64; 3]) {
+    fn check<M: Integrator<SVector<f64, 4>>>(method: impl Fn() -> M, tolerances: [f64; 3]) {
         let mut last = (f64::INFINITY, 0);
         for tolerance in tolerances {
             let (error, steps) = run(method(), tolerance);
-            let name = method().facts().name;
+            let name = method().info().name;
             println!("{name} {tolerance:e}: error {error:.1e}, {steps} steps");
             assert!(
                 error < 30.0 * tolerance,

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    Dop853, Dopri5, Facts, Gauss3, METHODS, Method, Reason, Rk4, Rodas4, Run, Tolerance,
-    WithMethod, with_method,
+    Dop853, Dopri5, Gauss3, INTEGRATORS, Integrator, IntegratorInfo, Reason, Rk4, Rodas4, Run,
+    Tolerance, WithIntegrator, with_integrator,
 };
 use nalgebra::SVector;
 
@@ -21,11 +21,11 @@ struct Met {
     tolerance: Option<f64>,
 }
 
-impl WithMethod<Y> for Met {
-    type Output = (Facts, [f64; 2]);
+impl WithIntegrator<Y> for Met {
+    type Output = (IntegratorInfo, [f64; 2]);
 
-    fn with<M: Method<Y>>(self, method: M) -> Self::Output {
-        let facts = method.facts();
+    fn with<M: Integrator<Y>>(self, method: M) -> Self::Output {
+        let info = method.info();
         let law = Law::Walls {
             at: [0.5, -9.0],
             returns: 1.0,
@@ -47,22 +47,22 @@ impl WithMethod<Y> for Met {
             }
         }
         let [first, second] = times[..] else {
-            panic!("{}: events at {times:?}", facts.name)
+            panic!("{}: events at {times:?}", info.name)
         };
-        (facts, [first - PI / 3.0, second - PI])
+        (info, [first - PI / 3.0, second - PI])
     }
 }
 
 /// To 1e-10 s by every method that is that exact itself, the others to their own error.
 #[test]
 fn every_method_meets_the_wall_in_time() {
-    for name in METHODS {
+    for name in INTEGRATORS {
         let met = Met {
             h: 1e-3,
             tolerance: None,
         };
-        let (facts, off) = with_method(name, met).expect("a name of the list");
-        let bar = match facts.order {
+        let (info, off) = with_integrator(name, met).expect("a name of the list");
+        let bar = match info.order {
             1 => 2e-3,
             2 => 1e-6,
             _ => 1e-12,
@@ -77,7 +77,7 @@ fn every_method_meets_the_wall_in_time() {
             h: 0.5,
             tolerance: Some(1e-12),
         };
-        let (_, off) = with_method(name, met).expect("a name of the list");
+        let (_, off) = with_integrator(name, met).expect("a name of the list");
         assert!(off[0].abs() < bar && off[1].abs() < bar, "{name}: {off:?}");
     }
 }
@@ -156,7 +156,7 @@ fn sprung(t: f64) -> Y {
 /// At a kink a step ends, so that the order is kept; and the energy balances.
 #[test]
 fn kinks_do_not_cost_order() {
-    fn errors<M: Method<Y> + Clone>(method: &M) -> [f64; 4] {
+    fn errors<M: Integrator<Y> + Clone>(method: &M) -> [f64; 4] {
         [10, 20, 40, 80].map(|n| {
             let law = Law::Spring {
                 below: 0.5,
@@ -194,7 +194,7 @@ fn blind(n: u32) -> Y {
     };
     let plant = Oscillator { law };
     let start = plant.start();
-    let held = bgdyn_sim::Held {
+    let held = bgdyn_sim::FixedModes {
         plant: &plant,
         modes: &start.modes,
     };

@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    Dop853, Dopri5, Failure, Gauss2, Jacobian, Method, Midpoint, Ode, Reason, Rk4, Rodas4, Solver,
-    Tolerance,
+    Dop853, Dopri5, Failure, Gauss2, Integrator, Jacobian, Midpoint, Ode, Reason, Rk4, Rodas4,
+    Solver, Tolerance,
 };
 use nalgebra::SVector;
 
@@ -51,7 +51,7 @@ impl Ode for Trouble {
 
 /// How it fails from y = 1 with steps of `h`, controlled if a tolerance is given, and that the solver
 /// stays at the last good state.
-fn fails<M: Method<Y>>(
+fn fails<M: Integrator<Y>>(
     method: M,
     trouble: &Trouble,
     h: f64,

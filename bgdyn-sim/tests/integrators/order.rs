@@ -1,7 +1,7 @@
 //! Errors of a method by halvings of its step. Shared with the hard cases' package.
 
 use bgdyn_runtime::Dd;
-use bgdyn_sim::{Facts, Method, Ode, Start, WithMethod};
+use bgdyn_sim::{Integrator, IntegratorInfo, Ode, Start, WithIntegrator};
 use nalgebra::SVector;
 
 use crate::problems::{Known, dd, distance, known, ode};
@@ -15,11 +15,11 @@ pub struct Errors {
     pub slopes: bool,
 }
 
-impl WithMethod<Y> for Errors {
-    type Output = (Facts, Vec<f64>);
+impl WithIntegrator<Y> for Errors {
+    type Output = (IntegratorInfo, Vec<f64>);
 
-    fn with<M: Method<Y>>(self, method: M) -> Self::Output {
-        let facts = method.facts();
+    fn with<M: Integrator<Y>>(self, method: M) -> Self::Output {
+        let info = method.info();
         let problem = Known {
             slopes: self.slopes,
         };
@@ -27,12 +27,12 @@ impl WithMethod<Y> for Errors {
             let found = known_run(&method, &ode::<Dd, _, 4>(&problem), n);
             distance(&found, &known(dd(2.0)))
         };
-        (facts, [12, 24, 48, 96].map(after).to_vec())
+        (info, [12, 24, 48, 96].map(after).to_vec())
     }
 }
 
 /// A method by reference.
-pub fn known_run<M: Method<Y>, O: Ode<State = Y>>(method: &M, ode: &O, n: u32) -> Y {
+pub fn known_run<M: Integrator<Y>, O: Ode<State = Y>>(method: &M, ode: &O, n: u32) -> Y {
     let h = dd(2.0) / dd(n.into());
     let (mut y, mut before) = (known(dd(0.0)), None);
     for i in 0..n {

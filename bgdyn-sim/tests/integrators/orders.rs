@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{
-    Dop853, Dopri5, Extrapolation, Gauss, METHODS, Method, Real, Rk4, Rodas4, Start, with_method,
+    Dop853, Dopri5, Extrapolation, Gauss, INTEGRATORS, Integrator, Real, Rk4, Rodas4, Start,
+    with_integrator,
 };
 
 use crate::order::{Errors, Y, known_run};
@@ -11,17 +12,17 @@ use crate::problems::{Known, dd, distance, fixed, known, ode, slope};
 /// Bar: fitted over three halvings, no less than the order by more than 0.2.
 #[test]
 fn every_method_has_its_order() {
-    for name in METHODS {
+    for name in INTEGRATORS {
         for slopes in [true, false] {
             if *name == "rodas4" && !slopes {
                 continue;
             }
-            let found = with_method(name, Errors { slopes });
-            let (facts, errors) = found.expect("a name of the list");
-            assert_eq!(facts.name, *name);
+            let found = with_integrator(name, Errors { slopes });
+            let (info, errors) = found.expect("a name of the list");
+            assert_eq!(info.name, *name);
             let slope = slope(&errors);
             println!("{name}, slopes {slopes}: order {slope:.3}, errors {errors:?}");
-            let stated = f64::from(facts.order);
+            let stated = f64::from(info.order);
             assert!(slope >= stated - 0.2, "{name}: {slope} of {errors:?}");
             assert!(errors[3] > 1e-26, "{name} ends in rounding: {errors:?}");
         }
@@ -31,7 +32,7 @@ fn every_method_has_its_order() {
 /// More stages and rows than the list names.
 #[test]
 fn families_have_their_orders() {
-    fn order<M: Method<Y> + Clone>(method: &M) -> f64 {
+    fn order<M: Integrator<Y> + Clone>(method: &M) -> f64 {
         let errors = [4, 8, 16, 32].map(|n| {
             let problem = Known { slopes: true };
             distance(
@@ -52,7 +53,7 @@ fn families_have_their_orders() {
 }
 
 /// Of one step from t = 0.3: its estimated error, and the largest error of its dense output.
-fn local<M: Method<Y>>(method: &M, h: Dd) -> (Option<f64>, f64) {
+fn local<M: Integrator<Y>>(method: &M, h: Dd) -> (Option<f64>, f64) {
     let problem = Known { slopes: true };
     let ode = ode::<Dd, _, 4>(&problem);
     let t = dd(0.3);
@@ -84,21 +85,21 @@ fn local<M: Method<Y>>(method: &M, h: Dd) -> (Option<f64>, f64) {
 
 #[test]
 fn estimates_and_dense_outputs_fall_with_their_powers() {
-    fn check<M: Method<Y>>(method: &M, dense_order: f64) {
+    fn check<M: Integrator<Y>>(method: &M, dense_order: f64) {
         let hs = [0.1, 0.05, 0.025, 0.0125];
         let found = hs.map(|h| local(method, dd(h)));
-        let facts = method.facts();
+        let info = method.info();
         let dense = slope(&found.map(|f| f.1));
         // The error within a step falls with one power more than the order.
-        assert!(dense >= dense_order + 0.8, "{}: dense {dense}", facts.name);
-        assert!(dense <= dense_order + 1.7, "{}: dense {dense}", facts.name);
-        let Some(stated) = facts.estimate else { return };
+        assert!(dense >= dense_order + 0.8, "{}: dense {dense}", info.name);
+        assert!(dense <= dense_order + 1.7, "{}: dense {dense}", info.name);
+        let Some(stated) = info.estimate else { return };
         let estimate = slope(&found.map(|f| f.0.expect("it has an estimate")));
         let off = (estimate - f64::from(stated)).abs();
         assert!(
             off < 0.6,
             "{}: estimate {estimate}, not {stated}",
-            facts.name
+            info.name
         );
     }
     check(&Rk4, 3.0);
@@ -129,7 +130,7 @@ fn orders_hold_in_single_and_double_precision() {
 
 #[test]
 fn names_that_are_not_listed_are_none() {
-    let none = with_method::<Y, _>("rk5", Errors { slopes: true });
+    let none = with_integrator::<Y, _>("rk5", Errors { slopes: true });
     assert!(none.is_none());
-    assert_eq!(METHODS.len(), 10);
+    assert_eq!(INTEGRATORS.len(), 10);
 }

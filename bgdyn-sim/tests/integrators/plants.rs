@@ -1,7 +1,7 @@
 //! Hand-written plants with events at known times.
 
 use bgdyn_runtime::vector;
-use bgdyn_sim::{Moment, Plant, Power};
+use bgdyn_sim::{HybridState, Plant, Power};
 use nalgebra::SVector;
 
 type Y = SVector<f64, 2>;
@@ -24,14 +24,14 @@ pub enum Law {
 
 impl Oscillator {
     /// From q = 1 at rest at t = 0.
-    pub fn start(&self) -> Moment<Y, f64> {
+    pub fn start(&self) -> HybridState<Y, f64> {
         let modes = 1.0;
         let y = match self.law {
             // On the sliding surface soon, as q̇ = −mode.
             Law::Relay => vector([0.25, 0.0]),
             _ => vector([1.0, 0.0]),
         };
-        Moment { t: 0.0, y, modes }
+        HybridState { t: 0.0, y, modes }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Equations with known solutions, and helpers.
 
 use bgdyn_runtime::{Dd, Scalar, matrix, vector};
-use bgdyn_sim::{Jacobian, Method, Ode, Real, Solver, Space};
+use bgdyn_sim::{Integrator, Jacobian, Ode, Real, Solver, StateVector};
 use nalgebra::SVector;
 
 /// Nonlinear, driven by time, with a position and its velocity first:
@@ -109,7 +109,7 @@ impl Equation<f64, 1> for Driven {
 }
 
 /// The state after `n` equal steps from t = 0 to `end`.
-pub fn fixed<O: Ode, M: Method<O::State>>(
+pub fn fixed<O: Ode, M: Integrator<O::State>>(
     method: M,
     ode: &O,
     start: O::State,
@@ -117,9 +117,9 @@ pub fn fixed<O: Ode, M: Method<O::State>>(
     n: u32,
 ) -> O::State
 where
-    <O::State as Space>::Scalar: Real,
+    <O::State as StateVector>::Scalar: Real,
 {
-    let number = <O::State as Space>::Scalar::from_f64;
+    let number = <O::State as StateVector>::Scalar::from_f64;
     let mut solver = Solver::new(method, number(0.0), start);
     for _ in 0..n {
         solver
@@ -130,7 +130,7 @@ where
 }
 
 /// The largest distance between two states.
-pub fn distance<Y: Space>(a: &Y, b: &Y) -> f64
+pub fn distance<Y: StateVector>(a: &Y, b: &Y) -> f64
 where
     Y::Scalar: Real,
 {

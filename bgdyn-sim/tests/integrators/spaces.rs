@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    Dop853, Jacobian, METHODS, Method, Ode, Rk4, Solver, Tolerance, WithMethod, with_method,
+    Dop853, INTEGRATORS, Integrator, Jacobian, Ode, Rk4, Solver, Tolerance, WithIntegrator,
+    with_integrator,
 };
 use nalgebra::{DMatrix, DVector, SVector};
 
@@ -41,14 +42,14 @@ struct Last<'a, O> {
     controlled: bool,
 }
 
-impl<O: Ode> WithMethod<O::State> for Last<'_, O>
+impl<O: Ode> WithIntegrator<O::State> for Last<'_, O>
 where
-    O::State: bgdyn_sim::Space<Scalar = f64> + FromKnown,
+    O::State: bgdyn_sim::StateVector<Scalar = f64> + FromKnown,
     O::Error: PartialEq,
 {
     type Output = Vec<f64>;
 
-    fn with<M: Method<O::State>>(self, method: M) -> Vec<f64> {
+    fn with<M: Integrator<O::State>>(self, method: M) -> Vec<f64> {
         let mut solver = Solver::new(method, 0.0, O::State::start());
         if self.controlled {
             solver = solver.with_tolerance(Tolerance {
@@ -59,7 +60,7 @@ where
         for _ in 0..40 {
             assert!(solver.advance(self.ode, 0.03).is_ok());
         }
-        bgdyn_sim::Space::entries(solver.y()).to_vec()
+        bgdyn_sim::StateVector::entries(solver.y()).to_vec()
     }
 }
 
@@ -82,16 +83,16 @@ impl FromKnown for DVector<f64> {
 #[test]
 fn vectors_of_run_time_size_give_the_same_numbers() {
     let problem = Known { slopes: true };
-    for (name, controlled) in METHODS
+    for (name, controlled) in INTEGRATORS
         .iter()
         .flat_map(|name| [(name, false), (name, true)])
     {
         let fixed = ode::<f64, _, 4>(&problem);
         let ode = &fixed;
-        let one = with_method::<SVector<f64, 4>, _>(name, Last { ode, controlled });
+        let one = with_integrator::<SVector<f64, 4>, _>(name, Last { ode, controlled });
         let dynamic = Dynamic(crate::problems::ode(&problem));
         let ode = &dynamic;
-        let other = with_method::<DVector<f64>, _>(name, Last { ode, controlled });
+        let other = with_integrator::<DVector<f64>, _>(name, Last { ode, controlled });
         assert!(one.is_some() && one == other, "{name}: {one:?} {other:?}");
     }
 }

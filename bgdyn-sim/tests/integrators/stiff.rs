@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
-    Differenced, Dop853, Dopri5, Extrapolation12, Gauss2, Gauss3, Jacobian, Method, Midpoint,
-    Reason, Rk4, Rodas4, Solver, Start, Tolerance,
+    Dop853, Dopri5, Extrapolation12, FiniteDifferences, Gauss2, Gauss3, Integrator, Jacobian,
+    Midpoint, Reason, Rk4, Rodas4, Solver, Start, Tolerance,
 };
 use nalgebra::SVector;
 
@@ -12,7 +12,7 @@ use crate::problems::{Driven, Equation, distance, fixed, ode, slope};
 type Y = SVector<f64, 1>;
 
 /// y after one step of y' = z y from 1, with h = 1.
-fn stability<M: Method<Y>>(method: &M, z: f64) -> f64 {
+fn stability<M: Integrator<Y>>(method: &M, z: f64) -> f64 {
     struct Decay(f64);
     impl Equation<f64, 1> for Decay {
         fn rates(&self, _: f64, y: &Y) -> Y {
@@ -133,7 +133,7 @@ impl Equation<f64, 3> for Robertson {
 /// The stiff method needs some hundred steps where explicit ones need ten thousands, and they agree.
 #[test]
 fn controlled_steps_on_robertsons_reactions() {
-    fn run<M: Method<SVector<f64, 3>>>(method: M, tolerance: f64) -> (SVector<f64, 3>, usize) {
+    fn run<M: Integrator<SVector<f64, 3>>>(method: M, tolerance: f64) -> (SVector<f64, 3>, usize) {
         let solver = Solver::new(method, 0.0, vector([1.0, 0.0, 0.0]));
         let mut solver = solver.with_tolerance(Tolerance {
             absolute: 1e-4 * tolerance,
@@ -167,7 +167,7 @@ fn slopes_from_differences() {
     let plain = ode::<f64, _, 3>(&Robertson);
     let start = vector([1.0, 0.0, 0.0]);
     let own = fixed(Rodas4, &plain, start, 0.1, 400);
-    let taken = fixed(Rodas4, &Differenced(plain), start, 0.1, 400);
+    let taken = fixed(Rodas4, &FiniteDifferences(plain), start, 0.1, 400);
     assert!(distance(&own, &taken) < 1e-8, "{own} {taken}");
     assert!(own != taken, "the slopes are not the same numbers");
     // Without any the method refuses.

@@ -1,7 +1,7 @@
 //! The double pendulum in canonical momenta: what symplectic methods do to its energy.
 
 use bgdyn_runtime::{Dd, vector};
-use bgdyn_sim::{Gauss2, Gauss3, Method, Midpoint, Real, Rk4, Solver, Start};
+use bgdyn_sim::{Gauss2, Gauss3, Integrator, Midpoint, Real, Rk4, Solver, Start};
 use nalgebra::{SMatrix, SVector};
 
 use crate::problems::{As, Equation, dd, distance, fixed, ode};
@@ -75,7 +75,12 @@ fn energy(y: &SVector<Dd, 4>) -> Dd {
 }
 
 /// The energy's largest error, in [`UNIT`]s: in the first tenth of the run, and in its last.
-fn drift<M: Method<SVector<f64, 4>>>(method: M, h: f64, steps: u32, compensated: bool) -> [f64; 3] {
+fn drift<M: Integrator<SVector<f64, 4>>>(
+    method: M,
+    h: f64,
+    steps: u32,
+    compensated: bool,
+) -> [f64; 3] {
     let mut solver = Solver::new(method, 0.0, vector([0.5, 0.0, 0.0, 0.0]));
     if compensated {
         solver = solver.compensated();
@@ -135,7 +140,7 @@ fn both_forms_move_alike() {
 }
 
 /// ΨᵀJΨ − J of one step's derivative Ψ, from central differences in double-double.
-fn defect<M: Method<SVector<Dd, 4>>>(method: &M) -> f64 {
+fn defect<M: Integrator<SVector<Dd, 4>>>(method: &M) -> f64 {
     let pendulum: As<'_, _, Dd, 4> = ode(&Pendulum);
     let stepped = |y: SVector<Dd, 4>| {
         let start = Start {

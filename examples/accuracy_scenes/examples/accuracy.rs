@@ -105,7 +105,7 @@ fn print_summary(study: &Study) -> bool {
     println!("{}", facts.scene);
     for choice in targets(study) {
         let row = &choice.row;
-        let way = format!("{} {} {}", row.method, row.pace, row.scalar);
+        let way = format!("{} {} {}", row.method, row.step_control, row.scalar);
         let ns = row.ns.unwrap_or(f64::NAN);
         println!(
             "  {:.0e} {} at {}: {way}, {ns:.0} ns per simulated ms",

@@ -20,7 +20,7 @@
 /// Components of a body's vectors are in its axes, those `at` a joint in the axes before that joint turns.
 /// Inertia is regrouped: part of what a body has may count with its carrier (base parameters). `neg_` is the opposite.
 ///
-/// - U = [ω̇]× + [ω]×[ω]×: the point s of a body accelerates by a + U s.
+/// - `U = [ω̇]× + [ω]×[ω]×`: the point s of a body accelerates by a + U s.
 /// - h = Σ m s, the first moment of a body about its origin.
 /// - D = Σ m s sᵀ = ½ tr(J)·1 − J. skew(U D) is the vector of the skew part of U D: J ω̇ + ω × J ω.
 ///

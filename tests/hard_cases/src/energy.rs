@@ -3,7 +3,8 @@
 
 use bgdyn_runtime::{Dd, vector};
 use bgdyn_sim::{
-    CanonicalScene, Gauss2, Gauss3, Held, Method, Midpoint, Plant, Real, Rk4, Run, Scene, Solver,
+    CanonicalPlant, FixedModes, Gauss2, Gauss3, Integrator, Midpoint, Plant, Real, Rk4, Run,
+    ScenePlant, Solver,
 };
 use nalgebra::SVector;
 
@@ -104,11 +105,11 @@ fn follow(steps: u32, mut next: impl FnMut() -> f64) -> Kept {
 }
 
 /// From rest at (0.5, 0), in momenta, in one or two words.
-fn swing<M: Method<Y<f64>>>(method: M, h: f64, steps: u32, compensated: bool) -> Kept {
+fn swing<M: Integrator<Y<f64>>>(method: M, h: f64, steps: u32, compensated: bool) -> Kept {
     let scene = DoublePendulumChaotic::<f64>::default();
-    let (plant, begin) = (CanonicalScene::new(&scene), Run::begin(&scene));
+    let (plant, begin) = (CanonicalPlant::new(&scene), Run::begin(&scene));
     let modes = &begin.modes;
-    let held = Held {
+    let held = FixedModes {
         plant: &plant,
         modes,
     };
@@ -138,9 +139,9 @@ fn tumble<P, M>(
 ) -> Kept
 where
     P: Plant<State = Y<f64>>,
-    M: Method<Y<f64>>,
+    M: Integrator<Y<f64>>,
 {
-    let held = Held { plant, modes };
+    let held = FixedModes { plant, modes };
     let start = vector([120_f64.to_radians(), 30_f64.to_radians(), 0.0, 0.0]);
     let mut solver = Solver::new(method, 0.0, start);
     let first = energy(&start);
@@ -208,7 +209,7 @@ pub(crate) fn compensated(extent: Extent) -> Measured {
 }
 
 /// In velocities and in momenta, by the same method.
-fn forms<M: Method<Y<f64>>>(
+fn forms<M: Integrator<Y<f64>>>(
     new: fn() -> M,
     names: [&'static str; 2],
     what: &str,
@@ -216,7 +217,7 @@ fn forms<M: Method<Y<f64>>>(
 ) -> Measured {
     let scene = DoublePendulumChaotic::<f64>::default();
     let begin = Run::begin(&scene);
-    let (natural, canonical) = (Scene::new(&scene), CanonicalScene::new(&scene));
+    let (natural, canonical) = (ScenePlant::new(&scene), CanonicalPlant::new(&scene));
     let in_velocities = tumble(&natural, &begin.modes, momenta, new(), steps);
     let in_momenta = tumble(&canonical, &begin.modes, |z| *z, new(), steps);
     let part = in_momenta.spread() / in_velocities.spread();

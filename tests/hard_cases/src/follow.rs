@@ -1,6 +1,6 @@
 //! Plants from sample to sample.
 
-use bgdyn_sim::{Held, Method, Moment, Plant, Solver, Space, Tolerance};
+use bgdyn_sim::{FixedModes, HybridState, Integrator, Plant, Solver, StateVector, Tolerance};
 
 /// The states of a plant without events at some times, s, by controlled steps.
 ///
@@ -10,15 +10,15 @@ pub(crate) fn controlled<P, M>(
     method: M,
     tolerance: Tolerance<f64>,
     plant: &P,
-    begin: &Moment<P::State, P::Modes>,
+    begin: &HybridState<P::State, P::Modes>,
     times: &[f64],
 ) -> Vec<P::State>
 where
-    P: Plant<State: Space<Scalar = f64>>,
-    M: Method<P::State>,
+    P: Plant<State: StateVector<Scalar = f64>>,
+    M: Integrator<P::State>,
 {
     let modes = &begin.modes;
-    let held = Held { plant, modes };
+    let held = FixedModes { plant, modes };
     let mut solver = Solver::new(method, begin.t, begin.y.clone()).with_tolerance(tolerance);
     let to = |&t: &f64| {
         let reached = solver.advance_to(&held, t);
@@ -37,15 +37,15 @@ pub(crate) fn fixed<P, M>(
     method: M,
     h: f64,
     plant: &P,
-    begin: &Moment<P::State, P::Modes>,
+    begin: &HybridState<P::State, P::Modes>,
     times: &[f64],
 ) -> Vec<P::State>
 where
-    P: Plant<State: Space<Scalar = f64>>,
-    M: Method<P::State>,
+    P: Plant<State: StateVector<Scalar = f64>>,
+    M: Integrator<P::State>,
 {
     let modes = &begin.modes;
-    let held = Held { plant, modes };
+    let held = FixedModes { plant, modes };
     let mut solver = Solver::new(method, begin.t, begin.y.clone());
     let to = |&t: &f64| {
         while solver.t() < t - 0.5 * h {

@@ -1,7 +1,6 @@
 //! Bar 13: numbers of any size give numbers or the typed error, and what is no number never becomes one.
 
-use bgdyn_runtime::System;
-use nalgebra::SVector;
+use bgdyn_runtime::{FixedVector, HybridSystem, StateVector};
 
 use crate::bars::Digits;
 use crate::outcome::Outcome;
@@ -271,38 +270,30 @@ fn triangle<T: Copy>(full: Vec<T>) -> Vec<T> {
 }
 
 /// The derivative of a scene where it begins to move: modes as at the start.
-fn of_scene<
-    T: Range,
-    S: System<T, N, NM, NU, NE, NY, NP> + 'static,
-    const N: usize,
-    const NM: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
->(
+fn of_scene<T: Range, S: HybridSystem<T> + 'static>(
     name: &'static str,
     scene: S,
 ) -> Tried<'static, T> {
     let found = scenes::DEPENDS.iter().find(|(own, ..)| *own == name);
     let (_, [nq, nv, nx], masks) = found.expect(name);
     let (start, modes) = scene.start();
-    let mut start = start.iter().map(|x| x.to_f64());
+    let mut start = start.entries().iter().map(|x| x.to_f64());
     let mut part = |n: usize| start.by_ref().take(n).collect::<Vec<f64>>();
-    let around = [part(*nq), part(*nv), part(*nx), vec![0.0; NU]];
+    let around = [part(*nq), part(*nv), part(*nx), vec![0.0; S::Inputs::LEN]];
     // The rates of positions are velocities.
     let moved = (0..*nq).map(|i| bit(1, i));
     let run = move |x: &[Vec<T>; 4]| {
-        let y = SVector::<T, N>::from_vec([&x[0][..], &x[1], &x[2]].concat());
-        let u = SVector::<T, NU>::from_column_slice(&x[3]);
+        let y = [&x[0][..], &x[1], &x[2]].concat();
+        let y = S::State::from_entries(|i| y[i]);
+        let u = S::Inputs::from_entries(|i| x[3][i]);
         let rates = scene.derivative(&y, &modes, &u, T::from_f64(0.25));
         rates
-            .map(|r| r.as_slice().to_vec())
+            .map(|r| r.entries().to_vec())
             .map_err(|e| format!("{e:?}"))
     };
     Tried {
         name: name.to_owned(),
-        kinds: [*nq, *nv, *nx, NU],
+        kinds: [*nq, *nv, *nx, S::Inputs::LEN],
         first_order: true,
         around,
         run: Box::new(run),

@@ -2,7 +2,7 @@
 //! against its equations in double-double.
 
 use bgdyn_runtime::{Dd, matrix, vector};
-use bgdyn_sim::{Extrapolation, Gauss, Jacobian, Method, Ode, Rodas4, Run, Scene, Solver};
+use bgdyn_sim::{Extrapolation, Gauss, Integrator, Jacobian, Ode, Rodas4, Run, ScenePlant, Solver};
 use nalgebra::SVector;
 
 use crate::follow::{controlled, fixed, relative};
@@ -64,7 +64,7 @@ impl Ode for Equations {
 /// When nothing is left of the current's first rise, s.
 const SETTLED: f64 = 1e-4;
 
-fn advanced<M: Method<Y>>(solver: &mut Solver<Y, M>, to: f64, steps: u32) {
+fn advanced<M: Integrator<Y>>(solver: &mut Solver<Y, M>, to: f64, steps: u32) {
     let h = (Dd::from_f64(to) - solver.t()) / Dd::from_f64(f64::from(steps));
     for _ in 0..steps {
         solver.advance(&Equations, h).expect("regular");
@@ -91,7 +91,7 @@ pub(crate) fn motor_pendulum(_: Extent) -> Vec<Outcome> {
     let exact = solution(&times, 100);
     let coarse = solution(&times, 50);
     let scene = scenes::motor_pendulum::MotorPendulum::<f64>::default();
-    let (plant, begin) = (Scene::with_slope(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let long = fixed(Rodas4, 1e-2, &plant, &begin, &times);
     let short = controlled(Rodas4, relative(1e-10), &plant, &begin, &times);
     // Each of angle and rate in units of its largest value.

@@ -1,6 +1,6 @@
 //! Bar 8: every integrator has its order.
 
-use bgdyn_sim::{METHODS, with_method};
+use bgdyn_sim::{INTEGRATORS, with_integrator};
 
 use crate::Extent;
 use crate::order::Errors;
@@ -9,20 +9,20 @@ use crate::problems::slope;
 
 /// How far the order fitted over three halvings falls short of the stated one.
 pub(crate) fn orders(_: Extent) -> Vec<Outcome> {
-    let all = METHODS
+    let all = INTEGRATORS
         .iter()
         .flat_map(|name| [(name, true), (name, false)]);
     // Rosenbrock methods need the slopes.
     let runs = all.filter(|(name, slopes)| **name != "rodas4" || *slopes);
     let outcome = |(name, slopes): (&&str, bool)| {
-        let (facts, errors) = with_method(name, Errors { slopes }).expect("a name of the list");
-        let short = f64::from(facts.order) - slope(&errors);
+        let (info, errors) = with_integrator(name, Errors { slopes }).expect("a name of the list");
+        let short = f64::from(info.order) - slope(&errors);
         let how = if slopes {
             "slopes known"
         } else {
             "slopes unknown"
         };
-        let quantity = format!("order {} less the fitted one, {how}", facts.order);
+        let quantity = format!("order {} less the fitted one, {how}", info.order);
         Outcome::new(*name, "8", quantity, short, 0.2)
     };
     runs.map(outcome).collect()

@@ -1,7 +1,7 @@
 //! Smooth motions by the method of order 8 with a tolerance of 1e-13: chaotic ones for as long as
 //! rounding errors have grown to less than 1e-3.
 
-use bgdyn_sim::{Dop853, Moment, Plant, Run, Scene, Space};
+use bgdyn_sim::{Dop853, HybridState, Plant, Run, ScenePlant, StateVector};
 
 use crate::follow::{alike, controlled, of};
 use crate::outcome::Outcome;
@@ -15,12 +15,12 @@ const LARGEST: f64 = 1e-3;
 fn within<P>(
     case: &'static str,
     plant: &P,
-    begin: &Moment<P::State, P::Modes>,
+    begin: &HybridState<P::State, P::Modes>,
     reference: Reference,
     tolerances: &[f64],
 ) -> Vec<Outcome>
 where
-    P: Plant<State: Space<Scalar = f64>>,
+    P: Plant<State: StateVector<Scalar = f64>>,
 {
     let reference = reference.only(|k, _| tolerances[k] < LARGEST);
     let states = controlled(Dop853, alike(1e-13), plant, begin, &reference.times);
@@ -46,7 +46,7 @@ macro_rules! smooth {
             let reference = reference!($file);
             let tolerances = reference.tolerances();
             let scene = scenes::$name::$model::<f64>::default();
-            within($file, &Scene::new(&scene), &Run::begin(&scene), reference, &tolerances)
+            within($file, &ScenePlant::new(&scene), &Run::begin(&scene), reference, &tolerances)
         }
     };
 }
@@ -87,7 +87,7 @@ pub(crate) fn a01_simple_pendulum(_: Extent) -> Vec<Outcome> {
     let reference = reference!("a01_simple_pendulum");
     let tolerances = vec![1e-12; reference.times.len()];
     let scene = scenes::a01_simple_pendulum::A01SimplePendulum::<f64>::default();
-    let (plant, begin) = (Scene::new(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::new(&scene), Run::begin(&scene));
     let case = "a01_simple_pendulum";
     within(case, &plant, &begin, reference, &tolerances)
 }

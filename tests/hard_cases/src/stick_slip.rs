@@ -1,6 +1,6 @@
 //! Friction that sticks and slips, with located events.
 
-use bgdyn_sim::{Dop853, Rodas4, Run, Scene};
+use bgdyn_sim::{Dop853, Rodas4, Run, ScenePlant};
 
 use crate::follow::{alike, of, relative};
 use crate::outcome::{Deviation, Outcome};
@@ -14,7 +14,7 @@ use crate::{Extent, scenes};
 pub(crate) fn lugre_stick_slip(_: Extent) -> Vec<Outcome> {
     let reference = reference!("lugre_stick_slip");
     let scene = scenes::lugre_stick_slip::LugreStickSlip::<f64>::default();
-    let (plant, begin) = (Scene::with_slope(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let run = Run::by(Rodas4, plant, begin).unaudited();
     let mut run = run.with_tolerance(relative(1e-9));
     let to = |&t: &f64| {
@@ -39,7 +39,7 @@ pub(crate) fn lugre_stick_slip(_: Extent) -> Vec<Outcome> {
 pub(crate) fn coulomb_stick_slip_belt(_: Extent) -> Vec<Outcome> {
     let wanted = reference!("coulomb_stick_slip_belt").invariants("event_times");
     let scene = scenes::stick_slip::StickSlip::<f64>::default();
-    let mut run = Run::by(Dop853, Scene::new(&scene), Run::begin(&scene)).unaudited();
+    let mut run = Run::by(Dop853, ScenePlant::new(&scene), Run::begin(&scene)).unaudited();
     run = run.with_tolerance(alike(1e-12));
     let mut found = vec![];
     let end = wanted[wanted.len() - 1] + 0.1;

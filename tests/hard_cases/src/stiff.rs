@@ -1,7 +1,7 @@
 //! Stiff motions: by methods whose steps are much longer than what settles or shakes first, and where
 //! it is to be seen by the method of order 8.
 
-use bgdyn_sim::{Dop853, Gauss3, Moment, Rodas4, Run, Scene};
+use bgdyn_sim::{Dop853, Gauss3, HybridState, Rodas4, Run, ScenePlant};
 use nalgebra::SVector;
 
 use crate::follow::{alike, controlled, fixed, of, relative};
@@ -17,7 +17,7 @@ pub(crate) fn motor_linear_stiff(_: Extent) -> Vec<Outcome> {
     let case = "motor_linear_stiff";
     let reference = reference!("motor_linear_stiff").only(|_, t| t >= 0.1);
     let scene = scenes::motor_linear_stiff::MotorLinearStiff::<f64>::default();
-    let (plant, begin) = (Scene::with_slope(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let states = fixed(Rodas4, 1e-2, &plant, &begin, &reference.times);
     // State: angle, rate, current.
     let found = of(&states, |y| vec![y[1], y[0]]);
@@ -33,9 +33,9 @@ pub(crate) fn hydraulic_cylinder(_: Extent) -> Vec<Outcome> {
     let case = "hydraulic_cylinder";
     let reference = reference!("hydraulic_cylinder").only(|_, t| t >= SETTLED);
     let scene = scenes::hydraulic_cylinder::HydraulicCylinder::<f64>::default();
-    let (plant, begin) = (Scene::with_slope(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let settled = controlled(Rodas4, relative(1e-11), &plant, &begin, &[SETTLED]);
-    let from = Moment {
+    let from = HybridState {
         t: SETTLED,
         y: settled[0],
         modes: begin.modes,
@@ -77,7 +77,7 @@ pub(crate) fn stiff_spring_pendulum(_: Extent) -> Vec<Outcome> {
     let case = "stiff_spring_pendulum";
     let reference = reference!("stiff_spring_pendulum");
     let scene = scenes::stiff_spring_stretch::StiffSpringStretch::<f64>::default();
-    let (plant, begin) = (Scene::with_slope(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let times = &reference.times;
     let resolved = controlled(Dop853, alike(1e-14), &plant, &begin, times);
     let long = fixed(Rodas4, 4e-3, &plant, &begin, times);
@@ -108,7 +108,7 @@ pub(crate) fn stiff_spring_two_mass(_: Extent) -> Vec<Outcome> {
     let case = "stiff_spring_two_mass";
     let reference = reference!("stiff_spring_two_mass");
     let scene = scenes::stiff_spring_two_mass::StiffSpringTwoMass::<f64>::default();
-    let (plant, begin) = (Scene::with_slope(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let times = &reference.times;
     // State: place of the first, distance of the second from it, their rates.
     let apart = |y: &SVector<f64, 4>| vec![y[0], y[0] + y[1], y[2], y[2] + y[3]];

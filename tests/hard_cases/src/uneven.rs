@@ -2,7 +2,9 @@
 //! against their equation in closed form.
 
 use bgdyn_runtime::{Dd, vector};
-use bgdyn_sim::{Dop853, Extrapolation, Jacobian, Moment, Ode, Plant, Run, Scene, Solver};
+use bgdyn_sim::{
+    Dop853, Extrapolation, HybridState, Jacobian, Ode, Plant, Run, ScenePlant, Solver,
+};
 use nalgebra::SVector;
 
 use crate::follow::{alike, controlled};
@@ -69,7 +71,7 @@ fn largest(y: &Y<Dd>) -> f64 {
 fn against<P>(
     case: &str,
     plant: &P,
-    begin: &Moment<P::State, P::Modes>,
+    begin: &HybridState<P::State, P::Modes>,
     masses: [f64; 2],
     end: f64,
 ) -> Vec<Outcome>
@@ -120,13 +122,13 @@ where
 /// A light pendulum on one that is 1e12 times heavier.
 pub(crate) fn heavy_first(_: Extent) -> Vec<Outcome> {
     let scene = scenes::mass_ratio_1e12_1::MassRatio1e121::<f64>::default();
-    let (plant, begin) = (Scene::new(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::new(&scene), Run::begin(&scene));
     against("mass_ratio_1e12_1", &plant, &begin, [1e12, 1.0], 2.0)
 }
 
 /// A pendulum on one that is 1e12 times lighter: it falls freely until the rods are nearly straight.
 pub(crate) fn heavy_last(_: Extent) -> Vec<Outcome> {
     let scene = scenes::mass_ratio_1_1e12::MassRatio11e12::<f64>::default();
-    let (plant, begin) = (Scene::new(&scene), Run::begin(&scene));
+    let (plant, begin) = (ScenePlant::new(&scene), Run::begin(&scene));
     against("mass_ratio_1_1e12", &plant, &begin, [1.0, 1e12], 0.3)
 }

@@ -1,6 +1,6 @@
 //! Bar 14: effects of no strength leave nothing behind.
 
-use bgdyn_runtime::System;
+use bgdyn_runtime::{FixedVector, HybridSystem, StateVector};
 use nalgebra::SVector;
 
 use crate::outcome::Outcome;
@@ -11,25 +11,20 @@ use crate::{Extent, scenes};
 type Rates = Box<dyn Fn(&SVector<f64, 4>, &[f64; 2]) -> SVector<f64, 4>>;
 
 /// The rates of a scene, with all inputs but the two efforts at 0.
-fn rates<
-    S: System<f64, 4, NM, NU, NE, NY, NP> + 'static,
-    const NM: usize,
-    const NU: usize,
-    const NE: usize,
-    const NY: usize,
-    const NP: usize,
->(
-    scene: S,
-) -> Rates {
+fn rates<S: HybridSystem<f64, State = SVector<f64, 4>> + 'static>(scene: S) -> Rates {
     let (_, modes) = scene.start();
     let places = ["turn", "slide"].map(|name| {
-        let found = scene.input_names().iter().position(|own| *own == name);
+        let found = scene
+            .input_names()
+            .as_ref()
+            .iter()
+            .position(|own| *own == name);
         found.expect("an effort")
     });
     Box::new(move |y, efforts| {
-        let mut input = SVector::<f64, NU>::zeros();
+        let mut input = S::Inputs::zero_vector();
         for (place, effort) in places.into_iter().zip(efforts) {
-            input[place] = *effort;
+            input.entries_mut()[place] = *effort;
         }
         scene.derivative(y, &modes, &input, 0.0).expect("regular")
     })

@@ -7,7 +7,7 @@ mod memory;
 
 use bgdyn::nalgebra::SVector;
 
-use bgdyn_sim::{METHODS, Method, Moment, Run, Scene, Tolerance, WithMethod, with_method};
+use bgdyn_sim::{INTEGRATORS, Integrator, HybridState, Run, ScenePlant, Tolerance, WithIntegrator, with_integrator};
 
 bgdyn::bgdyn!("../../golden/specs/panda7.yaml");
 bgdyn::bgdyn!("../../../specs/scenes/stick_slip.scene.yaml");
@@ -17,17 +17,17 @@ type State = SVector<f64, { stick_slip::N }>;
 type Modes = SVector<f64, { stick_slip::NM }>;
 
 /// Ten steps of the scene, controlled where the method estimates its error.
-struct Steps<'a>(&'a Block, Moment<State, Modes>);
+struct Steps<'a>(&'a Block, HybridState<State, Modes>);
 
-impl WithMethod<State> for Steps<'_> {
+impl WithIntegrator<State> for Steps<'_> {
     type Output = State;
 
-    fn with<M: Method<State>>(self, method: M) -> State {
+    fn with<M: Integrator<State>>(self, method: M) -> State {
         let tolerance = Tolerance {
             absolute: 1e-9,
             relative: 1e-9,
         };
-        let run = Run::by(method, Scene::with_differences(self.0), self.1);
+        let run = Run::by(method, ScenePlant::with_differences(self.0), self.1);
         let mut run = run.compensated().with_tolerance(tolerance);
         for _ in 0..10 {
             let _ = core::hint::black_box(run.step(1e-2));
@@ -54,9 +54,9 @@ pub extern "C" fn _start() -> ! {
     core::hint::black_box(arm.potential_energy(&x));
     let _ = core::hint::black_box(arm.forward_dynamics(&x, &x, &x));
     let block = core::hint::black_box(Block::default());
-    for name in METHODS {
+    for name in INTEGRATORS {
         let steps = Steps(&block, Run::begin(&block));
-        let _ = core::hint::black_box(with_method(name, steps));
+        let _ = core::hint::black_box(with_integrator(name, steps));
     }
     loop {}
 }

@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 use bgdyn_cli::simulate::{Evaluated, Form, Numbers};
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
-use bgdyn_codegen::system::System;
-use bgdyn_sim::{CanonicalScene, Gauss2, Method, Moment, Rk4, Rodas4, Run, Scene, Space};
+use bgdyn_codegen::system::SceneEquations;
+use bgdyn_sim::{
+    CanonicalPlant, Gauss2, HybridState, Integrator, Rk4, Rodas4, Run, ScenePlant, StateVector,
+};
 use scenes::{hydraulic_cylinder, scara_everything, stick_slip, stiff_spring_pendulum};
 
 /// A scene of the repository, by its name.
-fn read(name: &str) -> System {
+fn read(name: &str) -> SceneEquations {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/scenes");
     let path: PathBuf = folder.join(format!("{name}.scene.yaml"));
     let text = fs::read_to_string(&path).expect("a scene's file");
@@ -42,9 +44,9 @@ macro_rules! alike {
     };
 }
 
-fn evaluated<M: Method<Numbers>>(
+fn evaluated<M: Integrator<Numbers>>(
     method: M,
-    system: &System,
+    system: &SceneEquations,
     form: Form,
     slopes: bool,
 ) -> Run<Evaluated<'_>, M> {
@@ -69,7 +71,7 @@ fn with_events() {
 #[test]
 fn with_slopes() {
     let scene = hydraulic_cylinder::HydraulicCylinder::<f64>::default();
-    let compiled = Run::by(Rodas4, Scene::with_slope(&scene), Run::begin(&scene));
+    let compiled = Run::by(Rodas4, ScenePlant::with_slope(&scene), Run::begin(&scene));
     let system = read("hydraulic_cylinder");
     let other = evaluated(Rodas4, &system, Form::Natural, true);
     alike!(compiled, other, 1e-5, 500);
@@ -78,10 +80,10 @@ fn with_slopes() {
 #[test]
 fn in_momenta() {
     let scene = stiff_spring_pendulum::StiffSpringPendulum::<f64>::default();
-    let plant = CanonicalScene::new(&scene);
-    let Moment { t, y, modes } = Run::begin(&scene);
+    let plant = CanonicalPlant::new(&scene);
+    let HybridState { t, y, modes } = Run::begin(&scene);
     let y = plant.to_canonical(t, &y, &modes);
-    let compiled = Run::by(Gauss2::new(), plant, Moment { t, y, modes });
+    let compiled = Run::by(Gauss2::new(), plant, HybridState { t, y, modes });
     let system = read("stiff_spring_pendulum");
     let other = evaluated(Gauss2::new(), &system, Form::Canonical, false);
     alike!(compiled, other, 5e-5, 500);

@@ -1,7 +1,7 @@
 //! Compiled scenes by stiff, controlled and symplectic methods, against known solutions.
 
-use bgdyn_runtime::System;
-use bgdyn_sim::{CanonicalScene, Dop853, Gauss3, Moment, Rodas4, Run, Scene, Tolerance};
+use bgdyn_runtime::HybridSystem;
+use bgdyn_sim::{CanonicalPlant, Dop853, Gauss3, HybridState, Rodas4, Run, ScenePlant, Tolerance};
 use nalgebra::SVector;
 use scenes::{
     hydraulic_cylinder, lugre_stick_slip, motor_linear_stiff, stick_slip, stiff_spring_pendulum,
@@ -38,7 +38,7 @@ fn a_stiff_motor_with_long_steps() {
             .expect("a part of the state")
     };
     let (angle, rate) = (place("shaft"), place("shaft_rate"));
-    let mut run = Run::by(Rodas4, Scene::with_slope(&scene), Run::begin(&scene));
+    let mut run = Run::by(Rodas4, ScenePlant::with_slope(&scene), Run::begin(&scene));
     for (t, speed, turned) in wanted {
         while run.t() < t - 1e-9 {
             run.step(1e-2).expect("it turns");
@@ -80,7 +80,7 @@ const CYLINDER: [[f64; 6]; 3] = [
 #[test]
 fn stiff_hydraulics_with_fixed_and_controlled_steps() {
     let scene = hydraulic_cylinder::HydraulicCylinder::<f64>::default();
-    let by = || Run::by(Rodas4, Scene::with_slope(&scene), Run::begin(&scene));
+    let by = || Run::by(Rodas4, ScenePlant::with_slope(&scene), Run::begin(&scene));
     for (mut run, bar, h) in [
         (by().with_tolerance(tolerance(1e-9)), 1e-6, 0.01),
         (by(), 1e-3, 1e-3),
@@ -102,7 +102,7 @@ fn stiff_hydraulics_with_fixed_and_controlled_steps() {
 #[test]
 fn bristles_stick_and_slip() {
     let scene = lugre_stick_slip::LugreStickSlip::<f64>::default();
-    let plant = Scene::with_differences(&scene);
+    let plant = ScenePlant::with_differences(&scene);
     let mut run = Run::by(Rodas4, plant, Run::begin(&scene)).with_tolerance(tolerance(1e-9));
     let (mut kinks, mut zero) = (0, 0.0);
     while run.t() < 25.0 {
@@ -123,7 +123,7 @@ fn bristles_stick_and_slip() {
 #[test]
 fn the_block_on_the_belt_with_long_steps() {
     let scene = stick_slip::StickSlip::<f64>::default();
-    let mut run = Run::by(Dop853, Scene::new(&scene), Run::begin(&scene));
+    let mut run = Run::by(Dop853, ScenePlant::new(&scene), Run::begin(&scene));
     run = run.with_tolerance(tolerance(1e-12));
     let slip = 3.0 * std::f64::consts::PI / 20.0;
     let (mut wanted, mut seen) = (0.4, 0);
@@ -150,13 +150,13 @@ fn the_block_on_the_belt_with_long_steps() {
 fn canonical_form_and_velocities_agree() {
     let scene = stiff_spring_pendulum::StiffSpringPendulum::<f64>::default();
     let begin = Run::begin(&scene);
-    let canonical = CanonicalScene::new(&scene);
-    let start = Moment {
+    let canonical = CanonicalPlant::new(&scene);
+    let start = HybridState {
         y: canonical.to_canonical(0.0, &begin.y, &begin.modes),
         ..begin
     };
     let mut momenta = Run::by(Gauss3::new(), canonical, start);
-    let mut velocities = Run::by(Gauss3::new(), Scene::with_slope(&scene), begin);
+    let mut velocities = Run::by(Gauss3::new(), ScenePlant::with_slope(&scene), begin);
     for _ in 0..2000 {
         momenta.step(1e-4).expect("it swings");
         velocities.step(1e-4).expect("it swings");
@@ -179,7 +179,7 @@ fn canonical_form_and_velocities_agree() {
     );
 
     // Steps six times longer than the spring's period, which is at rest.
-    let mut long = Run::by(Gauss3::new(), Scene::with_slope(&scene), begin);
+    let mut long = Run::by(Gauss3::new(), ScenePlant::with_slope(&scene), begin);
     for _ in 0..250 {
         long.step(4e-3).expect("it swings");
     }

@@ -1,61 +1,49 @@
 //! What is outside of what a scene can be in: an error that names a coordinate or a state, never a
 //! number.
 
-use bgdyn_runtime::{Canonical, Slope};
+use bgdyn_runtime::{Canonical, FixedVector, Slope, StateVector};
 use nalgebra::SVector;
 
 /// The results at a state; none where it is refused.
-type Function<'a, const N: usize> = &'a dyn Fn(&SVector<f64, N>) -> Option<Vec<f64>>;
+type Function<'a, Y> = &'a dyn Fn(&Y) -> Option<Vec<f64>>;
 
 /// A NaN in a part of the state leaves nothing that depends on the part finite.
-fn nan_is_told<
-    S,
-    const N: usize,
-    const M: usize,
-    const U: usize,
-    const E: usize,
-    const Y: usize,
-    const P: usize,
->(
-    scene: &S,
-) where
-    S: Slope<f64, N, M, U, E, Y, P> + Canonical<f64, N, M, U, E, Y, P>,
-{
+fn nan_is_told<S: Slope<f64> + Canonical<f64>>(scene: &S) {
     let (start, modes) = scene.start();
-    let given = SVector::<f64, U>::from_element(0.1);
+    let given = S::Inputs::from_entries(|_| 0.1);
     // Nothing is at a kink, nothing at rest.
-    let start = SVector::<f64, N>::from_fn(|i, _| start[i] * 1.01 + 1e-3 * (i + 1) as f64);
-    let rates = |y: &SVector<f64, N>| {
+    let start = S::State::from_entries(|i| start.entries()[i] * 1.01 + 1e-3 * (i + 1) as f64);
+    let rates = |y: &S::State| {
         let input = scene.input(y, &modes, &given, 0.3);
         let rates = scene.derivative(y, &modes, &input, 0.3);
-        rates.map(|r| r.as_slice().to_vec()).ok()
+        rates.map(|r| r.entries().to_vec()).ok()
     };
-    let slopes = |y: &SVector<f64, N>| {
+    let slopes = |y: &S::State| {
         let slope = scene.slope(y, &modes, &given, 0.3);
         slope
-            .map(|(s, t)| [s.as_slice(), t.as_slice()].concat())
+            .map(|(s, t)| [S::State::columns(&s), t.entries()].concat())
             .ok()
     };
-    let canonical = |z: &SVector<f64, N>| {
+    let canonical = |z: &S::State| {
         let rates = scene.canonical_rates(z, &modes, &given, 0.3);
-        rates.map(|r| r.as_slice().to_vec()).ok()
+        rates.map(|r| r.entries().to_vec()).ok()
     };
-    let functions: [(&str, Function<'_, N>); 3] = [
+    let functions: [(&str, Function<'_, S::State>); 3] = [
         ("derivative", &rates),
         ("slope", &slopes),
         ("canonical rates", &canonical),
     ];
     for (what, function) in functions {
         let usual = function(&start).expect("a regular state");
-        for i in 0..N {
+        for i in 0..S::State::LEN {
             let (mut moved, mut spoiled) = (start, start);
-            moved[i] *= 1.001;
-            spoiled[i] = f64::NAN;
+            moved.entries_mut()[i] *= 1.001;
+            spoiled.entries_mut()[i] = f64::NAN;
             let (moved, spoiled) = (function(&moved).expect("regular"), function(&spoiled));
             for k in 0..usual.len() {
                 let depends = usual[k] != moved[k];
                 let finite = spoiled.as_ref().is_some_and(|s| s[k].is_finite());
-                let part = scene.state_names()[i];
+                let part = scene.state_names().as_ref()[i];
                 assert!(
                     !(depends && finite),
                     "{what}: NaN in `{part}` leaves entry {k} finite"

@@ -29,7 +29,7 @@ fn the_block_on_the_belt_sticks_and_slips_when_it_should() {
     assert_eq!(seen, 14);
     let audit = run.audit();
     assert!(audit.drift().abs() < 1e-9, "{}", audit.drift());
-    // Held, it moves with the belt, not by a digit otherwise.
+    // FixedModes, it moves with the belt, not by a digit otherwise.
     assert!(audit.dissipated[1] > 0.0);
 }
 

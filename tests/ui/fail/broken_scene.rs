@@ -1,19 +1,13 @@
 //! One error on the path, which holds every fault of the scene; none at the calls.
 
-use bgdyn::nalgebra::SVector;
-use bgdyn::runtime::{Canonical, Slope};
+use bgdyn::runtime::{Canonical, FixedVector, Slope, StateVector};
 
 bgdyn::bgdyn!("broken.scene.yaml");
 
-fn slope<S, const N: usize, const M: usize, const U: usize, const E: usize, const Y: usize, const P: usize>(
-    scene: &S,
-) -> f64
-where
-    S: Slope<f64, N, M, U, E, Y, P> + Canonical<f64, N, M, U, E, Y, P>,
-{
+fn slope<S: Slope<f64> + Canonical<f64>>(scene: &S) -> f64 {
     let (y, modes) = scene.start();
-    let found = scene.slope(&y, &modes, &SVector::zeros(), 0.0);
-    found.map_or(0.0, |(slope, _)| slope.norm())
+    let found = scene.slope(&y, &modes, &S::Inputs::zero_vector(), 0.0);
+    found.map_or(0.0, |(slope, _)| S::State::columns(&slope).iter().sum())
 }
 
 fn main() -> Result<(), bgdyn::Singular> {

@@ -1,7 +1,7 @@
 //! Methods that were not asked for: the message says what to write.
 
 use bgdyn::nalgebra::Vector2;
-use bgdyn::runtime::{Canonical, Coriolis, Derivatives, Dynamics, Frame, Kinematics, Slope};
+use bgdyn::runtime::{Canonical, Coriolis, Derivatives, Dynamics, Frame, HybridSystem, Kinematics, Slope};
 
 bgdyn::bgdyn!("good_arm.yaml", methods = [gravity, pose_forearm]);
 bgdyn::bgdyn!("good.scene.yaml");
@@ -16,8 +16,9 @@ fn compute<const NQ: usize, const NV: usize>(_: &impl Dynamics<f64, NQ, NV>) {}
 fn slow<const NQ: usize, const NV: usize>(_: &impl Coriolis<f64, NQ, NV>) {}
 fn optimise<const NQ: usize, const NV: usize>(_: &impl Derivatives<f64, NQ, NV>) {}
 fn reach<const NQ: usize, const NV: usize>(_: &impl Kinematics<Tip, f64, NQ, NV>) {}
-fn implicit(_: &impl Slope<f64, 4, 0, 0, 0, 0, 5>) {}
-fn symplectic(_: &impl Canonical<f64, 4, 0, 0, 0, 0, 5>) {}
+fn simulate(_: &impl HybridSystem<f64>) {}
+fn implicit(_: &impl Slope<f64>) {}
+fn symplectic(_: &impl Canonical<f64>) {}
 
 fn main() {
     let arm = good_arm::GoodArm::<f64>::default();
@@ -28,6 +29,8 @@ fn main() {
     let scene = good::Good::<f64>::default();
     implicit(&scene);
     symplectic(&scene);
+    // A mechanism is no scene.
+    simulate(&arm);
     let q = Vector2::new(0.3, -0.4);
     // A method of the struct itself.
     println!("{}", arm.coriolis_matrix(&q, &q));

@@ -3,24 +3,19 @@
 #![deny(warnings, clippy::all, missing_docs, rust_2018_idioms)]
 #![forbid(unsafe_code)]
 
-use bgdyn::nalgebra::SVector;
-use bgdyn::runtime::{Canonical, Slope};
+use bgdyn::runtime::{Canonical, FixedVector, Slope, StateVector};
 
 bgdyn::bgdyn!("swing.scene.yaml");
 bgdyn::bgdyn!("swing.scene.yaml", module = both, visibility = pub(crate), canonical = true);
 
-fn rate<S, const N: usize, const M: usize, const U: usize, const E: usize, const Y: usize, const P: usize>(
-    scene: &S,
-) -> f64
-where
-    S: Slope<f64, N, M, U, E, Y, P> + Canonical<f64, N, M, U, E, Y, P>,
-{
-    let ((y, modes), given) = (scene.start(), SVector::zeros());
+fn rate<S: Slope<f64> + Canonical<f64>>(scene: &S) -> f64 {
+    let ((y, modes), given) = (scene.start(), S::Inputs::zero_vector());
     let z = scene.to_canonical(&y, &modes, &given, 0.0);
     let back = scene.from_canonical(&z, &modes, &given, 0.0).expect("regular");
-    assert!((back - y).norm() < 1e-12);
+    let size = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    assert!(size(back.plus(-1.0, &y).entries()) < 1e-12);
     let (slope, along_time) = scene.slope(&y, &modes, &given, 0.0).expect("regular");
-    slope.norm() + along_time.norm()
+    size(S::State::columns(&slope)) + size(along_time.entries())
 }
 
 fn main() -> Result<(), bgdyn::Singular> {

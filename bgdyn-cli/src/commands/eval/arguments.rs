@@ -41,12 +41,12 @@ struct EvalReport<'a> {
     /// One value per state; null where it failed.
     results: Vec<Value>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    errors: Vec<Refused>,
+    errors: Vec<NoClosedForm>,
 }
 
 /// A state without a result.
 #[derive(Serialize)]
-struct Refused {
+struct NoClosedForm {
     state: usize,
     #[serde(flatten)]
     failure: Failure,
@@ -68,7 +68,7 @@ impl Eval {
         };
         for (i, state) in states.iter().enumerate() {
             let value = value(state).unwrap_or_else(|failure| {
-                report.errors.push(Refused { state: i, failure });
+                report.errors.push(NoClosedForm { state: i, failure });
                 Value::Null
             });
             report.results.push(value);

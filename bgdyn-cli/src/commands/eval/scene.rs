@@ -6,10 +6,10 @@
 use anyhow::Result;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::options::Preference;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use serde_json::{Value, json};
 
 use super::arguments::Eval;
@@ -18,7 +18,7 @@ use crate::usage::Usage;
 
 impl Eval {
     /// The same of a scene.
-    pub(super) fn scene(&self, system: &System, options: &Options) -> Result<()> {
+    pub(super) fn scene(&self, system: &SceneEquations, options: &Options) -> Result<()> {
         if options.formulation.is_some() || options.prefer != Preference::Operations {
             let message = "`--formulation` and `--prefer` are of mechanisms: a scene has one way to each of its functions";
             return Err(Usage(message.into()).into());
@@ -38,8 +38,8 @@ impl Eval {
             parameters: parameters(&system.scene.parameters, &self.parameters)?,
             function: system.function(role),
             inputs: roles
-                .contains(&Role::Inputs)
-                .then(|| system.function(Role::Inputs)),
+                .contains(&SceneFunction::Inputs)
+                .then(|| system.function(SceneFunction::Inputs)),
             names: SceneNames::of(system),
         };
         let states = states(&self.states)?;
@@ -56,7 +56,7 @@ struct SceneNames {
 }
 
 impl SceneNames {
-    fn of(system: &System) -> Self {
+    fn of(system: &SceneEquations) -> Self {
         let layout = &system.scene.layout;
         let stored = layout.coordinates.iter().filter(|c| c.stored);
         let rates = layout.coordinates.iter().map(|c| c.rate_name.clone());
@@ -78,8 +78,8 @@ impl SceneNames {
 
 /// A function of a scene, and what its arguments are called.
 struct SceneCall<'a> {
-    system: &'a System,
-    role: Role,
+    system: &'a SceneEquations,
+    role: SceneFunction,
     parameters: Vec<f64>,
     function: Function,
     /// What the scene drives itself, where it has inputs.
@@ -91,21 +91,23 @@ impl SceneCall<'_> {
     /// What the results' parts are called.
     fn result_names(&self) -> Vec<String> {
         let (layout, names) = (&self.system.scene.layout, &self.names);
-        let parts = |parts: &[bgdyn_codegen::scene::Part]| {
+        let parts = |parts: &[bgdyn_codegen::scene::Variable]| {
             parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>()
         };
         let named = |named: &[bgdyn_codegen::system::Named]| {
             named.iter().map(|n| n.name.clone()).collect::<Vec<_>>()
         };
         match self.role {
-            Role::Derivative | Role::Jacobian => names.state.clone(),
-            Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => names.state.clone(),
-            Role::Inverse => names.coordinates.clone(),
-            Role::Inputs => names.inputs.clone(),
-            Role::Events => parts(&layout.events),
-            Role::Contacts => parts(&layout.modes),
-            Role::Power | Role::Energy => named(&self.system.entries),
-            Role::Outputs => named(&self.system.outputs),
+            SceneFunction::Derivative | SceneFunction::Jacobian => names.state.clone(),
+            SceneFunction::ToCanonical
+            | SceneFunction::FromCanonical
+            | SceneFunction::CanonicalRates => names.state.clone(),
+            SceneFunction::Inverse => names.coordinates.clone(),
+            SceneFunction::Inputs => names.inputs.clone(),
+            SceneFunction::Events => parts(&layout.events),
+            SceneFunction::Contacts => parts(&layout.modes),
+            SceneFunction::Power | SceneFunction::Energy => named(&self.system.entries),
+            SceneFunction::Outputs => named(&self.system.outputs),
         }
     }
 
@@ -129,7 +131,10 @@ impl SceneCall<'_> {
         let start = &self.system.initial;
         let numbers = |x: &[bgdyn_runtime::Dd]| x.iter().map(|x| x.to_f64()).collect::<Vec<_>>();
         let begin = [&start.q, &start.v, &start.x].map(|x| numbers(x)).concat();
-        let canonical = matches!(self.role, Role::FromCanonical | Role::CanonicalRates);
+        let canonical = matches!(
+            self.role,
+            SceneFunction::FromCanonical | SceneFunction::CanonicalRates
+        );
         let key = if canonical { "z" } else { "y" };
         if canonical && state.get(key).is_none() {
             return Err(plain(
@@ -158,7 +163,7 @@ impl SceneCall<'_> {
         // These drive the inputs themselves.
         let driving = matches!(
             self.role,
-            Role::Inputs | Role::Jacobian | Role::CanonicalRates
+            SceneFunction::Inputs | SceneFunction::Jacobian | SceneFunction::CanonicalRates
         );
         if driving {
             return Ok(at);
@@ -177,13 +182,13 @@ impl SceneCall<'_> {
         let rows = |n: usize| json!(values.chunks(n).collect::<Vec<_>>());
         let nq = at.q.len();
         match self.role {
-            Role::Derivative => json!([&at.v[..nq], values].concat()),
-            Role::ToCanonical | Role::FromCanonical => {
+            SceneFunction::Derivative => json!([&at.v[..nq], values].concat()),
+            SceneFunction::ToCanonical | SceneFunction::FromCanonical => {
                 json!([&at.q[..], values, &at.x[..]].concat())
             }
-            Role::Power => rows(3),
-            Role::Contacts => rows(4),
-            Role::Jacobian => self.jacobian(nq, values),
+            SceneFunction::Power => rows(3),
+            SceneFunction::Contacts => rows(4),
+            SceneFunction::Jacobian => self.jacobian(nq, values),
             _ => json!(values),
         }
     }

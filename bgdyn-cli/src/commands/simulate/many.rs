@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use bgdyn_codegen::scene::Scene;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use crate::output::print;
@@ -60,7 +60,7 @@ pub(super) struct Many {
 pub(super) struct Batch<'a> {
     pub(super) name: &'a str,
     pub(super) out: &'a Path,
-    pub(super) system: &'a System,
+    pub(super) system: &'a SceneEquations,
     pub(super) plant: &'a Evaluated<'a>,
     pub(super) way: Way,
     pub(super) columns: &'a [Column],

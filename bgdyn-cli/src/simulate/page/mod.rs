@@ -9,7 +9,7 @@ use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::function;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 use serde::Serialize;
 
 use self::bodies::Bodies;
@@ -92,7 +92,12 @@ struct Energy {
 }
 
 /// A run as a page.
-pub(crate) fn page(system: &System, columns: &[Column], run: &Record, words: &Words) -> String {
+pub(crate) fn page(
+    system: &SceneEquations,
+    columns: &[Column],
+    run: &Record,
+    words: &Words,
+) -> String {
     let data = serde_json::to_string(&data(system, columns, run, words));
     // In a page `<` could end the data.
     let data = data.unwrap_or_default().replace('<', "\\u003c");
@@ -113,7 +118,12 @@ pub(crate) fn page(system: &System, columns: &[Column], run: &Record, words: &Wo
     page + rest
 }
 
-fn data<'a>(system: &'a System, columns: &[Column], run: &Record, words: &'a Words) -> Data<'a> {
+fn data<'a>(
+    system: &'a SceneEquations,
+    columns: &[Column],
+    run: &Record,
+    words: &'a Words,
+) -> Data<'a> {
     let rows = shown(system, run);
     let (bodies, grain) = replayed(system, &rows);
     let between = between(system, &bodies, grain, rows.len());
@@ -146,7 +156,7 @@ fn data<'a>(system: &'a System, columns: &[Column], run: &Record, words: &'a Wor
 }
 
 /// The rows that a page has room for: all of them, or evenly chosen ones with the last.
-fn shown<'r>(system: &System, run: &'r Record) -> Vec<&'r Row> {
+fn shown<'r>(system: &SceneEquations, run: &'r Record) -> Vec<&'r Row> {
     let bodies = system.scene.mechanism.nv().max(1);
     let room = (POSES / bodies).clamp(100, ROWS);
     let stride = run.rows.len().div_ceil(room).max(1);
@@ -162,7 +172,7 @@ fn instant(t: f64) -> f64 {
 }
 
 /// The bodies with their poses by the mechanism's own functions, and what a count of a place is, m.
-fn replayed(system: &System, rows: &[&Row]) -> (Bodies, f64) {
+fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
     let mechanism = &system.scene.mechanism;
     let joints = mechanism.nv();
     let travel: Vec<(f64, f64)> = (0..joints)
@@ -197,7 +207,7 @@ fn replayed(system: &System, rows: &[&Row]) -> (Bodies, f64) {
 }
 
 /// Poses of a link at all rows: its axes row by row, its origin. Where there is none, the one before.
-fn poses(system: &System, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
+fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
     let mechanism = &system.scene.mechanism;
     let pose = function(mechanism, Method::Pose(SiteId(link)), &Options::default());
     let pose = pose.expect("every formulation knows poses");
@@ -261,7 +271,7 @@ fn quaternion(r: &[f64; 12]) -> [f64; 4] {
 }
 
 /// Springs, dampers and cylinders between two places.
-fn between(system: &System, bodies: &Bodies, grain: f64, rows: usize) -> Vec<Between> {
+fn between(system: &SceneEquations, bodies: &Bodies, grain: f64, rows: usize) -> Vec<Between> {
     let mechanism = &system.scene.mechanism;
     let found = system.scene.elements.iter().filter_map(|element| {
         let [from, to] = element.names("between")?;
@@ -302,7 +312,7 @@ fn in_world(body: &Body, at: [f64; 3], grain: f64, row: usize) -> [f64; 3] {
 }
 
 /// Inputs, coordinates beside the joints and first-order states.
-fn states(system: &System, rows: &[&Row]) -> Vec<Curve> {
+fn states(system: &SceneEquations, rows: &[&Row]) -> Vec<Curve> {
     let layout = &system.scene.layout;
     let joints = system.scene.mechanism.nv();
     let inputs = layout.inputs.iter().enumerate().map(|(i, part)| {
@@ -323,7 +333,7 @@ fn column(name: &str, unit: &'static str) -> Column {
     }
 }
 
-fn modes(system: &System, rows: &[&Row]) -> Vec<ModeCurve> {
+fn modes(system: &SceneEquations, rows: &[&Row]) -> Vec<ModeCurve> {
     let modes = system.scene.layout.modes.iter().enumerate();
     let modes = modes.map(|(i, mode)| ModeCurve {
         name: mode.name.clone(),

@@ -6,14 +6,14 @@
 use super::keys::{FAMILY, FLUID, number};
 use super::volume::{add_volume, declare_volume, fill, filled, has_fluid};
 use crate::bond_graph::{BondNetwork, NodeKind};
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
 use crate::effect::{Effect, nodes};
-use crate::expr::Ex;
+use crate::effort_sums::EffortSums;
+use crate::expr::Expr;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Key};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(in crate::effect) struct Cylinder;
 
@@ -71,7 +71,7 @@ static KEYS: [Key; 9] = [
     FLUID,
 ];
 
-impl Declaration for Cylinder {
+impl EffectKind for Cylinder {
     fn keyword(&self) -> &'static str {
         "cylinder"
     }
@@ -100,48 +100,48 @@ impl Declaration for Cylinder {
         0
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        given.one_of(&["joint", "between"]);
-        given.positive(
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        check.one_of(&["joint", "between"]);
+        check.positive(
             &["area_a", "area_b"],
             "a side that does not act is left out",
         );
-        given.positive(
+        check.positive(
             &["stroke"],
             "leave it out where `dead_b` is the volume at `offset`",
         );
-        given.not_negative(&["dead_a", "dead_b"], "there is no such volume");
+        check.not_negative(&["dead_a", "dead_b"], "there is no such volume");
         for key in ["dead_b", "stroke"] {
-            if given.number(key).is_some() && given.number("area_b").is_none() {
-                given.report(wording::side_without_area(&given.place(key), key));
+            if check.number(key).is_some() && check.number("area_b").is_none() {
+                check.report(wording::side_without_area(&check.location(key), key));
             }
         }
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         for node in element.nodes() {
             declare_volume(&node, layout);
         }
     }
 
-    fn keeps(&self, element: &Element, state: &str) -> bool {
+    fn owns_state(&self, element: &Element, state: &str) -> bool {
         element.nodes().iter().any(|node| node == state)
     }
 }
 
 impl Effect for Cylinder {
-    fn start<'g>(
+    fn initial_state<'g>(
         &self,
         element: &Element,
-        laws: &Laws<'g, '_>,
+        sums: &EffortSums<'g, '_>,
         state: &str,
-        given: Ex<'g>,
-    ) -> Ex<'g> {
-        filled(element, laws, state, given)
+        entered: Expr<'g>,
+    ) -> Expr<'g> {
+        filled(element, sums, state, entered)
     }
 
     fn elements(&self, element: &Element, scene: &[Element], network: &mut BondNetwork) {
@@ -158,37 +158,37 @@ impl Effect for Cylinder {
         }
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let port = laws.port(element);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let port = sums.port(element);
         let name = &element.name;
         let [area_a, area_b, dead_a, dead_b, stroke, offset] =
             [&AREA_A, &AREA_B, &DEAD_A, &DEAD_B, &STROKE, &OFFSET]
-                .map(|key| laws.number(element, key));
-        let travelled = port.place - offset;
+                .map(|key| sums.number(element, key));
+        let travelled = port.displacement - offset;
         let volumes = [
             dead_a + area_a * travelled,
             dead_b + area_b * (stroke - travelled),
         ];
-        let mut force = laws.b.zero();
+        let mut force = sums.b.zero();
         let sides = element.nodes().into_iter().zip(volumes);
         for ((node, volume), area) in sides.zip([area_a, -area_b]) {
             let what = format!("the volume of `{node}`, m^3,");
             let way_out =
                 "see to `offset`, `stroke` and the dead volumes, or to the joint's limits";
-            laws.stays_positive(volume, what, way_out);
-            force = force + area * fill(element, &node, volume, laws);
+            sums.stays_positive(volume, what, way_out);
+            force = force + area * fill(element, &node, volume, sums);
         }
-        laws.push(&port, force);
-        laws.reading(
+        sums.push(&port, force);
+        sums.reading(
             format!("{name}_force"),
             force,
-            laws.port_units(element)[2],
+            sums.port_units(element)[2],
             format!("effort of `{name}` towards larger s"),
         );
-        laws.reading(
+        sums.reading(
             format!("{name}_length"),
-            port.place,
-            laws.port_units(element)[0],
+            port.displacement,
+            sums.port_units(element)[0],
             format!("coordinate or length s of `{name}`"),
         );
     }

@@ -3,20 +3,20 @@
 use super::keys::{CONDUCTANCE, FROM, LAMINAR, ORIFICE, TO};
 use super::volume::{DENSITY, ENTHALPY, FLOW, PRESSURE, SOURCE, enthalpy, pressure};
 use crate::declaration::{Chain, Element};
-use crate::expr::{Builder, Ex};
-use crate::laws::Laws;
+use crate::effort_sums::EffortSums;
+use crate::expr::{Builder, Expr};
 
 /// Lets the flow q run from one node to another: what each of them and what the resistor makes of
 /// it.
-pub(super) fn run<'g>(from: &str, to: &str, q: Ex<'g>, laws: &mut Laws<'g, '_>) {
-    let zero = laws.b.zero();
-    let [before, after] = [from, to].map(|node| laws.shared(node, ENTHALPY).unwrap_or(zero));
-    laws.dissipate((before - after) * q);
+pub(super) fn run<'g>(from: &str, to: &str, q: Expr<'g>, sums: &mut EffortSums<'g, '_>) {
+    let zero = sums.b.zero();
+    let [before, after] = [from, to].map(|node| sums.shared(node, ENTHALPY).unwrap_or(zero));
+    sums.dissipate((before - after) * q);
     for (node, into, enthalpy) in [(from, -q, before), (to, q, after)] {
-        if let Some(density) = laws.shared(node, DENSITY) {
-            laws.flow(node, into * density);
-        } else if laws.shared(node, SOURCE).is_some() {
-            laws.supply_by(node, -(enthalpy * into));
+        if let Some(density) = sums.shared(node, DENSITY) {
+            sums.flow(node, into * density);
+        } else if sums.shared(node, SOURCE).is_some() {
+            sums.supply_by(node, -(enthalpy * into));
         }
     }
 }
@@ -25,23 +25,23 @@ pub(super) fn run<'g>(from: &str, to: &str, q: Ex<'g>, laws: &mut Laws<'g, '_>) 
 #[derive(Clone, Copy)]
 pub(super) struct Drop<'g> {
     /// R, Pa·s/m³
-    laminar: Ex<'g>,
+    laminar: Expr<'g>,
     /// k, m³/(s·√Pa); none where the law is linear.
-    orifice: Option<Ex<'g>>,
+    orifice: Option<Expr<'g>>,
 }
 
 impl<'g> Drop<'g> {
     /// Of an orifice or a leakage.
-    pub(super) fn of(element: &Element, laws: &Laws<'g, '_>) -> Self {
+    pub(super) fn of(element: &Element, sums: &EffortSums<'g, '_>) -> Self {
         let keys = element.effect.keys();
         match keys.contains(&CONDUCTANCE) {
             true => Drop {
-                laminar: laws.b.number(1.0) / laws.number(element, &CONDUCTANCE),
+                laminar: sums.b.number(1.0) / sums.number(element, &CONDUCTANCE),
                 orifice: None,
             },
             false => Drop {
-                laminar: laws.number(element, &LAMINAR),
-                orifice: laws.optional(element, &ORIFICE),
+                laminar: sums.number(element, &LAMINAR),
+                orifice: sums.optional(element, &ORIFICE),
             },
         }
     }
@@ -57,7 +57,7 @@ impl<'g> Drop<'g> {
     }
 
     /// Δp of a flow.
-    pub(super) fn of_flow(self, q: Ex<'g>) -> Ex<'g> {
+    pub(super) fn of_flow(self, q: Expr<'g>) -> Expr<'g> {
         let laminar = self.laminar * q;
         match self.orifice {
             Some(k) => laminar + q * q.abs() / (k * k),
@@ -66,7 +66,7 @@ impl<'g> Drop<'g> {
     }
 
     /// The flow of a pressure drop: q = 2 Δp / (R + √(R² + 4|Δp|/k²)).
-    pub(super) fn flow(self, drop: Ex<'g>, b: &'g Builder) -> Ex<'g> {
+    pub(super) fn flow(self, drop: Expr<'g>, b: &'g Builder) -> Expr<'g> {
         let r = self.laminar;
         match self.orifice {
             None => drop / r,
@@ -81,29 +81,29 @@ impl<'g> Drop<'g> {
 
 /// Solves the chain through a junction, if no other junction of it has: one flow, from the pressures
 /// at its two ends, and the pressures between.
-pub(super) fn solve(junction: &Element, laws: &mut Laws<'_, '_>) {
+pub(super) fn solve(junction: &Element, sums: &mut EffortSums<'_, '_>) {
     let through = |c: &&Chain| c.through.contains(&junction.name);
-    let Some(chain) = laws.chains().iter().find(through) else {
+    let Some(chain) = sums.chains().iter().find(through) else {
         return;
     };
-    if laws.shared(&junction.name, PRESSURE).is_some() {
+    if sums.shared(&junction.name, PRESSURE).is_some() {
         return;
     }
     let members: Vec<(&Element, bool)> = chain
         .members
         .iter()
-        .map(|&(i, forward)| (&laws.elements()[i], forward))
+        .map(|&(i, forward)| (&sums.elements()[i], forward))
         .collect();
-    let drops: Vec<Drop<'_>> = members.iter().map(|(e, _)| Drop::of(e, laws)).collect();
-    let mut at = pressure(&chain.from, laws);
-    let whole = at - pressure(&chain.to, laws);
-    let q = Drop::in_series(&drops, laws.b).flow(whole, laws.b);
+    let drops: Vec<Drop<'_>> = members.iter().map(|(e, _)| Drop::of(e, sums)).collect();
+    let mut at = pressure(&chain.from, sums);
+    let whole = at - pressure(&chain.to, sums);
+    let q = Drop::in_series(&drops, sums.b).flow(whole, sums.b);
     for (i, &(element, forward)) in members.iter().enumerate() {
-        laws.share(&element.name, FLOW, if forward { q } else { -q });
+        sums.share(&element.name, FLOW, if forward { q } else { -q });
         at = at - drops[i].of_flow(q);
         if let Some(node) = chain.through.get(i) {
-            laws.share(node, PRESSURE, at);
-            laws.share(node, ENTHALPY, enthalpy(junction, at, laws));
+            sums.share(node, PRESSURE, at);
+            sums.share(node, ENTHALPY, enthalpy(junction, at, sums));
         }
     }
 }
@@ -111,17 +111,17 @@ pub(super) fn solve(junction: &Element, laws: &mut Laws<'_, '_>) {
 /// The law of a resistor between two nodes; `own` is its flow where no chain has told it.
 pub(super) fn resist<'g>(
     element: &Element,
-    laws: &mut Laws<'g, '_>,
-    own: impl FnOnce(&Laws<'g, '_>, Ex<'g>) -> Ex<'g>,
+    sums: &mut EffortSums<'g, '_>,
+    own: impl FnOnce(&EffortSums<'g, '_>, Expr<'g>) -> Expr<'g>,
 ) {
     let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
-    let [before, after] = ends.map(|node| pressure(node, laws));
-    let q = laws
+    let [before, after] = ends.map(|node| pressure(node, sums));
+    let q = sums
         .shared(&element.name, FLOW)
-        .unwrap_or_else(|| own(laws, before - after));
-    run(ends[0], ends[1], q, laws);
+        .unwrap_or_else(|| own(sums, before - after));
+    run(ends[0], ends[1], q, sums);
     let name = &element.name;
-    laws.reading(
+    sums.reading(
         format!("{name}_flow"),
         q,
         "m^3/s",

@@ -2,13 +2,13 @@
 
 use super::keys::{BULK_MODULUS, FAMILY, FLUID_KEYWORD};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effect::Effect;
 use crate::format::Key;
 
 pub(in crate::effect) struct Fluid;
 
-impl Declaration for Fluid {
+impl EffectKind for Fluid {
     fn keyword(&self) -> &'static str {
         FLUID_KEYWORD
     }
@@ -29,9 +29,9 @@ impl Declaration for Fluid {
         &[BULK_MODULUS]
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "oil has about 1.4 GPa, less with air in it";
-        given.positive(&[BULK_MODULUS.name], why);
+        check.positive(&[BULK_MODULUS.name], why);
     }
 }
 

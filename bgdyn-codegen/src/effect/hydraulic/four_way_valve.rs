@@ -5,12 +5,12 @@ use super::flow::{Drop, run};
 use super::keys::{FAMILY, LAMINAR, ORIFICE, joins_two, node};
 use super::volume::{one_fluid, pressure};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
+use crate::effort_sums::EffortSums;
 use crate::fault::Faults;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(in crate::effect) struct FourWayValve;
 
@@ -30,7 +30,7 @@ fn spool(element: &Element) -> &str {
     element.name(SPOOL.name).unwrap_or(&element.name)
 }
 
-impl Declaration for FourWayValve {
+impl EffectKind for FourWayValve {
     fn keyword(&self) -> &'static str {
         "four_way_valve"
     }
@@ -55,23 +55,23 @@ impl Declaration for FourWayValve {
         2
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "what lets nothing through is left out";
-        given.positive(&[ORIFICE.name], why);
-        given.positive(&[LAMINAR.name], "leave it out for turbulent flow alone");
+        check.positive(&[ORIFICE.name], why);
+        check.positive(&[LAMINAR.name], "leave it out for turbulent flow alone");
         let ports = [SUPPLY.name, TANK.name, A.name, B.name];
         for (i, one) in ports.iter().enumerate() {
             for other in &ports[i + 1..] {
-                joins_two(given, one, other);
+                joins_two(check, one, other);
             }
         }
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         one_fluid(element, beside, faults);
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let about = format!("shift of the spool of `{}`, −1 … 1", element.name);
         layout.shared_input(spool(element), Dimension::One, about);
         let name = &element.name;
@@ -98,29 +98,29 @@ impl Effect for FourWayValve {
         }
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         let [supply, tank, a, b] =
             [SUPPLY, TANK, A, B].map(|key| element.name(key.name).unwrap_or_default());
-        let [p_supply, p_tank, p_a, p_b] = [supply, tank, a, b].map(|n| pressure(n, laws));
-        let (zero, one) = (laws.b.zero(), laws.b.number(1.0));
-        let shift = laws.input(spool(element));
-        laws.event(&format!("{}_centre", element.name), shift);
-        laws.event(&format!("{}_limit", element.name), one - shift.abs());
+        let [p_supply, p_tank, p_a, p_b] = [supply, tank, a, b].map(|n| pressure(n, sums));
+        let (zero, one) = (sums.b.zero(), sums.b.number(1.0));
+        let shift = sums.input(spool(element));
+        sums.event(&format!("{}_centre", element.name), shift);
+        sums.event(&format!("{}_limit", element.name), one - shift.abs());
         let x = shift.max(-one).min(one);
         let (back, opening) = (|yes, no| x.if_less(zero, yes, no), x.abs());
         // Two orifices are open at a time: to the side that is fed, from the side that returns.
         let (fed, returning) = (back(p_b, p_a), back(p_a, p_b));
-        let drop = Drop::of(element, laws);
-        let feed = opening * drop.flow(p_supply - fed, laws.b);
-        let return_ = opening * drop.flow(returning - p_tank, laws.b);
-        run(supply, a, back(zero, feed), laws);
-        run(supply, b, back(feed, zero), laws);
-        run(a, tank, back(return_, zero), laws);
-        run(b, tank, back(zero, return_), laws);
+        let drop = Drop::of(element, sums);
+        let feed = opening * drop.flow(p_supply - fed, sums.b);
+        let return_ = opening * drop.flow(returning - p_tank, sums.b);
+        run(supply, a, back(zero, feed), sums);
+        run(supply, b, back(feed, zero), sums);
+        run(a, tank, back(return_, zero), sums);
+        run(b, tank, back(zero, return_), sums);
         let name = &element.name;
         for (side, flow) in [("a", back(-return_, feed)), ("b", back(feed, -return_))] {
             let about = format!("flow of `{name}` into side {side}, m^3/s");
-            laws.reading(format!("{name}_flow_{side}"), flow, "m^3/s", about);
+            sums.reading(format!("{name}_flow_{side}"), flow, "m^3/s", about);
         }
     }
 }

@@ -4,15 +4,15 @@ use super::flow::solve;
 use super::keys::{FAMILY, FLUID};
 use super::volume::{has_fluid, pressure, read_pressure};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Beside, Declaration, Element};
+use crate::declaration::{EffectKind, Element, SceneContext};
 use crate::effect::Effect;
+use crate::effort_sums::EffortSums;
 use crate::fault::Faults;
 use crate::format::Key;
-use crate::laws::Laws;
 
 pub(in crate::effect) struct Junction;
 
-impl Declaration for Junction {
+impl EffectKind for Junction {
     fn keyword(&self) -> &'static str {
         "junction"
     }
@@ -47,7 +47,7 @@ impl Declaration for Junction {
         1
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
 }
@@ -57,9 +57,9 @@ impl Effect for Junction {
         network.add_pressure(&element.name);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        solve(element, laws);
-        let found = pressure(&element.name, laws);
-        read_pressure(&element.name, found, laws);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        solve(element, sums);
+        let found = pressure(&element.name, sums);
+        read_pressure(&element.name, found, sums);
     }
 }

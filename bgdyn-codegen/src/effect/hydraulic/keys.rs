@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::declaration::Given;
+use crate::declaration::ValueCheck;
 use crate::fault::wording;
 use crate::format::{Dimension, Key, Reads};
 
@@ -61,22 +61,26 @@ pub(super) const LAMINAR: Key = number(
 pub(super) const VACUUM: f64 = -101_325.0;
 
 /// Refuses what is called a pressure but less than a vacuum.
-pub(super) fn no_less_than_vacuum(given: &mut Given<'_>, key: &str) {
-    let too_small = given
+pub(super) fn no_less_than_vacuum(check: &mut ValueCheck<'_>, key: &str) {
+    let too_small = check
         .number(key)
         .filter(|q| q.value < Dd::from_f64(VACUUM))
-        .map(|q| (q.place.clone(), q.text.clone()));
-    if let Some((place, text)) = too_small {
-        given.report(wording::below_vacuum(&place, key, &text, VACUUM));
+        .map(|q| (q.location.clone(), q.text.clone()));
+    if let Some((location, text)) = too_small {
+        check.report(wording::below_vacuum(&location, key, &text, VACUUM));
     }
 }
 
 /// Refuses an element that joins a node to itself.
-pub(super) fn joins_two(given: &mut Given<'_>, one: &str, other: &str) {
-    let (a, b) = (given.element.name(one), given.element.name(other));
+pub(super) fn joins_two(check: &mut ValueCheck<'_>, one: &str, other: &str) {
+    let (a, b) = (check.element.name(one), check.element.name(other));
     if let Some(node) = a.filter(|_| a == b) {
-        let place = &given.element.place;
-        given.report(wording::joins_a_node_to_itself(place, [one, other], node));
+        let location = &check.element.location;
+        check.report(wording::joins_a_node_to_itself(
+            location,
+            [one, other],
+            node,
+        ));
     }
 }
 

@@ -4,15 +4,15 @@ use super::flow::resist;
 use super::keys::{CONDUCTANCE, FAMILY, FROM, TO, joins_two};
 use super::volume::one_fluid;
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
+use crate::effort_sums::EffortSums;
 use crate::fault::Faults;
 use crate::format::Key;
-use crate::laws::Laws;
 
 pub(in crate::effect) struct Leakage;
 
-impl Declaration for Leakage {
+impl EffectKind for Leakage {
     fn keyword(&self) -> &'static str {
         "leakage"
     }
@@ -41,13 +41,13 @@ impl Declaration for Leakage {
         true
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "what lets nothing through is left out";
-        given.positive(&[CONDUCTANCE.name], why);
-        joins_two(given, FROM.name, TO.name);
+        check.positive(&[CONDUCTANCE.name], why);
+        joins_two(check, FROM.name, TO.name);
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         one_fluid(element, beside, faults);
     }
 }
@@ -58,9 +58,9 @@ impl Effect for Leakage {
         nodes::add_pipe(nodes::label(element), ends, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        resist(element, laws, |laws, drop| {
-            laws.number(element, &CONDUCTANCE) * drop
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        resist(element, sums, |sums, drop| {
+            sums.number(element, &CONDUCTANCE) * drop
         });
     }
 }

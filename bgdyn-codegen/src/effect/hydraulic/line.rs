@@ -3,20 +3,20 @@
 use super::keys::{FAMILY, FLUID, number};
 use super::volume::{VOLUME, add_volume, declare_volume, fill, filled, has_fluid};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::Effect;
-use crate::expr::Ex;
+use crate::effort_sums::EffortSums;
+use crate::expr::Expr;
 use crate::fault::Faults;
 use crate::format::{Dimension, Key};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(in crate::effect) struct Line;
 
 const OWN_VOLUME: Key = number(VOLUME, &[Dimension::Volume], true, "V");
 static KEYS: [Key; 2] = [OWN_VOLUME, FLUID];
 
-impl Declaration for Line {
+impl EffectKind for Line {
     fn keyword(&self) -> &'static str {
         "line"
     }
@@ -45,29 +45,29 @@ impl Declaration for Line {
         0
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "what has no volume is a junction: `{ type: junction }`";
-        given.positive(&[VOLUME], why);
+        check.positive(&[VOLUME], why);
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         declare_volume(&element.name, layout);
     }
 }
 
 impl Effect for Line {
-    fn start<'g>(
+    fn initial_state<'g>(
         &self,
         element: &Element,
-        laws: &Laws<'g, '_>,
+        sums: &EffortSums<'g, '_>,
         state: &str,
-        given: Ex<'g>,
-    ) -> Ex<'g> {
-        filled(element, laws, state, given)
+        entered: Expr<'g>,
+    ) -> Expr<'g> {
+        filled(element, sums, state, entered)
     }
 
     fn elements(&self, element: &Element, scene: &[Element], network: &mut BondNetwork) {
@@ -76,8 +76,8 @@ impl Effect for Line {
         add_volume(element, node, volume, scene, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        let volume = laws.number(element, &OWN_VOLUME);
-        fill(element, &element.name, volume, laws);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        let volume = sums.number(element, &OWN_VOLUME);
+        fill(element, &element.name, volume, sums);
     }
 }

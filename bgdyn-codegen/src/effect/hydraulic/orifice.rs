@@ -6,12 +6,12 @@ use super::flow::{Drop, resist};
 use super::keys::{FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two};
 use super::volume::one_fluid;
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
+use crate::effort_sums::EffortSums;
 use crate::fault::Faults;
 use crate::format::{Dimension, Key, Reads};
-use crate::laws::Laws;
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 
 pub(in crate::effect) struct Orifice;
 
@@ -22,7 +22,7 @@ const OPENING: Key = Key {
     about: "u, name of an input, held to 0 … 1; always open without it",
 };
 
-impl Declaration for Orifice {
+impl EffectKind for Orifice {
     fn keyword(&self) -> &'static str {
         "orifice"
     }
@@ -51,18 +51,18 @@ impl Declaration for Orifice {
         element.name(OPENING.name).is_none()
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "what lets nothing through is left out";
-        given.positive(&[ORIFICE.name], why);
-        given.positive(&[LAMINAR.name], "leave it out for turbulent flow alone");
-        joins_two(given, FROM.name, TO.name);
+        check.positive(&[ORIFICE.name], why);
+        check.positive(&[LAMINAR.name], "leave it out for turbulent flow alone");
+        joins_two(check, FROM.name, TO.name);
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         one_fluid(element, beside, faults);
     }
 
-    fn declare(&self, element: &Element, layout: &mut Layout) {
+    fn declare(&self, element: &Element, layout: &mut StateLayout) {
         if let Some(opening) = element.name(OPENING.name) {
             let about = format!("opening of `{opening}`, 0 … 1");
             layout.shared_input(opening, Dimension::One, about);
@@ -81,17 +81,17 @@ impl Effect for Orifice {
         nodes::add_pipe(nodes::label(element), ends, network);
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         if let Some(opening) = element.name(OPENING.name) {
-            let x = laws.input(opening);
-            laws.event(&limit(element), x.min(laws.b.number(1.0) - x));
+            let x = sums.input(opening);
+            sums.event(&limit(element), x.min(sums.b.number(1.0) - x));
         }
-        resist(element, laws, |laws, drop| {
-            let open = Drop::of(element, laws).flow(drop, laws.b);
+        resist(element, sums, |sums, drop| {
+            let open = Drop::of(element, sums).flow(drop, sums.b);
             match element.name(OPENING.name) {
                 Some(opening) => {
-                    let (zero, one) = (laws.b.zero(), laws.b.number(1.0));
-                    laws.input(opening).max(zero).min(one) * open
+                    let (zero, one) = (sums.b.zero(), sums.b.number(1.0));
+                    sums.input(opening).max(zero).min(one) * open
                 }
                 None => open,
             }

@@ -3,11 +3,11 @@
 use super::keys::{FAMILY, FLUID, no_less_than_vacuum, number};
 use super::volume::{ENTHALPY, PRESSURE, SOURCE, enthalpy, has_fluid};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{Beside, Declaration, Element, Given};
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::Effect;
+use crate::effort_sums::EffortSums;
 use crate::fault::Faults;
 use crate::format::{Dimension, Key};
-use crate::laws::Laws;
 
 /// Holds its pressure whatever runs.
 pub(in crate::effect) struct Supply;
@@ -26,16 +26,16 @@ static SUPPLY: [Key; 2] = [SUPPLY_PRESSURE, FLUID];
 static TANK: [Key; 2] = [TANK_PRESSURE, FLUID];
 
 /// A node that holds its pressure.
-fn hold(element: &Element, key: &Key, laws: &mut Laws<'_, '_>) {
-    let (node, one) = (&element.name, laws.b.number(1.0));
-    let pressure = laws.number(element, key);
-    let carried = enthalpy(element, pressure, laws);
-    laws.share(node, PRESSURE, pressure);
-    laws.share(node, ENTHALPY, carried);
-    laws.share(node, SOURCE, one);
+fn hold(element: &Element, key: &Key, sums: &mut EffortSums<'_, '_>) {
+    let (node, one) = (&element.name, sums.b.number(1.0));
+    let pressure = sums.number(element, key);
+    let carried = enthalpy(element, pressure, sums);
+    sums.share(node, PRESSURE, pressure);
+    sums.share(node, ENTHALPY, carried);
+    sums.share(node, SOURCE, one);
 }
 
-impl Declaration for Supply {
+impl EffectKind for Supply {
     fn keyword(&self) -> &'static str {
         "supply"
     }
@@ -64,11 +64,11 @@ impl Declaration for Supply {
         0
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        no_less_than_vacuum(given, PRESSURE);
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        no_less_than_vacuum(check, PRESSURE);
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
 }
@@ -79,12 +79,12 @@ impl Effect for Supply {
         network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        hold(element, &SUPPLY_PRESSURE, laws);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        hold(element, &SUPPLY_PRESSURE, sums);
     }
 }
 
-impl Declaration for Tank {
+impl EffectKind for Tank {
     fn keyword(&self) -> &'static str {
         "tank"
     }
@@ -113,11 +113,11 @@ impl Declaration for Tank {
         0
     }
 
-    fn rules(&self, given: &mut Given<'_>) {
-        no_less_than_vacuum(given, PRESSURE);
+    fn check_values(&self, check: &mut ValueCheck<'_>) {
+        no_less_than_vacuum(check, PRESSURE);
     }
 
-    fn fits(&self, element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         has_fluid(element, beside, faults);
     }
 }
@@ -128,7 +128,7 @@ impl Effect for Tank {
         network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
     }
 
-    fn law(&self, element: &Element, laws: &mut Laws<'_, '_>) {
-        hold(element, &TANK_PRESSURE, laws);
+    fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
+        hold(element, &TANK_PRESSURE, sums);
     }
 }

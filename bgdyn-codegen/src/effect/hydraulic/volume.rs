@@ -4,12 +4,12 @@ use bgdyn_runtime::Dd;
 
 use super::keys::{BULK_MODULUS, FLUID, FLUID_KEYWORD, VACUUM};
 use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind};
-use crate::declaration::{Beside, Element};
-use crate::expr::Ex;
+use crate::declaration::{Element, SceneContext};
+use crate::effort_sums::EffortSums;
+use crate::expr::Expr;
 use crate::fault::{Faults, wording};
 use crate::format::Dimension;
-use crate::laws::Laws;
-use crate::layout::{Entered, Layout};
+use crate::layout::{InitialValueAs, StateLayout};
 
 // What nodes and elements share
 
@@ -40,7 +40,7 @@ pub(super) fn fluid_of<'a>(node: &Element, elements: &'a [Element]) -> Option<&'
 }
 
 /// Refuses a node without a fluid.
-pub(super) fn has_fluid(node: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+pub(super) fn has_fluid(node: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
     if fluid_of(node, beside.elements).is_some() {
         return;
     }
@@ -48,11 +48,11 @@ pub(super) fn has_fluid(node: &Element, beside: &Beside<'_>, faults: &mut Faults
     let fluids = all.filter(|e| e.effect.keyword() == FLUID_KEYWORD);
     let known: Vec<&str> = fluids.map(|fluid| fluid.name.as_str()).collect();
     let asked = node.name(FLUID.name);
-    faults.push(wording::no_fluid(&node.place, &node.name, asked, &known));
+    faults.push(wording::no_fluid(&node.location, &node.name, asked, &known));
 }
 
 /// Refuses an element between nodes of different fluids.
-pub(super) fn one_fluid(element: &Element, beside: &Beside<'_>, faults: &mut Faults) {
+pub(super) fn one_fluid(element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
     let owner = |node: &&str| {
         let mut all = beside.elements.iter();
         all.find(|e| e.nodes().iter().any(|own| own == node))
@@ -65,15 +65,15 @@ pub(super) fn one_fluid(element: &Element, beside: &Beside<'_>, faults: &mut Fau
         .collect();
     names.dedup();
     if let [one, other, ..] = names[..] {
-        let (place, name) = (&element.place, &element.name);
-        faults.push(wording::two_fluids(place, name, [one, other]));
+        let (location, name) = (&element.location, &element.name);
+        faults.push(wording::two_fluids(location, name, [one, other]));
     }
 }
 
 /// β of a node's fluid.
-pub(super) fn bulk_modulus<'g>(node: &Element, laws: &Laws<'g, '_>) -> Ex<'g> {
-    let fluid = fluid_of(node, laws.elements());
-    fluid.map_or(laws.b.number(1.0), |f| laws.number(f, &BULK_MODULUS))
+pub(super) fn bulk_modulus<'g>(node: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
+    let fluid = fluid_of(node, sums.elements());
+    fluid.map_or(sums.b.number(1.0), |f| sums.number(f, &BULK_MODULUS))
 }
 
 /// The 0-junction of a volume's pressure with the compliance of its fluid; `volume` is its text.
@@ -96,9 +96,9 @@ pub(super) fn add_volume(
 }
 
 /// The state of a volume of fluid.
-pub(super) fn declare_volume(node: &str, layout: &mut Layout) {
+pub(super) fn declare_volume(node: &str, layout: &mut StateLayout) {
     let about = format!("volume at reference density of the fluid in `{node}`");
-    let entered = Entered {
+    let entered = InitialValueAs {
         dimension: Dimension::Pressure,
         least: Dd::from_f64(VACUUM),
         way_out: "write its pressure, against the surroundings; less than a vacuum there is none",
@@ -110,46 +110,50 @@ pub(super) fn declare_volume(node: &str, layout: &mut Layout) {
 pub(super) fn fill<'g>(
     element: &Element,
     node: &str,
-    volume: Ex<'g>,
-    laws: &mut Laws<'g, '_>,
-) -> Ex<'g> {
-    let bulk = bulk_modulus(element, laws);
-    let reference = laws.state(node);
-    let one = laws.b.number(1.0);
+    volume: Expr<'g>,
+    sums: &mut EffortSums<'g, '_>,
+) -> Expr<'g> {
+    let bulk = bulk_modulus(element, sums);
+    let reference = sums.state(node);
+    let one = sums.b.number(1.0);
     let density = (reference / volume).named(|| format!("density_{node}"));
     let pressure = (bulk * density.ln()).named(|| format!("p_{node}"));
-    laws.share(node, PRESSURE, pressure);
-    laws.share(node, DENSITY, density);
-    laws.share(node, ENTHALPY, bulk * (density - one));
-    laws.share(node, VOLUME, volume);
-    laws.store(bulk * (reference - volume) - pressure * volume);
-    read_pressure(node, pressure, laws);
+    sums.share(node, PRESSURE, pressure);
+    sums.share(node, DENSITY, density);
+    sums.share(node, ENTHALPY, bulk * (density - one));
+    sums.share(node, VOLUME, volume);
+    sums.store(bulk * (reference - volume) - pressure * volume);
+    read_pressure(node, pressure, sums);
     pressure
 }
 
 /// W = V e^{p/β}
 pub(super) fn filled<'g>(
     element: &Element,
-    laws: &Laws<'g, '_>,
+    sums: &EffortSums<'g, '_>,
     node: &str,
-    pressure: Ex<'g>,
-) -> Ex<'g> {
-    let volume = laws.shared(node, VOLUME).unwrap_or(laws.b.number(1.0));
-    volume * (pressure / bulk_modulus(element, laws)).exp()
+    pressure: Expr<'g>,
+) -> Expr<'g> {
+    let volume = sums.shared(node, VOLUME).unwrap_or(sums.b.number(1.0));
+    volume * (pressure / bulk_modulus(element, sums)).exp()
 }
 
 /// h = β (e^{p/β} − 1)
-pub(super) fn enthalpy<'g>(element: &Element, pressure: Ex<'g>, laws: &Laws<'g, '_>) -> Ex<'g> {
-    let bulk = bulk_modulus(element, laws);
-    bulk * ((pressure / bulk).exp() - laws.b.number(1.0))
+pub(super) fn enthalpy<'g>(
+    element: &Element,
+    pressure: Expr<'g>,
+    sums: &EffortSums<'g, '_>,
+) -> Expr<'g> {
+    let bulk = bulk_modulus(element, sums);
+    bulk * ((pressure / bulk).exp() - sums.b.number(1.0))
 }
 
-pub(super) fn read_pressure<'g>(node: &str, pressure: Ex<'g>, laws: &mut Laws<'g, '_>) {
+pub(super) fn read_pressure<'g>(node: &str, pressure: Expr<'g>, sums: &mut EffortSums<'g, '_>) {
     let about = format!("pressure in `{node}`, Pa");
-    laws.reading(format!("{node}_pressure"), pressure, "Pa", about);
+    sums.reading(format!("{node}_pressure"), pressure, "Pa", about);
 }
 
 /// The pressure of a node.
-pub(super) fn pressure<'g>(node: &str, laws: &Laws<'g, '_>) -> Ex<'g> {
-    laws.shared(node, PRESSURE).unwrap_or(laws.b.zero())
+pub(super) fn pressure<'g>(node: &str, sums: &EffortSums<'g, '_>) -> Expr<'g> {
+    sums.shared(node, PRESSURE).unwrap_or(sums.b.zero())
 }

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::super::constants::size;
 use super::super::tokens::ident;
-use super::parts::{Field, moving_parts, of_named};
+use super::parts::{StructField, moving_parts, of_named};
 use crate::interface::SceneInterface;
 
 pub(super) fn constants(scene: &SceneInterface) -> TokenStream {
@@ -32,8 +32,8 @@ pub(super) fn constants(scene: &SceneInterface) -> TokenStream {
         let (name, about, n) = (ident(name), format!(" {about}"), size(*n));
         quote! { #[doc = #about] pub const #name: usize = #n; }
     });
-    let names = |parts: Vec<Field>| parts.into_iter().map(|p| p.name).collect::<Vec<_>>();
-    let part_names = |parts: &[crate::scene::Part]| -> Vec<String> {
+    let names = |parts: Vec<StructField>| parts.into_iter().map(|p| p.name).collect::<Vec<_>>();
+    let part_names = |parts: &[crate::scene::Variable]| -> Vec<String> {
         parts.iter().map(|p| p.name.clone()).collect()
     };
     let state = list(

@@ -8,28 +8,29 @@ use super::super::code::Naming;
 use super::super::explain::explain;
 use super::super::tokens::{argument_type, ident, number};
 use super::parts::{
-    Field, coordinate_parts, input_parts, literal, mode_parts, moving_parts, of_named,
+    StructField, coordinate_parts, input_parts, literal, mode_parts, moving_parts, of_named,
 };
 use crate::function::Function;
 use crate::interface::SceneInterface;
-use crate::method::{Method, Role};
-use crate::scene::Layout;
+use crate::method::{Method, SceneFunction};
+use crate::scene::StateLayout;
 
 /// The type that a role's function returns, and its parts.
-fn result_of(role: Role, scene: &SceneInterface) -> (&'static str, Vec<Field>) {
+fn result_of(role: SceneFunction, scene: &SceneInterface) -> (&'static str, Vec<StructField>) {
     let layout = &scene.layout;
     match role {
-        Role::Derivative => ("Rates", moving_parts(layout)),
-        Role::Inverse => ("Coordinates", coordinate_parts(layout)),
-        Role::Inputs => ("Input", input_parts(layout)),
-        Role::Events => ("Events", vec![]),
-        Role::Contacts => ("Contacts", mode_parts(layout)),
-        Role::Power => ("Power", of_named(&scene.entries)),
-        Role::Energy => ("Energy", of_named(&scene.entries)),
-        Role::Outputs => ("Output", of_named(&scene.outputs)),
-        Role::Jacobian | Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
-            ("", vec![])
-        }
+        SceneFunction::Derivative => ("Rates", moving_parts(layout)),
+        SceneFunction::Inverse => ("Coordinates", coordinate_parts(layout)),
+        SceneFunction::Inputs => ("Input", input_parts(layout)),
+        SceneFunction::Events => ("Events", vec![]),
+        SceneFunction::Contacts => ("Contacts", mode_parts(layout)),
+        SceneFunction::Power => ("Power", of_named(&scene.entries)),
+        SceneFunction::Energy => ("Energy", of_named(&scene.entries)),
+        SceneFunction::Outputs => ("Output", of_named(&scene.outputs)),
+        SceneFunction::Jacobian
+        | SceneFunction::ToCanonical
+        | SceneFunction::FromCanonical
+        | SceneFunction::CanonicalRates => ("", vec![]),
     }
 }
 
@@ -43,7 +44,7 @@ pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -
     let (layout, checked) = (&scene.layout, function.shape().checked());
     let finish = |values: &[TokenStream]| finish(role, layout, &parts, values, checked);
     let naming = Naming::of_scene(scene, plain);
-    let body::Body { body, blocks } = body::body(function, &naming, None, finish);
+    let body::FunctionBody { body, blocks } = body::body(function, &naming, None, finish);
     let mut docs = vec![
         format!(" {}", role.summary()),
         String::new(),
@@ -72,16 +73,18 @@ pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -
 }
 
 /// What stands before the body of a role's method.
-pub(super) fn signature(role: Role, scene: &SceneInterface) -> TokenStream {
+pub(super) fn signature(role: SceneFunction, scene: &SceneInterface) -> TokenStream {
     let method = Method::Scene(role);
     let name = ident(role.name());
     let arguments = method.arguments();
     let names = arguments.iter().map(|a| ident(a.name()));
     let types = arguments.iter().map(|a| argument_type(*a));
     let result = match role {
-        Role::Events => quote! { __na::SVector<T, NE> },
-        Role::Jacobian => quote! { (__na::SMatrix<T, N, N>, __na::SVector<T, N>) },
-        Role::ToCanonical | Role::FromCanonical | Role::CanonicalRates => {
+        SceneFunction::Events => quote! { __na::SVector<T, NE> },
+        SceneFunction::Jacobian => quote! { (__na::SMatrix<T, N, N>, __na::SVector<T, N>) },
+        SceneFunction::ToCanonical
+        | SceneFunction::FromCanonical
+        | SceneFunction::CanonicalRates => {
             quote! { __na::SVector<T, N> }
         }
         _ => {
@@ -99,9 +102,9 @@ pub(super) fn signature(role: Role, scene: &SceneInterface) -> TokenStream {
 
 /// The result of a role from its components.
 fn finish(
-    role: Role,
-    layout: &Layout,
-    parts: &[Field],
+    role: SceneFunction,
+    layout: &StateLayout,
+    parts: &[StructField],
     values: &[TokenStream],
     checked: bool,
 ) -> TokenStream {
@@ -119,7 +122,7 @@ fn finish(
     // What checks several vectors names the closure.
     let explained = |rest: TokenStream| quote! { let explain = #explain; #rest };
     match role {
-        Role::Derivative => {
+        SceneFunction::Derivative => {
             let rates = vector(values);
             let names: Vec<_> = (0..values.len()).map(|i| format_ident!("r{i}")).collect();
             let velocities = layout.coordinates.iter().filter(|c| c.stored).map(|c| {
@@ -136,8 +139,8 @@ fn finish(
                 ::core::result::Result::Ok(#whole)
             }
         }
-        Role::Events => ok(vector(values)),
-        Role::Contacts => {
+        SceneFunction::Events => ok(vector(values)),
+        SceneFunction::Contacts => {
             let one = |v: &[TokenStream]| match v {
                 [slip, slip_rate, holding, margin] => quote! {
                     __rt::Contact {
@@ -149,7 +152,7 @@ fn finish(
             let all: Vec<TokenStream> = values.chunks(4).map(one).collect();
             ok(literal("Contacts", parts, &all))
         }
-        Role::Power => {
+        SceneFunction::Power => {
             let one = |v: &[TokenStream]| match v {
                 [supplied, stored, dissipated] => quote! {
                     __rt::Balance {
@@ -161,20 +164,20 @@ fn finish(
             let all: Vec<TokenStream> = values.chunks(3).map(one).collect();
             ok(literal("Power", parts, &all))
         }
-        Role::Inverse => ok(literal("Coordinates", parts, values)),
-        Role::Inputs => ok(literal("Input", parts, values)),
-        Role::Energy => ok(literal("Energy", parts, values)),
-        Role::Outputs => ok(literal("Output", parts, values)),
-        Role::Jacobian => explained(jacobian(layout, values)),
-        Role::ToCanonical => to_canonical(layout, values),
-        Role::FromCanonical => explained(from_canonical(layout, values)),
-        Role::CanonicalRates => explained(canonical_rates(layout, values)),
+        SceneFunction::Inverse => ok(literal("Coordinates", parts, values)),
+        SceneFunction::Inputs => ok(literal("Input", parts, values)),
+        SceneFunction::Energy => ok(literal("Energy", parts, values)),
+        SceneFunction::Outputs => ok(literal("Output", parts, values)),
+        SceneFunction::Jacobian => explained(jacobian(layout, values)),
+        SceneFunction::ToCanonical => to_canonical(layout, values),
+        SceneFunction::FromCanonical => explained(from_canonical(layout, values)),
+        SceneFunction::CanonicalRates => explained(canonical_rates(layout, values)),
     }
 }
 
 /// Results that pass the check for singular matrices and for what is not finite, under names that
 /// begin with `prefix`; where fewer than all rates are given, zeros stand for the rest.
-fn passed(layout: &Layout, prefix: &str, values: &[TokenStream]) -> (TokenStream, Vec<Ident>) {
+fn passed(layout: &StateLayout, prefix: &str, values: &[TokenStream]) -> (TokenStream, Vec<Ident>) {
     let all = layout.nv() + layout.nx();
     let zeros = (values.len()..all).map(|_| quote! { T::from_f64(0.0) });
     let padded: Vec<TokenStream> = values.iter().cloned().chain(zeros).collect();
@@ -195,7 +198,7 @@ fn passed(layout: &Layout, prefix: &str, values: &[TokenStream]) -> (TokenStream
 }
 
 /// Columns of v̇ and ẋ become those of ẏ: q̇ follows the velocities.
-fn jacobian(layout: &Layout, values: &[TokenStream]) -> TokenStream {
+fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
     let (nq, rates) = (layout.nq(), layout.nv() + layout.nx());
     let columns = values.chunks(rates.max(1)).enumerate();
     let mut statements = TokenStream::new();
@@ -222,7 +225,7 @@ fn jacobian(layout: &Layout, values: &[TokenStream]) -> TokenStream {
 }
 
 /// A state with momenta from its parts.
-fn to_canonical(layout: &Layout, momenta: &[TokenStream]) -> TokenStream {
+fn to_canonical(layout: &StateLayout, momenta: &[TokenStream]) -> TokenStream {
     let places = layout.coordinates.iter().filter(|c| c.stored);
     let places = places.map(|c| &c.name);
     let states = layout.states.iter().map(|s| &s.name);
@@ -235,7 +238,7 @@ fn to_canonical(layout: &Layout, momenta: &[TokenStream]) -> TokenStream {
 }
 
 /// A state from one with momenta.
-fn from_canonical(layout: &Layout, velocities: &[TokenStream]) -> TokenStream {
+fn from_canonical(layout: &StateLayout, velocities: &[TokenStream]) -> TokenStream {
     let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
     let (statement, names) = passed(layout, "velocity", velocities);
     let kept = |prefix: &'static str, n: usize| {
@@ -253,7 +256,7 @@ fn from_canonical(layout: &Layout, velocities: &[TokenStream]) -> TokenStream {
 }
 
 /// q̇, ṗ, ẋ
-fn canonical_rates(layout: &Layout, values: &[TokenStream]) -> TokenStream {
+fn canonical_rates(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
     let (velocities, rates) = values.split_at(layout.nq());
     let (check_velocities, velocities) = passed(layout, "velocity", velocities);
     let (check_rates, rates) = passed(layout, "rate", rates);

@@ -4,24 +4,24 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::super::tokens::{ident, number};
-use crate::scene::Layout;
+use crate::scene::StateLayout;
 use crate::system::Named;
 
 /// A part of a named type: name, documentation.
-pub(super) struct Field {
+pub(super) struct StructField {
     pub(super) name: String,
     pub(super) about: String,
 }
 
-pub(super) fn field(name: impl Into<String>, about: impl Into<String>) -> Field {
-    Field {
+pub(super) fn field(name: impl Into<String>, about: impl Into<String>) -> StructField {
+    StructField {
         name: name.into(),
         about: about.into(),
     }
 }
 
 /// Positions, velocities, first-order states: the parts that have rates.
-pub(super) fn moving_parts(layout: &Layout) -> Vec<Field> {
+pub(super) fn moving_parts(layout: &StateLayout) -> Vec<StructField> {
     let stored = layout.coordinates.iter().filter(|c| c.stored);
     let positions = stored.map(|c| {
         let unit = c.dimensions[0].si();
@@ -38,19 +38,24 @@ pub(super) fn moving_parts(layout: &Layout) -> Vec<Field> {
     positions.chain(velocities).chain(states).collect()
 }
 
-pub(super) fn mode_parts(layout: &Layout) -> Vec<Field> {
+pub(super) fn mode_parts(layout: &StateLayout) -> Vec<StructField> {
     let modes = layout.modes.iter();
     modes
         .map(|part| field(format!("{}_mode", part.name), &part.about))
         .collect()
 }
 
-pub(super) fn of_named(parts: &[Named]) -> Vec<Field> {
+pub(super) fn of_named(parts: &[Named]) -> Vec<StructField> {
     parts.iter().map(|n| field(&n.name, &n.about)).collect()
 }
 
 /// A type with public parts of the same type.
-pub(super) fn named_type(name: &str, about: &str, parts: &[Field], of: TokenStream) -> TokenStream {
+pub(super) fn named_type(
+    name: &str,
+    about: &str,
+    parts: &[StructField],
+    of: TokenStream,
+) -> TokenStream {
     let name = ident(name);
     let about = format!(" {about}");
     let names: Vec<_> = parts.iter().map(|p| ident(&p.name)).collect();
@@ -72,7 +77,7 @@ pub(super) fn named_type(name: &str, about: &str, parts: &[Field], of: TokenStre
     }
 }
 
-pub(super) fn literal(name: &str, parts: &[Field], values: &[TokenStream]) -> TokenStream {
+pub(super) fn literal(name: &str, parts: &[StructField], values: &[TokenStream]) -> TokenStream {
     let name = ident(name);
     if parts.is_empty() {
         return quote! { #name { scalar: ::core::marker::PhantomData } };
@@ -81,7 +86,7 @@ pub(super) fn literal(name: &str, parts: &[Field], values: &[TokenStream]) -> To
     quote! { #name { #(#names: #values),* } }
 }
 
-pub(super) fn coordinate_parts(layout: &Layout) -> Vec<Field> {
+pub(super) fn coordinate_parts(layout: &StateLayout) -> Vec<StructField> {
     let coordinates = layout.coordinates.iter();
     coordinates
         .map(|c| {
@@ -95,7 +100,7 @@ pub(super) fn coordinate_parts(layout: &Layout) -> Vec<Field> {
         .collect()
 }
 
-pub(super) fn input_parts(layout: &Layout) -> Vec<Field> {
+pub(super) fn input_parts(layout: &StateLayout) -> Vec<StructField> {
     let inputs = layout.inputs.iter();
     inputs
         .map(|part| {
@@ -113,11 +118,11 @@ pub(super) fn signed(x: f64) -> TokenStream {
     quote! { T::from_f64(#sign #size) }
 }
 
-pub(super) fn names_of(parts: &[Field]) -> Vec<proc_macro2::Ident> {
+pub(super) fn names_of(parts: &[StructField]) -> Vec<proc_macro2::Ident> {
     parts.iter().map(|p| ident(&p.name)).collect()
 }
 
-pub(super) fn numbered(prefix: &str, parts: &[Field]) -> Vec<TokenStream> {
+pub(super) fn numbered(prefix: &str, parts: &[StructField]) -> Vec<TokenStream> {
     let name = |i| format_ident!("{prefix}{i}");
     (0..parts.len())
         .map(|i| {

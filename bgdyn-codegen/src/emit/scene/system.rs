@@ -43,7 +43,13 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
     let velocities = &scene.mode_coordinates;
     let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
     quote! {
-        impl<T: __Scalar> __rt::System<T, N, NM, NU, NE, NY, #count> for #name<T> {
+        impl<T: __Scalar> __rt::HybridSystem<T> for #name<T> {
+            type State = __na::SVector<T, N>;
+            type Modes = __na::SVector<T, NM>;
+            type Inputs = __na::SVector<T, NU>;
+            type Events = __na::SVector<T, NE>;
+            type Outputs = __na::SVector<T, NY>;
+            type Entries = __na::SVector<T, #count>;
             type Singular = T::Singular<{ NV + NX }>;
             fn state_names(&self) -> &'static [&'static str; N] { &STATE_NAMES }
             fn positions(&self) -> usize { NQ }
@@ -123,10 +129,9 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
 }
 
 /// The implementation of the trait `Slope`.
-pub(super) fn slope_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
-    let count = size(scene.entries.len());
+pub(super) fn slope_trait(name: &Ident) -> TokenStream {
     quote! {
-        impl<T: __Scalar> __rt::Slope<T, N, NM, NU, NE, NY, #count> for #name<T> {
+        impl<T: __Scalar> __rt::Slope<T> for #name<T> {
             fn slope(
                 &self,
                 y: &__na::SVector<T, N>,
@@ -144,13 +149,12 @@ pub(super) fn slope_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
 }
 
 /// The implementation of the trait `Canonical`.
-pub(super) fn canonical_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
-    let count = size(scene.entries.len());
+pub(super) fn canonical_trait(name: &Ident) -> TokenStream {
     let checked = quote! {
         ::core::result::Result<__na::SVector<T, N>, T::Singular<{ NV + NX }>>
     };
     quote! {
-        impl<T: __Scalar> __rt::Canonical<T, N, NM, NU, NE, NY, #count> for #name<T> {
+        impl<T: __Scalar> __rt::Canonical<T> for #name<T> {
             fn to_canonical(
                 &self,
                 y: &__na::SVector<T, N>,

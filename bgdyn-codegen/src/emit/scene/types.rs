@@ -5,8 +5,8 @@ use quote::quote;
 
 use super::super::tokens::{ident, serde};
 use super::parts::{
-    Field, coordinate_parts, field, input_parts, literal, mode_parts, moving_parts, named_type,
-    names_of, numbered, of_named, signed,
+    StructField, coordinate_parts, field, input_parts, literal, mode_parts, moving_parts,
+    named_type, names_of, numbered, of_named, signed,
 };
 use crate::interface::SceneInterface;
 
@@ -35,7 +35,7 @@ pub(super) fn types(scene: &SceneInterface) -> TokenStream {
     let balance = quote! { __rt::Balance<T> };
     let power = named_type("Power", "Balance of power, W.", &entries, balance);
     let names = modes.iter().map(|m| field(m.name.clone(), m.about.clone()));
-    let names: Vec<Field> = names.collect();
+    let names: Vec<StructField> = names.collect();
     let contact = quote! { __rt::Contact<T> };
     let contacts = (!names.is_empty()).then(|| {
         named_type(
@@ -54,10 +54,10 @@ pub(super) fn types(scene: &SceneInterface) -> TokenStream {
 /// Between named parts and vectors, and where the scene begins.
 fn conversions(
     scene: &SceneInterface,
-    moving: &[Field],
-    modes: &[Field],
-    inputs: &[Field],
-    outputs: &[Field],
+    moving: &[StructField],
+    modes: &[StructField],
+    inputs: &[StructField],
+    outputs: &[StructField],
 ) -> TokenStream {
     let initial = &scene.initial;
     let start: Vec<TokenStream> = initial
@@ -69,7 +69,7 @@ fn conversions(
         .map(|x| signed(x.to_f64()))
         .collect();
     let all = || moving.iter().chain(modes).map(|p| field(&p.name, ""));
-    let whole: Vec<Field> = all().collect();
+    let whole: Vec<StructField> = all().collect();
     let start = literal("State", &whole, &start);
     let zeros: Vec<TokenStream> = inputs.iter().map(|_| signed(0.0)).collect();
     let no_input = literal("Input", inputs, &zeros);

@@ -8,18 +8,18 @@ use crate::expr::index::mix;
 /// What may be taken out: a · b of two factors (or a number and a factor), or a + r b of two
 /// products without a common factor.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Key {
-    Product(Literal, Literal),
+pub(super) enum DivisorKey {
+    Product(FactorOrNumber, FactorOrNumber),
     /// a, b, r as they are interned.
     Sum(u32, u32, u32),
 }
 
-impl Key {
+impl DivisorKey {
     /// Its hash.
     pub fn quick_hash(self) -> u64 {
         match self {
-            Key::Product(a, b) => mix(mix(1, a.word()), b.word()),
-            Key::Sum(a, b, r) => {
+            DivisorKey::Product(a, b) => mix(mix(1, a.word()), b.word()),
+            DivisorKey::Sum(a, b, r) => {
                 let products = u64::from(a) << 32 | u64::from(b);
                 mix(mix(2, products), u64::from(r))
             }
@@ -29,16 +29,16 @@ impl Key {
 
 /// A factor, or the size of a term's number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Literal {
+pub(super) enum FactorOrNumber {
     Number(u32),
     Factor(Var),
 }
 
-impl Literal {
+impl FactorOrNumber {
     fn word(self) -> u64 {
         match self {
-            Literal::Number(k) => u64::from(k) << 32,
-            Literal::Factor(f) => u64::from(f),
+            FactorOrNumber::Number(k) => u64::from(k) << 32,
+            FactorOrNumber::Factor(f) => u64::from(f),
         }
     }
 }
@@ -61,7 +61,7 @@ pub(super) fn near(x: Dd, y: Dd) -> bool {
 }
 
 /// Where k (a + r b) · rest stands in a sum: its two terms, and k.
-pub(super) struct Place {
+pub(super) struct Occurrence {
     pub var: Var,
     pub terms: [usize; 2],
     pub k: Dd,
@@ -70,7 +70,7 @@ pub(super) struct Place {
 
 /// Numbers by which a + r b may be multiplied: so that one of its own is 1, or one of those where
 /// it stands.
-pub(super) fn scales(found: &[Place], r: Dd) -> Vec<Dd> {
+pub(super) fn scales(found: &[Occurrence], r: Dd) -> Vec<Dd> {
     let mut scales = vec![Dd::ONE, Dd::ONE / r];
     for place in found {
         if scales.len() < 8 && !scales.iter().any(|&s| near(s, place.k)) {

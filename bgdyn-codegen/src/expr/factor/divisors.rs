@@ -5,13 +5,13 @@ use std::collections::BinaryHeap;
 
 use bgdyn_runtime::Dd;
 
-use super::divisor::{Key, number_key};
+use super::divisor::{DivisorKey, number_key};
 use super::network::Var;
 use crate::expr::index::{Index, mix};
 
 /// Something that may be taken out, with the variables whose sums may hold it.
 struct Divisor {
-    key: Key,
+    key: DivisorKey,
     places: Vec<Var>,
     /// What taking it out saves at the most.
     bound: isize,
@@ -32,7 +32,7 @@ pub(super) struct Divisors {
 
 impl Divisors {
     /// The one that saves most by its bound, with its id and that bound.
-    pub fn pop(&mut self) -> Option<(usize, Key, isize)> {
+    pub fn pop(&mut self) -> Option<(usize, DivisorKey, isize)> {
         while let Some((bound, Reverse(id))) = self.queue.pop() {
             if bound == self.all[id].bound {
                 return Some((id, self.all[id].key, bound));
@@ -50,7 +50,7 @@ impl Divisors {
     }
 
     /// Notes that a variable's sum may hold it, what that saves, and what defining it costs.
-    pub fn note(&mut self, key: Key, var: Var, saved: isize, cost: isize) {
+    pub fn note(&mut self, key: DivisorKey, var: Var, saved: isize, cost: isize) {
         let hash = key.quick_hash();
         let is_it = |id: u32| self.all[id as usize].key == key;
         let id = match self.by_key.find(hash, is_it) {

@@ -2,9 +2,11 @@
 
 use bgdyn_runtime::Dd;
 
-use super::divisor::{Key, Literal, Place, divide, insert, near, quotient, quotient_of, scales};
+use super::divisor::{
+    DivisorKey, FactorOrNumber, Occurrence, divide, insert, near, quotient, quotient_of, scales,
+};
 use super::divisors::Divisors;
-use super::network::{Network, Term, Var, is_unit, product_cost};
+use super::network::{Network, NetworkTerm, Var, is_unit, product_cost};
 
 /// How far apart two terms of a sum may stand to be taken out together: time grows with it.
 const WINDOW: usize = 32;
@@ -40,14 +42,14 @@ impl<'a, 'g> Extraction<'a, 'g> {
     pub fn run(&mut self) {
         while let Some((id, key, bound)) = self.divisors.pop() {
             let saved = match key {
-                Key::Product(a, b) => self.try_product(id, a, b, bound),
-                Key::Sum(a, b, r) => self.try_sum(id, a, b, r, bound),
+                DivisorKey::Product(a, b) => self.try_product(id, a, b, bound),
+                DivisorKey::Sum(a, b, r) => self.try_sum(id, a, b, r, bound),
             };
             self.divisors.put_back(id, saved);
         }
     }
 
-    fn terms(&self, var: Var) -> &[Term] {
+    fn terms(&self, var: Var) -> &[NetworkTerm] {
         self.network.sums[var as usize].as_deref().unwrap_or(&[])
     }
 
@@ -65,18 +67,19 @@ impl<'a, 'g> Extraction<'a, 'g> {
         if term.cost() == 0 {
             return;
         }
-        let mut literals: Vec<Literal> = Vec::with_capacity(term.factors.len() + 1);
-        literals.extend(term.factors.iter().map(|&f| Literal::Factor(f)));
+        let mut literals: Vec<FactorOrNumber> = Vec::with_capacity(term.factors.len() + 1);
+        literals.extend(term.factors.iter().map(|&f| FactorOrNumber::Factor(f)));
         if !is_unit(k) {
-            literals.insert(0, Literal::Number(self.divisors.number_id(k.abs())));
+            literals.insert(0, FactorOrNumber::Number(self.divisors.number_id(k.abs())));
         }
-        let mut seen: Vec<(Literal, Literal)> = Vec::new();
+        let mut seen: Vec<(FactorOrNumber, FactorOrNumber)> = Vec::new();
         for j in 1..literals.len() {
             for i in 0..j {
                 let pair = (literals[i], literals[j]);
                 if !seen.contains(&pair) {
                     seen.push(pair);
-                    self.divisors.note(Key::Product(pair.0, pair.1), var, 1, -1);
+                    self.divisors
+                        .note(DivisorKey::Product(pair.0, pair.1), var, 1, -1);
                 }
             }
         }
@@ -95,7 +98,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         let saved = before as isize - product_cost(Dd::ONE, common + 1) as isize;
         let least = 1 + product_cost(Dd::ONE, a.len()) + product_cost(Dd::ONE, b.len());
         let r = self.divisors.number_id(quotient_of(l, k));
-        let key = Key::Sum(
+        let key = DivisorKey::Sum(
             self.divisors.product_id(&a),
             self.divisors.product_id(&b),
             r,
@@ -105,7 +108,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
     }
 
     /// A variable for the sum of `terms`.
-    fn define(&mut self, terms: Vec<Term>) -> Var {
+    fn define(&mut self, terms: Vec<NetworkTerm>) -> Var {
         let var = self.network.sums.len() as Var;
         let n = terms.len();
         self.network.sums.push(Some(terms));
@@ -116,11 +119,17 @@ impl<'a, 'g> Extraction<'a, 'g> {
     }
 
     /// Takes a · b out where that saves `bound`; else says what it would save.
-    fn try_product(&mut self, id: usize, a: Literal, b: Literal, bound: isize) -> isize {
+    fn try_product(
+        &mut self,
+        id: usize,
+        a: FactorOrNumber,
+        b: FactorOrNumber,
+        bound: isize,
+    ) -> isize {
         let mut found: Vec<(Var, usize)> = Vec::new();
         for var in self.divisors.places(id) {
             let terms = self.terms(var);
-            let holds = |t: &Term| self.without(t, a, b).is_some();
+            let holds = |t: &NetworkTerm| self.without(t, a, b).is_some();
             found.extend(
                 (0..terms.len())
                     .filter(|&t| holds(&terms[t]))
@@ -141,11 +150,11 @@ impl<'a, 'g> Extraction<'a, 'g> {
             Some((var, _)) => var,
             None => {
                 let term = match (a, b) {
-                    (Literal::Number(k), Literal::Factor(f)) => Term {
+                    (FactorOrNumber::Number(k), FactorOrNumber::Factor(f)) => NetworkTerm {
                         k: self.divisors.number(k),
                         factors: vec![f],
                     },
-                    (Literal::Factor(f), Literal::Factor(g)) => Term {
+                    (FactorOrNumber::Factor(f), FactorOrNumber::Factor(g)) => NetworkTerm {
                         k: Dd::ONE,
                         factors: vec![f, g],
                     },
@@ -167,22 +176,27 @@ impl<'a, 'g> Extraction<'a, 'g> {
     }
 
     /// The term divided by a · b.
-    fn without(&self, term: &Term, a: Literal, b: Literal) -> Option<Term> {
+    fn without(
+        &self,
+        term: &NetworkTerm,
+        a: FactorOrNumber,
+        b: FactorOrNumber,
+    ) -> Option<NetworkTerm> {
         let missing =
-            |l| matches!(l, Literal::Factor(f) if term.factors.binary_search(&f).is_err());
+            |l| matches!(l, FactorOrNumber::Factor(f) if term.factors.binary_search(&f).is_err());
         if missing(a) || missing(b) {
             return None;
         }
         let mut made = term.clone();
         for literal in [a, b] {
             match literal {
-                Literal::Number(k) => {
+                FactorOrNumber::Number(k) => {
                     if made.factors.is_empty() || !near(made.k.abs(), self.divisors.number(k)) {
                         return None;
                     }
                     made.k = if made.k < Dd::ZERO { -Dd::ONE } else { Dd::ONE };
                 }
-                Literal::Factor(f) => {
+                FactorOrNumber::Factor(f) => {
                     let at = made.factors.binary_search(&f).ok()?;
                     made.factors.remove(at);
                 }
@@ -196,7 +210,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         &mut self,
         found: Vec<F>,
         var_of: impl Fn(&F) -> Var,
-        new: impl Fn(&Self, &F) -> Option<(Vec<usize>, Term)>,
+        new: impl Fn(&Self, &F) -> Option<(Vec<usize>, NetworkTerm)>,
     ) {
         for places in found.chunk_by(|x, y| var_of(x) == var_of(y)) {
             let var = var_of(&places[0]);
@@ -204,7 +218,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
             let gone: Vec<usize> = new.iter().flat_map(|(terms, _)| terms.clone()).collect();
             let terms = self.network.sums[var as usize].take().unwrap_or_default();
             let kept = terms.into_iter().enumerate();
-            let mut terms: Vec<Term> = kept
+            let mut terms: Vec<NetworkTerm> = kept
                 .filter(|(t, _)| !gone.contains(t))
                 .map(|(_, term)| term)
                 .collect();
@@ -225,7 +239,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
             self.divisors.product(b).to_vec(),
         );
         let r = self.divisors.number(r);
-        let mut found: Vec<Place> = Vec::new();
+        let mut found: Vec<Occurrence> = Vec::new();
         for var in self.divisors.places(id) {
             self.find(var, &a, &b, r, &mut found);
         }
@@ -241,15 +255,15 @@ impl<'a, 'g> Extraction<'a, 'g> {
             return saved;
         }
         let whole =
-            |p: &&Place| p.rest.is_empty() && near(p.k, scale) && self.terms(p.var).len() == 2;
+            |p: &&Occurrence| p.rest.is_empty() && near(p.k, scale) && self.terms(p.var).len() == 2;
         let sum = match found.iter().find(whole) {
             Some(place) => place.var,
             None => self.define(vec![
-                Term {
+                NetworkTerm {
                     k: scale,
                     factors: a,
                 },
-                Term {
+                NetworkTerm {
                     k: scale * r,
                     factors: b,
                 },
@@ -262,14 +276,14 @@ impl<'a, 'g> Extraction<'a, 'g> {
                 let k = quotient_of(p.k, scale);
                 let mut factors = p.rest.clone();
                 insert(&mut factors, sum);
-                (p.var != sum).then_some((p.terms.to_vec(), Term { k, factors }))
+                (p.var != sum).then_some((p.terms.to_vec(), NetworkTerm { k, factors }))
             },
         );
         0
     }
 
     /// Adds the places of a + r b in a sum to `found`, no term twice.
-    fn find(&self, var: Var, a: &[Var], b: &[Var], r: Dd, found: &mut Vec<Place>) {
+    fn find(&self, var: Var, a: &[Var], b: &[Var], r: Dd, found: &mut Vec<Occurrence>) {
         let terms = self.terms(var);
         let mut taken = vec![false; terms.len()];
         for s in 0..terms.len() {
@@ -288,7 +302,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
             });
             if let Some(t) = other {
                 (taken[s], taken[t]) = (true, true);
-                found.push(Place {
+                found.push(Occurrence {
                     var,
                     terms: [s, t],
                     k: terms[s].k,
@@ -299,7 +313,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
     }
 
     /// What it saves to take out scale · (a + r b).
-    fn saved(&self, found: &[Place], (a, b, r): (&[Var], &[Var], Dd), scale: Dd) -> isize {
+    fn saved(&self, found: &[Occurrence], (a, b, r): (&[Var], &[Var], Dd), scale: Dd) -> isize {
         let cost = 1 + product_cost(scale, a.len()) + product_cost(scale * r, b.len());
         let mut saved = -(cost as isize);
         for place in found {

@@ -23,7 +23,7 @@ mod extract;
 mod network;
 mod rebuild;
 
-use super::{Cost, Expr, Graph, Node, NodeId, cost, reachable};
+use super::{Cost, Graph, Node, NodeId, Signed, cost, reachable};
 use extract::Extraction;
 use network::{Network, Spread};
 
@@ -44,7 +44,7 @@ const POLISHED: usize = 100;
 /// A function's graph and results, and what they cost.
 struct Best {
     graph: Graph,
-    outputs: Vec<Expr>,
+    outputs: Vec<Signed>,
     cost: Cost,
 }
 
@@ -87,7 +87,7 @@ impl Best {
 }
 
 /// For each sum and product how many nodes read it.
-fn readers(graph: &Graph, outputs: &[Expr]) -> Vec<usize> {
+fn readers(graph: &Graph, outputs: &[Signed]) -> Vec<usize> {
     let needed = reachable(graph, outputs);
     let ids = || (0..graph.len()).map(|i| NodeId(i as u32));
     let mut readers = vec![0; graph.len()];
@@ -102,18 +102,18 @@ fn readers(graph: &Graph, outputs: &[Expr]) -> Vec<usize> {
 }
 
 /// The same values with fewer operations, where the pass finds a way.
-pub fn factor(graph: Graph, outputs: Vec<Expr>) -> (Graph, Vec<Expr>) {
+pub fn factor(graph: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed>) {
     let best = rounds(graph, outputs, ROUNDS);
     (best.graph, best.outputs)
 }
 
 /// About what [`factor`] makes of a function costs: of long ones, after a single round.
-pub fn factored_cost(graph: Graph, outputs: Vec<Expr>) -> Cost {
+pub fn factored_cost(graph: Graph, outputs: Vec<Signed>) -> Cost {
     let best = rounds(graph, outputs, 1);
     cost(&best.graph, &best.outputs)
 }
 
-fn rounds(graph: Graph, outputs: Vec<Expr>, most: usize) -> Best {
+fn rounds(graph: Graph, outputs: Vec<Signed>, most: usize) -> Best {
     let cost = cost(&graph, &outputs).unfinished();
     let mut best = Best {
         graph,

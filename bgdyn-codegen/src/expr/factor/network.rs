@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::expr::fold::cancelling_sum;
-use crate::expr::{Expr, Graph, Node, NodeId, reachable};
+use crate::expr::{Graph, Node, NodeId, Signed, reachable};
 
 /// A value that terms refer to: a node of the graph, or a sum made by the pass, counted on from
 /// the last node.
@@ -22,14 +22,14 @@ pub(super) enum Spread {
 
 /// k · Π factors, the factors sorted; without factors a number.
 #[derive(Clone, Debug)]
-pub(super) struct Term {
+pub(super) struct NetworkTerm {
     pub k: Dd,
     pub factors: Vec<Var>,
 }
 
-impl Term {
+impl NetworkTerm {
     fn of(var: Var, k: Dd) -> Self {
-        Term {
+        NetworkTerm {
             k,
             factors: vec![var],
         }
@@ -40,11 +40,11 @@ impl Term {
         product_cost(self.k, self.factors.len())
     }
 
-    fn times(&self, other: &Term) -> Term {
+    fn times(&self, other: &NetworkTerm) -> NetworkTerm {
         let mut factors = self.factors.clone();
         factors.extend(&other.factors);
         factors.sort_unstable();
-        Term {
+        NetworkTerm {
             k: self.k * other.k,
             factors,
         }
@@ -64,9 +64,9 @@ pub(super) fn is_unit(k: Dd) -> bool {
 }
 
 /// Terms with equal factors become one, those that cancel none.
-pub(super) fn merged(mut terms: Vec<Term>) -> Vec<Term> {
+pub(super) fn merged(mut terms: Vec<NetworkTerm>) -> Vec<NetworkTerm> {
     terms.sort_by(|a, b| a.factors.cmp(&b.factors));
-    let mut merged: Vec<Term> = Vec::with_capacity(terms.len());
+    let mut merged: Vec<NetworkTerm> = Vec::with_capacity(terms.len());
     for term in terms {
         match merged.last_mut() {
             Some(last) if last.factors == term.factors => last.k = cancelling_sum(last.k, term.k),
@@ -78,8 +78,8 @@ pub(super) fn merged(mut terms: Vec<Term>) -> Vec<Term> {
 }
 
 /// Multiplications and additions of a sum.
-pub(super) fn sum_cost(terms: &[Term]) -> usize {
-    terms.len().saturating_sub(1) + terms.iter().map(Term::cost).sum::<usize>()
+pub(super) fn sum_cost(terms: &[NetworkTerm]) -> usize {
+    terms.len().saturating_sub(1) + terms.iter().map(NetworkTerm::cost).sum::<usize>()
 }
 
 /// The sums of a function.
@@ -88,7 +88,7 @@ pub(super) struct Network<'a> {
     /// Which nodes the results need.
     pub needed: Vec<bool>,
     /// What each variable is; `None` for what is no sum or product.
-    pub sums: Vec<Option<Vec<Term>>>,
+    pub sums: Vec<Option<Vec<NetworkTerm>>>,
     /// Nodes that stay as they are: magnitudes of pivots, which bound what is subtracted, and
     /// products with a quotient, which could overflow in another order.
     kept: Vec<bool>,
@@ -100,7 +100,7 @@ pub(super) struct Network<'a> {
 
 impl<'a> Network<'a> {
     /// Reads the graph: single uses are written out where that costs nothing, equal terms meet.
-    pub fn new(graph: &'a Graph, outputs: &[Expr], spread: Spread) -> Self {
+    pub fn new(graph: &'a Graph, outputs: &[Signed], spread: Spread) -> Self {
         let needed = reachable(graph, outputs);
         let mut network = Network {
             graph,
@@ -130,23 +130,23 @@ impl<'a> Network<'a> {
     fn read(&mut self, i: Var) {
         let node = self.graph.node(NodeId(i));
         self.sums[i as usize] = match *node {
-            Node::Constant(c) => Some(vec![Term {
+            Node::Constant(c) => Some(vec![NetworkTerm {
                 k: c.value(),
                 factors: Vec::new(),
             }]),
             Node::Add(a, b) => {
                 let second = if b.negative { -Dd::ONE } else { Dd::ONE };
                 let terms = vec![
-                    self.scaled(&Term::of(a.0, Dd::ONE)),
-                    self.scaled(&Term::of(b.node.0, second)),
+                    self.scaled(&NetworkTerm::of(a.0, Dd::ONE)),
+                    self.scaled(&NetworkTerm::of(b.node.0, second)),
                 ];
                 Some(merged(terms))
             }
             Node::Mul(a, b) => {
                 let quotient = |id| matches!(self.graph.node(id), Node::Div(..));
                 self.kept[i as usize] = quotient(a) || quotient(b);
-                let a = self.scaled(&Term::of(a.0, Dd::ONE));
-                Some(vec![a.times(&self.scaled(&Term::of(b.0, Dd::ONE)))])
+                let a = self.scaled(&NetworkTerm::of(a.0, Dd::ONE));
+                Some(vec![a.times(&self.scaled(&NetworkTerm::of(b.0, Dd::ONE)))])
             }
             Node::Pivot(_, magnitude, _) => {
                 self.kept[magnitude.node.0 as usize] = true;
@@ -157,8 +157,8 @@ impl<'a> Network<'a> {
     }
 
     /// The term with numbers and multiples by a number in place of the factors that are such.
-    fn scaled(&self, term: &Term) -> Term {
-        let mut made = Term {
+    fn scaled(&self, term: &NetworkTerm) -> NetworkTerm {
+        let mut made = NetworkTerm {
             k: term.k,
             factors: Vec::new(),
         };
@@ -173,7 +173,7 @@ impl<'a> Network<'a> {
         made
     }
 
-    fn count_uses(&mut self, outputs: &[Expr]) {
+    fn count_uses(&mut self, outputs: &[Signed]) {
         let mut uses = vec![0; self.sums.len()];
         for e in outputs {
             uses[e.node.0 as usize] += 1;
@@ -218,8 +218,8 @@ impl<'a> Network<'a> {
         let Some(terms) = self.sums[i as usize].take() else {
             return;
         };
-        let mut whole: Vec<Term> = Vec::new();
-        let mut inner: Vec<Term> = Vec::new();
+        let mut whole: Vec<NetworkTerm> = Vec::new();
+        let mut inner: Vec<NetworkTerm> = Vec::new();
         for term in terms {
             let term = self.flat(&term);
             if term.k == Dd::ZERO {
@@ -236,7 +236,7 @@ impl<'a> Network<'a> {
                 self.uses[f as usize] += usize::from(self.uses[term.factors[0] as usize] > 1);
             }
             let sum = self.sums[term.factors[0] as usize].as_deref();
-            let scaled = sum.into_iter().flatten().map(|t| Term {
+            let scaled = sum.into_iter().flatten().map(|t| NetworkTerm {
                 k: t.k * term.k,
                 factors: t.factors.clone(),
             });
@@ -257,7 +257,7 @@ impl<'a> Network<'a> {
 
     /// The sum with sums that others read too written out in it, where enough of their terms meet
     /// terms of this one that it gets cheaper.
-    fn cancelled(&mut self, mut whole: Vec<Term>) -> Vec<Term> {
+    fn cancelled(&mut self, mut whole: Vec<NetworkTerm>) -> Vec<NetworkTerm> {
         while let Some(cheaper) = (0..whole.len()).find_map(|t| self.opened(&whole, t)) {
             whole = cheaper;
             for &f in whole.iter().flat_map(|t| &t.factors) {
@@ -268,20 +268,20 @@ impl<'a> Network<'a> {
     }
 
     /// The sum with its term t written out; `None` where that is not cheaper.
-    fn opened(&self, whole: &[Term], t: usize) -> Option<Vec<Term>> {
+    fn opened(&self, whole: &[NetworkTerm], t: usize) -> Option<Vec<NetworkTerm>> {
         let [f] = whole[t].factors[..] else {
             return None;
         };
         let inner = self.sums[f as usize].as_deref()?;
         // Without a term that meets another one it cannot get cheaper.
-        let meets = |term: &Term| {
+        let meets = |term: &NetworkTerm| {
             let at = whole.binary_search_by(|other| other.factors.cmp(&term.factors));
             at.is_ok_and(|other| other != t)
         };
         if self.kept[f as usize] || inner.len() < 2 || !inner.iter().any(meets) {
             return None;
         }
-        let scaled = inner.iter().map(|term| Term {
+        let scaled = inner.iter().map(|term| NetworkTerm {
             k: term.k * whole[t].k,
             factors: term.factors.clone(),
         });
@@ -297,8 +297,8 @@ impl<'a> Network<'a> {
     }
 
     /// The term with products that are read once written out.
-    fn flat(&mut self, term: &Term) -> Term {
-        let mut made = Term {
+    fn flat(&mut self, term: &NetworkTerm) -> NetworkTerm {
+        let mut made = NetworkTerm {
             k: term.k,
             factors: Vec::new(),
         };

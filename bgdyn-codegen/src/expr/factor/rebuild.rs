@@ -2,12 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::network::{Network, Term, Var};
-use crate::expr::{Expr, Graph, NodeId};
+use super::network::{Network, NetworkTerm, Var};
+use crate::expr::{Graph, NodeId, Signed};
 
 /// The graph of the network's sums. Nodes come in the order of the graph that was read; what the
 /// pass made stands before its first user.
-pub(super) fn rebuild(network: &Network<'_>, outputs: &[Expr]) -> (Graph, Vec<Expr>) {
+pub(super) fn rebuild(network: &Network<'_>, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let mut rebuild = Rebuild {
         network,
         made: vec![None; network.sums.len()],
@@ -25,7 +25,7 @@ pub(super) fn rebuild(network: &Network<'_>, outputs: &[Expr]) -> (Graph, Vec<Ex
 }
 
 /// Which variables the results need.
-fn reachable(network: &Network<'_>, outputs: &[Expr]) -> Vec<bool> {
+fn reachable(network: &Network<'_>, outputs: &[Signed]) -> Vec<bool> {
     let mut read = vec![false; network.sums.len()];
     let mut stack: Vec<Var> = outputs.iter().map(|e| e.node.0).collect();
     while let Some(i) = stack.pop() {
@@ -45,12 +45,12 @@ fn for_each_operand(network: &Network<'_>, i: Var, mut f: impl FnMut(Var)) {
 
 struct Rebuild<'a> {
     network: &'a Network<'a>,
-    made: Vec<Option<Expr>>,
+    made: Vec<Option<Signed>>,
     graph: Graph,
 }
 
 impl Rebuild<'_> {
-    fn at(&self, e: Expr) -> Expr {
+    fn at(&self, e: Signed) -> Signed {
         let made = self.made[e.node.0 as usize].expect("operands are made first");
         made.flipped(e.negative)
     }
@@ -84,7 +84,7 @@ impl Rebuild<'_> {
             None => {
                 let node = from.node(NodeId(i)).clone();
                 let made = &self.made;
-                let at = |e: Expr| {
+                let at = |e: Signed| {
                     let operand = made[e.node.0 as usize].expect("operands are made first");
                     operand.flipped(e.negative)
                 };
@@ -98,12 +98,12 @@ impl Rebuild<'_> {
     }
 
     /// The terms in the order in which their factors are made.
-    fn sum(&mut self, terms: &[Term]) -> Expr {
-        let mut sorted: Vec<(Vec<Expr>, Dd)> = terms
+    fn sum(&mut self, terms: &[NetworkTerm]) -> Signed {
+        let mut sorted: Vec<(Vec<Signed>, Dd)> = terms
             .iter()
             .map(|t| {
-                let plus = |&f: &Var| self.at(Expr::plus(NodeId(f)));
-                let mut factors: Vec<Expr> = t.factors.iter().map(plus).collect();
+                let plus = |&f: &Var| self.at(Signed::plus(NodeId(f)));
+                let mut factors: Vec<Signed> = t.factors.iter().map(plus).collect();
                 factors.sort();
                 (factors, t.k)
             })
@@ -113,7 +113,7 @@ impl Rebuild<'_> {
             (last.is_none(), last, factors.len())
         });
         // A term that is added comes first, so that nothing starts with a sign.
-        let added = |(factors, k): &(Vec<Expr>, Dd)| {
+        let added = |(factors, k): &(Vec<Signed>, Dd)| {
             factors
                 .iter()
                 .fold(*k > Dd::ZERO, |plus, f| plus ^ f.negative)
@@ -123,7 +123,7 @@ impl Rebuild<'_> {
         }
         let mut sum = self.graph.constant(Dd::ZERO);
         for (factors, k) in sorted {
-            let mut product: Option<Expr> = None;
+            let mut product: Option<Signed> = None;
             for f in factors {
                 product = Some(match product {
                     Some(p) => self.graph.mul(p, f),

@@ -1,92 +1,98 @@
 //! Messages about the rules of single kinds of effects, and of hydraulic nodes.
 
 use super::figure;
-use crate::fault::{Fault, Place};
+use crate::fault::{Fault, Location};
 
 // Friction
 
-pub(crate) fn no_stribeck_speed(place: &Place) -> Fault {
+pub(crate) fn no_stribeck_speed(location: &Location) -> Fault {
     let message = "`static` needs `stribeck_speed`, the speed at which friction falls from it";
-    Fault::new(place, "effect-missing", message).with_help("add `stribeck_speed: …`")
+    Fault::new(location, "effect-missing", message).with_help("add `stribeck_speed: …`")
 }
 
-pub(crate) fn friction_feeds_energy(place: &Place, least: f64) -> Fault {
+pub(crate) fn friction_feeds_energy(location: &Location, least: f64) -> Fault {
     let message = format!(
         "`viscous` is less than damping·(static − kinetic)/kinetic = {least:.6}: this friction can feed energy into the motion"
     );
-    Fault::new(place, "effect-passivity", message)
+    Fault::new(location, "effect-passivity", message)
         .with_help("raise `viscous` or lower `damping`")
         .into_warning()
 }
 
-pub(crate) fn width_above_stribeck_speed(place: &Place, width: &str, speed: &str) -> Fault {
+pub(crate) fn width_above_stribeck_speed(location: &Location, width: &str, speed: &str) -> Fault {
     let message = format!(
         "`width` is {width}, more than `stribeck_speed`, {speed}: the curve falls before friction has risen, and `static` has hardly an effect"
     );
-    Fault::new(place, "effect-width", message)
+    Fault::new(location, "effect-width", message)
         .with_help("a tenth of it is usual")
         .into_warning()
 }
 
 // Stops, rotors, wrenches, drag
 
-pub(crate) fn no_stops(place: &Place, joint: &str) -> Fault {
+pub(crate) fn no_stops(location: &Location, joint: &str) -> Fault {
     let message =
         format!("the effect has neither `lower` nor `upper`, and `{joint}` has no limits");
-    Fault::new(place, "effect-missing", message).with_help("write `lower`, `upper` or both")
+    Fault::new(location, "effect-missing", message).with_help("write `lower`, `upper` or both")
 }
 
-pub(crate) fn rotor_axis_without_link(place: &Place) -> Fault {
+pub(crate) fn rotor_axis_without_link(location: &Location) -> Fault {
     let message = "`axis` gives the direction of the rotor, but no `on` gives its link";
-    Fault::new(place, "effect-missing", message)
+    Fault::new(location, "effect-missing", message)
         .with_help("add `on: …`, or leave `axis` out: the reflected inertia has no direction")
 }
 
-pub(crate) fn repeated_component(place: &Place, component: &str) -> Fault {
-    wrench_components(place, format!("`components` names `{component}` twice"))
+pub(crate) fn repeated_component(location: &Location, component: &str) -> Fault {
+    wrench_components(location, format!("`components` names `{component}` twice"))
 }
 
-pub(crate) fn no_components(place: &Place) -> Fault {
-    wrench_components(place, "`components` is empty".to_owned())
+pub(crate) fn no_components(location: &Location) -> Fault {
+    wrench_components(location, "`components` is empty".to_owned())
 }
 
-fn wrench_components(place: &Place, message: String) -> Fault {
-    Fault::new(place, "effect-components", message)
+fn wrench_components(location: &Location, message: String) -> Fault {
+    Fault::new(location, "effect-components", message)
         .with_help("write the components that are inputs: `[fx, fz]`")
 }
 
-pub(crate) fn no_drag(place: &Place, name: &str) -> Fault {
+pub(crate) fn no_drag(location: &Location, name: &str) -> Fault {
     let message = format!("`{name}` has no drag");
-    Fault::new(place, "effect-missing", message).with_help("add `linear`, `quadratic` or `angular`")
+    Fault::new(location, "effect-missing", message)
+        .with_help("add `linear`, `quadratic` or `angular`")
 }
 
-pub(crate) fn acts_on_the_world(place: &Place, name: &str, at: &str) -> Fault {
+pub(crate) fn acts_on_the_world(location: &Location, name: &str, at: &str) -> Fault {
     let message = format!("`{at}` is fixed to the world: `{name}` would do nothing");
-    Fault::new(place, "effect-place", message).with_help("name a link, or a frame on one")
+    Fault::new(location, "effect-place", message).with_help("name a link, or a frame on one")
 }
 
 // Hydraulics
 
-pub(crate) fn side_without_area(place: &Place, key: &str) -> Fault {
+pub(crate) fn side_without_area(location: &Location, key: &str) -> Fault {
     let message = format!("`{key}` is of side b, which has no `area_b`");
-    Fault::new(place, "effect-missing", message)
+    Fault::new(location, "effect-missing", message)
         .with_help("add `area_b: …`, or leave it out: the cylinder is single-acting")
 }
 
-pub(crate) fn below_vacuum(place: &Place, key: &str, text: &str, vacuum: f64) -> Fault {
+pub(crate) fn below_vacuum(location: &Location, key: &str, text: &str, vacuum: f64) -> Fault {
     let message = format!("`{key}` is {text}, less than a vacuum: {vacuum} Pa");
-    Fault::new(place, "effect-pressure", message)
+    Fault::new(location, "effect-pressure", message)
         .with_help("pressures are measured against the surroundings")
 }
 
-pub(crate) fn joins_a_node_to_itself(place: &Place, keys: [&str; 2], node: &str) -> Fault {
+pub(crate) fn joins_a_node_to_itself(location: &Location, keys: [&str; 2], node: &str) -> Fault {
     let [one, other] = keys;
     let message = format!("`{one}` and `{other}` are the same node, `{node}`: there is no flow");
-    Fault::new(place, "joined-to-nothing", message).with_help("join two nodes")
+    Fault::new(location, "joined-to-nothing", message).with_help("join two nodes")
 }
 
 /// `asked` is the fluid that the node names, `known` are the fluids of the scene.
-pub(crate) fn no_fluid(place: &Place, name: &str, asked: Option<&str>, known: &[&str]) -> Fault {
+pub(crate) fn no_fluid(
+    location: &Location,
+    name: &str,
+    asked: Option<&str>,
+    known: &[&str],
+) -> Fault {
     let quoted: Vec<String> = known.iter().map(|fluid| format!("`{fluid}`")).collect();
     let quoted = quoted.join(", ");
     let message = match (asked, known) {
@@ -98,45 +104,46 @@ pub(crate) fn no_fluid(place: &Place, name: &str, asked: Option<&str>, known: &[
         [] => "add `oil: { type: fluid, bulk_modulus: … }` and call for it: `- hydraulics` calls for all of it".to_owned(),
         _ => format!("write `fluid: …`: one of {quoted}"),
     };
-    Fault::new(place, "no-fluid", message).with_help(help)
+    Fault::new(location, "no-fluid", message).with_help(help)
 }
 
-pub(crate) fn two_fluids(place: &Place, name: &str, [one, other]: [&str; 2]) -> Fault {
+pub(crate) fn two_fluids(location: &Location, name: &str, [one, other]: [&str; 2]) -> Fault {
     let message = format!("`{name}` joins `{one}` and `{other}`: two fluids");
-    Fault::new(place, "two-fluids", message).with_help("join nodes of one fluid")
+    Fault::new(location, "two-fluids", message).with_help("join nodes of one fluid")
 }
 
 /// `joined` are the elements at the junction: none, or one.
-pub(crate) fn dead_end(place: &Place, name: &str, joined: Option<&str>) -> Fault {
+pub(crate) fn dead_end(location: &Location, name: &str, joined: Option<&str>) -> Fault {
     let message = match joined {
         None => format!("nothing is joined to `{name}`"),
         Some(one) => format!("`{name}` is a dead end: `{one}` alone is joined to it"),
     };
-    Fault::new(place, "joined-to-nothing", message).with_help("a junction is between two elements")
+    Fault::new(location, "joined-to-nothing", message)
+        .with_help("a junction is between two elements")
 }
 
 // Algebraic loops
 
-fn algebraic_loop(place: &Place, message: String, way_out: &str) -> Fault {
-    Fault::new(place, "algebraic-loop", message).with_help(way_out)
+fn algebraic_loop(location: &Location, message: String, way_out: &str) -> Fault {
+    Fault::new(location, "algebraic-loop", message).with_help(way_out)
 }
 
-pub(crate) fn motor_without_impedance(place: &Place) -> Fault {
+pub(crate) fn motor_without_impedance(location: &Location) -> Fault {
     let message = "neither resistance nor inductance: the loop voltage → current → torque → speed → voltage has no solution";
-    algebraic_loop(place, message.to_owned(), "give one of them")
+    algebraic_loop(location, message.to_owned(), "give one of them")
 }
 
-pub(crate) fn circle_without_volume(place: &Place, name: &str) -> Fault {
+pub(crate) fn circle_without_volume(location: &Location, name: &str) -> Fault {
     let message = format!(
         "`{name}` lies in a circle of elements and junctions, none of which has a volume or a pressure of its own"
     );
     let way_out = "make one of the junctions a volume: `{ type: line, volume: … }`";
-    algebraic_loop(place, message, way_out)
+    algebraic_loop(location, message, way_out)
 }
 
 /// `joined` are the elements at the junction; `varies` is one of two whose opening varies.
 pub(crate) fn junction_without_volume(
-    place: &Place,
+    location: &Location,
     name: &str,
     joined: &[&str],
     varies: Option<&str>,
@@ -153,19 +160,19 @@ pub(crate) fn junction_without_volume(
         ),
     };
     let way_out = format!("give it a volume: `{name}: {{ type: line, volume: … }}`");
-    algebraic_loop(place, message, &way_out)
+    algebraic_loop(location, message, &way_out)
 }
 
 // Values of a scene's equations
 
 /// `what` is the quantity, `when` the part of the motion in which it has the value.
 pub(crate) fn not_positive(
-    place: &Place,
+    location: &Location,
     (what, value, when): (&str, f64, &str),
     way_out: &str,
 ) -> Fault {
     let message = format!("{what} is {value:.3e} {when}");
-    Fault::new(place, "effect-range", message).with_help(way_out)
+    Fault::new(location, "effect-range", message).with_help(way_out)
 }
 
 /// A mode that a scene states against the rest of its state, SI units.
@@ -192,7 +199,7 @@ pub(crate) enum WhyWrong {
     CannotHold(f64, f64),
 }
 
-pub(crate) fn wrong_mode(place: &Place, mode: &WrongMode<'_>) -> Fault {
+pub(crate) fn wrong_mode(location: &Location, mode: &WrongMode<'_>) -> Fault {
     let WrongMode {
         name,
         modes: [stated, right],
@@ -215,7 +222,7 @@ pub(crate) fn wrong_mode(place: &Place, mode: &WrongMode<'_>) -> Fault {
         }
     };
     let message = format!("`{name}` begins with {stated}, but {why}: its mode is {right}");
-    Fault::new(place, "initial-mode", message).with_help(format!(
+    Fault::new(location, "initial-mode", message).with_help(format!(
         "leave `{name}` out: modes are settled when a run begins; or correct the rate or the effort"
     ))
 }

@@ -1,78 +1,83 @@
 //! Messages about effects: their types, their keys, the names that they refer to and take.
 
 use super::unknown_name;
-use crate::fault::{Fault, Place};
+use crate::fault::{Fault, Location};
 
 // Types
 
-pub(crate) fn effect_without_type(place: &Place, name: &str, types: &[&str]) -> Fault {
+pub(crate) fn effect_without_type(location: &Location, name: &str, types: &[&str]) -> Fault {
     let message = format!("the effect `{name}` has no type");
-    Fault::new(place, "effect-type", message)
+    Fault::new(location, "effect-type", message)
         .with_help(format!("add `type: …`: one of {}", types.join(", ")))
 }
 
-pub(crate) fn unknown_effect_type(place: &Place, word: &str, types: &[&str]) -> Fault {
+pub(crate) fn unknown_effect_type(location: &Location, word: &str, types: &[&str]) -> Fault {
     let all = types.join(", ");
     let message = unknown_name("type of effect", word, types, &all);
-    Fault::new(place, "effect-type", message).with_help(format!("the types are {all}"))
+    Fault::new(location, "effect-type", message).with_help(format!("the types are {all}"))
 }
 
 pub(crate) fn type_of_mechanism_differs(
-    place: &Place,
+    location: &Location,
     name: &str,
     (mechanism, scene): (&str, &str),
 ) -> Fault {
     let message = format!("`{name}` is of type `{mechanism}` in the mechanism, not `{scene}`");
-    Fault::new(place, "effect-type", message)
+    Fault::new(location, "effect-type", message)
         .with_help("leave `type` out, or give the new effect another name")
 }
 
 // What a scene's list names
 
-pub(crate) fn unknown_effect(place: &Place, name: &str, known: &[&str]) -> Fault {
+pub(crate) fn unknown_effect(location: &Location, name: &str, known: &[&str]) -> Fault {
     let message = unknown_name("effect", name, known, &known.join(", "));
-    Fault::new(place, "unknown-effect", message)
+    Fault::new(location, "unknown-effect", message)
         .with_help("write a new effect with its type: `- push: { type: wrench, … }`")
 }
 
-pub(crate) fn effect_listed_twice(place: &Place, name: &str) -> Fault {
+pub(crate) fn effect_listed_twice(location: &Location, name: &str) -> Fault {
     let message = format!("the scene lists the effect `{name}` twice");
-    Fault::new(place, "repeated-effect", message).with_help("leave one of them out")
+    Fault::new(location, "repeated-effect", message).with_help("leave one of them out")
 }
 
 pub(crate) fn two_of_type_at_joint(
-    place: &Place,
+    location: &Location,
     [first, second]: [&str; 2],
     keyword: &str,
     joint: &str,
 ) -> Fault {
     let message =
         format!("`{first}` and `{second}` are both of type `{keyword}` at the joint `{joint}`");
-    Fault::new(place, "repeated-effect", message)
+    Fault::new(location, "repeated-effect", message)
         .with_help("a joint can have one effect of this type: leave the other out")
 }
 
 // Keys and the names behind them
 
-pub(crate) fn effect_key_missing(place: &Place, effect: &str, key: &str, about: &str) -> Fault {
+pub(crate) fn effect_key_missing(
+    location: &Location,
+    effect: &str,
+    key: &str,
+    about: &str,
+) -> Fault {
     let message = format!("`{effect}` has no `{key}`: {about}");
     let help = match key {
         "joint" => "add `joint: …`, or `joints: all` for one effect at each joint".to_owned(),
         key => format!("add `{key}: …`"),
     };
-    Fault::new(place, "missing-key", message).with_help(help)
+    Fault::new(location, "missing-key", message).with_help(help)
 }
 
-pub(crate) fn joint_is_locked(place: &Place, joint: &str) -> Fault {
+pub(crate) fn joint_is_locked(location: &Location, joint: &str) -> Fault {
     let message =
         format!("the joint `{joint}` is locked in this scene, so no effect can act on it");
-    Fault::new(place, "locked-joint", message)
+    Fault::new(location, "locked-joint", message)
         .with_help("leave this effect out of the scene, or do not lock the joint")
 }
 
 /// `what` is the kind of name that belongs behind `key`: a moving joint, a hydraulic node.
 pub(crate) fn unknown_reference(
-    place: &Place,
+    location: &Location,
     (what, word): (&str, &str),
     known: &[&str],
     (key, about): (&str, &str),
@@ -82,36 +87,36 @@ pub(crate) fn unknown_reference(
         known => known.join(", "),
     };
     let message = unknown_name(what, word, known, &all);
-    Fault::new(place, "unknown-name", message).with_help(format!("`{key}`: {about}"))
+    Fault::new(location, "unknown-name", message).with_help(format!("`{key}`: {about}"))
 }
 
-pub(crate) fn joint_and_joints(place: &Place, effect: &str) -> Fault {
+pub(crate) fn joint_and_joints(location: &Location, effect: &str) -> Fault {
     let message = format!("`{effect}` has both `joint` and `joints`");
-    Fault::new(place, "effect-joints", message).with_help("keep one of them")
+    Fault::new(location, "effect-joints", message).with_help("keep one of them")
 }
 
-pub(crate) fn joint_listed_twice(place: &Place, joint: &str) -> Fault {
+pub(crate) fn joint_listed_twice(location: &Location, joint: &str) -> Fault {
     let message = format!("the joint `{joint}` is in the list twice");
-    Fault::new(place, "effect-joints", message).with_help("leave one of them out")
+    Fault::new(location, "effect-joints", message).with_help("leave one of them out")
 }
 
-pub(crate) fn joints_of_wrong_kind(place: &Place) -> Fault {
+pub(crate) fn joints_of_wrong_kind(location: &Location) -> Fault {
     let message = "`joints` is neither `all` nor a list of joints";
-    Fault::new(place, "effect-joints", message)
+    Fault::new(location, "effect-joints", message)
         .with_help("write `joints: all`, `joints: [shoulder, elbow]` or `joint: shoulder`")
 }
 
 // Names that effects take
 
-pub(crate) fn effect_has_name_of_body(place: &Place, name: &str) -> Fault {
+pub(crate) fn effect_has_name_of_body(location: &Location, name: &str) -> Fault {
     let message = format!("`{name}` is already the name of a joint, a link or a frame");
-    Fault::new(place, "repeated-name", message)
+    Fault::new(location, "repeated-name", message)
         .with_help("give the effect another name, such as `elbow_friction`")
 }
 
-pub(crate) fn effect_has_name_of_effect(place: &Place, name: &str, other: &str) -> Fault {
+pub(crate) fn effect_has_name_of_effect(location: &Location, name: &str, other: &str) -> Fault {
     let message = format!("the effect `{other}` already uses the name `{name}`");
-    Fault::new(place, "repeated-name", message).with_help(
+    Fault::new(location, "repeated-name", message).with_help(
         "the sides of a cylinder `boom` are called `boom_a` and `boom_b`: rename one of the two effects",
     )
 }

@@ -1,55 +1,57 @@
 //! Messages about a scene's inputs: signals, controllers, tables.
 
 use super::{quote, unknown_name};
-use crate::fault::{Fault, Place};
+use crate::fault::{Fault, Location};
 
-pub(crate) fn unknown_input(place: &Place, name: &str, known: &[&str]) -> Fault {
+pub(crate) fn unknown_input(location: &Location, name: &str, known: &[&str]) -> Fault {
     let message = unknown_name("input", name, known, &known.join(", "));
-    Fault::new(place, "unknown-input", message)
+    Fault::new(location, "unknown-input", message)
         .with_help("an input is the effort of a joint, or an input that an effect declares")
 }
 
 /// `known` lists what an input can be driven by.
-pub(crate) fn not_one_source(place: &Place, known: &str) -> Fault {
-    Fault::new(place, "drive", "an input has exactly one source")
+pub(crate) fn not_one_source(location: &Location, known: &str) -> Fault {
+    Fault::new(location, "drive", "an input has exactly one source")
         .with_help(format!("write one of {known}"))
 }
 
-pub(crate) fn unknown_source(place: &Place, word: &str, known: &str) -> Fault {
+pub(crate) fn unknown_source(location: &Location, word: &str, known: &str) -> Fault {
     let message = format!("no signal and no controller is called {}", quote(word));
-    Fault::new(place, "drive", message).with_help(format!("write one of {known}"))
+    Fault::new(location, "drive", message).with_help(format!("write one of {known}"))
 }
 
 // Controllers
 
-pub(crate) fn computed_torque_without_effort(place: &Place) -> Fault {
+pub(crate) fn computed_torque_without_effort(location: &Location) -> Fault {
     let message =
         "`computed_torque` computes the effort of a joint, and this input is not such an effort";
-    Fault::new(place, "drive", message)
+    Fault::new(location, "drive", message)
         .with_help("use `pd`, whose gains have this input's unit, or `given`")
 }
 
-pub(crate) fn controller_without_joint(place: &Place, word: &str) -> Fault {
+pub(crate) fn controller_without_joint(location: &Location, word: &str) -> Fault {
     let message = format!("`{word}` controls the position of a joint, and this input has no joint");
-    Fault::new(place, "drive", message).with_help("use `constant`, `harmonic`, `table` or `given`")
+    Fault::new(location, "drive", message)
+        .with_help("use `constant`, `harmonic`, `table` or `given`")
 }
 
-pub(crate) fn controller_without_target(place: &Place) -> Fault {
-    Fault::new(place, "missing-key", "the controller has no `target`")
+pub(crate) fn controller_without_target(location: &Location) -> Fault {
+    Fault::new(location, "missing-key", "the controller has no `target`")
         .with_help("add `target: …`: a number, or a signal such as `{ ramp: … }`")
 }
 
 // Tables
 
-pub(crate) fn not_a_point(place: &Place) -> Fault {
-    Fault::new(place, "drive", "a point is a time and a value").with_help("write `[0.5 s, 2]`")
+pub(crate) fn not_a_point(location: &Location) -> Fault {
+    Fault::new(location, "drive", "a point is a time and a value").with_help("write `[0.5 s, 2]`")
 }
 
-pub(crate) fn times_not_increasing(place: &Place, text: &str) -> Fault {
+pub(crate) fn times_not_increasing(location: &Location, text: &str) -> Fault {
     let message = format!("the time {text} is not later than the time before it");
-    Fault::new(place, "drive", message).with_help("times must increase from point to point")
+    Fault::new(location, "drive", message).with_help("times must increase from point to point")
 }
 
-pub(crate) fn empty_table(place: &Place) -> Fault {
-    Fault::new(place, "drive", "the table has no points").with_help("write `[[0 s, 0], [1 s, 2]]`")
+pub(crate) fn empty_table(location: &Location) -> Fault {
+    Fault::new(location, "drive", "the table has no points")
+        .with_help("write `[[0 s, 0], [1 s, 2]]`")
 }

@@ -2,11 +2,11 @@
 
 use super::{listed, meant, quote};
 use crate::fault::quote::escape;
-use crate::fault::{Fault, Place, Position};
+use crate::fault::{Fault, Location, Position};
 use crate::unit::{Dimension, Unit};
 
-fn at(position: Position) -> Place {
-    Place {
+fn at(position: Position) -> Location {
+    Location {
         position,
         path: String::new(),
     }
@@ -32,7 +32,7 @@ pub(crate) fn yaml_ambiguous(position: Position) -> Fault {
 
 pub(crate) fn empty_file() -> Fault {
     Fault::new(
-        &Place::file(),
+        &Location::file(),
         "empty-file",
         "the file contains no mechanism",
     )
@@ -63,62 +63,62 @@ pub(crate) fn cyclic_alias(position: Position) -> Fault {
     .with_help("write the values out")
 }
 
-pub(crate) fn merge_key(place: &Place) -> Fault {
+pub(crate) fn merge_key(location: &Location) -> Fault {
     Fault::new(
-        place,
+        location,
         "merge-key",
         "merge keys (`<<`) are not part of the format",
     )
     .with_help("write the keys out, or use an alias for a single value")
 }
 
-pub(crate) fn tag(place: &Place, tag: &str) -> Fault {
+pub(crate) fn tag(location: &Location, tag: &str) -> Fault {
     let message = format!(
         "YAML tags such as {} are not part of the format",
         quote(tag)
     );
-    Fault::new(place, "tag", message).with_help("leave the tag out")
+    Fault::new(location, "tag", message).with_help("leave the tag out")
 }
 
 // Keys and types
 
-pub(crate) fn not_two_names(place: &Place, count: usize) -> Fault {
+pub(crate) fn not_two_names(location: &Location, count: usize) -> Fault {
     let message = format!("two names belong here, not {count}");
-    Fault::new(place, "wrong-length", message).with_help("write `[one, other]`")
+    Fault::new(location, "wrong-length", message).with_help("write `[one, other]`")
 }
 
-pub(crate) fn unknown_key(place: &Place, key: &str, known: &[&'static str]) -> Fault {
+pub(crate) fn unknown_key(location: &Location, key: &str, known: &[&'static str]) -> Fault {
     let help = meant(
         key,
         known,
         format!("the keys here are {}", listed(known.iter().copied())),
     );
     Fault::new(
-        place,
+        location,
         "unknown-key",
         format!("the key {} is unknown here", quote(key)),
     )
     .with_help(help)
 }
 
-pub(crate) fn key_not_text(place: &Place, known: &[&'static str]) -> Fault {
-    Fault::new(place, "unknown-key", "a key must be a single word").with_help(format!(
+pub(crate) fn key_not_text(location: &Location, known: &[&'static str]) -> Fault {
+    Fault::new(location, "unknown-key", "a key must be a single word").with_help(format!(
         "the keys here are {}",
         listed(known.iter().copied())
     ))
 }
 
-pub(crate) fn repeated_key(place: &Place, key: &str, first: Position) -> Fault {
+pub(crate) fn repeated_key(location: &Location, key: &str, first: Position) -> Fault {
     let message = format!("the key {} is written a second time", quote(key));
-    Fault::new(place, "repeated-key", message).with_help(format!(
+    Fault::new(location, "repeated-key", message).with_help(format!(
         "the first one is on line {}; remove one of them",
         first.line
     ))
 }
 
-pub(crate) fn missing_key(place: &Place, key: &str, what: &str) -> Fault {
+pub(crate) fn missing_key(location: &Location, key: &str, what: &str) -> Fault {
     Fault::new(
-        place,
+        location,
         "missing-key",
         format!("the key {} is missing", quote(key)),
     )
@@ -128,44 +128,44 @@ pub(crate) fn missing_key(place: &Place, key: &str, what: &str) -> Fault {
 /// What belongs somewhere, and how it is written.
 pub(crate) type Wanted<'a> = (&'a str, &'a str);
 
-pub(crate) fn wrong_type(place: &Place, (what, example): Wanted<'_>, found: &str) -> Fault {
+pub(crate) fn wrong_type(location: &Location, (what, example): Wanted<'_>, found: &str) -> Fault {
     let message = format!("{what} belongs here, not {found}");
     let help = match found {
         "nothing" => "leave the key out if there is no value".to_owned(),
         _ => format!("write {example}"),
     };
-    Fault::new(place, "wrong-type", message).with_help(help)
+    Fault::new(location, "wrong-type", message).with_help(help)
 }
 
-pub(crate) fn wrong_length(place: &Place, count: usize) -> Fault {
+pub(crate) fn wrong_length(location: &Location, count: usize) -> Fault {
     let message = format!("three numbers belong here, not {count}");
-    Fault::new(place, "wrong-length", message).with_help("write `[x, y, z]`")
+    Fault::new(location, "wrong-length", message).with_help("write `[x, y, z]`")
 }
 
 // Numbers
 
-pub(crate) fn not_a_number(place: &Place, text: &str, fit: &[Dimension]) -> Fault {
+pub(crate) fn not_a_number(location: &Location, text: &str, fit: &[Dimension]) -> Fault {
     let fault = Fault::new(
-        place,
+        location,
         "wrong-type",
         format!("{} is not a number", quote(text)),
     );
     fault.with_help(format!("write {}", wanted(fit)))
 }
 
-pub(crate) fn not_decimal(place: &Place, text: &str) -> Fault {
+pub(crate) fn not_decimal(location: &Location, text: &str) -> Fault {
     Fault::new(
-        place,
+        location,
         "wrong-type",
         format!("{} is not a decimal number", quote(text)),
     )
     .with_help("write it as a decimal: `16`, `1.6e-3`")
 }
 
-pub(crate) fn number_as_text(place: &Place, text: &str, quoted: bool) -> Fault {
+pub(crate) fn number_as_text(location: &Location, text: &str, quoted: bool) -> Fault {
     if quoted {
         return Fault::new(
-            place,
+            location,
             "wrong-type",
             format!(
                 "the number {} is in quotes, which makes it text",
@@ -175,45 +175,56 @@ pub(crate) fn number_as_text(place: &Place, text: &str, quoted: bool) -> Fault {
         .with_help("leave out the quotes");
     }
     Fault::new(
-        place,
+        location,
         "wrong-type",
         format!("YAML reads {} as text", quote(text)),
     )
     .with_help("leave out the leading zeros")
 }
 
-pub(crate) fn non_finite(place: &Place, text: &str) -> Fault {
+pub(crate) fn non_finite(location: &Location, text: &str) -> Fault {
     Fault::new(
-        place,
+        location,
         "non-finite",
         format!("{} is not a finite number", quote(text)),
     )
     .with_help("leave the key out if there is no value")
 }
 
-pub(crate) fn out_of_range(place: &Place, text: &str) -> Fault {
+pub(crate) fn out_of_range(location: &Location, text: &str) -> Fault {
     let message = format!("{} is outside ±1e-100 … ±1e100", quote(text));
-    Fault::new(place, "out-of-range", message).with_help("leave the key out if there is no value")
+    Fault::new(location, "out-of-range", message)
+        .with_help("leave the key out if there is no value")
 }
 
-pub(crate) fn unknown_unit(place: &Place, text: &str, unit: &str, fit: &[Dimension]) -> Fault {
+pub(crate) fn unknown_unit(
+    location: &Location,
+    text: &str,
+    unit: &str,
+    fit: &[Dimension],
+) -> Fault {
     let units: Vec<&str> = fit.iter().flat_map(|d| d.units()).collect();
     let message = format!("the unit {} in {} is unknown", quote(unit), quote(text));
-    Fault::new(place, "unknown-unit", message).with_help(meant(
+    Fault::new(location, "unknown-unit", message).with_help(meant(
         unit,
         &units,
         format!("write {}", wanted(fit)),
     ))
 }
 
-pub(crate) fn unit_misfit(place: &Place, text: &str, unit: &Unit, fit: &[Dimension]) -> Fault {
+pub(crate) fn unit_misfit(
+    location: &Location,
+    text: &str,
+    unit: &Unit,
+    fit: &[Dimension],
+) -> Fault {
     let what = fit
         .iter()
         .map(ToString::to_string)
         .collect::<Vec<_>>()
         .join(" or ");
     let message = format!("{} is {}; {what} belongs here", quote(text), unit.dimension);
-    Fault::new(place, "unit-misfit", message).with_help(format!("write {}", wanted(fit)))
+    Fault::new(location, "unit-misfit", message).with_help(format!("write {}", wanted(fit)))
 }
 
 /// "a number, bare (m) or with one of `m`, `cm`, `mm`".
@@ -232,9 +243,9 @@ fn wanted(fit: &[Dimension]) -> String {
 
 // Run-time parameters
 
-pub(crate) fn misplaced_parameter(place: &Place) -> Fault {
+pub(crate) fn misplaced_parameter(location: &Location) -> Fault {
     Fault::new(
-        place,
+        location,
         "misplaced-parameter",
         "a run-time parameter is not allowed here",
     )
@@ -244,12 +255,12 @@ pub(crate) fn misplaced_parameter(place: &Place) -> Fault {
     )
 }
 
-pub(crate) fn unknown_format(place: &Place, text: &str, known: u32) -> Fault {
+pub(crate) fn unknown_format(location: &Location, text: &str, known: u32) -> Fault {
     let message = format!(
         "this spec is of format {}; only format {known} is known",
         quote(text)
     );
-    Fault::new(place, "unknown-format", message).with_help(format!(
+    Fault::new(location, "unknown-format", message).with_help(format!(
         "write `format: {known}`, or use the version of bgdyn the spec is for"
     ))
 }

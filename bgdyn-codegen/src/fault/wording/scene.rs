@@ -1,100 +1,100 @@
 //! Messages about a scene: its mechanism, its locked joints, its state, its outputs, its integration.
 
 use super::{figure, unknown_name};
-use crate::fault::{Fault, Place};
+use crate::fault::{Fault, Location};
 
-pub(crate) fn unknown_scene_version(place: &Place, text: &str) -> Fault {
+pub(crate) fn unknown_scene_version(location: &Location, text: &str) -> Fault {
     let message = format!("this scene is of version {text}; only version 1 is known");
-    Fault::new(place, "version", message).with_help("write `scene: 1`")
+    Fault::new(location, "version", message).with_help("write `scene: 1`")
 }
 
 // The mechanism
 
-pub(crate) fn mechanism_unreadable(place: &Place, path: &str, why: &str) -> Fault {
+pub(crate) fn mechanism_unreadable(location: &Location, path: &str, why: &str) -> Fault {
     let message = format!("the mechanism `{path}` cannot be read: {why}");
-    Fault::new(place, "no-mechanism", message)
+    Fault::new(location, "no-mechanism", message)
         .with_help("write its path relative to the scene's folder")
 }
 
-pub(crate) fn no_inertia_in_scene(place: &Place, joint: &str) -> Fault {
+pub(crate) fn no_inertia_in_scene(location: &Location, joint: &str) -> Fault {
     let message = format!(
         "in this scene the joint `{joint}` moves nothing that has inertia: its acceleration is undetermined"
     );
-    Fault::new(place, "no-inertia", message)
+    Fault::new(location, "no-inertia", message)
         .with_help(
             "add the effect `inertia` or a rotor, or lock the joint; `inverse` can be used as it is",
         )
         .into_warning()
 }
 
-pub(crate) fn unknown_locked_joint(place: &Place, name: &str, joints: &[&str]) -> Fault {
+pub(crate) fn unknown_locked_joint(location: &Location, name: &str, joints: &[&str]) -> Fault {
     let message = unknown_name("moving joint", name, joints, &joints.join(", "));
-    Fault::new(place, "unknown-name", message)
+    Fault::new(location, "unknown-name", message)
         .with_help("`lock` takes joints and the positions that they keep: `wrist: 30 deg`")
 }
 
 // The state and its start
 
-pub(crate) fn repeated_state_or_input(place: &Place, name: &str) -> Fault {
+pub(crate) fn repeated_state_or_input(location: &Location, name: &str) -> Fault {
     let message = format!("two state variables or two inputs are called `{name}`");
-    Fault::new(place, "repeated-name", message)
+    Fault::new(location, "repeated-name", message)
         .with_help("give one of the effects or inputs another name")
 }
 
-pub(crate) fn unknown_initial(place: &Place, name: &str, known: &[&str]) -> Fault {
+pub(crate) fn unknown_initial(location: &Location, name: &str, known: &[&str]) -> Fault {
     let message = unknown_name("state variable", name, known, &known.join(", "));
-    Fault::new(place, "unknown-name", message)
+    Fault::new(location, "unknown-name", message)
         .with_help("a position is called as its joint, a velocity `shoulder_rate`")
 }
 
 /// `value` and `least` with their units.
 pub(crate) fn initial_below_least(
-    place: &Place,
+    location: &Location,
     name: &str,
     (value, least): (&str, &str),
     way_out: &str,
 ) -> Fault {
     let message = format!("`{name}` starts at {value}, which is less than {least}");
-    Fault::new(place, "initial", message).with_help(way_out)
+    Fault::new(location, "initial", message).with_help(way_out)
 }
 
 /// The two values and their units.
-pub(crate) fn parameter_twice(place: &Place, name: &str, values: [(f64, &str); 2]) -> Fault {
+pub(crate) fn parameter_twice(location: &Location, name: &str, values: [(f64, &str); 2]) -> Fault {
     let [first, second] = values.map(|(x, unit)| format!("{} {unit}", figure(x)));
     let message = format!(
         "the parameter `{name}` has two values: {} and {}",
         first.trim_end(),
         second.trim_end()
     );
-    Fault::new(place, "parameter-twice", message).with_help("give one of them another name")
+    Fault::new(location, "parameter-twice", message).with_help("give one of them another name")
 }
 
 // Outputs
 
-pub(crate) fn unknown_output(place: &Place, name: &str, known: &[&str]) -> Fault {
+pub(crate) fn unknown_output(location: &Location, name: &str, known: &[&str]) -> Fault {
     let message = unknown_name("output", name, known, &known.join(", "));
-    Fault::new(place, "unknown-output", message).with_help(
+    Fault::new(location, "unknown-output", message).with_help(
         "an output is a state variable, a link, a frame, or a quantity that an effect reports",
     )
 }
 
 // Integration
 
-pub(crate) fn no_step_control(place: &Place, method: &str, controlled: &[&str]) -> Fault {
+pub(crate) fn no_step_control(location: &Location, method: &str, controlled: &[&str]) -> Fault {
     let message = format!("`{method}` takes steps of constant length: it has no `tolerance`");
-    Fault::new(place, "integration", message).with_help(format!(
+    Fault::new(location, "integration", message).with_help(format!(
         "write `step: 1 ms`, or choose one of {}",
         controlled.join(", ")
     ))
 }
 
-pub(crate) fn step_and_tolerance(place: &Place, method: &str) -> Fault {
+pub(crate) fn step_and_tolerance(location: &Location, method: &str) -> Fault {
     let message = format!("`{method}` takes a `step` or a `tolerance`, not both");
-    Fault::new(place, "integration", message).with_help("leave one of them out")
+    Fault::new(location, "integration", message).with_help("leave one of them out")
 }
 
 pub(crate) fn integration_not_positive(
-    place: &Place,
+    location: &Location,
     key: &str,
     text: &str,
     example: &str,
@@ -104,10 +104,10 @@ pub(crate) fn integration_not_positive(
         _ => "time",
     };
     let message = format!("`{key}` is {text}: it must be greater than 0");
-    Fault::new(place, rule, message).with_help(format!("write {example}"))
+    Fault::new(location, rule, message).with_help(format!("write {example}"))
 }
 
-pub(crate) fn unknown_integrator(place: &Place, word: &str, known: &[&str]) -> Fault {
+pub(crate) fn unknown_integrator(location: &Location, word: &str, known: &[&str]) -> Fault {
     let message = unknown_name("integration method", word, known, &known.join(", "));
-    Fault::new(place, "unknown-name", message).with_help("leave `method` out for `rk4`")
+    Fault::new(location, "unknown-name", message).with_help("leave `method` out for `rk4`")
 }

@@ -1,41 +1,46 @@
 //! Messages about the numbers of an effect: their signs, their order, which of them go together.
 
-use crate::fault::{Fault, Place};
+use crate::fault::{Fault, Location};
 
 /// `why` says which physical rule a negative number breaks; the same below.
-pub(crate) fn negative_value(place: &Place, key: &str, text: &str, why: &str) -> Fault {
+pub(crate) fn negative_value(location: &Location, key: &str, text: &str, why: &str) -> Fault {
     let message = format!("`{key}` is {text}: it must not be negative");
-    Fault::new(place, "effect-sign", message).with_help(why)
+    Fault::new(location, "effect-sign", message).with_help(why)
 }
 
-pub(crate) fn value_not_positive(place: &Place, key: &str, text: &str, why: &str) -> Fault {
+pub(crate) fn value_not_positive(location: &Location, key: &str, text: &str, why: &str) -> Fault {
     let message = format!("`{key}` is {text}: it must be greater than 0");
-    Fault::new(place, "effect-sign", message).with_help(why)
+    Fault::new(location, "effect-sign", message).with_help(why)
 }
 
-pub(crate) fn value_above_one(place: &Place, key: &str, text: &str, why: &str) -> Fault {
+pub(crate) fn value_above_one(location: &Location, key: &str, text: &str, why: &str) -> Fault {
     let message = format!("`{key}` is {text}: it must be at most 1");
-    Fault::new(place, "effect-sign", message).with_help(why)
+    Fault::new(location, "effect-sign", message).with_help(why)
 }
 
-pub(crate) fn value_cannot_be_parameter(place: &Place, key: &str, keyword: &str) -> Fault {
+pub(crate) fn value_cannot_be_parameter(location: &Location, key: &str, keyword: &str) -> Fault {
     let message = format!("`{key}` of a `{keyword}` cannot be a run-time parameter");
-    Fault::new(place, "misplaced-parameter", message).with_help("write a plain number")
+    Fault::new(location, "misplaced-parameter", message).with_help("write a plain number")
 }
 
 /// The keys and the texts of their numbers: first the one that must not be greater.
 pub(crate) fn values_out_of_order(
-    place: &Place,
+    location: &Location,
     (small, small_text): (&str, &str),
     (large, large_text): (&str, &str),
     why: &str,
 ) -> Fault {
     let message = format!("`{large}` is {large_text}, which is less than `{small}`, {small_text}");
-    Fault::new(place, "effect-order", message).with_help(why)
+    Fault::new(location, "effect-order", message).with_help(why)
 }
 
 /// `given` are the keys written, of which there must be exactly one of `keys`.
-pub(crate) fn not_one_port(place: &Place, effect: &str, given: &[&str], keys: &[&str]) -> Fault {
+pub(crate) fn not_one_port(
+    location: &Location,
+    effect: &str,
+    given: &[&str],
+    keys: &[&str],
+) -> Fault {
     let message = match given {
         [] => format!("`{effect}` does not say where it acts"),
         several => format!(
@@ -43,6 +48,6 @@ pub(crate) fn not_one_port(place: &Place, effect: &str, given: &[&str], keys: &[
             several.join("` and `")
         ),
     };
-    Fault::new(place, "effect-place", message)
+    Fault::new(location, "effect-place", message)
         .with_help(format!("write one of `{}`", keys.join("`, `")))
 }

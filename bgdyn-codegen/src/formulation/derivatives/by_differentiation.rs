@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use super::differentiate::{derivatives, finish, reopened};
 use super::forward_dynamics::ForwardDerivatives;
 use crate::bond_graph::Multibody;
-use crate::expr::{Ex, Expr, Leaf};
+use crate::expr::{Expr, Leaf, Signed};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
@@ -52,7 +52,7 @@ impl Formulation for Differentiated {
         let (b, x) = reopened(&from);
         let outputs = if method == Method::CoriolisMatrix {
             // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
-            let half = |e: Ex<'_>| (e * Dd::from_f64(0.5)).expr();
+            let half = |e: Expr<'_>| (e * Dd::from_f64(0.5)).expr();
             let columns = derivatives(&b, &x, n, Leaf::Velocity);
             rows(&columns).into_iter().map(|e| half(b.ex(e))).collect()
         } else {
@@ -128,7 +128,7 @@ fn forward_derivatives(
 }
 
 /// Columns as one matrix, row by row.
-fn rows(columns: &[Vec<Expr>]) -> Vec<Expr> {
+fn rows(columns: &[Vec<Signed>]) -> Vec<Signed> {
     (0..columns.len())
         .flat_map(|i| columns.iter().map(move |c| c[i]))
         .collect()

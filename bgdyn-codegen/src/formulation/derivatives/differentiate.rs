@@ -3,12 +3,12 @@
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
+use crate::expr::{Builder, Graph, Leaf, Signed, Tangent};
 use crate::function::Function;
 use crate::method::Method;
 
 /// A function's graph, open for more, and its results.
-pub(super) fn reopened(function: &Function) -> (Builder, Vec<Expr>) {
+pub(super) fn reopened(function: &Function) -> (Builder, Vec<Signed>) {
     (
         Builder::from(function.graph.clone()),
         function.blocks[0].outputs.clone(),
@@ -18,10 +18,10 @@ pub(super) fn reopened(function: &Function) -> (Builder, Vec<Expr>) {
 /// ∂x/∂leaf_j: a column per coordinate j.
 pub(super) fn derivatives(
     b: &Builder,
-    x: &[Expr],
+    x: &[Signed],
     n: usize,
     leaf: fn(usize) -> Leaf,
-) -> Vec<Vec<Expr>> {
+) -> Vec<Vec<Signed>> {
     let column = |j: usize| {
         let mut tangent =
             Tangent::new(|g: &mut Graph, l| (l == leaf(j)).then(|| g.constant(Dd::ONE)));
@@ -38,7 +38,7 @@ pub(super) fn finish(
     method: Method,
     from: &Function,
     b: Builder,
-    outputs: Vec<Expr>,
+    outputs: Vec<Signed>,
 ) -> Function {
     let formulation = format!("{}; differentiated", from.formulation);
     let made = Function::flat(graph, method, formulation, b.into_graph(), outputs);

@@ -1,7 +1,7 @@
 //! The derivatives of forward dynamics, column by column: dq̈ = M⁻¹ dτ.
 //!
 //! Forward dynamics is differentiated along efforts dτ that are leaves of the graph, once for each pattern
-//! of zeros in the columns. Columns with one pattern go into a loop ([`crate::columns`]) where that pays.
+//! of zeros in the columns. Columns with one pattern go into a loop ([`crate::column_loop`]) where that pays.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +9,8 @@ use bgdyn_runtime::Dd;
 
 use super::differentiate::{derivatives, finish, reopened};
 use crate::bond_graph::Multibody;
-use crate::columns::{self, Columns, Loops, Part};
-use crate::expr::{Builder, Expr, Graph, Leaf, Tangent, copy_into};
+use crate::column_loop::{self, ColumnLoop, LoopedResult, ResultSource};
+use crate::expr::{Builder, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
 use crate::method::{Method, Shape};
 
@@ -24,9 +24,9 @@ const OPERATIONS: usize = 800;
 #[derive(Clone)]
 pub(super) struct ForwardDerivatives {
     builder: Builder,
-    accelerations: Vec<Expr>,
+    accelerations: Vec<Signed>,
     /// By position, then by velocity; an effort for each coordinate.
-    columns: Vec<Vec<Expr>>,
+    columns: Vec<Vec<Signed>>,
 }
 
 impl ForwardDerivatives {
@@ -40,8 +40,8 @@ impl ForwardDerivatives {
         };
         let results = &slopes.blocks[0].outputs;
         let slopes = builder.with_graph(|g| copy_into(g, &slopes.graph, results, placed));
-        let minus = |e: Expr| (-builder.ex(e)).expr();
-        let column = |square: &[Expr], j: usize| square.chunks(n).map(|r| minus(r[j])).collect();
+        let minus = |e: Signed| (-builder.ex(e)).expr();
+        let column = |square: &[Signed], j: usize| square.chunks(n).map(|r| minus(r[j])).collect();
         let columns = slopes.chunks((n * n).max(1));
         let columns = columns.flat_map(|square| (0..n).map(move |j| column(square, j)));
         let columns = columns.collect();
@@ -75,7 +75,7 @@ impl ForwardDerivatives {
     ) -> Function {
         let n = self.accelerations.len();
         let mut stage = Stage::default();
-        let mut parts = vec![Part::Stage(0); Shape::CheckedSquares.len(n)];
+        let mut parts = vec![ResultSource::Stage(0); Shape::CheckedSquares.len(n)];
         // Row i of a column; the columns of both squares are counted through.
         let place = |c: usize, i: usize| n + (c / n) * n * n + i * n + c % n;
         let mut loops = Vec::new();
@@ -88,54 +88,54 @@ impl ForwardDerivatives {
                 looped[c] = true;
                 for row in 0..n {
                     let group = loops.len();
-                    parts[place(c, row)] = Part::Column { group, column, row };
+                    parts[place(c, row)] = ResultSource::Column { group, column, row };
                 }
             }
             loops.push(found);
         }
         for (i, &e) in self.accelerations.iter().enumerate() {
-            parts[i] = Part::Stage(stage.add(e));
+            parts[i] = ResultSource::Stage(stage.add(e));
         }
         for c in (0..self.columns.len()).filter(|&c| !looped[c]) {
             for (i, e) in self.along(&self.columns[c]).into_iter().enumerate() {
-                parts[place(c, i)] = Part::Stage(stage.add(e));
+                parts[place(c, i)] = ResultSource::Stage(stage.add(e));
             }
         }
         // Of two equal entries of M⁻¹ the one nearer to the base takes less.
         let inverse = derivatives(&self.builder, &self.accelerations, n, Leaf::Input);
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
             let entry = stage.add(inverse[i.max(j)][i.min(j)]);
-            parts[n + 2 * n * n + i * n + j] = Part::Stage(entry);
+            parts[n + 2 * n * n + i * n + j] = ResultSource::Stage(entry);
         }
         let made = |results| finish(graph, method, forward, self.builder, results);
         if loops.is_empty() {
-            let in_order = |part: &Part| match *part {
-                Part::Stage(k) => stage.results[k],
-                Part::Column { .. } => unreachable!("there is no loop"),
+            let in_order = |part: &ResultSource| match *part {
+                ResultSource::Stage(k) => stage.results[k],
+                ResultSource::Column { .. } => unreachable!("there is no loop"),
             };
             return made(parts.iter().map(in_order).collect());
         }
         let groups = loops;
         Function {
-            loops: Some(Loops { groups, parts }),
+            loops: Some(LoopedResult { groups, parts }),
             ..made(stage.results)
         }
     }
 
     /// The loop over some columns, what it reads in `stage`; nothing where it is too short.
-    fn group(&self, stage: &mut Stage, all: &[usize]) -> Option<Columns> {
+    fn group(&self, stage: &mut Stage, all: &[usize]) -> Option<ColumnLoop> {
         let first = &self.columns[all[0]];
         let rows: Vec<usize> = (0..first.len())
             .filter(|&i| !self.is_zero(first[i]))
             .collect();
-        let block = columns::OWN;
+        let block = column_loop::OWN;
         let mut drive = first.clone();
         for (index, &row) in rows.iter().enumerate() {
             let leaf = Leaf::Passed { block, index };
             drive[row] = self.builder.leaf(leaf).expr();
         }
         let outputs = self.along(&drive);
-        let column = |g: &mut Graph| columns::column(g, &outputs);
+        let column = |g: &mut Graph| column_loop::column(g, &outputs);
         let (graph, outputs, shared) = self.builder.with_graph(column);
         let operations = crate::expr::count(&graph, &outputs).total();
         (all.len() * operations >= OPERATIONS).then_some(())?;
@@ -146,7 +146,7 @@ impl ForwardDerivatives {
                 own.push(stage.add_anew(self.columns[c][row]));
             }
         }
-        Some(Columns {
+        Some(ColumnLoop {
             graph,
             outputs,
             shared: shared.into_iter().map(|e| stage.add(e)).collect(),
@@ -155,7 +155,7 @@ impl ForwardDerivatives {
     }
 
     /// The accelerations that efforts drive.
-    fn along(&self, drive: &[Expr]) -> Vec<Expr> {
+    fn along(&self, drive: &[Signed]) -> Vec<Signed> {
         let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
             Leaf::Input(j) => Some(drive[j]),
             _ => None,
@@ -165,7 +165,7 @@ impl ForwardDerivatives {
             .with_graph(|g| all.map(|&e| tangent.of(g, e)).collect())
     }
 
-    fn is_zero(&self, e: Expr) -> bool {
+    fn is_zero(&self, e: Signed) -> bool {
         self.builder.ex(e).as_constant() == Some(Dd::ZERO)
     }
 }
@@ -173,13 +173,13 @@ impl ForwardDerivatives {
 /// The results of the straight line.
 #[derive(Default)]
 struct Stage {
-    results: Vec<Expr>,
-    known: BTreeMap<Expr, usize>,
+    results: Vec<Signed>,
+    known: BTreeMap<Signed, usize>,
 }
 
 impl Stage {
     /// Where the expression stands among the results.
-    fn add(&mut self, e: Expr) -> usize {
+    fn add(&mut self, e: Signed) -> usize {
         match self.known.get(&e) {
             Some(&place) => place,
             None => self.add_anew(e),
@@ -187,7 +187,7 @@ impl Stage {
     }
 
     /// The same, in a place of its own.
-    fn add_anew(&mut self, e: Expr) -> usize {
+    fn add_anew(&mut self, e: Signed) -> usize {
         let place = self.results.len();
         self.results.push(e);
         self.known.entry(e).or_insert(place);

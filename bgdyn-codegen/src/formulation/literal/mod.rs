@@ -10,10 +10,10 @@ mod sum;
 
 use super::arguments::Arguments;
 use super::{Formulation, Offer, Prepared, solve};
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::function::Function;
 use crate::method::Method;
-use sum::Sum;
+use sum::LiteralSum;
 
 pub(super) const NAME: &str = "literal";
 
@@ -39,7 +39,7 @@ impl Formulation for Literal {
         let b = Builder::new();
         let outputs = {
             let arguments = Arguments::new(&b, graph, method);
-            let sum = Sum::new(&b, graph, &arguments.q);
+            let sum = LiteralSum::new(&b, graph, &arguments.q);
             let outputs = match method {
                 Method::InverseDynamics | Method::Bias | Method::Gravity => sum.efforts(&arguments),
                 Method::MassMatrix => sum.mass_matrix().into_iter().flatten().collect(),
@@ -58,7 +58,7 @@ impl Formulation for Literal {
                 Method::PotentialEnergy => vec![sum.potential_energy()],
                 method => sites::outputs(&b, graph, method, &arguments)?,
             };
-            outputs.into_iter().map(|e: Ex<'_>| e.expr()).collect()
+            outputs.into_iter().map(|e: Expr<'_>| e.expr()).collect()
         };
         let name = NAME.into();
         Some(Function::flat(graph, method, name, b.into_graph(), outputs).in_order())

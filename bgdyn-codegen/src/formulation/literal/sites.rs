@@ -1,10 +1,10 @@
 //! Poses, velocities and Jacobians of sites from the placement of the links, fixed axes.
 
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::placement::Placement;
-use crate::formulation::site::{Column, SiteMotion};
+use crate::formulation::site::{JacobianColumn, SiteMotion};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 use crate::method::Method;
@@ -15,12 +15,12 @@ pub(super) fn outputs<'g>(
     graph: &Multibody,
     method: Method,
     x: &Arguments<'g>,
-) -> Option<Vec<Ex<'g>>> {
+) -> Option<Vec<Expr<'g>>> {
     let site = &graph.sites[method.site()?.0];
     let place = site.place.rotation.map(|x| b.constant(x));
     let point = b.vector(site.place.translation);
     let placement = Placement::new(b, graph, &x.q);
-    let mut columns: Vec<Option<Column<'g>>> = vec![None; graph.coordinates.len()];
+    let mut columns: Vec<Option<JacobianColumn<'g>>> = vec![None; graph.coordinates.len()];
     let Some(link) = site.link else {
         let motion = SiteMotion {
             rotation: place,
@@ -37,11 +37,11 @@ pub(super) fn outputs<'g>(
         let axis = placement.axes[l.0];
         if let Some(j) = frame.coordinate {
             columns[j.0] = Some(match frame.motion {
-                Motion::Rotation => Column {
+                Motion::Rotation => JacobianColumn {
                     angular: axis,
                     linear: axis.cross(origin - placement.origins[l.0]),
                 },
-                _ => Column {
+                _ => JacobianColumn {
                     angular: Vec3([b.zero(); 3]),
                     linear: axis,
                 },

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{BondGraph, Effort, JunctionId, LinkFrame, Modulus, Transformer};
-use crate::expr::{Builder, Ex, Graph, Leaf, Tangent};
+use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
 use crate::formulation::arguments::{Arguments, reflected, spin, value};
 use crate::formulation::placement::Placement;
 use crate::math::{Mat3, Vec3};
@@ -12,29 +12,29 @@ use crate::mechanism::{CoordinateId, LinkId, Motion, Tensor};
 /// Transformer moduli of one link: ∂r_i/∂q_j and ρ_j^i for the coordinates that move it.
 struct Moduli<'g> {
     /// (j, ∂r_i/∂q_j)
-    linear: Vec<(usize, Vec3<Ex<'g>>)>,
+    linear: Vec<(usize, Vec3<Expr<'g>>)>,
     /// (j, ρ_j^i)
-    angular: Vec<(usize, Vec3<Ex<'g>>)>,
+    angular: Vec<(usize, Vec3<Expr<'g>>)>,
 }
 
 /// What the double sum is made of, per link.
-pub(super) struct Sum<'a, 'g> {
+pub(super) struct LiteralSum<'a, 'g> {
     b: &'g Builder,
     graph: &'a BondGraph,
     /// A_i, and the joints' places.
     placement: Placement<'g>,
     /// r_i: centres of mass.
-    positions: Vec<Vec3<Ex<'g>>>,
+    positions: Vec<Vec3<Expr<'g>>>,
     moduli: Vec<Moduli<'g>>,
 }
 
-impl<'a, 'g> Sum<'a, 'g> {
-    pub(super) fn new(b: &'g Builder, graph: &'a BondGraph, q: &[Ex<'g>]) -> Self {
+impl<'a, 'g> LiteralSum<'a, 'g> {
+    pub(super) fn new(b: &'g Builder, graph: &'a BondGraph, q: &[Expr<'g>]) -> Self {
         let placement = Placement::new(b, graph, q);
         let position =
             |(i, frame): (usize, &LinkFrame)| placement.point(i, frame.com.map(|c| value(b, c)));
         let positions = graph.frames.iter().enumerate().map(position).collect();
-        let mut sum = Sum {
+        let mut sum = LiteralSum {
             b,
             graph,
             placement,
@@ -74,7 +74,7 @@ impl<'a, 'g> Sum<'a, 'g> {
         }
     }
 
-    fn entry(&self, modulus: Modulus, varying: Ex<'g>) -> Ex<'g> {
+    fn entry(&self, modulus: Modulus, varying: Expr<'g>) -> Expr<'g> {
         match modulus {
             Modulus::Zero => self.b.zero(),
             Modulus::Constant(x) => self.b.constant(x),
@@ -82,19 +82,19 @@ impl<'a, 'g> Sum<'a, 'g> {
         }
     }
 
-    fn zero(&self) -> Vec3<Ex<'g>> {
+    fn zero(&self) -> Vec3<Expr<'g>> {
         Vec3([self.b.zero(); 3])
     }
 
     /// Σ_k modulus_k · x_k
-    fn combine(&self, moduli: &[(usize, Vec3<Ex<'g>>)], x: &[Ex<'g>]) -> Vec3<Ex<'g>> {
+    fn combine(&self, moduli: &[(usize, Vec3<Expr<'g>>)], x: &[Expr<'g>]) -> Vec3<Expr<'g>> {
         moduli
             .iter()
             .fold(self.zero(), |sum, (k, m)| sum + m.scale(x[*k]))
     }
 
     /// J_i = A_i J_i⁰ A_iᵀ in fixed axes.
-    fn tensor(&self, i: usize) -> Mat3<Ex<'g>> {
+    fn tensor(&self, i: usize) -> Mat3<Expr<'g>> {
         let Tensor { entries, axes } = self.graph.inertial(LinkId(i)).inertia;
         let [xx, yy, zz, xy, xz, yz] = entries.map(|x| value(self.b, x));
         let tensor = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
@@ -102,12 +102,12 @@ impl<'a, 'g> Sum<'a, 'g> {
         axes * tensor * axes.transpose()
     }
 
-    fn mass(&self, i: usize) -> Ex<'g> {
+    fn mass(&self, i: usize) -> Expr<'g> {
         value(self.b, self.graph.inertial(LinkId(i)).mass)
     }
 
     /// R_i: the sum of the active efforts on ṙ_i.
-    fn active_force(&self, i: usize) -> Vec3<Ex<'g>> {
+    fn active_force(&self, i: usize) -> Vec3<Expr<'g>> {
         let junction = self.graph.translation(LinkId(i));
         let sources = self.graph.sources.iter().filter(|s| s.junction == junction);
         sources
@@ -120,14 +120,14 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// P_j for the given velocities and accelerations.
-    pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Ex<'g>> {
+    pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
         let velocities: Vec<_> = x.v.iter().map(|v| v.expr()).collect();
         let seed = |_: &mut Graph, leaf| match leaf {
             Leaf::Position(l) => Some(velocities[l]),
             _ => None,
         };
         let mut rate = Tangent::new(seed);
-        let mut rate_of = |m: &Vec3<Ex<'g>>| {
+        let mut rate_of = |m: &Vec3<Expr<'g>>| {
             m.map(|e| {
                 let e = e.expr();
                 self.b.ex(self.b.with_graph(|g| rate.of(g, e)))
@@ -137,7 +137,7 @@ impl<'a, 'g> Sum<'a, 'g> {
         for i in 0..self.graph.frames.len() {
             let moduli = &self.moduli[i];
             // r̈_i = Σ ∂r_i/∂q_k q̈_k + Σ d/dt(∂r_i/∂q_k) q̇_k, and ω̇_i likewise with ρ_k.
-            let mut second = |moduli: &[(usize, Vec3<Ex<'g>>)]| {
+            let mut second = |moduli: &[(usize, Vec3<Expr<'g>>)]| {
                 let rates: Vec<_> = moduli.iter().map(|(k, m)| (*k, rate_of(m))).collect();
                 self.combine(moduli, &x.a) + self.combine(&rates, &x.v)
             };
@@ -169,7 +169,7 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// The joints that turn rotors on link i, with N J e in fixed axes.
-    fn spinning(&self, i: usize) -> Vec<(usize, Vec3<Ex<'g>>)> {
+    fn spinning(&self, i: usize) -> Vec<(usize, Vec3<Expr<'g>>)> {
         let rotors = self.graph.rotors.iter();
         let on = rotors.filter_map(|r| Some((r, r.carrier.as_ref()?)));
         on.filter(|(_, carrier)| carrier.link == LinkId(i))
@@ -181,9 +181,9 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// Lower triangle of M_jk = Σ_i [ ∂r_i/∂q_j · m_i ∂r_i/∂q_k + ρ_j · J_i ρ_k ].
-    pub(super) fn mass_matrix(&self) -> Vec<Vec<Ex<'g>>> {
+    pub(super) fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
         let n = self.graph.coordinates.len();
-        let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![self.b.zero(); j + 1]).collect();
+        let mut mass: Vec<Vec<Expr<'g>>> = (0..n).map(|j| vec![self.b.zero(); j + 1]).collect();
         for i in 0..self.graph.frames.len() {
             let (m, tensor) = (self.mass(i), self.tensor(i));
             for (j, x) in &self.moduli[i].linear {
@@ -214,7 +214,7 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// T = ½ Σ_i [ m_i ṙ_i · ṙ_i + ω_i · J_i ω_i ]
-    pub(super) fn kinetic_energy(&self, v: &[Ex<'g>]) -> Ex<'g> {
+    pub(super) fn kinetic_energy(&self, v: &[Expr<'g>]) -> Expr<'g> {
         let twice = (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
             let velocity = self.combine(&self.moduli[i].linear, v);
             let omega = self.combine(&self.moduli[i].angular, v);
@@ -237,7 +237,7 @@ impl<'a, 'g> Sum<'a, 'g> {
     }
 
     /// V = −Σ_i R_i · r_i for the weights R_i.
-    pub(super) fn potential_energy(&self) -> Ex<'g> {
+    pub(super) fn potential_energy(&self) -> Expr<'g> {
         (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
             sum - self.active_force(i).dot(self.positions[i])
         })

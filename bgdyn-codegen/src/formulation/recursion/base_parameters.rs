@@ -9,10 +9,10 @@ use bgdyn_runtime::Dd;
 
 use super::base_parameter_cache::Numbers;
 use super::geometry::{Body, Geometry};
-use super::inertia::{Inertia, Point};
+use super::inertia::{BodyInertia, Point};
 use super::plan::{Plan, origin_offset};
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::value;
 use crate::math::Vec3;
 use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
@@ -20,15 +20,15 @@ use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
 /// Inertia of a body about its origin, in its axes.
 pub(super) struct Parts<'g> {
     /// What is known at generation time.
-    pub known: Inertia<'g>,
+    pub known: BodyInertia<'g>,
     /// Parts with run-time parameters, each with the number of joints by which it may still move.
-    varying: Vec<(Inertia<'g>, usize)>,
+    varying: Vec<(BodyInertia<'g>, usize)>,
     /// Point masses with run-time parameters that are to be kept apart.
     pub points: Vec<Point<'g>>,
 }
 
 impl<'g> Parts<'g> {
-    fn add(&mut self, known: &Inertia<'g>, varying: Option<Inertia<'g>>, joints: usize) {
+    fn add(&mut self, known: &BodyInertia<'g>, varying: Option<BodyInertia<'g>>, joints: usize) {
         self.known = self.known.plus(known);
         self.varying.extend(varying.map(|part| (part, joints)));
     }
@@ -46,7 +46,7 @@ impl<'g> Parts<'g> {
     }
 
     /// The sum without the points.
-    pub fn sum(&self) -> Inertia<'g> {
+    pub fn sum(&self) -> BodyInertia<'g> {
         let parts = self.varying.iter();
         parts.fold(self.known, |sum, (part, _)| sum.plus(part))
     }
@@ -59,14 +59,14 @@ pub(super) fn regrouped<'g>(
     graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
-) -> (Vec<Parts<'g>>, Ex<'g>) {
+) -> (Vec<Parts<'g>>, Expr<'g>) {
     if !graph.parameters.is_empty() {
         return regroup(b, graph, geometry, plan);
     }
     let before = &geometry.regrouped;
     if let Some(known) = before.find(&plan.slides, plan.base_parameters) {
         let parts = known.bodies.iter().map(|numbers| Parts {
-            known: Inertia::of_numbers(b, numbers),
+            known: BodyInertia::of_numbers(b, numbers),
             varying: Vec::new(),
             points: Vec::new(),
         });
@@ -91,7 +91,7 @@ fn regroup<'g>(
     graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
-) -> (Vec<Parts<'g>>, Ex<'g>) {
+) -> (Vec<Parts<'g>>, Expr<'g>) {
     let parts = |j: usize| parts(b, graph, &geometry.bodies[j], plan, j);
     let mut bodies: Vec<Parts<'g>> = (0..geometry.bodies.len()).map(parts).collect();
     let mut energy = constant_energy(b, graph, geometry, plan);
@@ -103,7 +103,7 @@ fn regroup<'g>(
         let offset = b.vector(origin_offset(geometry, plan, j));
         let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
         // What moved is the same in twisted as in own axes, about the same origin.
-        let mut take = |own: &mut Inertia<'g>| {
+        let mut take = |own: &mut BodyInertia<'g>| {
             let moved = match body.motion {
                 Motion::Rotation => take_from_rotation(b, own),
                 _ => take_from_translation(b, own, body.planar).turned(phase),
@@ -133,7 +133,7 @@ fn regroup<'g>(
 /// multiples of one parameter stay that wherever they move, and their factors fold.
 fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usize) -> Parts<'g> {
     let mut parts = Parts {
-        known: Inertia::zero(b),
+        known: BodyInertia::zero(b),
         varying: Vec::new(),
         points: Vec::new(),
     };
@@ -149,12 +149,12 @@ fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usi
         if plan.apart[j] && !point.is_constant() {
             parts.points.push(point);
         } else {
-            let (known, varying) = Inertia::of_point(b, &point).split(b);
+            let (known, varying) = BodyInertia::of_point(b, &point).split(b);
             parts.add(&known, varying, plan.carried[j]);
         }
         let tensor = inertial.inertia;
         let turned = |entries| {
-            Inertia::of_tensor(b, entries).rotated(b, to_body * place.rotation * tensor.axes)
+            BodyInertia::of_tensor(b, entries).rotated(b, to_body * place.rotation * tensor.axes)
         };
         let only = |wanted: Option<ParameterId>| {
             tensor.entries.map(|x| match (x, wanted) {
@@ -200,9 +200,9 @@ fn constant_energy<'g>(
     graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
-) -> Ex<'g> {
+) -> Expr<'g> {
     let gravity = b.vector(graph.gravity);
-    let weigh = |mass: Ex<'g>, place: Vec3<Ex<'g>>| gravity.dot(place.scale(mass));
+    let weigh = |mass: Expr<'g>, place: Vec3<Expr<'g>>| gravity.dot(place.scale(mass));
     let mut energy = b.zero();
     for (link, place) in &geometry.fixed {
         let point = point(b, &graph.inertial(*link), place);
@@ -224,8 +224,8 @@ fn constant_energy<'g>(
 }
 
 /// What lies on the axis of a rotation: mass, axial first moment, D_zz.
-fn take_from_rotation<'g>(b: &'g Builder, own: &mut Inertia<'g>) -> Inertia<'g> {
-    let mut moved = Inertia::zero(b);
+fn take_from_rotation<'g>(b: &'g Builder, own: &mut BodyInertia<'g>) -> BodyInertia<'g> {
+    let mut moved = BodyInertia::zero(b);
     (moved.mass, moved.axial) = (own.mass, own.axial);
     moved.first.0[2] = own.first.0[2];
     moved.pseudo[2] = own.pseudo[2];
@@ -237,8 +237,12 @@ fn take_from_rotation<'g>(b: &'g Builder, own: &mut Inertia<'g>) -> Inertia<'g> 
 
 /// What a translation shares with its parent: D, as both turn alike. A planar body also moves
 /// like its parent across the axis, so that only its mass along the axis is its own.
-fn take_from_translation<'g>(b: &'g Builder, own: &mut Inertia<'g>, planar: bool) -> Inertia<'g> {
-    let mut moved = Inertia::zero(b);
+fn take_from_translation<'g>(
+    b: &'g Builder,
+    own: &mut BodyInertia<'g>,
+    planar: bool,
+) -> BodyInertia<'g> {
+    let mut moved = BodyInertia::zero(b);
     moved.pseudo = own.pseudo;
     own.pseudo = [b.zero(); 6];
     if planar {

@@ -15,7 +15,7 @@
 //! and its angle is not read. Both ways are counted before factoring and the cheaper one is made: this one
 //! from about 13 links in general position on.
 
-use super::frames::{Frame, Frames};
+use super::frames::{BodyFrame, Frames};
 use super::geometry::Geometry;
 use super::inertia::turn_back;
 use super::mass_matrix::{Momentum, composites};
@@ -23,7 +23,7 @@ use super::plan::Plan;
 use super::plan_search::{self, Best};
 use super::plans::cheapest_plans;
 use crate::bond_graph::Multibody;
-use crate::expr::{self, Builder, Ex, Expr, Graph};
+use crate::expr::{self, Builder, Expr, Graph, Signed};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
@@ -90,8 +90,13 @@ fn plans(prepared: &Prepared<'_>, method: Method) -> Option<Best> {
 }
 
 /// Entries of the lower triangle under a plan, row by row.
-fn outputs(b: Builder, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> (Graph, Vec<Expr>) {
-    let entries: Vec<Expr> = {
+fn outputs(
+    b: Builder,
+    graph: &Multibody,
+    geometry: &Geometry,
+    plan: &Plan,
+) -> (Graph, Vec<Signed>) {
+    let entries: Vec<Signed> = {
         let x = Arguments::new(&b, graph, METHOD);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let rows = mass_matrix(&b, &frames);
@@ -101,7 +106,7 @@ fn outputs(b: Builder, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> (
 }
 
 /// Lower triangle of M.
-fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
+fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
     let placed = placed(b, frames);
     let axes: Vec<Axis<'g>> = (frames.bodies.iter().zip(&placed))
         .map(|(frame, place)| axis(b, frame, place))
@@ -137,22 +142,22 @@ fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
 }
 
 /// A body in common axes: those of its basis, and its origin.
-struct Placed<'g> {
-    basis: Mat3<Ex<'g>>,
-    own: Mat3<Ex<'g>>,
-    origin: Vec3<Ex<'g>>,
+struct PlacedAxis<'g> {
+    basis: Mat3<Expr<'g>>,
+    own: Mat3<Expr<'g>>,
+    origin: Vec3<Expr<'g>>,
 }
 
 /// All bodies in the axes of the first one of their tree, from its origin.
-fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Placed<'g>> {
+fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<PlacedAxis<'g>> {
     let unit = Mat3::from_fn(|i, j| if i == j { b.number(1.0) } else { b.zero() });
-    let mut placed: Vec<Placed<'g>> = Vec::new();
+    let mut placed: Vec<PlacedAxis<'g>> = Vec::new();
     for frame in &frames.bodies {
         b.section(|| format!("{}: its axes and origin", frame.name));
         let rows_turned =
-            |m: &Mat3<Ex<'g>>| Mat3(m.0.map(|row| turn_back(Vec3(row), frame.turn).0));
+            |m: &Mat3<Expr<'g>>| Mat3(m.0.map(|row| turn_back(Vec3(row), frame.turn).0));
         let place = match frame.parent {
-            None => Placed {
+            None => PlacedAxis {
                 basis: rows_turned(&unit).transpose(),
                 own: unit,
                 origin: Vec3([b.zero(); 3]),
@@ -164,7 +169,7 @@ fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Placed<'g>> {
                 } else {
                     parent.own * frame.twist.map(|x| b.constant(x))
                 };
-                Placed {
+                PlacedAxis {
                     own: rows_turned(&basis),
                     origin: parent.origin + basis * frame.position,
                     basis,
@@ -179,12 +184,12 @@ fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Placed<'g>> {
 /// What a unit rate of a joint does to all beyond it: angular velocity, and the velocity of what
 /// is at the common origin.
 struct Axis<'g> {
-    angular: Vec3<Ex<'g>>,
-    linear: Vec3<Ex<'g>>,
+    angular: Vec3<Expr<'g>>,
+    linear: Vec3<Expr<'g>>,
 }
 
 /// Of a joint whose body is placed so; forces along it count as efforts.
-fn axis<'g>(b: &'g Builder, frame: &Frame<'g>, place: &Placed<'g>) -> Axis<'g> {
+fn axis<'g>(b: &'g Builder, frame: &BodyFrame<'g>, place: &PlacedAxis<'g>) -> Axis<'g> {
     b.section(|| format!("`{}`: its axis", frame.joint));
     let z = place.basis.column(2).map(|x| x * frame.effort);
     match frame.motion {
@@ -201,7 +206,7 @@ fn axis<'g>(b: &'g Builder, frame: &Frame<'g>, place: &Placed<'g>) -> Axis<'g> {
 
 impl<'g> Axis<'g> {
     /// z · L + w · l, one product after the other.
-    fn along(&self, momentum: &Momentum<'g>) -> Ex<'g> {
+    fn along(&self, momentum: &Momentum<'g>) -> Expr<'g> {
         let pairs = self.linear.0.into_iter().zip(momentum.linear.0);
         let start = self.angular.dot(momentum.angular);
         pairs.fold(start, |sum, (w, l)| sum + w * l)

@@ -5,7 +5,7 @@ use super::geometry::Geometry;
 use super::plan::Plan;
 use super::{derivatives, inverse_dynamics, mass_matrix};
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Expr, Graph};
+use crate::expr::{Builder, Graph, Signed};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::solve;
 use crate::method::Method;
@@ -17,8 +17,8 @@ pub(super) fn outputs(
     geometry: &Geometry,
     method: Method,
     plan: &Plan,
-) -> (Graph, Vec<Expr>) {
-    let outputs: Vec<Expr> = {
+) -> (Graph, Vec<Signed>) {
+    let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, method);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let efforts = || inverse_dynamics::efforts(&b, &frames, plan, x.active);
@@ -60,9 +60,9 @@ pub(super) fn outputs(
 }
 
 /// The lower triangle of M, row by row, and h, in one graph.
-pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, Vec<Expr>) {
+pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, Vec<Signed>) {
     let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
-    let outputs: Vec<Expr> = {
+    let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, Method::ForwardDynamics);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let rows = mass_matrix::mass_matrix(&b, &frames).into_iter().flatten();

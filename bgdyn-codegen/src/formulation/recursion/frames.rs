@@ -5,18 +5,18 @@ use bgdyn_runtime::Dd;
 
 use super::base_parameters::{Parts, regrouped};
 use super::geometry::{Geometry, angle_of};
-use super::inertia::{Inertia, Point, turn};
+use super::inertia::{BodyInertia, Point, turn};
 use super::names::{name_body, name_number};
 use super::plan::{Plan, origin_offset};
 use super::rotors::Rotors;
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
 /// A body as the recursion sees it. Lengths are in units of the plan.
-pub(super) struct Frame<'g> {
+pub(super) struct BodyFrame<'g> {
     /// Name of its link.
     pub name: String,
     /// Name of its joint.
@@ -30,19 +30,19 @@ pub(super) struct Frame<'g> {
     /// Columns: twisted axes in the parent's axes.
     pub twist: Mat3<Dd>,
     /// From the parent's origin to this one: in twisted axes, or in the basis that continues.
-    pub position: Vec3<Ex<'g>>,
+    pub position: Vec3<Expr<'g>>,
     /// The same in the parent's own axes.
-    pub position_in_parent: Vec3<Ex<'g>>,
+    pub position_in_parent: Vec3<Expr<'g>>,
     /// Cosine and sine of the angle from the basis to the body's axes.
-    pub turn: (Ex<'g>, Ex<'g>),
+    pub turn: (Expr<'g>, Expr<'g>),
     /// Coordinate's rate and second rate, along z.
-    pub rate: Ex<'g>,
+    pub rate: Expr<'g>,
     /// See `rate`.
-    pub acceleration: Ex<'g>,
+    pub acceleration: Expr<'g>,
     /// Base parameters about the origin, in own axes.
-    pub inertia: Inertia<'g>,
+    pub inertia: BodyInertia<'g>,
     /// The same without the point masses that are kept apart.
-    pub rest: Inertia<'g>,
+    pub rest: BodyInertia<'g>,
     /// Those.
     pub points: Vec<Point<'g>>,
     /// Factor from a moment or force along z to the joint's effort.
@@ -52,11 +52,11 @@ pub(super) struct Frame<'g> {
 /// All bodies, and what the base keeps.
 pub(super) struct Frames<'g> {
     /// In the order of the coordinates.
-    pub bodies: Vec<Frame<'g>>,
+    pub bodies: Vec<BodyFrame<'g>>,
     /// For each body on the base: gravity in its twisted axes.
-    pub gravity: Vec<Vec3<Ex<'g>>>,
+    pub gravity: Vec<Vec3<Expr<'g>>>,
     /// Potential energy that does not depend on q.
-    pub constant_energy: Ex<'g>,
+    pub constant_energy: Expr<'g>,
     /// Rotors behind gears.
     pub rotors: Rotors<'g>,
 }
@@ -72,8 +72,8 @@ impl<'g> Frames<'g> {
     ) -> Self {
         b.unit_of_length(plan.unit);
         let (parts, energy) = regrouped(b, graph, geometry, plan);
-        let mut angles: Vec<(Vec<Ex<'g>>, (Dd, Dd))> = Vec::new();
-        let mut bodies: Vec<Frame<'g>> = Vec::new();
+        let mut angles: Vec<(Vec<Expr<'g>>, (Dd, Dd))> = Vec::new();
+        let mut bodies: Vec<BodyFrame<'g>> = Vec::new();
         // Cosine and sine of the angle by which each body's axes are turned about z.
         let mut aims: Vec<(Dd, Dd)> = Vec::new();
         for (j, body) in geometry.bodies.iter().enumerate() {
@@ -87,7 +87,7 @@ impl<'g> Frames<'g> {
                 Some(p) if continues => angles[p].clone(),
                 _ => (Vec::new(), (Dd::ONE, Dd::ZERO)),
             };
-            let signed = |e: Ex<'g>| if body.opposite { -e } else { e };
+            let signed = |e: Expr<'g>| if body.opposite { -e } else { e };
             let scale = if body.motion == Motion::Rotation {
                 Dd::ONE
             } else {
@@ -105,7 +105,7 @@ impl<'g> Frames<'g> {
                 Some(p) if continues => turn(local, bodies[p].turn),
                 _ => local,
             };
-            bodies.push(Frame {
+            bodies.push(BodyFrame {
                 name: body.name.clone(),
                 joint: body.joint.clone(),
                 parent: body.parent,
@@ -143,14 +143,14 @@ impl<'g> Frames<'g> {
 
 /// Inertia of a body: all of it, and what is left of it without the points.
 struct Weight<'g> {
-    inertia: Inertia<'g>,
-    rest: Inertia<'g>,
+    inertia: BodyInertia<'g>,
+    rest: BodyInertia<'g>,
     points: Vec<Point<'g>>,
 }
 
 impl<'g> Weight<'g> {
-    fn new(b: &'g Builder, rest: Inertia<'g>, points: Vec<Point<'g>>) -> Self {
-        let all = |sum: Inertia<'g>, point| sum.plus(&Inertia::of_point(b, point));
+    fn new(b: &'g Builder, rest: BodyInertia<'g>, points: Vec<Point<'g>>) -> Self {
+        let all = |sum: BodyInertia<'g>, point| sum.plus(&BodyInertia::of_point(b, point));
         Weight {
             inertia: points.iter().fold(rest, all),
             rest,
@@ -167,7 +167,7 @@ fn aim<'g>(b: &'g Builder, aimed: bool, parts: &Parts<'g>) -> (Weight<'g>, (Dd, 
         let weight = Weight::new(b, rest, parts.points.clone());
         (weight, (Dd::ONE, Dd::ZERO))
     };
-    let [x, y, _] = rest.first.0.map(Ex::as_constant);
+    let [x, y, _] = rest.first.0.map(Expr::as_constant);
     let (Some(x), Some(y), true) = (x, y, aimed && rest.is_constant()) else {
         return straight();
     };
@@ -192,7 +192,7 @@ fn after(first: (Dd, Dd), second: (Dd, Dd)) -> (Dd, Dd) {
 }
 
 /// Cosine and sine of Σ terms + phase; quarter turns cost nothing.
-fn cos_sin<'g>(b: &'g Builder, terms: &[Ex<'g>], phase: (Dd, Dd)) -> (Ex<'g>, Ex<'g>) {
+fn cos_sin<'g>(b: &'g Builder, terms: &[Expr<'g>], phase: (Dd, Dd)) -> (Expr<'g>, Expr<'g>) {
     let quarter = |x: Dd| x == Dd::ZERO || x == Dd::ONE || x == -Dd::ONE;
     if terms.is_empty() {
         return (b.constant(phase.0), b.constant(phase.1));

@@ -5,25 +5,25 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 
 /// A symmetric matrix: xx, yy, zz, xy, xz, yz.
-pub(super) type Symmetric<'g> = [Ex<'g>; 6];
+pub(super) type Symmetric<'g> = [Expr<'g>; 6];
 
 /// Where entry (i, j) stands in a [`Symmetric`].
 const PLACE: [[usize; 3]; 3] = [[0, 3, 4], [3, 1, 5], [4, 5, 2]];
 
 /// Mass, first moment and pseudo-inertia about one point, in one set of axes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Inertia<'g> {
+pub(super) struct BodyInertia<'g> {
     /// m, kg
-    pub mass: Ex<'g>,
+    pub mass: Expr<'g>,
     /// The mass that counts along z, kg: the same, but where a planar body's mass was moved to its
     /// parent and only its motion along the axes is its own.
-    pub axial: Ex<'g>,
+    pub axial: Expr<'g>,
     /// ∫ s dm, kg·m
-    pub first: Vec3<Ex<'g>>,
+    pub first: Vec3<Expr<'g>>,
     /// D = ∫ s sᵀ dm, kg·m²
     pub pseudo: Symmetric<'g>,
 }
@@ -32,9 +32,9 @@ pub(super) struct Inertia<'g> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point<'g> {
     /// m, kg
-    pub mass: Ex<'g>,
+    pub mass: Expr<'g>,
     /// s, m
-    pub place: Vec3<Ex<'g>>,
+    pub place: Vec3<Expr<'g>>,
 }
 
 impl<'g> Point<'g> {
@@ -45,7 +45,7 @@ impl<'g> Point<'g> {
     }
 
     /// Turned by Rz.
-    pub fn turned(&self, angle: (Ex<'g>, Ex<'g>)) -> Self {
+    pub fn turned(&self, angle: (Expr<'g>, Expr<'g>)) -> Self {
         Point {
             place: turn(self.place, angle),
             ..*self
@@ -61,11 +61,11 @@ impl<'g> Point<'g> {
     }
 }
 
-impl<'g> Inertia<'g> {
+impl<'g> BodyInertia<'g> {
     /// Of nothing.
     pub fn zero(b: &'g Builder) -> Self {
         let zero = b.zero();
-        Inertia {
+        BodyInertia {
             mass: zero,
             axial: zero,
             first: Vec3([zero; 3]),
@@ -75,10 +75,10 @@ impl<'g> Inertia<'g> {
 
     /// Of a point mass.
     pub fn of_point(b: &'g Builder, point: &Point<'g>) -> Self {
-        Inertia {
+        BodyInertia {
             mass: point.mass,
             axial: point.mass,
-            ..Inertia::zero(b)
+            ..BodyInertia::zero(b)
         }
         .shifted(point.place)
     }
@@ -87,7 +87,7 @@ impl<'g> Inertia<'g> {
     pub fn of_tensor(b: &'g Builder, tensor: Symmetric<'g>) -> Self {
         let [xx, yy, zz, xy, xz, yz] = tensor;
         let half = Dd::from_f64(0.5);
-        let diagonal = |a: Ex<'g>, b: Ex<'g>, c: Ex<'g>| (a + b - c) * half;
+        let diagonal = |a: Expr<'g>, b: Expr<'g>, c: Expr<'g>| (a + b - c) * half;
         let pseudo = [
             diagonal(yy, zz, xx),
             diagonal(zz, xx, yy),
@@ -96,20 +96,20 @@ impl<'g> Inertia<'g> {
             -xz,
             -yz,
         ];
-        Inertia {
+        BodyInertia {
             pseudo,
-            ..Inertia::zero(b)
+            ..BodyInertia::zero(b)
         }
     }
 
     /// Entry (i, j) of D.
-    pub fn d(&self, i: usize, j: usize) -> Ex<'g> {
+    pub fn d(&self, i: usize, j: usize) -> Expr<'g> {
         self.pseudo[PLACE[i][j]]
     }
 
     /// The same mass seen from a point from which it is displaced by p:
     /// D + p hᵀ + h pᵀ + m p pᵀ.
-    pub fn shifted(&self, p: Vec3<Ex<'g>>) -> Self {
+    pub fn shifted(&self, p: Vec3<Expr<'g>>) -> Self {
         let h = self.first;
         let pseudo = symmetric(|i, j| {
             let (pi, pj) = (p.0[i], p.0[j]);
@@ -120,7 +120,7 @@ impl<'g> Inertia<'g> {
             };
             self.d(i, j) + moments + self.mass * pi * pj
         });
-        Inertia {
+        BodyInertia {
             first: h + self.weigh(p),
             pseudo,
             ..*self
@@ -134,7 +134,7 @@ impl<'g> Inertia<'g> {
             Mat3::from_fn(|i, j| (0..3).fold(b.zero(), |sum, k| sum + r.0[i][k] * self.d(k, j)));
         let pseudo =
             symmetric(|i, j| (0..3).fold(b.zero(), |sum, k| sum + half.0[i][k] * r.0[j][k]));
-        Inertia {
+        BodyInertia {
             first: r * self.first,
             pseudo,
             ..*self
@@ -143,7 +143,7 @@ impl<'g> Inertia<'g> {
 
     /// Turned by Rz: four multiplications for the 2 × 2 block, with
     /// e = s (D_xx − D_yy) + 2 c D_xy.
-    pub fn turned(&self, (c, s): (Ex<'g>, Ex<'g>)) -> Self {
+    pub fn turned(&self, (c, s): (Expr<'g>, Expr<'g>)) -> Self {
         let [xx, yy, zz, xy, xz, yz] = self.pseudo;
         let e = s * (xx - yy) + c * (xy * Dd::from_f64(2.0));
         let (se, ce) = (s * e, c * e);
@@ -155,7 +155,7 @@ impl<'g> Inertia<'g> {
             c * xz - s * yz,
             s * xz + c * yz,
         ];
-        Inertia {
+        BodyInertia {
             first: turn(self.first, (c, s)),
             pseudo,
             ..*self
@@ -163,14 +163,14 @@ impl<'g> Inertia<'g> {
     }
 
     /// m v, along z with the axial mass.
-    pub fn weigh(&self, v: Vec3<Ex<'g>>) -> Vec3<Ex<'g>> {
+    pub fn weigh(&self, v: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         let [x, y, z] = v.0;
         Vec3([x * self.mass, y * self.mass, z * self.axial])
     }
 
     /// Of both.
     pub fn plus(&self, other: &Self) -> Self {
-        Inertia {
+        BodyInertia {
             mass: self.mass + other.mass,
             axial: self.axial + other.axial,
             first: self.first + other.first,
@@ -179,8 +179,8 @@ impl<'g> Inertia<'g> {
     }
 
     /// Each entry through `f`.
-    fn map(&self, f: impl Fn(Ex<'g>) -> Ex<'g>) -> Self {
-        Inertia {
+    fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
+        BodyInertia {
             mass: f(self.mass),
             axial: f(self.axial),
             first: self.first.map(&f),
@@ -200,10 +200,10 @@ impl<'g> Inertia<'g> {
         Some(numbers)
     }
 
-    /// From [`Inertia::numbers`].
+    /// From [`BodyInertia::numbers`].
     pub fn of_numbers(b: &'g Builder, numbers: &[Dd; 11]) -> Self {
         let [mass, axial, hx, hy, hz, pseudo @ ..] = numbers.map(|x| b.constant(x));
-        Inertia {
+        BodyInertia {
             mass,
             axial,
             first: Vec3([hx, hy, hz]),
@@ -213,7 +213,7 @@ impl<'g> Inertia<'g> {
 
     /// The entries known at generation time, and the others if there are any; 0 in their stead.
     pub fn split(&self, b: &'g Builder) -> (Self, Option<Self>) {
-        let known = |e: Ex<'g>| e.as_constant().is_some();
+        let known = |e: Expr<'g>| e.as_constant().is_some();
         let constant = self.map(|e| if known(e) { e } else { b.zero() });
         let varying = self.map(|e| if known(e) { b.zero() } else { e });
         (constant, (!self.is_constant()).then_some(varying))
@@ -237,12 +237,12 @@ impl<'g> Inertia<'g> {
     pub fn round(&self) -> bool {
         let [xx, yy, _, xy, xz, yz] = self.pseudo;
         let zero = [xx - yy, xy, xz, yz, self.first.0[0], self.first.0[1]];
-        zero.into_iter().all(Ex::is_zero)
+        zero.into_iter().all(Expr::is_zero)
     }
 
     /// In units of `length`: moments keep their value.
     pub fn in_units_of(&self, length: Dd) -> Self {
-        Inertia {
+        BodyInertia {
             mass: self.mass * (length * length),
             axial: self.axial * (length * length),
             first: self.first.map(|h| h * length),
@@ -252,18 +252,18 @@ impl<'g> Inertia<'g> {
 }
 
 /// Rz v
-pub(super) fn turn<'g>(v: Vec3<Ex<'g>>, (c, s): (Ex<'g>, Ex<'g>)) -> Vec3<Ex<'g>> {
+pub(super) fn turn<'g>(v: Vec3<Expr<'g>>, (c, s): (Expr<'g>, Expr<'g>)) -> Vec3<Expr<'g>> {
     let [x, y, z] = v.0;
     Vec3([c * x - s * y, s * x + c * y, z])
 }
 
 /// Rzᵀ v
-pub(super) fn turn_back<'g>(v: Vec3<Ex<'g>>, (c, s): (Ex<'g>, Ex<'g>)) -> Vec3<Ex<'g>> {
+pub(super) fn turn_back<'g>(v: Vec3<Expr<'g>>, (c, s): (Expr<'g>, Expr<'g>)) -> Vec3<Expr<'g>> {
     let [x, y, z] = v.0;
     Vec3([c * x + s * y, c * y - s * x, z])
 }
 
 /// The upper triangle from `f(i, j)`.
-fn symmetric<'g>(f: impl Fn(usize, usize) -> Ex<'g>) -> Symmetric<'g> {
+fn symmetric<'g>(f: impl Fn(usize, usize) -> Expr<'g>) -> Symmetric<'g> {
     [f(0, 0), f(1, 1), f(2, 2), f(0, 1), f(0, 2), f(1, 2)]
 }

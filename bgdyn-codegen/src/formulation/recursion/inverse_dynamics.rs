@@ -4,28 +4,28 @@
 //! about the origin N = h × a + the skew part of U·D, which is K̇ = J ω̇ + ω × J ω of equation (6),
 //! term for term.
 
-use super::frames::{Frame, Frames};
-use super::inertia::{Inertia, Point, turn};
+use super::frames::{BodyFrame, Frames};
+use super::inertia::{BodyInertia, Point, turn};
 use super::motion::{Moving, Spin, motions, zero};
 use super::names::name_vector;
 use super::plan::Plan;
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 
 /// Force and moment about the body's origin.
 #[derive(Clone, Copy)]
-pub(super) struct Wrench<'g> {
+pub(super) struct BodyWrench<'g> {
     /// N in units of the plan.
-    pub force: Vec3<Ex<'g>>,
+    pub force: Vec3<Expr<'g>>,
     /// N·m
-    pub moment: Vec3<Ex<'g>>,
+    pub moment: Vec3<Expr<'g>>,
 }
 
-impl<'g> Wrench<'g> {
+impl<'g> BodyWrench<'g> {
     /// No force, no moment.
     pub fn zero(b: &'g Builder) -> Self {
-        Wrench {
+        BodyWrench {
             force: zero(b),
             moment: zero(b),
         }
@@ -33,30 +33,30 @@ impl<'g> Wrench<'g> {
 
     /// Of both.
     pub fn plus(self, b: Self) -> Self {
-        Wrench {
+        BodyWrench {
             force: self.force + b.force,
             moment: self.moment + b.moment,
         }
     }
 
     /// In other axes.
-    pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
-        Wrench {
+    pub fn map(self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
+        BodyWrench {
             force: f(self.force),
             moment: f(self.moment),
         }
     }
 
     /// About a point from which this one's origin is displaced by p.
-    pub fn carried(self, p: Vec3<Ex<'g>>) -> Self {
-        Wrench {
+    pub fn carried(self, p: Vec3<Expr<'g>>) -> Self {
+        BodyWrench {
             force: self.force,
             moment: self.moment + p.cross(self.force),
         }
     }
 
     /// Its share in the direction of a joint.
-    pub fn along(&self, frame: &Frame<'g>) -> Ex<'g> {
+    pub fn along(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
         match frame.motion {
             Motion::Rotation => self.moment.0[2],
             _ => self.force.0[2],
@@ -68,9 +68,9 @@ impl<'g> Wrench<'g> {
 #[derive(Clone, Copy)]
 pub(super) struct Load<'g> {
     /// In own axes.
-    pub own: Wrench<'g>,
+    pub own: BodyWrench<'g>,
     /// In the basis's axes.
-    pub basis: Wrench<'g>,
+    pub basis: BodyWrench<'g>,
 }
 
 /// Joint efforts for the rates and accelerations in `frames`.
@@ -79,7 +79,7 @@ pub(super) fn efforts<'g>(
     frames: &Frames<'g>,
     plan: &Plan,
     active: bool,
-) -> Vec<Ex<'g>> {
+) -> Vec<Expr<'g>> {
     let moving = motions(b, frames, active);
     let loads = loads_of(b, frames, plan, &moving);
     let mut efforts = inwards(b, frames, &loads);
@@ -119,7 +119,7 @@ fn loads_of<'g>(
 
 fn load<'g>(
     b: &'g Builder,
-    frame: &Frame<'g>,
+    frame: &BodyFrame<'g>,
     motion: &Moving<'g>,
     in_basis: bool,
     short: bool,
@@ -139,7 +139,7 @@ fn load<'g>(
         let load = dynamics(&inertia, j_zz, spin, a, short);
         let turned = points.map(|p| dynamics_of_point(&p.turned(frame.turn), spin, a));
         Load {
-            own: Wrench::zero(b),
+            own: BodyWrench::zero(b),
             basis: turned.fold(load, |sum, p| p.plus(sum)),
         }
     } else {
@@ -148,24 +148,24 @@ fn load<'g>(
         let own = points.map(|p| dynamics_of_point(p, spin, a));
         Load {
             own: own.fold(load, |sum, p| p.plus(sum)),
-            basis: Wrench::zero(b),
+            basis: BodyWrench::zero(b),
         }
     }
 }
 
 /// F = m a + U h and N = skew(U D) + h × a of a body.
 pub(super) fn dynamics<'g>(
-    inertia: &Inertia<'g>,
-    j_zz: Ex<'g>,
+    inertia: &BodyInertia<'g>,
+    j_zz: Expr<'g>,
     spin: &Spin<'g>,
-    a: Vec3<Ex<'g>>,
+    a: Vec3<Expr<'g>>,
     short: bool,
-) -> Wrench<'g> {
+) -> BodyWrench<'g> {
     let (u, h) = (&spin.u.0, inertia.first);
     let d = |i, j| inertia.d(i, j);
     let [dzy, dxz, dyx] = spin.differences.0;
     // k₁ x − k₂ y, merged where k₁ = ±k₂
-    let pair = |k1: Ex<'g>, x: Ex<'g>, k2: Ex<'g>, y: Ex<'g>| {
+    let pair = |k1: Expr<'g>, x: Expr<'g>, k2: Expr<'g>, y: Expr<'g>| {
         if k1 == k2 {
             k1 * (x - y)
         } else if k1 == -k2 {
@@ -187,26 +187,26 @@ pub(super) fn dynamics<'g>(
     } else {
         pair(d(0, 0), u[1][0], d(1, 1), u[0][1]) + products
     };
-    Wrench {
+    BodyWrench {
         force: spin.u * h + inertia.weigh(a),
         moment: Vec3([nx, ny, nz]) + h.cross(a),
     }
 }
 
 /// F = m (a + U s) and N = s × F of a point mass.
-fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Ex<'g>>) -> Wrench<'g> {
+fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Expr<'g>>) -> BodyWrench<'g> {
     let force = (a + spin.u * point.place).scale(point.mass);
-    Wrench {
+    BodyWrench {
         force,
         moment: point.place.cross(force),
     }
 }
 
 /// Forces and moments summed from the tips, and the joints' share of them.
-fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<Ex<'g>> {
+fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<Expr<'g>> {
     let n = frames.bodies.len();
     // What the bodies beyond hand over: in own axes, and in the basis's.
-    let mut own = vec![Wrench::zero(b); n];
+    let mut own = vec![BodyWrench::zero(b); n];
     let mut basis = own.clone();
     let mut efforts = vec![b.zero(); n];
     let effort = effort_name(frames);
@@ -238,7 +238,7 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
 /// What the efforts of these motions are called: those at rest `gravity`, those without accelerations
 /// `bias`.
 fn effort_name(frames: &Frames<'_>) -> &'static str {
-    let zero = |x: fn(&Frame<'_>) -> bool| frames.bodies.iter().all(x);
+    let zero = |x: fn(&BodyFrame<'_>) -> bool| frames.bodies.iter().all(x);
     match (
         zero(|f| f.acceleration.is_zero()),
         zero(|f| f.rate.is_zero()),
@@ -253,12 +253,12 @@ fn effort_name(frames: &Frames<'_>) -> &'static str {
 /// `inner`, if that is all of it; and at the joint, in the axes before that turns.
 pub(super) fn name_wrenches(
     [force, moment]: [&str; 2],
-    frame: &Frame<'_>,
-    inner: &Wrench<'_>,
-    outer: &Wrench<'_>,
-    whole: &Wrench<'_>,
+    frame: &BodyFrame<'_>,
+    inner: &BodyWrench<'_>,
+    outer: &BodyWrench<'_>,
+    whole: &BodyWrench<'_>,
 ) {
-    let zero = |v: &Vec3<Ex<'_>>| v.0.iter().all(|x| x.is_zero());
+    let zero = |v: &Vec3<Expr<'_>>| v.0.iter().all(|x| x.is_zero());
     if zero(&outer.force) && zero(&outer.moment) {
         name_vector(&inner.force, force, &frame.name);
         name_vector(&inner.moment, moment, &frame.name);

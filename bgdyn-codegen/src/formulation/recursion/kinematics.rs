@@ -7,9 +7,9 @@ use super::frames::Frames;
 use super::geometry::Geometry;
 use super::plan::Plan;
 use crate::bond_graph::{Multibody, SiteId};
-use crate::expr::{Builder, Ex, Expr, Graph, cost};
+use crate::expr::{Builder, Expr, Graph, Signed, cost};
 use crate::formulation::arguments::Arguments;
-use crate::formulation::site::{Column, SiteMotion};
+use crate::formulation::site::{JacobianColumn, SiteMotion};
 use crate::function::Function;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
@@ -42,7 +42,7 @@ fn outputs(
     method: Method,
     site: SiteId,
     grouped: bool,
-) -> (Graph, Vec<Expr>) {
+) -> (Graph, Vec<Signed>) {
     let b = Builder::new();
     let outputs = {
         let x = Arguments::new(&b, graph, method);
@@ -65,10 +65,10 @@ fn outputs(
 
 /// World pose of a body: its basis, its own axes, its origin.
 #[derive(Clone, Copy)]
-struct Placed<'g> {
-    basis: Mat3<Ex<'g>>,
-    own: Mat3<Ex<'g>>,
-    origin: Vec3<Ex<'g>>,
+struct PlacedSite<'g> {
+    basis: Mat3<Expr<'g>>,
+    own: Mat3<Expr<'g>>,
+    origin: Vec3<Expr<'g>>,
 }
 
 fn motion<'g>(
@@ -81,7 +81,7 @@ fn motion<'g>(
     let placed = placed(b, geometry, frames);
     let site = &graph.sites[site.0];
     b.section(|| format!("{}: its axes and place in the world", site.name));
-    let mut columns: Vec<Option<Column<'g>>> = vec![None; frames.bodies.len()];
+    let mut columns: Vec<Option<JacobianColumn<'g>>> = vec![None; frames.bodies.len()];
     let (body, in_body) = home(geometry, site.link, &site.place);
     let (rotation, origin) = in_body;
     let (mut rotation, mut origin) = (rotation.map(|x| b.constant(x)), b.vector(origin));
@@ -98,11 +98,11 @@ fn motion<'g>(
             axis
         };
         columns[j] = Some(match frames.bodies[j].motion {
-            Motion::Rotation => Column {
+            Motion::Rotation => JacobianColumn {
                 angular: axis,
                 linear: axis.cross(origin - placed[j].origin),
             },
-            _ => Column {
+            _ => JacobianColumn {
                 angular: Vec3([b.zero(); 3]),
                 linear: axis,
             },
@@ -116,8 +116,8 @@ fn motion<'g>(
     }
 }
 
-fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<Placed<'g>> {
-    let mut placed: Vec<Placed<'g>> = Vec::new();
+fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<PlacedSite<'g>> {
+    let mut placed: Vec<PlacedSite<'g>> = Vec::new();
     for (body, frame) in geometry.bodies.iter().zip(&frames.bodies) {
         b.section(|| format!("{}: its axes and origin in the world", frame.name));
         let twist = frame.twist.map(|x| b.constant(x));
@@ -142,7 +142,7 @@ fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<P
             basis.column(2).0,
         ])
         .transpose();
-        placed.push(Placed { basis, own, origin });
+        placed.push(PlacedSite { basis, own, origin });
     }
     placed
 }

@@ -9,10 +9,10 @@ use std::cmp::Ordering;
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Frame, Frames};
-use super::inertia::{Inertia, turn, turn_back};
+use super::frames::{BodyFrame, Frames};
+use super::inertia::{BodyInertia, turn, turn_back};
 use super::names::{name_composite, name_vector};
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 
@@ -20,13 +20,13 @@ use crate::mechanism::Motion;
 #[derive(Clone, Copy)]
 pub(super) struct Momentum<'g> {
     pub joint: usize,
-    pub linear: Vec3<Ex<'g>>,
-    pub angular: Vec3<Ex<'g>>,
+    pub linear: Vec3<Expr<'g>>,
+    pub angular: Vec3<Expr<'g>>,
 }
 
 impl<'g> Momentum<'g> {
     /// In other axes.
-    pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+    pub fn map(self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
         Momentum {
             linear: f(self.linear),
             angular: f(self.angular),
@@ -35,7 +35,7 @@ impl<'g> Momentum<'g> {
     }
 
     /// About a point from which this one's origin is displaced by p.
-    pub fn carried(self, p: Vec3<Ex<'g>>) -> Self {
+    pub fn carried(self, p: Vec3<Expr<'g>>) -> Self {
         Momentum {
             angular: self.angular + p.cross(self.linear),
             ..self
@@ -43,7 +43,7 @@ impl<'g> Momentum<'g> {
     }
 
     /// Its share in the direction of a joint.
-    pub fn along(&self, frame: &Frame<'g>) -> Ex<'g> {
+    pub fn along(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
         match frame.motion {
             Motion::Rotation => self.angular.0[2],
             _ => self.linear.0[2],
@@ -53,9 +53,9 @@ impl<'g> Momentum<'g> {
 
 /// Momenta of joints, one for each.
 #[derive(Clone)]
-pub(super) struct Momenta<'g>(Vec<Momentum<'g>>);
+pub(super) struct BodyMomenta<'g>(Vec<Momentum<'g>>);
 
-impl<'g> Momenta<'g> {
+impl<'g> BodyMomenta<'g> {
     /// With another one, in the same axes and about the same point. What a unit rate gives to a
     /// rotor elsewhere counts with what it gives to all beyond its joint.
     pub fn add(&mut self, more: Momentum<'g>) {
@@ -69,7 +69,7 @@ impl<'g> Momenta<'g> {
     }
 }
 
-impl<'g> Extend<Momentum<'g>> for Momenta<'g> {
+impl<'g> Extend<Momentum<'g>> for BodyMomenta<'g> {
     fn extend<I: IntoIterator<Item = Momentum<'g>>>(&mut self, more: I) {
         more.into_iter().for_each(|m| self.add(m));
     }
@@ -77,13 +77,13 @@ impl<'g> Extend<Momentum<'g>> for Momenta<'g> {
 
 /// What a body has gathered from those beyond it.
 struct Gathered<'g> {
-    inertia: Inertia<'g>,
-    momenta: Momenta<'g>,
+    inertia: BodyInertia<'g>,
+    momenta: BodyMomenta<'g>,
 }
 
 /// All that a joint moves as one body, in the axes of its basis, and what a unit rate gives it.
 struct CompositeInertia<'g> {
-    whole: Inertia<'g>,
+    whole: BodyInertia<'g>,
     unit: Momentum<'g>,
 }
 
@@ -92,9 +92,9 @@ impl<'g> CompositeInertia<'g> {
     fn new(
         b: &'g Builder,
         j: usize,
-        frame: &Frame<'g>,
-        inner: &Inertia<'g>,
-        outer: &Inertia<'g>,
+        frame: &BodyFrame<'g>,
+        inner: &BodyInertia<'g>,
+        outer: &BodyInertia<'g>,
     ) -> Self {
         let composite = frame.inertia.plus(inner);
         if outer.is_zero() {
@@ -115,7 +115,11 @@ impl<'g> CompositeInertia<'g> {
 }
 
 /// Inertia about the carrier's origin, in the carrier's axes or in the basis that continues.
-fn turned_on<'g>(b: &'g Builder, frame: &Frame<'g>, shifted: &Inertia<'g>) -> Inertia<'g> {
+fn turned_on<'g>(
+    b: &'g Builder,
+    frame: &BodyFrame<'g>,
+    shifted: &BodyInertia<'g>,
+) -> BodyInertia<'g> {
     if frame.continues {
         *shifted
     } else {
@@ -126,7 +130,7 @@ fn turned_on<'g>(b: &'g Builder, frame: &Frame<'g>, shifted: &Inertia<'g>) -> In
 /// The momentum that a unit rate of each joint gives to all it moves, in the axes of its basis.
 pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentum<'g>> {
     let n = frames.bodies.len();
-    let (mut own, mut basis) = (vec![Inertia::zero(b); n], vec![Inertia::zero(b); n]);
+    let (mut own, mut basis) = (vec![BodyInertia::zero(b); n], vec![BodyInertia::zero(b); n]);
     let mut units = Vec::new();
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
@@ -147,15 +151,15 @@ pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentu
 }
 
 /// Lower triangle of M.
-pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex<'g>>> {
+pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
     let n = frames.bodies.len();
     let empty = || Gathered {
-        inertia: Inertia::zero(b),
-        momenta: Momenta(Vec::new()),
+        inertia: BodyInertia::zero(b),
+        momenta: BodyMomenta(Vec::new()),
     };
     let mut own: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
     let mut basis: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
-    let mut mass: Vec<Vec<Ex<'g>>> = (0..n).map(|j| vec![b.zero(); j + 1]).collect();
+    let mut mass: Vec<Vec<Expr<'g>>> = (0..n).map(|j| vec![b.zero(); j + 1]).collect();
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
         b.section(|| {
@@ -166,7 +170,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
         });
         let (inner, outer) = (&own[j], &basis[j]);
         let composite = CompositeInertia::new(b, j, frame, &inner.inertia, &outer.inertia);
-        let mut momenta = Momenta(Vec::new());
+        let mut momenta = BodyMomenta(Vec::new());
         momenta.extend(
             inner
                 .momenta
@@ -209,7 +213,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
 }
 
 /// Adds to M what momenta at body j, in the axes of its basis, have in the direction of its joint.
-fn enter<'g>(mass: &mut [Vec<Ex<'g>>], frames: &Frames<'g>, j: usize, momenta: &Momenta<'g>) {
+fn enter<'g>(mass: &mut [Vec<Expr<'g>>], frames: &Frames<'g>, j: usize, momenta: &BodyMomenta<'g>) {
     let frame = &frames.bodies[j];
     for m in &momenta.0 {
         let other = &frames.bodies[m.joint];
@@ -231,9 +235,9 @@ fn enter<'g>(mass: &mut [Vec<Ex<'g>>], frames: &Frames<'g>, j: usize, momenta: &
 pub(super) fn unit_momentum<'g>(
     b: &'g Builder,
     joint: usize,
-    frame: &Frame<'g>,
-    whole: &Inertia<'g>,
-    j_zz: Ex<'g>,
+    frame: &BodyFrame<'g>,
+    whole: &BodyInertia<'g>,
+    j_zz: Expr<'g>,
 ) -> Momentum<'g> {
     let [x, y, _] = whole.first.0;
     match frame.motion {
@@ -251,11 +255,11 @@ pub(super) fn unit_momentum<'g>(
 }
 
 /// T = ½ Σ [ m u·u + 2 u·(ω × h) + ω·J ω ] with the velocity u of each body's origin, own axes.
-pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> {
+pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<'g> {
     let zero = Vec3([b.zero(); 3]);
     // (ω, u) in own axes, and in the basis's.
-    let mut own: Vec<(Vec3<Ex<'g>>, Vec3<Ex<'g>>)> = Vec::new();
-    let mut basis: Vec<(Vec3<Ex<'g>>, Vec3<Ex<'g>>)> = Vec::new();
+    let mut own: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> = Vec::new();
+    let mut basis: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> = Vec::new();
     let mut twice = b.zero();
     for frame in &frames.bodies {
         b.section(|| {
@@ -289,11 +293,15 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> 
         own.push((omega, u));
         twice = twice + twice_kinetic_energy(&frame.inertia, omega, u);
     }
-    let omega: Vec<Vec3<Ex<'g>>> = own.iter().map(|(omega, _)| *omega).collect();
+    let omega: Vec<Vec3<Expr<'g>>> = own.iter().map(|(omega, _)| *omega).collect();
     (twice + frames.rotors.twice_kinetic_energy(b, &omega)) * Dd::from_f64(0.5)
 }
 
-fn twice_kinetic_energy<'g>(inertia: &Inertia<'g>, omega: Vec3<Ex<'g>>, u: Vec3<Ex<'g>>) -> Ex<'g> {
+fn twice_kinetic_energy<'g>(
+    inertia: &BodyInertia<'g>,
+    omega: Vec3<Expr<'g>>,
+    u: Vec3<Expr<'g>>,
+) -> Expr<'g> {
     let two = Dd::from_f64(2.0);
     let d = |i, j| inertia.d(i, j);
     let [x, y, z] = omega.0;
@@ -307,10 +315,10 @@ fn twice_kinetic_energy<'g>(inertia: &Inertia<'g>, omega: Vec3<Ex<'g>>, u: Vec3<
 }
 
 /// V = −g · Σ m r, first moments summed from the tips.
-pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Ex<'g> {
+pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<'g> {
     let n = frames.bodies.len();
-    let mut own = vec![Inertia::zero(b); n];
-    let mut basis = vec![Inertia::zero(b); n];
+    let mut own = vec![BodyInertia::zero(b); n];
+    let mut basis = vec![BodyInertia::zero(b); n];
     let mut energy = frames.constant_energy;
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];

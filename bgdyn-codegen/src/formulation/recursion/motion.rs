@@ -5,10 +5,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::frames::{Frame, Frames};
+use super::frames::{BodyFrame, Frames};
 use super::inertia::turn_back;
 use super::names::{name_matrix, name_vector};
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -16,12 +16,12 @@ use crate::mechanism::Motion;
 #[derive(Clone, Copy)]
 pub(super) struct Spin<'g> {
     /// ω
-    pub omega: Vec3<Ex<'g>>,
-    pub omega_dot: Vec3<Ex<'g>>,
+    pub omega: Vec3<Expr<'g>>,
+    pub omega_dot: Vec3<Expr<'g>>,
     /// U
-    pub u: Mat3<Ex<'g>>,
+    pub u: Mat3<Expr<'g>>,
     /// U_zz − U_yy, U_xx − U_zz, U_yy − U_xx
-    pub differences: Vec3<Ex<'g>>,
+    pub differences: Vec3<Expr<'g>>,
 }
 
 impl Spin<'_> {
@@ -37,15 +37,15 @@ pub(super) struct Moving<'g> {
     /// Of the twisted axes in which the basis began, before any angle of the group.
     pub basis: Spin<'g>,
     /// Ω, Ω̇: summed rates of the group's joints.
-    rate: (Ex<'g>, Ex<'g>),
+    rate: (Expr<'g>, Expr<'g>),
     /// Angular motion of the body, in the basis's axes.
     pub in_basis: Spin<'g>,
     /// Acceleration of the origin in the basis's axes.
-    pub a_basis: Vec3<Ex<'g>>,
+    pub a_basis: Vec3<Expr<'g>>,
     /// Angular motion of the body in its own axes.
     pub own: Spin<'g>,
     /// Acceleration of the origin in own axes.
-    pub a_own: Vec3<Ex<'g>>,
+    pub a_own: Vec3<Expr<'g>>,
 }
 
 /// Motion of every body with the rates and accelerations in `frames`; where `active`, against
@@ -68,11 +68,11 @@ pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> 
     moving
 }
 
-pub(super) fn zero(b: &Builder) -> Vec3<Ex<'_>> {
+pub(super) fn zero(b: &Builder) -> Vec3<Expr<'_>> {
     Vec3([b.zero(); 3])
 }
 
-fn name(frame: &Frame<'_>, step: &Moving<'_>) {
+fn name(frame: &BodyFrame<'_>, step: &Moving<'_>) {
     let (name, spin) = (&frame.name, &step.own);
     name_vector(&spin.omega, "omega", name);
     name_vector(&step.a_own, "a", name);
@@ -83,9 +83,9 @@ fn name(frame: &Frame<'_>, step: &Moving<'_>) {
 /// Motion of a body from its parent's.
 fn outwards<'g>(
     b: &'g Builder,
-    frame: &Frame<'g>,
+    frame: &BodyFrame<'g>,
     parent: Option<&Moving<'g>>,
-    gravity: Vec3<Ex<'g>>,
+    gravity: Vec3<Expr<'g>>,
 ) -> Moving<'g> {
     let (basis, mut rate, mut a_basis) = match parent {
         // The base stands still; gravity acts as an acceleration of the base upwards.
@@ -173,9 +173,9 @@ fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
 fn twisted_acceleration<'g>(
     b: &'g Builder,
     parent: &Moving<'g>,
-    frame: &Frame<'g>,
+    frame: &BodyFrame<'g>,
     basis: &Spin<'g>,
-) -> Vec3<Ex<'g>> {
+) -> Vec3<Expr<'g>> {
     let back = frame.twist.transpose().map(|x| b.constant(x));
     if permutation(frame.twist).is_some() {
         back * parent.a_own + basis.u * frame.position
@@ -185,7 +185,7 @@ fn twisted_acceleration<'g>(
 }
 
 /// U = [ω̇]× + [ω]×[ω]×
-fn u_of<'g>(omega: Vec3<Ex<'g>>, omega_dot: Vec3<Ex<'g>>) -> Mat3<Ex<'g>> {
+fn u_of<'g>(omega: Vec3<Expr<'g>>, omega_dot: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
     let ([x, y, z], [dx, dy, dz]) = (omega.0, omega_dot.0);
     let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
     Mat3([
@@ -195,14 +195,14 @@ fn u_of<'g>(omega: Vec3<Ex<'g>>, omega_dot: Vec3<Ex<'g>>) -> Mat3<Ex<'g>> {
     ])
 }
 
-fn differences<'g>(u: &Mat3<Ex<'g>>) -> Vec3<Ex<'g>> {
+fn differences<'g>(u: &Mat3<Expr<'g>>) -> Vec3<Expr<'g>> {
     let [xx, yy, zz] = [u.0[0][0], u.0[1][1], u.0[2][2]];
     Vec3([zz - yy, xx - zz, yy - xx])
 }
 
 /// Angular motion after the group's rates Ω, Ω̇ about z, in axes that do not turn with them:
 /// with σ = Ω (2 ω⁰_z + Ω), U = U⁰ + [[−σ, −Ω̇, 0], [Ω̇, −σ, 0], [2Ω ω⁰_x, 2Ω ω⁰_y, 0]].
-fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Ex<'g>, Ex<'g>)) -> Spin<'g> {
+fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Expr<'g>, Expr<'g>)) -> Spin<'g> {
     let ([x, y, z], [dx, dy, dz]) = (basis.omega.0, basis.omega_dot.0);
     let (total, total_dot) = (z + rate, dz + acceleration);
     let sigma = rate * (total + z);
@@ -236,8 +236,8 @@ fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Ex<'g>, Ex<'g>)) -> Spin<'g
 /// usual recursion rotates ω̇ and forms U anew.
 fn own_spin<'g>(
     basis: &Spin<'g>,
-    (rate, acceleration): (Ex<'g>, Ex<'g>),
-    angle: (Ex<'g>, Ex<'g>),
+    (rate, acceleration): (Expr<'g>, Expr<'g>),
+    angle: (Expr<'g>, Expr<'g>),
 ) -> Spin<'g> {
     let straight = angle.0.as_constant() == Some(Dd::ONE);
     if rate.is_zero() && acceleration.is_zero() && straight {

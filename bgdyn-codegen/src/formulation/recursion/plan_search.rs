@@ -175,11 +175,11 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
     }
 }
 
-type Change = Box<dyn Fn(&mut Plan)>;
+type PlanChange = Box<dyn Fn(&mut Plan)>;
 
 /// Every place for an origin and every unit of length, as a change of a plan.
-fn places(geometry: &Geometry) -> Vec<Change> {
-    let mut changes: Vec<Change> = Vec::new();
+fn places(geometry: &Geometry) -> Vec<PlanChange> {
+    let mut changes: Vec<PlanChange> = Vec::new();
     for j in 0..geometry.bodies.len() {
         for h in slides(geometry, j) {
             changes.push(Box::new(move |plan| plan.slides[j] = h));
@@ -192,7 +192,7 @@ fn places(geometry: &Geometry) -> Vec<Change> {
 }
 
 /// Every single choice, as a change of a plan.
-fn changes(geometry: &Geometry) -> Vec<Change> {
+fn changes(geometry: &Geometry) -> Vec<PlanChange> {
     let n = geometry.bodies.len();
     let mut changes = places(geometry);
     for j in 0..n {

@@ -12,16 +12,16 @@ use bgdyn_runtime::Dd;
 
 use super::geometry::Geometry;
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Ex};
+use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::{Arguments, reflected, spin};
 use crate::math::Vec3;
 
 /// The rotors of a mechanism.
 pub(super) struct Rotors<'g> {
     /// N² J of each joint, summed.
-    armature: Vec<Ex<'g>>,
-    rate: Vec<Ex<'g>>,
-    acceleration: Vec<Ex<'g>>,
+    armature: Vec<Expr<'g>>,
+    rate: Vec<Expr<'g>>,
+    acceleration: Vec<Expr<'g>>,
     full: Vec<FullRotor<'g>>,
 }
 
@@ -33,25 +33,25 @@ pub(super) struct FullRotor<'g> {
     /// Factor from a moment or force along z to that joint's effort.
     effort: Dd,
     /// q̇ and q̈ of that joint.
-    rates: (Ex<'g>, Ex<'g>),
+    rates: (Expr<'g>, Expr<'g>),
     /// N J e in the body's own axes.
-    momentum: Vec3<Ex<'g>>,
+    momentum: Vec3<Expr<'g>>,
 }
 
 impl<'g> FullRotor<'g> {
     /// Momentum that a unit rate along its joint's z gives it, in the body's own axes.
-    pub fn unit_momentum(&self) -> Vec3<Ex<'g>> {
+    pub fn unit_momentum(&self) -> Vec3<Expr<'g>> {
         let per_unit = Dd::ONE / self.effort;
         self.momentum.map(|x| x * per_unit)
     }
 
     /// Its momentum N J q̇ e, in the body's own axes.
-    pub fn momentum(&self) -> Vec3<Ex<'g>> {
+    pub fn momentum(&self) -> Vec3<Expr<'g>> {
         self.momentum.scale(self.rates.0)
     }
 
     /// The rate N J q̈ e of that momentum in axes fixed to the body.
-    pub fn momentum_rate(&self) -> Vec3<Ex<'g>> {
+    pub fn momentum_rate(&self) -> Vec3<Expr<'g>> {
         self.momentum.scale(self.rates.1)
     }
 }
@@ -102,7 +102,7 @@ impl<'g> Rotors<'g> {
     }
 
     /// ḣ of the rotors on a body with the angular velocity `omega`, in its own axes.
-    pub fn moment(&self, body: usize, omega: Vec3<Ex<'g>>) -> Option<Vec3<Ex<'g>>> {
+    pub fn moment(&self, body: usize, omega: Vec3<Expr<'g>>) -> Option<Vec3<Expr<'g>>> {
         let moment = self.on(body).map(|rotor| {
             let whirl = omega.cross(rotor.momentum);
             rotor.momentum_rate() + whirl.scale(rotor.rates.0)
@@ -112,7 +112,7 @@ impl<'g> Rotors<'g> {
 
     /// Adds to the joints' efforts what turns the rotors; `omega_dot` has the angular acceleration of
     /// each body, in its own axes.
-    pub fn add_efforts(&self, omega_dot: &[Vec3<Ex<'g>>], efforts: &mut [Ex<'g>]) {
+    pub fn add_efforts(&self, omega_dot: &[Vec3<Expr<'g>>], efforts: &mut [Expr<'g>]) {
         for (j, effort) in efforts.iter_mut().enumerate() {
             *effort = *effort + self.armature[j] * self.acceleration[j];
         }
@@ -123,13 +123,13 @@ impl<'g> Rotors<'g> {
     }
 
     /// N² J of a joint.
-    pub fn armature(&self, joint: usize) -> Ex<'g> {
+    pub fn armature(&self, joint: usize) -> Expr<'g> {
         self.armature[joint]
     }
 
     /// Twice the kinetic energy that the rotors have beyond the links': N² J q̇² + 2 N J q̇ e · ω, with
     /// the angular velocity of each body in its own axes.
-    pub fn twice_kinetic_energy(&self, b: &'g Builder, omega: &[Vec3<Ex<'g>>]) -> Ex<'g> {
+    pub fn twice_kinetic_energy(&self, b: &'g Builder, omega: &[Vec3<Expr<'g>>]) -> Expr<'g> {
         let squares = self.armature.iter().zip(&self.rate);
         let own = squares.fold(b.zero(), |sum, (&i, &v)| sum + i * v * v);
         self.full.iter().fold(own, |sum, rotor| {

@@ -6,7 +6,7 @@ use std::cell::RefCell;
 
 use bgdyn_runtime::Dd;
 
-use crate::fault::{Faults, Place, wording};
+use crate::fault::{Faults, Location, wording};
 use crate::format::{Field, Located, Origin, Spec, Vector};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{Pose, Snapped};
@@ -41,7 +41,10 @@ impl Directions {
         };
         let snap = given.value.value.to_f64();
         if !(0.0..=MOST).contains(&snap) {
-            faults.push(wording::snap_out_of_range(&given.place, &given.value.text));
+            faults.push(wording::snap_out_of_range(
+                &given.location,
+                &given.value.text,
+            ));
             return Self::within(SNAP);
         }
         Self::within(snap)
@@ -60,7 +63,7 @@ impl Directions {
     }
 
     /// Notes how far snapping moved the direction at this place.
-    fn note(&self, place: &Place, moved: f64) {
+    fn note(&self, location: &Location, moved: f64) {
         if moved <= TOLD {
             return;
         }
@@ -68,12 +71,12 @@ impl Directions {
         let all = snapped.get_or_insert_with(|| Snapped {
             count: 0,
             most: 0.0,
-            place: place.clone(),
+            location: location.clone(),
         });
         all.count += 1;
         if moved > all.most {
             all.most = moved;
-            all.place = place.clone();
+            all.location = location.clone();
         }
     }
 
@@ -113,7 +116,7 @@ impl Directions {
             .find(|a| a.value.value.to_f64().abs() > TURNS);
         if let Some(angle) = far {
             faults.push(wording::angle_out_of_range(
-                &angle.place,
+                &angle.location,
                 &angle.value.text,
                 TURNS,
             ));
@@ -137,7 +140,7 @@ impl Directions {
                 .abs()
         });
         let moved = turns.0.into_iter().map(turn).chain(entries);
-        self.note(&angles.place, moved.fold(0.0, f64::max));
+        self.note(&angles.location, moved.fold(0.0, f64::max));
         Some(square)
     }
 
@@ -148,7 +151,7 @@ impl Directions {
             .filter(|(_, off)| self.suspect(*off))
             .collect();
         if !off.is_empty() {
-            faults.push(wording::nearly_quarter_turn(&angles.place, &off));
+            faults.push(wording::nearly_quarter_turn(&angles.location, &off));
         }
     }
 
@@ -157,7 +160,7 @@ impl Directions {
         let given = fixed(&axis.value);
         let largest = given.0.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
         if largest == 0.0 {
-            faults.push(wording::zero_axis(&axis.place));
+            faults.push(wording::zero_axis(&axis.location));
             return None;
         }
         let length = given.dot(given).sqrt();
@@ -168,11 +171,11 @@ impl Directions {
             .filter(|(_, s)| self.suspect(*s))
             .collect();
         if !off.is_empty() {
-            faults.push(wording::nearly_axis(&axis.place, &off));
+            faults.push(wording::nearly_axis(&axis.location, &off));
         }
         let near = |share: f64| share <= self.exact();
         let moved = share.0.into_iter().filter(|share| near(*share));
-        self.note(&axis.place, moved.fold(0.0, f64::max));
+        self.note(&axis.location, moved.fold(0.0, f64::max));
         let kept = |i: usize| {
             if near(share.0[i]) {
                 Dd::ZERO

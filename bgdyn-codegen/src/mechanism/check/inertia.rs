@@ -9,8 +9,8 @@ use bgdyn_runtime::nalgebra::Matrix3;
 use super::direction::Directions;
 use super::parameters::Parameters;
 use super::solid;
-use crate::fault::{Faults, Place, wording};
-use crate::format::{Dimension, Field, Inertia, Link};
+use crate::fault::{Faults, Location, wording};
+use crate::format::{Dimension, Field, InertiaSpec, LinkSpec};
 use crate::math::Mat3;
 use crate::mechanism::{Pose, Tensor, Value};
 
@@ -23,7 +23,7 @@ const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1,
 
 /// The tensor of `link`: in its axes, or, where an entry is a run-time parameter, as written.
 pub(super) fn tensor(
-    link: &Link,
+    link: &LinkSpec,
     directions: &Directions,
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
@@ -42,10 +42,10 @@ pub(super) fn tensor(
     };
     let rotation = directions.rotation(&inertia.value.rpy, faults);
     let entries = match written(link, &inertia.value, directions, parameters, faults)? {
-        Written::AboutCentre(entries) => entries,
-        Written::AboutOrigin(numbers, shift) => {
+        InertiaNotation::AboutCentre(entries) => entries,
+        InertiaNotation::AboutOrigin(numbers, shift) => {
             let about = minus(turned(numbers, rotation?), shift);
-            physical(&inertia.place, &about, allowed, faults);
+            physical(&inertia.location, &about, allowed, faults);
             return Some(Tensor {
                 entries: about.map(Value::Fixed),
                 axes: straight,
@@ -53,7 +53,7 @@ pub(super) fn tensor(
         }
     };
     let numbers = entries.map(|entry| parameters.default_of(entry));
-    physical(&inertia.place, &numbers, allowed, faults);
+    physical(&inertia.location, &numbers, allowed, faults);
     let known = entries.iter().all(|e| matches!(e, Value::Fixed(_)));
     Some(match (inertia.value.rpy.is_absent(), known) {
         (true, _) => Tensor {
@@ -72,7 +72,7 @@ pub(super) fn tensor(
 }
 
 /// A tensor in its own axes.
-enum Written {
+enum InertiaNotation {
     /// About the centre of mass.
     AboutCentre([Value; 6]),
     /// About the link's origin, and what a mass in its place adds there, in link axes.
@@ -80,49 +80,49 @@ enum Written {
 }
 
 fn written(
-    link: &Link,
-    inertia: &Inertia,
+    link: &LinkSpec,
+    inertia: &InertiaSpec,
     directions: &Directions,
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
-) -> Option<Written> {
+) -> Option<InertiaNotation> {
     if inertia.solid.is_broken() || solid::conflicts(inertia, faults) {
         return None;
     }
     if let Some(word) = inertia.solid.given() {
         let tensor = solid::tensor(word, link, inertia, directions, faults)?;
-        return Some(Written::AboutCentre(tensor.map(Value::Fixed)));
+        return Some(InertiaNotation::AboutCentre(tensor.map(Value::Fixed)));
     }
     let entries = entries(link, inertia, parameters, faults);
     let about = match &inertia.about {
-        Field::Absent => return entries.map(Written::AboutCentre),
+        Field::Absent => return entries.map(InertiaNotation::AboutCentre),
         Field::Broken => return None,
         Field::Given(about) => about,
     };
     match about.value.as_str() {
-        "com" => entries.map(Written::AboutCentre),
+        "com" => entries.map(InertiaNotation::AboutCentre),
         "origin" => {
-            let shift = parallel_axis(link, &about.place, faults);
+            let shift = parallel_axis(link, &about.location, faults);
             let fixed = entries?.map(|entry| match entry {
                 Value::Fixed(x) => Some(x),
                 Value::Parameter(_) => None,
             });
             let numbers: Option<Vec<Dd>> = fixed.into_iter().collect();
             let Some(numbers) = numbers.and_then(|n| <[Dd; 6]>::try_from(n).ok()) else {
-                faults.push(wording::parameter_about_origin(&about.place, "entry"));
+                faults.push(wording::parameter_about_origin(&about.location, "entry"));
                 return None;
             };
-            Some(Written::AboutOrigin(numbers, shift?))
+            Some(InertiaNotation::AboutOrigin(numbers, shift?))
         }
         word => {
-            faults.push(wording::about_word(&about.place, word));
+            faults.push(wording::about_word(&about.location, word));
             None
         }
     }
 }
 
 /// m (c·c 1 − c cᵀ) of the link's mass and centre of mass.
-fn parallel_axis(link: &Link, about: &Place, faults: &mut Faults) -> Option<[Dd; 6]> {
+fn parallel_axis(link: &LinkSpec, about: &Location, faults: &mut Faults) -> Option<[Dd; 6]> {
     let mass = link.mass.given().map(|m| &m.value);
     let com = link.com.given().map(|c| &c.value);
     let centre = com.into_iter().flatten().map(|x| &x.value);
@@ -153,14 +153,14 @@ fn minus(a: [Dd; 6], b: [Dd; 6]) -> [Dd; 6] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-fn allows_nonphysical(link: &Link, faults: &mut Faults) -> bool {
+fn allows_nonphysical(link: &LinkSpec, faults: &mut Faults) -> bool {
     match &link.nonphysical {
         Field::Absent => false,
         // Unreadable, and said so: the tensor is not the point.
         Field::Broken => true,
         Field::Given(word) => {
             if word.value != "allow" {
-                faults.push(wording::nonphysical_word(&word.place, &word.value));
+                faults.push(wording::nonphysical_word(&word.location, &word.value));
             }
             true
         }
@@ -168,8 +168,8 @@ fn allows_nonphysical(link: &Link, faults: &mut Faults) -> bool {
 }
 
 fn entries(
-    link: &Link,
-    inertia: &Inertia,
+    link: &LinkSpec,
+    inertia: &InertiaSpec,
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<[Value; 6]> {
@@ -200,18 +200,18 @@ fn entries(
 }
 
 /// Refuses a tensor (xx, yy, zz, xy, xz, yz about the centre of mass) that no body has.
-pub(crate) fn check_tensor(place: &Place, entries: &[Dd; 6], faults: &mut Faults) {
-    physical(place, entries, false, faults);
+pub(crate) fn check_tensor(location: &Location, entries: &[Dd; 6], faults: &mut Faults) {
+    physical(location, entries, false, faults);
 }
 
-fn physical(place: &Place, entries: &[Dd; 6], allowed: bool, faults: &mut Faults) {
+fn physical(location: &Location, entries: &[Dd; 6], allowed: bool, faults: &mut Faults) {
     let moments = principal_moments(entries);
     let [small, middle, large] = moments;
     let slack = TOLERANCE * large.abs().max(small.abs());
     if small < -slack {
-        faults.push(wording::not_semidefinite(place, moments));
+        faults.push(wording::not_semidefinite(location, moments));
     } else if !allowed && large > small + middle + slack {
-        faults.push(wording::triangle_inequality(place, moments));
+        faults.push(wording::triangle_inequality(location, moments));
     }
 }
 

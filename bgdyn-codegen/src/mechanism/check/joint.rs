@@ -5,13 +5,17 @@ use bgdyn_runtime::Dd;
 use super::direction::Directions;
 use super::names::mount_name;
 use crate::fault::{Faults, wording};
-use crate::format::{self, Dimension, Field, Link, Located, Number, misfit};
+use crate::format::{self, Dimension, Field, LinkSpec, Located, Number, misfit};
 use crate::math::Vec3;
 use crate::mechanism::joint::JOINT_TYPES;
 use crate::mechanism::{Joint, JointType, Limits, Motion};
 
 /// The joint that carries `link`; its coordinate is given later.
-pub(super) fn joint(link: &Link, directions: &Directions, faults: &mut Faults) -> Option<Joint> {
+pub(super) fn joint(
+    link: &LinkSpec,
+    directions: &Directions,
+    faults: &mut Faults,
+) -> Option<Joint> {
     match &link.joint {
         Field::Absent => Some(Joint {
             name: mount_name(link.name.value()?),
@@ -28,8 +32,8 @@ pub(super) fn joint(link: &Link, directions: &Directions, faults: &mut Faults) -
 }
 
 fn given(
-    joint: &format::Joint,
-    link: &Link,
+    joint: &format::JointSpec,
+    link: &LinkSpec,
     directions: &Directions,
     faults: &mut Faults,
 ) -> Option<Joint> {
@@ -53,7 +57,7 @@ fn z() -> Vec3<Dd> {
     Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE])
 }
 
-fn kind(joint: &format::Joint, faults: &mut Faults) -> Option<&'static JointType> {
+fn kind(joint: &format::JointSpec, faults: &mut Faults) -> Option<&'static JointType> {
     let word = joint.kind.given()?;
     let found = JOINT_TYPES
         .iter()
@@ -62,7 +66,7 @@ fn kind(joint: &format::Joint, faults: &mut Faults) -> Option<&'static JointType
     if found.is_none() {
         let known: Vec<&str> = JOINT_TYPES.iter().map(|kind| kind.keyword).collect();
         faults.push(wording::unknown_joint_type(
-            &word.place,
+            &word.location,
             &word.value,
             &known,
         ));
@@ -71,8 +75,8 @@ fn kind(joint: &format::Joint, faults: &mut Faults) -> Option<&'static JointType
 }
 
 fn name(
-    joint: &format::Joint,
-    link: &Link,
+    joint: &format::JointSpec,
+    link: &LinkSpec,
     kind: Option<&'static JointType>,
     faults: &mut Faults,
 ) -> Option<String> {
@@ -81,14 +85,14 @@ fn name(
         Field::Broken => None,
         Field::Absent if kind?.motion == Motion::None => Some(mount_name(link.name.value()?)),
         Field::Absent => {
-            faults.push(wording::moving_joint_without_name(&joint.place));
+            faults.push(wording::moving_joint_without_name(&joint.location));
             None
         }
     }
 }
 
 fn axis(
-    joint: &format::Joint,
+    joint: &format::JointSpec,
     kind: Option<&'static JointType>,
     directions: &Directions,
     faults: &mut Faults,
@@ -97,7 +101,7 @@ fn axis(
         Field::Absent => Some(z()),
         Field::Broken => None,
         Field::Given(axis) if kind.is_some_and(|kind| kind.motion == Motion::None) => {
-            faults.push(wording::axis_of_fixed_joint(&axis.place));
+            faults.push(wording::axis_of_fixed_joint(&axis.location));
             None
         }
         Field::Given(axis) => directions.axis(axis, faults),
@@ -105,7 +109,7 @@ fn axis(
 }
 
 fn limits(
-    joint: &format::Joint,
+    joint: &format::JointSpec,
     kind: Option<&'static JointType>,
     faults: &mut Faults,
 ) -> Option<Limits> {
@@ -115,7 +119,7 @@ fn limits(
         Field::Given(limits) => limits,
     };
     if kind.is_some_and(|kind| kind.motion == Motion::None) {
-        faults.push(wording::limits_of_fixed_joint(&given.place));
+        faults.push(wording::limits_of_fixed_joint(&given.location));
         return None;
     }
     let limits = &given.value;
@@ -140,7 +144,7 @@ fn number(field: &Field<Number>) -> Option<Option<f64>> {
     }
 }
 
-fn position_limits(limits: &format::Limits, kind: &JointType, faults: &mut Faults) {
+fn position_limits(limits: &format::LimitsSpec, kind: &JointType, faults: &mut Faults) {
     if kind.position_limits {
         return;
     }
@@ -148,12 +152,12 @@ fn position_limits(limits: &format::Limits, kind: &JointType, faults: &mut Fault
         .into_iter()
         .filter_map(Field::given)
     {
-        faults.push(wording::position_limit(&limit.place, kind.keyword));
+        faults.push(wording::position_limit(&limit.location, kind.keyword));
     }
 }
 
 /// Units of the coordinate, its rate and its effort, for a motion.
-fn units(limits: &format::Limits, motion: Motion, faults: &mut Faults) {
+fn units(limits: &format::LimitsSpec, motion: Motion, faults: &mut Faults) {
     let [position, speed, effort] = match motion {
         Motion::None => return,
         Motion::Rotation => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
@@ -172,20 +176,20 @@ fn units(limits: &format::Limits, motion: Motion, faults: &mut Faults) {
     }
 }
 
-fn signs(limits: &format::Limits, faults: &mut Faults) {
+fn signs(limits: &format::LimitsSpec, faults: &mut Faults) {
     if let (Some(lower), Some(upper)) = (limits.lower.given(), limits.upper.given())
         && lower.value.value > upper.value.value
         && same_dimension(lower, upper)
     {
         let (low, high) = (&lower.value.text, &upper.value.text);
-        faults.push(wording::lower_above_upper(&lower.place, low, high));
+        faults.push(wording::lower_above_upper(&lower.location, low, high));
     }
     for limit in [&limits.velocity, &limits.effort]
         .into_iter()
         .filter_map(Field::given)
     {
         if limit.value.value < Dd::ZERO {
-            faults.push(wording::negative_limit(&limit.place, &limit.value.text));
+            faults.push(wording::negative_limit(&limit.location, &limit.value.text));
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::fault::{Fault, Faults, Place, wording};
-use crate::format::{Field, Frame, Joint, Link, Located, Spec};
+use crate::fault::{Fault, Faults, Location, wording};
+use crate::format::{Field, FrameSpec, JointSpec, LinkSpec, Located, Spec};
 use crate::name::{WORLD, is_identifier};
 
 /// The one name whose struct, `T`, would hide the type parameter of generated code.
@@ -18,9 +18,9 @@ pub(super) fn mechanism_name(
     let stem = stem.map(|stem| stem.split('.').next().unwrap_or(stem));
     let fault = match (&spec.name, stem) {
         (Field::Broken, _) => return None,
-        (Field::Absent, None) => Some(wording::no_name(&spec.place)),
+        (Field::Absent, None) => Some(wording::no_name(&spec.location)),
         (Field::Absent, Some(stem)) => {
-            (!is_identifier(stem)).then(|| wording::stem_not_identifier(&spec.place, stem))
+            (!is_identifier(stem)).then(|| wording::stem_not_identifier(&spec.location, stem))
         }
         (Field::Given(name), stem) => {
             not_identifier(name).or_else(|| stem.and_then(|stem| differs(name, stem)))
@@ -29,39 +29,39 @@ pub(super) fn mechanism_name(
     faults.0.extend(fault);
     let name = spec.name.value().map(String::as_str).or(stem)?;
     if name == TYPE_PARAMETER {
-        let place = spec.name.given().map_or(&spec.place, |n| &n.place);
-        faults.push(wording::taken_name(place, name));
+        let location = spec.name.given().map_or(&spec.location, |n| &n.location);
+        faults.push(wording::taken_name(location, name));
     }
     Some(name.to_owned())
 }
 
 fn differs(name: &Located<String>, stem: &str) -> Option<Fault> {
-    (name.value != stem).then(|| wording::name_differs_from_file(&name.place, &name.value, stem))
+    (name.value != stem).then(|| wording::name_differs_from_file(&name.location, &name.value, stem))
 }
 
 fn not_identifier(name: &Located<String>) -> Option<Fault> {
-    (!is_identifier(&name.value)).then(|| wording::not_identifier(&name.place, &name.value))
+    (!is_identifier(&name.value)).then(|| wording::not_identifier(&name.location, &name.value))
 }
 
 /// Checks the names of links, frames and joints.
-pub(super) fn check(links: &[Link], frames: &[Frame], faults: &mut Faults) {
-    let mut carriers = Names::new("links and frames");
+pub(super) fn check(links: &[LinkSpec], frames: &[FrameSpec], faults: &mut Faults) {
+    let mut carriers = SeenNames::new("links and frames");
     for link in links {
         carriers.add_body(&link.name, faults);
     }
     for frame in frames {
         carriers.add_body(&frame.name, faults);
     }
-    let mut joints = Names::new("joints");
+    let mut joints = SeenNames::new("joints");
     for joint in links.iter().filter_map(|link| link.joint.value()) {
         if let Some(name) = joint.name.given() {
             faults.0.extend(not_identifier(name));
-            joints.add(&name.value, &name.place, faults);
+            joints.add(&name.value, &name.location, faults);
         }
     }
     for link in links.iter().filter(|link| named_after_link(link)) {
         if let Some(name) = link.name.given() {
-            joints.add_mount(&mount_name(&name.value), &name.place, faults);
+            joints.add_mount(&mount_name(&name.value), &name.location, faults);
         }
     }
 }
@@ -71,8 +71,8 @@ pub(super) fn mount_name(link: &str) -> String {
     format!("{link}_mount")
 }
 
-fn named_after_link(link: &Link) -> bool {
-    let fixed = |joint: &Joint| joint.kind.value().is_some_and(|kind| kind == "fixed");
+fn named_after_link(link: &LinkSpec) -> bool {
+    let fixed = |joint: &JointSpec| joint.kind.value().is_some_and(|kind| kind == "fixed");
     match &link.joint {
         Field::Absent => true,
         Field::Broken => false,
@@ -81,14 +81,14 @@ fn named_after_link(link: &Link) -> bool {
 }
 
 /// Names that must be unique among `what`, each with the place of the first one.
-struct Names {
+struct SeenNames {
     what: &'static str,
-    first: BTreeMap<String, Place>,
+    first: BTreeMap<String, Location>,
 }
 
-impl Names {
+impl SeenNames {
     fn new(what: &'static str) -> Self {
-        Names {
+        SeenNames {
             what,
             first: BTreeMap::new(),
         }
@@ -97,26 +97,26 @@ impl Names {
     fn add_body(&mut self, name: &Field<String>, faults: &mut Faults) {
         let Some(name) = name.given() else { return };
         if name.value == WORLD {
-            return faults.push(wording::world_is_reserved(&name.place));
+            return faults.push(wording::world_is_reserved(&name.location));
         }
         faults.0.extend(not_identifier(name));
-        self.add(&name.value, &name.place, faults);
+        self.add(&name.value, &name.location, faults);
     }
 
-    fn add_mount(&mut self, name: &str, place: &Place, faults: &mut Faults) {
+    fn add_mount(&mut self, name: &str, location: &Location, faults: &mut Faults) {
         match self.first.get(name) {
             // The link's own name is taken: that is said already.
             Some(first) if first.path.ends_with("].name") => {}
-            Some(first) => faults.push(wording::repeated_mount(place, name, first)),
-            None => self.add(name, place, faults),
+            Some(first) => faults.push(wording::repeated_mount(location, name, first)),
+            None => self.add(name, location, faults),
         }
     }
 
-    fn add(&mut self, name: &str, place: &Place, faults: &mut Faults) {
+    fn add(&mut self, name: &str, location: &Location, faults: &mut Faults) {
         match self.first.get(name) {
-            Some(first) => faults.push(wording::repeated_name(place, name, self.what, first)),
+            Some(first) => faults.push(wording::repeated_name(location, name, self.what, first)),
             None => {
-                self.first.insert(name.to_owned(), place.clone());
+                self.first.insert(name.to_owned(), location.clone());
             }
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::fault::{Faults, wording};
-use crate::format::{Field, Frame, Link, Located};
+use crate::format::{Field, FrameSpec, LinkSpec, Located};
 use crate::mechanism::LinkId;
 use crate::name::WORLD;
 
@@ -20,7 +20,7 @@ enum Carrier {
 
 /// The links as a tree.
 #[derive(Debug)]
-pub(super) struct Tree<'s> {
+pub(super) struct LinkTree<'s> {
     /// Places in the file, parents before children, otherwise as in the file.
     pub(super) sequence: Vec<usize>,
     /// For each place in the file the one in the sequence.
@@ -31,10 +31,10 @@ pub(super) struct Tree<'s> {
     frames: Vec<&'s str>,
 }
 
-impl<'s> Tree<'s> {
+impl<'s> LinkTree<'s> {
     /// Finds every parent, reports unknown ones and circles, and orders the links.
-    pub(super) fn new(links: &'s [Link], frames: &'s [Frame], faults: &mut Faults) -> Self {
-        let mut tree = Tree {
+    pub(super) fn new(links: &'s [LinkSpec], frames: &'s [FrameSpec], faults: &mut Faults) -> Self {
+        let mut tree = LinkTree {
             sequence: Vec::with_capacity(links.len()),
             rank: vec![0; links.len()],
             carriers: Vec::new(),
@@ -66,7 +66,11 @@ impl<'s> Tree<'s> {
     }
 
     /// The link a frame is fixed to; `Some(None)` for the world.
-    pub(super) fn frame_id(&self, frame: &Frame, faults: &mut Faults) -> Option<Option<LinkId>> {
+    pub(super) fn frame_id(
+        &self,
+        frame: &FrameSpec,
+        faults: &mut Faults,
+    ) -> Option<Option<LinkId>> {
         let link = frame.link.given()?;
         let carrier = self.find(&link.value);
         if carrier == Carrier::Unknown {
@@ -91,7 +95,7 @@ impl<'s> Tree<'s> {
         }
     }
 
-    fn parent(&self, link: &Link, faults: &mut Faults) -> Carrier {
+    fn parent(&self, link: &LinkSpec, faults: &mut Faults) -> Carrier {
         match &link.parent {
             Field::Absent => Carrier::World,
             Field::Broken => Carrier::Unknown,
@@ -108,7 +112,7 @@ impl<'s> Tree<'s> {
     fn unknown(&self, name: &Located<String>, rule: &'static str, faults: &mut Faults) {
         let is_frame = self.frames.contains(&name.value.as_str());
         faults.push(wording::unknown_link(
-            &name.place,
+            &name.location,
             rule,
             &name.value,
             &self.names,
@@ -117,7 +121,7 @@ impl<'s> Tree<'s> {
     }
 
     /// Visits the links in the file's order, each after its ancestors.
-    fn order(&mut self, links: &[Link], faults: &mut Faults) {
+    fn order(&mut self, links: &[LinkSpec], faults: &mut Faults) {
         let mut visited = vec![false; links.len()];
         for start in 0..links.len() {
             let mut chain: Vec<usize> = Vec::new();
@@ -142,7 +146,7 @@ impl<'s> Tree<'s> {
 }
 
 /// Reports links that carry each other, once, at the one that stands first in the file.
-fn circle(members: &[usize], links: &[Link], faults: &mut Faults) {
+fn circle(members: &[usize], links: &[LinkSpec], faults: &mut Faults) {
     let Some(first) = members.iter().enumerate().min_by_key(|(_, index)| **index) else {
         return;
     };
@@ -152,6 +156,6 @@ fn circle(members: &[usize], links: &[Link], faults: &mut Faults) {
         .map(String::as_str)
         .collect();
     if let Some(parent) = links[*first.1].parent.given() {
-        faults.push(wording::circle(&parent.place, &names));
+        faults.push(wording::circle(&parent.location, &names));
     }
 }

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::fault::{Faults, Place, wording};
+use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Located, Number};
 use crate::mechanism::{Parameter, ParameterId, Value};
 use crate::name::is_identifier;
@@ -19,7 +19,7 @@ struct Found {
     dimension: Dimension,
     /// The value as it was written first, and where.
     text: String,
-    first: Place,
+    first: Location,
 }
 
 impl<'a> Parameters<'a> {
@@ -49,12 +49,15 @@ impl<'a> Parameters<'a> {
             return Value::Parameter(ParameterId(p));
         }
         if !is_identifier(&name.value) {
-            faults.push(wording::parameter_not_identifier(&name.place, &name.value));
+            faults.push(wording::parameter_not_identifier(
+                &name.location,
+                &name.value,
+            ));
         }
         // A field may have a method's name in Rust, but `arm.gravity` and `arm.gravity(q)` would be
         // two things.
         if self.methods.contains(&name.value) {
-            faults.push(wording::parameter_is_method(&name.place, &name.value));
+            faults.push(wording::parameter_is_method(&name.location, &name.value));
         }
         self.found.push(Found {
             parameter: Parameter {
@@ -65,7 +68,7 @@ impl<'a> Parameters<'a> {
             },
             dimension,
             text: number.value.text.clone(),
-            first: number.place.clone(),
+            first: number.location.clone(),
         });
         Value::Parameter(ParameterId(self.found.len() - 1))
     }
@@ -93,11 +96,11 @@ impl Found {
         meaning: String,
         faults: &mut Faults,
     ) {
-        let (place, name) = (&number.place, &self.parameter.name);
+        let (location, name) = (&number.location, &self.parameter.name);
         if dimension != self.dimension {
             let dimensions = (dimension, self.dimension);
             faults.push(wording::parameter_measures_two(
-                place,
+                location,
                 name,
                 dimensions,
                 &self.first,
@@ -105,7 +108,7 @@ impl Found {
         } else if number.value.value != self.parameter.default {
             let texts = (number.value.text.as_str(), self.text.as_str());
             faults.push(wording::parameter_has_two_values(
-                place,
+                location,
                 name,
                 texts,
                 &self.first,

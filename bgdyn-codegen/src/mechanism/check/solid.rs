@@ -4,10 +4,10 @@ use bgdyn_runtime::Dd;
 
 use super::direction::Directions;
 use crate::fault::{Faults, wording};
-use crate::format::{Field, Inertia, LENGTHS, Link, Located, Number, Vector};
+use crate::format::{Field, InertiaSpec, LENGTHS, LinkSpec, Located, Number, Vector};
 
 /// A kind of solid.
-struct Kind {
+struct SolidKind {
     /// The word after `solid`.
     word: &'static str,
     /// Keys that it must have.
@@ -17,24 +17,24 @@ struct Kind {
 }
 
 /// All kinds.
-const KINDS: [Kind; 4] = [
-    Kind {
+const KINDS: [SolidKind; 4] = [
+    SolidKind {
         word: "box",
         needs: &["size"],
         may: &[],
     },
-    Kind {
+    SolidKind {
         word: "cylinder",
         needs: &["radius", "length"],
         may: &["inner_radius", "axis"],
     },
-    Kind {
+    SolidKind {
         word: "sphere",
         needs: &["radius"],
         may: &["inner_radius"],
     },
     // So thin that its radius does not count.
-    Kind {
+    SolidKind {
         word: "rod",
         needs: &["length"],
         may: &["axis"],
@@ -43,29 +43,29 @@ const KINDS: [Kind; 4] = [
 
 /// What keys contradict each other: a solid has no entries, an off-diagonal entry is given once, and
 /// dimensions belong to a solid.
-pub(super) fn conflicts(inertia: &Inertia, faults: &mut Faults) -> bool {
+pub(super) fn conflicts(inertia: &InertiaSpec, faults: &mut Faults) -> bool {
     let before = faults.0.len();
     let names = ["xx", "yy", "zz", "xy", "xz", "yz"];
-    let given = |k: usize| inertia.entries[k].given().map(|e| (names[k], &e.place));
+    let given = |k: usize| inertia.entries[k].given().map(|e| (names[k], &e.location));
     if inertia.solid.is_absent() {
         let lengths = inertia.lengths.iter().zip(LENGTHS);
-        let lengths = lengths.filter_map(|(l, key)| Some((key, &l.given()?.place)));
-        let size = inertia.size.given().map(|s| ("size", &s.place));
-        let axis = inertia.axis.given().map(|a| ("axis", &a.place));
-        for (key, place) in lengths.chain(size).chain(axis) {
+        let lengths = lengths.filter_map(|(l, key)| Some((key, &l.given()?.location)));
+        let size = inertia.size.given().map(|s| ("size", &s.location));
+        let axis = inertia.axis.given().map(|a| ("axis", &a.location));
+        for (key, location) in lengths.chain(size).chain(axis) {
             let words = KINDS.map(|kind| kind.word);
-            faults.push(wording::dimension_without_solid(place, key, &words));
+            faults.push(wording::dimension_without_solid(location, key, &words));
         }
         if !inertia.products.is_absent() {
-            for (key, place) in (3..6).filter_map(given) {
-                faults.push(wording::two_tensors(place, key, "products"));
+            for (key, location) in (3..6).filter_map(given) {
+                faults.push(wording::two_tensors(location, key, "products"));
             }
         }
     } else {
-        let products = inertia.products.given().map(|p| ("products", &p.place));
-        let about = inertia.about.given().map(|a| ("about", &a.place));
-        for (key, place) in (0..6).filter_map(given).chain(products).chain(about) {
-            faults.push(wording::two_tensors(place, key, "solid"));
+        let products = inertia.products.given().map(|p| ("products", &p.location));
+        let about = inertia.about.given().map(|a| ("about", &a.location));
+        for (key, location) in (0..6).filter_map(given).chain(products).chain(about) {
+            faults.push(wording::two_tensors(location, key, "solid"));
         }
     }
     faults.0.len() > before
@@ -74,14 +74,14 @@ pub(super) fn conflicts(inertia: &Inertia, faults: &mut Faults) -> bool {
 /// The tensor of the solid: xx, yy, zz, xy, xz, yz in its own axes.
 pub(super) fn tensor(
     word: &Located<String>,
-    link: &Link,
-    inertia: &Inertia,
+    link: &LinkSpec,
+    inertia: &InertiaSpec,
     directions: &Directions,
     faults: &mut Faults,
 ) -> Option<[Dd; 6]> {
     let Some(kind) = KINDS.iter().find(|kind| kind.word == word.value) else {
         let words = KINDS.map(|kind| kind.word);
-        faults.push(wording::unknown_solid(&word.place, &word.value, &words));
+        faults.push(wording::unknown_solid(&word.location, &word.value, &words));
         return None;
     };
     let complete = keys_fit(kind, word, inertia, faults);
@@ -96,13 +96,13 @@ pub(super) fn tensor(
         Field::Broken => None,
         Field::Given(axis) => directions.axis(axis, faults).map(|a| a.0),
     };
-    if let (Some(r), Some(i), Some(place)) = (radius, inner, inertia.lengths[1].given())
+    if let (Some(r), Some(i), Some(location)) = (radius, inner, inertia.lengths[1].given())
         && i >= r
     {
         let outer = inertia.lengths[0].value().map_or("", |r| &r.text);
         faults.push(wording::inner_radius(
-            &place.place,
-            &place.value.text,
+            &location.location,
+            &location.value.text,
             outer,
         ));
         return None;
@@ -120,36 +120,41 @@ pub(super) fn tensor(
 }
 
 /// Whether the keys are those of the kind.
-fn keys_fit(kind: &Kind, word: &Located<String>, inertia: &Inertia, faults: &mut Faults) -> bool {
+fn keys_fit(
+    kind: &SolidKind,
+    word: &Located<String>,
+    inertia: &InertiaSpec,
+    faults: &mut Faults,
+) -> bool {
     let before = faults.0.len();
     let lengths = inertia.lengths.iter().zip(LENGTHS);
-    let lengths = lengths.map(|(l, key)| (key, l.is_absent(), l.given().map(|l| &l.place)));
+    let lengths = lengths.map(|(l, key)| (key, l.is_absent(), l.given().map(|l| &l.location)));
     let (size, axis) = (&inertia.size, &inertia.axis);
     let vectors = [("size", size), ("axis", axis)];
-    let vectors = vectors.map(|(key, v)| (key, v.is_absent(), v.given().map(|v| &v.place)));
-    for (key, absent, place) in lengths.chain(vectors) {
+    let vectors = vectors.map(|(key, v)| (key, v.is_absent(), v.given().map(|v| &v.location)));
+    for (key, absent, location) in lengths.chain(vectors) {
         let (needed, allowed) = (kind.needs.contains(&key), kind.may.contains(&key));
         if absent && needed {
-            faults.push(wording::missing_dimension(&word.place, kind.word, key));
+            faults.push(wording::missing_dimension(&word.location, kind.word, key));
         }
-        if let (Some(place), false) = (place, needed || allowed) {
-            faults.push(wording::dimension_of_another(place, kind.word, key));
+        if let (Some(location), false) = (location, needed || allowed) {
+            faults.push(wording::dimension_of_another(location, kind.word, key));
         }
     }
     faults.0.len() == before
 }
 
 /// The mass that is spread evenly: a number above 0.
-fn mass(word: &Located<String>, link: &Link, faults: &mut Faults) -> Option<Dd> {
+fn mass(word: &Located<String>, link: &LinkSpec, faults: &mut Faults) -> Option<Dd> {
     match &link.mass {
         Field::Broken => None,
         Field::Given(mass) if mass.value.parameter.is_some() => {
-            faults.push(wording::solid_of_parameter(&word.place));
+            faults.push(wording::solid_of_parameter(&word.location));
             None
         }
         Field::Given(mass) if mass.value.value != Dd::ZERO => Some(mass.value.value),
         _ => {
-            faults.push(wording::solid_without_mass(&word.place));
+            faults.push(wording::solid_without_mass(&word.location));
             None
         }
     }
@@ -160,7 +165,7 @@ fn positive(field: &Field<Number>, strictly: bool, faults: &mut Faults) -> Optio
     let length = field.given()?;
     let value = length.value.value;
     if value < Dd::ZERO || (strictly && value == Dd::ZERO) {
-        faults.push(wording::not_a_length(&length.place, &length.value.text));
+        faults.push(wording::not_a_length(&length.location, &length.value.text));
         return None;
     }
     Some(value)

@@ -2,8 +2,8 @@
 
 use super::super::causality::chains;
 use crate::declaration::{
-    Beside, Chain, Context, Declared, Element, Kinds, Refused, called, check_unique_names,
-    once_per_joint,
+    Chain, Declaration, EffectKinds, Element, NameScope, RejectedEffects, SceneContext,
+    check_unique_names, once_per_joint, resolve_call,
 };
 use crate::fault::{Faults, wording};
 use crate::format::{Field, Raw, SceneSpec};
@@ -17,17 +17,17 @@ pub(super) struct Called {
     /// Those in series.
     pub(super) chains: Vec<Chain>,
     /// Those that are missing.
-    pub(super) refused: Refused,
+    pub(super) refused: RejectedEffects,
 }
 
 /// The effects called for, checked.
 pub(super) fn elements(
     spec: &SceneSpec,
-    (whole, kinds): (&Machine, &Kinds),
+    (whole, kinds): (&Machine, &EffectKinds),
     reduced: &Mechanism,
     faults: &mut Faults,
 ) -> Called {
-    let mut refused = Refused::default();
+    let mut refused = RejectedEffects::default();
     if !spec.effects_read {
         refused.unread();
     }
@@ -35,7 +35,7 @@ pub(super) fn elements(
     let wanted = wanted(spec, (whole, kinds, &free), &mut refused, faults);
     let all = whole.mechanism.joint_names();
     let locked = all.into_iter().filter(|name| !free.contains(name));
-    let mut context = Context::of(reduced, locked.map(str::to_owned).collect());
+    let mut context = NameScope::of(reduced, locked.map(str::to_owned).collect());
     context.refused = refused.clone();
     let context = context.with(wanted.iter());
     check_unique_names(&wanted, &whole.mechanism, faults);
@@ -48,14 +48,14 @@ pub(super) fn elements(
     }
     once_per_joint(&elements, faults);
     elements.sort_by_key(|e| e.effect.order());
-    let beside = Beside {
+    let beside = SceneContext {
         elements: &elements,
         mechanism: reduced,
     };
     // Where one is missing, others of its kind would seem to be joined to nothing.
     for element in &elements {
         if !refused.may_be(element.effect.family()) {
-            element.effect.fits(element, &beside, faults);
+            element.effect.check_in_scene(element, &beside, faults);
         }
     }
     let alone = elements.iter().filter(|e| e.effect.is_junction());
@@ -72,10 +72,10 @@ pub(super) fn elements(
 }
 
 /// What can be said of the effects that a scene gives with their types, without its mechanism.
-pub(super) fn alone(spec: &SceneSpec, kinds: &Kinds, faults: &mut Faults) {
+pub(super) fn alone(spec: &SceneSpec, kinds: &EffectKinds, faults: &mut Faults) {
     let typed = |raw: &&Raw| raw.is_mapping() && raw.peek("type").is_some();
     for raw in given(&spec.effects).iter().filter(typed) {
-        crate::declaration::declared(raw, kinds, faults);
+        crate::declaration::parse_declaration(raw, kinds, faults);
     }
 }
 
@@ -83,23 +83,23 @@ pub(super) fn alone(spec: &SceneSpec, kinds: &Kinds, faults: &mut Faults) {
 /// of several, of the `free` ones where it is of all.
 fn wanted(
     spec: &SceneSpec,
-    (whole, kinds, free): (&Machine, &Kinds, &[&str]),
-    refused: &mut Refused,
+    (whole, kinds, free): (&Machine, &EffectKinds, &[&str]),
+    refused: &mut RejectedEffects,
     faults: &mut Faults,
-) -> Vec<Declared> {
-    let mut wanted: Vec<Declared> = Vec::new();
+) -> Vec<Declaration> {
+    let mut wanted: Vec<Declaration> = Vec::new();
     for raw in given(&spec.effects) {
         let before = faults.count();
-        let called = called(raw, &whole.effects, kinds, faults).into_iter();
+        let called = resolve_call(raw, &whole.effects, kinds, faults).into_iter();
         let each = called.flat_map(|declared| declared.of_each_joint(free, faults));
-        let each: Vec<Declared> = each.collect();
+        let each: Vec<Declaration> = each.collect();
         if each.is_empty() && faults.count() > before {
             refused.call(raw, &whole.effects, kinds);
         }
         for declared in each {
             let name = &declared.name.value;
             if wanted.iter().any(|w| w.name.value == *name) {
-                faults.push(wording::effect_listed_twice(&raw.name.place, name));
+                faults.push(wording::effect_listed_twice(&raw.name.location, name));
                 continue;
             }
             wanted.push(declared);
@@ -111,7 +111,7 @@ fn wanted(
 /// The mechanism with what the effects change in it.
 pub(super) fn reduced(mut mechanism: Mechanism, elements: &[Element]) -> Mechanism {
     for element in elements {
-        element.effect.reduce(element, &mut mechanism);
+        element.effect.modify_mechanism(element, &mut mechanism);
     }
     mechanism
 }

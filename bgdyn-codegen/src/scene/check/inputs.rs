@@ -1,17 +1,17 @@
 //! Checks the inputs of a scene and what drives each of them.
 
-use super::super::signal::{self, Drive};
-use crate::declaration::Refused;
+use super::super::signal::{self, InputSource};
+use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};
 use crate::format::Raw;
-use crate::layout::{Coordinate, Layout};
+use crate::layout::{StateCoordinate, StateLayout};
 
 /// Efforts of coordinates are inputs where the scene names them.
-pub(super) fn add_efforts(layout: &mut Layout, inputs: &[Raw]) {
+pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
     for raw in inputs {
         let name = &raw.name.value;
         let known = layout.inputs.iter().any(|input| input.name == *name);
-        let stored = |c: &&Coordinate| c.name == *name && c.stored;
+        let stored = |c: &&StateCoordinate| c.name == *name && c.stored;
         if !known && layout.coordinates.iter().any(|c| stored(&c)) {
             let about = format!("effort at `{name}`");
             layout.drive(name.clone(), name, name, about);
@@ -21,12 +21,12 @@ pub(super) fn add_efforts(layout: &mut Layout, inputs: &[Raw]) {
 
 /// What drives each input.
 pub(super) fn drives(
-    layout: &Layout,
+    layout: &StateLayout,
     inputs: &[Raw],
-    refused: &Refused,
+    refused: &RejectedEffects,
     faults: &mut Faults,
-) -> Vec<Drive> {
-    let mut drives = vec![Drive::Given; layout.inputs.len()];
+) -> Vec<InputSource> {
+    let mut drives = vec![InputSource::Given; layout.inputs.len()];
     for raw in inputs {
         let name = &raw.name.value;
         let Some(i) = layout.inputs.iter().position(|part| part.name == *name) else {
@@ -36,7 +36,7 @@ pub(super) fn drives(
                 .into_iter()
                 .chain(efforts.map(|c| c.name.as_str()))
                 .collect();
-            let fault = wording::unknown_input(&raw.name.place, name, &all);
+            let fault = wording::unknown_input(&raw.name.location, name, &all);
             faults.push(match refused.may_bring(name) {
                 true => fault.following(),
                 false => fault,
@@ -56,19 +56,19 @@ pub(super) fn drives(
             let base = layout.inputs[i].name.strip_suffix(name);
             let base = base.map(|base| format!("{base}{of}"));
             let found = |base: String| layout.inputs.iter().position(|p| p.name == base);
-            if let (Some(base), Drive::Given) = (base.and_then(found), &drives[i]) {
-                drives[i] = Drive::RateOf(base);
+            if let (Some(base), InputSource::Given) = (base.and_then(found), &drives[i]) {
+                drives[i] = InputSource::RateOf(base);
             }
         }
     }
     // What follows from what the caller gives is given by the caller.
     for i in 0..drives.len() {
         let mut root = i;
-        while let Drive::RateOf(base) = drives[root] {
+        while let InputSource::RateOf(base) = drives[root] {
             root = base;
         }
-        if drives[root] == Drive::Given {
-            drives[i] = Drive::Given;
+        if drives[root] == InputSource::Given {
+            drives[i] = InputSource::Given;
         }
     }
     drives

@@ -8,12 +8,12 @@ mod state;
 
 use bgdyn_runtime::Dd;
 
-use super::reduce::held;
-use super::{Initial, Scene, Written};
-use crate::declaration::{Kinds, Refused};
-use crate::fault::{Faults, Place, wording};
+use super::lock::locked_pose;
+use super::{FileEntries, Initial, Scene};
+use crate::declaration::{EffectKinds, RejectedEffects};
+use crate::fault::{Faults, Location, wording};
 use crate::format::{Field, Located, SceneSpec};
-use crate::layout::Layout;
+use crate::layout::StateLayout;
 use crate::machine::Machine;
 use crate::mechanism::{LinkId, Mechanism, Pose};
 use crate::name::is_identifier;
@@ -36,7 +36,7 @@ pub fn check(
     spec: &SceneSpec,
     stem: Option<&str>,
     machine: &Machine,
-    kinds: &Kinds,
+    kinds: &EffectKinds,
 ) -> (Verdict, Faults) {
     let mut faults = Faults::default();
     let (scene, drawn) = scene(spec, stem, (machine, kinds), &mut faults);
@@ -53,7 +53,7 @@ pub fn check(
 }
 
 /// What can be said of a scene without its mechanism.
-pub fn check_alone(spec: &SceneSpec, stem: Option<&str>, kinds: &Kinds) -> Faults {
+pub fn check_alone(spec: &SceneSpec, stem: Option<&str>, kinds: &EffectKinds) -> Faults {
     let mut faults = Faults::default();
     version(spec, &mut faults);
     name(spec, stem, &mut faults);
@@ -67,8 +67,8 @@ pub fn check_alone(spec: &SceneSpec, stem: Option<&str>, kinds: &Kinds) -> Fault
 pub(crate) fn sketch(
     spec: &SceneSpec,
     machine: &Machine,
-    kinds: &Kinds,
-) -> (Layout, Vec<Located<String>>) {
+    kinds: &EffectKinds,
+) -> (StateLayout, Vec<Located<String>>) {
     let (scene, _) = scene(spec, None, (machine, kinds), &mut Faults::default());
     (scene.layout, scene.outputs)
 }
@@ -77,7 +77,7 @@ pub(crate) fn sketch(
 fn scene(
     spec: &SceneSpec,
     stem: Option<&str>,
-    (whole, kinds): (&Machine, &Kinds),
+    (whole, kinds): (&Machine, &EffectKinds),
     faults: &mut Faults,
 ) -> (Scene, bool) {
     version(spec, faults);
@@ -99,7 +99,7 @@ fn scene(
         mechanism,
         elements,
         chains,
-        layout: Layout::default(),
+        layout: StateLayout::default(),
         parameters: Vec::new(),
         drives: Vec::new(),
         initial: Initial::default(),
@@ -108,7 +108,7 @@ fn scene(
             .map(|o| o.name.clone())
             .collect(),
         integration,
-        written: Written {
+        written: FileEntries {
             inputs: effects::given(&spec.inputs).to_vec(),
             initial: effects::given(&spec.initial).to_vec(),
             unloaded,
@@ -129,7 +129,11 @@ fn scene(
 }
 
 /// The scene with its state laid out: what follows from its elements and what the file says.
-pub(in crate::scene) fn assembled(scene: Scene, refused: &Refused, faults: &mut Faults) -> Scene {
+pub(in crate::scene) fn assembled(
+    scene: Scene,
+    refused: &RejectedEffects,
+    faults: &mut Faults,
+) -> Scene {
     let mechanism = effects::reduced(scene.written.unloaded.clone(), &scene.elements);
     let scene = Scene { mechanism, ..scene };
     let mut layout = state::layout(&scene.mechanism, &scene.elements);
@@ -138,7 +142,7 @@ pub(in crate::scene) fn assembled(scene: Scene, refused: &Refused, faults: &mut 
     // Names of effects that repeat were told already.
     let told = faults.0.iter().any(|f| f.rule == "repeated-name");
     if let Some(name) = layout.repeated().filter(|_| !told) {
-        faults.push(wording::repeated_state_or_input(&Place::file(), name));
+        faults.push(wording::repeated_state_or_input(&Location::file(), name));
     }
     Scene {
         parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
@@ -154,7 +158,7 @@ fn version(spec: &SceneSpec, faults: &mut Faults) {
         && version.value.value != Dd::from_f64(VERSION)
     {
         let text = &version.value.text;
-        faults.push(wording::unknown_scene_version(&version.place, text));
+        faults.push(wording::unknown_scene_version(&version.location, text));
     }
 }
 
@@ -163,22 +167,22 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
     match (&spec.name, stem) {
         (Field::Broken, _) => None,
         (Field::Absent, None) => {
-            faults.push(wording::no_name(&spec.place));
+            faults.push(wording::no_name(&spec.location));
             None
         }
         (Field::Absent, Some(stem)) => {
             if !is_identifier(stem) {
-                faults.push(wording::stem_not_identifier(&spec.place, stem));
+                faults.push(wording::stem_not_identifier(&spec.location, stem));
             }
             Some(stem.to_owned())
         }
         (Field::Given(name), stem) => {
             if !is_identifier(&name.value) {
-                faults.push(wording::not_identifier(&name.place, &name.value));
+                faults.push(wording::not_identifier(&name.location, &name.value));
             }
             if let Some(stem) = stem.filter(|stem| *stem != name.value) {
-                let (place, name) = (&name.place, &name.value);
-                faults.push(wording::name_differs_from_file(place, name, stem));
+                let (location, name) = (&name.location, &name.value);
+                faults.push(wording::name_differs_from_file(location, name, stem));
             }
             Some(name.value.clone())
         }
@@ -196,13 +200,17 @@ fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(L
             .find(|l| mechanism.links()[l.0].joint.name == *name);
         let Some(link) = found else {
             let known: Vec<&str> = mechanism.joint_names();
-            faults.push(wording::unknown_locked_joint(&raw.name.place, name, &known));
+            faults.push(wording::unknown_locked_joint(
+                &raw.name.location,
+                name,
+                &known,
+            ));
             continue;
         };
         let joint = &mechanism.links()[link.0].joint;
         let [position, ..] = state::dimensions(joint.kind.motion);
         if let Some(at) = raw.number(&[position], faults) {
-            locked.push((link, held(joint, at.value.value)));
+            locked.push((link, locked_pose(joint, at.value.value)));
         }
     }
     locked

@@ -1,11 +1,11 @@
 //! Checks the names of outputs in a scene whose effects are refused.
 
 use super::super::Scene;
-use crate::declaration::Refused;
+use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};
 
 /// Notes the outputs that are no parts of the state, no places, and nothing that an effect may report.
-pub(super) fn names(scene: &Scene, refused: &Refused, faults: &mut Faults) {
+pub(super) fn names(scene: &Scene, refused: &RejectedEffects, faults: &mut Faults) {
     let (layout, mechanism) = (&scene.layout, &scene.mechanism);
     let stored = layout.coordinates.iter().filter(|c| c.stored);
     let positions = stored.map(|c| c.name.as_str());
@@ -21,6 +21,6 @@ pub(super) fn names(scene: &Scene, refused: &Refused, faults: &mut Faults) {
         if known.contains(&name) || reported || refused.may_bring(name) {
             continue;
         }
-        faults.push(wording::unknown_output(&output.place, name, &known));
+        faults.push(wording::unknown_output(&output.location, name, &known));
     }
 }

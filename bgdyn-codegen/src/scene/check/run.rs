@@ -2,9 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::super::{Integration, Integrator, Pace};
-use crate::fault::{Fault, Faults, Place, wording};
-use crate::format::{Dimension, Entry, Field, Fields, Key, Located, Raw, Reads};
+use super::super::{Integration, IntegratorName, StepControl};
+use crate::fault::{Fault, Faults, Location, wording};
+use crate::format::{Dimension, Field, Fields, Key, Located, ParsedValue, Raw, Reads};
 
 /// Step and length of a run whose scene says nothing of them, s.
 const STEP: f64 = 1e-3;
@@ -46,8 +46,8 @@ const fn key(name: &'static str, reads: Reads, about: &'static str) -> Key {
 pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integration {
     let given = field.value().and_then(|raw| settings(raw, faults));
     given.unwrap_or(Integration {
-        method: Integrator::Rk4,
-        pace: Pace::Step(STEP),
+        method: IntegratorName::Rk4,
+        step_control: StepControl::Step(STEP),
         end: END,
     })
 }
@@ -63,28 +63,32 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
     let step = positive(&fields, "step", "a time such as `1 ms`", faults);
     let tolerance = positive(&fields, "tolerance", "a number such as `1e-8`", faults);
     let method = method?;
-    let pace = match (step, tolerance) {
-        (None, None) if method.controls_its_error() => Pace::Tolerance(TOLERANCE),
-        (None, None) => Pace::Step(STEP),
-        (Some((step, _)), None) => Pace::Step(step),
-        (step, Some((tolerance, place))) => {
-            faults.0.extend(misplaced(method, step.is_some(), place));
-            Pace::Tolerance(tolerance)
+    let step_control = match (step, tolerance) {
+        (None, None) if method.controls_its_error() => StepControl::Tolerance(TOLERANCE),
+        (None, None) => StepControl::Step(STEP),
+        (Some((step, _)), None) => StepControl::Step(step),
+        (step, Some((tolerance, location))) => {
+            faults.0.extend(misplaced(method, step.is_some(), location));
+            StepControl::Tolerance(tolerance)
         }
     };
     let end = end.map_or(END, |(end, _)| end);
-    Some(Integration { method, pace, end })
+    Some(Integration {
+        method,
+        step_control,
+        end,
+    })
 }
 
 /// What is wrong with a tolerance at this place.
-fn misplaced(method: Integrator, stepped: bool, place: &Place) -> Option<Fault> {
+fn misplaced(method: IntegratorName, stepped: bool, location: &Location) -> Option<Fault> {
     let name = method.name();
-    let choosing = Integrator::ALL.into_iter();
+    let choosing = IntegratorName::ALL.into_iter();
     let choosing = choosing.filter(|m| m.controls_its_error());
-    let choosing: Vec<&str> = choosing.map(Integrator::name).collect();
+    let choosing: Vec<&str> = choosing.map(IntegratorName::name).collect();
     match (method.controls_its_error(), stepped) {
-        (false, _) => Some(wording::no_step_control(place, name, &choosing)),
-        (true, true) => Some(wording::step_and_tolerance(place, name)),
+        (false, _) => Some(wording::no_step_control(location, name, &choosing)),
+        (true, true) => Some(wording::step_and_tolerance(location, name)),
         (true, false) => None,
     }
 }
@@ -95,34 +99,36 @@ fn positive<'a>(
     key: &str,
     example: &str,
     faults: &mut Faults,
-) -> Option<(f64, &'a Place)> {
+) -> Option<(f64, &'a Location)> {
     let Some(Located {
-        value: Entry::Number(number),
-        place,
+        value: ParsedValue::Number(number),
+        location,
     }) = fields.get(key)
     else {
         return None;
     };
     if number.value <= Dd::ZERO {
         let text = &number.text;
-        faults.push(wording::integration_not_positive(place, key, text, example));
+        faults.push(wording::integration_not_positive(
+            location, key, text, example,
+        ));
     }
-    Some((number.value.to_f64(), place))
+    Some((number.value.to_f64(), location))
 }
 
 /// The method asked for, RK4 where none is; nothing for a name that is none's.
-fn method(fields: &Fields, faults: &mut Faults) -> Option<Integrator> {
+fn method(fields: &Fields, faults: &mut Faults) -> Option<IntegratorName> {
     let Some(Located {
-        value: Entry::Text(word),
-        place,
+        value: ParsedValue::Text(word),
+        location,
     }) = fields.get("method")
     else {
-        return Some(Integrator::Rk4);
+        return Some(IntegratorName::Rk4);
     };
-    let found = Integrator::named(word);
+    let found = IntegratorName::named(word);
     if found.is_none() {
-        let known = Integrator::ALL.map(Integrator::name);
-        faults.push(wording::unknown_integrator(place, word, &known));
+        let known = IntegratorName::ALL.map(IntegratorName::name);
+        faults.push(wording::unknown_integrator(location, word, &known));
     }
     found
 }

@@ -5,28 +5,28 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 
 use super::super::Initial;
-use crate::declaration::{Element, Refused};
+use crate::declaration::{Element, RejectedEffects};
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
-use crate::layout::{Coordinate, Layout, Store};
+use crate::layout::{MomentumStore, StateCoordinate, StateLayout};
 use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
 
 /// What the state is made of: the joints, then what the effects add.
-pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> Layout {
+pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout {
     let coordinate = |j: usize| {
         let joint = mechanism.joint(CoordinateId(j));
-        Coordinate {
+        StateCoordinate {
             name: joint.name.clone(),
-            store: Store::Links(CoordinateId(j)),
+            store: MomentumStore::Links(CoordinateId(j)),
             stored: true,
             dimensions: dimensions(joint.kind.motion),
             rate_name: format!("{}_rate", joint.name),
             starts_with: None,
         }
     };
-    let mut layout = Layout {
+    let mut layout = StateLayout {
         coordinates: (0..mechanism.nv()).map(coordinate).collect(),
-        ..Layout::default()
+        ..StateLayout::default()
     };
     // Coordinates first: others may act on them.
     let (adding, rest): (Vec<&Element>, Vec<&Element>) =
@@ -55,7 +55,7 @@ pub(super) fn parameters(
                 Some(known) if known.default != quantity.value || known.unit != unit => {
                     let first = (known.default.to_f64(), known.unit);
                     let values = [first, (quantity.value.to_f64(), unit)];
-                    faults.push(wording::parameter_twice(&quantity.place, name, values));
+                    faults.push(wording::parameter_twice(&quantity.location, name, values));
                 }
                 // A payload's is the mechanism's already.
                 Some(known) if known.meaning == meaning => {}
@@ -74,9 +74,9 @@ pub(super) fn parameters(
 
 /// Where the run begins.
 pub(super) fn initial(
-    layout: &Layout,
+    layout: &StateLayout,
     entries: &[Raw],
-    refused: &Refused,
+    refused: &RejectedEffects,
     faults: &mut Faults,
 ) -> Initial {
     let mut initial = Initial {
@@ -104,7 +104,7 @@ pub(super) fn initial(
         let name = &raw.name.value;
         let Some(&(kind, i, dimension)) = places.get(name) else {
             let known: Vec<&str> = places.keys().map(String::as_str).collect();
-            let fault = wording::unknown_initial(&raw.name.place, name, &known);
+            let fault = wording::unknown_initial(&raw.name.location, name, &known);
             faults.push(match refused.may_bring(name) {
                 true => fault.following(),
                 false => fault,
@@ -120,7 +120,7 @@ pub(super) fn initial(
             {
                 let least = format!("{} {}", entered.least.to_f64(), entered.dimension.si());
                 faults.push(wording::initial_below_least(
-                    &number.place,
+                    &number.location,
                     name,
                     (&number.value.text, &least),
                     entered.way_out,

@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Role;
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::read_scene;
-use bgdyn_codegen::system::System;
+use bgdyn_codegen::system::SceneEquations;
 
 use crate::arm::{ALL, TENSOR, mechanism};
 use crate::dependence;
@@ -65,7 +65,7 @@ fn of_no_strength() -> Vec<(String, String, String)> {
 }
 
 /// Writes the module of a scene; the line that includes it.
-fn module_of(out: &Path, name: &str, system: &System, functions: &[Function]) -> String {
+fn module_of(out: &Path, name: &str, system: &SceneEquations, functions: &[Function]) -> String {
     let place = OutputOptions::source_text(format!("{name}.scene.yaml"));
     let place = place.with_module(name).expect("a name");
     let source = out.join(format!("scene_{name}.rs"));
@@ -109,7 +109,7 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         if is_shared {
             let derivative = functions
                 .iter()
-                .find(|f| f.name() == Role::Derivative.name());
+                .find(|f| f.name() == SceneFunction::Derivative.name());
             let masks = dependence::text(derivative.expect("every scene has one"));
             let layout = &system.scene.layout;
             writeln!(

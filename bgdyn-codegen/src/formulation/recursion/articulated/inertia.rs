@@ -6,9 +6,9 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::expr::{Builder, Ex};
-use crate::formulation::recursion::inertia::Inertia;
-use crate::formulation::recursion::inverse_dynamics::Wrench;
+use crate::expr::{Builder, Expr};
+use crate::formulation::recursion::inertia::BodyInertia;
+use crate::formulation::recursion::inverse_dynamics::BodyWrench;
 use crate::formulation::recursion::names::name_matrix;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -17,31 +17,31 @@ use crate::mechanism::Motion;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArticulatedInertia<'g> {
     /// J, symmetric.
-    angular: Mat3<Ex<'g>>,
+    angular: Mat3<Expr<'g>>,
     /// H: moment of a unit acceleration.
-    coupling: Mat3<Ex<'g>>,
+    coupling: Mat3<Expr<'g>>,
     /// M, symmetric.
-    linear: Mat3<Ex<'g>>,
+    linear: Mat3<Expr<'g>>,
 }
 
 /// What a unit acceleration of the joint takes, and each part's share of the joint's own.
 #[derive(Clone, Copy)]
-pub(super) struct Column<'g> {
+pub(super) struct InertiaColumn<'g> {
     /// Wrench of a unit acceleration along the joint.
-    pub wrench: Wrench<'g>,
+    pub wrench: BodyWrench<'g>,
     /// The same over its part along the joint.
-    pub share: Wrench<'g>,
+    pub share: BodyWrench<'g>,
     /// One over what the joint moves: the part along it, and the armature.
-    pub inverse: Ex<'g>,
+    pub inverse: Expr<'g>,
     /// What of the inertia along the joint is felt from outside: armature / (part along + armature),
     /// nothing where the joint has no rotor and gives way whole.
-    kept: Ex<'g>,
+    kept: Expr<'g>,
 }
 
-impl<'g> Column<'g> {
+impl<'g> InertiaColumn<'g> {
     /// In other axes.
-    pub fn map(&self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
-        Column {
+    pub fn map(&self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
+        InertiaColumn {
             wrench: self.wrench.map(&f),
             share: self.share.map(&f),
             ..*self
@@ -61,7 +61,7 @@ impl<'g> ArticulatedInertia<'g> {
     }
 
     /// Of a rigid body: J = tr(D)·1 − D, H = [h]×, M = m·1.
-    pub fn rigid(b: &'g Builder, inertia: &Inertia<'g>) -> Self {
+    pub fn rigid(b: &'g Builder, inertia: &BodyInertia<'g>) -> Self {
         let [xx, yy, zz, xy, xz, yz] = inertia.pseudo;
         let ([x, y, z], o) = (inertia.first.0, b.zero());
         ArticulatedInertia {
@@ -103,7 +103,7 @@ impl<'g> ArticulatedInertia<'g> {
     }
 
     /// What the joint feels of an acceleration along itself: S ᵀ I S.
-    pub fn along(&self, motion: Motion) -> Ex<'g> {
+    pub fn along(&self, motion: Motion) -> Expr<'g> {
         match motion {
             Motion::Rotation => self.angular.0[2][2],
             _ => self.linear.0[2][2],
@@ -116,15 +116,15 @@ impl<'g> ArticulatedInertia<'g> {
         &self,
         b: &'g Builder,
         motion: Motion,
-        pivot: Ex<'g>,
-        armature: Ex<'g>,
-    ) -> Column<'g> {
+        pivot: Expr<'g>,
+        armature: Expr<'g>,
+    ) -> InertiaColumn<'g> {
         let wrench = match motion {
-            Motion::Rotation => Wrench {
+            Motion::Rotation => BodyWrench {
                 moment: self.angular.row(2),
                 force: self.coupling.row(2),
             },
-            _ => Wrench {
+            _ => BodyWrench {
                 moment: self.coupling.column(2),
                 force: self.linear.row(2),
             },
@@ -133,7 +133,7 @@ impl<'g> ArticulatedInertia<'g> {
         let along = self.along(motion);
         // What equals the pivot has a share of one, exactly.
         let free = armature.is_zero();
-        let share = |x: Ex<'g>| {
+        let share = |x: Expr<'g>| {
             if !free {
                 x * inverse
             } else if x == along {
@@ -144,7 +144,7 @@ impl<'g> ArticulatedInertia<'g> {
                 x * inverse
             }
         };
-        Column {
+        InertiaColumn {
             wrench,
             share: wrench.map(|v| v.map(share)),
             inverse,
@@ -155,8 +155,8 @@ impl<'g> ArticulatedInertia<'g> {
     /// Without what the joint gives way to: I − I S (SᵀI S + A)⁻¹ SᵀI with the armature A. The row
     /// and the column along the joint are A/(SᵀI S + A) of what they were: zero without a rotor, and
     /// said to be so.
-    pub fn projected(&self, b: &'g Builder, motion: Motion, column: &Column<'g>) -> Self {
-        let Column {
+    pub fn projected(&self, b: &'g Builder, motion: Motion, column: &InertiaColumn<'g>) -> Self {
+        let InertiaColumn {
             wrench,
             share,
             kept,
@@ -166,9 +166,9 @@ impl<'g> ArticulatedInertia<'g> {
             Motion::Rotation => (Some(2), None),
             _ => (None, Some(2)),
         };
-        let less = |m: &Mat3<Ex<'g>>,
-                    row: (Vec3<Ex<'g>>, Option<usize>),
-                    column: (Vec3<Ex<'g>>, Option<usize>)| {
+        let less = |m: &Mat3<Expr<'g>>,
+                    row: (Vec3<Expr<'g>>, Option<usize>),
+                    column: (Vec3<Expr<'g>>, Option<usize>)| {
             Mat3::from_fn(|i, j| {
                 if row.1 == Some(i) || column.1 == Some(j) {
                     if kept.is_zero() {
@@ -191,7 +191,7 @@ impl<'g> ArticulatedInertia<'g> {
     }
 
     /// Turned by Rz.
-    pub fn turned(&self, turn: (Ex<'g>, Ex<'g>), careful: bool) -> Self {
+    pub fn turned(&self, turn: (Expr<'g>, Expr<'g>), careful: bool) -> Self {
         ArticulatedInertia {
             angular: mirrored(turned(&self.angular, 2, turn, careful)),
             coupling: turned(&self.coupling, 2, turn, careful),
@@ -211,7 +211,7 @@ impl<'g> ArticulatedInertia<'g> {
     fn turned_by(&self, b: &'g Builder, axis: usize, (c, s): (Dd, Dd), careful: bool) -> Self {
         let careful = careful || c == Dd::ZERO || s == Dd::ZERO;
         let turn = (b.constant(c), b.constant(s));
-        let turned = |m: &Mat3<Ex<'g>>| turned(m, axis, turn, careful);
+        let turned = |m: &Mat3<Expr<'g>>| turned(m, axis, turn, careful);
         ArticulatedInertia {
             angular: mirrored(turned(&self.angular)),
             coupling: turned(&self.coupling),
@@ -221,7 +221,7 @@ impl<'g> ArticulatedInertia<'g> {
 
     /// About a point from which this one's origin is displaced by p:
     /// H' = H + [p]× M, J' = J − H [p]× + [p]× H'ᵀ.
-    pub fn shifted(&self, b: &'g Builder, p: Vec3<Ex<'g>>) -> Self {
+    pub fn shifted(&self, b: &'g Builder, p: Vec3<Expr<'g>>) -> Self {
         let [x, y, z] = p.0;
         let o = b.zero();
         let cross = Mat3([[o, -z, y], [z, o, -x], [-y, x, o]]);
@@ -236,14 +236,19 @@ impl<'g> ArticulatedInertia<'g> {
 }
 
 /// The symmetric matrix with this upper triangle.
-fn mirrored<'g>(m: Mat3<Ex<'g>>) -> Mat3<Ex<'g>> {
+fn mirrored<'g>(m: Mat3<Expr<'g>>) -> Mat3<Expr<'g>> {
     Mat3::from_fn(|i, j| m.0[i.min(j)][i.max(j)])
 }
 
 /// R m Rᵀ for a turn about an axis k, with i and j the axes after it. By
 /// e = s (m_ii − m_jj) + c (m_ij + m_ji) for the 2 × 2 block, or as two products, which takes more
 /// operations and subtracts nothing large where one of the entries is zero.
-fn turned<'g>(m: &Mat3<Ex<'g>>, k: usize, (c, s): (Ex<'g>, Ex<'g>), careful: bool) -> Mat3<Ex<'g>> {
+fn turned<'g>(
+    m: &Mat3<Expr<'g>>,
+    k: usize,
+    (c, s): (Expr<'g>, Expr<'g>),
+    careful: bool,
+) -> Mat3<Expr<'g>> {
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let [[ii, ij], [ji, jj]] = [[m.0[i][i], m.0[i][j]], [m.0[j][i], m.0[j][j]]];
     let mut to = *m;
@@ -266,7 +271,7 @@ fn turned<'g>(m: &Mat3<Ex<'g>>, k: usize, (c, s): (Ex<'g>, Ex<'g>), careful: boo
         (to.0[i][i], to.0[i][j]) = (ii - se, ce - ji);
         (to.0[j][i], to.0[j][j]) = (ce - ij, jj + se);
     }
-    let turn = |x: Ex<'g>, y: Ex<'g>| (c * x - s * y, s * x + c * y);
+    let turn = |x: Expr<'g>, y: Expr<'g>| (c * x - s * y, s * x + c * y);
     (to.0[i][k], to.0[j][k]) = turn(m.0[i][k], m.0[j][k]);
     (to.0[k][i], to.0[k][j]) = turn(m.0[k][i], m.0[k][j]);
     to

@@ -25,7 +25,7 @@ use super::plan_search::{self, Best, SEARCHED};
 use super::plans::cheapest_plans;
 use super::{expressions, inverse_dynamics};
 use crate::bond_graph::Multibody;
-use crate::expr::{self, Builder, Cost, Expr, Graph};
+use crate::expr::{self, Builder, Cost, Graph, Signed};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
@@ -165,13 +165,13 @@ impl Articulated {
         geometry: &Geometry,
         plan: &Plan,
         guarded: &[bool],
-    ) -> (Graph, Vec<Expr>) {
+    ) -> (Graph, Vec<Signed>) {
         let careful = matches!(self, Articulated::Own);
         let plan = &Plan {
             base_parameters: !careful,
             ..plan.clone()
         };
-        let outputs: Vec<Expr> = {
+        let outputs: Vec<Signed> = {
             let x = Arguments::new(&b, graph, Method::ForwardDynamics);
             let frames = Frames::new(&b, graph, geometry, plan, &x);
             let sweep = Sweep::new(&b, &frames, careful, guarded);

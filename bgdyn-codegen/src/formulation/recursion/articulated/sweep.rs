@@ -5,12 +5,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::inertia::{ArticulatedInertia, Column};
-use crate::expr::{Bound, Builder, ErrorBound, Ex};
-use crate::formulation::recursion::frames::{Frame, Frames};
+use super::inertia::{ArticulatedInertia, InertiaColumn};
+use crate::expr::{Bound, Builder, ErrorBound, Expr};
+use crate::formulation::recursion::frames::{BodyFrame, Frames};
 use crate::formulation::recursion::inertia::{turn, turn_back};
 use crate::formulation::recursion::inverse_dynamics::name_wrenches;
-use crate::formulation::recursion::inverse_dynamics::{Load, Wrench};
+use crate::formulation::recursion::inverse_dynamics::{BodyWrench, Load};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -21,7 +21,7 @@ const MAGNITUDE: f64 = 1.0 / 32.0;
 
 /// The size of what was really subtracted in a pivot, by the rounding error it carries; nothing
 /// where the error is a small part of the pivot whatever it is.
-fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Ex<'g>) -> Ex<'g> {
+fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Expr<'g>) -> Expr<'g> {
     let pivot = pivot.expr();
     match b.with_graph(|g| bounds.of(g, pivot)) {
         Bound::Relative(_) => b.zero(),
@@ -31,7 +31,7 @@ fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Ex<'g>) -> Ex<'
 
 /// A joint between the body and what carries it.
 struct Hinge<'g> {
-    column: Column<'g>,
+    column: InertiaColumn<'g>,
     /// Whether the column is in the body's own axes; otherwise in its basis's.
     own: bool,
 }
@@ -46,13 +46,13 @@ pub(super) struct Sweep<'g, 'f> {
 /// Acceleration of a body relative to that of the motion with q̈ = 0.
 #[derive(Clone, Copy)]
 struct Acceleration<'g> {
-    angular: Vec3<Ex<'g>>,
+    angular: Vec3<Expr<'g>>,
     /// Of the origin.
-    linear: Vec3<Ex<'g>>,
+    linear: Vec3<Expr<'g>>,
 }
 
 impl<'g> Acceleration<'g> {
-    fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+    fn map(self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
         Acceleration {
             angular: f(self.angular),
             linear: f(self.linear),
@@ -60,7 +60,7 @@ impl<'g> Acceleration<'g> {
     }
 
     /// Of the body's point p.
-    fn at(self, p: Vec3<Ex<'g>>) -> Self {
+    fn at(self, p: Vec3<Expr<'g>>) -> Self {
         Acceleration {
             linear: self.linear + self.angular.cross(p),
             ..self
@@ -68,7 +68,7 @@ impl<'g> Acceleration<'g> {
     }
 
     /// With the joint's own.
-    fn with(mut self, motion: Motion, along: Ex<'g>) -> Self {
+    fn with(mut self, motion: Motion, along: Expr<'g>) -> Self {
         let part = match motion {
             Motion::Rotation => &mut self.angular,
             _ => &mut self.linear,
@@ -78,7 +78,7 @@ impl<'g> Acceleration<'g> {
     }
 
     /// Power of a wrench at this acceleration.
-    fn under(self, wrench: &Wrench<'g>) -> Ex<'g> {
+    fn under(self, wrench: &BodyWrench<'g>) -> Expr<'g> {
         self.angular.dot(wrench.moment) + self.linear.dot(wrench.force)
     }
 }
@@ -151,15 +151,15 @@ impl<'g, 'f> Sweep<'g, 'f> {
 
     /// The joints' accelerations under the efforts `tau`, where the motion with q̈ = 0 takes
     /// `loads`.
-    pub fn accelerations(&self, loads: &[Load<'g>], tau: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    pub fn accelerations(&self, loads: &[Load<'g>], tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let drives = self.inwards(loads, tau);
         self.outwards(&drives)
     }
 
     /// What is left of each joint's effort for its own acceleration, over its pivot.
-    fn inwards(&self, loads: &[Load<'g>], tau: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    fn inwards(&self, loads: &[Load<'g>], tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let n = self.hinges.len();
-        let mut own = vec![Wrench::zero(self.b); n];
+        let mut own = vec![BodyWrench::zero(self.b); n];
         let mut basis = own.clone();
         let mut drives = vec![self.b.zero(); n];
         for j in (0..n).rev() {
@@ -180,7 +180,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
             drives[j] = drive * hinge.column.inverse;
             let Some(p) = frame.parent else { continue };
             // The joint carries the drive whole; the rest of the wrench in proportion to it.
-            let given = |w: Vec3<Ex<'g>>| w.scale(drive);
+            let given = |w: Vec3<Expr<'g>>| w.scale(drive);
             let given = hinge.column.share.map(given);
             if hinge.own {
                 inner = inner.plus(given);
@@ -200,7 +200,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
         drives
     }
 
-    fn outwards(&self, drives: &[Ex<'g>]) -> Vec<Ex<'g>> {
+    fn outwards(&self, drives: &[Expr<'g>]) -> Vec<Expr<'g>> {
         // In own axes, and in the basis's.
         let mut own: Vec<Acceleration<'g>> = Vec::new();
         let mut basis: Vec<Acceleration<'g>> = Vec::new();
@@ -232,8 +232,8 @@ impl<'g, 'f> Sweep<'g, 'f> {
     }
 
     /// The parent's acceleration at the body's origin, in twisted axes.
-    fn twisted(&self, frame: &Frame<'g>, parent: Acceleration<'g>) -> Acceleration<'g> {
-        let back: Mat3<Ex<'g>> = frame.twist.transpose().map(|x| self.b.constant(x));
+    fn twisted(&self, frame: &BodyFrame<'g>, parent: Acceleration<'g>) -> Acceleration<'g> {
+        let back: Mat3<Expr<'g>> = frame.twist.transpose().map(|x| self.b.constant(x));
         parent.at(frame.position_in_parent).map(|v| back * v)
     }
 }

@@ -3,10 +3,10 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::expr::{Builder, Ex};
-use crate::formulation::recursion::frames::Frame;
-use crate::formulation::recursion::inertia::{Inertia, turn};
-use crate::formulation::recursion::inverse_dynamics::Wrench;
+use crate::expr::{Builder, Expr};
+use crate::formulation::recursion::frames::BodyFrame;
+use crate::formulation::recursion::inertia::{BodyInertia, turn};
+use crate::formulation::recursion::inverse_dynamics::BodyWrench;
 use crate::formulation::recursion::mass_matrix::Momentum;
 use crate::formulation::recursion::rotors::FullRotor;
 use crate::math::{Mat3, Vec3};
@@ -16,20 +16,20 @@ use crate::mechanism::Motion;
 /// are relative to that body and its axes.
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct CompositeFlow<'g> {
-    pub inertia: Inertia<'g>,
+    pub inertia: BodyInertia<'g>,
     /// Twice the flow of its mass; once for the Coriolis matrix.
     pub flow: Flow<'g>,
     /// Force and moment of its relative accelerations.
-    pub rest: Wrench<'g>,
+    pub rest: BodyWrench<'g>,
 }
 
 impl<'g> CompositeFlow<'g> {
     /// Of nothing.
     pub fn zero(b: &'g Builder) -> Self {
         CompositeFlow {
-            inertia: Inertia::zero(b),
+            inertia: BodyInertia::zero(b),
             flow: Flow::zero(b),
-            rest: Wrench::zero(b),
+            rest: BodyWrench::zero(b),
         }
     }
 
@@ -53,7 +53,7 @@ impl<'g> CompositeFlow<'g> {
     }
 
     /// Turned by Rz.
-    pub fn turned(&self, angle: (Ex<'g>, Ex<'g>)) -> Self {
+    pub fn turned(&self, angle: (Expr<'g>, Expr<'g>)) -> Self {
         let round = self.inertia.round();
         CompositeFlow {
             inertia: if round {
@@ -72,20 +72,20 @@ impl<'g> CompositeFlow<'g> {
     pub fn before(
         &self,
         b: &'g Builder,
-        frame: &Frame<'g>,
+        frame: &BodyFrame<'g>,
         momentum: &Momentum<'g>,
         twice: bool,
     ) -> Self {
         let step = Flow::of_joint(b, frame.motion, frame.rate, &self.inertia);
         let mid = self.flow.plus(&step);
-        let mut rest = self.rest.plus(Wrench {
+        let mut rest = self.rest.plus(BodyWrench {
             force: momentum.linear.scale(frame.acceleration),
             moment: momentum.angular.scale(frame.acceleration),
         });
         // Z Z and Z Q vanish for a translation.
         if frame.motion == Motion::Rotation {
             let [x, y, _] = mid.linear.0;
-            rest = rest.plus(Wrench {
+            rest = rest.plus(BodyWrench {
                 force: Vec3([-y, x, b.zero()]).scale(frame.rate),
                 moment: mid.moment.column(2).scale(frame.rate),
             });
@@ -98,7 +98,7 @@ impl<'g> CompositeFlow<'g> {
     }
 
     /// About the origin of the body before, in its axes or in the basis that continues.
-    pub fn handed_on(&self, b: &'g Builder, frame: &Frame<'g>) -> Self {
+    pub fn handed_on(&self, b: &'g Builder, frame: &BodyFrame<'g>) -> Self {
         let shifted = CompositeFlow {
             inertia: self.inertia.shifted(frame.position),
             flow: self.flow.shifted(frame.position),
@@ -128,9 +128,9 @@ impl<'g> CompositeFlow<'g> {
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct Flow<'g> {
     /// E
-    pub moment: Mat3<Ex<'g>>,
+    pub moment: Mat3<Expr<'g>>,
     /// p
-    pub linear: Vec3<Ex<'g>>,
+    pub linear: Vec3<Expr<'g>>,
 }
 
 impl<'g> Flow<'g> {
@@ -151,7 +151,12 @@ impl<'g> Flow<'g> {
     }
 
     /// Of mass that moves at a joint's `rate` along or about z.
-    pub fn of_joint(b: &'g Builder, motion: Motion, rate: Ex<'g>, inertia: &Inertia<'g>) -> Self {
+    pub fn of_joint(
+        b: &'g Builder,
+        motion: Motion,
+        rate: Expr<'g>,
+        inertia: &BodyInertia<'g>,
+    ) -> Self {
         let d = |i, j| rate * inertia.d(i, j);
         let [x, y, z] = inertia.first.map(|h| rate * h).0;
         let zero = b.zero();
@@ -173,7 +178,7 @@ impl<'g> Flow<'g> {
 
     /// The same seen from a point from which this one's origin is displaced by r:
     /// E + (p·r)·1 − p rᵀ.
-    pub fn shifted(&self, r: Vec3<Ex<'g>>) -> Self {
+    pub fn shifted(&self, r: Vec3<Expr<'g>>) -> Self {
         let products = Mat3::from_fn(|i, j| self.linear.0[i] * r.0[j]);
         let entry = |i: usize, j: usize| {
             if i == j {
@@ -200,7 +205,7 @@ impl<'g> Flow<'g> {
 
     /// Turned by Rz: four multiplications for the 2 × 2 block, with
     /// e = s (E_xx − E_yy) + c (E_xy + E_yx).
-    pub fn turned(&self, (c, s): (Ex<'g>, Ex<'g>)) -> Self {
+    pub fn turned(&self, (c, s): (Expr<'g>, Expr<'g>)) -> Self {
         let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = self.moment.0;
         let e = s * (xx - yy) + c * (xy + yx);
         let (se, ce) = (s * e, c * e);

@@ -31,8 +31,8 @@ use bgdyn_runtime::Dd;
 
 use super::joint_partials::{JointContext, JointPartials, Subtree};
 use super::outboard_joint::{Entries, OutboardJoint};
-use crate::expr::{Builder, Ex};
-use crate::formulation::recursion::frames::{Frame, Frames};
+use crate::expr::{Builder, Expr};
+use crate::formulation::recursion::frames::{BodyFrame, Frames};
 use crate::formulation::recursion::motion::{Moving, Spin, motions};
 use crate::formulation::recursion::plan::PartialsPlan;
 use crate::math::Vec3;
@@ -40,8 +40,8 @@ use crate::mechanism::Motion;
 
 /// (∂τ/∂q, ∂τ/∂v), row by row: entry (i, j) is the derivative of effort i by coordinate j.
 pub(in crate::formulation::recursion) struct EffortDerivatives<'g> {
-    pub by_position: Vec<Vec<Ex<'g>>>,
-    pub by_rate: Vec<Vec<Ex<'g>>>,
+    pub by_position: Vec<Vec<Expr<'g>>>,
+    pub by_rate: Vec<Vec<Expr<'g>>>,
 }
 
 /// The matrix C of Christoffel's symbols, half of ∂bias/∂v as the bias is quadratic in v, row by
@@ -50,7 +50,7 @@ pub(in crate::formulation::recursion) fn coriolis_matrix<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
     views: &[PartialsPlan],
-) -> Vec<Vec<Ex<'g>>> {
+) -> Vec<Vec<Expr<'g>>> {
     pass(b, frames, views, &motions(b, frames, false), Dd::ONE).by_rate
 }
 
@@ -195,7 +195,7 @@ impl<'g> EffortDerivatives<'g> {
         &mut self,
         frames: &Frames<'g>,
         (i, j): (usize, usize),
-        (by_position, by_rate): (Ex<'g>, Ex<'g>),
+        (by_position, by_rate): (Expr<'g>, Expr<'g>),
     ) {
         let factor = frames.bodies[i].effort * frames.bodies[j].effort;
         let (position, rate) = (&mut self.by_position[i][j], &mut self.by_rate[i][j]);
@@ -213,7 +213,7 @@ fn spin_before<'m, 'g>(frames: &Frames<'g>, j: usize, moving: &'m [Moving<'g>]) 
 }
 
 /// Factor times the velocity of a body's origin relative to its parent's, in the axes of the basis.
-fn drift<'g>(frame: &Frame<'g>, before: &Spin<'g>, factor: Dd) -> Vec3<Ex<'g>> {
+fn drift<'g>(frame: &BodyFrame<'g>, before: &Spin<'g>, factor: Dd) -> Vec3<Expr<'g>> {
     let mut drift = before.omega.map(|x| x * factor).cross(frame.position);
     if frame.motion != Motion::Rotation {
         drift.0[2] = drift.0[2] + frame.rate * factor;

@@ -9,8 +9,8 @@ use bgdyn_runtime::Dd;
 
 use super::composite_flow::CompositeFlow;
 use super::outboard_joint::{Axis, GroupNeighbour, OutboardJoint};
-use crate::expr::{Builder, Ex};
-use crate::formulation::recursion::frames::Frame;
+use crate::expr::{Builder, Expr};
+use crate::formulation::recursion::frames::BodyFrame;
 use crate::formulation::recursion::inertia::turn;
 use crate::formulation::recursion::mass_matrix::{Momentum, unit_momentum};
 use crate::formulation::recursion::motion::{Moving, Spin};
@@ -23,7 +23,7 @@ pub(super) struct JointContext<'a, 'g> {
     pub b: &'g Builder,
     /// Its place in the order of the coordinates.
     pub index: usize,
-    pub frame: &'a Frame<'g>,
+    pub frame: &'a BodyFrame<'g>,
     /// Motion of the body after the joint.
     pub moving: &'a Moving<'g>,
     /// Angular motion of the body before it, in the axes of the joint's basis.
@@ -149,7 +149,7 @@ impl<'g> JointContext<'_, 'g> {
         &self,
         carried: &CompositeFlow<'g>,
         outer: &CompositeFlow<'g>,
-        force: Vec3<Ex<'g>>,
+        force: Vec3<Expr<'g>>,
     ) -> OutboardJoint<'g> {
         let (after, momentum) = self.joined(carried, outer);
         let before = self.before(&after, &momentum);

@@ -6,10 +6,10 @@
 use bgdyn_runtime::Dd;
 
 use super::composite_flow::CompositeFlow;
-use crate::expr::{Builder, Ex};
-use crate::formulation::recursion::frames::Frame;
-use crate::formulation::recursion::inertia::{Inertia, turn, turn_back};
-use crate::formulation::recursion::inverse_dynamics::{Wrench, dynamics};
+use crate::expr::{Builder, Expr};
+use crate::formulation::recursion::frames::BodyFrame;
+use crate::formulation::recursion::inertia::{BodyInertia, turn, turn_back};
+use crate::formulation::recursion::inverse_dynamics::{BodyWrench, dynamics};
 use crate::formulation::recursion::mass_matrix::Momentum;
 use crate::formulation::recursion::motion::Spin;
 use crate::math::{Mat3, Vec3};
@@ -22,17 +22,17 @@ pub(in crate::formulation::recursion) struct OutboardJoint<'g> {
     pub momentum: Momentum<'g>,
     /// Factor · ∫ v × δ dm, with δ the velocity of a unit rate and v the true one relative to the point
     /// that this is about, in axes that do not turn.
-    swirl: Vec3<Ex<'g>>,
+    swirl: Vec3<Expr<'g>>,
     /// ∂/∂q of force and moment on all beyond it.
-    by_position: Wrench<'g>,
+    by_position: BodyWrench<'g>,
     /// Factor / 2 · ∂/∂v of the same.
-    by_rate: Wrench<'g>,
+    by_rate: BodyWrench<'g>,
     /// From the body's origin to the point that all this is about, and factor times the velocity
     /// of that point relative to the origin: not zero inside a group of parallel axes only.
-    offset: Vec3<Ex<'g>>,
-    drift: Vec3<Ex<'g>>,
+    offset: Vec3<Expr<'g>>,
+    drift: Vec3<Expr<'g>>,
     /// Entries with the last rotation passed in the group, and where its origin is from this one.
-    last: Option<(Entries<'g>, Vec3<Ex<'g>>)>,
+    last: Option<(Entries<'g>, Vec3<Expr<'g>>)>,
     /// Where the forces are wanted in the axes of the body that the group ends with as well.
     met: Option<Met<'g>>,
 }
@@ -41,9 +41,9 @@ pub(in crate::formulation::recursion) struct OutboardJoint<'g> {
 #[derive(Clone, Copy)]
 struct Met<'g> {
     /// Those of `by_position` and `by_rate`.
-    forces: [Vec3<Ex<'g>>; 2],
+    forces: [Vec3<Expr<'g>>; 2],
     /// Cosine and sine of the angle from the basis to the body's axes.
-    angle: (Ex<'g>, Ex<'g>),
+    angle: (Expr<'g>, Expr<'g>),
 }
 
 /// A rotation of a group, and what moves with it, as the rotation before it in the group sees them.
@@ -52,22 +52,22 @@ pub(in crate::formulation::recursion) struct GroupNeighbour<'g> {
     /// The rotation, about its own origin.
     pub joint: OutboardJoint<'g>,
     /// Of all that it moves, about the same origin.
-    pub inertia: Inertia<'g>,
+    pub inertia: BodyInertia<'g>,
     /// Factor · ∫ v dm, with v the true velocity relative to that origin, in axes that do not turn.
-    pub flow: Vec3<Ex<'g>>,
+    pub flow: Vec3<Expr<'g>>,
     /// The force on all that.
-    pub force: Vec3<Ex<'g>>,
+    pub force: Vec3<Expr<'g>>,
     /// That origin's place from the one of the body before.
-    pub offset: Vec3<Ex<'g>>,
+    pub offset: Vec3<Expr<'g>>,
 }
 
 /// The four derivatives that tie a joint to one beyond it.
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct Entries<'g> {
     /// Of the joint's effort, by position and rate of the one beyond.
-    pub own: (Ex<'g>, Ex<'g>),
+    pub own: (Expr<'g>, Expr<'g>),
     /// Of the effort of the one beyond, by the joint's position and rate.
-    pub beyond: (Ex<'g>, Ex<'g>),
+    pub beyond: (Expr<'g>, Expr<'g>),
 }
 
 /// How a joint's axis moves, in one set of axes.
@@ -75,20 +75,20 @@ pub(in crate::formulation::recursion) struct Axis<'g> {
     /// Motion of the body.
     pub spin: Spin<'g>,
     /// Acceleration of the origin.
-    pub a: Vec3<Ex<'g>>,
+    pub a: Vec3<Expr<'g>>,
     /// 2, or 1 for the Coriolis matrix.
     pub factor: Dd,
 }
 
 impl<'g> Axis<'g> {
     /// ω × z
-    fn rate(&self, b: &'g Builder) -> Vec3<Ex<'g>> {
+    fn rate(&self, b: &'g Builder) -> Vec3<Expr<'g>> {
         let [x, y, _] = self.spin.omega.0;
         Vec3([y, -x, b.zero()])
     }
 
     /// z̈ = U z
-    fn second_rate(&self) -> Vec3<Ex<'g>> {
+    fn second_rate(&self) -> Vec3<Expr<'g>> {
         self.spin.u.column(2)
     }
 }
@@ -102,7 +102,7 @@ impl<'g> OutboardJoint<'g> {
         momentum: Momentum<'g>,
         axis: &Axis<'g>,
         (spin, whole): (&Spin<'g>, &CompositeFlow<'g>),
-        force: Vec3<Ex<'g>>,
+        force: Vec3<Expr<'g>>,
     ) -> Self {
         let zero = Vec3([b.zero(); 3]);
         let (swirl, by_position, by_rate) = match motion {
@@ -129,7 +129,7 @@ impl<'g> OutboardJoint<'g> {
     /// rate gives it the momentum h alone, which the body's ω turns, so that it takes the moment
     /// ω × h. By position it changes nothing. The dot products of [`OutboardJoint::entries`] give the
     /// changes h · z̈ + ω × h · ż and 2 h · ż + ω × h · z of the effort h · ω̇ with its swirl ω × h.
-    pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Ex<'g>>, axis: &Axis<'g>) -> Self {
+    pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Expr<'g>>, axis: &Axis<'g>) -> Self {
         let zero = Vec3([b.zero(); 3]);
         let half = axis.factor * Dd::from_f64(0.5);
         let whirl = axis.spin.omega.cross(h).map(|x| x * half);
@@ -140,8 +140,8 @@ impl<'g> OutboardJoint<'g> {
                 angular: h,
             },
             swirl: whirl,
-            by_position: Wrench::zero(b),
-            by_rate: Wrench {
+            by_position: BodyWrench::zero(b),
+            by_rate: BodyWrench {
                 force: zero,
                 moment: whirl,
             },
@@ -153,7 +153,7 @@ impl<'g> OutboardJoint<'g> {
     }
 
     /// In other axes.
-    pub fn map(self, f: impl Fn(Vec3<Ex<'g>>) -> Vec3<Ex<'g>>) -> Self {
+    pub fn map(self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
         OutboardJoint {
             momentum: self.momentum.map(&f),
             swirl: f(self.swirl),
@@ -164,7 +164,7 @@ impl<'g> OutboardJoint<'g> {
     }
 
     /// Turned by Rz; `meet` keeps the forces in the present axes as well.
-    pub fn turned(self, angle: (Ex<'g>, Ex<'g>), meet: bool) -> Self {
+    pub fn turned(self, angle: (Expr<'g>, Expr<'g>), meet: bool) -> Self {
         let forces = [self.by_position.force, self.by_rate.force];
         OutboardJoint {
             met: meet.then_some(Met { forces, angle }),
@@ -189,7 +189,7 @@ impl<'g> OutboardJoint<'g> {
         let twice = axis.spin.omega.map(|x| x * axis.factor);
         let d = across(b, next.offset);
         let h = next.inertia.first;
-        let field = |v: Vec3<Ex<'g>>| Wrench {
+        let field = |v: Vec3<Expr<'g>>| BodyWrench {
             force: next.inertia.weigh(v),
             moment: h.cross(v),
         };
@@ -214,7 +214,7 @@ impl<'g> OutboardJoint<'g> {
 
     /// SeenFrom from an origin from which the present one is displaced by r and relative to which it
     /// moves, factor times, at `drift`; what follows from it is left for [`OutboardJoint::settled`].
-    pub fn moved(self, r: Vec3<Ex<'g>>, drift: Vec3<Ex<'g>>) -> Self {
+    pub fn moved(self, r: Vec3<Expr<'g>>, drift: Vec3<Expr<'g>>) -> Self {
         OutboardJoint {
             offset: self.offset + r,
             drift: self.drift + drift,
@@ -249,18 +249,18 @@ impl<'g> OutboardJoint<'g> {
     }
 
     /// The entry of the mass matrix with a joint before it.
-    pub fn mass(&self, frame: &Frame<'g>) -> Ex<'g> {
+    pub fn mass(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
         self.momentum.carried(self.offset).along(frame)
     }
 
     /// Entries with itself.
-    pub fn diagonal(&self, frame: &Frame<'g>) -> Entries<'g> {
+    pub fn diagonal(&self, frame: &BodyFrame<'g>) -> Entries<'g> {
         let own = (self.by_position.along(frame), self.by_rate.along(frame));
         Entries { own, beyond: own }
     }
 
     /// Entries with a joint before it, about whose origin this is.
-    pub fn entries(&self, b: &'g Builder, frame: &Frame<'g>, axis: &Axis<'g>) -> Entries<'g> {
+    pub fn entries(&self, b: &'g Builder, frame: &BodyFrame<'g>, axis: &Axis<'g>) -> Entries<'g> {
         let (p, l) = (self.momentum.linear, self.momentum.angular);
         let (rate, second_rate) = (axis.rate(b), axis.second_rate());
         let rates = rate.map(|x| x * axis.factor);
@@ -305,17 +305,21 @@ impl<'g> OutboardJoint<'g> {
 }
 
 /// z ×
-fn across<'g>(b: &'g Builder, v: Vec3<Ex<'g>>) -> Vec3<Ex<'g>> {
+fn across<'g>(b: &'g Builder, v: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
     Vec3([-v.0[1], v.0[0], b.zero()])
 }
 
 /// Row i of D times v.
-fn d_row<'g>(inertia: &Inertia<'g>, i: usize, v: Vec3<Ex<'g>>) -> Ex<'g> {
+fn d_row<'g>(inertia: &BodyInertia<'g>, i: usize, v: Vec3<Expr<'g>>) -> Expr<'g> {
     Vec3(std::array::from_fn(|k| inertia.d(i, k))).dot(v)
 }
 
 /// Factor · ∫ v × (z × s) dm = row z of E + factor · D (ω × z).
-fn rotation_swirl<'g>(b: &'g Builder, whole: &CompositeFlow<'g>, axis: &Axis<'g>) -> Vec3<Ex<'g>> {
+fn rotation_swirl<'g>(
+    b: &'g Builder,
+    whole: &CompositeFlow<'g>,
+    axis: &Axis<'g>,
+) -> Vec3<Expr<'g>> {
     let rate = axis.rate(b).map(|x| x * axis.factor);
     let turning = Vec3(std::array::from_fn(|i| d_row(&whole.inertia, i, rate)));
     whole.flow.moment.row(2) + turning
@@ -327,10 +331,10 @@ fn rotation_by_rate<'g>(
     whole: &CompositeFlow<'g>,
     spin: &Spin<'g>,
     factor: Dd,
-) -> Wrench<'g> {
+) -> BodyWrench<'g> {
     let omega = spin.omega.map(|x| x * factor);
     let [x, y] = [0, 1].map(|i| d_row(&whole.inertia, i, omega));
-    Wrench {
+    BodyWrench {
         force: omega.cross(across(b, whole.inertia.first)) + across(b, whole.flow.linear),
         moment: Vec3([y, -x, b.zero()]) + whole.flow.moment.column(2),
     }
@@ -343,11 +347,11 @@ fn rotation_by_position<'g>(
     whole: &CompositeFlow<'g>,
     spin: &Spin<'g>,
     axis: &Axis<'g>,
-) -> Wrench<'g> {
+) -> BodyWrench<'g> {
     let zero = b.zero();
     let d = |i, j| whole.inertia.d(i, j);
     let twice_xy = d(0, 1) * Dd::from_f64(2.0);
-    let inertia = Inertia {
+    let inertia = BodyInertia {
         mass: zero,
         axial: zero,
         first: across(b, whole.inertia.first),
@@ -367,7 +371,7 @@ fn rotation_by_position<'g>(
         [difference, sum, xz],
         [-zy, zx, zero],
     ]);
-    let of_flow = Wrench {
+    let of_flow = BodyWrench {
         force: spin.omega.cross(across(b, whole.flow.linear)),
         moment: flow * spin.omega,
     };
@@ -382,11 +386,11 @@ fn translation<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
     axis: &Axis<'g>,
-    force: Vec3<Ex<'g>>,
-) -> (Vec3<Ex<'g>>, Wrench<'g>, Wrench<'g>) {
+    force: Vec3<Expr<'g>>,
+) -> (Vec3<Expr<'g>>, BodyWrench<'g>, BodyWrench<'g>) {
     let h = whole.inertia.first;
-    let times = |v: Vec3<Ex<'g>>| v.map(|x| x * axis.factor);
-    let field = |v: Vec3<Ex<'g>>| Wrench {
+    let times = |v: Vec3<Expr<'g>>| v.map(|x| x * axis.factor);
+    let field = |v: Vec3<Expr<'g>>| BodyWrench {
         force: whole.inertia.weigh(v),
         moment: h.cross(v),
     };

@@ -114,11 +114,11 @@ fn lengths(geometry: &Geometry, plan: &Plan) -> Vec<Dd> {
     lengths
 }
 
-type Change = fn(&mut PartialsPlan);
+type PartialsChange = fn(&mut PartialsPlan);
 
 /// What there is to choose for joint j.
-fn changes(geometry: &Geometry, plan: &Plan, j: usize) -> Vec<Change> {
-    let mut changes: Vec<Change> = vec![
+fn changes(geometry: &Geometry, plan: &Plan, j: usize) -> Vec<PartialsChange> {
+    let mut changes: Vec<PartialsChange> = vec![
         |view| view.seen_from = SeenFrom::Before,
         |view| view.seen_from = SeenFrom::After,
         |view| view.seen_from = SeenFrom::Own,

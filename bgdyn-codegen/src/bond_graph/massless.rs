@@ -1,0 +1,91 @@
+//! Which velocities no store hangs on.
+
+use bgdyn_runtime::Dd;
+
+use super::{BondGraph, JunctionId, LinkFrame, StoreInertia};
+use crate::math::Vec3;
+use crate::mechanism::{CoordinateId, Motion, Value};
+
+const ZERO: Value = Value::Fixed(Dd::ZERO);
+
+impl BondGraph {
+    /// Coordinates that no link gives inertia, in any position and whatever the run-time parameters
+    /// are: M has a row of zeros there.
+    pub fn without_inertia(&self) -> Vec<CoordinateId> {
+        let mut stores = vec![None; self.junctions.len()];
+        for store in &self.stores {
+            stores[store.junction.0] = Some(&store.inertia);
+        }
+        let mut moved = vec![false; self.coordinates.len()];
+        for transformer in &self.transformers {
+            // Velocities are the first junctions.
+            let (from, to) = (transformer.from.0, transformer.to);
+            if !moved[from] {
+                moved[from] =
+                    stores[to.0].is_some_and(|inertia| self.moves(CoordinateId(from), to, inertia));
+            }
+        }
+        let all = (0..moved.len()).filter(|&j| !moved[j]);
+        all.map(CoordinateId).collect()
+    }
+
+    /// Whether a velocity that feeds a store's junction changes what the store holds.
+    fn moves(&self, j: CoordinateId, junction: JunctionId, inertia: &StoreInertia) -> bool {
+        let there = match inertia {
+            StoreInertia::Mass(mass) => *mass != ZERO,
+            StoreInertia::Tensor(entries) => *entries != [ZERO; 6],
+        };
+        // What the joint's own link holds lies still in the joint's axes: there zeros are seen that
+        // the transformers, in fixed axes, do not tell.
+        let link = self.coordinates[j.0].link;
+        let own = [self.translation(link), self.rotation(link)].contains(&junction);
+        there && (!own || moved_by_own_joint(&self.frames[link.0], inertia))
+    }
+}
+
+/// Whether the inertia of a link about, or along, its joint's axis is not zero.
+fn moved_by_own_joint(frame: &LinkFrame, inertia: &StoreInertia) -> bool {
+    match (inertia, frame.motion) {
+        (StoreInertia::Mass(_), Motion::Translation) => true,
+        (StoreInertia::Mass(_), _) => {
+            let offset = fixed(&frame.com.0).map(|com| frame.axis.cross(Vec3(com)));
+            offset.is_none_or(|offset| offset.dot(offset).to_f64() > 1e-48)
+        }
+        (StoreInertia::Tensor(_), Motion::Translation) => false,
+        (StoreInertia::Tensor(entries), _) => fixed(entries).is_none_or(|entries| {
+            // nᵀ J n
+            let [xx, yy, zz, xy, xz, yz] = entries;
+            let Vec3([x, y, z]) = frame.tensor_axes.transpose() * frame.axis;
+            let twice = Dd::from_f64(2.0) * (xy * x * y + xz * x * z + yz * y * z);
+            let about = xx * x * x + yy * y * y + zz * z * z + twice;
+            let size = xx.abs() + yy.abs() + zz.abs();
+            about.to_f64() > 1e-24 * size.to_f64()
+        }),
+    }
+}
+
+/// Numbers, if none of them is a run-time parameter.
+fn fixed<const N: usize>(values: &[Value; N]) -> Option<[Dd; N]> {
+    let mut numbers = [Dd::ZERO; N];
+    for (number, value) in numbers.iter_mut().zip(values) {
+        match value {
+            Value::Fixed(x) => *number = *x,
+            Value::Parameter(_) => return None,
+        }
+    }
+    Some(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::mechanism::LinkId;
+
+    #[test]
+    fn links_fixed_beyond_a_joint_are_links_of_their_own() {
+        let text = "format: 1\nlinks:\n  - { name: a, joint: { name: turn, type: revolute, axis: z } }\n  - { name: b, parent: a, joint: { type: fixed, origin: { xyz: [1, 0, 0] } }, mass: 1 }\n";
+        let (mechanism, _) = crate::read(text, Some("arm"));
+        let graph = super::super::build(&mechanism.expect("a sound spec"));
+        assert_eq!(graph.without_inertia(), []);
+        assert_eq!(graph.frames[LinkId(1).0].coordinate, None);
+    }
+}

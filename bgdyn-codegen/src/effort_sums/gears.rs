@@ -1,0 +1,46 @@
+//! Gears with losses between efforts and coordinates.
+
+use super::{EffortSums, LossyGear, Port, load_event};
+use crate::declaration::Element;
+use crate::expr::Expr;
+use crate::format::Key;
+
+impl<'g> EffortSums<'g, '_> {
+    /// A gear with losses, whose efficiency is the number behind this key and whose mode has this
+    /// name; `None` where no efficiency is given.
+    ///
+    /// # Panics
+    /// Where the effect declares no such key, or no effect such a mode.
+    pub fn gear(&self, element: &Element, efficiency: &Key, mode: &str) -> Option<LossyGear<'g>> {
+        let efficiency = self.optional(element, efficiency)?;
+        let mode = self.mode(mode);
+        Some(LossyGear { efficiency, mode })
+    }
+
+    /// The events of a gear under an effort at its motor's side, and what it can hold.
+    pub fn load(
+        &mut self,
+        (element, mode): (&Element, &str),
+        gear: LossyGear<'g>,
+        port: &Port<'g>,
+        effort: Expr<'g>,
+    ) {
+        let zero = self.b.zero();
+        self.event(&load_event(element), effort);
+        self.contact(mode, port, [zero, zero], gear.hold(effort));
+    }
+
+    /// A gear between a coordinate's own effort and the coordinate.
+    pub fn gear_of_drive(&mut self, element: &Element, efficiency: &Key) {
+        let joint = element.name("joint").unwrap_or_default();
+        let found = self.scene.layout.coordinate_named(joint);
+        if let (Some(j), Some(gear)) = (found, self.gear(element, efficiency, &element.name)) {
+            self.gears.insert(j, gear);
+            let lost = (self.own_effort(j) - self.drive(j)) * self.v[j];
+            self.dissipate(lost);
+            let port = self.coordinate(joint);
+            let effort = self.before_the_gear(j);
+            self.load((element, &element.name), gear, &port, effort);
+        }
+    }
+}

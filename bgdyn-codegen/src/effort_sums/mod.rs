@@ -1,0 +1,128 @@
+//! What the effects' laws see and what they add: the sums on the junctions of one scene.
+
+mod gear;
+mod gears;
+mod parts;
+mod read;
+mod result;
+mod undeclared;
+mod write;
+
+use std::collections::BTreeMap;
+
+use crate::bond_graph::{BondGraph, SiteId};
+use crate::choice::Choice;
+use crate::expr::{Builder, Expr, Graph, Leaf, copy_into};
+use crate::formulation::Formulation;
+use crate::math::{Mat3, Vec3};
+use crate::method::Method;
+use crate::scene::Scene;
+
+pub use gear::{LossyGear, load_event};
+pub(crate) use parts::Condition;
+pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading};
+
+/// The sums that the laws of a scene's effects add to.
+pub struct EffortSums<'g, 'a> {
+    /// The graph under construction.
+    pub b: &'g Builder,
+    /// Positions.
+    pub q: Vec<Expr<'g>>,
+    /// Velocities.
+    pub v: Vec<Expr<'g>>,
+    /// Time.
+    pub t: Expr<'g>,
+    own: ActuatorEfforts,
+    /// The formulation asked for; the cheapest of each method where `None`.
+    pub(crate) asked: Option<&'static dyn Formulation>,
+    scene: &'a Scene,
+    graph: &'a BondGraph,
+    x: Vec<Expr<'g>>,
+    modes: Vec<Expr<'g>>,
+    u: Vec<Expr<'g>>,
+    /// Which element's law is at work.
+    at: usize,
+    /// On each coordinate.
+    efforts: Vec<Expr<'g>>,
+    /// The gear between a coordinate's own effort and the coordinate.
+    gears: BTreeMap<usize, LossyGear<'g>>,
+    /// Inertia of the coordinates that store their own momentum.
+    inertias: BTreeMap<usize, Expr<'g>>,
+    /// ẋ
+    rates: Vec<Expr<'g>>,
+    balances: Vec<Balance<'g>>,
+    contacts: Vec<Contact<'g>>,
+    events: BTreeMap<String, Expr<'g>>,
+    readings: Vec<Reading<'g>>,
+    conditions: Vec<Condition<'g>>,
+    shared: BTreeMap<(String, &'static str), Expr<'g>>,
+    poses: BTreeMap<SiteId, (Mat3<Expr<'g>>, Vec3<Expr<'g>>)>,
+}
+
+impl<'g, 'a> EffortSums<'g, 'a> {
+    /// No law yet, under these inputs, with the mechanism's own methods by the formulation `asked`.
+    pub(crate) fn empty(
+        b: &'g Builder,
+        scene: &'a Scene,
+        (graph, asked): (&'a BondGraph, Option<&'static dyn Formulation>),
+        own: ActuatorEfforts,
+        inputs: impl FnOnce() -> Vec<Expr<'g>>,
+    ) -> Self {
+        let layout = &scene.layout;
+        let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Expr<'g>> {
+            (0..n).map(|i| b.leaf(leaf(i))).collect()
+        };
+        let zeros = |n: usize| vec![b.zero(); n];
+        let none = Balance {
+            supplied: b.zero(),
+            stored: b.zero(),
+            dissipated: b.zero(),
+        };
+        EffortSums {
+            b,
+            q: leaves(layout.nq(), Leaf::Position),
+            v: leaves(layout.nv(), Leaf::Velocity),
+            t: b.leaf(Leaf::Time),
+            own,
+            asked,
+            scene,
+            graph,
+            x: leaves(layout.nx(), Leaf::State),
+            modes: leaves(layout.modes.len(), Leaf::Mode),
+            u: inputs(),
+            at: 0,
+            efforts: zeros(layout.nv()),
+            gears: BTreeMap::new(),
+            inertias: BTreeMap::new(),
+            rates: zeros(layout.nx()),
+            balances: vec![none; scene.elements.len()],
+            contacts: Vec::new(),
+            events: BTreeMap::new(),
+            readings: Vec::new(),
+            conditions: Vec::new(),
+            shared: BTreeMap::new(),
+            poses: BTreeMap::new(),
+        }
+    }
+
+    /// That the law of the element at this place is at work.
+    pub(crate) fn begin(&mut self, at: usize) {
+        self.at = at;
+    }
+}
+
+/// A method of the mechanism by the formulation asked for, its expressions copied; `leaf` may replace
+/// leaves.
+pub(crate) fn copied<'g>(
+    b: &'g Builder,
+    (graph, asked): (&BondGraph, Option<&'static dyn Formulation>),
+    method: Method,
+    leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Signed>,
+) -> Vec<Expr<'g>> {
+    let Some(function) = Choice::new(graph, asked).function(method) else {
+        return vec![];
+    };
+    let outputs = &function.blocks[0].outputs;
+    let copies = b.with_graph(|g| copy_into(g, &function.graph, outputs, leaf));
+    copies.into_iter().map(|e| b.ex(e)).collect()
+}

@@ -1,0 +1,216 @@
+//! What an effect's law reads.
+
+use bgdyn_runtime::Dd;
+
+use super::undeclared::undeclared;
+use super::{ActuatorEfforts, EffortSums, Port, copied};
+use crate::bond_graph::SiteId;
+use crate::declaration::Chain;
+use crate::declaration::{Element, Quantity};
+use crate::expr::{Expr, Graph, Leaf, Tangent};
+use crate::format::{Dimension, Key};
+use crate::math::{Mat3, Vec3};
+use crate::method::Method;
+use crate::scene::Level;
+
+impl<'g, 'a> EffortSums<'g, 'a> {
+    /// Whether the limits of drives act: not where the coordinates' own efforts are sought.
+    pub fn limited(&self) -> bool {
+        self.own == ActuatorEfforts::FromInputs
+    }
+
+    /// The number behind a key; 0 where the file does not give it.
+    ///
+    /// # Panics
+    /// Where the element's effect does not declare the key.
+    pub fn number(&self, element: &Element, key: &Key) -> Expr<'g> {
+        self.optional(element, key).unwrap_or(self.b.zero())
+    }
+
+    /// The number behind a key; `None` where the file does not give it.
+    ///
+    /// # Panics
+    /// Where the element's effect does not declare the key.
+    pub fn optional(&self, element: &Element, key: &Key) -> Option<Expr<'g>> {
+        if !element.effect.keys().iter().any(|k| k.name == key.name) {
+            undeclared(element, "key", key.name);
+        }
+        element.quantity(key.name).map(|q| self.quantity(q))
+    }
+
+    /// A number as an expression.
+    pub fn quantity(&self, quantity: &Quantity) -> Expr<'g> {
+        let index = quantity.parameter.as_ref().and_then(|name| {
+            let parameters = self.scene.parameters.iter();
+            parameters.clone().position(|p| p.name == *name)
+        });
+        match index {
+            Some(p) => self.b.leaf(Leaf::Parameter(p)),
+            None => self.b.constant(quantity.value),
+        }
+    }
+
+    /// The first-order state with this name.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares it.
+    pub fn state(&self, name: &str) -> Expr<'g> {
+        self.x[self.part("state", &self.scene.layout.states, name)]
+    }
+
+    /// The mode with this name.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares it.
+    pub fn mode(&self, name: &str) -> Expr<'g> {
+        self.modes[self.part("mode", &self.scene.layout.modes, name)]
+    }
+
+    /// The input with this name.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares it.
+    pub fn input(&self, name: &str) -> Expr<'g> {
+        self.u[self.part("input", &self.scene.layout.inputs, name)]
+    }
+
+    /// A reference's place, rate or acceleration; 0 without one.
+    ///
+    /// # Panics
+    /// Where no effect of the scene declares the reference up to this level.
+    pub fn reference(&self, name: Option<&str>, level: Level) -> Expr<'g> {
+        name.map_or(self.b.zero(), |name| self.input(&level.name(name)))
+    }
+
+    /// The velocity of the coordinate that the element itself adds.
+    ///
+    /// # Panics
+    /// Where it adds none.
+    pub fn own_velocity(&self, element: &Element) -> Expr<'g> {
+        self.v[self.coordinate_index(&element.name)]
+    }
+
+    /// Where the element acts: on its `joint`, or along the line between its two places.
+    ///
+    /// # Panics
+    /// Where it has neither, or one that the scene does not have.
+    pub fn port(&mut self, element: &Element) -> Port<'g> {
+        match (element.name("joint"), element.names("between")) {
+            (Some(joint), _) => self.coordinate(joint),
+            (None, Some([a, b])) => self.line(self.site(a), self.site(b)),
+            (None, None) => undeclared(element, "value of the keys", "joint, between"),
+        }
+    }
+
+    /// SI units of place, rate and effort where the element acts: those of its `joint`, or of a
+    /// length.
+    pub fn port_units(&self, element: &Element) -> [&'static str; 3] {
+        let layout = &self.scene.layout;
+        let joint = element
+            .name("joint")
+            .and_then(|j| layout.coordinate_named(j));
+        let length = [Dimension::Length, Dimension::Speed, Dimension::Force];
+        joint
+            .map_or(length, |j| layout.coordinates[j].dimensions)
+            .map(Dimension::si)
+    }
+
+    /// The place with this name.
+    ///
+    /// # Panics
+    /// Where no link or frame has the name.
+    pub fn site(&self, name: &str) -> SiteId {
+        let found = self.graph.sites.iter().position(|s| s.name == name);
+        SiteId(found.unwrap_or_else(|| undeclared(self.element_at_work(), "site", name)))
+    }
+
+    /// A coordinate as a port.
+    ///
+    /// # Panics
+    /// Where the scene has no coordinate with this name.
+    pub fn coordinate(&self, name: &str) -> Port<'g> {
+        let j = self.coordinate_index(name);
+        Port {
+            displacement: self.q.get(j).copied().unwrap_or(self.b.zero()),
+            rate: self.v[j],
+            transformers: vec![(j, self.b.number(1.0))],
+        }
+    }
+
+    /// The distance of two places as a port: s = |r_b − r_a|, ∂s/∂q_j = n · (∂r_b/∂q_j − ∂r_a/∂q_j)
+    /// with the unit vector n from a to b.
+    pub fn line(&mut self, a: SiteId, b: SiteId) -> Port<'g> {
+        let apart = self.pose(b).1 - self.pose(a).1;
+        let length = apart.dot(apart).sqrt();
+        let mut port = Port {
+            displacement: length,
+            rate: self.b.zero(),
+            transformers: vec![],
+        };
+        for j in 0..self.graph.coordinates.len() {
+            let slope = apart.map(|x| self.slope(x, j));
+            let transformer = apart.dot(slope) / length;
+            if !transformer.is_zero() {
+                port.rate = port.rate + transformer * self.v[j];
+                port.transformers.push((j, transformer));
+            }
+        }
+        port
+    }
+
+    /// ∂x/∂q_j
+    pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
+        let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| g.constant(Dd::ONE));
+        let x = x.expr();
+        let slope = self.b.with_graph(|g| Tangent::new(seed).of(g, x));
+        self.b.ex(slope)
+    }
+
+    /// Axes and origin of a place in the world.
+    pub fn pose(&mut self, site: SiteId) -> (Mat3<Expr<'g>>, Vec3<Expr<'g>>) {
+        if let Some(pose) = self.poses.get(&site) {
+            return *pose;
+        }
+        let p = self.method(Method::Pose(site));
+        let pose = (
+            Mat3([[p[0], p[1], p[2]], [p[3], p[4], p[5]], [p[6], p[7], p[8]]]),
+            Vec3([p[9], p[10], p[11]]),
+        );
+        self.poses.insert(site, pose);
+        pose
+    }
+
+    /// Jacobian of a place, world axes: a column (angular part first) per joint.
+    pub fn jacobian(&mut self, site: SiteId) -> Vec<[Expr<'g>; 6]> {
+        let n = self.graph.coordinates.len();
+        let rows = self.method(Method::Jacobian(site));
+        (0..n)
+            .map(|j| std::array::from_fn(|i| rows[i * n + j]))
+            .collect()
+    }
+
+    /// Energy of the weights, if anything weighs.
+    pub fn potential_energy(&self) -> Vec<Expr<'g>> {
+        self.method(Method::PotentialEnergy)
+    }
+
+    /// A method of the mechanism, its expressions copied into this graph.
+    pub(crate) fn method(&self, method: Method) -> Vec<Expr<'g>> {
+        copied(self.b, (self.graph, self.asked), method, |_, _| None)
+    }
+
+    /// What an earlier element gave.
+    pub fn shared(&self, node: &str, what: &'static str) -> Option<Expr<'g>> {
+        self.shared.get(&(node.to_owned(), what)).copied()
+    }
+
+    /// The scene's elements, for those that have to know of each other.
+    pub fn elements(&self) -> &'a [Element] {
+        &self.scene.elements
+    }
+
+    /// Elements in series.
+    pub fn chains(&self) -> &'a [Chain] {
+        &self.scene.chains
+    }
+}

@@ -1,0 +1,168 @@
+//! What the scene's functions read of the sums.
+
+use bgdyn_runtime::Dd;
+
+use super::{ActuatorEfforts, Balance, Condition, Contact, EffortSums, Hold, Reading};
+use crate::expr::{Expr, Leaf};
+
+impl<'g> EffortSums<'g, '_> {
+    /// An expression's value at the start, run-time parameters at their defaults.
+    pub(crate) fn at_start(&self, x: Expr<'g>, initial: &crate::scene::Initial) -> Dd {
+        use bgdyn_runtime::Scalar as _;
+        let inputs = crate::expr::Inputs {
+            q: initial.q.clone(),
+            v: initial.v.clone(),
+            a: vec![],
+            x: initial.x.clone(),
+            u: vec![Dd::ZERO; self.u.len()],
+            modes: initial.modes.clone(),
+            parameters: self.scene.parameters.iter().map(|p| p.default).collect(),
+            t: Some(Dd::ZERO),
+            passed: vec![],
+        };
+        let x = x.expr();
+        let mut refused = Dd::none_refused();
+        let values = self
+            .b
+            .with_graph(|g| crate::expr::evaluate(g, &[x], &inputs, &mut refused));
+        values[0]
+    }
+
+    /// Own efforts of the coordinates that are inputs.
+    pub(crate) fn own_effort(&self, j: usize) -> Expr<'g> {
+        let parts = self.scene.layout.inputs.iter().zip(&self.u);
+        let own = parts.filter(|(part, _)| part.drives == Some(j));
+        own.fold(self.b.zero(), |sum, (_, &u)| sum + u)
+    }
+
+    /// Own effort of a coordinate before its gear. A voltage goes through its motor's law.
+    pub(super) fn before_the_gear(&self, j: usize) -> Expr<'g> {
+        let (stored, everywhere) = (
+            self.scene.layout.coordinates[j].stored,
+            self.own == ActuatorEfforts::Each,
+        );
+        match (everywhere, stored) {
+            (true, _) => self.b.leaf(Leaf::Acceleration(j)),
+            (false, true) => self.own_effort(j),
+            (false, false) => self.b.zero(),
+        }
+    }
+
+    /// Own effort of a coordinate behind its gear.
+    pub(crate) fn drive(&self, j: usize) -> Expr<'g> {
+        let own = self.before_the_gear(j);
+        let gear = self.gears.get(&j);
+        gear.map_or(own, |gear| gear.behind(self.b, own))
+    }
+
+    /// The own effort that gives `effort` behind the coordinate's gear.
+    pub(crate) fn before_gear(&self, j: usize, effort: Expr<'g>) -> Expr<'g> {
+        let gear = self.gears.get(&j);
+        gear.map_or(effort, |gear| gear.before(self.b, effort))
+    }
+
+    /// Effort on a coordinate by everything but its store, its own input included.
+    pub(crate) fn effort(&self, j: usize) -> Expr<'g> {
+        self.efforts[j] + self.drive(j)
+    }
+
+    /// Whether an expression depends on any position.
+    pub(crate) fn reads_positions(&self, x: Expr<'g>) -> bool {
+        !self.positions_of(x).is_empty()
+    }
+
+    /// The positions that an expression depends on.
+    pub(crate) fn positions_of(&self, x: Expr<'g>) -> Vec<usize> {
+        let x = x.expr();
+        self.b.with_graph(|g| {
+            let needed = crate::expr::reachable(g, &[x]);
+            let needed = (0..g.len()).filter(|&i| needed[i]);
+            let position = |i| match g.node(crate::expr::NodeId(i as u32)) {
+                crate::expr::Node::Leaf(Leaf::Position(j)) => Some(*j),
+                _ => None,
+            };
+            needed.filter_map(position).collect()
+        })
+    }
+
+    /// Inertia of a coordinate with a store of its own.
+    pub(crate) fn inertia_of(&self, j: usize) -> Option<Expr<'g>> {
+        self.inertias.get(&j).copied()
+    }
+
+    pub(crate) fn rates(&self) -> &[Expr<'g>] {
+        &self.rates
+    }
+
+    pub(crate) fn states(&self) -> &[Expr<'g>] {
+        &self.x
+    }
+
+    pub(crate) fn mode_at(&self, k: usize) -> Expr<'g> {
+        self.modes[k]
+    }
+
+    pub(crate) fn inputs(&self) -> &[Expr<'g>] {
+        &self.u
+    }
+
+    pub(crate) fn contacts(&self) -> &[Contact<'g>] {
+        &self.contacts
+    }
+
+    /// What is left until a contact gives way, where its coordinate is held with this effort;
+    /// negative beyond. Frictions that hold the same coordinate share the effort: they give way
+    /// together, where it is more than the sum of their limits.
+    pub(crate) fn margin(&self, contact: &Contact<'g>, holding: Expr<'g>) -> Expr<'g> {
+        let ranges = match contact.hold {
+            Hold::Lowers => return -holding,
+            Hold::Raises => return holding,
+            Hold::Within(_) | Hold::Between(_) => self.ranges_with(contact),
+        };
+        if let (Hold::Within(limit), [_]) = (contact.hold, &ranges[..]) {
+            return limit - holding.abs();
+        }
+        let none = [self.b.zero(); 2];
+        let [least, most] = ranges
+            .into_iter()
+            .fold(none, |sum, range| [sum[0] + range[0], sum[1] + range[1]]);
+        (holding - least).min(most - holding)
+    }
+
+    /// The efforts that a friction and the others that hold its coordinate now can hold with.
+    fn ranges_with(&self, contact: &Contact<'g>) -> Vec<[Expr<'g>; 2]> {
+        let (half, zero) = (self.b.number(0.5), self.b.zero());
+        let beside = |c: &&Contact<'g>| c.coordinate == contact.coordinate;
+        let all = self.contacts.iter().filter(beside);
+        let range = |c: &Contact<'g>| {
+            let range = c.hold.range()?;
+            let mode = self.modes[c.mode];
+            let now = |effort| mode.abs().if_less(half, effort, zero);
+            Some(match c.mode == contact.mode {
+                true => range,
+                false => range.map(now),
+            })
+        };
+        all.filter_map(range).collect()
+    }
+
+    pub(crate) fn balance_of(&mut self, element: usize) -> &mut Balance<'g> {
+        &mut self.balances[element]
+    }
+
+    pub(crate) fn balances(&self) -> &[Balance<'g>] {
+        &self.balances
+    }
+
+    pub(crate) fn event_named(&self, name: &str) -> Option<Expr<'g>> {
+        self.events.get(name).copied()
+    }
+
+    pub(crate) fn conditions(&self) -> &[Condition<'g>] {
+        &self.conditions
+    }
+
+    pub(crate) fn readings(&self) -> &[Reading<'g>] {
+        &self.readings
+    }
+}

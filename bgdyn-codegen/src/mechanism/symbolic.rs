@@ -1,0 +1,231 @@
+//! A mechanism with symbols in place of its numbers, for equations that people read.
+
+use bgdyn_runtime::Dd;
+
+use super::{
+    CoordinateId, Inertial, Joint, Limits, Link, LinkId, Mechanism, Pose, Tensor, Value, joint,
+};
+use crate::math::Vec3;
+
+/// A letter for a number of the spec: m₂, l₁, Jzz₃.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NumberSymbol {
+    /// `m` mass, `c` place of the centre of mass, `J` entry of the tensor about it, `l` displacement
+    /// of a joint in its parent's axes; a run-time parameter's own name.
+    pub symbol: String,
+    /// Which component: `x`, `zz`; empty where there is only one.
+    pub component: &'static str,
+    /// Of which link, counted from 1 in the order of [`Mechanism::links`]; of a displacement the
+    /// link it is measured on, with the link it leads to where several hang on that one.
+    pub of: Vec<usize>,
+    /// In words: whose, and along which axis.
+    pub meaning: String,
+    /// The spec's value in SI units. Places are counted along the axis that makes it positive.
+    pub value: Dd,
+    /// Its powers of kilogram, metre and second.
+    pub dimension: [i32; 3],
+    /// Whether it is a run-time parameter, which has a name of its own.
+    pub run_time: bool,
+}
+
+/// A mechanism whose inertial numbers are run-time parameters, and whose joints' displacements are
+/// coordinates of massless carriers. Every number that its equations then hold is a direction.
+#[derive(Clone, Debug)]
+pub struct SymbolicMechanism {
+    /// It. Its own coordinates come first, then the displacements.
+    pub mechanism: Mechanism,
+    /// The letters. A mechanism's run-time parameters come first.
+    pub letters: Vec<NumberSymbol>,
+    /// For each of its parameters the letter, and whether it stands for the letter's opposite.
+    pub parameters: Vec<(usize, bool)>,
+    /// For each coordinate beyond the mechanism's own the letter of the displacement.
+    pub lengths: Vec<usize>,
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+const ENTRIES: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
+const MASS: [i32; 3] = [1, 0, 0];
+const LENGTH: [i32; 3] = [0, 1, 0];
+const INERTIA: [i32; 3] = [1, 2, 0];
+
+impl Mechanism {
+    /// The same mechanism with letters for masses, centres of mass, tensors and the displacements
+    /// between joints. The base's place stays as it is: no effort depends on it.
+    pub fn symbolic(&self) -> SymbolicMechanism {
+        let mut all = SymbolicMechanism {
+            mechanism: self.clone(),
+            letters: Vec::new(),
+            parameters: Vec::new(),
+            lengths: Vec::new(),
+        };
+        all.mechanism.links.clear();
+        for (p, parameter) in self.parameters.iter().enumerate() {
+            all.letters.push(NumberSymbol {
+                symbol: parameter.name.clone(),
+                component: "",
+                of: Vec::new(),
+                meaning: format!("{}, a run-time parameter", parameter.meaning),
+                value: parameter.default,
+                dimension: match parameter.unit {
+                    "kg" => MASS,
+                    "m" => LENGTH,
+                    _ => INERTIA,
+                },
+                run_time: true,
+            });
+            all.parameters.push((p, false));
+        }
+        let mut places = Vec::new();
+        for (i, link) in self.links.iter().enumerate() {
+            let parent = link.parent.map(|p| (p, places[p.0]));
+            let carrier = parent.map(|(p, place)| all.displace(self, i, p, place));
+            let mut copy = link.clone();
+            copy.parent = carrier;
+            if carrier.is_some() {
+                copy.joint.origin.translation = Vec3([Dd::ZERO; 3]);
+            }
+            all.letter_body((i, link.name.as_str()), &mut copy.inertial);
+            let place = LinkId(all.mechanism.links.len());
+            if let Some(j) = copy.joint.coordinate {
+                all.mechanism.coordinates[j.0] = place;
+            }
+            all.mechanism.links.push(copy);
+            places.push(place);
+        }
+        for frame in &mut all.mechanism.frames {
+            frame.link = frame.link.map(|l| places[l.0]);
+        }
+        all
+    }
+}
+
+impl SymbolicMechanism {
+    /// Massless carriers from the parent's axes to the joint of link i: one slide for each component
+    /// of the displacement that is not zero. Gives the last one.
+    fn displace(&mut self, from: &Mechanism, i: usize, parent: LinkId, place: LinkId) -> LinkId {
+        let offsets = |l: &Link| l.joint.origin.translation.0.map(|x| x != Dd::ZERO);
+        let beside = from.links.iter().filter(|l| l.parent == Some(parent));
+        let several = beside.filter(|l| offsets(l).contains(&true)).count() > 1;
+        let of = if several {
+            vec![parent.0 + 1, i + 1]
+        } else {
+            vec![parent.0 + 1]
+        };
+        let step = from.links[i].joint.origin.translation;
+        let mut last = place;
+        for axis in 0..3 {
+            if step.0[axis] == Dd::ZERO {
+                continue;
+            }
+            let opposite = step.0[axis] < Dd::ZERO;
+            let (joint, parent) = (&from.links[i].joint.name, &from.links[parent.0].name);
+            let along = along(axis, opposite);
+            self.letters.push(NumberSymbol {
+                symbol: "l".into(),
+                component: component(step, axis),
+                of: of.clone(),
+                meaning: format!("from the axes of {parent} to {joint}, along {along}"),
+                value: step.0[axis].abs(),
+                dimension: LENGTH,
+                run_time: false,
+            });
+            self.lengths.push(self.letters.len() - 1);
+            let mut direction = Vec3([Dd::ZERO; 3]);
+            direction.0[axis] = if opposite { -Dd::ONE } else { Dd::ONE };
+            last = self.slide(last, direction);
+        }
+        last
+    }
+
+    /// A massless link that slides along `axis` of `parent`.
+    fn slide(&mut self, parent: LinkId, axis: Vec3<Dd>) -> LinkId {
+        let zero = Value::Fixed(Dd::ZERO);
+        let place = LinkId(self.mechanism.links.len());
+        let coordinate = CoordinateId(self.mechanism.coordinates.len());
+        let name = format!("displacement {}", coordinate.0);
+        self.mechanism.coordinates.push(place);
+        self.mechanism.links.push(Link {
+            name: name.clone(),
+            label: None,
+            parent: Some(parent),
+            joint: Joint {
+                name,
+                label: None,
+                kind: joint::prismatic(),
+                axis,
+                origin: Pose::IDENTITY,
+                limits: Limits::default(),
+                coordinate: Some(coordinate),
+            },
+            inertial: Inertial {
+                mass: zero,
+                com: Vec3([zero; 3]),
+                inertia: Tensor {
+                    entries: [zero; 6],
+                    axes: Pose::IDENTITY.rotation,
+                },
+            },
+        });
+        place
+    }
+
+    /// Letters for the numbers of a link's body.
+    fn letter_body(&mut self, link: (usize, &str), inertial: &mut Inertial) {
+        let (i, name) = link;
+        let plain = |symbol: &str, component, meaning, dimension| NumberSymbol {
+            symbol: symbol.into(),
+            component,
+            of: vec![i + 1],
+            meaning,
+            value: Dd::ZERO,
+            dimension,
+            run_time: false,
+        };
+        let mass = plain("m", "", format!("mass of {name}"), MASS);
+        inertial.mass = self.letter(inertial.mass, mass);
+        let numbers = inertial.com.map(|c| match c {
+            Value::Fixed(x) => x,
+            // A parameter may become anything: the others are not alone.
+            Value::Parameter(_) => Dd::ONE,
+        });
+        for axis in 0..3 {
+            let along = along(axis, numbers.0[axis] < Dd::ZERO);
+            let meaning = format!("centre of mass of {name}, along {along}");
+            let letter = plain("c", component(numbers, axis), meaning, LENGTH);
+            inertial.com.0[axis] = self.letter(inertial.com.0[axis], letter);
+        }
+        for (entry, component) in inertial.inertia.entries.iter_mut().zip(ENTRIES) {
+            let meaning = format!("inertia of {name} about its centre of mass, {component}");
+            *entry = self.letter(*entry, plain("J", component, meaning, INERTIA));
+        }
+    }
+
+    /// A letter for a number that is neither zero nor a run-time parameter already.
+    fn letter(&mut self, value: Value, mut letter: NumberSymbol) -> Value {
+        let Value::Fixed(x) = value else {
+            return value;
+        };
+        if x == Dd::ZERO {
+            return value;
+        }
+        // Products of inertia keep their sign: nobody measures them along an axis.
+        let opposite = x < Dd::ZERO && letter.dimension == LENGTH;
+        letter.value = if opposite { -x } else { x };
+        self.letters.push(letter);
+        self.parameters.push((self.letters.len() - 1, opposite));
+        let name = format!("parameter {}", self.parameters.len());
+        self.mechanism.parameter(&name, String::new(), x, "")
+    }
+}
+
+/// An axis with its direction: `x`, `−x`.
+fn along(axis: usize, opposite: bool) -> String {
+    let sign = if opposite { "−" } else { "" };
+    format!("{sign}{}", AXES[axis])
+}
+
+/// The name of a vector's component: none where it is the only one.
+fn component(v: Vec3<Dd>, axis: usize) -> &'static str {
+    let several = v.0.iter().filter(|&&x| x != Dd::ZERO).count() > 1;
+    if several { AXES[axis] } else { "" }
+}

@@ -1,0 +1,108 @@
+//! The functions of a scene: what each of them computes.
+
+/// What a function of a scene is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SceneFunction {
+    /// v̇ and ẋ.
+    Derivative,
+    /// Efforts at the coordinates behind given accelerations.
+    Inverse,
+    /// The inputs that the scene itself drives.
+    Inputs,
+    /// Values whose fall through zero is an event.
+    Events,
+    /// Slip, its acceleration, holding effort and limit of each mode.
+    Contacts,
+    /// Power supplied, stored and dissipated by each effect.
+    Power,
+    /// Energy stored by each effect.
+    Energy,
+    /// The outputs asked for.
+    Outputs,
+    /// ∂ẏ/∂y and ∂ẏ/∂t, the inputs that the scene drives included: without the rows of q̇, column by
+    /// column.
+    Jacobian,
+    /// Momenta of a state.
+    ToCanonical,
+    /// Velocities of momenta.
+    FromCanonical,
+    /// q̇, ṗ and ẋ at momenta, the inputs that the scene drives included.
+    CanonicalRates,
+}
+
+impl SceneFunction {
+    /// Every role.
+    pub const ALL: [SceneFunction; 12] = [
+        SceneFunction::Derivative,
+        SceneFunction::Inverse,
+        SceneFunction::Inputs,
+        SceneFunction::Events,
+        SceneFunction::Contacts,
+        SceneFunction::Power,
+        SceneFunction::Energy,
+        SceneFunction::Outputs,
+        SceneFunction::Jacobian,
+        SceneFunction::ToCanonical,
+        SceneFunction::FromCanonical,
+        SceneFunction::CanonicalRates,
+    ];
+
+    /// Those of the canonical form.
+    pub const CANONICAL: [SceneFunction; 3] = [
+        SceneFunction::ToCanonical,
+        SceneFunction::FromCanonical,
+        SceneFunction::CanonicalRates,
+    ];
+
+    /// The method's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            SceneFunction::Derivative => "derivative",
+            SceneFunction::Inverse => "inverse",
+            SceneFunction::Inputs => "input",
+            SceneFunction::Events => "events",
+            SceneFunction::Contacts => "contacts",
+            SceneFunction::Power => "power",
+            SceneFunction::Energy => "energy",
+            SceneFunction::Outputs => "output",
+            SceneFunction::Jacobian => "jacobian",
+            SceneFunction::ToCanonical => "to_canonical",
+            SceneFunction::FromCanonical => "from_canonical",
+            SceneFunction::CanonicalRates => "canonical_rates",
+        }
+    }
+
+    /// What the result is: one line of documentation.
+    pub fn summary(self) -> &'static str {
+        match self {
+            SceneFunction::Derivative => {
+                "Rates of the state: accelerations, and rates of first-order states."
+            }
+            SceneFunction::Inverse => {
+                "Efforts at the coordinates that produce these accelerations, as if no coordinate had an effort of its own: a force or torque at a joint, a voltage at a winding."
+            }
+            SceneFunction::Inputs => {
+                "The inputs: what the scene drives itself, and what is `given`."
+            }
+            SceneFunction::Events => "Values whose fall through zero is an event.",
+            SceneFunction::Contacts => {
+                "For each mode: slip, its acceleration, the effort that holds, the most that can hold."
+            }
+            SceneFunction::Power => {
+                "Balance of power, W: Σ supplied = Σ rate of the energy stored + Σ dissipated."
+            }
+            SceneFunction::Energy => "Energy stored, J, effect by effect.",
+            SceneFunction::Outputs => "The outputs that the scene asks for.",
+            SceneFunction::Jacobian => {
+                "(∂ẏ/∂y, ∂ẏ/∂t) of the rates under the inputs that the scene drives itself; `input` is what is `given`."
+            }
+            SceneFunction::ToCanonical => {
+                "The state with the momenta p = M v in place of the velocities: kg·m²/s for a rotation, kg·m/s for a translation, the flux linkage V·s of a winding."
+            }
+            SceneFunction::FromCanonical => "The state of momenta: v = M⁻¹ p in place of p.",
+            SceneFunction::CanonicalRates => {
+                "Rates of the state with momenta: q̇ = M⁻¹ p, ṗ and ẋ, under the inputs that the scene drives itself; `input` is what is `given`."
+            }
+        }
+    }
+}

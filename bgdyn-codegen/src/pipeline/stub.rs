@@ -1,0 +1,30 @@
+//! The module that replaces the one of a refused spec: all that a caller can name, nothing that runs.
+
+use std::path::Path;
+
+use proc_macro2::TokenStream;
+
+use crate::emit;
+use crate::files::{mechanism_of, stem as stem_of};
+use crate::format::is_scene;
+use crate::interface::{Interface, SceneInterface};
+
+/// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
+/// caller can name, nothing that runs. `load` gives the text of a scene's mechanism. Nothing where the
+/// stem cannot name a module.
+pub fn stub(
+    text: &str,
+    stem: &str,
+    output: &emit::OutputOptions,
+    load: impl FnOnce(&str) -> Result<String, String>,
+) -> Option<TokenStream> {
+    if is_scene(text) {
+        let path = mechanism_of(text).unwrap_or_default();
+        let written = load(&path).ok();
+        let of = stem_of(Path::new(&path));
+        let mechanism = written.as_deref().map(|written| (written, of.as_str()));
+        let scene = SceneInterface::guess(text, stem, mechanism);
+        return scene.map(|scene| emit::scene_stub(&scene, output));
+    }
+    Interface::guess(text, stem).map(|interface| emit::stub(&interface, output))
+}

@@ -1,0 +1,82 @@
+//! Scenes with a part of their effects, to measure what each effect costs and changes.
+
+use super::Scene;
+use super::causality::{chains, is_solvable};
+use super::check::assembled;
+use crate::declaration::{Element, ElementValue, RejectedEffects, SceneContext};
+use crate::fault::Faults;
+use crate::mechanism::Mechanism;
+
+impl Scene {
+    /// The same scene with only the effects that `keep` says, and without those that act on what
+    /// then is missing or need it. Inputs, initial values and outputs that are not there any more fall away.
+    pub fn with_effects(&self, keep: impl Fn(&Element) -> bool) -> Scene {
+        let mut elements = self.elements.clone();
+        elements.retain(|e| keep(e));
+        loop {
+            let before = elements.len();
+            let there: Vec<String> = elements.iter().map(|e| e.name.clone()).collect();
+            let missing: Vec<&String> = self
+                .elements
+                .iter()
+                .map(|e| &e.name)
+                .filter(|name| !there.contains(name))
+                .collect();
+            elements.retain(|e| !missing.iter().any(|gone| acts_on(e, gone)));
+            let left = elements.clone();
+            elements.retain(|e| stands(e, &left, &self.written.unloaded));
+            if elements.len() == before {
+                break;
+            }
+        }
+        let mut written = self.written.clone();
+        let chains = chains(&elements, &mut Faults::default());
+        let bare = Scene {
+            elements,
+            chains,
+            ..self.clone()
+        };
+        // Entries for what is gone are no faults here.
+        let laid_out = assembled(
+            bare.clone(),
+            &RejectedEffects::default(),
+            &mut Faults::default(),
+        );
+        let layout = &laid_out.layout;
+        let known_input = |name: &str| layout.inputs.iter().any(|i| i.name == name);
+        written.inputs.retain(|raw| known_input(&raw.name.value));
+        // With other efforts other modes hold: they are settled anew.
+        written.modes = Some(Vec::new());
+        let scene = Scene { written, ..bare };
+        Scene {
+            outputs: Vec::new(),
+            ..assembled(scene, &RejectedEffects::default(), &mut Faults::default())
+        }
+    }
+}
+
+/// Whether an element still has what it needs beside it: a fluid, two elements at a junction.
+fn stands(element: &Element, left: &[Element], mechanism: &Mechanism) -> bool {
+    let mut faults = Faults::default();
+    let beside = SceneContext {
+        elements: left,
+        mechanism,
+    };
+    element.effect.check_in_scene(element, &beside, &mut faults);
+    !faults.any_fault() && is_solvable(element, left)
+}
+
+/// Whether an element refers to another: to its coordinate, or to one of its nodes.
+fn acts_on(element: &Element, other: &str) -> bool {
+    let refers = |name: &String| {
+        let side = name
+            .strip_prefix(other)
+            .and_then(|rest| rest.strip_prefix('_'));
+        name == other || side.is_some_and(|side| side.len() == 1)
+    };
+    element.values.iter().any(|(_, value)| match value {
+        ElementValue::Name(name) => refers(name),
+        ElementValue::Names(names) => names.iter().any(refers),
+        ElementValue::Number(_) | ElementValue::Vector(_) | ElementValue::Words(_) => false,
+    })
+}

@@ -1,0 +1,39 @@
+//! Locks joints of a mechanism: their links are welded together at given positions.
+
+use bgdyn_runtime::Dd;
+
+use crate::math::rodrigues;
+use crate::mechanism::{Joint, Motion, Pose};
+
+/// Where a joint holds its link at a coordinate.
+pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
+    let Pose {
+        rotation,
+        translation,
+    } = joint.origin;
+    match joint.kind.motion {
+        Motion::Rotation => Pose {
+            rotation: rotation * rodrigues(joint.axis, cos_sin(at), |x| x),
+            translation,
+        },
+        Motion::Translation => Pose {
+            rotation,
+            translation: translation + rotation * joint.axis.scale(at),
+        },
+        Motion::None => joint.origin,
+    }
+}
+
+/// Cosine and sine of an angle, those of quarter turns exact.
+fn cos_sin(angle: Dd) -> (Dd, Dd) {
+    let (sin, cos) = angle.sin_cos();
+    let exact = |x: Dd| {
+        let near = Dd::from_f64(x.to_f64().round());
+        if (x - near).to_f64().abs() < 1e-28 {
+            near
+        } else {
+            x
+        }
+    };
+    (exact(cos), exact(sin))
+}

@@ -1,0 +1,165 @@
+//! Overrides of a scene's start: state variables and run-time parameters, by name.
+
+use bgdyn_runtime::Dd;
+
+use super::Scene;
+use crate::fault::{Faults, Location, unknown_name, wording};
+
+/// Something that a run can be given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    /// Its name.
+    pub name: String,
+    /// Its SI unit; nothing for a pure number.
+    pub unit: &'static str,
+    /// What it is.
+    pub kind: OverrideKind,
+}
+
+/// What kind of thing a run can be given, by its place in the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OverrideKind {
+    /// A position at the start.
+    Position(usize),
+    /// A velocity at the start.
+    Velocity(usize),
+    /// A first-order state at the start, as the scene enters it: of a fluid volume, its pressure.
+    State(usize),
+    /// A mode at the start: −1 and 1 slipping, 0 stuck.
+    Mode(usize),
+    /// A run-time parameter.
+    Parameter(usize),
+}
+
+impl OverrideKind {
+    /// Whether it is a run-time parameter, not a part of the state.
+    pub fn is_parameter(self) -> bool {
+        matches!(self, OverrideKind::Parameter(_))
+    }
+}
+
+impl Scene {
+    /// Everything that a run can be given: positions, velocities, first-order states, modes (`NAME_mode`),
+    /// run-time parameters.
+    pub fn overrides(&self) -> Vec<Override> {
+        use OverrideKind::{Mode, Parameter, Position, State, Velocity};
+        let layout = &self.layout;
+        let one = |name: &str, unit, kind| Override {
+            name: name.to_owned(),
+            unit,
+            kind,
+        };
+        let coordinates = layout.coordinates.iter().enumerate();
+        let stored = coordinates.clone().filter(|(_, c)| c.stored);
+        let positions = stored.map(|(j, c)| one(&c.name, c.dimensions[0].si(), Position(j)));
+        let velocities =
+            coordinates.map(|(j, c)| one(&c.rate_name, c.dimensions[1].si(), Velocity(j)));
+        let states = layout.states.iter().enumerate().map(|(i, part)| {
+            let dimension = part.entered.map_or(part.dimension, |e| e.dimension);
+            one(&part.name, dimension.si(), State(i))
+        });
+        let modes = layout.modes.iter().enumerate();
+        let modes = modes.map(|(i, part)| one(&format!("{}_mode", part.name), "", Mode(i)));
+        let parameters = self.parameters.iter().enumerate();
+        let parameters = parameters.map(|(i, p)| one(&p.name, p.unit, Parameter(i)));
+        positions
+            .chain(velocities)
+            .chain(states)
+            .chain(modes)
+            .chain(parameters)
+            .collect()
+    }
+
+    /// What has this name among those for which `wanted` holds.
+    ///
+    /// # Errors
+    /// With the names that there are, or the nearest one. `what` says what was looked for.
+    pub fn override_named(
+        &self,
+        what: &str,
+        name: &str,
+        wanted: impl Fn(OverrideKind) -> bool,
+    ) -> Result<Override, String> {
+        let mut all = self.overrides();
+        all.retain(|s| wanted(s.kind));
+        let found: Vec<&Override> = all.iter().filter(|s| s.name == name).collect();
+        match found.as_slice() {
+            [one] => Ok((*one).clone()),
+            [] if all.is_empty() => {
+                Err(format!("no {what} is called `{name}`: the scene has none"))
+            }
+            [] => {
+                let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
+                Err(unknown_name(what, name, &names, &names.join(", ")))
+            }
+            _ => Err(format!(
+                "`{name}` is a part of the state and a parameter: rename the parameter"
+            )),
+        }
+    }
+
+    /// The same scene with these values, SI units, in place of its file's. A drive that the file does
+    /// not place starts with its joint; modes that are not among the values are settled anew.
+    ///
+    /// # Errors
+    /// Values that a state cannot have.
+    pub fn with_overrides(&self, values: &[(Override, Dd)]) -> Result<Scene, Faults> {
+        let mut scene = self.clone();
+        let mut faults = Faults::default();
+        // What the file states of modes, it states of its own start.
+        let modes = values.iter().filter_map(|(s, _)| match s.kind {
+            OverrideKind::Mode(i) => Some(i),
+            _ => None,
+        });
+        if !values.is_empty() {
+            scene.written.modes = Some(modes.collect());
+        }
+        for (overrides, value) in values {
+            let value = *value;
+            match overrides.kind {
+                OverrideKind::Position(j) => scene.initial.q[j] = value,
+                OverrideKind::Velocity(j) => scene.initial.v[j] = value,
+                OverrideKind::Mode(i) => scene.initial.modes[i] = value,
+                OverrideKind::Parameter(i) => scene.parameters[i].default = value,
+                OverrideKind::State(i) => {
+                    scene.initial.x[i] = value;
+                    let entered = scene.layout.states[i].entered;
+                    if let Some(entered) = entered.filter(|e| value < e.least) {
+                        let with_unit = |x: Dd| format!("{} {}", x.to_f64(), overrides.unit);
+                        faults.push(wording::initial_below_least(
+                            &Location::file(),
+                            &overrides.name,
+                            (&with_unit(value), &with_unit(entered.least)),
+                            entered.way_out,
+                        ));
+                    }
+                }
+            }
+        }
+        if faults.any_fault() {
+            return Err(faults);
+        }
+        let given = |name: &str| {
+            let written = self
+                .written
+                .initial
+                .iter()
+                .any(|raw| raw.name.value == name);
+            written || values.iter().any(|(s, _)| s.name == name)
+        };
+        let layout = &self.layout;
+        for (j, c) in layout.coordinates.iter().enumerate() {
+            let with = c.starts_with.as_ref();
+            let Some(k) = with.and_then(|name| layout.coordinate_named(name)) else {
+                continue;
+            };
+            if !given(&c.name) {
+                scene.initial.q[j] = scene.initial.q[k];
+            }
+            if !given(&c.rate_name) {
+                scene.initial.v[j] = scene.initial.v[k];
+            }
+        }
+        Ok(scene)
+    }
+}

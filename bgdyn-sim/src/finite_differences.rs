@@ -1,0 +1,82 @@
+//! Jacobians of the rates by finite differences.
+
+use bgdyn_runtime::{Scalar, StateVector};
+
+use crate::ode::{Jacobian, Ode, ScalarOf};
+use crate::real::{Of, Real};
+
+/// An equation whose slopes are taken from central differences of its rates, for methods that need
+/// them where nobody derived them. They cost two evaluations per component, and two thirds of the
+/// digits are right: enough for a Rosenbrock method's stability, while its error falls with its
+/// order only as far as those digits go.
+#[derive(Clone, Copy, Debug)]
+pub struct FiniteDifferences<O>(pub O);
+
+impl<O: Ode> Ode for FiniteDifferences<O>
+where
+    ScalarOf<O>: Real,
+{
+    type State = O::State;
+    type Error = O::Error;
+
+    fn rates(&self, t: ScalarOf<O>, y: &O::State) -> Result<O::State, O::Error> {
+        self.0.rates(t, y)
+    }
+
+    fn jacobian(
+        &self,
+        t: ScalarOf<O>,
+        y: &O::State,
+    ) -> Option<Result<Jacobian<O::State>, O::Error>> {
+        Some(differences(&self.0, t, y))
+    }
+
+    fn positions(&self) -> usize {
+        self.0.positions()
+    }
+
+    fn position_rates(&self, t: ScalarOf<O>, y: &O::State) -> Result<O::State, O::Error> {
+        self.0.position_rates(t, y)
+    }
+
+    fn project(&self, y: &mut O::State) -> bool {
+        self.0.project(y)
+    }
+}
+
+/// Central differences over a step of ∛eps of a component's size.
+pub(crate) fn differences<O: Ode>(
+    ode: &O,
+    t: ScalarOf<O>,
+    y: &O::State,
+) -> Result<Jacobian<O::State>, O::Error>
+where
+    ScalarOf<O>: Real,
+{
+    let [one, half, least, third] = [1.0, 0.5, 1e-3, 1.0 / 3.0].map(ScalarOf::<O>::from_f64);
+    let small = (ScalarOf::<O>::EPSILON.ln() * third).exp();
+    // A component may be 0 now and of some size later: a part of the whole state's counts then.
+    let all = y.entries().iter().fold(small, |most, x| most.max(x.abs()));
+    let slope = |ahead: O::State, behind: &O::State, distance: Of<O::State>| {
+        ahead.plus(-one, behind).times(half / distance)
+    };
+    let n = y.entries().len();
+    let mut state = y.matrix();
+    for c in 0..n {
+        let x = y.entries()[c];
+        let distance = small * x.abs().max(least * all);
+        let mut moved = y.clone();
+        moved.entries_mut()[c] = x + distance;
+        let ahead = ode.rates(t, &moved)?;
+        moved.entries_mut()[c] = x - distance;
+        let column = slope(ahead, &ode.rates(t, &moved)?, distance);
+        O::State::columns_mut(&mut state)[c * n..(c + 1) * n].copy_from_slice(column.entries());
+    }
+    let distance = small * t.abs().max(one);
+    let time = slope(
+        ode.rates(t + distance, y)?,
+        &ode.rates(t - distance, y)?,
+        distance,
+    );
+    Ok(Jacobian { state, time })
+}

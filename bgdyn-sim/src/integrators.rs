@@ -1,0 +1,53 @@
+//! The list of integrators that a scene or a command can name.
+
+use bgdyn_runtime::StateVector;
+
+use crate::dop853::Dop853;
+use crate::dopri5::Dopri5;
+use crate::extrapolation::Extrapolation12;
+use crate::gauss::{Gauss2, Gauss3, Gauss4, Midpoint};
+use crate::integrator::Integrator;
+use crate::real::{Of, Real};
+use crate::rk4::Rk4;
+use crate::rodas4::Rodas4;
+use crate::semi_implicit_euler::SemiImplicitEuler;
+
+/// What is to be done with an integrator that is chosen by name.
+pub trait WithIntegrator<Y: StateVector> {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn with<M: Integrator<Y>>(self, integrator: M) -> Self::Output;
+}
+
+macro_rules! integrators {
+    ($($name:literal => $integrator:expr,)*) => {
+        /// Names of all integrators, in the order of the list.
+        pub const INTEGRATORS: &[&str] = &[$($name),*];
+
+        /// Does something with the integrator of this name; `None` where there is none.
+        pub fn with_integrator<Y: StateVector, W: WithIntegrator<Y>>(name: &str, what: W) -> Option<W::Output>
+        where
+            Of<Y>: Real,
+        {
+            match name {
+                $($name => Some(what.with($integrator)),)*
+                _ => None,
+            }
+        }
+    };
+}
+
+integrators! {
+    "semi_implicit_euler" => SemiImplicitEuler,
+    "rk4" => Rk4,
+    "midpoint" => Midpoint::<Of<Y>>::new(),
+    "gauss2" => Gauss2::<Of<Y>>::new(),
+    "gauss3" => Gauss3::<Of<Y>>::new(),
+    "gauss4" => Gauss4::<Of<Y>>::new(),
+    "rodas4" => Rodas4,
+    "dopri5" => Dopri5,
+    "dop853" => Dop853,
+    "extrapolation12" => Extrapolation12::default(),
+}

@@ -1,0 +1,79 @@
+//! Scalars that are one number, and the sizes of vectors of them.
+
+use bgdyn_runtime::{Dd, Scalar, StateVector};
+
+/// A scalar that is one number: what step control and iterations need to compare.
+pub trait Real: Scalar<Mask = bool> + PartialOrd {
+    /// A bound on the relative rounding error of one operation.
+    const EPSILON: Self;
+
+    /// The nearest `f64`.
+    fn to_f64(self) -> f64;
+
+    /// Whether it is neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+}
+
+impl Real for f64 {
+    const EPSILON: Self = f64::EPSILON;
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+}
+
+impl Real for f32 {
+    const EPSILON: Self = f32::EPSILON;
+
+    fn to_f64(self) -> f64 {
+        self.into()
+    }
+
+    fn is_finite(self) -> bool {
+        f32::is_finite(self)
+    }
+}
+
+impl Real for Dd {
+    const EPSILON: Self = Dd::EPSILON;
+
+    fn to_f64(self) -> f64 {
+        Dd::to_f64(self)
+    }
+
+    fn is_finite(self) -> bool {
+        Dd::is_finite(self)
+    }
+}
+
+/// The components of the vectors of `Y`.
+pub type Of<Y> = <Y as StateVector>::Scalar;
+
+/// The largest of |x|ᵢ/sᵢ; a component whose scale is 0 counts only if it is not 0 itself. NaN
+/// where a component is.
+pub(crate) fn largest<Y: StateVector>(x: &Y, scale: &Y) -> Of<Y>
+where
+    Of<Y>: Real,
+{
+    let zero = Of::<Y>::from_f64(0.0);
+    let ratios = x.entries().iter().zip(scale.entries());
+    ratios.fold(zero, |most, (&x, &s)| {
+        if x == zero {
+            most
+        } else {
+            most.max(x.abs() / s)
+        }
+    })
+}
+
+/// Whether every component is finite.
+pub(crate) fn finite<Y: StateVector>(x: &Y) -> bool
+where
+    Of<Y>: Real,
+{
+    x.entries().iter().all(|x| x.is_finite())
+}
