@@ -29,22 +29,20 @@ pub fn of_profile(text: &str, calls: usize) -> Counts {
 
 /// The counts of a file.
 pub fn of_file(text: &str) -> Result<Counts, String> {
-    let lines = text.lines().skip(1);
-    let pair = |line: &str| {
-        let (name, count) = line.split_once(',')?;
-        Some((name.to_owned(), count.parse().ok()?))
-    };
-    let read = |line: &str| pair(line).ok_or_else(|| format!("no count in the line `{line}`"));
-    lines.map(read).collect()
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let pairs = reader.deserialize::<(String, f64)>();
+    pairs.map(|pair| pair.map_err(|e| e.to_string())).collect()
 }
 
 /// The file of counts.
 pub fn file(counts: &Counts) -> String {
-    let mut text = String::from("probe,instructions\n");
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut write = |record: [&str; 2]| writer.write_record(record).expect("memory");
+    write(["probe", "instructions"]);
     for (name, count) in counts {
-        writeln!(text, "{name},{count:.3}").unwrap();
+        write([name, &format!("{count:.3}")]);
     }
-    text
+    String::from_utf8(writer.into_inner().expect("memory")).expect("names are text")
 }
 
 /// What changed by more than a thousandth, a line each, and whether anything is too much worse. A probe

@@ -1,6 +1,6 @@
 //! The cost of an effect: operations and time of `derivative` with and without it, and steps of a run.
 
-use std::fmt::{Debug, Write};
+use std::fmt::Debug;
 use std::hint::black_box;
 
 use bgdyn_runtime::HybridSystem;
@@ -12,8 +12,8 @@ use crate::clock::calls;
 use crate::configuration::RunError;
 use crate::integrate::in_short;
 use crate::priced::{Call, Priced};
-use crate::row::{fields, quoted};
 use crate::step_sequence::Effort;
+use crate::table::written;
 use crate::test_case::TestCase;
 
 /// The method by which steps are counted.
@@ -137,28 +137,32 @@ impl TestCase {
 }
 
 /// The columns, in their order.
-const COLUMNS: &str = "scene,effects,operations,ns_per_call,steps";
+const COLUMNS: [&str; 5] = ["scene", "effects", "operations", "ns_per_call", "steps"];
 
 /// Costs as CSV, with a header; each with its scene's name.
 pub fn costs_csv<'a>(costs: impl IntoIterator<Item = (&'a str, &'a Cost)>) -> String {
-    let mut text = COLUMNS.to_owned() + "\n";
-    for (scene, cost) in costs {
-        let _ = writeln!(text, "{},{}", quoted(scene), cost.line());
-    }
-    text
+    let header = COLUMNS.map(str::to_owned).to_vec();
+    let rows = costs.into_iter().map(|(scene, cost)| {
+        let scene = std::iter::once(scene.to_owned());
+        scene.chain(cost.record()).collect()
+    });
+    written(std::iter::once(header).chain(rows))
 }
 
 impl Cost {
-    /// One line of CSV, without the scene.
-    pub(crate) fn line(&self) -> String {
-        let steps = self.steps.map_or(String::new(), |n| n.to_string());
-        let effects = quoted(&self.effects);
-        format!("{effects},{},{:.3e},{steps}", self.operations, self.ns)
+    /// Its fields, without the scene.
+    pub(crate) fn record(&self) -> [String; 4] {
+        [
+            self.effects.clone(),
+            self.operations.to_string(),
+            format!("{:.3e}", self.ns),
+            self.steps.map_or(String::new(), |n| n.to_string()),
+        ]
     }
 
-    /// The cost of such a line; `None` where it is none.
-    pub(crate) fn of_line(line: &str) -> Option<Cost> {
-        let [effects, operations, ns, steps] = <[String; 4]>::try_from(fields(line)).ok()?;
+    /// The cost of such fields; `None` where they are none.
+    pub(crate) fn of_record(fields: Vec<String>) -> Option<Cost> {
+        let [effects, operations, ns, steps] = <[String; 4]>::try_from(fields).ok()?;
         Some(Cost {
             effects,
             operations: operations.parse().ok()?,

@@ -44,6 +44,7 @@ mod row;
 mod step_sequence;
 mod study;
 pub mod svg;
+mod table;
 mod test_case;
 
 pub use bgdyn_runtime::Dd;
@@ -56,7 +57,7 @@ pub use order_check::{Finding, Verdict, verdicts};
 pub use page::{Machine, page, readme};
 pub use pareto::{Choice, front, targets};
 pub use priced::{Call, Priced};
-pub use row::{Row, Status, csv};
+pub use row::{Row, Status, rows_csv};
 pub use step_sequence::Effort;
 pub use study::{Facts, Failed, Study, study};
 pub use test_case::{References, TestCase, order};

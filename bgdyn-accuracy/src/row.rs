@@ -1,8 +1,7 @@
 //! A row of `accuracy.csv`, written and read.
 
-use std::fmt::Write;
-
 use crate::configuration::StepControl;
+use crate::table::written;
 
 /// Whether a row's numbers hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,13 +52,10 @@ const COLUMNS: [&str; 9] = [
 ];
 
 /// Rows as CSV, with a header.
-pub fn csv<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
-    let mut text = COLUMNS.join(",") + "\n";
-    for row in rows {
-        text += &row.line();
-        text.push('\n');
-    }
-    text
+pub fn rows_csv<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
+    let header = COLUMNS.map(str::to_owned).to_vec();
+    let rows = rows.into_iter().map(|row| row.record().to_vec());
+    written(std::iter::once(header).chain(rows))
 }
 
 impl Row {
@@ -68,30 +64,29 @@ impl Row {
         !matches!(self.status, Status::Failed(_))
     }
 
-    /// One line of CSV.
-    pub(crate) fn line(&self) -> String {
-        let number = |x: Option<f64>, digits: usize| match x {
-            Some(x) => format!("{x:.digits$e}"),
-            None => String::new(),
-        };
+    /// Its fields, in the order of the columns.
+    pub(crate) fn record(&self) -> [String; 9] {
+        let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.3e}"));
         let status = match &self.status {
             Status::Ok => "ok".into(),
             Status::Estimated => "estimated".into(),
             Status::Failed(why) => format!("failed: {why}"),
         };
-        let mut line = String::new();
-        for text in [&self.scene, &self.effects, &self.method] {
-            let _ = write!(line, "{},", quoted(text));
-        }
-        let _ = write!(line, "{},", self.step_control);
-        let _ = write!(line, "{},{},", self.scalar, quoted(&self.formulation));
-        let (error, ns) = (number(self.error, 3), number(self.ns, 3));
-        line + &format!("{error},{ns},{}", quoted(&status))
+        [
+            self.scene.clone(),
+            self.effects.clone(),
+            self.method.clone(),
+            self.step_control.to_string(),
+            self.scalar.clone(),
+            self.formulation.clone(),
+            number(self.error),
+            number(self.ns),
+            status,
+        ]
     }
 
-    /// The row of a line of CSV; `None` where it is none.
-    pub(crate) fn of_line(line: &str) -> Option<Row> {
-        let fields = fields(line);
+    /// The row of such fields; `None` where they are none.
+    pub(crate) fn of_record(fields: Vec<String>) -> Option<Row> {
         let [
             scene,
             effects,
@@ -128,36 +123,10 @@ impl Row {
     }
 }
 
-/// A field of CSV (RFC 4180).
-pub(crate) fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.into(),
-    }
-}
-
-/// The fields of a line of CSV.
-pub(crate) fn fields(line: &str) -> Vec<String> {
-    let mut fields = vec![String::new()];
-    let (mut inside, mut characters) = (false, line.chars().peekable());
-    while let Some(c) = characters.next() {
-        let last = fields.last_mut().expect("one field at least");
-        match c {
-            '"' if inside && characters.peek() == Some(&'"') => {
-                characters.next();
-                last.push('"');
-            }
-            '"' => inside = !inside,
-            ',' if !inside => fields.push(String::new()),
-            c => last.push(c),
-        }
-    }
-    fields
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::records;
 
     fn row() -> Row {
         Row {
@@ -175,7 +144,7 @@ mod tests {
 
     #[test]
     fn columns_are_those_of_the_file() {
-        let text = csv([&row()]);
+        let text = rows_csv([&row()]);
         let lines: Vec<&str> = text.lines().collect();
         let header =
             "scene,effects,method,step_or_tol,scalar,formulation,error,ns_per_simulated_ms,status";
@@ -187,17 +156,19 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_read_as_they_were_written() {
+    fn rows_are_read_as_they_were_written() {
         let failed = Row {
             step_control: StepControl::Tolerance(1e-6),
             error: None,
             ns: None,
-            status: Status::Failed("no accelerations (\"turn\", 3) at 0 s".into()),
+            status: Status::Failed("no accelerations (\"turn\", 3),\nat 0 s".into()),
             ..row()
         };
-        for row in [row(), failed] {
-            assert_eq!(Row::of_line(&row.line()), Some(row));
-        }
-        assert_eq!(Row::of_line("arm,all,rk4"), None);
+        let rows = [row(), failed];
+        let text = rows_csv(&rows);
+        let read: Option<Vec<Row>> = records(&text).skip(1).map(Row::of_record).collect();
+        assert_eq!(read.as_deref(), Some(&rows[..]));
+        let short = ["arm", "all", "rk4"].map(str::to_owned).to_vec();
+        assert_eq!(Row::of_record(short), None);
     }
 }

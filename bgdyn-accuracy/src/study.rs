@@ -8,6 +8,7 @@ use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
 use crate::row::{Row, Status};
 use crate::step_sequence::{Effort, ErrorScale, Trial, step_sequence};
+use crate::table::{records, written};
 use crate::test_case::TestCase;
 
 /// What a study is about.
@@ -180,41 +181,32 @@ fn rows(scene: &str, tried: &[(&Configuration, Trial)], grid: &Grid, effort: &Ef
 }
 
 impl Study {
-    /// As text: a line of facts, one for each cost, then CSV. For programs that measure and programs that show.
+    /// As text, for programs that measure and programs that show: CSV records of facts, costs and rows, each with
+    /// its kind in front.
     pub fn write(&self) -> String {
-        let f = &self.facts;
-        let numbers = [f.end, f.size, f.floor, f.reference_error].map(|x| format!("{x:e}"));
-        let words = [&f.scene, &f.description, &f.output, &f.unit];
-        let words: Vec<&str> = words.into_iter().map(String::as_str).collect();
-        let numbers = numbers.join("\t");
-        let (samples, kinked) = (f.samples, f.kinked);
-        let rows = crate::row::csv(&self.rows);
-        let costs = self
-            .costs
-            .iter()
-            .map(|cost| format!("$\t{}\n", cost.line()));
-        let costs: String = costs.collect();
-        format!(
-            "#\t{}\t{samples}\t{kinked}\t{numbers}\n{costs}{rows}",
-            words.join("\t")
-        )
+        let record = |kind: &str, fields: &[String]| {
+            let kind = std::iter::once(kind.to_owned());
+            kind.chain(fields.iter().cloned()).collect::<Vec<_>>()
+        };
+        let facts = record(FACTS, &self.facts.record());
+        let costs = self.costs.iter().map(|cost| record(COST, &cost.record()));
+        let rows = self.rows.iter().map(|row| record(ROW, &row.record()));
+        written(std::iter::once(facts).chain(costs).chain(rows))
     }
 
     /// The studies in a text of [`Study::write`], one after the other; `None` where it is none.
     pub fn read(text: &str) -> Option<Vec<Study>> {
         let mut all: Vec<Study> = Vec::new();
-        for line in text.lines() {
-            if let Some(facts) = line.strip_prefix("#\t") {
-                let facts = Facts::of_line(facts)?;
-                all.push(Study {
-                    facts,
+        for mut fields in records(text) {
+            match fields.remove(0).as_str() {
+                FACTS => all.push(Study {
+                    facts: Facts::of_record(fields)?,
                     rows: Vec::new(),
                     costs: Vec::new(),
-                });
-            } else if let Some(cost) = line.strip_prefix("$\t") {
-                all.last_mut()?.costs.push(Cost::of_line(cost)?);
-            } else if !line.starts_with("scene,effects,") {
-                all.last_mut()?.rows.push(Row::of_line(line)?);
+                }),
+                COST => all.last_mut()?.costs.push(Cost::of_record(fields)?),
+                ROW => all.last_mut()?.rows.push(Row::of_record(fields)?),
+                _ => return None,
             }
         }
         Some(all)
@@ -226,9 +218,29 @@ impl Study {
     }
 }
 
+/// The kinds of records in the text of a study.
+const FACTS: &str = "facts";
+const COST: &str = "cost";
+const ROW: &str = "row";
+
 impl Facts {
-    fn of_line(line: &str) -> Option<Facts> {
-        let fields: Vec<&str> = line.split('\t').collect();
+    fn record(&self) -> [String; 10] {
+        let number = |x: f64| format!("{x:e}");
+        [
+            self.scene.clone(),
+            self.description.clone(),
+            self.output.clone(),
+            self.unit.clone(),
+            self.samples.to_string(),
+            self.kinked.to_string(),
+            number(self.end),
+            number(self.size),
+            number(self.floor),
+            number(self.reference_error),
+        ]
+    }
+
+    fn of_record(fields: Vec<String>) -> Option<Facts> {
         let [
             scene,
             description,
@@ -240,12 +252,12 @@ impl Facts {
             size,
             floor,
             error,
-        ] = <[&str; 10]>::try_from(fields).ok()?;
+        ] = <[String; 10]>::try_from(fields).ok()?;
         Some(Facts {
-            scene: scene.into(),
-            description: description.into(),
-            output: output.into(),
-            unit: unit.into(),
+            scene,
+            description,
+            output,
+            unit,
             end: end.parse().ok()?,
             samples: samples.parse().ok()?,
             kinked: kinked.parse().ok()?,

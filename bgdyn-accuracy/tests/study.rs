@@ -3,7 +3,7 @@
 
 use bgdyn_accuracy::{
     Configuration, Cost, CountSteps, Effort, Finding, Grid, RunError, Samples, Status, StepControl,
-    Study, TestCase, costs_csv, csv, figures, page, study, targets, verdicts,
+    Study, TestCase, costs_csv, figures, page, rows_csv, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
@@ -140,7 +140,7 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
     let why = "unstable: not finite at 0.4 s";
     assert_eq!(first.status, Status::Failed(why.into()));
     assert_eq!((first.error, first.ns), (None, None));
-    assert!(csv([first]).ends_with(&format!("failed: {why}\n")));
+    assert!(rows_csv([first]).ends_with(&format!("failed: {why}\n")));
     let drawn = figures(&study);
     assert!(drawn[0].svg.contains(">failed<"), "{}", drawn[0].svg);
 }

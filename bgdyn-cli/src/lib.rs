@@ -15,6 +15,7 @@ mod quantity;
 pub mod schema;
 pub mod simulate;
 mod spec_file;
+mod table;
 mod timing;
 mod usage;
 

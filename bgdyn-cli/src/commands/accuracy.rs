@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_accuracy::generate::variants;
 use bgdyn_accuracy::{
-    Effort, Machine, Study, costs_csv, csv, figures, page, study, targets, verdicts,
+    Effort, Machine, Study, costs_csv, figures, page, rows_csv, study, targets, verdicts,
 };
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::system::SceneEquations;
@@ -120,7 +120,7 @@ fn write(study: &Study, out: &Path) -> Result<()> {
         let path = out.join(name);
         std::fs::write(&path, text).with_context(|| format!("{} cannot be written", path.display()))
     };
-    put("accuracy.csv", &csv(&study.rows))?;
+    put("accuracy.csv", &rows_csv(&study.rows))?;
     let scene = study.facts.scene.as_str();
     let costs = study.costs.iter().map(|cost| (scene, cost));
     put("costs.csv", &costs_csv(costs))?;

@@ -10,6 +10,7 @@ use super::number::Num;
 use super::placement::{Pose, about, displaced};
 use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
 use super::xml::{At, fault};
+use crate::table::{self, TableRow};
 use anyhow::{Result, bail};
 use bgdyn_codegen::math::Vec3;
 use bgdyn_runtime::Dd;
@@ -51,16 +52,15 @@ const COLUMNS: [&str; 24] = [
     "iyz",
 ];
 
-/// One row: its cells by the names of their columns.
-struct TableRow<'a> {
-    line: u32,
-    /// Name, column of the text, text; only cells with something in them.
-    cells: Vec<(&'a str, u32, &'a str)>,
+/// A joint with its link: the cells of a row by the names of their columns.
+struct JointRow<'a> {
+    row: TableRow<'a>,
+    columns: Vec<String>,
 }
 
 /// Reads a table. `name` is the robot's, `convention` that of rows that do not say theirs.
 pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Result<Model> {
-    let rows = rows(text)?;
+    let rows = joint_rows(text)?;
     let mut model = Model {
         name: name.to_owned(),
         source: "a table of Denavit–Hartenberg parameters".into(),
@@ -110,78 +110,60 @@ fn base() -> Link {
     }
 }
 
-/// The rows below the names of the columns; empty lines and those that begin with `#` are none.
-fn rows(text: &str) -> Result<Vec<TableRow<'_>>> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let lines = (1..).zip(text.lines());
-    let mut lines = lines.filter(|(_, line)| {
-        let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    });
-    let Some((line, head)) = lines.next() else {
+/// The rows below the names of the columns.
+fn joint_rows(text: &str) -> Result<Vec<JointRow<'_>>> {
+    let mut rows = table::rows(text).into_iter();
+    let Some(head) = rows.next() else {
         bail!("1:1: the table is empty: its first line names the columns, `a, alpha, d, theta`");
     };
-    let columns: Vec<(u32, &str)> = cells(head).collect();
-    for (i, (at, column)) in columns.iter().enumerate() {
-        if !COLUMNS.contains(column) {
+    let columns = columns(&head)?;
+    let mut joints = Vec::new();
+    for row in rows {
+        let (given, wanted) = (row.cells.len(), columns.len());
+        if given > wanted {
+            let message = format!("{given} cells below {wanted} columns");
+            return Err(fault(row.position(wanted), message));
+        }
+        let columns = columns.clone();
+        joints.push(JointRow { row, columns });
+    }
+    if joints.is_empty() {
+        let line = head.line;
+        bail!("{line}:1: the table has no row below the names of its columns");
+    }
+    Ok(joints)
+}
+
+/// The names of the columns: those of [`COLUMNS`], each once, and the four numbers among them.
+fn columns(head: &TableRow<'_>) -> Result<Vec<String>> {
+    let columns = &head.cells;
+    for (i, column) in columns.iter().enumerate() {
+        if !COLUMNS.contains(&column.as_str()) {
             let (column, known) = (shown(column), COLUMNS.join(", "));
             let message = format!("there is no column `{column}`; the columns are {known}");
-            return Err(fault((line, *at), message));
+            return Err(fault(head.position(i), message));
         }
-        if columns[..i].iter().any(|(_, other)| other == column) {
-            return Err(fault(
-                (line, *at),
-                format_args!("a second column `{column}`"),
-            ));
+        if columns[..i].contains(column) {
+            let message = format_args!("a second column `{column}`");
+            return Err(fault(head.position(i), message));
         }
     }
     let missing = ["a", "alpha", "d", "theta"].into_iter();
-    let missing = missing.filter(|name| columns.iter().all(|(_, column)| column != name));
+    let missing = missing.filter(|name| columns.iter().all(|column| column != name));
     let missing: Vec<&str> = missing.collect();
     if !missing.is_empty() {
         let message = format!("columns are missing: {}", missing.join(", "));
-        return Err(fault((line, 1), message));
+        return Err(fault((head.line, 1), message));
     }
-    let rows: Result<Vec<TableRow<'_>>> = lines
-        .map(|(line, text)| {
-            let given: Vec<(u32, &str)> = cells(text).collect();
-            if given.len() > columns.len() {
-                let message = format!("{} cells below {} columns", given.len(), columns.len());
-                return Err(fault((line, given[columns.len()].0), message));
-            }
-            let cells = columns
-                .iter()
-                .zip(given)
-                .filter(|(_, (_, text))| !text.is_empty());
-            let cells = cells.map(|((_, name), (at, text))| (*name, at, text));
-            Ok(TableRow {
-                line,
-                cells: cells.collect(),
-            })
-        })
-        .collect();
-    let rows = rows?;
-    if rows.is_empty() {
-        bail!("{line}:1: the table has no row below the names of its columns");
-    }
-    Ok(rows)
+    Ok(columns.clone())
 }
 
-/// The cells of a line with the columns of the text where they begin, without quotes and spaces.
-fn cells(line: &str) -> impl Iterator<Item = (u32, &str)> {
-    let mut at = 1;
-    line.split(',').map(move |cell| {
-        let begin = cell.chars().take_while(|c| c.is_whitespace()).count() as u32;
-        let place = at + begin;
-        at += cell.chars().count() as u32 + 1;
-        (place, cell.trim().trim_matches('"').trim())
-    })
-}
-
-impl<'a> TableRow<'a> {
-    fn cell(&self, name: &str) -> Option<(At, &'a str)> {
-        let found = self.cells.iter().find(|(column, ..)| *column == name);
-        found.map(|(_, at, text)| ((self.line, *at), *text))
+impl JointRow<'_> {
+    /// A cell with something in it, and where it begins.
+    fn cell(&self, name: &str) -> Option<(At, &str)> {
+        let column = self.columns.iter().position(|column| column == name)?;
+        let text = self.row.cells.get(column).filter(|text| !text.is_empty())?;
+        Some((self.row.position(column), text))
     }
 
     /// A number; none where the cell is empty.
@@ -215,7 +197,7 @@ impl<'a> TableRow<'a> {
             None => usual.ok_or_else(|| {
                 let message = "which convention the row follows is not said: give `--convention standard` or \
                                `--convention modified`, or a column `convention`";
-                fault((self.line, 1), message)
+                fault((self.row.line, 1), message)
             }),
         }
     }
@@ -285,7 +267,7 @@ impl<'a> TableRow<'a> {
         };
         let joint = Joint {
             name: named("joint").unwrap_or_else(|| format!("joint_{number}")),
-            at: (self.line, 1),
+            at: (self.row.line, 1),
             parent: parent.to_owned(),
             child: name.clone(),
             origin: placed.placement(),
@@ -297,7 +279,7 @@ impl<'a> TableRow<'a> {
         };
         let link = Link {
             name,
-            at: (self.line, 1),
+            at: (self.row.line, 1),
             inertial: self.inertial(after)?,
             place: None,
         };

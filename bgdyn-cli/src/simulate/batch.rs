@@ -1,16 +1,18 @@
 //! Many runs of a scene, with a row of results for each.
 
-use std::fmt::Write;
+use std::iter::once;
 use std::num::NonZeroUsize;
 
 use bgdyn_codegen::system::SceneEquations;
 
 use super::batch_values::{BatchValues, Given};
+use crate::table;
+
 use super::difference::range;
 use super::plant::Evaluated;
 use super::report;
 use super::run_recorder::record_from;
-use super::run_table::{Column, Way};
+use super::run_table::{Column, Way, headed};
 
 /// The results of a run of a batch.
 pub(crate) struct RunSummary {
@@ -66,45 +68,38 @@ fn refused(faults: &bgdyn_codegen::fault::Faults) -> RunSummary {
 
 /// The runs as a table with commas.
 pub(crate) fn csv(columns: &[Column], varied: &BatchValues, told: &[RunSummary]) -> String {
-    let one = |unit: &str| {
-        if unit.is_empty() {
-            "1".to_owned()
-        } else {
-            unit.to_owned()
-        }
-    };
-    let mut text = String::from("run");
-    for quantity in &varied.quantities {
-        let _ = write!(text, ",{} [{}]", quantity.name, one(quantity.unit));
-    }
+    let mut header = vec!["run".to_owned()];
+    header.extend(varied.quantities.iter().map(|q| headed(&q.name, q.unit)));
     for column in columns {
-        for part in ["end", "min", "max"] {
-            let _ = write!(text, ",{} {part} [{}]", column.name, one(column.unit));
-        }
+        let parts = ["end", "min", "max"];
+        header.extend(parts.map(|part| headed(&format!("{} {part}", column.name), column.unit)));
     }
-    text += ",drift [1],t end [s],status,reason\n";
-    for (i, (values, run)) in varied.runs.iter().zip(told).enumerate() {
-        let _ = write!(text, "{}", i + 1);
-        for value in values {
-            let _ = write!(text, ",{value:?}");
-        }
+    header.extend(["drift [1]", "t end [s]", "status", "reason"].map(str::to_owned));
+    let runs = varied.runs.iter().zip(told).enumerate();
+    let rows = runs.map(|(i, (values, run))| {
+        let mut row = vec![(i + 1).to_string()];
+        row.extend(values.iter().map(|x| format!("{x:?}")));
         for k in 0..columns.len() {
-            for part in 0..3 {
-                text.push(',');
-                if let Some(output) = run.outputs.get(k) {
-                    let _ = write!(text, "{:?}", output[part]);
-                }
+            match run.outputs.get(k) {
+                Some(output) => row.extend(output.map(|x| format!("{x:?}"))),
+                None => row.extend([const { String::new() }; 3]),
             }
         }
-        let (status, reason) = match &run.failure {
-            None => ("ok", String::new()),
-            Some(reason) => ("failed", format!("\"{}\"", reason.replace('"', "\"\""))),
-        };
-        let drift = match run.drift.is_nan() {
+        row.push(match run.drift.is_nan() {
             true => String::new(),
             false => format!("{:?}", run.drift),
-        };
-        let _ = writeln!(text, ",{drift},{:?},{status},{reason}", run.t);
-    }
-    text
+        });
+        row.push(format!("{:?}", run.t));
+        row.push(
+            if run.failure.is_none() {
+                "ok"
+            } else {
+                "failed"
+            }
+            .to_owned(),
+        );
+        row.push(run.failure.clone().unwrap_or_default());
+        row
+    });
+    table::written(once(header).chain(rows))
 }

@@ -6,6 +6,7 @@ use bgdyn_codegen::scene::{Override, OverrideKind, Scene};
 use bgdyn_runtime::Dd;
 
 use crate::quantity::value_in;
+use crate::table::rows;
 use crate::usage::Usage;
 
 /// Runs that a batch may have.
@@ -65,31 +66,28 @@ pub(crate) fn fixed(
 
 /// Runs of a table: names of quantities in the first line, a run per further line.
 pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValues> {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| {
-        let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    });
-    let (_, header) = lines
+    let mut rows = rows(text).into_iter();
+    let header = rows
         .next()
         .ok_or_else(|| anyhow!("{shown} is empty: write names of quantities in its first line"))?;
     let mut varied = BatchValues::default();
-    for field in header.trim_start_matches('\u{feff}').split(',') {
-        let quantity = headed(scene, field.trim()).map_err(|e| anyhow!("{shown}:1: {e}"))?;
+    let line = header.line;
+    for field in &header.cells {
+        let quantity = headed(scene, field).map_err(|e| anyhow!("{shown}:{line}: {e}"))?;
         if varied.quantities.contains(&quantity) {
-            return Err(anyhow!("{shown}:1: `{}` stands there twice", quantity.name));
+            let name = &quantity.name;
+            return Err(anyhow!("{shown}:{line}: `{name}` stands there twice"));
         }
         varied.quantities.push(quantity);
     }
-    for (i, line) in lines {
-        let at = i + 1;
-        let fields: Vec<&str> = line.split(',').collect();
-        let (found, wanted) = (fields.len(), varied.quantities.len());
+    for row in rows {
+        let (at, found, wanted) = (row.line, row.cells.len(), varied.quantities.len());
         if found != wanted {
             return Err(anyhow!(
                 "{shown}:{at}: {found} values for {wanted} quantities"
             ));
         }
-        let values = fields.iter().zip(&varied.quantities).map(|(text, s)| {
+        let values = row.cells.iter().zip(&varied.quantities).map(|(text, s)| {
             let value = value_in(text, s.unit);
             let wrong = |what| anyhow!("{shown}:{at}: `{}`: {what}", s.name);
             Ok(value.map_err(wrong)?.to_f64())

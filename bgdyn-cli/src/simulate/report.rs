@@ -1,9 +1,12 @@
 //! Prints a run: the table of its points, and a summary.
 
 use std::fmt::Write;
+use std::iter::once;
 
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Digits;
+
+use crate::table;
 
 use super::run_table::{Column, Event, Record, state_columns};
 
@@ -12,24 +15,13 @@ const EVENTS: usize = 40;
 
 /// The points as a table with commas, the columns' units in its first line.
 pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
-    let mut text = String::from("t [s]");
-    for column in columns {
-        let unit = if column.unit.is_empty() {
-            "1"
-        } else {
-            column.unit
-        };
-        let _ = write!(text, ",{} [{unit}]", column.name);
-    }
-    text.push('\n');
-    for row in &record.rows {
-        let _ = write!(text, "{:?}", row.t);
-        for value in &row.values {
-            let _ = write!(text, ",{value:?}");
-        }
-        text.push('\n');
-    }
-    text
+    let heads = columns.iter().map(Column::head);
+    let header = once("t [s]".to_owned()).chain(heads).collect();
+    let rows = record.rows.iter().map(|row| {
+        let numbers = once(&row.t).chain(&row.values);
+        numbers.map(|x| format!("{x:?}")).collect()
+    });
+    table::written(once(header).chain(rows))
 }
 
 /// Steps, events, the last state and the energy's account.

@@ -15,6 +15,18 @@ pub struct Column {
     pub unit: &'static str,
 }
 
+impl Column {
+    /// What stands above it in a table: `slide [m]`.
+    pub(crate) fn head(&self) -> String {
+        headed(&self.name, self.unit)
+    }
+}
+
+/// A name with its unit, 1 for a pure number: `slide [m]`.
+pub(crate) fn headed(name: &str, unit: &str) -> String {
+    format!("{name} [{}]", if unit.is_empty() { "1" } else { unit })
+}
+
 /// The parts of a scene's state, in the order of y.
 pub(crate) fn state_columns(system: &SceneEquations) -> Vec<Column> {
     let layout = &system.scene.layout;

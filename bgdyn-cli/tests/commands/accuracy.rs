@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use super::{bgdyn, root, scratch};
+use super::{bgdyn, root, scratch, table_rows};
 
 /// Runs the command without a cargo.
 fn without_cargo(arguments: &[&str]) -> std::process::Output {
@@ -27,14 +27,13 @@ fn times_without_cargo_are_marked_as_estimates() {
     assert!(errors.contains("times are estimated from operations: cargo cannot be run"));
 
     let text = std::fs::read_to_string(&csv).expect("a table");
-    let mut lines = text.lines();
     assert_eq!(
-        lines.next(),
+        text.lines().next(),
         Some(
             "scene,effects,method,step_or_tol,scalar,formulation,error,ns_per_simulated_ms,status"
         )
     );
-    let rows: Vec<Vec<&str>> = lines.map(|l| l.split(',').collect()).collect();
+    let rows = table_rows(&text);
     assert!(rows.len() > 20, "{text}");
     assert!(rows.iter().all(|r| r[8] != "ok"), "{text}");
     let held: Vec<_> = rows.iter().filter(|r| r[8] == "estimated").collect();
@@ -46,11 +45,7 @@ fn times_without_cargo_are_marked_as_estimates() {
     assert!(text.contains("all but springs"), "{text}");
     // What each effect costs: all of them, and without each.
     let costs = std::fs::read_to_string(format!("{out}/costs.csv")).expect("a table");
-    let costs: Vec<Vec<&str>> = costs
-        .lines()
-        .skip(1)
-        .map(|l| l.split(',').collect())
-        .collect();
+    let costs = table_rows(&costs);
     assert_eq!(costs[0][1], "all");
     assert!(costs.iter().any(|c| c[1] == "all but springs"), "{costs:?}");
     let numbers = |k: usize| {

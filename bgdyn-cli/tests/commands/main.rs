@@ -76,6 +76,14 @@ impl Run {
     }
 }
 
+/// The fields of a table's rows, without its first line.
+fn table_rows(table: &str) -> Vec<Vec<String>> {
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let fields = |row: csv::StringRecord| row.iter().map(str::to_owned).collect();
+    let rows = reader.records().map(|row| fields(row.expect("a row")));
+    rows.collect()
+}
+
 /// A file of one test, by the name of the test.
 fn scratch(test: &str, file: &str, text: impl AsRef<[u8]>) -> String {
     let path: PathBuf = [env!("CARGO_TARGET_TMPDIR"), test, file].iter().collect();

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::PathBuf;
 
-use crate::{Run, bgdyn, scratch};
+use crate::{Run, bgdyn, scratch, table_rows};
 
 const BLOCK: &str = "\
 format: 1
@@ -42,11 +42,9 @@ fn block(test: &str, scene: &str, options: &[&str]) -> (Run, String) {
 }
 
 fn rows(table: &str) -> Vec<Vec<f64>> {
-    let number = |x: &str| x.parse::<f64>().expect("a number");
-    let lines = table.lines().skip(1);
-    lines
-        .map(|line| line.split(',').map(number).collect())
-        .collect()
+    let number = |x: &String| x.parse::<f64>().expect("a number");
+    let rows = table_rows(table).into_iter();
+    rows.map(|row| row.iter().map(number).collect()).collect()
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::{Run, bgdyn, scratch};
+use crate::{Run, bgdyn, scratch, table_rows};
 
 const BLOCK: &str = "\
 format: 1
@@ -38,15 +38,6 @@ fn swing(mass: f64, x: f64) -> f64 {
     x * (50.0 / mass).sqrt().cos()
 }
 
-/// The fields of a batch's table, but for the reasons.
-fn fields(table: &str) -> Vec<Vec<&str>> {
-    table
-        .lines()
-        .skip(1)
-        .map(|l| l.split(',').collect())
-        .collect()
-}
-
 fn close(text: &str, wanted: f64) {
     let found: f64 = text.parse().expect("a number");
     assert!((found - wanted).abs() < 1e-7, "{found}, not {wanted}");
@@ -64,8 +55,8 @@ fn parameters_and_the_start_are_set_by_name() {
     ];
     let (run, table) = block("many_set", &options, "swing.csv");
     run.good();
-    let last = table.lines().last().expect("rows");
-    close(last.split(',').nth(1).unwrap(), swing(3.0, -0.2));
+    let rows = table_rows(&table);
+    close(&rows[rows.len() - 1][1], swing(3.0, -0.2));
 }
 
 #[test]
@@ -113,13 +104,13 @@ fn a_grid_runs_the_same_by_any_number_of_threads() {
     assert_eq!(tables[0], tables[1]);
     assert_eq!(tables[0], tables[2]);
     assert!(tables[0].starts_with("run,slide [m],block_mass [kg],slide end [m],slide min [m]"));
-    let rows = fields(&tables[0]);
+    let rows = table_rows(&tables[0]);
     assert_eq!(rows.len(), 12);
     for (i, row) in rows.iter().enumerate() {
         let (x, mass) = (0.1 + 0.05 * (i / 4) as f64, 1.0 + (i % 4) as f64);
-        close(row[1], x);
-        close(row[2], mass);
-        close(row[3], swing(mass, x));
+        close(&row[1], x);
+        close(&row[2], mass);
+        close(&row[3], swing(mass, x));
         assert_eq!(row[11], "ok");
     }
 }
@@ -129,7 +120,7 @@ fn a_table_of_runs_keeps_those_that_fail() {
     let table = scratch(
         "many_table",
         "runs.csv",
-        "block_mass [kg],slide\n# no mass, no acceleration\n2,0.1\n0,0.1\n\n1,0.3\n",
+        "block_mass [kg],slide\n# no mass, no acceleration\n\"2\",0.1\n0,0.1\n\n1,\"0.3 m\"\n",
     );
     let (run, found) = block("many_table", &["--batch", &table], "swing_batch.csv");
     assert_eq!(run.code, Some(1));
@@ -140,10 +131,10 @@ fn a_table_of_runs_keeps_those_that_fail() {
         "{}",
         run.stdout
     );
-    let rows = fields(&found);
-    let statuses: Vec<&str> = rows.iter().map(|row| row[11]).collect();
+    let rows = table_rows(&found);
+    let statuses: Vec<&str> = rows.iter().map(|row| row[11].as_str()).collect();
     assert_eq!(statuses, ["ok", "failed", "ok"]);
-    close(rows[2][3], swing(1.0, 0.3));
+    close(&rows[2][3], swing(1.0, 0.3));
     let wrong = scratch("many_table", "wrong.csv", "slide\n0.1\n0.1,2\n");
     let (run, _) = block("many_table", &["--batch", &wrong], "swing_batch.csv");
     let told = run.bad_input();
@@ -164,9 +155,9 @@ fn chance_is_the_seeds() {
     let first = of("many_chance_1", "7");
     assert_eq!(first, of("many_chance_2", "7"));
     assert_ne!(first, of("many_chance_3", "8"));
-    for row in fields(&first) {
+    for row in table_rows(&first) {
         let x: f64 = row[1].parse().unwrap();
         assert!((-1.0..1.0).contains(&x));
-        close(row[2], swing(2.0, x));
+        close(&row[2], swing(2.0, x));
     }
 }

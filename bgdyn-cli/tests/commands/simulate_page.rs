@@ -10,7 +10,7 @@ use bgdyn_codegen::options::{Options, formulation_named};
 use bgdyn_codegen::pipeline::function;
 use serde_json::Value;
 
-use crate::{bgdyn, root, scratch};
+use crate::{bgdyn, root, scratch, table_rows};
 
 /// The page of a scene, its data, its table.
 fn page(test: &str, scene: &str, options: &[&str]) -> (String, Value, Vec<Vec<f64>>) {
@@ -22,8 +22,8 @@ fn page(test: &str, scene: &str, options: &[&str]) -> (String, Value, Vec<Vec<f6
     let stem = stem.expect("a name");
     let text = fs::read_to_string(out.join(format!("{stem}.html"))).expect("a page");
     let table = fs::read_to_string(out.join(format!("{stem}.csv"))).expect("a table");
-    let rows = table.lines().skip(1);
-    let rows = rows.map(|line| line.split(',').map(|x| x.parse().unwrap()).collect());
+    let rows = table_rows(&table).into_iter();
+    let rows = rows.map(|row| row.iter().map(|x| x.parse().unwrap()).collect());
     let start = "<script type=\"application/json\" id=\"data\">";
     let (_, rest) = text.split_once(start).expect("data");
     let (data, _) = rest.split_once("</script>").expect("its end");

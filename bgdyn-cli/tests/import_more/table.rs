@@ -163,6 +163,42 @@ fn columns_of_all_kinds_are_taken_over() {
     ));
 }
 
+/// Names in quotes may hold commas, and a row with such a cell keeps the columns of the others.
+#[test]
+fn cells_in_quotes_hold_commas() {
+    let text = "joint,link,a,alpha,d,theta\n\
+        \"turn, first\",\"arm, upper \"\"left\"\"\",0.3,\"90 deg\",0,0\n\
+        reach, fore , \"0.2\",0,0,0\n";
+    let standard = Some(Convention::Standard);
+    let made = import_table(text, "arm", standard, &Options::default()).expect("an import");
+    for note in [
+        "links `arm, upper \"left\"` → `arm_upper_left`",
+        "joints `turn, first` → `turn_first`",
+    ] {
+        assert!(made.notes.contains(&note.to_owned()), "{:?}", made.notes);
+    }
+    let plain = "joint,link,a,alpha,d,theta\n\
+        turn_first,arm_upper_left,0.3,90 deg,0,0\nreach,fore,0.2,0,0,0\n";
+    let plain = import_table(plain, "arm", standard, &Options::default()).expect("an import");
+    let labels = [
+        "    label: \"arm, upper \\\"left\\\"\"\n",
+        ", label: \"turn, first\"",
+    ];
+    let yaml = labels.iter().fold(made.yaml, |yaml, label| {
+        assert!(yaml.contains(label), "{yaml}");
+        yaml.replace(label, "")
+    });
+    assert_eq!(yaml, plain.yaml);
+    let wrong = text.replace("0.2", "far");
+    let error = import_table(&wrong, "arm", standard, &Options::default());
+    let told = error.expect_err("no number").to_string();
+    assert!(told.starts_with("3:15: `a` must be a number"), "{told}");
+    let wrong = text.replace("\"90 deg\"", "\"9,0 deg\"");
+    let error = import_table(&wrong, "arm", standard, &Options::default());
+    let told = error.expect_err("no number").to_string();
+    assert!(told.starts_with("2:41: `alpha` must be a number"), "{told}");
+}
+
 #[test]
 fn mistakes_have_their_place() {
     let cases = [

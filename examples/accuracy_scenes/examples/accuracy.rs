@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 use accuracy_scenes::TEST_CASES;
 use bgdyn_accuracy::{
-    Cost, Effort, Machine, Study, Verdict, costs_csv, csv, figures, page, readme, study, targets,
-    verdicts,
+    Cost, Effort, Machine, Study, Verdict, costs_csv, figures, page, readme, rows_csv, study,
+    targets, verdicts,
 };
 
 const USAGE: &str = "What accuracy costs in time, on scenes of the repository
@@ -133,7 +133,7 @@ fn write(studies: &[Study], out: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(out)?;
     let machine = Machine::here();
     let rows = studies.iter().flat_map(|study| &study.rows);
-    std::fs::write(out.join("accuracy.csv"), csv(rows))?;
+    std::fs::write(out.join("accuracy.csv"), rows_csv(rows))?;
     let named = |study: &'_ Study| -> Vec<(String, Cost)> {
         let all = study.costs.iter();
         all.map(|c| (study.facts.scene.clone(), c.clone()))

@@ -1,0 +1,25 @@
+//! Records as CSV text, and the other way.
+
+/// The CSV text of records, which need not have equal numbers of fields.
+pub(crate) fn written(records: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut writer = csv::WriterBuilder::new()
+        .flexible(true)
+        .from_writer(Vec::new());
+    for record in records {
+        writer.write_record(record).expect("memory");
+    }
+    String::from_utf8(writer.into_inner().expect("memory")).expect("fields are text")
+}
+
+/// The records of a CSV text.
+pub(crate) fn records(text: &str) -> impl Iterator<Item = Vec<String>> {
+    let reader = csv::ReaderBuilder::new()
+        .flexible(true)
+        .has_headers(false)
+        .from_reader(text.as_bytes());
+    let records = reader.into_records();
+    records.map(|record| {
+        let record = record.expect("text in memory");
+        record.iter().map(str::to_owned).collect()
+    })
+}
