@@ -56,7 +56,7 @@ fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
         );
         let joints = link_accelerations(&b, forward, &sums, system);
         let all = joined(system, &sums, joints).into_iter();
-        all.map(Expr::expr).collect()
+        all.map(Expr::signed).collect()
     };
     let name = format!("{}; under the scene's efforts", forward.formulation);
     Function {

@@ -55,7 +55,7 @@ impl SceneEquations {
         made: impl for<'g> FnOnce(&SceneEquations, &'g Builder) -> Vec<Expr<'g>>,
     ) -> Function {
         let b = Builder::new();
-        let outputs: Vec<Signed> = made(self, &b).into_iter().map(Expr::expr).collect();
+        let outputs: Vec<Signed> = made(self, &b).into_iter().map(Expr::signed).collect();
         self.flat(role, "scene".into(), b, outputs)
     }
 

@@ -45,7 +45,9 @@ impl SceneEquations {
             return None;
         };
         let b = Builder::from(derivative.graph.clone());
-        let mut rates: Vec<Signed> = (0..nq).map(|j| b.leaf(Leaf::Velocity(j)).signed()).collect();
+        let mut rates: Vec<Signed> = (0..nq)
+            .map(|j| b.leaf(Leaf::Velocity(j)).signed())
+            .collect();
         rates.extend(&block.outputs);
         let columns: Vec<Vec<Signed>> = leaves
             .iter()

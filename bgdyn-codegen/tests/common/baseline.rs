@@ -176,7 +176,7 @@ pub fn inverse_dynamics(mechanism: &Mechanism, moment: Moment, zero: Zero) -> (G
     let b = Builder::new();
     let outputs = {
         let efforts = efforts(&b, mechanism, moment, &regrouped(mechanism, zero));
-        efforts.into_iter().map(Expr::expr).collect()
+        efforts.into_iter().map(Expr::signed).collect()
     };
     (b.into_graph(), outputs)
 }

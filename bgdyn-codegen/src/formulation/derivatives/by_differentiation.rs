@@ -54,7 +54,10 @@ impl Formulation for Differentiated {
             // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
             let half = |e: Expr<'_>| (e * Dd::from_f64(0.5)).signed();
             let columns = derivatives(&b, &x, n, Leaf::Velocity);
-            rows(&columns).into_iter().map(|e| half(b.expr(e))).collect()
+            rows(&columns)
+                .into_iter()
+                .map(|e| half(b.expr(e)))
+                .collect()
         } else {
             let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
             outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
