@@ -18,7 +18,7 @@ pub mod column_loop;
 pub mod conditioning;
 pub mod declaration;
 pub mod effect;
-mod effort_sums;
+pub mod effort_sums;
 pub mod emit;
 pub mod expr;
 pub mod fault;

@@ -53,7 +53,7 @@ pub static EFFECTS: [&dyn Effect; 27] = [
     &hydraulic::Supply,
     &hydraulic::Tank,
     &hydraulic::Line,
-    &hydraulic::Junction,
+    &hydraulic::JunctionEffect,
     &hydraulic::Cylinder,
     &hydraulic::Orifice,
     &hydraulic::Leakage,

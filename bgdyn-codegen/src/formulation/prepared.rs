@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::recursion::geometry::{Geometry, geometry};
-use super::recursion::plan_search::Best;
+use super::recursion::plan_search::BestPlan;
 use crate::bond_graph::BondGraph;
 use crate::function::Function;
 use crate::method::Method;
@@ -41,7 +41,7 @@ pub struct Prepared<'a> {
     pub graph: &'a BondGraph,
     geometry: OnceCell<Geometry>,
     /// The cheapest plans of the recursion.
-    pub(super) plans: RefCell<BTreeMap<Method, Best>>,
+    pub(super) plans: RefCell<BTreeMap<Method, BestPlan>>,
     chosen: RefCell<BTreeMap<Method, Chosen>>,
 }
 

@@ -49,7 +49,7 @@ pub enum IntegratorName {
 
 /// What an integrator reads of a scene beside its rates.
 #[derive(Clone, Copy)]
-enum Reads {
+enum RequiredFunctions {
     /// Nothing.
     Rates,
     /// The slope ∂ẏ/∂y.
@@ -59,11 +59,11 @@ enum Reads {
 }
 
 use IntegratorName as I;
-use Reads::{Canonical, Jacobian, Rates};
+use RequiredFunctions::{Canonical, Jacobian, Rates};
 
 /// The integrators in the order of the enum: name, whether it can choose its steps by a tolerance, what
 /// it reads. A test of the command `bgdyn` compares every line with the integrator of that name.
-const TABLE: [(IntegratorName, &str, bool, Reads); 11] = [
+const TABLE: [(IntegratorName, &str, bool, RequiredFunctions); 11] = [
     (I::SemiImplicitEuler, "semi_implicit_euler", false, Rates),
     (I::Rk4, "rk4", false, Rates),
     (I::Midpoint, "midpoint", false, Jacobian),

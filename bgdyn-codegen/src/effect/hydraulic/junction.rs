@@ -10,9 +10,9 @@ use crate::effort_sums::EffortSums;
 use crate::fault::Faults;
 use crate::format::Key;
 
-pub(in crate::effect) struct Junction;
+pub(in crate::effect) struct JunctionEffect;
 
-impl EffectKind for Junction {
+impl EffectKind for JunctionEffect {
     fn keyword(&self) -> &'static str {
         "junction"
     }
@@ -52,7 +52,7 @@ impl EffectKind for Junction {
     }
 }
 
-impl Effect for Junction {
+impl Effect for JunctionEffect {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
         network.add_pressure(&element.name);
     }

@@ -27,7 +27,7 @@ mod volume;
 pub(super) use cylinder::Cylinder;
 pub(super) use fluid::Fluid;
 pub(super) use four_way_valve::FourWayValve;
-pub(super) use junction::Junction;
+pub(super) use junction::JunctionEffect;
 pub(super) use leakage::Leakage;
 pub(super) use line::Line;
 pub(super) use orifice::Orifice;

@@ -20,7 +20,7 @@ use super::geometry::Geometry;
 use super::inertia::turn_back;
 use super::mass_matrix::{Momentum, composites};
 use super::plan::Plan;
-use super::plan_search::{self, Best};
+use super::plan_search::{self, BestPlan};
 use super::plans::cheapest_plans;
 use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Expr, Graph, Signed};
@@ -74,7 +74,7 @@ impl Formulation for CommonAxes {
 /// The plans that suit the joint-by-joint way, as the composite bodies are the same; the cheapest one
 /// for this way first. `None` where there is a rotor that turns with a body: it gives momentum to
 /// some of the bodies inwards, not to all.
-fn plans(prepared: &Prepared<'_>, method: Method) -> Option<Best> {
+fn plans(prepared: &Prepared<'_>, method: Method) -> Option<BestPlan> {
     let graph = prepared.graph;
     let coupled = graph.rotors.iter().any(|r| r.carrier.is_some());
     if method != METHOD || coupled {

@@ -2,7 +2,7 @@
 
 use super::expressions::outputs;
 use super::geometry::Geometry;
-use super::plan_search::Best;
+use super::plan_search::BestPlan;
 use super::plans::best_plans;
 use super::{kinematics, plan_search};
 use crate::bond_graph::Multibody;
@@ -43,7 +43,7 @@ pub(super) fn with_plan(
     graph: &Multibody,
     geometry: &Geometry,
     method: Method,
-    best: &Best,
+    best: &BestPlan,
 ) -> Function {
     let plan = best.taken();
     let (made, outputs) = outputs(Builder::new(), graph, geometry, method, plan);

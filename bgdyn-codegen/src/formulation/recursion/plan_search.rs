@@ -27,14 +27,14 @@ pub(super) struct Tried {
 
 /// What a search has seen.
 #[derive(Clone, Default)]
-pub(in crate::formulation) struct Best {
+pub(in crate::formulation) struct BestPlan {
     /// The cheapest plans, the cheapest one first; many a choice changes no cost.
     pub(super) plans: Vec<Tried>,
     /// For each of the least costs the first plan that has it.
     steps: Vec<Tried>,
 }
 
-impl Best {
+impl BestPlan {
     fn see(&mut self, plan: &Plan, cost: Cost) {
         let tried = || Tried {
             plan: plan.clone(),
@@ -86,9 +86,9 @@ impl Best {
 }
 
 /// The cheapest plans found.
-pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> Best {
+pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
     let n = geometry.bodies.len();
-    let mut best = Best::default();
+    let mut best = BestPlan::default();
     let mut weigh = |plan: &Plan| {
         let cost = cost(plan);
         best.see(plan, cost);
@@ -122,9 +122,9 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> Best 
 
 /// The cheapest of the plans that come of trying each place of an origin and each unit of length
 /// once.
-pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> Best {
+pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
     let mut plan = start.clone();
-    let mut best = Best::default();
+    let mut best = BestPlan::default();
     let mut weigh = |plan: &Plan| {
         let cost = cost(plan);
         best.see(plan, cost);

@@ -3,7 +3,7 @@
 use super::expressions::outputs;
 use super::geometry::Geometry;
 use super::plan::Plan;
-use super::plan_search::{Best, Tried};
+use super::plan_search::{BestPlan, Tried};
 use super::{derivatives, plan_search};
 use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Cost, factored_cost};
@@ -16,7 +16,7 @@ use crate::method::Method;
 const SMALL: usize = 4;
 
 /// The cheapest plans found for a method of joints; nothing for what is derived from other methods.
-pub(super) fn best_plans(prepared: &Prepared<'_>, method: Method) -> Option<Best> {
+pub(super) fn best_plans(prepared: &Prepared<'_>, method: Method) -> Option<BestPlan> {
     match method {
         Method::ForwardDynamicsDerivatives => None,
         method if method.site().is_some() => None,
@@ -25,7 +25,7 @@ pub(super) fn best_plans(prepared: &Prepared<'_>, method: Method) -> Option<Best
 }
 
 /// The cheapest plans found, the one to be taken first.
-pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> Best {
+pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> BestPlan {
     if let Some(best) = prepared.plans.borrow().get(&method) {
         return best.clone();
     }
@@ -42,7 +42,7 @@ pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> Best {
 }
 
 /// The plans of a method with partial derivatives, which start from the cheapest plan of another one.
-fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> Best {
+fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> BestPlan {
     let graph = prepared.graph;
     let geometry = prepared.geometry();
     let start = cheapest_plans(prepared, other);
@@ -59,7 +59,7 @@ fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> Best {
 /// The plans that a whole search finds; the first one costs least after factoring. Plans that cost
 /// about the same before it differ in what it makes of them. Whether a tip's axes are turned at its
 /// centre of mass shows only there: it saves operations and costs a sum of angles.
-fn search_plans(prepared: &Prepared<'_>, method: Method) -> Best {
+fn search_plans(prepared: &Prepared<'_>, method: Method) -> BestPlan {
     let graph = prepared.graph;
     let geometry = prepared.geometry();
     let mut best = plan_search::search(geometry, |plan| cost(graph, geometry, method, plan));

@@ -21,7 +21,7 @@ use super::frames::Frames;
 use super::geometry::Geometry;
 use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use super::plan::Plan;
-use super::plan_search::{self, Best, SEARCHED};
+use super::plan_search::{self, BestPlan, SEARCHED};
 use super::plans::cheapest_plans;
 use super::{expressions, inverse_dynamics};
 use crate::bond_graph::Multibody;
@@ -129,7 +129,7 @@ fn elimination(geometry: &Geometry) -> usize {
 }
 
 impl Articulated {
-    fn search(&self, prepared: &Prepared<'_>) -> Best {
+    fn search(&self, prepared: &Prepared<'_>) -> BestPlan {
         let (graph, geometry) = (prepared.graph, prepared.geometry());
         plan_search::search(geometry, |plan| self.cost(graph, geometry, plan))
     }

@@ -30,7 +30,7 @@
 use bgdyn_runtime::Dd;
 
 use super::joint_partials::{JointContext, JointPartials, Subtree};
-use super::outboard_joint::{Entries, OutboardJoint};
+use super::outboard_joint::{OutboardJoint, PartialEntries};
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::{BodyFrame, Frames};
 use crate::formulation::recursion::motion::{Moving, Spin, motions};
@@ -65,7 +65,7 @@ pub(in crate::formulation::recursion) fn effort_derivatives<'g>(
     pass(b, frames, views, &moving, Dd::from_f64(2.0))
 }
 
-/// From the tips to the base; `factor` is that of [`super::outboard_joint::Axis`].
+/// From the tips to the base; `factor` is that of [`super::outboard_joint::JointAxis`].
 fn pass<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
@@ -179,10 +179,10 @@ impl<'g> EffortDerivatives<'g> {
         frames: &Frames<'g>,
         j: usize,
         joint: &OutboardJoint<'g>,
-        entries: Entries<'g>,
+        entries: PartialEntries<'g>,
     ) {
         let k = joint.momentum.joint;
-        let Entries { own, mut beyond } = entries;
+        let PartialEntries { own, mut beyond } = entries;
         if j != k && joint.mass(&frames.bodies[j]).as_constant().is_some() {
             beyond.1 = -own.1;
         }

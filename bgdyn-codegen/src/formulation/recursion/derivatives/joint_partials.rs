@@ -8,7 +8,7 @@
 use bgdyn_runtime::Dd;
 
 use super::composite_flow::CompositeFlow;
-use super::outboard_joint::{Axis, GroupNeighbour, OutboardJoint};
+use super::outboard_joint::{GroupNeighbour, JointAxis, OutboardJoint};
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::BodyFrame;
 use crate::formulation::recursion::inertia::turn;
@@ -28,7 +28,7 @@ pub(super) struct JointContext<'a, 'g> {
     pub moving: &'a Moving<'g>,
     /// Angular motion of the body before it, in the axes of the joint's basis.
     pub before: &'a Spin<'g>,
-    /// That of [`Axis`].
+    /// That of [`JointAxis`].
     pub factor: Dd,
     pub view: PartialsPlan,
 }
@@ -107,8 +107,8 @@ impl<'g> JointPartials<'g> {
 
 impl<'g> JointContext<'_, 'g> {
     /// The body's axes.
-    pub fn axis_of_body(&self) -> Axis<'g> {
-        Axis {
+    pub fn axis_of_body(&self) -> JointAxis<'g> {
+        JointAxis {
             spin: self.moving.own,
             a: self.moving.a_own,
             factor: self.factor,
@@ -116,8 +116,8 @@ impl<'g> JointContext<'_, 'g> {
     }
 
     /// Those of its basis.
-    pub fn axis_in_basis(&self) -> Axis<'g> {
-        Axis {
+    pub fn axis_in_basis(&self) -> JointAxis<'g> {
+        JointAxis {
             spin: self.moving.in_basis,
             a: self.moving.a_basis,
             factor: self.factor,
@@ -154,7 +154,7 @@ impl<'g> JointContext<'_, 'g> {
         let (after, momentum) = self.joined(carried, outer);
         let before = self.before(&after, &momentum);
         let (motion, axis) = (self.frame.motion, self.axis_in_basis());
-        let seen = |axis: &Axis<'g>, spin: &Spin<'g>, whole: &CompositeFlow<'g>| {
+        let seen = |axis: &JointAxis<'g>, spin: &Spin<'g>, whole: &CompositeFlow<'g>| {
             OutboardJoint::new(self.b, motion, momentum, axis, (spin, whole), force)
         };
         let spin = &self.moving.in_basis;

@@ -32,7 +32,7 @@ pub(in crate::formulation::recursion) struct OutboardJoint<'g> {
     offset: Vec3<Expr<'g>>,
     drift: Vec3<Expr<'g>>,
     /// Entries with the last rotation passed in the group, and where its origin is from this one.
-    last: Option<(Entries<'g>, Vec3<Expr<'g>>)>,
+    last: Option<(PartialEntries<'g>, Vec3<Expr<'g>>)>,
     /// Where the forces are wanted in the axes of the body that the group ends with as well.
     met: Option<Met<'g>>,
 }
@@ -63,7 +63,7 @@ pub(in crate::formulation::recursion) struct GroupNeighbour<'g> {
 
 /// The four derivatives that tie a joint to one beyond it.
 #[derive(Clone, Copy)]
-pub(in crate::formulation::recursion) struct Entries<'g> {
+pub(in crate::formulation::recursion) struct PartialEntries<'g> {
     /// Of the joint's effort, by position and rate of the one beyond.
     pub own: (Expr<'g>, Expr<'g>),
     /// Of the effort of the one beyond, by the joint's position and rate.
@@ -71,7 +71,7 @@ pub(in crate::formulation::recursion) struct Entries<'g> {
 }
 
 /// How a joint's axis moves, in one set of axes.
-pub(in crate::formulation::recursion) struct Axis<'g> {
+pub(in crate::formulation::recursion) struct JointAxis<'g> {
     /// Motion of the body.
     pub spin: Spin<'g>,
     /// Acceleration of the origin.
@@ -80,7 +80,7 @@ pub(in crate::formulation::recursion) struct Axis<'g> {
     pub factor: Dd,
 }
 
-impl<'g> Axis<'g> {
+impl<'g> JointAxis<'g> {
     /// ω × z
     fn rate(&self, b: &'g Builder) -> Vec3<Expr<'g>> {
         let [x, y, _] = self.spin.omega.0;
@@ -100,7 +100,7 @@ impl<'g> OutboardJoint<'g> {
         b: &'g Builder,
         motion: Motion,
         momentum: Momentum<'g>,
-        axis: &Axis<'g>,
+        axis: &JointAxis<'g>,
         (spin, whole): (&Spin<'g>, &CompositeFlow<'g>),
         force: Vec3<Expr<'g>>,
     ) -> Self {
@@ -129,7 +129,7 @@ impl<'g> OutboardJoint<'g> {
     /// rate gives it the momentum h alone, which the body's ω turns, so that it takes the moment
     /// ω × h. By position it changes nothing. The dot products of [`OutboardJoint::entries`] give the
     /// changes h · z̈ + ω × h · ż and 2 h · ż + ω × h · z of the effort h · ω̇ with its swirl ω × h.
-    pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Expr<'g>>, axis: &Axis<'g>) -> Self {
+    pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Expr<'g>>, axis: &JointAxis<'g>) -> Self {
         let zero = Vec3([b.zero(); 3]);
         let half = axis.factor * Dd::from_f64(0.5);
         let whirl = axis.spin.omega.cross(h).map(|x| x * half);
@@ -185,7 +185,7 @@ impl<'g> OutboardJoint<'g> {
     /// The share in a rotation of what the next one of the group moves. The two fields differ by
     /// the translation d = z × r, which is fixed in the body with `axis` between them: it adds
     /// m d̈ to ∂F/∂q, h × d̈ + d × F to ∂M/∂q and, with ḋ, 2 m ḋ and 2 h × ḋ to those by the rate.
-    pub fn from_neighbour(b: &'g Builder, next: &GroupNeighbour<'g>, axis: &Axis<'g>) -> Self {
+    pub fn from_neighbour(b: &'g Builder, next: &GroupNeighbour<'g>, axis: &JointAxis<'g>) -> Self {
         let twice = axis.spin.omega.map(|x| x * axis.factor);
         let d = across(b, next.offset);
         let h = next.inertia.first;
@@ -239,7 +239,7 @@ impl<'g> OutboardJoint<'g> {
     }
 
     /// The same, after its entries with a joint whose axis may go on.
-    pub fn entered(self, b: &'g Builder, motion: Motion, entries: Entries<'g>) -> Self {
+    pub fn entered(self, b: &'g Builder, motion: Motion, entries: PartialEntries<'g>) -> Self {
         let here = Vec3([b.zero(); 3]);
         let last = match motion {
             Motion::Rotation => Some((entries, here)),
@@ -254,13 +254,18 @@ impl<'g> OutboardJoint<'g> {
     }
 
     /// Entries with itself.
-    pub fn diagonal(&self, frame: &BodyFrame<'g>) -> Entries<'g> {
+    pub fn diagonal(&self, frame: &BodyFrame<'g>) -> PartialEntries<'g> {
         let own = (self.by_position.along(frame), self.by_rate.along(frame));
-        Entries { own, beyond: own }
+        PartialEntries { own, beyond: own }
     }
 
     /// Entries with a joint before it, about whose origin this is.
-    pub fn entries(&self, b: &'g Builder, frame: &BodyFrame<'g>, axis: &Axis<'g>) -> Entries<'g> {
+    pub fn entries(
+        &self,
+        b: &'g Builder,
+        frame: &BodyFrame<'g>,
+        axis: &JointAxis<'g>,
+    ) -> PartialEntries<'g> {
         let (p, l) = (self.momentum.linear, self.momentum.angular);
         let (rate, second_rate) = (axis.rate(b), axis.second_rate());
         let rates = rate.map(|x| x * axis.factor);
@@ -275,12 +280,16 @@ impl<'g> OutboardJoint<'g> {
             _ => (p.dot(second_rate), p.dot(rates)),
         };
         let own = (self.by_position.along(frame), self.by_rate.along(frame));
-        Entries { own, beyond }
+        PartialEntries { own, beyond }
     }
 
     /// Entries with a rotation of the same group as the last one passed, whose field differs by
     /// the translation z × r; `None` where there was no such joint.
-    pub fn entries_from_last(&self, b: &'g Builder, axis: &Axis<'g>) -> Option<Entries<'g>> {
+    pub fn entries_from_last(
+        &self,
+        b: &'g Builder,
+        axis: &JointAxis<'g>,
+    ) -> Option<PartialEntries<'g>> {
         let (last, since) = self.last?;
         let [x, y, _] = since.0;
         let step = Vec3([-y, x, b.zero()]);
@@ -291,7 +300,7 @@ impl<'g> OutboardJoint<'g> {
         };
         let step_rate = axis.spin.omega.map(|x| x * axis.factor).cross(step);
         let p = self.momentum.linear;
-        Some(Entries {
+        Some(PartialEntries {
             own: (
                 last.own.0 + met_step.dot(by_position),
                 last.own.1 + met_step.dot(by_rate),
@@ -318,7 +327,7 @@ fn d_row<'g>(inertia: &BodyInertia<'g>, i: usize, v: Vec3<Expr<'g>>) -> Expr<'g>
 fn rotation_swirl<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
-    axis: &Axis<'g>,
+    axis: &JointAxis<'g>,
 ) -> Vec3<Expr<'g>> {
     let rate = axis.rate(b).map(|x| x * axis.factor);
     let turning = Vec3(std::array::from_fn(|i| d_row(&whole.inertia, i, rate)));
@@ -346,7 +355,7 @@ fn rotation_by_position<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
     spin: &Spin<'g>,
-    axis: &Axis<'g>,
+    axis: &JointAxis<'g>,
 ) -> BodyWrench<'g> {
     let zero = b.zero();
     let d = |i, j| whole.inertia.d(i, j);
@@ -385,7 +394,7 @@ fn rotation_by_position<'g>(
 fn translation<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
-    axis: &Axis<'g>,
+    axis: &JointAxis<'g>,
     force: Vec3<Expr<'g>>,
 ) -> (Vec3<Expr<'g>>, BodyWrench<'g>, BodyWrench<'g>) {
     let h = whole.inertia.first;
