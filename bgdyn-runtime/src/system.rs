@@ -168,6 +168,10 @@ pub trait Slope<T: Scalar>: HybridSystem<T> {
     ///
     /// # Errors
     /// As [`HybridSystem::derivative`]; also where a slope is infinite.
+    #[expect(
+        clippy::type_complexity,
+        reason = "the Jacobian, and the partial derivative with time"
+    )]
     fn slope(
         &self,
         y: &Self::State,

@@ -40,7 +40,7 @@ impl Collected {
             for &(symbol, n) in &monomial.powers {
                 match symbol {
                     Symbol::Velocity(_) | Symbol::Acceleration(_) => motion.push((symbol, n)),
-                    Symbol::NumberSymbol(l) if !letters[l].run_time => product.push((l, n)),
+                    Symbol::Letter(l) if !letters[l].run_time => product.push((l, n)),
                     _ => powers.push((symbol, n)),
                 }
             }
@@ -101,7 +101,7 @@ impl Collected {
 
 fn atom((symbol, n): (Symbol, u32)) -> (Atom, u32) {
     let atom = match symbol {
-        Symbol::NumberSymbol(l) => Atom::NumberSymbol(l),
+        Symbol::Letter(l) => Atom::Letter(l),
         Symbol::Position(j) => Atom::Position(j),
         Symbol::Velocity(j) => Atom::Velocity(j),
         Symbol::Acceleration(j) => Atom::Acceleration(j),

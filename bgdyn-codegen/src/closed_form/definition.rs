@@ -164,7 +164,7 @@ impl<'a> NamesOfSums<'a> {
             (others.copied().collect(), value)
         };
         let rest = Definition(definition.0.iter().map(rest).collect());
-        (vec![Factor::Power(Atom::NumberSymbol(g), 1)], rest)
+        (vec![Factor::Power(Atom::Letter(g), 1)], rest)
     }
 
     fn name(&mut self, primitive: &Definition) -> usize {
@@ -213,7 +213,7 @@ impl<'a> NamesOfSums<'a> {
         };
         let mut sorted = letters.to_vec();
         sorted.sort_by_key(|&(l, _)| (rank(l), l));
-        let power = |(l, n)| Factor::Power(Atom::NumberSymbol(l), n);
+        let power = |(l, n)| Factor::Power(Atom::Letter(l), n);
         sorted.into_iter().map(power).collect()
     }
 }

@@ -113,7 +113,7 @@ impl Expansion<'_> {
             Leaf::Position(j) => match self.leaves.positions[j] {
                 CoordinateForm::Angle(_) => return Err(NoClosedForm::NotTrigonometric),
                 CoordinateForm::Displacement(j) => Polynomial::symbol(Symbol::Position(j)),
-                CoordinateForm::Length(letter) => Polynomial::symbol(Symbol::NumberSymbol(letter)),
+                CoordinateForm::Length(letter) => Polynomial::symbol(Symbol::Letter(letter)),
             },
             Leaf::Velocity(j) => self.moving(j, Symbol::Velocity(j)),
             Leaf::Acceleration(j) => self.moving(j, Symbol::Acceleration(j)),

@@ -62,7 +62,7 @@ pub enum Factor {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Atom {
     /// One of [`ClosedForm::letters`].
-    NumberSymbol(usize),
+    Letter(usize),
     /// One of [`ClosedForm::constants`].
     Constant(usize),
     /// q_j
@@ -110,7 +110,7 @@ impl ClosedForm {
 fn gather(sum: &Sum, met: &mut Vec<usize>) {
     for factor in sum.iter().flat_map(|term| &term.factors) {
         match factor {
-            Factor::Power(Atom::NumberSymbol(letter), _) => met.push(*letter),
+            Factor::Power(Atom::Letter(letter), _) => met.push(*letter),
             Factor::Sum(sum) | Factor::Square(sum) => gather(sum, met),
             _ => {}
         }

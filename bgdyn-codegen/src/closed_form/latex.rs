@@ -85,7 +85,7 @@ impl Notation for Typeset<'_> {
 
     fn symbol(&self, atom: &Atom, power: u32) -> String {
         let base = match atom {
-            Atom::NumberSymbol(l) => symbol(&self.form.letters[*l]),
+            Atom::Letter(l) => symbol(&self.form.letters[*l]),
             Atom::Constant(i) => format!("a_{{{}}}", i + 1),
             Atom::Position(j) => format!("q_{{{}}}", j + 1),
             Atom::Velocity(j) => format!("\\dot{{q}}_{{{}}}", j + 1),

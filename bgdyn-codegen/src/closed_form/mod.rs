@@ -145,7 +145,7 @@ fn weigh(
     letters: &mut Vec<NumberSymbol>,
 ) -> Vec<Polynomial> {
     let letter = |&(letter, opposite): &(usize, bool)| {
-        let symbol = Polynomial::symbol(Symbol::NumberSymbol(letter));
+        let symbol = Polynomial::symbol(Symbol::Letter(letter));
         Polynomial::default().plus(&symbol, opposite)
     };
     let mut parameters: Vec<Polynomial> = symbolic.parameters.iter().map(letter).collect();
@@ -166,7 +166,7 @@ fn weigh(
         dimension: [0, 1, -2],
         run_time: false,
     });
-    let g = Polynomial::symbol(Symbol::NumberSymbol(letters.len() - 1));
+    let g = Polynomial::symbol(Symbol::Letter(letters.len() - 1));
     for effort in graph.sources.iter_mut().flat_map(|s| &mut s.efforts) {
         let Effort::Weight { mass, gravity } = effort;
         *gravity = gravity.map(|x| x / size);

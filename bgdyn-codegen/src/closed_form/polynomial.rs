@@ -16,7 +16,7 @@ pub(super) const CANCELLED: f64 = 1.0 / (1u128 << 90) as f64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Symbol {
     /// A letter, by its place in [`super::ClosedForm`]'s list.
-    NumberSymbol(usize),
+    Letter(usize),
     /// q_j of a sliding joint.
     Position(usize),
     /// q̇_j

@@ -153,7 +153,7 @@ impl Notation for Plain<'_> {
 
     fn symbol(&self, atom: &Atom, power: u32) -> String {
         let base = match atom {
-            Atom::NumberSymbol(l) => symbol(&self.form.letters[*l]),
+            Atom::Letter(l) => symbol(&self.form.letters[*l]),
             Atom::Constant(i) => format!("a{}", subscript(&[i + 1])),
             Atom::Position(j) => format!("q{}", subscript(&[j + 1])),
             Atom::Velocity(j) => format!("q\u{307}{}", subscript(&[j + 1])),

@@ -43,7 +43,7 @@ impl Entry {
         let mut shape: Vec<(Atom, u32)> = Vec::new();
         for &(symbol, n) in &self.powers {
             let atom = match symbol {
-                Symbol::NumberSymbol(l) => Atom::NumberSymbol(l),
+                Symbol::Letter(l) => Atom::Letter(l),
                 Symbol::Position(j) => Atom::Position(j),
                 Symbol::Velocity(j) => Atom::Velocity(j),
                 Symbol::Acceleration(j) => Atom::Acceleration(j),
