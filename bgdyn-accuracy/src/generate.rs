@@ -164,9 +164,9 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     };
     // Types of bgdyn-sim are called like the integrators.
     let integrator = struct_ident(own.name());
-    let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default()");
+    let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default");
     let add = |effects: &str, model: &str, text: &mut String| {
-        writeln!(text, "test_case.{call}({effects:?}, {model}, || {method});").expect("text");
+        writeln!(text, "test_case.{call}({effects:?}, {model}, {method});").expect("text");
     };
     let price = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
         let count = operations(system);
