@@ -160,7 +160,7 @@ impl StateLayout {
     }
 
     /// Adds a first-order state whose start a scene gives by another quantity, which
-    /// [`crate::effect::Effect::start`] converts.
+    /// [`crate::effect::Effect::initial_state`] converts.
     pub fn state_entered(
         &mut self,
         name: String,

@@ -124,7 +124,7 @@ impl<T: Ring> Sub for Mat3<T> {
 }
 
 /// Rotation by an angle about the unit vector n, by Rodrigues' formula:
-/// n nᵀ + cos (1 − n nᵀ) + sin [n]×. `constant` is a number as an entry.
+/// `n nᵀ + cos (1 − n nᵀ) + sin [n]×`. `constant` is a number as an entry.
 pub fn rodrigues<T: Ring + Mul<Dd, Output = T>>(
     axis: Vec3<Dd>,
     (cos, sin): (T, T),

@@ -20,7 +20,7 @@ pub enum StepControl {
     Tolerance(f64),
 }
 
-/// An integrator, by the name that scenes give it. [`TABLE`] has its properties.
+/// An integrator, by the name that scenes give it. `TABLE` has its properties.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IntegratorName {
     /// Semi-implicit Euler: velocities first, positions with the new ones.
