@@ -25,6 +25,13 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
         modes: &M,
         fell: &dyn Fn(usize) -> bool,
     ) -> Result<(Y, M), String>;
+    fn resolve_stiction(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        rest: Of<Y>,
+    ) -> Result<Option<(Y, M)>, String>;
     fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>>;
 }
 
@@ -80,6 +87,16 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         fell: &dyn Fn(usize) -> bool,
     ) -> Result<(P::State, P::Modes), String> {
         told(Plant::change(self, t, y, modes, fell))
+    }
+
+    fn resolve_stiction(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+        rest: Of<P::State>,
+    ) -> Result<Option<(P::State, P::Modes)>, String> {
+        told(Plant::resolve_stiction(self, t, y, modes, rest))
     }
 
     fn measured(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Vec<Of<P::State>> {
@@ -145,6 +162,16 @@ where
         fell: impl Fn(usize) -> bool,
     ) -> Result<(Y, M), String> {
         self.0.change(t, y, modes, &fell)
+    }
+
+    fn resolve_stiction(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        rest: Of<Y>,
+    ) -> Result<Option<(Y, M)>, String> {
+        self.0.resolve_stiction(t, y, modes, rest)
     }
 
     fn nothing(&self) -> Self::Entries {

@@ -160,6 +160,16 @@ impl Plant for Counted {
         self.plant.change(t, y, modes, fell)
     }
 
+    fn resolve_stiction(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+        rest: f64,
+    ) -> Evaluation<Option<(Numbers, Numbers)>> {
+        self.plant.resolve_stiction(t, y, modes, rest)
+    }
+
     fn nothing(&self) -> Numbers {
         self.plant.nothing()
     }
