@@ -8,7 +8,7 @@ use nalgebra::{Const, SVector};
 use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
 
 use crate::sine;
-use crate::singular::{explain, finish};
+use crate::singular::{failed, succeeded};
 use crate::two_sum::exact_sum;
 use crate::{Look, Scalar, Singular};
 
@@ -175,19 +175,21 @@ macro_rules! dual_scalar {
                 self
             }
 
-            fn finish<const M: usize>(
+            #[inline]
+            fn succeeded<const M: usize>(
+                accelerations: &SVector<Self, M>,
+                refused: Option<usize>,
+            ) -> bool {
+                succeeded(accelerations, refused)
+            }
+
+            fn failed<const M: usize>(
                 accelerations: SVector<Self, M>,
                 refused: Option<usize>,
                 names: &'static [&'static str; M],
-            ) -> Result<SVector<Self, M>, Singular> {
-                finish(accelerations, refused, names)
-            }
-
-            fn explain<const M: usize>(
-                error: Singular,
                 arguments: impl FnOnce(&mut Look<'_, Self>),
-            ) -> Singular {
-                explain(error, arguments)
+            ) -> Option<Singular> {
+                failed(accelerations, refused, names, arguments)
             }
         }
 

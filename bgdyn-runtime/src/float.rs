@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::sine::{self, SineLanes};
-use crate::singular::{explain, finish, note_refused};
+use crate::singular::{failed, note_refused, succeeded};
 use crate::sqrt::sqrt_f32;
 use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
@@ -123,20 +123,20 @@ macro_rules! float_scalar {
             }
 
             #[inline]
-            fn finish<const N: usize>(
+            fn succeeded<const N: usize>(
+                accelerations: &SVector<Self, N>,
+                refused: Option<usize>,
+            ) -> bool {
+                succeeded(accelerations, refused)
+            }
+
+            fn failed<const N: usize>(
                 accelerations: SVector<Self, N>,
                 refused: Option<usize>,
                 names: &'static [&'static str; N],
-            ) -> Result<SVector<Self, N>, Singular> {
-                finish(accelerations, refused, names)
-            }
-
-            #[inline]
-            fn explain<const N: usize>(
-                error: Singular,
                 arguments: impl FnOnce(&mut Look<'_, Self>),
-            ) -> Singular {
-                explain(error, arguments)
+            ) -> Option<Singular> {
+                failed(accelerations, refused, names, arguments)
             }
         }
 

@@ -12,7 +12,7 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 use crate::float::Float;
 use crate::sine;
-use crate::singular::{Cause, cause, sum, zero_if_finite};
+use crate::singular::{sum, zero_if_finite};
 use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 
@@ -22,24 +22,14 @@ use crate::{Look, Scalar, Singular};
 pub struct LaneSingular<T: nalgebra::Scalar, const LANES: usize, const N: usize> {
     /// The accelerations; 0 in lanes that failed.
     pub accelerations: SVector<T, N>,
-    /// For each lane the joint whose pivot vanishes, in the order of `JOINT_NAMES`; `None` where
-    /// the mass matrix is regular.
-    pub joint: [Option<usize>; LANES],
-    /// Why, for each lane that failed.
-    pub cause: [Cause; LANES],
-    /// Names of the model's joints.
-    pub names: &'static [&'static str; N],
+    /// For each lane its error; `None` where it succeeded.
+    pub errors: [Option<Singular>; LANES],
 }
 
 impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> LaneSingular<T, LANES, N> {
     /// The error of one lane; `None` where it succeeded, or where there is no such lane.
     pub fn lane(&self, lane: usize) -> Option<Singular> {
-        let joint = self.joint.get(lane).copied().flatten()?;
-        Some(Singular {
-            joint,
-            name: self.names.get(joint).copied().unwrap_or(""),
-            cause: self.cause.get(lane).copied().unwrap_or(Cause::Pivot),
-        })
+        self.errors.get(lane).copied().flatten()
     }
 
     /// The lanes that failed, each with its error.
@@ -157,74 +147,55 @@ macro_rules! lane_scalar {
             }
 
             #[inline]
-            fn finish<const N: usize>(
+            fn succeeded<const N: usize>(
+                accelerations: &SVector<Self, N>,
+                refused: Self,
+            ) -> bool {
+                let zero = Self::splat(0.0);
+                let finite = zero_if_finite(sum(accelerations)).simd_eq(zero);
+                (refused.simd_lt(zero) & finite).all()
+            }
+
+            #[cold]
+            #[inline(never)]
+            fn failed<const N: usize>(
                 accelerations: SVector<Self, N>,
                 refused: Self,
                 names: &'static [&'static str; N],
-            ) -> Result<SVector<Self, N>, LaneSingular<Self, $n, N>> {
-                let zero = Self::splat(0.0);
-                let finite = zero_if_finite(sum(&accelerations)).simd_eq(zero);
-                if (refused.simd_lt(zero) & finite).all() {
-                    return Ok(accelerations);
-                }
-                let found = LaneSingular::<Self, $n, N>::of(accelerations, refused, names);
-                match found.joint {
-                    // Only a sum was too large.
-                    joint if joint == [None; $n] => Ok(accelerations),
-                    _ => Err(found),
-                }
-            }
-
-            #[inline]
-            fn explain<const N: usize>(
-                error: LaneSingular<Self, $n, N>,
                 arguments: impl FnOnce(&mut Look<'_, Self>),
-            ) -> LaneSingular<Self, $n, N> {
-                error.explained(arguments)
-            }
-        }
-
-        impl<const N: usize> LaneSingular<$lanes, $n, N> {
-            /// The error of lanes some of which have a joint noted, or an acceleration that is not finite.
-            #[cold]
-            fn of(
-                accelerations: SVector<$lanes, N>,
-                mut refused: $lanes,
-                names: &'static [&'static str; N],
-            ) -> Self {
-                let zero = $lanes::splat(0.0);
-                let pivots = refused.to_array();
+            ) -> Option<LaneSingular<Self, $n, N>> {
+                let zero = Self::splat(0.0);
+                let mut finite = refused.simd_lt(zero);
+                let mut errors = refused
+                    .to_array()
+                    .map(|j| (j >= 0.0).then(|| Singular::new(j as usize, names)));
                 for (j, &a) in accelerations.iter().enumerate() {
-                    let finite = zero_if_finite(a).simd_eq(zero);
-                    let noted = refused.simd_lt(zero).select($lanes::splat(j as $float), refused);
-                    refused = finite.select(refused, noted);
-                }
-                let regular = refused.simd_lt(zero);
-                LaneSingular {
-                    accelerations: accelerations.map(|a| regular.select(a, zero)),
-                    joint: refused.to_array().map(|j| (j >= 0.0).then_some(j as usize)),
-                    cause: pivots.map(|j| if j >= 0.0 { Cause::Pivot } else { Cause::NotFinite }),
-                    names,
-                }
-            }
-
-            /// The same with the argument that is not finite, lane by lane.
-            #[cold]
-            #[inline(never)]
-            fn explained(mut self, arguments: impl FnOnce(&mut Look<'_, $lanes>)) -> Self {
-                arguments(&mut |argument, components, values| {
-                    for (lane, of_lane) in self.cause.iter_mut().enumerate() {
-                        if matches!(of_lane, Cause::Argument { .. }) {
-                            continue;
+                    let number = zero_if_finite(a).simd_eq(zero);
+                    finite = finite & number;
+                    for (error, x) in errors.iter_mut().zip(a.to_array()) {
+                        if error.is_none() && !x.is_finite() {
+                            *error = Some(Singular::not_finite(j, names));
                         }
-                        let wild = |x: &$lanes| {
+                    }
+                }
+                if finite.all() {
+                    // Only a sum was too large.
+                    return None;
+                }
+                arguments(&mut |argument, components, values| {
+                    for (lane, error) in errors.iter_mut().enumerate() {
+                        let wild = |x: &Self| {
                             x.to_array().get(lane).is_some_and(|x| !x.is_finite())
                         };
-                        let index = values.iter().position(wild);
-                        *of_lane = cause(argument, components, index, *of_lane);
+                        if let Some(error) = error {
+                            error.look(argument, components, values.iter().position(wild));
+                        }
                     }
                 });
-                self
+                Some(LaneSingular {
+                    accelerations: accelerations.map(|a| finite.select(a, zero)),
+                    errors,
+                })
             }
         }
 

@@ -29,6 +29,7 @@
     forbid(unsafe_code)
 )]
 
+mod argument;
 mod arrays;
 mod dd;
 mod description;
@@ -54,6 +55,7 @@ mod stiction;
 mod system;
 mod two_sum;
 
+pub use argument::{Argument, Look};
 pub use arrays::{inner_products, matrix, mirror, vector};
 pub use dd::{Dd, Digits, ParseDdError};
 pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
@@ -68,7 +70,7 @@ pub use nalgebra;
 pub use num_dual;
 pub use operations::Operations;
 pub use pose::Pose;
-pub use scalar::{Look, Scalar};
+pub use scalar::Scalar;
 #[cfg(feature = "serde")]
 pub use serde;
 #[cfg(feature = "serde")]

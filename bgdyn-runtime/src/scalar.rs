@@ -5,9 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use nalgebra::SVector;
 
-/// What a generated function shows its arguments to, one after the other, after it has failed: the
-/// argument's name, the names of its components, their values.
-pub type Look<'a, T> = dyn FnMut(&'static str, &'static [&'static str], &[T]) + 'a;
+use crate::argument::Look;
 
 /// A number that generated dynamics can be computed with: `f64`, `f32`, double-double
 /// ([`crate::Dd`]), lanes of a SIMD register, dual numbers, or a type of your own (one that
@@ -102,23 +100,35 @@ pub trait Scalar:
     /// wait for the comparisons, and [`Scalar::finish`] throws away what a refused pivot led to.
     fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self::Refused) -> Self;
 
-    /// The accelerations, or the error that names the joint; `names` are those of the model's
-    /// joints. An acceleration that is not finite is an error as well.
+    /// Whether no pivot was refused and the sum of the accelerations is finite: then so are they all.
+    fn succeeded<const N: usize>(accelerations: &SVector<Self, N>, refused: Self::Refused) -> bool;
+
+    /// The error that names the joint, where [`Scalar::succeeded`] is false: of a refused pivot, or of an
+    /// acceleration that is not finite; `None` where only the sum of the accelerations was too large.
+    /// `names` are those of the model's joints. `arguments` shows the arguments of the function that failed:
+    /// the first one that is NaN or infinite is the cause. A scalar may be slow here.
+    fn failed<const N: usize>(
+        accelerations: SVector<Self, N>,
+        refused: Self::Refused,
+        names: &'static [&'static str; N],
+        arguments: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Option<Self::Singular<N>>;
+
+    /// The accelerations, unless they have an error: [`Scalar::succeeded`] and [`Scalar::failed`] together.
+    ///
+    /// # Errors
+    /// Those of [`Scalar::failed`].
+    #[inline]
     fn finish<const N: usize>(
         accelerations: SVector<Self, N>,
         refused: Self::Refused,
         names: &'static [&'static str; N],
-    ) -> Result<SVector<Self, N>, Self::Singular<N>>;
-
-    /// The error of [`Scalar::finish`] with its cause: `arguments` shows it the arguments of the
-    /// function that failed, and the first one that is NaN or infinite is named. Nothing is computed
-    /// for this where the function succeeds. As it is, the error stays what it was.
-    #[inline]
-    fn explain<const N: usize>(
-        error: Self::Singular<N>,
         arguments: impl FnOnce(&mut Look<'_, Self>),
-    ) -> Self::Singular<N> {
-        let _ = arguments;
-        error
+    ) -> Result<SVector<Self, N>, Self::Singular<N>> {
+        if Self::succeeded(&accelerations, refused) {
+            Ok(accelerations)
+        } else {
+            Self::failed(accelerations, refused, names, arguments).map_or(Ok(accelerations), Err)
+        }
     }
 }

@@ -4,7 +4,8 @@ use core::fmt;
 
 use nalgebra::SVector;
 
-use crate::scalar::{Look, Scalar};
+use crate::argument::{Argument, Look};
+use crate::scalar::Scalar;
 
 /// The accelerations do not exist. [`Singular::cause`] says why: an argument is NaN or infinite, or
 /// the pivot of `joint` in the mass matrix is no larger than the rounding error of the terms that
@@ -13,15 +14,15 @@ use crate::scalar::{Look, Scalar};
 /// Where every body has a fair share of the inertia that its joint moves, M is never singular, and
 /// a factor of M is refused at 64 units of rounding of the entry it was computed from. Elsewhere
 /// (massless links, heavy loads on light links) a bound for the error is computed beside the pivot.
+// Two words, which are returned in registers. A larger error costs every call that returns a `Result`, also where it
+// succeeds.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Singular {
-    /// Index of the joint at which it was noticed, in the order of `JOINT_NAMES`.
-    pub joint: usize,
-    /// Its name.
-    pub name: &'static str,
-    /// Why the joint has no acceleration.
-    pub cause: Cause,
+    kind: Kind,
+    /// Of the joint; where an argument is the cause, of its component.
+    index: u32,
+    name: &'static &'static str,
 }
 
 /// Why there are no accelerations.
@@ -32,25 +33,137 @@ pub enum Cause {
     Pivot,
     /// An argument of the function is NaN or infinite.
     Argument {
-        /// Name of the argument: `q`.
-        argument: &'static str,
+        /// The argument.
+        argument: Argument,
         /// Index of the component.
         index: usize,
-        /// Name of the component: of the joint, or of the part of a scene's state.
-        component: &'static str,
     },
     /// The joint's acceleration, or a state's rate, is not finite although the arguments are: a number
     /// is too large for the scalar, or the state is outside of what the model can be in.
     NotFinite,
 }
 
+/// A [`Cause`] without its index, whose unused values `Option` and `Result` take.
+#[derive(Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+enum Kind {
+    Pivot,
+    NotFinite,
+    Q,
+    V,
+    Tau,
+    State,
+    Input,
+    Modes,
+    Canonical,
+    Time,
+    Parameters,
+}
+
+impl Kind {
+    const fn of(argument: Argument) -> Self {
+        match argument {
+            Argument::Q => Kind::Q,
+            Argument::V => Kind::V,
+            Argument::Tau => Kind::Tau,
+            Argument::State => Kind::State,
+            Argument::Input => Kind::Input,
+            Argument::Modes => Kind::Modes,
+            Argument::Canonical => Kind::Canonical,
+            Argument::Time => Kind::Time,
+            Argument::Parameters => Kind::Parameters,
+        }
+    }
+
+    const fn cause(self, index: usize) -> Cause {
+        let argument = match self {
+            Kind::Pivot => return Cause::Pivot,
+            Kind::NotFinite => return Cause::NotFinite,
+            Kind::Q => Argument::Q,
+            Kind::V => Argument::V,
+            Kind::Tau => Argument::Tau,
+            Kind::State => Argument::State,
+            Kind::Input => Argument::Input,
+            Kind::Modes => Argument::Modes,
+            Kind::Canonical => Argument::Canonical,
+            Kind::Time => Argument::Time,
+            Kind::Parameters => Argument::Parameters,
+        };
+        Cause::Argument { argument, index }
+    }
+}
+
 impl Singular {
-    /// The error that the joint with this index and name has no inertia left.
-    pub const fn new(joint: usize, name: &'static str) -> Self {
-        Singular {
-            joint,
-            name,
-            cause: Cause::Pivot,
+    /// The error that the joint with this index has no inertia left; `names` are those of all joints.
+    pub fn new(joint: usize, names: &'static [&'static str]) -> Self {
+        Singular::of_kind(Kind::Pivot, joint, names)
+    }
+
+    /// The error that the joint with this index has an acceleration that is not finite.
+    pub(crate) fn not_finite(joint: usize, names: &'static [&'static str]) -> Self {
+        Singular::of_kind(Kind::NotFinite, joint, names)
+    }
+
+    fn of_kind(kind: Kind, joint: usize, names: &'static [&'static str]) -> Self {
+        let name = names.get(joint).unwrap_or(&"");
+        let index = joint as u32;
+        Singular { kind, index, name }
+    }
+
+    /// Index of the joint at which it was noticed, in the order of `JOINT_NAMES`; where an argument is the
+    /// cause, of its component.
+    pub const fn joint(&self) -> usize {
+        self.index as usize
+    }
+
+    /// Why there are no accelerations.
+    pub const fn cause(&self) -> Cause {
+        self.kind.cause(self.joint())
+    }
+
+    /// Name of the joint; where an argument is the cause, of its component: of a joint, of a part of a
+    /// scene's state, of a run-time parameter.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Looks at an argument: its first component that is not finite, with this index, is the cause, unless
+    /// an argument before it is.
+    pub(crate) fn look(
+        &mut self,
+        argument: Argument,
+        components: &'static [&'static str],
+        index: Option<usize>,
+    ) {
+        if let (Some(index), Kind::Pivot | Kind::NotFinite) = (index, self.kind) {
+            *self = Singular::of_kind(Kind::of(argument), index, components);
+        }
+    }
+}
+
+impl fmt::Display for Singular {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (joint, name, cause) = (self.joint(), self.name, self.cause());
+        match cause {
+            Cause::Pivot => write!(
+                f,
+                "singular mass matrix: joint `{name}` (number {joint}) has {cause}"
+            ),
+            Cause::Argument {
+                argument: Argument::Time,
+                ..
+            } => {
+                write!(f, "no accelerations: argument `t` is NaN or infinite")
+            }
+            Cause::Argument { argument, index } => write!(
+                f,
+                "no accelerations: component {index} (`{name}`) of argument `{}` is NaN or infinite",
+                argument.name()
+            ),
+            Cause::NotFinite => write!(
+                f,
+                "no accelerations: joint `{name}` (number {joint}) has {cause}"
+            ),
         }
     }
 }
@@ -59,34 +172,12 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Cause::Pivot => f.write_str("no inertia left to accelerate"),
-            Cause::Argument {
-                argument,
-                component,
-                ..
-            } if argument == component => {
-                write!(f, "argument `{argument}` is NaN or infinite")
-            }
-            Cause::Argument {
-                argument,
-                index,
-                component,
-            } => write!(
+            Cause::Argument { argument, index } => write!(
                 f,
-                "component {index} (`{component}`) of argument `{argument}` is NaN or infinite"
+                "component {index} of argument `{}` is NaN or infinite",
+                argument.name()
             ),
             Cause::NotFinite => f.write_str("an acceleration that is not finite"),
-        }
-    }
-}
-
-impl fmt::Display for Singular {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Singular { joint, name, cause } = self;
-        let joint = format_args!("joint `{name}` (number {joint})");
-        match cause {
-            Cause::Pivot => write!(f, "singular mass matrix: {joint} has {cause}"),
-            Cause::Argument { .. } => write!(f, "no accelerations: {cause}"),
-            Cause::NotFinite => write!(f, "no accelerations: {joint} has {cause}"),
         }
     }
 }
@@ -95,9 +186,9 @@ impl fmt::Display for Singular {
 impl fmt::Debug for Singular {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Singular")
-            .field("joint", &self.joint)
-            .field("name", &self.name)
-            .field("cause", &format_args!("{}", self.cause))
+            .field("joint", &self.joint())
+            .field("name", self.name)
+            .field("cause", &format_args!("{}", self.cause()))
             .finish()
     }
 }
@@ -112,63 +203,34 @@ pub(crate) fn note_refused(ok: bool, joint: usize, refused: &mut Option<usize>) 
     }
 }
 
-/// [`crate::Scalar::finish`] for scalars that are one number. A result that is not finite, out of
-/// an input that is not or is too large, is an error as well.
+/// [`crate::Scalar::succeeded`] for scalars that are one number.
 #[inline]
-pub(crate) fn finish<T: Scalar, const N: usize>(
+pub(crate) fn succeeded<T: Scalar, const N: usize>(
+    accelerations: &SVector<T, N>,
+    refused: Option<usize>,
+) -> bool {
+    refused.is_none() && zero_if_finite(sum(accelerations)) == T::from_f64(0.0)
+}
+
+/// [`crate::Scalar::failed`] for scalars that are one number.
+#[cold]
+#[inline(never)]
+pub(crate) fn failed<T: Scalar, const N: usize>(
     accelerations: SVector<T, N>,
     refused: Option<usize>,
     names: &'static [&'static str; N],
-) -> Result<SVector<T, N>, Singular> {
-    let zero = T::from_f64(0.0);
-    if refused.is_none() && zero_if_finite(sum(&accelerations)) == zero {
-        return Ok(accelerations);
-    }
-    let (joint, cause) = match refused {
-        Some(joint) => (joint, Cause::Pivot),
-        None => match first_not_finite(accelerations.as_slice()) {
-            Some(joint) => (joint, Cause::NotFinite),
-            // Only their sum was too large.
-            None => return Ok(accelerations),
-        },
-    };
-    Err(Singular {
-        joint,
-        name: names.get(joint).copied().unwrap_or(""),
-        cause,
-    })
-}
-
-/// [`crate::Scalar::explain`] for scalars that are one number.
-#[cold]
-#[inline(never)]
-pub(crate) fn explain<T: Scalar>(
-    mut error: Singular,
     arguments: impl FnOnce(&mut Look<'_, T>),
-) -> Singular {
+) -> Option<Singular> {
+    let mut error = match (refused, first_not_finite(accelerations.as_slice())) {
+        (Some(joint), _) => Singular::new(joint, names),
+        (None, Some(joint)) => Singular::not_finite(joint, names),
+        // Only their sum was too large.
+        (None, None) => return None,
+    };
     arguments(&mut |argument, components, values| {
-        if !matches!(error.cause, Cause::Argument { .. }) {
-            error.cause = cause(argument, components, first_not_finite(values), error.cause);
-        }
+        error.look(argument, components, first_not_finite(values));
     });
-    error
-}
-
-/// The cause that the component with this index is; without one, what was assumed before.
-pub(crate) fn cause(
-    argument: &'static str,
-    components: &'static [&'static str],
-    index: Option<usize>,
-    before: Cause,
-) -> Cause {
-    match index {
-        Some(index) => Cause::Argument {
-            argument,
-            index,
-            component: components.get(index).copied().unwrap_or(""),
-        },
-        None => before,
-    }
+    Some(error)
 }
 
 /// Sum of the accelerations. Where it is finite, so are they all: one comparison for all of them.

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::nalgebra::{SVector, Vector2};
 use bgdyn_runtime::num_dual::{Dual, Dual2, Dual32, Dual64, DualSVec64, HyperDual, HyperDual64};
-use bgdyn_runtime::{Cause, Dd, Scalar};
+use bgdyn_runtime::{Argument, Cause, Dd, Scalar};
 
 /// Smooth functions of two variables, positive ones, each with every operation of the trait once.
 fn functions<T: Scalar>(x: T, y: T) -> [T; 14] {
@@ -188,16 +188,17 @@ fn pivots_are_decided_by_the_real_part() {
             "{bad}"
         );
         let zeros: SVector<Dual64, 2> = Vector2::new(one, one);
-        let error = Dual64::finish(zeros, refused, &["shoulder", "elbow"]).unwrap_err();
-        assert_eq!((error.joint, error.name), (1, "elbow"));
         let wild = Dual64::new(bad, 1.0);
-        let error = Dual64::explain::<2>(error, |look| {
-            look("tau", &["shoulder", "elbow"], &[one, wild])
+        static NAMES: [&str; 2] = ["shoulder", "elbow"];
+        let error = Dual64::finish(zeros, refused, &NAMES, |look| {
+            look(Argument::Tau, &NAMES, &[one, wild])
         });
+        let error = error.unwrap_err();
+        assert_eq!((error.joint(), error.name()), (1, "elbow"));
         let named = matches!(
-            error.cause,
+            error.cause(),
             Cause::Argument {
-                argument: "tau",
+                argument: Argument::Tau,
                 index: 1,
                 ..
             }

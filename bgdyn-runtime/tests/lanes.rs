@@ -7,7 +7,7 @@ mod random;
 
 use bgdyn_runtime::nalgebra::{SVector, Vector2};
 use bgdyn_runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
-use bgdyn_runtime::{Cause, Scalar, Singular};
+use bgdyn_runtime::{Argument, Cause, Scalar, Singular};
 use random::Random;
 
 /// Numbers to try.
@@ -118,10 +118,10 @@ macro_rules! lanes_equal {
                     };
                     same("pivot", pivot, std::array::from_fn(of), &[value, magnitude]);
                 }
-                let result = Lanes::finish(SVector::from([x, y]), refused, &["first", "second"]);
+                let result = Lanes::finish(SVector::from([x, y]), refused, &["first", "second"], |_| ());
                 let (values, joints) = match result {
                     Ok(values) => (values, [None; $n]),
-                    Err(error) => (error.accelerations, error.joint),
+                    Err(error) => (error.accelerations, error.errors.map(|e| e.map(|e| e.joint()))),
                 };
                 assert_eq!(joints, each_refused);
                 let zeroed = |a: Array| std::array::from_fn(|k| if joints[k].is_none() { a[k] } else { 0.0 });
@@ -172,9 +172,13 @@ fn an_error_says_which_lanes_failed_and_where() {
         Vector2::new(one, one + one),
         refused,
         &["shoulder", "elbow"],
+        |_| (),
     )
     .unwrap_err();
-    assert_eq!(error.joint, [None, Some(1), Some(0), None]);
+    assert_eq!(
+        error.errors.map(|e| e.map(|e| e.joint())),
+        [None, Some(1), Some(0), None]
+    );
     assert_eq!(error.accelerations[1].to_array(), [2.0, 0.0, 0.0, 2.0]);
     assert_eq!(error.lane(0), None);
     assert_eq!(error.lane(4), None);
@@ -182,8 +186,8 @@ fn an_error_says_which_lanes_failed_and_where() {
     assert_eq!(
         failed,
         [
-            (1, Singular::new(1, "elbow")),
-            (2, Singular::new(0, "shoulder")),
+            (1, Singular::new(1, &["shoulder", "elbow"])),
+            (2, Singular::new(0, &["shoulder", "elbow"])),
         ]
     );
     let text = error.to_string();
@@ -205,13 +209,16 @@ fn accelerations_are_refused_one_by_one() {
     let refused = f64x4::none_refused();
     let large = f64x4::splat(f64::MAX);
     let fine = Vector2::new(large, f64x4::new([f64::MAX, 1.0, -1.0, 0.0]));
-    assert_eq!(f64x4::finish(fine, refused, names), Ok(fine));
+    assert_eq!(f64x4::finish(fine, refused, names, |_| ()), Ok(fine));
     let wild = Vector2::new(
         large,
         f64x4::new([f64::MAX, f64::NAN, f64::NEG_INFINITY, 0.0]),
     );
-    let error = f64x4::finish(wild, refused, names).unwrap_err();
-    assert_eq!(error.joint, [None, Some(1), Some(1), None]);
+    let error = f64x4::finish(wild, refused, names, |_| ()).unwrap_err();
+    assert_eq!(
+        error.errors.map(|e| e.map(|e| e.joint())),
+        [None, Some(1), Some(1), None]
+    );
     assert_eq!(
         error.accelerations[0].to_array(),
         [f64::MAX, 0.0, 0.0, f64::MAX]
@@ -226,19 +233,21 @@ fn arguments_that_are_no_numbers_are_named_lane_by_lane() {
     let mut refused = f64x4::none_refused();
     let _ = f64x4::new([1.0, 0.0, f64::NAN, 3.0]).checked_pivot(one, 1, &mut refused);
     let accelerations = Vector2::new(one, f64x4::new([1.0, 1.0, 1.0, f64::INFINITY]));
-    let error = f64x4::finish(accelerations, refused, &NAMES).unwrap_err();
     let (wild, large) = (f64x4::new([1.0, 1.0, f64::NAN, 1.0]), f64x4::splat(1e300));
-    let error = f64x4::explain(error, |look| {
-        look("q", &NAMES, &[large, wild]);
-        look("tau", &NAMES, &[wild, large]);
+    let error = f64x4::finish(accelerations, refused, &NAMES, |look| {
+        look(Argument::Q, &NAMES, &[large, wild]);
+        look(Argument::Tau, &NAMES, &[wild, large]);
     });
+    let error = error.unwrap_err();
     assert_eq!(error.lane(0), None);
-    assert_eq!(error.lane(1), Some(Singular::new(1, "elbow")));
-    let causes = [2, 3].map(|lane| error.lane(lane).map(|alone| alone.cause));
+    assert_eq!(
+        error.lane(1),
+        Some(Singular::new(1, &["shoulder", "elbow"]))
+    );
+    let causes = [2, 3].map(|lane| error.lane(lane).map(|alone| alone.cause()));
     let q = Cause::Argument {
-        argument: "q",
+        argument: Argument::Q,
         index: 1,
-        component: "elbow",
     };
     assert_eq!(causes, [Some(q), Some(Cause::NotFinite)]);
 }

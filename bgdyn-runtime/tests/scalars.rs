@@ -3,7 +3,7 @@
 mod exact;
 
 use bgdyn_runtime::nalgebra::SVector;
-use bgdyn_runtime::{Cause, Dd, Look, Scalar, Singular};
+use bgdyn_runtime::{Argument, Cause, Dd, Look, Scalar, Singular};
 use exact::cases;
 use proptest::prelude::*;
 
@@ -169,16 +169,19 @@ fn the_first_refused_joint_is_named() {
     let mut refused = f64::none_refused();
     let accelerations = SVector::<f64, 2>::new(1.0, 2.0);
     assert_eq!(
-        f64::finish(accelerations, refused, &NAMES),
+        f64::finish(accelerations, refused, &NAMES, |_| ()),
         Ok(accelerations)
     );
     let _ = 0.0.checked_pivot(1.0, 1, &mut refused);
     let _ = (-1.0).checked_pivot(1.0, 0, &mut refused);
     let _ = 1.0.checked_pivot(1.0, 0, &mut refused);
-    let singular = Singular::new(1, "knee");
-    assert_eq!(f64::finish(accelerations, refused, &NAMES), Err(singular));
+    let singular = Singular::new(1, &["hip", "knee"]);
+    assert_eq!(
+        f64::finish(accelerations, refused, &NAMES, |_| ()),
+        Err(singular)
+    );
     let wide = SVector::<Dd, 2>::new(Dd::ONE, Dd::PI);
-    assert_eq!(Dd::finish(wide, Some(1), &NAMES), Err(singular));
+    assert_eq!(Dd::finish(wide, Some(1), &NAMES, |_| ()), Err(singular));
     assert!(singular.to_string().contains("`knee` (number 1)"));
     let shown = format!("{singular:?}");
     let wanted = "Singular { joint: 1, name: \"knee\", cause: no inertia left to accelerate }";
@@ -200,11 +203,11 @@ fn nothing_but_finite_accelerations() {
     use bgdyn_runtime::nalgebra::Vector2;
     static NAMES: [&str; 2] = ["first", "second"];
     for wild in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let error = f64::finish(Vector2::new(1.0, wild), None, &NAMES).unwrap_err();
-        assert_eq!((error.joint, error.name), (1, "second"));
-        assert_eq!(error.cause, Cause::NotFinite);
+        let error = f64::finish(Vector2::new(1.0, wild), None, &NAMES, |_| ()).unwrap_err();
+        assert_eq!((error.joint(), error.name()), (1, "second"));
+        assert_eq!(error.cause(), Cause::NotFinite);
     }
-    assert!(f64::finish(Vector2::new(1.0, -2e300), None, &NAMES).is_ok());
+    assert!(f64::finish(Vector2::new(1.0, -2e300), None, &NAMES, |_| ()).is_ok());
 }
 
 /// Accelerations are checked by their sum: one that overflows, or is lost, is no verdict on them.
@@ -212,36 +215,37 @@ fn nothing_but_finite_accelerations() {
 fn accelerations_are_refused_one_by_one() {
     static NAMES: [&str; 2] = ["hip", "knee"];
     let found = |x: f64, y: f64| {
-        let refused = f64::finish(SVector::<f64, 2>::new(x, y), None, &NAMES);
-        refused.map_err(|singular| singular.joint)
+        let refused = f64::finish(SVector::<f64, 2>::new(x, y), None, &NAMES, |_| ());
+        refused.map_err(|singular| singular.joint())
     };
     assert_eq!(found(f64::MAX, f64::MAX), Ok(SVector::from([f64::MAX; 2])));
     assert_eq!(found(f64::INFINITY, f64::NEG_INFINITY), Err(0));
     assert_eq!(found(1.0, f64::NAN), Err(1));
     let none = SVector::<f64, 0>::zeros();
-    assert_eq!(f64::finish(none, None, &[]), Ok(none));
+    assert_eq!(f64::finish(none, None, &[], |_| ()), Ok(none));
 }
 
 /// The argument that is NaN or infinite is named, whatever was noticed first; without one the cause stays.
-fn explained<T: Scalar<Singular<2> = Singular>>(error: Singular) {
+fn explained<T: Scalar<Singular<2> = Singular, Refused = Option<usize>>>(
+    accelerations: [f64; 2],
+    refused: Option<usize>,
+    error: Singular,
+) {
     static NAMES: [&str; 2] = ["hip", "knee"];
     let found = |q: [f64; 2], t: f64| {
         let (q, t) = (q.map(T::from_f64), T::from_f64(t));
         let show = |look: &mut Look<'_, T>| {
-            look("q", &NAMES, &q);
-            look("t", &["t"], &[t]);
+            look(Argument::Q, &NAMES, &q);
+            look(Argument::Time, &["t"], &[t]);
         };
-        T::explain::<2>(error, show)
+        let accelerations = SVector::from(accelerations.map(T::from_f64));
+        T::finish(accelerations, refused, &NAMES, show).expect_err("a failure")
     };
-    let cause = |argument, index, component| Cause::Argument {
-        argument,
-        index,
-        component,
-    };
+    let cause = |argument, index| Cause::Argument { argument, index };
     for wild in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        assert_eq!(found([1.0, wild], 0.0).cause, cause("q", 1, "knee"));
-        assert_eq!(found([wild, wild], wild).cause, cause("q", 0, "hip"));
-        assert_eq!(found([1.0, 2.0], wild).cause, cause("t", 0, "t"));
+        assert_eq!(found([1.0, wild], 0.0).cause(), cause(Argument::Q, 1));
+        assert_eq!(found([wild, wild], wild).cause(), cause(Argument::Q, 0));
+        assert_eq!(found([1.0, 2.0], wild).cause(), cause(Argument::Time, 0));
     }
     assert_eq!(found([1.0, 2.0], 3.0), error);
     let shown = found([1.0, f64::NAN], 0.0).to_string();
@@ -253,12 +257,14 @@ fn explained<T: Scalar<Singular<2> = Singular>>(error: Singular) {
 
 #[test]
 fn arguments_that_are_no_numbers_are_named() {
-    let pivot = Singular::new(1, "knee");
-    let overflow = f64::finish(SVector::from([f64::NAN]), None, &["hip"]).unwrap_err();
-    for error in [pivot, overflow] {
-        explained::<f64>(error);
-        explained::<f32>(error);
-        explained::<Dd>(error);
+    let pivot = Singular::new(1, &["hip", "knee"]);
+    static NAMES: [&str; 2] = ["hip", "knee"];
+    let wild = [f64::NAN, 1.0];
+    let overflow = f64::finish(SVector::from(wild), None, &NAMES, |_| ()).unwrap_err();
+    for (accelerations, refused, error) in [([1.0; 2], Some(1), pivot), (wild, None, overflow)] {
+        explained::<f64>(accelerations, refused, error);
+        explained::<f32>(accelerations, refused, error);
+        explained::<Dd>(accelerations, refused, error);
     }
     assert_eq!(
         overflow.to_string(),

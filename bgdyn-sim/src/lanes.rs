@@ -104,7 +104,7 @@ mod registers {
             impl<const N: usize> LaneError<$lanes> for LaneSingular<$lanes, $n, N> {
                 fn rate(&self, i: usize) -> $lanes {
                     let rates = self.accelerations[i].to_array();
-                    $lanes::pack(|k| match self.joint[k] {
+                    $lanes::pack(|k| match self.errors[k] {
                         None => rates[k],
                         Some(_) => $float::NAN,
                     })

@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use bgdyn::nalgebra::SVector;
+use bgdyn::runtime::Look;
 use bgdyn::runtime::Operations;
 use bgdyn::{Scalar, Singular};
 
@@ -130,12 +131,16 @@ impl Scalar for Counted {
     fn checked_pivot(self, m: Self, joint: usize, refused: &mut Option<usize>) -> Self {
         other(self.0.checked_pivot(m.0, joint, refused))
     }
-    fn finish<const N: usize>(
+    fn succeeded<const N: usize>(a: &SVector<Self, N>, refused: Option<usize>) -> bool {
+        f64::succeeded(&a.map(|x| x.0), refused)
+    }
+    fn failed<const N: usize>(
         a: SVector<Self, N>,
         refused: Option<usize>,
         names: &'static [&'static str; N],
-    ) -> Result<SVector<Self, N>, Singular> {
-        f64::finish(a.map(|x| x.0), refused, names).map(|a| a.map(Counted))
+        _: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Option<Singular> {
+        f64::failed(a.map(|x| x.0), refused, names, |_| ())
     }
 }
 

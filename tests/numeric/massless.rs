@@ -28,7 +28,7 @@ fn solved_up_to_the_lock() {
     let q = vector![0.3, 0.0, 0.4];
     let tau = vector![1.0, 1.0, 1.0];
     let refused = model.forward_dynamics(&q, &v, &tau).expect_err("locked");
-    assert_eq!(refused.name, "roll");
+    assert_eq!(refused.name(), "roll");
     let refused = model.forward_dynamics_derivatives(&q, &v, &tau);
     assert!(refused.is_err());
 }

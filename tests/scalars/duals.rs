@@ -168,7 +168,7 @@ fn derivatives_of_the_scara() {
 #[test]
 fn the_real_part_decides_what_is_singular() {
     let model = SphericalPendulum::<Dual64>::default();
-    let azimuth = Singular::new(0, "azimuth");
+    let azimuth = Singular::new(0, &["azimuth"]);
     let (v, tau) = (SVector::zeros(), SVector::repeat(Dual64::from_re(1.0)));
     let at = |tilt| SVector::from([Dual64::from_re(0.3), tilt]);
     let singular = at(Dual64::new(0.0, 1.0));

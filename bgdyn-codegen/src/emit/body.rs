@@ -8,7 +8,7 @@ use quote::{ToTokens, format_ident, quote};
 use super::code::{Naming, is_part, leaves};
 use super::columns::columns;
 use super::entries::{Entries, EntryTargets};
-use super::explain::explain;
+use super::explain::checked;
 use super::loops;
 use super::tokens::{argument_type, ident};
 use super::writer::Writer;
@@ -192,8 +192,7 @@ pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> Token
         Shape::Vector => vector(values),
         Shape::CheckedVector => {
             let accelerations = vector(values);
-            let explain = explain(method);
-            quote! { T::finish(#accelerations, refused, &JOINT_NAMES).map_err(#explain) }
+            checked(method, &accelerations, &quote! { &JOINT_NAMES })
         }
         Shape::Symmetric => {
             let entry = |k: usize| {
@@ -211,9 +210,9 @@ pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> Token
             let (accelerations, rest) = values.split_at(nv);
             let accelerations = vector(accelerations);
             let squares = squares(rest, 3);
-            let explain = explain(method);
+            let found = checked(method, &accelerations, &quote! { &JOINT_NAMES });
             quote! {
-                T::finish(#accelerations, refused, &JOINT_NAMES).map_err(#explain)?;
+                #found?;
                 ::core::result::Result::Ok([#(#squares),*])
             }
         }

@@ -1,4 +1,5 @@
-//! The private methods that find the cause of an error: an argument that is NaN or infinite. They run after a failure.
+//! The private methods that show a failed function's arguments, among which the cause of its error is looked for: an
+//! argument that is NaN or infinite.
 
 use std::collections::BTreeMap;
 
@@ -8,15 +9,11 @@ use quote::quote;
 use super::code::Naming;
 use super::tokens::{argument_type, ident};
 use crate::function::Function;
+use crate::layout::StateLayout;
 use crate::method::{Argument, Method, SceneFunction};
 
-/// The methods that the checked ones among these functions call, one for each list of arguments;
-/// `error` is the type of the error.
-pub(super) fn explainers(
-    functions: &[Function],
-    naming: &Naming<'_>,
-    error: &TokenStream,
-) -> TokenStream {
+/// The methods that the checked ones among these functions call, one for each list of arguments.
+pub(super) fn explainers(functions: &[Function], naming: &Naming<'_>) -> TokenStream {
     let checked = functions.iter().filter(|f| f.shape().checked());
     let by_name: BTreeMap<&str, Method> = checked.map(|f| (name(f.method), f.method)).collect();
     let methods = by_name.into_iter().map(|(name, method)| {
@@ -26,24 +23,31 @@ pub(super) fn explainers(
         let looks = arguments.iter().map(|&argument| look(argument, naming));
         let parameters = parameters(&naming.parameters);
         quote! {
-            /// The error with its cause: which argument is NaN or infinite, if one is.
+            /// Shows the arguments after a failure: one that is NaN or infinite is its cause.
             #[cold]
-            fn #name(&self, error: #error, #(#names: #types),*) -> #error {
-                T::explain(error, |look| {
-                    #(#looks)*
-                    #parameters
-                })
+            fn #name(&self, look: &mut __rt::Look<'_, T>, #(#names: #types),*) {
+                #(#looks)*
+                #parameters
             }
         }
     });
     quote! { #(#methods)* }
 }
 
-/// The call of a method's explainer, for `map_err`.
-pub(super) fn explain(method: Method) -> TokenStream {
-    let (name, names) = (ident(name(method)), method.arguments().iter());
-    let names = names.map(|a| ident(a.name()));
-    quote! { |error| self.#name(error, #(#names),*) }
+/// These accelerations, or rates, as a `Result`: where they are not all there, the arguments are shown. What shows
+/// them is put together in the failing branch, so that it costs nothing elsewhere.
+pub(super) fn checked(method: Method, values: &TokenStream, names: &TokenStream) -> TokenStream {
+    let (explain, arguments) = (ident(name(method)), method.arguments().iter());
+    let arguments = arguments.map(|a| ident(a.name()));
+    quote! {{
+        let found = #values;
+        if T::succeeded(&found, refused) {
+            ::core::result::Result::Ok(found)
+        } else {
+            T::failed(found, refused, #names, |look| self.#explain(look, #(#arguments),*))
+                .map_or(::core::result::Result::Ok(found), ::core::result::Result::Err)
+        }
+    }}
 }
 
 /// What a method's explainer is called.
@@ -55,37 +59,51 @@ fn name(method: Method) -> &'static str {
     }
 }
 
-/// Shows an argument: its name, the names of its components, their values.
+/// Shows an argument: which one it is, the names of its components, their values.
 fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
-    let text = argument.name();
-    let name: Ident = ident(text);
-    let (modes, inputs) = match naming.layout {
-        Some(layout) => (!layout.modes.is_empty(), !layout.inputs.is_empty()),
-        None => (false, false),
+    let name: Ident = ident(argument.name());
+    let has = |part: fn(&StateLayout) -> bool| naming.layout.is_some_and(part);
+    let modes = has(|layout| !layout.modes.is_empty());
+    let inputs = has(|layout| !layout.inputs.is_empty());
+    let look = |argument: TokenStream, names: TokenStream, values: TokenStream| {
+        quote! { look(__rt::Argument::#argument, #names, #values); }
     };
+    let (joints, states) = (quote! { &JOINT_NAMES }, quote! { &STATE_NAMES });
     match argument {
-        Argument::Q | Argument::V | Argument::A | Argument::Tau => {
-            quote! { look(#text, &JOINT_NAMES, #name.as_slice()); }
-        }
+        Argument::Q => look(quote! { Q }, joints, quote! { #name.as_slice() }),
+        Argument::V => look(quote! { V }, joints, quote! { #name.as_slice() }),
+        Argument::Tau => look(quote! { Tau }, joints, quote! { #name.as_slice() }),
         Argument::State => {
-            let modes = modes.then(|| {
-                quote! { look("modes", &MODE_NAMES, state.modes().as_slice()); }
-            });
-            quote! { look(#text, &STATE_NAMES, state.vector().as_slice()); #modes }
+            let state = look(
+                quote! { State },
+                states,
+                quote! { state.vector().as_slice() },
+            );
+            let values = quote! { state.modes().as_slice() };
+            let modes = modes.then(|| look(quote! { Modes }, quote! { &MODE_NAMES }, values));
+            quote! { #state #modes }
         }
         Argument::Input if inputs => {
-            quote! { look(#text, &INPUT_NAMES, input.vector().as_slice()); }
+            let values = quote! { input.vector().as_slice() };
+            look(quote! { Input }, quote! { &INPUT_NAMES }, values)
         }
-        Argument::Modes if modes => quote! { look(#text, &MODE_NAMES, modes.as_slice()); },
+        Argument::Modes if modes => {
+            let values = quote! { modes.as_slice() };
+            look(quote! { Modes }, quote! { &MODE_NAMES }, values)
+        }
         Argument::Input | Argument::Modes => quote! {},
-        Argument::Canonical => quote! { look(#text, &STATE_NAMES, #name.as_slice()); },
-        Argument::Time => quote! { look(#text, &[#text], &[t]); },
-        Argument::Accelerations => unreachable!("nothing that takes accelerations is checked"),
+        Argument::Canonical => look(quote! { Canonical }, states, quote! { #name.as_slice() }),
+        Argument::Time => look(quote! { Time }, quote! { &["t"] }, quote! { &[t] }),
+        Argument::A | Argument::Accelerations => {
+            unreachable!("nothing that takes accelerations is checked")
+        }
     }
 }
 
 /// Shows the run-time parameters.
 fn parameters(names: &[&str]) -> Option<TokenStream> {
     let fields = names.iter().map(|name| ident(name));
-    (!names.is_empty()).then(|| quote! { look("self", &[#(#names),*], &[#(self.#fields),*]); })
+    let values = quote! { &[#(self.#fields),*] };
+    (!names.is_empty())
+        .then(|| quote! { look(__rt::Argument::Parameters, &[#(#names),*], #values); })
 }

@@ -23,7 +23,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
     let methods = model.functions.iter().map(|f| method(f, model, output));
     let naming = code::Naming::of_model(model, output.plain);
-    let explainers = explain::explainers(&model.functions, &naming, &quote! { T::Singular<NV> });
+    let explainers = explain::explainers(&model.functions, &naming);
     let struct_name = struct_name(model);
     let present: Vec<Method> = model.functions.iter().map(|f| f.method).collect();
     let traits = traits::Traits {

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use bgdyn_runtime::{Dd, Scalar};
+use bgdyn_runtime::{Dd, Look, Scalar};
 use nalgebra::SVector;
 
 use crate::expr::Inputs;
@@ -196,11 +196,16 @@ impl Scalar for Dual {
         Dual::new(value, self.rate)
     }
 
-    fn finish<const N: usize>(
-        all: SVector<Self, N>,
-        refused: Option<usize>,
+    fn succeeded<const N: usize>(_: &SVector<Self, N>, refused: Option<usize>) -> bool {
+        refused.is_none()
+    }
+
+    fn failed<const N: usize>(
+        _: SVector<Self, N>,
+        _: Option<usize>,
         _: &'static [&'static str; N],
-    ) -> Result<SVector<Self, N>, ()> {
-        if refused.is_none() { Ok(all) } else { Err(()) }
+        _: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Option<()> {
+        Some(())
     }
 }

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use bgdyn_runtime::{Dd, Scalar};
+use bgdyn_runtime::{Dd, Look, Scalar};
 use nalgebra::SVector;
 
 /// A value and its slope.
@@ -130,11 +130,16 @@ impl Scalar for Dual {
         let value = self.value.checked_pivot(magnitude.value, joint, refused);
         dual(value, self.slope)
     }
-    fn finish<const N: usize>(
-        all: SVector<Self, N>,
-        refused: Option<usize>,
+    fn succeeded<const N: usize>(_: &SVector<Self, N>, refused: Option<usize>) -> bool {
+        refused.is_none()
+    }
+
+    fn failed<const N: usize>(
+        _: SVector<Self, N>,
+        _: Option<usize>,
         _: &'static [&'static str; N],
-    ) -> Result<SVector<Self, N>, ()> {
-        if refused.is_none() { Ok(all) } else { Err(()) }
+        _: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Option<()> {
+        Some(())
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::number::Dd;
-use crate::singular::{explain, finish, note_refused};
+use crate::singular::{failed, note_refused, succeeded};
 use crate::{Look, Scalar, Singular};
 
 impl Scalar for Dd {
@@ -82,18 +82,17 @@ impl Scalar for Dd {
         self
     }
 
-    fn finish<const N: usize>(
+    #[inline]
+    fn succeeded<const N: usize>(accelerations: &SVector<Self, N>, refused: Option<usize>) -> bool {
+        succeeded(accelerations, refused)
+    }
+
+    fn failed<const N: usize>(
         accelerations: SVector<Self, N>,
         refused: Option<usize>,
         names: &'static [&'static str; N],
-    ) -> Result<SVector<Self, N>, Singular> {
-        finish(accelerations, refused, names)
-    }
-
-    fn explain<const N: usize>(
-        error: Singular,
         arguments: impl FnOnce(&mut Look<'_, Self>),
-    ) -> Singular {
-        explain(error, arguments)
+    ) -> Option<Singular> {
+        failed(accelerations, refused, names, arguments)
     }
 }

@@ -50,7 +50,7 @@ impl<M: Dynamics<f64, N, N>, const N: usize> Dynamics<f64, N, N> for Geared<M, N
         let rest = tau - self.bias(q, v);
         match Cholesky::new(self.mass_matrix(q)) {
             Some(factor) => Ok(factor.solve(&rest)),
-            None => Err(Singular::new(0, self.joint_names()[0])),
+            None => Err(Singular::new(0, self.joint_names())),
         }
     }
 

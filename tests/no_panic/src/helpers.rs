@@ -2,7 +2,7 @@
 
 use bgdyn::Scalar;
 use bgdyn::nalgebra::{Matrix3, Matrix4, SMatrix, SVector, Vector3};
-use bgdyn::runtime::{Dd, Pose, inertia, inner_products, matrix, mirror, rotation, vector};
+use bgdyn::runtime::{Argument, Dd, Pose, inertia, inner_products, matrix, mirror, rotation, vector};
 
 /// Functions that must not panic, and `all`, which keeps them in the program and gives their number.
 macro_rules! proved {
@@ -50,9 +50,8 @@ macro_rules! scalar {
                 select(x: T, y: T) -> T = T::select(x.less(y), x, y);
                 checked_pivot(x: T, size: T, joint: usize, refused: &mut Refused) -> T =
                     x.checked_pivot(size, joint, refused);
-                finish(x: SVector<T, 4>, refused: Refused) -> Solved = T::finish(x, refused, NAMES);
-                explain(error: <T as Scalar>::Singular<4>, q: &SVector<T, 4>) -> <T as Scalar>::Singular<4> =
-                    T::explain::<4>(error, |look| look("q", NAMES, q.as_slice()));
+                finish(x: SVector<T, 4>, refused: Refused, q: &SVector<T, 4>) -> Solved =
+                    T::finish(x, refused, NAMES, |look| look(Argument::Q, NAMES, q.as_slice()));
                 about_x(x: T) -> Matrix3<T> = rotation::about_x(x);
                 about_y(x: T) -> Matrix3<T> = rotation::about_y(x);
                 about_z(x: T) -> Matrix3<T> = rotation::about_z(x);

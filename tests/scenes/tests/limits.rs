@@ -118,6 +118,6 @@ fn a_chamber_without_volume_is_an_error() {
     for slide in [-10.0, 10.0] {
         let (rates, slope, energy) = at(slide);
         let (rates, slope) = (rates.expect_err("no room"), slope.expect_err("no room"));
-        assert!(!rates.name.is_empty() && !slope.name.is_empty() && energy.is_nan());
+        assert!(!rates.name().is_empty() && !slope.name().is_empty() && energy.is_nan());
     }
 }

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::super::body::{self, vector};
 use super::super::code::Naming;
-use super::super::explain::explain;
+use super::super::explain::checked;
 use super::super::tokens::{argument_type, ident, number};
 use super::parts::{
     StructField, coordinate_parts, input_parts, literal, mode_parts, moving_parts, of_named,
@@ -41,8 +41,8 @@ pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -
     };
     let signature = signature(role, scene);
     let (_, parts) = result_of(role, scene);
-    let (layout, checked) = (&scene.layout, function.shape().checked());
-    let finish = |values: &[TokenStream]| finish(role, layout, &parts, values, checked);
+    let (layout, is_checked) = (&scene.layout, function.shape().checked());
+    let finish = |values: &[TokenStream]| finish(role, layout, &parts, values, is_checked);
     let naming = Naming::of_scene(scene, plain);
     let body::FunctionBody { body, blocks } = body::body(function, &naming, None, finish);
     let mut docs = vec![
@@ -54,7 +54,7 @@ pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -
             function.formulation
         ),
     ];
-    if checked {
+    if is_checked {
         docs.extend([
             String::new(),
             " # Errors".into(),
@@ -106,24 +106,21 @@ fn finish(
     layout: &StateLayout,
     parts: &[StructField],
     values: &[TokenStream],
-    checked: bool,
+    is_checked: bool,
 ) -> TokenStream {
-    let explain = explain(Method::Scene(role));
-    let refuse = checked.then(|| {
-        quote! {
-            T::finish(__rt::vector([T::from_f64(0.0); NV + NX]), refused, &RATE_NAMES)
-                .map_err(#explain)?;
-        }
+    let method = Method::Scene(role);
+    let rates_or_error = |rates: &TokenStream| checked(method, rates, &quote! { &RATE_NAMES });
+    let refuse = is_checked.then(|| {
+        let found = rates_or_error(&quote! { __rt::vector([T::from_f64(0.0); NV + NX]) });
+        quote! { #found?; }
     });
-    let ok = |value: TokenStream| match checked {
+    let ok = |value: TokenStream| match is_checked {
         true => quote! { #refuse ::core::result::Result::Ok(#value) },
         false => value,
     };
-    // What checks several vectors names the closure.
-    let explained = |rest: TokenStream| quote! { let explain = #explain; #rest };
     match role {
         SceneFunction::Derivative => {
-            let rates = vector(values);
+            let rates = rates_or_error(&vector(values));
             let names: Vec<_> = (0..values.len()).map(|i| format_ident!("r{i}")).collect();
             let velocities = layout.coordinates.iter().filter(|c| c.stored).map(|c| {
                 let rate = ident(&c.rate_name);
@@ -134,7 +131,7 @@ fn finish(
                 .collect();
             let whole = literal("Rates", parts, &all);
             quote! {
-                let rates = T::finish(#rates, refused, &RATE_NAMES).map_err(#explain)?;
+                let rates = #rates?;
                 let [[#(#names),*]] = rates.data.0;
                 ::core::result::Result::Ok(#whole)
             }
@@ -168,20 +165,29 @@ fn finish(
         SceneFunction::Inputs => ok(literal("Input", parts, values)),
         SceneFunction::Energy => ok(literal("Energy", parts, values)),
         SceneFunction::Outputs => ok(literal("Output", parts, values)),
-        SceneFunction::Jacobian => explained(jacobian(layout, values)),
+        SceneFunction::Jacobian => jacobian(layout, values),
         SceneFunction::ToCanonical => to_canonical(layout, values),
-        SceneFunction::FromCanonical => explained(from_canonical(layout, values)),
-        SceneFunction::CanonicalRates => explained(canonical_rates(layout, values)),
+        SceneFunction::FromCanonical => from_canonical(layout, values),
+        SceneFunction::CanonicalRates => canonical_rates(layout, values),
     }
 }
 
 /// Results that pass the check for singular matrices and for what is not finite, under names that
 /// begin with `prefix`; where fewer than all rates are given, zeros stand for the rest.
-fn passed(layout: &StateLayout, prefix: &str, values: &[TokenStream]) -> (TokenStream, Vec<Ident>) {
+fn passed(
+    role: SceneFunction,
+    layout: &StateLayout,
+    prefix: &str,
+    values: &[TokenStream],
+) -> (TokenStream, Vec<Ident>) {
     let all = layout.nv() + layout.nx();
     let zeros = (values.len()..all).map(|_| quote! { T::from_f64(0.0) });
     let padded: Vec<TokenStream> = values.iter().cloned().chain(zeros).collect();
-    let padded = vector(&padded);
+    let padded = checked(
+        Method::Scene(role),
+        &vector(&padded),
+        &quote! { &RATE_NAMES },
+    );
     let names = (0..all).map(|i| format_ident!("{prefix}{i}"));
     let names: Vec<Ident> = names.collect();
     let bound = names
@@ -192,7 +198,7 @@ fn passed(layout: &StateLayout, prefix: &str, values: &[TokenStream]) -> (TokenS
             false => quote! { _ },
         });
     let statement = quote! {
-        let [[#(#bound),*]] = T::finish(#padded, refused, &RATE_NAMES).map_err(explain)?.data.0;
+        let [[#(#bound),*]] = #padded?.data.0;
     };
     (statement, names[..values.len()].to_vec())
 }
@@ -204,7 +210,12 @@ fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
     let mut statements = TokenStream::new();
     let columns: Vec<TokenStream> = columns
         .map(|(k, column)| {
-            let (statement, names) = passed(layout, &format!("column{k}_"), column);
+            let (statement, names) = passed(
+                SceneFunction::Jacobian,
+                layout,
+                &format!("column{k}_"),
+                column,
+            );
             statements.extend(statement);
             let of_positions = (0..nq).map(|i| {
                 let slope = if k == nq + i { 1.0 } else { 0.0 };
@@ -240,7 +251,7 @@ fn to_canonical(layout: &StateLayout, momenta: &[TokenStream]) -> TokenStream {
 /// A state from one with momenta.
 fn from_canonical(layout: &StateLayout, velocities: &[TokenStream]) -> TokenStream {
     let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
-    let (statement, names) = passed(layout, "velocity", velocities);
+    let (statement, names) = passed(SceneFunction::FromCanonical, layout, "velocity", velocities);
     let kept = |prefix: &'static str, n: usize| {
         (0..n)
             .map(move |i| format_ident!("{prefix}{i}"))
@@ -257,9 +268,10 @@ fn from_canonical(layout: &StateLayout, velocities: &[TokenStream]) -> TokenStre
 
 /// q̇, ṗ, ẋ
 fn canonical_rates(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
+    let role = SceneFunction::CanonicalRates;
     let (velocities, rates) = values.split_at(layout.nq());
-    let (check_velocities, velocities) = passed(layout, "velocity", velocities);
-    let (check_rates, rates) = passed(layout, "rate", rates);
+    let (check_velocities, velocities) = passed(role, layout, "velocity", velocities);
+    let (check_rates, rates) = passed(role, layout, "rate", rates);
     quote! {
         #check_velocities
         #check_rates

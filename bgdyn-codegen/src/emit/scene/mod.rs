@@ -42,7 +42,7 @@ pub fn scene_module(
         .iter()
         .map(|f| method::method(f, &interface, output.plain));
     let naming = Naming::of_scene(&interface, output.plain);
-    let explainers = explainers(functions, &naming, &quote! { T::Singular<{ NV + NX }> });
+    let explainers = explainers(functions, &naming);
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
     let slope = has(SceneFunction::Jacobian).then(|| system::slope_trait(&struct_name));

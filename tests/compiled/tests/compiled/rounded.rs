@@ -5,6 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::Dd;
+use bgdyn::runtime::Look;
 use bgdyn::{Scalar, Singular};
 
 /// A double-double whose constants have one word.
@@ -93,11 +94,15 @@ impl Scalar for Rounded {
     fn checked_pivot(self, m: Self, joint: usize, refused: &mut Option<usize>) -> Self {
         Rounded(self.0.checked_pivot(m.0, joint, refused))
     }
-    fn finish<const N: usize>(
+    fn succeeded<const N: usize>(a: &SVector<Self, N>, refused: Option<usize>) -> bool {
+        Dd::succeeded(&a.map(|x| x.0), refused)
+    }
+    fn failed<const N: usize>(
         a: SVector<Self, N>,
         refused: Option<usize>,
         names: &'static [&'static str; N],
-    ) -> Result<SVector<Self, N>, Singular> {
-        Dd::finish(a.map(|x| x.0), refused, names).map(|a| a.map(Rounded))
+        _: impl FnOnce(&mut Look<'_, Self>),
+    ) -> Option<Singular> {
+        Dd::failed(a.map(|x| x.0), refused, names, |_| ())
     }
 }
