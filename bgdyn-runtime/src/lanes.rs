@@ -171,7 +171,7 @@ macro_rules! lane_scalar {
                     .map(|j| (j >= 0.0).then(|| Singular::new(j as usize, names)));
                 for (j, &a) in accelerations.iter().enumerate() {
                     let number = zero_if_finite(a).simd_eq(zero);
-                    finite = finite & number;
+                    finite &= number;
                     for (error, x) in errors.iter_mut().zip(a.to_array()) {
                         if error.is_none() && !x.is_finite() {
                             *error = Some(Singular::not_finite(j, names));
