@@ -32,6 +32,7 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
         modes: &M,
         rest: Of<Y>,
     ) -> Result<Option<(Y, M)>, String>;
+    fn next_corner(&self, t: Of<Y>) -> Option<Of<Y>>;
     fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>>;
 }
 
@@ -97,6 +98,10 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         rest: Of<P::State>,
     ) -> Result<Option<(P::State, P::Modes)>, String> {
         told(Plant::resolve_stiction(self, t, y, modes, rest))
+    }
+
+    fn next_corner(&self, t: Of<P::State>) -> Option<Of<P::State>> {
+        Plant::next_corner(self, t)
     }
 
     fn measured(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Vec<Of<P::State>> {
@@ -172,6 +177,10 @@ where
         rest: Of<Y>,
     ) -> Result<Option<(Y, M)>, String> {
         self.0.resolve_stiction(t, y, modes, rest)
+    }
+
+    fn next_corner(&self, t: Of<Y>) -> Option<Of<Y>> {
+        self.0.next_corner(t)
     }
 
     fn nothing(&self) -> Self::Entries {

@@ -170,6 +170,10 @@ impl Plant for Counted {
         self.plant.resolve_stiction(t, y, modes, rest)
     }
 
+    fn next_corner(&self, t: f64) -> Option<f64> {
+        self.plant.next_corner(t)
+    }
+
     fn nothing(&self) -> Numbers {
         self.plant.nothing()
     }

@@ -70,6 +70,11 @@ pub trait HybridSystem<T: Scalar> {
     fn event_modes(&self) -> &'static ArrayOf<Self::Events, Option<usize>>;
     /// The part of the state that is the velocity of each mode's coordinate.
     fn mode_velocities(&self) -> &'static ArrayOf<Self::Modes, usize>;
+    /// Instants, s, in increasing order, at which an input that the scene drives bends or jumps: the points
+    /// of its tables. Integrators end a step there and look anew at what sticks.
+    fn corners(&self) -> &'static [f64] {
+        &[]
+    }
     /// Names of the outputs.
     fn output_names(&self) -> &'static ArrayOf<Self::Outputs, &'static str>;
     /// Names of the entries of the balance of power.

@@ -200,8 +200,8 @@ fn following<Y: FixedVector>(positions: usize, y: &Y) -> Y {
     })
 }
 
-/// A scene without dry friction that can hold, in any scalar. Kinks of its laws are stepped over: there
-/// the method loses its order, and [`crate::Run`] would not.
+/// A scene without dry friction that can hold, in any scalar. Kinks of its laws and corners of its inputs are
+/// stepped over: there the method loses its order, and [`crate::Run`] would not.
 #[derive(Debug)]
 pub struct SmoothScene<'a, T: Lanes, S: HybridSystem<T>> {
     scene: &'a S,

@@ -129,6 +129,13 @@ pub trait Plant {
         Ok(None)
     }
 
+    /// The first instant after `t`, s, at which an input bends or jumps: a point of a table. [`crate::Run`]
+    /// ends a step there and resolves stiction anew. `None` where there is none.
+    fn next_corner(&self, t: Time<Self>) -> Option<Time<Self>> {
+        let _ = t;
+        None
+    }
+
     /// Nothing, for every entry of the balance of power.
     fn nothing(&self) -> Self::Entries;
 

@@ -4,7 +4,10 @@
 //! located by shorter steps of the method itself, so that the state there has the method's order,
 //! whatever the order of the dense output. The step ends just behind the event. Events that change a mode
 //! count when they fall, kinks in either direction. All joints at rest are decided together.
+//!
+//! A step ends just before a corner of an input; the next one begins at the corner.
 
+mod corners;
 mod events;
 mod state;
 
@@ -53,8 +56,8 @@ where
         Ok(dense.unwrap_or_else(here))
     }
 
-    /// A step of the length `most` or a controlled one, up to the first event in it: its length and,
-    /// if wanted or needed, the states within.
+    /// A step of the length `most` or a controlled one, up to the first corner of an input or event in it:
+    /// by how much time went on and, if wanted or needed, the states within.
     #[expect(clippy::type_complexity, reason = "a length and what lies within")]
     fn piece(
         &mut self,
@@ -62,6 +65,7 @@ where
         budget: &mut Budget,
         densely: bool,
     ) -> Result<(Time<P>, Option<Dense<P::State>>), Refused<P>> {
+        let skipped = self.reach_corner();
         self.agree()?;
         if self.audited && !self.ledger.is_open() {
             let energy = self.plant.energy(self.t(), self.y(), &self.modes);
@@ -71,6 +75,7 @@ where
             plant: &self.plant,
             modes: &self.modes,
         };
+        let most = self.up_to_corner(most);
         let mut proposal = self.solver.propose(&ode, most)?;
         let found = self.first_event(&proposal, budget)?;
         let passed = found.map(|(shorter, passed)| {
@@ -100,7 +105,7 @@ where
         if let Some(passed) = passed {
             self.count(&passed, budget);
         }
-        Ok((h, dense))
+        Ok((skipped + h + self.reach_corner(), dense))
     }
 
     /// The account with the work of a step, and the energy after it.

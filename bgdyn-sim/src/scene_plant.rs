@@ -180,6 +180,11 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         stiction.resolve(y, modes, rest)
     }
 
+    fn next_corner(&self, t: T) -> Option<T> {
+        let corners = self.scene.corners().iter();
+        corners.map(|&corner| T::from_f64(corner)).find(|&c| c > t)
+    }
+
     fn nothing(&self) -> S::Entries {
         S::Entries::zero_vector()
     }
@@ -287,6 +292,10 @@ impl<S: Canonical<T>, T: Real> Plant for CanonicalPlant<'_, S, T> {
         let y = self.to_natural(t, z, modes)?;
         let found = self.natural.resolve_stiction(t, &y, modes, rest)?;
         Ok(found.map(|(y, modes)| (self.to_canonical(t, &y, &modes), modes)))
+    }
+
+    fn next_corner(&self, t: T) -> Option<T> {
+        self.natural.next_corner(t)
     }
 
     fn nothing(&self) -> S::Entries {

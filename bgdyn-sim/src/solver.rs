@@ -107,6 +107,11 @@ where
         self.forget();
     }
 
+    /// The clock shows `t`: an instant that lies within rounding of its own.
+    pub(crate) fn set_clock(&mut self, t: Of<Y>) {
+        (self.t, self.low_time) = (t, Of::<Y>::from_f64(0.0));
+    }
+
     /// The equation changes: nothing of earlier steps holds any more.
     pub fn forget(&mut self) {
         self.before = None;
@@ -179,7 +184,7 @@ where
             let taken = self.advance(ode, left)?;
             if taken >= left {
                 // Rounding must not leave a step of no length.
-                (self.t, self.low_time) = (end, Of::<Y>::from_f64(0.0));
+                self.set_clock(end);
             }
         }
         Ok(())

@@ -105,9 +105,14 @@ impl<F> Stiction<'_, F> {
     }
 }
 
+/// The least velocity, rad/s or m/s, that the part `rest` is taken of: a counterpart that turns back is at rest
+/// for an instant, what it carries only up to the errors of the integrator.
+const LEAST: f64 = 1e-6;
+
 /// The slip, rad/s or m/s, up to which a coordinate with this `velocity` counts as at rest: the part
 /// `rest` of the larger of its own and its counterpart's velocity, and what rounding leaves.
 fn resting_slip<T: Real>(slip: T, velocity: T, rest: T) -> T {
-    let largest = velocity.abs().max((velocity - slip).abs());
+    let velocities = velocity.abs().max((velocity - slip).abs());
+    let largest = velocities.max(T::from_f64(LEAST));
     rest * largest + T::EPSILON * T::from_f64(64.0)
 }

@@ -6,6 +6,8 @@ use bgdyn_sim::{
     Dop853, Dopri5, HybridState, Integrator, Rk4, Rodas4, Run, ScenePlant, SemiImplicitEuler,
 };
 
+mod corners;
+
 bgdyn::bgdyn!("drop.scene.yaml");
 bgdyn::bgdyn!("push.scene.yaml", jacobian = true);
 
@@ -13,8 +15,9 @@ bgdyn::bgdyn!("push.scene.yaml", jacobian = true);
 const FRICTION: f64 = 1.0;
 
 type State = SVector<f64, 2>;
+type Modes = SVector<f64, 1>;
 
-fn begin(position: f64, velocity: f64, mode: f64) -> HybridState<State, SVector<f64, 1>> {
+fn begin(position: f64, velocity: f64, mode: f64) -> HybridState<State, Modes> {
     HybridState {
         t: 0.0,
         y: State::new(position, velocity),

@@ -69,6 +69,8 @@ struct SceneFunctions {
     event_modes: Vec<Option<usize>>,
     /// The component of the state that is the velocity of each mode's coordinate.
     mode_velocities: Vec<usize>,
+    /// Instants at which an input bends, s.
+    corners: Vec<f64>,
 }
 
 /// The functions of the canonical form.
@@ -111,6 +113,7 @@ impl<'a> Evaluated<'a> {
             canonical: (form == Form::Canonical).then(canonical),
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
             mode_velocities: mode_velocities.collect(),
+            corners: system.scene.corners(),
         };
         Evaluated {
             system,
@@ -387,6 +390,11 @@ impl Plant for Evaluated<'_> {
         let y = self.natural(t, state, modes)?;
         let found = self.stiction(t).resolve(&y, modes, rest)?;
         Ok(found.map(|(y, modes)| (self.own(t, &y, &modes), modes)))
+    }
+
+    fn next_corner(&self, t: f64) -> Option<f64> {
+        let corners = self.functions.corners.iter();
+        corners.copied().find(|&corner| corner > t)
     }
 
     fn nothing(&self) -> Numbers {

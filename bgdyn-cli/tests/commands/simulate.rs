@@ -188,3 +188,22 @@ fn what_is_refused() {
     let told = bgdyn(&["simulate", "--help"]).good();
     assert!(told.contains("Example:"), "{told}");
 }
+
+/// A belt speeds up for a second, then turns back faster than its grip can follow.
+#[test]
+fn modes_are_resolved_where_a_table_bends() {
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [grip: { type: coulomb, joint: slide, kinetic: 2 N, reference: belt }]
+inputs: { belt_rate: { table: [[0 s, 0], [1 s, 0.5], [2 s, -1.5]] } }
+integration: { method: rk4, step: 3 ms, end: 3 s }
+";
+    let (run, table) = block("corner", scene, &["--points", "4"]);
+    run.good();
+    let rows = rows(&table);
+    // 2 kg under 2 N lose 1 m/s every second.
+    for (row, place) in rows.iter().zip([0.0, 0.25, 0.25, -0.75]) {
+        assert!((row[1] - place).abs() < 1e-9, "{row:?}, not {place}");
+    }
+}

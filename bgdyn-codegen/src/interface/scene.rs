@@ -26,6 +26,8 @@ pub struct SceneInterface {
     pub entries: Vec<Named>,
     /// The coordinate that each mode may hold.
     pub mode_coordinates: Vec<usize>,
+    /// The instants, s, at which an input bends, in increasing order.
+    pub corners: Vec<f64>,
     /// Run-time parameters.
     pub parameters: Vec<Parameter>,
 }
@@ -40,6 +42,7 @@ impl SceneInterface {
             outputs: system.outputs.clone(),
             entries: system.entries.clone(),
             mode_coordinates: system.mode_coordinates(),
+            corners: system.scene.corners(),
             parameters: system.scene.parameters.clone(),
         }
     }
@@ -192,6 +195,7 @@ fn nothing() -> SceneInterface {
         outputs: Vec::new(),
         entries: own.map(named).to_vec(),
         mode_coordinates: Vec::new(),
+        corners: Vec::new(),
         parameters: Vec::new(),
     }
 }

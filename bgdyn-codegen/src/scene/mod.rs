@@ -69,6 +69,15 @@ struct FileEntries {
 }
 
 impl Scene {
+    /// The instants, s, at which an input bends, in increasing order.
+    pub fn corners(&self) -> Vec<f64> {
+        let all = self.drives.iter().flat_map(InputSource::corners);
+        let mut corners: Vec<f64> = all.map(Dd::to_f64).collect();
+        corners.sort_by(f64::total_cmp);
+        corners.dedup();
+        corners
+    }
+
     /// Where the mode with this number is stated: in the file, or for a start in place of the file's.
     /// Nothing where it is left to the run.
     pub fn stated_mode(&self, mode: usize) -> Option<Location> {

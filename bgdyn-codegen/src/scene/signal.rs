@@ -32,6 +32,17 @@ pub enum Waveform {
     Table(Vec<[Dd; 2]>),
 }
 
+impl Waveform {
+    /// The instants, s, at which it bends.
+    fn corners(&self) -> impl Iterator<Item = Dd> {
+        let points = match self {
+            Waveform::Table(points) => points.as_slice(),
+            _ => &[],
+        };
+        points.iter().map(|point| point[0])
+    }
+}
+
 /// What drives an input.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InputSource {
@@ -59,6 +70,20 @@ pub enum InputSource {
         /// d, 1/s
         damping: Dd,
     },
+}
+
+impl InputSource {
+    /// The instants, s, at which its course or its target bends.
+    pub fn corners(&self) -> impl Iterator<Item = Dd> {
+        let course = match self {
+            InputSource::Given | InputSource::RateOf(_) => None,
+            InputSource::Course(course) => Some(course),
+            InputSource::Pd { target, .. } | InputSource::ComputedTorque { target, .. } => {
+                Some(target)
+            }
+        };
+        course.into_iter().flat_map(Waveform::corners)
+    }
 }
 
 /// The words that a drive may begin with.

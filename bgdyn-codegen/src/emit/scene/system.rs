@@ -4,6 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::constants::size;
+use super::super::tokens::number;
 use super::parts::{mode_parts, names_of, of_named};
 use crate::interface::SceneInterface;
 
@@ -41,6 +42,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
     };
     let count = size(entries.len());
     let velocities = &scene.mode_coordinates;
+    let corners = corners(&scene.corners);
     let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
     quote! {
         impl<T: __Scalar> __rt::HybridSystem<T> for #name<T> {
@@ -58,6 +60,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
             fn event_names(&self) -> &'static [&'static str; NE] { &EVENT_NAMES }
             fn event_modes(&self) -> &'static [::core::option::Option<usize>; NE] { &EVENT_MODES }
             fn mode_velocities(&self) -> &'static [usize; NM] { &[#(#mode_velocities),*] }
+            #corners
             fn output_names(&self) -> &'static [&'static str; NY] { &OUTPUT_NAMES }
             fn entry_names(&self) -> &'static [&'static str; #count] { &ENTRY_NAMES }
             fn start(&self) -> (__na::SVector<T, N>, __na::SVector<T, NM>) {
@@ -126,6 +129,18 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
             }
         }
     }
+}
+
+/// The instants at which an input bends, where there are any.
+fn corners(corners: &[f64]) -> TokenStream {
+    if corners.is_empty() {
+        return TokenStream::new();
+    }
+    let instants = corners.iter().map(|&t| {
+        let (sign, size) = ((t < 0.0).then(|| quote! { - }), number(t.abs()));
+        quote! { #sign #size }
+    });
+    quote! { fn corners(&self) -> &'static [f64] { &[#(#instants),*] } }
 }
 
 /// The implementation of the trait `Slope`.
