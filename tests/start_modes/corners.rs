@@ -77,7 +77,7 @@ fn on_the_belt(t: f64) -> (f64, f64) {
 #[test]
 fn a_belt_that_turns_back_too_fast_leaves_its_block_behind() {
     let scene = belt::Belt::<f64>::default();
-    let check = |run: Runs<belt::Belt<f64>>, allowed: f64| {
+    let check = |run: Runs<'_, belt::Belt<f64>>, allowed: f64| {
         for (t, mode) in [(0.6, 0.0), (1.5, 1.0), (2.7, 1.0), (3.6, 0.0)] {
             let found = run(&scene, t);
             near(found.y[0], on_the_belt(t).0, allowed);
@@ -91,7 +91,7 @@ fn a_belt_that_turns_back_too_fast_leaves_its_block_behind() {
 #[test]
 fn a_belt_that_turns_back_slowly_carries_its_block() {
     let scene = carried::Carried::<f64>::default();
-    let check = |run: Runs<carried::Carried<f64>>, allowed: f64| {
+    let check = |run: Runs<'_, carried::Carried<f64>>, allowed: f64| {
         let found = run(&scene, 4.0);
         // Areas under the table's lines.
         near(found.y[0], 0.05 - 0.15 + 0.15 + 0.6, allowed);
@@ -117,7 +117,7 @@ fn a_carried_block_meets_no_event() {
 #[test]
 fn a_target_that_starts_to_move_makes_a_resting_block_slip() {
     let scene = led::Led::<f64>::default();
-    let check = |run: Runs<led::Led<f64>>, allowed: f64| {
+    let check = |run: Runs<'_, led::Led<f64>>, allowed: f64| {
         let found = run(&scene, 1.0);
         near(found.y[0], 0.0, 1e-13);
         let found = run(&scene, 1.5);
@@ -130,7 +130,11 @@ fn a_target_that_starts_to_move_makes_a_resting_block_slip() {
         let stop = ((v + 0.2) / 0.2).ln() / 5.0;
         let found = run(&scene, 2.0 + 2.0 * stop);
         assert_eq!((found.y[1], found.modes[0]), (0.0, 0.0));
-        near(found.y[0], x + (v + 0.2) / 5.0 * (1.0 - (-5.0 * stop).exp()) - 0.2 * stop, allowed);
+        near(
+            found.y[0],
+            x + (v + 0.2) / 5.0 * (1.0 - (-5.0 * stop).exp()) - 0.2 * stop,
+            allowed,
+        );
     };
     by_every_kind!(check);
 }
