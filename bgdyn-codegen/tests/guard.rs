@@ -154,6 +154,34 @@ fn random_bodies_cost_no_more_unless_digits_are_lost() {
     assert_eq!(seen, 10 * BODIES);
 }
 
+/// Of the specs as they are, by what the choice weighs: operations, divisions and sines together.
+#[test]
+fn specs_cost_no_more_unless_digits_are_lost() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs");
+    let mut seen = 0;
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|ending| ending != "yaml") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).expect("a spec");
+        let robot = Robot::read(&text, path.file_stem().and_then(|stem| stem.to_str()));
+        let chosen = robot.chosen(METHOD);
+        let mut all = formulations(&robot);
+        all.sort_by_key(|f| f.cost().weighted());
+        let (own, least) = (chosen.cost().weighted(), all[0].cost().weighted());
+        let dear = own as f64 > PRICE * least as f64;
+        assert!(
+            !dear || really_lost(&robot, &all[0], &chosen),
+            "{}: {own} where {least} would do: {}",
+            path.display(),
+            chosen.formulation
+        );
+        seen += 1;
+    }
+    assert!(seen > 10, "{seen}");
+}
+
 /// Bodies for which a state of the guard is beyond the bars by every way there is, or by the cheapest one
 /// only, by less than a bit: found among a hundred each.
 #[test]

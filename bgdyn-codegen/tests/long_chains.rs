@@ -3,10 +3,13 @@
 mod common;
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 use bgdyn_codegen::expr::count;
 use bgdyn_codegen::function::{Function, InnerProducts, in_triangle};
 use bgdyn_codegen::method::Method;
+use bgdyn_codegen::passes::factor;
 use bgdyn_runtime::Dd;
 use common::random::Draft;
 use common::rng::Rng;
@@ -152,5 +155,32 @@ fn loops_compute_what_is_counted() {
             terms += found.total();
         }
         assert_eq!(count(&cut.graph, &last.outputs).total(), terms, "{name}");
+    }
+}
+
+/// Every count of the page's table.
+#[test]
+fn the_page_holds_what_is_generated() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let page = fs::read_to_string(root.join("docs/chains.md")).expect("a page");
+    for (links, spec) in [
+        (16, "tests/chains/chain16.yaml"),
+        (32, "tests/golden/specs/chain32.yaml"),
+        (64, "tests/golden/specs/chain64.yaml"),
+    ] {
+        let text = fs::read_to_string(root.join(spec)).expect("a spec");
+        let robot = Robot::read(&text, Some("chain"));
+        let count = |f: &Function| {
+            let o = f.operations();
+            (o.total(), format!("({}/{})", o.mul, o.add))
+        };
+        let [id, m, fd] = [Method::InverseDynamics, M, Method::ForwardDynamics]
+            .map(|method| count(&robot.chosen(method)));
+        let carried = count(&factor(robot.whole("recursion", M)));
+        let row = format!(
+            "| {links} | {} {} | **{}** {} | {} {} | {} {} |",
+            id.0, id.1, m.0, m.1, carried.0, carried.1, fd.0, fd.1
+        );
+        assert!(page.contains(&row), "not on the page: {row}");
     }
 }

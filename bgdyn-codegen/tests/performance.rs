@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::files::stem;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::Options;
+use bgdyn_codegen::options::{Options, formulation_named};
 use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::read;
 
@@ -159,4 +159,42 @@ fn the_page_holds_what_is_generated() {
         found == text,
         "docs/performance.md is not up to date:\n{text}"
     );
+}
+
+/// README's table has the robots of the page in its order.
+#[test]
+fn the_readme_holds_what_is_generated() {
+    let readme = fs::read_to_string(folder("README.md")).expect("a page");
+    let head =
+        "| robot | inverse dynamics | base parameters | literal | mass matrix | forward dynamics |";
+    let table = &readme[readme.find(head).expect("the table")..];
+    let literal = Options {
+        formulation: Some(formulation_named("literal").expect("a formulation")),
+        ..Options::default()
+    };
+    for (robot, row) in ROBOTS.iter().zip(table.lines().skip(2)) {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        let path = folder(&format!("tests/golden/specs/{}.yaml", robot.name));
+        let counted = |method, options: &Options| {
+            let text = fs::read_to_string(&path).expect("a spec");
+            let mechanism = read(&text, Some(robot.name)).0.expect("a mechanism");
+            let o = function(&mechanism, method, options)
+                .expect("a function")
+                .operations();
+            format!("{}/{}", o.mul, o.add)
+        };
+        let usual = |method| counted(method, &Options::default());
+        assert_eq!(
+            cells[1],
+            format!("**{}**", usual(Method::InverseDynamics)),
+            "{row}"
+        );
+        assert_eq!(
+            cells[3],
+            counted(Method::InverseDynamics, &literal),
+            "{row}"
+        );
+        assert_eq!(cells[4], usual(Method::MassMatrix), "{row}");
+        assert_eq!(cells[5], usual(Method::ForwardDynamics), "{row}");
+    }
 }

@@ -107,7 +107,7 @@ fn arms_outside_the_table() {
          for the one that says otherwise; their specs are in \
          [`bgdyn-codegen/tests/outside/`](../bgdyn-codegen/tests/outside). The baseline is Newton and \
          Euler's recursion in link axes with base parameters: numbers folded, products with 0 and 1 \
-         left out, equal expressions shared, and nothing else. The test makes it by itself, proves it \
+         left out, equal expressions shared, and nothing else. The test makes it by itself, finds it \
          equal to equation (6), and finds the counts of other generators of that recursion with it on \
          the robots of [the table](performance.md). Beside it stands the same with the moment as the \
          skew part of U·D, one of the steps beyond it. Multiplications and additions are counted as \

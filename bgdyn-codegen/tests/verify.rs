@@ -369,3 +369,28 @@ fn a_mechanism_without_coordinates_passes() {
     let found = check_functions("post", &model.bond_graph, &model.functions);
     assert!(found.is_empty(), "{}", explain(&found));
 }
+
+/// The step of the pipeline between the model and its text.
+#[test]
+fn a_wrong_function_refuses_the_module_unless_told_not_to_look() {
+    use bgdyn_codegen::pipeline::{model, verify};
+    use bgdyn_codegen::refusal::Refusal;
+    let path = &files("specs", "scara.yaml")[0];
+    let mut model = model(mechanism(&text(path), "scara"), &Options::default()).expect("a model");
+    assert_eq!(verify(&model, &Options::default()), Ok(()));
+    let gravity = model
+        .functions
+        .iter_mut()
+        .find(|f| f.method == Method::Bias);
+    let output = &mut gravity.expect("a bias").blocks[0].outputs[0];
+    *output = -*output;
+    let Err(Refusal::Unequal(differences)) = verify(&model, &Options::default()) else {
+        panic!("a turned sign passes");
+    };
+    assert_eq!(differences[0].function, "bias");
+    let blind = Options {
+        verify: false,
+        ..Options::default()
+    };
+    assert_eq!(verify(&model, &blind), Ok(()));
+}

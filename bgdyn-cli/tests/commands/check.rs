@@ -165,3 +165,19 @@ fn a_urdf_is_recognised() {
     let file = scratch("check_urdf", "quoted.yaml", yaml);
     assert!(!bgdyn(&["check", &file]).bad_input().contains("URDF"));
 }
+
+#[test]
+fn what_snapping_changed_is_printed() {
+    let spec = "\
+format: 1
+links:
+  - name: arm
+    joint: { name: shoulder, type: revolute, axis: [1e-11, 0, 1] }
+    mass: 1
+    com: [0.1, 0, 0]
+";
+    let file = scratch("check_snapped", "arm.yaml", spec);
+    let text = bgdyn(&["check", &file]).good();
+    let wanted = "snapped: 1 direction, 1.0e-11 rad off (`links[0].joint.axis`)";
+    assert!(text.contains(wanted), "{text}");
+}

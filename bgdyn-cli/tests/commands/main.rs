@@ -9,6 +9,7 @@ mod eval_scenes;
 mod generate;
 mod golden_specs;
 mod graph;
+mod import;
 mod messages;
 mod ops;
 mod pictures;

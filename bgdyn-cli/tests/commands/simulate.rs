@@ -210,3 +210,20 @@ integration: { method: rk4, step: 3 ms, end: 3 s }
         assert!((row[1] - place).abs() < 1e-9, "{row:?}, not {place}");
     }
 }
+
+/// Friction of 2 N cannot hold 2 kg under a force of 6 N.
+#[test]
+fn friction_that_cannot_hold_lets_go_at_the_start() {
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [grip: { type: coulomb, joint: slide, kinetic: 2 N }]
+inputs: { slide: 6 N }
+integration: { method: rk4, step: 1 ms, end: 1 s }
+";
+    let (run, table) = block("lets_go", scene, &["--points", "2"]);
+    run.good();
+    let rows = rows(&table);
+    // (6 − 2) N on 2 kg for 1 s.
+    assert!((rows[1][1] - 1.0).abs() < 1e-9, "{rows:?}");
+}

@@ -161,3 +161,36 @@ fn chance_is_the_seeds() {
         close(&row[2], swing(2.0, x));
     }
 }
+
+/// Each run of a batch decides for itself what sticks at its start: the spring pulls with 1 N or 5 N, friction
+/// holds 2 N.
+#[test]
+fn every_run_of_a_batch_resolves_stiction_at_its_start() {
+    scratch("many_start", "block.yaml", BLOCK);
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [inertia, grip: { type: coulomb, joint: slide, kinetic: 2 N }, rubber]
+integration: { method: rk4, step: 1 ms, end: 0.1 s }
+outputs: [slide]
+";
+    let scene = scratch("many_start", "swing.scene.yaml", scene);
+    let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "many_start", "out"]
+        .iter()
+        .collect();
+    let folder = out.display().to_string();
+    let sweep = [
+        "simulate",
+        &scene,
+        "--out",
+        &folder,
+        "--sweep",
+        "slide=0.02:0.1:2",
+    ];
+    bgdyn(&sweep).good();
+    let table = fs::read_to_string(out.join("swing_batch.csv")).expect("a table");
+    let rows = table_rows(&table);
+    close(&rows[0][2], 0.02);
+    // About x = 2 N / 50 N/m, with ω = 5 rad/s.
+    close(&rows[1][2], 0.04 + 0.06 * 0.5_f64.cos());
+}

@@ -11,7 +11,7 @@
 //!    unless another one costs at most 5 % more.
 //! 3. A function is measured again after factoring. If it then comes near the bounds or exceeds them, its
 //!    operations keep their order. Of 74 functions (`specs/`, `tests/outside`, eight arms with random bodies)
-//!    that costs seven up to 5.7 % (`crane`: 175 operations for 165), 0.25 % in all.
+//!    that costs seven up to 4.8 % (`crane`: 173 operations for 165), 0.25 % in all.
 //!
 //! The condition number is no bound where the efforts almost balance the bias: rounding one argument then
 //! moves q̈ by more. `tests/common/bars.rs` measures that before it allows anything.

@@ -30,11 +30,20 @@ pub fn generate(
         return Err(Refusal::Spec(findings));
     };
     let model = model(mechanism, options).map_err(Refusal::Options)?;
-    if options.verify {
-        let name = model.mechanism.name();
-        Refusal::unless_equal(check_functions(name, &model.bond_graph, &model.functions))?;
-    }
+    verify(&model, options)?;
     Ok((emit::module(&model, output), findings))
+}
+
+/// Compares the model's functions with equation (6), unless the options leave that out.
+///
+/// # Errors
+/// [`Refusal::Unequal`] with every difference.
+pub fn verify(model: &Model, options: &Options) -> Result<(), Refusal> {
+    if !options.verify {
+        return Ok(());
+    }
+    let name = model.mechanism.name();
+    Refusal::unless_equal(check_functions(name, &model.bond_graph, &model.functions))
 }
 
 /// Builds the bond graph of a mechanism and chooses a function for each method asked for.

@@ -13,6 +13,6 @@ mod scene;
 mod stub;
 
 pub use any_file::generate_file;
-pub use mechanism::{function, generate, model};
+pub use mechanism::{function, generate, model, verify};
 pub use scene::scene_functions;
 pub use stub::stub;

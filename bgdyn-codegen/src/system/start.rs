@@ -95,15 +95,21 @@ struct Start<'a> {
     rows: Vec<Signed>,
     /// For each mode, whether an input that the caller gives decides.
     by_caller: Vec<bool>,
+    /// For each mode, whether it belongs to the limit of a rate, not to friction.
+    of_limit: Vec<bool>,
 }
 
 impl<'a> Start<'a> {
     fn of(system: &'a SceneEquations) -> Self {
         let b = Builder::silent();
-        let rows: Vec<Signed> = {
+        let (rows, of_limit): (Vec<Signed>, _) = {
             let sums = system.laws_under_driven_inputs(&b);
+            let mut of_limit = vec![false; system.scene.layout.modes.len()];
+            for contact in sums.contacts() {
+                of_limit[contact.mode] = contact.hold.range().is_none();
+            }
             let all = contacts_under(system, &sums).into_iter().flatten();
-            all.map(|x| x.signed()).collect()
+            (all.map(|x| x.signed()).collect(), of_limit)
         };
         let graph = b.into_graph();
         let given = |row: &[Signed]| {
@@ -118,6 +124,7 @@ impl<'a> Start<'a> {
             graph,
             rows,
             by_caller,
+            of_limit,
         }
     }
 
@@ -160,12 +167,14 @@ impl<'a> Start<'a> {
         held[k] = Dd::ZERO;
         let contact = &self.contacts(&held)[k];
         let (slip, holding) = (contact.slip.to_f64(), contact.holding.to_f64());
-        let why = if slip.abs() > NO_SLIP {
-            WhyWrong::Slips(slip)
-        } else if right == 0.0 {
-            WhyWrong::IsHeld(holding)
-        } else {
-            WhyWrong::CannotHold(holding, -contact.margin.to_f64())
+        let begins_with = self.system.initial.v[self.system.mode_coordinates()[k]].to_f64();
+        let why = match (self.of_limit[k], slip.abs() > NO_SLIP, right == 0.0) {
+            (false, true, _) => WhyWrong::Slips(slip),
+            (false, false, true) => WhyWrong::IsHeld(holding),
+            (false, false, false) => WhyWrong::CannotHold(holding, -contact.margin.to_f64()),
+            (true, true, _) => WhyWrong::OffLimit(begins_with, begins_with - slip),
+            (true, false, true) => WhyWrong::StaysAtLimit,
+            (true, false, false) => WhyWrong::LeavesLimit,
         };
         let mode = WrongMode {
             name: &mode_name(&layout.modes[k]),

@@ -10,6 +10,7 @@ use bgdyn_runtime::{Dd, Scalar};
 
 use super::common::{read, scene, specs, state};
 use super::one::{BLOCK, text};
+use super::written::CIRCUIT;
 
 /// Segments between two states that are searched in each scene.
 const SEGMENTS: u64 = 60;
@@ -218,6 +219,20 @@ fn every_effect_that_has_a_kink_says_where() {
         let found = kinks(&scene(&text(&[effect], more), BLOCK));
         assert!(found > 5, "{found} kinks found: {effect}");
     }
+}
+
+/// An opening below 0 or above 1, a spool beyond its ends: the flow stays as it is.
+#[test]
+fn every_saturation_of_the_hydraulics_is_an_event() {
+    let circuit = format!("it: {}", CIRCUIT.trim_start());
+    let circuit = circuit.replace(
+        "second: { type: orifice,",
+        "second: { type: orifice, opening: tap,",
+    );
+    assert!(circuit.contains("opening: tap"));
+    let effects: Vec<&str> = circuit.split("\n  ").collect();
+    let found = kinks(&scene(&text(&effects, ""), BLOCK));
+    assert!(found > 5, "{found} kinks found");
 }
 
 /// Second derivatives that jump are no kinks.

@@ -78,7 +78,39 @@ fn a_stated_mode_that_contradicts_is_refused_with_its_place_and_the_numbers() {
             "`grip_mode` begins with 1, but at rest it is held: that takes 0 N: its mode is 0",
         ),
     ];
-    for (text, wanted) in cases {
+    let limited = [
+        (
+            1.0,
+            24.0,
+            "upper_limit_mode: 0",
+            "`it_upper_limit_mode` begins with 0, but `it_current` begins with 1 A and its limit is 4 A: its mode is -1",
+        ),
+        (
+            1.0,
+            24.0,
+            "lower_limit_mode: 0",
+            "`it_lower_limit_mode` begins with 0, but `it_current` begins with 1 A and its limit is -4 A: its mode is 1",
+        ),
+        (
+            4.0,
+            24.0,
+            "upper_limit_mode: -1",
+            "`it_upper_limit_mode` begins with -1, but `it_current` begins at its limit and is held there: its mode is 0",
+        ),
+        (
+            4.0,
+            7.9,
+            "upper_limit_mode: 0",
+            "`it_upper_limit_mode` begins with 0, but `it_current` begins at its limit and leaves it: its mode is -1",
+        ),
+    ];
+    let limited = limited.map(|(current, volts, mode, wanted)| {
+        let more = format!(
+            "inputs: {{ it: {{ constant: {volts} V }} }}\ninitial: {{ it_current: {current} A, it_{mode} }}\n"
+        );
+        (text(&[MOTOR], &more), wanted)
+    });
+    for (text, wanted) in cases.into_iter().chain(limited) {
         let Err(refusal) = try_scene(&text, BLOCK) else {
             panic!("not refused: {text}");
         };

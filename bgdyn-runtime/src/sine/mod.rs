@@ -6,7 +6,7 @@
 //! on the way, so that several angles go through in lanes and every angle takes the same time.
 //! Larger angles are reduced exactly, one by one (`large.rs`).
 //!
-//! Errors stay below one unit in the last place for an angle, and for a sum of two, of any size. A sum
+//! Errors stay below one unit in the last place for an angle of any size, and for a sum of two that does not overflow. A sum
 //! of three or more terms is carried in two words: it is off by up to |q|·eps² more, where q is the
 //! largest of its partial sums and eps the spacing of the numbers above 1. That shows only where the sine
 //! is smaller than |q|·eps. `tests/sine.rs` measures both.

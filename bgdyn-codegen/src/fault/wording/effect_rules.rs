@@ -197,6 +197,12 @@ pub(crate) enum WhyWrong {
     IsHeld(f64),
     /// Holding takes an effort that is too large, and by how much.
     CannotHold(f64, f64),
+    /// The rate, and the limit that it is not at.
+    OffLimit(f64, f64),
+    /// The rate is at its limit, and the effort keeps it there.
+    StaysAtLimit,
+    /// The rate is at its limit, and the effort takes it away from there.
+    LeavesLimit,
 }
 
 pub(crate) fn wrong_mode(location: &Location, mode: &WrongMode<'_>) -> Fault {
@@ -220,6 +226,12 @@ pub(crate) fn wrong_mode(location: &Location, mode: &WrongMode<'_>) -> Fault {
             let [holding, beyond] = [holding, beyond].map(figure);
             format!("holding takes {holding} {effort}, {beyond} {effort} more than it can hold")
         }
+        WhyWrong::OffLimit(value, limit) => {
+            let [value, limit] = [value, limit].map(figure);
+            format!("`{rate}` begins with {value} {unit} and its limit is {limit} {unit}")
+        }
+        WhyWrong::StaysAtLimit => format!("`{rate}` begins at its limit and is held there"),
+        WhyWrong::LeavesLimit => format!("`{rate}` begins at its limit and leaves it"),
     };
     let message = format!("`{name}` begins with {stated}, but {why}: its mode is {right}");
     Fault::new(location, "initial-mode", message).with_help(format!(
