@@ -2,17 +2,27 @@
 
 use std::path::Path;
 use std::process::{Command, Output};
+use std::sync::Once;
 
-/// Runs an example in the profile of this test.
+/// Runs an example in the profile of this test. It is built with the features of the whole workspace, as
+/// `cargo test --workspace` has built it already: `-p controllers` would compile the generator once more.
 fn example(name: &str, arguments: &[&str]) -> Output {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(env!("CARGO_MANIFEST_DIR"));
-    cargo.args(["run", "--quiet", "-p", "controllers", "--example", name]);
-    if !cfg!(debug_assertions) {
-        cargo.arg("--release");
-    }
-    cargo.arg("--").args(arguments);
-    cargo.output().expect("cargo runs")
+    static BUILD: Once = Once::new();
+    BUILD.call_once(|| {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.current_dir(env!("CARGO_MANIFEST_DIR"));
+        cargo.args(["build", "--quiet", "--workspace"]);
+        cargo.args(["--example", "scara", "--example", "puma560"]);
+        if !cfg!(debug_assertions) {
+            cargo.arg("--release");
+        }
+        assert!(cargo.status().expect("cargo runs").success());
+    });
+    let tests = std::env::current_exe().expect("a path of this test");
+    let profile = tests.ancestors().nth(2).expect("the profile's folder");
+    let mut example = Command::new(profile.join("examples").join(name));
+    example.current_dir(env!("CARGO_MANIFEST_DIR"));
+    example.args(arguments).output().expect("the example runs")
 }
 
 fn runs(name: &str) {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::{env, fs};
+use std::{env, fs, thread};
 
 use bgdyn_accuracy::generate::variants;
 use bgdyn_codegen::files::{beside, stem};
@@ -25,9 +25,13 @@ fn main() {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").expect("cargo"));
     let out = PathBuf::from(env::var("OUT_DIR").expect("cargo"));
     let (mut modules, mut list) = (String::new(), String::new());
-    for (name, end) in SCENES {
-        let path = root.join(format!("../../specs/scenes/{name}.scene.yaml"));
-        let text = variants(&read(&path), end).unwrap_or_else(|e| panic!("{e}"));
+    // Scenes do not depend on each other: a thread each.
+    let texts = thread::scope(|scope| {
+        let root = &root;
+        let started = SCENES.map(|(name, end)| scope.spawn(move || text_of(root, name, end)));
+        started.map(|thread| thread.join().expect("no panic"))
+    });
+    for ((name, _), text) in SCENES.into_iter().zip(texts) {
         fs::write(out.join(format!("{name}.rs")), text).expect("OUT_DIR is writable");
         let file = out.join(format!("{name}.rs")).display().to_string();
         writeln!(modules, "include!({file:?});").expect("text");
@@ -38,6 +42,12 @@ fn main() {
         "/// The scenes' names, and what is measured of each.\npub const TEST_CASES: [(&str, Study); {count}] = [{list}];\n"
     );
     fs::write(out.join("modules.rs"), modules).expect("OUT_DIR is writable");
+}
+
+/// The modules of a scene's variants.
+fn text_of(root: &Path, name: &str, end: Option<f64>) -> String {
+    let path = root.join(format!("../../specs/scenes/{name}.scene.yaml"));
+    variants(&read(&path), end).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A scene.
