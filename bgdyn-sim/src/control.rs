@@ -39,7 +39,8 @@ pub(crate) struct Controller {
 
 /// The smallest and the largest ratio of consecutive steps.
 const RATIOS: (f64, f64) = (0.2, 6.0);
-/// Errors below this do not make steps longer than this error does.
+/// Errors below this value count as this value, so that one small error does not make the next step too
+/// long.
 const LEAST_ERROR: f64 = 1e-4;
 
 impl Controller {
