@@ -30,8 +30,8 @@ pub fn absorb_negations(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>
     (to, outputs)
 }
 
-/// Returns the sums to compute with the opposite sign: those for which more readers have the opposite sign
-/// at the cost of an instruction than not, and whose other readers have no cost.
+/// Returns the sums to compute with the opposite sign: outputs and pivots read them negated more often
+/// than not, and all other readers are fused sums, in which a sign costs nothing.
 fn flips(graph: &Graph, outputs: &[Signed], needed: &[bool]) -> Vec<bool> {
     let mut gain = vec![0_i32; graph.len()];
     let mut bound = vec![false; graph.len()];
@@ -73,7 +73,7 @@ mod tests {
     fn signs_move_into_sums() {
         let mut g = Graph::default();
         let [x, y, z] = xyz(&mut g);
-        // −(xy + z), also in a fused sum; −(y − z); −(xy + y), of which a root is taken.
+        // −(xy + z), also in a fused sum; −(y − z); −(xy + y) under a root.
         let free = g.mul_add(x, y, z);
         let reads = g.mul_add(free, x, y);
         let difference = g.add(y, minus(z));
