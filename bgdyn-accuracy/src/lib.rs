@@ -10,14 +10,14 @@
 //! scene ──generate──▶ variants, compiled ──▶ TestCase ──study──▶ Study (rows) ──▶ verdicts, front, figures, page
 //! ```
 //!
-//! `generate` (the feature of this name) writes the modules of a scene's variants with a function that
-//! creates their [`TestCase`]. Build scripts and the command `bgdyn accuracy` call it.
-//! [`TestCase`] contains runs of compiled scenes behind closures, so that the next steps do not depend on
-//! the scene.
-//! [`study()`] runs each of them, measures the time and returns rows: `accuracy.csv`.
-//! The cost of single effects is measured by one call of `derivative` and by the number of steps
-//! ([`Cost`]): differences of the times of whole runs would not show it.
-//! [`verdicts`], [`front`], [`figures`] and [`page`] only read rows.
+//! - `generate` (the feature of this name) writes the modules of a scene's variants with a function that
+//!   creates their [`TestCase`]. Build scripts and the command `bgdyn accuracy` call it.
+//! - [`TestCase`] contains runs of compiled scenes behind closures, so that the next steps do not depend
+//!   on the scene.
+//! - [`study()`] runs each of them, measures the time and returns rows: `accuracy.csv`.
+//! - The cost of single effects is measured by one call of `derivative` and by the number of steps
+//!   ([`Cost`]): differences of the times of whole runs would not show it.
+//! - [`verdicts`], [`front`], [`figures`] and [`page`] only read rows.
 //!
 //! # The error
 //! A scene has one measured output: the first site among its outputs, else the first coordinate among

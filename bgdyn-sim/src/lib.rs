@@ -49,9 +49,9 @@
 //! of the models: see [`bgdyn_runtime`].
 //!
 //! # Features, off by default
-//! `std`: states of a size known at run time only, nalgebra's `DVector`. Without this feature the crate
-//! needs neither std nor a heap. Also `batch`: many runs over all cores.
-//! `wide`: [`lanes`] in the registers of the crate `wide`: one run per lane. Stays `no_std`.
+//! - `std`: states of a size known at run time only, nalgebra's `DVector`. Without this feature the crate
+//!   needs neither std nor a heap. Also `batch`: many runs over all cores.
+//! - `wide`: [`lanes`] in the registers of the crate `wide`: one run per lane. Stays `no_std`.
 #![no_std]
 #![forbid(unsafe_code)]
 
