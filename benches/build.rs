@@ -1,5 +1,5 @@
-//! Generates the mechanisms of `specs/`, each with the methods that are timed: `models.rs` has their
-//! modules, `robots.rs` a call of the macro `robots!` with all of them, which whoever includes it defines.
+//! Generates the mechanisms of `specs/`, each with the methods that are timed: `models.rs` contains their
+//! modules, `robots.rs` a call of the macro `robots!` with all of them, which the including file defines.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ fn main() {
     fs::write(out.join("robots.rs"), robots).unwrap();
 }
 
-/// The frame named last on a link, else the last link.
+/// Returns the last frame on the last link, else the last link.
 fn tip(path: &Path) -> String {
     let text = fs::read_to_string(path).expect("a spec");
     let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem(path)));

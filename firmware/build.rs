@@ -1,4 +1,4 @@
-//! Generates the models, and the motions that the controllers are checked with.
+//! Generates the models, and the motions with which the controllers are checked.
 
 use std::path::PathBuf;
 use std::{env, fs};
@@ -17,14 +17,14 @@ fn main() -> Result<(), Error> {
     let robots = ["scara", "puma560", "panda"].map(bodies).concat();
     fs::write(out.join("bodies.rs"), robots).expect("OUT_DIR can be written");
     fs::write(out.join("motions.rs"), reference::motions()).expect("OUT_DIR can be written");
-    // Where the linker looks.
+    // In the linker's search path.
     fs::copy("memory.x", out.join("memory.x")).expect("memory.x");
     println!("cargo::rustc-link-search={}", out.display());
     println!("cargo::rerun-if-changed=memory.x");
     Ok(())
 }
 
-/// A mechanism of `specs/` as the textbook takes it: `SCARA`, a constant array of bodies, and
+/// Returns a mechanism of `specs/` for the textbook recursions: `SCARA`, a constant array of bodies, and
 /// `SCARA_GRAVITY`.
 fn bodies(robot: &str) -> String {
     let text = fs::read_to_string(format!("../specs/{robot}.yaml")).expect("a spec");

@@ -14,9 +14,9 @@
 //! # Ok::<(), bgdyn::Singular>(())
 //! ```
 //!
-//! SI units and radians; spatial vectors have the angular part first; Jacobians are in world axes, at
-//! the frame's origin; gravity is the acceleration of free fall, `[0, 0, -9.81]` by default. All of it
-//! is said in [`runtime`].
+//! SI units and radians; spatial vectors have the angular part first; Jacobians are in world axes, at the
+//! frame's origin; gravity is the acceleration of free fall, `[0, 0, -9.81]` by default. [`runtime`]
+//! defines all conventions.
 //!
 //! The repository has a book in `docs/`, from a first model to the equations behind it.
 #![no_std]

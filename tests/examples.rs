@@ -1,4 +1,4 @@
-//! The examples run, write what they say, and refuse what they do not understand.
+//! Runs the examples: they write their results, and refuse unknown arguments.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -61,7 +61,7 @@ fn bad_arguments_are_refused() {
         assert!(errors.contains(message), "{errors}");
         assert!(errors.contains("Usage:"), "{errors}");
     }
-    // A file is in the way of the folder.
+    // A file exists with the name of the folder.
     let output = example("scara", &["--out", "Cargo.toml"]);
     assert_eq!(output.status.code(), Some(1));
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -75,7 +75,7 @@ fn help_is_printed() {
     assert!(String::from_utf8_lossy(&output.stdout).contains("--example puma560"));
 }
 
-/// The simulated arms are the models, line by line, and a part.
+/// The simulated arms are the models, line by line, plus a part.
 #[test]
 fn loaded_arms_are_the_models_and_a_part() {
     for name in ["scara", "puma560"] {

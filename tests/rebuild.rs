@@ -1,6 +1,6 @@
-//! A crate outside the workspace that calls bgdyn by another name, by the macro and by a build
-//! script: a changed spec rebuilds it, and so does the changed mechanism of a scene; every place is searched, and a spec that two places hold is
-//! refused.
+//! Tests a crate outside the workspace that uses bgdyn under another name, by the macro and by a build
+//! script: a changed spec rebuilds it, and so does the changed mechanism of a scene; every folder is
+//! searched, and a spec in two folders is refused.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ fn scene(mechanism: &str) -> String {
     format!("scene: 1\nmechanism: {mechanism}\neffects: [gravity]\n")
 }
 
-/// A package of its own below `target/`, with a target directory that later runs find warm.
+/// A separate package below `target/`, with a target directory that later runs reuse.
 struct Scratch(PathBuf);
 
 impl Scratch {
@@ -166,7 +166,7 @@ fn a_crate_of_its_own() {
     scratch.write("src/beside.yaml", &spec(3.0));
     assert_eq!(scratch.printed(), "1 1 2 29.43 49.05 9.81 19.62");
 
-    // A file in another place is seen when the crate is compiled next.
+    // A file in another folder is found at the next compilation.
     scratch.write("specs/beside.yaml", &spec(3.0));
     scratch.write("src/main.rs", MAIN);
     let stderr = scratch.refused();

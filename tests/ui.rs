@@ -1,6 +1,6 @@
-//! The macro as callers see it: what compiles, and what they read where it does not.
+//! Tests the macro from the caller's side: programs that compile, and the errors of those that do not.
 //!
-//! After a wanted change: `TRYBUILD=overwrite cargo test --test ui`.
+//! After an intended change: `TRYBUILD=overwrite cargo test --test ui`.
 
 #[test]
 fn callers() {

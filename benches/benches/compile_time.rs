@@ -1,10 +1,11 @@
-//! What a model costs while compiling, for each spec of `specs/` and the chains of 32 and 64 links: time of the
-//! macro, time of the compiler behind it, code size, the compiler's peak memory. A release build of a crate of
-//! its own, as Cargo makes it for a user who sets nothing: the macro itself unoptimised.
+//! Measures the compile-time cost of a model, for each spec of `specs/` and the chains of 32 and 64 links:
+//! time of the macro, time of the compiler for its output, code size, the compiler's peak memory. Each is
+//! a release build of a separate crate with Cargo's default settings, in which the macro itself is not
+//! optimised.
 //!
-//! `cargo bench -p benches --bench compile_time -- panda` measures one; six minutes for all, and with `--docs`
-//! they are written to `docs/compile_time.md`. Three crates are compared: with the macro, with its text, and with
-//! neither; of each the shortest of three builds.
+//! `cargo bench -p benches --bench compile_time -- panda` measures one; all take six minutes, and with
+//! `--docs` they are written to `docs/compile_time.md`. Three crates are compared: with the macro, with
+//! its text, and with neither; the shortest of three builds counts for each.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -14,7 +15,7 @@ use std::{env, fs};
 use bgdyn_codegen::build_script::Build;
 use bgdyn_codegen::files::stem;
 
-/// Of a controller: what a build with all five adds.
+/// The methods of a controller, all in one build.
 const METHODS: [&str; 5] = [
     "inverse_dynamics",
     "mass_matrix",
@@ -22,9 +23,9 @@ const METHODS: [&str; 5] = [
     "bias",
     "gravity",
 ];
-/// Of the chains.
+/// The methods of the chains.
 const LONG: [&str; 3] = ["inverse_dynamics", "mass_matrix", "forward_dynamics"];
-/// Builds of each crate.
+/// Number of builds of each crate.
 const BUILDS: usize = 3;
 
 /// A build of the scratch crate.
@@ -34,11 +35,11 @@ struct Built {
     time: f64,
     /// Bytes of code and constants.
     size: f64,
-    /// kB, where it is known.
+    /// Peak memory in kB, if it is known.
     peak: Option<f64>,
 }
 
-/// The crate that is built, and built again.
+/// The crate that is built repeatedly.
 struct Scratch {
     folder: PathBuf,
 }
@@ -58,13 +59,13 @@ fn main() -> ExitCode {
     }
 }
 
-/// The repository.
+/// Returns the root folder of the repository.
 fn root() -> Result<PathBuf, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     fs::canonicalize(root).map_err(|e| e.to_string())
 }
 
-/// `docs/compile_time.md`.
+/// Writes `docs/compile_time.md`.
 fn write(table: &str) -> Result<(), String> {
     let said = |program: &str, arguments: &[&str]| {
         let done = Command::new(program).args(arguments).output().ok()?;
@@ -94,7 +95,7 @@ fn write(table: &str) -> Result<(), String> {
     fs::write(root()?.join("docs/compile_time.md"), text).map_err(|e| e.to_string())
 }
 
-/// The table, printed row by row.
+/// Returns the table, after printing it row by row.
 fn measure(wanted: &[String]) -> Result<String, String> {
     let root = root()?;
     let scratch = Scratch::new(&root)?;
@@ -136,7 +137,7 @@ fn measure(wanted: &[String]) -> Result<String, String> {
     Ok(table)
 }
 
-/// The specs with the methods asked for.
+/// Returns the specs with the selected methods.
 fn specs(root: &Path) -> Result<Vec<(PathBuf, &'static [&'static str])>, String> {
     let entries = fs::read_dir(root.join("specs")).map_err(|e| e.to_string())?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -148,7 +149,7 @@ fn specs(root: &Path) -> Result<Vec<(PathBuf, &'static [&'static str])>, String>
     Ok(short.chain(long.map(|path| (path, &LONG[..]))).collect())
 }
 
-/// A program that calls every method with values that the compiler does not know.
+/// Returns a program that calls every method with values unknown to the compiler.
 fn user(module: &str, methods: &[&str]) -> String {
     let model = bgdyn_codegen::emit::struct_ident(module);
     let call = |method: &&str| {
@@ -167,7 +168,7 @@ fn user(module: &str, methods: &[&str]) -> String {
 }
 
 impl Scratch {
-    /// The crate, with what it depends on built.
+    /// Creates the crate, with its dependencies built.
     fn new(root: &Path) -> Result<Self, String> {
         let folder = root.join("target/compile_time");
         fs::create_dir_all(folder.join("src")).map_err(|e| e.to_string())?;
@@ -182,11 +183,12 @@ impl Scratch {
         Ok(Scratch { folder })
     }
 
-    /// Builds this program: the shortest time of several.
+    /// Builds this program and returns the shortest time of several builds.
     fn built(&self, program: &str) -> Result<Built, String> {
         let mut best: Option<Built> = None;
         for k in 0..=BUILDS {
-            // Another text each time, or nothing would be built. The first build may build the libraries too.
+            // A different text each time, otherwise nothing would be built. The first build may include
+            // the libraries.
             let text = format!("{program}\n// {k}\n");
             fs::write(self.folder.join("src/main.rs"), text).map_err(|e| e.to_string())?;
             let built = self.build()?;
@@ -231,7 +233,8 @@ impl Scratch {
     }
 }
 
-/// Bytes of a program's code and constants, as `size` has them; of the file where there is no `size`.
+/// Returns the bytes of a program's code and constants, according to `size`; those of the file if there is
+/// no `size`.
 fn code(program: &Path) -> Result<f64, String> {
     let asked = Command::new("size").arg(program).output();
     let text = asked.map(|done| String::from_utf8_lossy(&done.stdout).into_owned());

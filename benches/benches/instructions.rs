@@ -1,10 +1,11 @@
-//! Instructions of a call of each method of each robot of `specs/`, counted by callgrind in code for
-//! x86-64-v3, beside those on file for this compiler: `benches/instructions/VERSION.csv`.
+//! Counts the instructions of a call of each method of each robot of `specs/` with callgrind, in code for
+//! x86-64-v3, and compares them with the recorded counts for this compiler:
+//! `benches/instructions/VERSION.csv`.
 //!
-//! `cargo bench -p benches --bench instructions` counts and compares, and exits with 1 where a call takes
-//! over 2 % more, or where this compiler has no file: `-- --write` records the counts. Counts are exact: the same
-//! on every machine and whatever else it does. Without valgrind or off x86-64 Linux it says so and counts nothing;
-//! with `CI_STRICT=1` that is a failure.
+//! `cargo bench -p benches --bench instructions` counts and compares, and exits with 1 if a call takes
+//! over 2 % more, or if this compiler has no file: `-- --write` records the counts. Counts are exact: the
+//! same on every machine under any load. Without valgrind or on other systems than x86-64 Linux it prints
+//! so and counts nothing; with `CI_STRICT=1` that is a failure.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -26,7 +27,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Counts and compares, or records. Whether nothing is too much worse.
+/// Counts and compares, or records. Returns whether no count is too much worse.
 fn count(write: bool) -> Result<bool, String> {
     if cfg!(not(all(target_arch = "x86_64", target_os = "linux"))) || !is_there("valgrind") {
         println!(
@@ -73,7 +74,7 @@ fn shown(path: &Path) -> impl Fn(std::io::Error) -> String + '_ {
     move |e| format!("{}: {e}", path.display())
 }
 
-/// What a command prints.
+/// Returns the output of a command.
 fn printed(command: &mut Command) -> Result<String, String> {
     let done = command.output().map_err(|e| format!("{command:?}: {e}"))?;
     if !done.status.success() {
@@ -83,7 +84,7 @@ fn printed(command: &mut Command) -> Result<String, String> {
     Ok(String::from_utf8_lossy(&done.stdout).into_owned())
 }
 
-/// The compiler's version: `1.95.0`.
+/// Returns the compiler's version: `1.95.0`.
 fn compiler() -> Result<String, String> {
     let rustc = env::var_os("RUSTC").unwrap_or("rustc".into());
     let text = printed(Command::new(rustc).arg("--version"))?;
@@ -91,7 +92,7 @@ fn compiler() -> Result<String, String> {
     version.map(str::to_owned).ok_or(text)
 }
 
-/// The probes, built for x86-64-v3, with names for the profile.
+/// Returns the probes, built for x86-64-v3, with names for the profile.
 fn program() -> Result<PathBuf, String> {
     let cargo = env::var_os("CARGO").unwrap_or("cargo".into());
     let mut build = Command::new(cargo);
@@ -101,7 +102,7 @@ fn program() -> Result<PathBuf, String> {
     build
         .env("RUSTFLAGS", FLAGS)
         .env_remove("CARGO_ENCODED_RUSTFLAGS");
-    // In several units what is inlined depends on what else is compiled.
+    // With several codegen units, inlining would depend on the other code.
     build.env("CARGO_PROFILE_BENCH_CODEGEN_UNITS", "1");
     let messages = printed(&mut build)?;
     let named = |line: &str| {
@@ -112,8 +113,8 @@ fn program() -> Result<PathBuf, String> {
     found.ok_or_else(|| "cargo names no program".into())
 }
 
-/// The probe in which valgrind met an instruction that it does not know: version 3.19 has moves between registers
-/// in one of their two encodings only.
+/// Returns the probe in which valgrind found an instruction that it does not support: version 3.19
+/// supports moves between registers in only one of their two encodings.
 fn stopped_in(said: &str) -> Option<String> {
     let place = said.split_once("unhandled instruction")?.1;
     let mut names = place

@@ -1,7 +1,7 @@
-//! Every method of every robot of `specs/`: generated in `f64`, `f32` and eight lanes (a call is eight
-//! states: compare items per second), and by the textbook's recursions in `f64` and `f32`.
+//! Times every method of every robot of `specs/`: generated in `f64`, `f32` and eight lanes (a call is
+//! eight states: compare items per second), and by the textbook's recursions in `f64` and `f32`.
 //!
-//! `cargo bench --bench methods -- puma560` runs one robot's.
+//! `cargo bench --bench methods -- puma560` runs those of one robot.
 
 use benches::body::{bodies, slides};
 use benches::inputs::{Input, Lanes, inputs};
@@ -31,7 +31,7 @@ fn generated<T: Lanes, R, const N: usize>(
     });
 }
 
-/// The same by the textbook.
+/// Times the same by the textbook.
 fn textbook<T: Lanes + RealField, const N: usize>(
     bencher: Bencher<'_, '_>,
     spec: &str,

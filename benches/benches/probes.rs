@@ -1,5 +1,5 @@
-//! What `instructions` counts: each method of each robot of `specs/` over the same states, in a function of its own.
-//! `probes NAME …` leaves out those: `palletiser::double::bias`.
+//! The program that `instructions` counts: each method of each robot of `specs/` over the same states, in
+//! a function of its own. `probes NAME …` omits the named ones: `palletiser::double::bias`.
 
 use std::hint::black_box;
 
@@ -14,7 +14,7 @@ mod models {
     include!(concat!(env!("OUT_DIR"), "/models.rs"));
 }
 
-/// The first states of a mechanism.
+/// Returns the first states of a mechanism.
 fn first<T: Lanes, const N: usize>(spec: &str) -> Vec<Input<T, N>> {
     let mechanism = benches::read(spec.as_ref()).expect("a spec");
     let mut all = inputs(&states(&slides(&bodies(&mechanism))));
@@ -22,8 +22,8 @@ fn first<T: Lanes, const N: usize>(spec: &str) -> Vec<Input<T, N>> {
     all
 }
 
-/// A module for a scalar, with one function for each method: by its name the counts of its calls are
-/// found again.
+/// A module for a scalar, with one function for each method; the counts of its calls are found by its
+/// name.
 macro_rules! probes {
     ($model:ident, $spec:literal, $scalar:ident as $module:ident, $($name:ident: |$m:ident, $s:ident| $call:expr;)*) => {
         pub mod $module {

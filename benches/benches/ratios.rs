@@ -1,5 +1,5 @@
-//! Times of the generated methods in `f64`, and how many times as long the textbook's recursions take:
-//! both in turn over the same states, medians of the rounds. Then the same in eight lanes, per state.
+//! Times the generated methods in `f64`, and the ratio of the textbook recursions' times to them: both
+//! alternately over the same states, medians of the rounds. Then the same in eight lanes, per state.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -11,11 +11,11 @@ use benches::plain::Plain;
 use benches::states::{STATES, State, states};
 use bgdyn::runtime::wide::f64x8;
 
-/// Rounds of one and the other.
+/// Number of rounds.
 const ROUNDS: usize = 5;
-/// How long one is timed in a round.
+/// Duration of the timing of one method in a round.
 const SPAN: Duration = Duration::from_millis(4);
-/// States of a call in lanes.
+/// Number of states of a call in lanes.
 const LANES: usize = 8;
 
 const METHODS: [&str; 6] = [
@@ -27,7 +27,7 @@ const METHODS: [&str; 6] = [
     "Jacobian",
 ];
 
-/// What is timed of a method: in `f64`, in lanes, and the textbook's; each is given the number of the
+/// The timed calls of a method: in `f64`, in lanes, and by the textbook; the argument is the index of the
 /// call's input.
 struct Calls<'a> {
     alone: Box<dyn FnMut(usize) + 'a>,
@@ -35,7 +35,7 @@ struct Calls<'a> {
     textbook: Box<dyn FnMut(usize) + 'a>,
 }
 
-/// Times of a state, ns, and of the textbook's over them.
+/// Times of a state, ns, and the ratio of the textbook's times to them.
 struct Times {
     alone: (f64, f64),
     lanes: (f64, f64),
@@ -72,7 +72,7 @@ mod models {
     include!(concat!(env!("OUT_DIR"), "/models.rs"));
 }
 
-/// The three ways to a method.
+/// The three implementations of a method.
 macro_rules! method {
     ($module:ident, $model:ident, $data:ident, $n:ident, $plain:ident, |$m:ident, $s:ident| $call:expr) => {{
         use models::$module::$model as Model;
@@ -103,7 +103,7 @@ macro_rules! method {
     }};
 }
 
-/// What all methods of a robot are timed with.
+/// The data for timing all methods of a robot.
 struct Data<'a> {
     states: &'a [State],
     mechanism: &'a bgdyn_codegen::mechanism::Mechanism,
@@ -136,7 +136,7 @@ macro_rules! robots {
 include!(concat!(env!("OUT_DIR"), "/robots.rs"));
 
 fn main() {
-    // `cargo test` runs benchmarks without this argument, for whether they run at all.
+    // `cargo test` runs benchmarks without this argument, to check that they run.
     let robots = match std::env::args().any(|argument| argument == "--bench") {
         true => ROBOTS,
         false => &ROBOTS[..1],

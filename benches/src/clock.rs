@@ -1,23 +1,23 @@
-//! How long a call takes.
+//! Measures the time of a call.
 
 use std::time::{Duration, Instant};
 
-/// How long a batch of calls is to take: long against the clock's ticks, short against what the
-/// system does in between.
+/// Duration of a batch of calls: long compared with the clock's resolution, short compared with
+/// interruptions by the system.
 const BATCH: Duration = Duration::from_micros(40);
-/// Batches at least, so that a median means something.
+/// Smallest number of batches for a median.
 const BATCHES: usize = 31;
 
-/// How long a program of the comparison measures: `PEERS_SECONDS`, a tenth of a second where that is
-/// not set.
+/// Returns the duration of a measurement by a program of the comparison: `PEERS_SECONDS`, by default a
+/// tenth of a second.
 pub fn span() -> Duration {
     let seconds = std::env::var("PEERS_SECONDS").ok();
     let seconds = seconds.and_then(|s| s.parse().ok()).unwrap_or(0.1);
     Duration::from_secs_f64(seconds)
 }
 
-/// Median time of a call, ns, over batches that take `span` together. `call(k)` is one call, in state
-/// k of `number`.
+/// Returns the median time of a call, ns, over batches that take `span` together. `call(k)` is one call,
+/// in state k of `number`.
 pub fn median(number: usize, span: Duration, mut call: impl FnMut(usize)) -> f64 {
     let (mut k, mut calls) = (0, 1_u32);
     let mut batch = |calls: u32| {
@@ -28,7 +28,7 @@ pub fn median(number: usize, span: Duration, mut call: impl FnMut(usize)) -> f64
         }
         start.elapsed()
     };
-    // Warms up, and finds how many calls make a batch.
+    // Warms up, and determines the number of calls in a batch.
     let warm = Instant::now();
     while warm.elapsed() < Duration::from_millis(30).min(span) {
         let time = batch(calls);

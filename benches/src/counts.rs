@@ -1,19 +1,19 @@
-//! Counts by probe: read from the profile, kept in a file, compared.
+//! Instruction counts by probe: parses the profile, reads and writes a file, compares.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Calls of each probe.
+/// Number of calls of each probe.
 pub const CALLS: usize = 32;
 
-/// How much more a probe may take than the count on file says.
+/// Permitted relative increase of a probe over the recorded count.
 pub const WORSE: f64 = 0.02;
 
 /// Instructions of a call, by probe: `panda::double::mass_matrix`.
 pub type Counts = BTreeMap<String, f64>;
 
-/// The counts of a profile, as `callgrind_annotate --inclusive=yes` prints it: a line
-/// `12,345 (1.00%)  file:probes::panda::double::mass_matrix::h… [program]` for each function.
+/// Parses the counts of a profile, as printed by `callgrind_annotate --inclusive=yes`: a line `12,345
+/// (1.00%)  file:probes::panda::double::mass_matrix::h… [program]` for each function.
 pub fn of_profile(text: &str, calls: usize) -> Counts {
     let probe = |line: &str| {
         let (count, rest) = line.trim_start().split_once(' ')?;
@@ -27,14 +27,14 @@ pub fn of_profile(text: &str, calls: usize) -> Counts {
     text.lines().filter_map(probe).collect()
 }
 
-/// The counts of a file.
+/// Parses the counts of a file.
 pub fn of_file(text: &str) -> Result<Counts, String> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let pairs = reader.deserialize::<(String, f64)>();
     pairs.map(|pair| pair.map_err(|e| e.to_string())).collect()
 }
 
-/// The file of counts.
+/// Returns the text of a file of counts.
 pub fn file(counts: &Counts) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut write = |record: [&str; 2]| writer.write_record(record).expect("memory");
@@ -45,8 +45,8 @@ pub fn file(counts: &Counts) -> String {
     String::from_utf8(writer.into_inner().expect("memory")).expect("names are text")
 }
 
-/// What changed by more than a thousandth, a line each, and whether anything is too much worse. A probe
-/// that is there on one side only is told, no more: the compiler gives functions of the same code one name.
+/// Returns the changes by more than a thousandth, a line each, and whether no count is too much worse. A
+/// probe that exists on one side only is just reported: the compiler merges functions of the same code.
 pub fn compared(known: &Counts, found: &Counts) -> (String, bool) {
     let (mut text, mut worse) = (String::new(), false);
     for (name, &before) in known {

@@ -1,4 +1,4 @@
-//! The states as generated models take them: one number per joint, or one lane per state.
+//! The states in the form of generated models' arguments: one number per joint, or one lane per state.
 
 use bgdyn_runtime::Scalar;
 use bgdyn_runtime::wide::{f64x4, f64x8};
@@ -6,15 +6,15 @@ use nalgebra::SVector;
 
 use crate::states::State;
 
-/// A scalar that holds as many states as it has lanes.
+/// A scalar with one state per lane.
 pub trait Lanes: Scalar {
-    /// How many.
+    /// Number of lanes.
     const LANES: usize;
 
-    /// The number with `value(lane)` in each lane.
+    /// Returns the number with `value(lane)` in each lane.
     fn gather(value: impl Fn(usize) -> f64) -> Self;
 
-    /// The number in a lane.
+    /// Returns the number in a lane.
     fn lane(self, lane: usize) -> f64;
 }
 
@@ -72,7 +72,7 @@ pub struct Input<T: Lanes, const N: usize> {
     pub tau: SVector<T, N>,
 }
 
-/// All states, `LANES` a call.
+/// Returns all states, `LANES` per call.
 pub fn inputs<T: Lanes, const N: usize>(states: &[State]) -> Vec<Input<T, N>> {
     let input = |states: &[State]| {
         let part = |part: fn(&State) -> &Vec<f64>| {

@@ -1,5 +1,5 @@
-//! What the benchmarks share: a mechanism as a list of moving bodies, random states, and the
-//! recursions of a textbook to compare with.
+//! Common code of the benchmarks: a mechanism as a list of moving bodies, random states, and the
+//! recursions of a textbook for comparison.
 #![forbid(unsafe_code)]
 
 pub mod clock;
@@ -14,10 +14,10 @@ use std::path::Path;
 
 use bgdyn_codegen::mechanism::Mechanism;
 
-/// The mechanism of a spec.
+/// Reads the mechanism of a spec.
 ///
 /// # Errors
-/// The file cannot be read, or every fault of the spec, as the command shows them.
+/// The file cannot be read, or every fault of the spec, as the command prints them.
 pub fn read(path: &Path) -> Result<Mechanism, String> {
     let shown = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|e| format!("{shown}: {e}"))?;

@@ -1,4 +1,5 @@
-//! A robot by the textbook, with the same calls as a generated model and room for the results.
+//! A robot by the textbook recursions, with the same calls as a generated model and memory for the
+//! results.
 
 use bgdyn_codegen::mechanism::Mechanism;
 use nalgebra::{DMatrix, Matrix6xX, RealField, Vector3, convert};
@@ -7,7 +8,7 @@ use crate::body::{bodies, place, vector};
 use crate::inputs::{Input, Lanes};
 use textbook::Textbook;
 
-/// More bodies than any mechanism of `specs/` has.
+/// An upper bound of the number of bodies in `specs/`.
 const CAPACITY: usize = 16;
 
 /// The recursions of [`Textbook`] for one robot.
@@ -15,7 +16,7 @@ const CAPACITY: usize = 16;
 pub struct Plain<T: RealField + Copy> {
     tree: Textbook<T, CAPACITY>,
     tip: (Option<usize>, Vector3<T>),
-    /// What the last call gave: efforts or accelerations.
+    /// The result of the last call: efforts or accelerations.
     pub vector: Vec<T>,
     /// The last mass matrix.
     pub mass: DMatrix<T>,
@@ -24,10 +25,10 @@ pub struct Plain<T: RealField + Copy> {
 }
 
 impl<T: Lanes + RealField> Plain<T> {
-    /// For the mechanism, and the link or frame whose Jacobian is wanted.
+    /// Creates it for the mechanism, and the link or frame of the Jacobian.
     ///
     /// # Panics
-    /// Where there is no such link or frame, or more than 16 bodies.
+    /// If the link or frame does not exist, or there are more than 16 bodies.
     pub fn new(mechanism: &Mechanism, tip: &str) -> Self {
         let bodies = bodies(mechanism);
         let site = place(mechanism, tip).expect("a link or a frame of the mechanism");
@@ -41,35 +42,35 @@ impl<T: Lanes + RealField> Plain<T> {
         }
     }
 
-    /// Joint efforts.
+    /// Computes the joint efforts.
     pub fn inverse_dynamics<const N: usize>(&mut self, s: &Input<T, N>) {
         let (q, v, a) = (s.q.as_slice(), s.v.as_slice(), s.a.as_slice());
         self.tree.inverse_dynamics(q, v, a, &mut self.vector);
     }
 
-    /// M.
+    /// Computes M.
     pub fn mass_matrix<const N: usize>(&mut self, s: &Input<T, N>) {
         self.tree.mass_matrix(s.q.as_slice(), &mut self.mass);
     }
 
-    /// Joint accelerations.
+    /// Computes the joint accelerations.
     pub fn forward_dynamics<const N: usize>(&mut self, s: &Input<T, N>) {
         let (q, v, tau) = (s.q.as_slice(), s.v.as_slice(), s.tau.as_slice());
         self.tree.forward_dynamics(q, v, tau, &mut self.vector);
     }
 
-    /// Bias force.
+    /// Computes the bias force.
     pub fn bias<const N: usize>(&mut self, s: &Input<T, N>) {
         let (q, v) = (s.q.as_slice(), s.v.as_slice());
         self.tree.bias(q, v, &mut self.vector);
     }
 
-    /// Efforts at rest.
+    /// Computes the efforts at rest.
     pub fn gravity<const N: usize>(&mut self, s: &Input<T, N>) {
         self.tree.gravity(s.q.as_slice(), &mut self.vector);
     }
 
-    /// The tip's Jacobian in world axes, angular part first.
+    /// Computes the tip's Jacobian in world axes, angular part first.
     pub fn jacobian<const N: usize>(&mut self, s: &Input<T, N>) {
         let (body, point) = self.tip;
         let jacobian = &mut self.jacobian;

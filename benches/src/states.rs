@@ -1,8 +1,8 @@
-//! The states of every timing: the same numbers in all programs that are compared.
+//! Random states for all timings: the same numbers in all compared programs.
 
 use std::f64::consts::PI;
 
-/// The generator's own; a peer without bgdyn includes this file.
+/// That of the generator; a peer without bgdyn includes this file.
 #[path = "../../bgdyn-codegen/src/random.rs"]
 #[allow(dead_code)]
 mod random;
@@ -25,7 +25,7 @@ pub struct State {
     pub tau: Vec<f64>,
 }
 
-/// The states of a mechanism; `slides`: which joints are prismatic.
+/// Returns the states of a mechanism; `slides` marks prismatic joints.
 pub fn states(slides: &[bool]) -> Vec<State> {
     let mut random = Random(0x5eed_5eed_1234_5678);
     let state = |_| {

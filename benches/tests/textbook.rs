@@ -1,15 +1,15 @@
-//! The textbook's recursions equal the generated methods on every spec: what the benchmarks compare
-//! does the same work.
+//! Checks that the textbook's recursions equal the generated methods on every spec, so that the benchmarks
+//! compare the same work.
 
 use benches::body::{bodies, slides};
 use benches::inputs::{Input, inputs};
 use benches::plain::Plain;
 use benches::states::states;
 
-/// Largest difference allowed, of the largest entry (at least 1).
+/// Largest permitted difference, relative to the largest entry (at least 1).
 const RELATIVE: f64 = 1e-11;
 
-/// States compared.
+/// Number of compared states.
 const TRIED: usize = 64;
 
 #[track_caller]

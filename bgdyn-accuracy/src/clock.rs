@@ -1,4 +1,4 @@
-//! Measures the times of configurations in turn.
+//! Measures the times of configurations, alternating between them.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -6,14 +6,14 @@ use std::time::Instant;
 use crate::configuration::{Configuration, Grid, StepControl};
 use crate::step_sequence::Effort;
 
-/// Runs of one measurement at the most.
+/// Largest number of runs of one measurement.
 const RUNS: usize = 1000;
 
-/// Measurements of a round, of which the best counts: what interrupts one of them is no part of it.
+/// Measurements of a round, of which the shortest counts, without interruptions.
 const BEST_OF: usize = 3;
 
-/// Time of each of these runs per simulated millisecond, ns: the median of the rounds. Every
-/// round takes all of them in turn, so that what slows the machine down for a while slows all alike.
+/// Returns the time of each of these runs per simulated millisecond, ns: the median of the rounds. Every
+/// round measures all of them in turn, so that a temporary slowdown of the machine affects all equally.
 pub(crate) fn times(
     jobs: &[(&Configuration, StepControl)],
     grid: &Grid,
@@ -40,8 +40,8 @@ pub(crate) fn times(
         .collect()
 }
 
-/// Time of one call, ns, of each of these, which make as many calls as they are told: measured as
-/// [`times`] measures runs.
+/// Returns the time of one call, ns, of each of these functions, whose argument is the number of calls,
+/// measured as [`times`] measures runs.
 pub(crate) fn calls(jobs: &[&dyn Fn(usize)], effort: &Effort) -> Vec<f64> {
     let spent = |job: &dyn Fn(usize), count: usize| {
         let begin = Instant::now();
@@ -66,7 +66,7 @@ pub(crate) fn calls(jobs: &[&dyn Fn(usize)], effort: &Effort) -> Vec<f64> {
     rounds.iter_mut().map(|found| median(found)).collect()
 }
 
-/// So many runs, s.
+/// Measures this number of runs, s.
 fn seconds(
     (configuration, step_control): &(&Configuration, StepControl),
     grid: &Grid,

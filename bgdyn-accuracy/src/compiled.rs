@@ -14,10 +14,10 @@ use crate::dyn_plant::{DynPlant, PlantObject};
 use crate::integrate::{Integrate, Measured, numbers};
 use crate::test_case::{TestCase, order};
 
-/// What equations are called that are written as they are by default.
+/// Name of the equations with the default formulations.
 const CHEAPEST: &str = "cheapest";
 
-/// A configuration of this method's order and way to go.
+/// Returns a configuration with this integrator's order and step control.
 fn configuration(
     method: &str,
     scalar: (&'static str, f64),
@@ -55,7 +55,7 @@ impl<S: Canonical<T>, T: Real> Measured for CanonicalPlant<'_, S, T> {
     }
 }
 
-/// A plant as it is run: where it begins, and how.
+/// A plant with its start and its integrator.
 struct Started<Y: StateVector, M, E> {
     plant: DynPlant<Y, M, E>,
     begin: HybridState<Y, M>,
@@ -72,7 +72,7 @@ where
         Rc::new(Started { plant, begin })
     }
 
-    /// A run that any integrator can make.
+    /// Runs the plant with any integrator.
     fn integrate<'g>(
         &self,
         grid: &'g Grid,
@@ -86,7 +86,7 @@ where
         }
     }
 
-    /// Runs by an integrator, for a contender.
+    /// Returns the runner of a contender with an integrator.
     fn runner<I: Integrator<Y>>(self: &Rc<Self>, integrator: impl Fn() -> I + 'static) -> Runner {
         let started = self.clone();
         Box::new(move |grid, step_control| {
@@ -95,7 +95,7 @@ where
         })
     }
 
-    /// Runs by the integrator of this name, for a configuration.
+    /// Returns the runner of a configuration with the integrator of this name.
     fn runner_by_name(self: &Rc<Self>, name: &'static str) -> Runner {
         let started = self.clone();
         Box::new(move |grid, step_control| {
@@ -106,7 +106,7 @@ where
     }
 }
 
-/// A scene that stays: studies are few and their scenes small.
+/// Leaks a scene: studies are few and their scenes small.
 fn kept<S: 'static>(scene: S) -> &'static S {
     Box::leak(Box::new(scene))
 }
@@ -115,7 +115,7 @@ fn kept<S: 'static>(scene: S) -> &'static S {
 const REFERENCE: &str = "extrapolation12";
 
 impl TestCase {
-    /// The reference: order 12 in double-double by controlled steps.
+    /// Sets the reference: order 12 in double-double with controlled steps.
     pub fn reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
         let scene = kept(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
@@ -125,7 +125,7 @@ impl TestCase {
         }));
     }
 
-    /// Every integrator of bgdyn-sim but the reference's.
+    /// Adds every integrator of bgdyn-sim except that of the reference.
     pub fn methods<S: Slope<f64> + 'static>(&mut self, scene: S) {
         let scene = kept(scene);
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
@@ -136,7 +136,7 @@ impl TestCase {
         }
     }
 
-    /// Gauss–Legendre methods on the canonical form.
+    /// Adds Gauss–Legendre integrators of the canonical form.
     pub fn momenta<S: Canonical<f64> + 'static>(&mut self, scene: S) {
         let scene = kept(scene);
         let plant = CanonicalPlant::new(scene);
@@ -151,7 +151,7 @@ impl TestCase {
         }
     }
 
-    /// An explicit and a controlled method in `f32`.
+    /// Adds an explicit integrator and one with step control in `f32`.
     pub fn single<S: HybridSystem<f32> + 'static>(&mut self, scene: S) {
         let scene = kept(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
@@ -165,7 +165,7 @@ impl TestCase {
         }
     }
 
-    /// The scene's rates by another formulation, by the classical Runge–Kutta method.
+    /// Adds the scene's rates by another formulation, with the classical Runge–Kutta method.
     pub fn formulation<S: HybridSystem<f64> + 'static>(&mut self, name: &str, scene: S) {
         let scene = kept(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
@@ -174,7 +174,7 @@ impl TestCase {
             .push(configuration("rk4", F64, name, run));
     }
 
-    /// The scene with these effects, by an explicit method: the scene's own.
+    /// Adds the scene with these effects, with the scene's own explicit integrator.
     pub fn ablation<S: HybridSystem<f64> + 'static, I: Integrator<S::State>>(
         &mut self,
         effects: &str,
@@ -186,7 +186,7 @@ impl TestCase {
         self.add_ablation(effects, started.runner(integrator));
     }
 
-    /// The same by a method that takes slopes.
+    /// Adds the same with an integrator that needs slopes.
     pub fn ablation_with_slope<S: Slope<f64> + 'static, I: Integrator<S::State>>(
         &mut self,
         effects: &str,
@@ -198,7 +198,7 @@ impl TestCase {
         self.add_ablation(effects, started.runner(integrator));
     }
 
-    /// A set of effects without which the measured output is not there.
+    /// Adds a set of effects without which the measured output does not exist.
     pub fn missing_ablation(&mut self, effects: &str) {
         let run: Runner = Box::new(|_, _| {
             let why = "the measured output is not there".into();
@@ -207,7 +207,7 @@ impl TestCase {
         self.add_ablation(effects, run);
     }
 
-    /// A set of effects, run by the scene's own method.
+    /// Adds a set of effects, run by the scene's own integrator.
     pub fn add_ablation(&mut self, effects: &str, run: Runner) {
         let ablation = configuration(&self.own.0, F64, CHEAPEST, run);
         self.ablations.push(Configuration {

@@ -1,25 +1,25 @@
-//! A configuration: one way to run a scene, as a closure.
+//! A configuration: the settings for running a scene, with a closure that runs it.
 
 use std::fmt;
 
-/// What the steps of a run go by.
+/// The choice of the steps of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepControl {
-    /// Every step is as long, s; a whole number of them makes an interval between samples.
+    /// Fixed steps of this length, s; the interval between samples is an integer number of them.
     Step(f64),
-    /// As long as a step's error stays below this, absolute and relative, in SI units.
+    /// Steps with an error below this tolerance, absolute and relative, in SI units.
     Tolerance(f64),
 }
 
 impl StepControl {
-    /// Its number: s, or none.
+    /// Returns its number: s, or dimensionless.
     pub fn value(self) -> f64 {
         let (StepControl::Step(x) | StepControl::Tolerance(x)) = self;
         x
     }
 }
 
-/// `0.002 s`, or `1e-6`.
+/// Prints `0.002 s`, or `1e-6`.
 impl fmt::Display for StepControl {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -29,38 +29,38 @@ impl fmt::Display for StepControl {
     }
 }
 
-/// When a run is looked at.
+/// The sample times of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// When it ends, s.
+    /// End of the run, s.
     pub end: f64,
-    /// How many samples there are, equally spaced, the last one at the end.
+    /// Number of samples, equally spaced, the last one at the end.
     pub samples: usize,
 }
 
 impl Grid {
-    /// Between two samples, s.
+    /// Returns the time between two samples, s.
     pub fn interval(&self) -> f64 {
         self.end / self.samples as f64
     }
 
-    /// Steps of this length between two samples.
+    /// Returns the number of steps of this length between two samples.
     pub fn parts(&self, step: f64) -> usize {
         (self.interval() / step).round().max(1.0) as usize
     }
 }
 
-/// A run that came to its end.
+/// The samples of a complete run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
     /// The measured output at each sample, SI units.
     pub values: Vec<Vec<f64>>,
-    /// What it would take in compiled code, ns, where this run was none: an estimate.
+    /// Estimated time in compiled code, ns, if the run was not compiled.
     pub estimate: Option<f64>,
 }
 
 impl Samples {
-    /// A run that came to its end with these values; it failed where they are not all finite.
+    /// Returns a complete run with these values, or a failure if they are not all finite.
     pub fn finite(values: Vec<Vec<f64>>, estimate: Option<f64>) -> Result<Samples, RunError> {
         if values.iter().flatten().all(|x| x.is_finite()) {
             return Ok(Samples { values, estimate });
@@ -72,12 +72,12 @@ impl Samples {
     }
 }
 
-/// A run that ended early.
+/// The early end of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunError {
-    /// When, s.
+    /// Time, s.
     pub t: f64,
-    /// Why, in a few words.
+    /// The reason, in a few words.
     pub why: String,
 }
 
@@ -90,27 +90,27 @@ impl fmt::Display for RunError {
 /// Runs a scene from its start to the end of the grid.
 pub type Runner = Box<dyn Fn(&Grid, StepControl) -> Result<Samples, RunError>>;
 
-/// A way to run a scene.
+/// A configuration for running a scene.
 pub struct Configuration {
     /// The effects of the scene: `all`, `all but friction`, `gravity+inertia`.
     pub effects: String,
-    /// The method of integration, as scenes name it.
+    /// The integrator, by its name in scenes.
     pub method: String,
-    /// The method's order.
+    /// The integrator's order.
     pub order: u32,
-    /// Whether it goes by a tolerance, else by steps.
+    /// Whether it has step control; else fixed steps.
     pub controlled: bool,
     /// The scalar: `f64`, `f32`.
     pub scalar: &'static str,
     /// The scalar's rounding unit.
     pub epsilon: f64,
-    /// How the equations are written: `cheapest`, or a formulation's name.
+    /// The equations: `cheapest`, or a formulation's name.
     pub formulation: String,
-    /// Runs it.
+    /// Runs the configuration.
     pub run: Runner,
 }
 
-/// What is known of it, without the closure.
+/// Prints all fields except the closure.
 impl fmt::Debug for Configuration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Configuration")

@@ -1,4 +1,5 @@
-//! The cost of an effect: operations and time of `derivative` with and without it, and steps of a run.
+//! Measures the cost of an effect: operations and time of `derivative` with and without it, and steps of a
+//! run.
 
 use std::fmt::Debug;
 use std::hint::black_box;
@@ -16,14 +17,14 @@ use crate::step_sequence::Effort;
 use crate::table::written;
 use crate::test_case::TestCase;
 
-/// The method by which steps are counted.
+/// The integrator with which steps are counted.
 pub const METHOD: &str = "dopri5";
 /// Its tolerance, absolute and relative, in SI units.
 pub const TOLERANCE: f64 = 1e-6;
-/// Runs of more steps are given up.
+/// Runs of more steps are stopped.
 const STEPS: usize = 1_000_000;
 
-/// What came of it.
+/// The measured cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cost {
     /// The effects of the scene: `all`, `all but friction`.
@@ -32,11 +33,11 @@ pub struct Cost {
     pub operations: usize,
     /// Time of one call, ns.
     pub ns: f64,
-    /// Steps of [`METHOD`] in the scene's run; none where the run ends early.
+    /// Steps of [`METHOD`] in the scene's run; `None` if the run ends early.
     pub steps: Option<usize>,
 }
 
-/// Costs of all, timed in turn.
+/// Returns all costs; the times are measured in turn.
 pub(crate) fn costs(all: &[Priced], end: f64, effort: &Effort) -> Vec<Cost> {
     let compiled = |p: &Priced| matches!(p.call, Call::Compiled(_));
     let jobs = all.iter().filter_map(|p| match &p.call {
@@ -56,14 +57,14 @@ pub(crate) fn costs(all: &[Priced], end: f64, effort: &Effort) -> Vec<Cost> {
     all.iter().map(one).collect()
 }
 
-/// Counts the steps of a run by controlled steps.
+/// Counts the steps of a run with step control.
 #[derive(Debug)]
 pub struct CountSteps<P: Plant> {
-    /// What is run.
+    /// The plant.
     pub plant: P,
-    /// Where it begins.
+    /// Its start.
     pub begin: HybridState<P::State, P::Modes>,
-    /// When it ends, s.
+    /// End of the run, s.
     pub end: f64,
 }
 
@@ -100,7 +101,8 @@ where
 }
 
 impl TestCase {
-    /// The scene with these effects, whose `derivative` has so many operations: what it costs.
+    /// Adds the scene with these effects, whose `derivative` has this number of operations, to the costs
+    /// to measure.
     pub fn price<S>(&mut self, effects: &str, operations: usize, scene: S)
     where
         S: HybridSystem<f64> + 'static,
@@ -139,7 +141,7 @@ impl TestCase {
 /// The columns, in their order.
 const COLUMNS: [&str; 5] = ["scene", "effects", "operations", "ns_per_call", "steps"];
 
-/// Costs as CSV, with a header; each with its scene's name.
+/// Returns costs as CSV, with a header; each with its scene's name.
 pub fn costs_csv<'a>(costs: impl IntoIterator<Item = (&'a str, &'a Cost)>) -> String {
     let header = COLUMNS.map(str::to_owned).to_vec();
     let rows = costs.into_iter().map(|(scene, cost)| {
@@ -150,7 +152,7 @@ pub fn costs_csv<'a>(costs: impl IntoIterator<Item = (&'a str, &'a Cost)>) -> St
 }
 
 impl Cost {
-    /// Its fields, without the scene.
+    /// Returns its fields, without the scene.
     pub(crate) fn record(&self) -> [String; 4] {
         [
             self.effects.clone(),
@@ -160,7 +162,7 @@ impl Cost {
         ]
     }
 
-    /// The cost of such fields; `None` where they are none.
+    /// Parses a cost from its fields; `None` if they are invalid.
     pub(crate) fn of_record(fields: Vec<String>) -> Option<Cost> {
         let [effects, operations, ns, steps] = <[String; 4]>::try_from(fields).ok()?;
         Some(Cost {

@@ -1,24 +1,24 @@
-//! A style sheet for drawings on a dark background.
+//! Adds a style sheet to drawings for a dark background.
 //!
-//! Lightness is that of Oklab (Ottosson 2020): equal steps of it look equal for every hue.
+//! Lightness is that of Oklab (Ottosson 2020), which is perceptually uniform for every hue.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Lightness of the dark ground, which stands in for white.
+/// Lightness of the dark background, which replaces white.
 const GROUND: f64 = 0.2;
-/// Lightness of what stands in for black.
+/// Lightness of the colour that replaces black.
 const BRIGHT: f64 = 0.97;
-/// Chroma from which a colour is one that readers tell apart: it keeps its hue and stays bright.
+/// Least chroma of a distinguishing colour, which retains its hue and stays bright.
 const VIVID: f64 = 0.07;
-/// Least lightness of such a colour on the dark ground.
+/// Least lightness of such a colour on the dark background.
 const LEGIBLE: f64 = 0.64;
 
-/// The drawing with a style sheet by which viewers that prefer dark pages show it on a dark ground.
+/// Returns the drawing with a style sheet for viewers in dark mode.
 ///
-/// Every colour that a `fill` or `stroke` attribute names, as `#rgb`, `#rrggbb`, `black` or `white`,
-/// gets a counterpart: what is pale becomes dark and the other way round, and colours that mark
-/// something keep their hue. A drawing that has the style sheet is returned as it is.
+/// Every colour in a `fill` or `stroke` attribute, written as `#rgb`, `#rrggbb`, `black` or `white`, gets
+/// a counterpart: pale colours become dark and dark ones pale, and distinguishing colours retain their
+/// hue. A drawing that has the style sheet already is returned unchanged.
 pub fn with_dark_mode(svg: &str) -> String {
     let root = svg
         .find("<svg")
@@ -27,7 +27,7 @@ pub fn with_dark_mode(svg: &str) -> String {
         return svg.to_owned();
     };
     let mut rules = String::new();
-    // What names no colour is black.
+    // Shapes without a colour are black.
     let _ = write!(rules, "svg:not([fill]){{fill:{}}}", dark([0.0; 3]));
     for (attribute, name) in colours(svg) {
         if let Some(rgb) = parsed(name) {
@@ -42,7 +42,7 @@ pub fn with_dark_mode(svg: &str) -> String {
     format!("{head}\n<style>@media (prefers-color-scheme: dark){{{rules}}}</style>{body}")
 }
 
-/// Attributes and the colours that they name, in alphabetical order.
+/// Returns attributes and their colours, in alphabetical order.
 fn colours(svg: &str) -> BTreeSet<(&'static str, &str)> {
     let mut found = BTreeSet::new();
     for attribute in ["fill", "stroke"] {
@@ -55,7 +55,7 @@ fn colours(svg: &str) -> BTreeSet<(&'static str, &str)> {
     found
 }
 
-/// Red, green and blue from 0 to 1.
+/// Parses red, green and blue, from 0 to 1.
 fn parsed(name: &str) -> Option<[f64; 3]> {
     let digits = match name {
         "white" => "ffffff",
@@ -72,14 +72,14 @@ fn parsed(name: &str) -> Option<[f64; 3]> {
     Some([r, g, b].map(|x| f64::from(x) / 255.0))
 }
 
-/// The counterpart of a colour on the dark ground.
+/// Returns the counterpart of a colour on the dark background.
 fn dark(rgb: [f64; 3]) -> String {
     let [l, a, b] = oklab(rgb);
     let light = match a.hypot(b) >= VIVID {
         true => l.max(1.12 - l).max(LEGIBLE),
         false => GROUND + (BRIGHT - GROUND) * (1.0 - l).max(0.0).powf(0.75),
     };
-    // Less chroma where the screen has no such colour.
+    // Less chroma if the screen does not have the colour.
     let with = |part: f64| of_oklab([light, part * a, part * b]);
     let inside = |rgb: &[f64; 3]| rgb.iter().all(|x| (-1e-3..=1.001).contains(x));
     let parts = (0..=20).rev().map(|k| with(f64::from(k) / 20.0));
@@ -95,7 +95,7 @@ fn times(m: &Matrix, x: [f64; 3]) -> [f64; 3] {
     m.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
 }
 
-/// Lightness, and two coordinates of hue and chroma.
+/// Converts to Oklab: lightness, and two coordinates of hue and chroma.
 fn oklab(rgb: [f64; 3]) -> [f64; 3] {
     let linear = rgb.map(|x| match x <= 0.04045 {
         true => x / 12.92,
@@ -114,7 +114,7 @@ fn oklab(rgb: [f64; 3]) -> [f64; 3] {
     times(&lab, times(&cones, linear).map(f64::cbrt))
 }
 
-/// The other way.
+/// Converts from Oklab.
 fn of_oklab(lab: [f64; 3]) -> [f64; 3] {
     let cones: Matrix = [
         [1.0, 0.3963377774, 0.2158037573],
@@ -137,7 +137,7 @@ fn of_oklab(lab: [f64; 3]) -> [f64; 3] {
 mod tests {
     use super::*;
 
-    /// Contrast of two colours as WCAG 2 defines it.
+    /// Returns the contrast of two colours as defined by WCAG 2.
     fn contrast(a: [f64; 3], b: [f64; 3]) -> f64 {
         let luminance = |rgb: [f64; 3]| {
             let linear = rgb.map(|x| match x <= 0.04045 {
@@ -154,7 +154,7 @@ mod tests {
         parsed(&dark(rgb)).expect("a colour")
     }
 
-    /// Over the whole cube of colours: what can be read on white can be read on its counterpart.
+    /// Over the whole cube of colours: a colour that is readable on white has a readable counterpart.
     #[test]
     fn what_can_be_read_stays_readable() {
         let ground = counterpart([1.0; 3]);

@@ -1,6 +1,6 @@
 //! Plants behind a pointer (trait objects), so that one copy of an integrator serves all scenes of equal dimensions.
 //!
-//! The rates stay compiled code; to call them takes a nanosecond more.
+//! The rates are compiled code; the indirect call takes a nanosecond more.
 
 use std::rc::Rc;
 
@@ -10,7 +10,8 @@ use nalgebra::SVector;
 
 use crate::integrate::Measured;
 
-/// What integrators call of a plant with states `Y`, modes `M` and events `E`, without types of its own.
+/// The functions that integrators call of a plant with states `Y`, modes `M` and events `E`, without
+/// associated types.
 pub(crate) trait PlantObject<Y: StateVector, M, E> {
     fn rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
     fn jacobian(&self, t: Of<Y>, y: &Y, modes: &M) -> Option<Result<Jacobian<Y>, String>>;
@@ -36,7 +37,7 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
     fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>>;
 }
 
-/// Where there are no rates: the name that the error holds, in quotes.
+/// Converts an error of the rates to the name in it, in quotes.
 fn told<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
     result.map_err(|e| {
         let text = format!("{e:?}");
@@ -127,7 +128,7 @@ where
     type State = Y;
     type Modes = M;
     type Values = E;
-    // Runs are not audited here.
+    // Runs have no energy account here.
     type Entries = SVector<Of<Y>, 0>;
     type Error = String;
 
@@ -148,7 +149,7 @@ where
     }
 
     fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String> {
-        // A scene without events is not asked.
+        // A scene without events is not evaluated.
         match E::LEN {
             0 => Ok(E::zero_vector()),
             _ => self.0.events(t, y, modes),

@@ -1,10 +1,11 @@
-//! Sub-pixel drawing with a library of whole pixels: drawings are ten times as large, then scaled.
+//! Draws with sub-pixel precision by a library with integer pixels: drawings are ten times as large, then
+//! scaled.
 
 /// Units of such a drawing per pixel.
 pub const FINE: u32 = 10;
 
-/// A drawing of `size` pixels in units of a tenth of a pixel: its root says how large it is shown,
-/// its view box keeps the units.
+/// Scales a drawing of `size` pixels in units of a tenth of a pixel: its root element gets the display
+/// size, its view box retains the units.
 pub fn shown_at(svg: &str, (width, height): (u32, u32)) -> String {
     let large = format!("width=\"{}\" height=\"{}\"", FINE * width, FINE * height);
     let shown = format!("width=\"{width}\" height=\"{height}\"");

@@ -2,12 +2,12 @@
 
 use bgdyn_runtime::Digits;
 
-/// A number as short as it can be written without loss: `0.002`, `5e-6`.
+/// Prints a number in the shortest form without loss: `0.002`, `5e-6`.
 pub(crate) fn number(x: f64) -> String {
     Digits::shortest(x).plain(-3..5).to_string()
 }
 
-/// A number with two or three digits: `0.18`, `3.1e-7`.
+/// Prints a number with two or three digits: `0.18`, `3.1e-7`.
 pub(crate) fn short(x: f64) -> String {
     match x == 0.0 || (1e-2..1e6).contains(&x.abs()) {
         true => Digits::new(x, 3).plain(-2..7).to_string(),
@@ -15,7 +15,7 @@ pub(crate) fn short(x: f64) -> String {
     }
 }
 
-/// A time of so many ns in the unit that suits it.
+/// Prints a time given in ns, in a suitable unit.
 pub(crate) fn time(ns: f64) -> String {
     let (value, unit) = match ns {
         _ if ns < 1e3 => (ns, "ns"),
@@ -25,7 +25,7 @@ pub(crate) fn time(ns: f64) -> String {
     format!("{} {unit}", short(value))
 }
 
-/// A step in the unit that suits it.
+/// Prints a step in a suitable unit.
 pub(crate) fn step(h: f64) -> String {
     let (value, unit) = match h {
         _ if h < 0.9e-3 => (h * 1e6, "µs"),
@@ -35,7 +35,7 @@ pub(crate) fn step(h: f64) -> String {
     format!("{} {unit}", short(value))
 }
 
-/// Text as HTML and SVG want it.
+/// Escapes text for HTML and SVG.
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")

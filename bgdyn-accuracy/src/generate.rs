@@ -1,6 +1,6 @@
 //! Generates the source text of a scene's variants, which is compiled and measured.
 //!
-//! Build scripts and the command `bgdyn accuracy` write the same.
+//! Build scripts and the command `bgdyn accuracy` use it.
 
 use std::fmt::Write;
 
@@ -15,13 +15,15 @@ use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::scene::{IntegratorName, Scene, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 
-/// Coordinates up to which the literal sum is written out: it grows with the cube of their number.
+/// Largest number of coordinates for which the literal sum is generated: it grows with the cube of their
+/// number.
 const LITERAL: usize = 4;
 
-/// What stands before a family of effects that is left out.
+/// Prefix of a family of effects that is left out.
 pub const ALL_BUT: &str = "all but ";
 
-/// Operations of one call of the scene's `derivative`; a pair of sine and cosine is one.
+/// Returns the operations of one call of the scene's `derivative`; a pair of sine and cosine counts as
+/// one.
 pub fn operations(system: &SceneEquations) -> usize {
     let o = system.function(SceneFunction::Derivative).operations();
     o.total() + o.div + o.sqrt + o.sincos + o.other
@@ -30,16 +32,16 @@ pub fn operations(system: &SceneEquations) -> usize {
 /// A scene with some of its effects.
 #[derive(Debug)]
 pub struct Ablation {
-    /// Which: `none`, `gravity+inertia`, `all but friction`.
+    /// The effects: `none`, `gravity+inertia`, `all but friction`.
     pub effects: String,
-    /// Its equations; `None` where the measured output is not there without the others.
+    /// Its equations; `None` if the measured output does not exist without the other effects.
     pub system: Option<SceneEquations>,
 }
 
-/// The scene with one output, the measured one: the first place among its outputs, else the first
-/// coordinate of a joint among them, else the first, and where it asks for none the first coordinate.
+/// Returns the scene with one output, the measured one: the first site among its outputs, else the first
+/// coordinate of a joint among them, else the first output, and without outputs the first coordinate.
 ///
-/// `None` where a scene has nothing to measure.
+/// `None` if the scene has nothing to measure.
 pub fn measured(system: &SceneEquations) -> Option<SceneEquations> {
     let outputs = &system.scene.outputs;
     let is_site = |name: &str| system.graph.sites.iter().any(|s| s.name == name);
@@ -64,8 +66,8 @@ fn with_output(scene: &Scene, output: Located<String>) -> Option<SceneEquations>
     SceneEquations::new(scene).ok()
 }
 
-/// The scene with ever more of its effects, family by family, and with all but each one; `system` is
-/// as [`measured`] gives it.
+/// Returns the scene with an increasing number of effects, family by family, and with all except each one;
+/// `system` is the result of [`measured`].
 pub fn ablations(system: &SceneEquations) -> Vec<Ablation> {
     let elements = &system.scene.elements;
     let mut families: Vec<&str> = Vec::new();
@@ -96,12 +98,13 @@ pub fn ablations(system: &SceneEquations) -> Vec<Ablation> {
     found
 }
 
-/// The scene's own integrator; one on momenta stands for the same on velocities.
+/// Returns the integrator that the scene names; an integrator of the canonical form is replaced by the
+/// same one in velocities.
 fn own_integrator(system: &SceneEquations) -> IntegratorName {
     system.scene.integration.method.on_velocities()
 }
 
-/// The integrator and the step control of a scene, as a study names them.
+/// Returns the integrator and the step control of a scene, with their names in a study.
 pub fn own_way(system: &SceneEquations) -> (&'static str, crate::StepControl) {
     let step_control = match system.scene.integration.step_control {
         StepControl::Step(h) => crate::StepControl::Step(h),
@@ -110,12 +113,12 @@ pub fn own_way(system: &SceneEquations) -> (&'static str, crate::StepControl) {
     (own_integrator(system).name(), step_control)
 }
 
-/// The text of a module with the scene's name: its variants, and `test_case()`, which gives the
-/// [`TestCase`](crate::TestCase) of them. The crate that includes it depends on `bgdyn` and
-/// `bgdyn-accuracy`; `end` stands in for the scene's own, s.
+/// Returns the text of a module with the scene's name: its variants, and `test_case()`, which returns
+/// their [`TestCase`](crate::TestCase). The crate that includes it depends on `bgdyn` and
+/// `bgdyn-accuracy`; `end` replaces the scene's own, s.
 ///
 /// # Errors
-/// In a sentence, where the scene has nothing to measure.
+/// A sentence, if the scene has nothing to measure.
 pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, String> {
     let name = &system.scene.name;
     let full =
@@ -162,7 +165,7 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
         true => "ablation_with_slope",
         false => "ablation",
     };
-    // Types of bgdyn-sim are called like the integrators.
+    // Types of bgdyn-sim have the names of the integrators.
     let integrator = struct_ident(own.name());
     let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default");
     let add = |effects: &str, model: &str, text: &mut String| {
@@ -196,13 +199,13 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     Ok(text)
 }
 
-/// Whether a scene's laws have kinks: events that change no mode.
+/// Returns whether a scene's laws have kinks: events that change no mode.
 pub fn kinked(system: &SceneEquations) -> bool {
     let layout = &system.scene.layout;
     layout.events.iter().any(|e| layout.mode_of(e).is_none())
 }
 
-/// The call that makes the test case.
+/// Returns the call that creates the test case.
 fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     let scene = &full.scene;
     let (method, step_control) = own_way(full);
@@ -222,7 +225,7 @@ fn opening(full: &SceneEquations, end: Option<f64>) -> String {
     )
 }
 
-/// The functions of the scene with its derivative by each formulation that knows it.
+/// Returns the functions of the scene with its derivative by each formulation that supports it.
 fn formulations(full: &SceneEquations) -> Vec<(&'static str, Vec<Function>)> {
     let few = full.graph.coordinates.len() <= LITERAL;
     let mut found = Vec::new();
@@ -244,7 +247,7 @@ fn formulations(full: &SceneEquations) -> Vec<(&'static str, Vec<Function>)> {
     found
 }
 
-/// One variant's module.
+/// Returns one variant's module.
 fn module(system: &SceneEquations, functions: &[Function], name: &str) -> Result<String, String> {
     let place = OutputOptions::source_text(system.scene.name.clone()).with_module(name)?;
     Ok(source_text(scene_module(system, functions, &place)))

@@ -1,4 +1,4 @@
-//! One run of a plant by a method, sampled at given times.
+//! Runs a plant with an integrator, and samples it at given times.
 
 use bgdyn_sim::{HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator};
 use std::fmt::Debug;
@@ -7,7 +7,7 @@ use crate::configuration::{Grid, RunError, StepControl};
 
 /// A plant with a measured output.
 pub trait Measured: Plant {
-    /// The measured output at a time, in a state; what does not exist is no number.
+    /// Returns the measured output at a time, in a state; NaN if it does not exist.
     fn measured(
         &self,
         t: Of<Self::State>,
@@ -16,20 +16,20 @@ pub trait Measured: Plant {
     ) -> Vec<Of<Self::State>>;
 }
 
-/// A run that is to be made, by whichever method.
+/// A run to be made, by any integrator.
 #[derive(Debug)]
 pub struct Integrate<'a, P: Plant> {
-    /// What is run.
+    /// The plant.
     pub plant: P,
-    /// Where it begins.
+    /// Its start.
     pub begin: HybridState<P::State, P::Modes>,
-    /// When it is looked at.
+    /// The sample times.
     pub grid: &'a Grid,
-    /// What its steps go by.
+    /// The choice of its steps.
     pub step_control: StepControl,
 }
 
-/// The measured output at each sample, or why the run ended early.
+/// The measured output at each sample, or the reason for an early end.
 pub(crate) type SampledOutput<T> = Result<Vec<Vec<T>>, RunError>;
 
 impl<P: Measured> WithIntegrator<P::State> for Integrate<'_, P>
@@ -40,7 +40,7 @@ where
 
     fn with<M: Integrator<P::State>>(self, integrator: M) -> Self::Output {
         let number = |x: f64| <Of<P::State> as bgdyn_runtime::Scalar>::from_f64(x);
-        // Divided in the run's own scalar: steps in double-double end where they should.
+        // Divided in the run's own scalar, so that steps in double-double end exactly at the samples.
         let interval = number(self.grid.end) / number(self.grid.samples as f64);
         let mut run = Run::by(integrator, self.plant, self.begin).unaudited();
         let (steps, h) = match self.step_control {
@@ -71,7 +71,7 @@ where
     }
 }
 
-/// A reason in a few words.
+/// Describes a reason in a few words.
 pub(crate) fn in_short<E: Debug>(reason: &Reason<E>) -> String {
     match reason {
         Reason::Singular(at) => format!("no rate of {}", format!("{at:?}").trim_matches('"')),
@@ -84,14 +84,14 @@ pub(crate) fn in_short<E: Debug>(reason: &Reason<E>) -> String {
     }
 }
 
-/// The largest distance between two courses of an output.
+/// Returns the largest distance between two sequences of an output.
 pub(crate) fn distance<T: Real>(a: &[Vec<T>], b: &[Vec<T>]) -> f64 {
     let apart = |(a, b): (&Vec<T>, &Vec<T>)| {
         let parts = a.iter().zip(b).map(|(&a, &b)| (a - b).to_f64());
         parts.map(|d| d * d).sum::<f64>().sqrt()
     };
     a.iter().zip(b).map(apart).fold(0.0, |most: f64, x| {
-        // What is no number is farther than any.
+        // A distance that is NaN is larger than all others.
         if x.is_nan() {
             f64::INFINITY
         } else {
@@ -100,7 +100,7 @@ pub(crate) fn distance<T: Real>(a: &[Vec<T>], b: &[Vec<T>]) -> f64 {
     })
 }
 
-/// The same numbers in `f64`.
+/// Converts the numbers to `f64`.
 pub(crate) fn numbers<T: Real>(values: Vec<Vec<T>>) -> Vec<Vec<f64>> {
     let all = values.into_iter();
     all.map(|row| row.into_iter().map(Real::to_f64).collect())

@@ -1,27 +1,29 @@
-//! Error against time: a scene's motion by many methods, steps, scalars, formulations and sets of effects.
+//! Measures error against time of a scene's motion, for many integrators, steps, scalars, formulations and
+//! sets of effects.
 //!
 //! Each run has its error against a reference in double-double, and its time.
 //!
-//! One factor is varied at a time, from all effects in `f64` by the cheapest formulation. The path:
+//! One factor is varied at a time, starting from all effects in `f64` with the cheapest formulation. The
+//! steps:
 //!
 //! ```text
 //! scene ──generate──▶ variants, compiled ──▶ TestCase ──study──▶ Study (rows) ──▶ verdicts, front, figures, page
 //! ```
 //!
 //! - `generate` (the feature of this name) writes the modules of a scene's variants with a function that
-//!   makes a [`TestCase`] of them. Build scripts and the command `bgdyn accuracy` call it alike.
-//! - [`TestCase`] is what is measured: runs of compiled scenes behind plain closures, so that what
-//!   follows knows no scene.
-//! - [`study()`] runs each of them, takes the time and gives rows: `accuracy.csv`.
-//! - What single effects cost is asked of one call of `derivative` and of the number of steps
-//!   ([`Cost`]): differences of the times of whole runs say little about it.
-//! - [`verdicts`], [`front`], [`figures`] and [`page`] read rows only.
+//!   creates their [`TestCase`]. Build scripts and the command `bgdyn accuracy` call it.
+//! - [`TestCase`] contains runs of compiled scenes behind closures, so that the next steps do not depend
+//!   on the scene.
+//! - [`study()`] runs each of them, measures the time and returns rows: `accuracy.csv`.
+//! - The cost of single effects is measured by one call of `derivative` and by the number of steps
+//!   ([`Cost`]): differences of the times of whole runs would not show it.
+//! - [`verdicts`], [`front`], [`figures`] and [`page`] only read rows.
 //!
 //! # The error
-//! A scene has one measured output: the first place among its outputs, else the first coordinate
-//! among them. The error of a run is the largest distance, over equally spaced sample times, of that
-//! output from the reference, in the output's own unit (m or rad). For fewer effects it is the change
-//! of the motion: the distance from the reference of the scene with all effects.
+//! A scene has one measured output: the first site among its outputs, else the first coordinate among
+//! them. The error of a run is the largest distance, over equally spaced sample times, of that output from
+//! the reference, in the output's own unit (m or rad). For fewer effects it is the change of the motion:
+//! the distance from the reference of the scene with all effects.
 #![forbid(unsafe_code)]
 
 mod clock;

@@ -1,4 +1,4 @@
-//! Checks that methods converge with their stated order.
+//! Checks that integrators converge with their stated order.
 
 use std::collections::BTreeMap;
 
@@ -7,61 +7,61 @@ use crate::row::Row;
 use crate::study::{Facts, Study};
 use crate::test_case::order;
 
-/// What a method's errors say.
+/// The conclusion from an integrator's errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finding {
-    /// They fall as the order says. Of a controlled method the number is the power of the tolerance.
+    /// The errors fall with the stated order. For step control the number is the power of the tolerance.
     Converges(f64),
-    /// They fall too slowly, or not at all.
+    /// The errors fall too slowly, or not at all.
     DoesNot(f64),
-    /// They fall too slowly, at steps at which the classical Runge–Kutta method is not stable: there the
-    /// order of implicit methods falls as well (Prothero, Robinson 1974).
+    /// The errors fall too slowly, at steps for which the classical Runge–Kutta method is unstable: there
+    /// the order of implicit methods is reduced (Prothero, Robinson 1974).
     Stiff(f64),
-    /// They fall as the laws' kinks let them: more slowly than the order says.
+    /// The errors fall more slowly than the order because of the laws' kinks.
     Kinked(f64),
-    /// Too few of them lie between the size of the motion and rounding.
+    /// Too few errors are between the size of the motion and rounding.
     TooFew,
 }
 
-/// What is found of a method on a scene.
+/// The conclusion about an integrator on a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The scene.
     pub scene: String,
-    /// The method, as scenes name it.
+    /// The integrator, by its name in scenes.
     pub method: String,
     /// The scalar.
     pub scalar: String,
-    /// How the equations are written.
+    /// The equations: `cheapest`, or a formulation's name.
     pub formulation: String,
-    /// The method's order.
+    /// The integrator's order.
     pub order: u32,
-    /// Whether it goes by a tolerance.
+    /// Whether it has step control.
     pub controlled: bool,
-    /// What is found.
+    /// The conclusion.
     pub finding: Finding,
     /// Its least error.
     pub best: Option<f64>,
 }
 
-/// Errors above this part of the motion do not fall as the order says yet.
+/// Errors above this fraction of the motion are not in the asymptotic range yet.
 const COARSE: f64 = 0.05;
-/// Rounding begins to show in errors below this multiple of the floor.
+/// Errors below this multiple of the floor contain rounding.
 const ROUGH: f64 = 8.0;
-/// The part of its order that a method has to show.
+/// The fraction of its order that an integrator must reach.
 const SHARE: f64 = 0.75;
-/// The least power of the tolerance that an error has to follow.
+/// The least power of the tolerance that an error must reach.
 const FOLLOWS: f64 = 0.5;
-/// Errors below this part of the motion are as good as none.
+/// Errors below this fraction of the motion count as zero.
 const EXACT: f64 = 1e-11;
-/// A last error below this multiple of the tolerance, as a part of the motion, keeps to it.
+/// A last error below this multiple of the tolerance, relative to the motion, satisfies the tolerance.
 const KEEPS: f64 = 100.0;
-/// The least order that a method shows where laws have kinks.
+/// The least order that an integrator must reach if laws have kinks.
 const KINKED: f64 = 0.5;
-/// Steps of a fit.
+/// Number of steps in a fit.
 const WINDOW: usize = 3;
 
-/// A verdict on each method, scalar and formulation of a study's full scene.
+/// Returns a verdict on each integrator, scalar and formulation of a study's full scene.
 pub fn verdicts(study: &Study) -> Vec<Verdict> {
     let mut groups: BTreeMap<[&str; 3], Vec<&Row>> = BTreeMap::new();
     let mut names: Vec<[&str; 3]> = Vec::new();
@@ -91,7 +91,8 @@ pub fn verdicts(study: &Study) -> Vec<Verdict> {
     names.iter().map(verdict).collect()
 }
 
-/// The longest step at which the classical Runge–Kutta method follows the motion; 0 where none does.
+/// Returns the longest step at which the classical Runge–Kutta method follows the motion; 0 if it never
+/// does.
 fn stable_step(study: &Study) -> f64 {
     let rows = study
         .rows
@@ -104,7 +105,7 @@ fn stable_step(study: &Study) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// What the errors of one method say, from the coarsest to the finest.
+/// Returns the conclusion from the errors of one integrator, from the coarsest to the finest.
 fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     let epsilon = match rows[0].scalar.as_str() {
         "f32" => f64::from(f32::EPSILON) / f64::EPSILON,
@@ -115,7 +116,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     let mut points: Vec<(StepControl, f64)> = held
         .filter_map(|r| Some((r.step_control, r.error?)))
         .collect();
-    // The scene's own step control, which comes last, is no part of the sequence.
+    // The scene's own step control, the last one, does not belong to the sequence.
     let sequence = points
         .windows(2)
         .take_while(|p| p[1].0.value() < p[0].0.value());
@@ -124,7 +125,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
         .iter()
         .any(|p| p.1 <= rounding || p.1 < EXACT * facts.size);
     let fine = points.iter().filter(|p| p.1 < COARSE * facts.size);
-    // The floor itself says nothing of an order, and neither does what lies beyond it.
+    // Errors at the floor or below it give no information about the order.
     let fine = fine.take_while(|p| p.1 > rounding);
     let logs: Vec<(f64, f64)> = fine.map(|(x, e)| (x.value().ln(), e.ln())).collect();
     if let Some((StepControl::Tolerance(_), _)) = points.first() {
@@ -132,7 +133,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
             0..=2 if reached => Finding::Converges(slope(&logs).unwrap_or(1.0)),
             0..=2 => Finding::TooFew,
             _ => match (judged(slope(&logs), FOLLOWS), points.last()) {
-                // Errors that keep to the tolerance need not follow it: steps end at the samples.
+                // Errors within the tolerance need not be proportional to it: steps end at the samples.
                 (Finding::DoesNot(p), Some((step_control, error)))
                     if *error < KEEPS * step_control.value() * facts.size =>
                 {
@@ -145,7 +146,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     let slopes = logs.windows(WINDOW).filter_map(slope);
     let beyond = logs.windows(WINDOW).all(|w| w[0].0 > stable.ln());
     let least = SHARE * f64::from(order);
-    // Of those that show the order the finest: coarser ones may fall into stability.
+    // Of the fits with the order choose the finest: coarser ones may be at the stability limit.
     let shown = slopes.clone().rfind(|p| *p >= least);
     match shown.or_else(|| slopes.reduce(f64::max)) {
         Some(best) => match judged(Some(best), least) {
@@ -165,7 +166,7 @@ fn judged(slope: Option<f64>, least: f64) -> Finding {
     }
 }
 
-/// The slope of the straight line nearest to these points by least squares.
+/// Returns the slope of the least-squares line through these points.
 fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
@@ -176,12 +177,12 @@ fn slope(points: &[(f64, f64)]) -> Option<f64> {
 }
 
 impl Verdict {
-    /// Whether a method that should converge does not.
+    /// Returns whether an integrator that should converge does not.
     pub fn is_failure(&self) -> bool {
         matches!(self.finding, Finding::DoesNot(_))
     }
 
-    /// In a few words: "order 3.98 of 4".
+    /// Returns a few words: "order 3.98 of 4".
     pub fn words(&self) -> String {
         let Verdict {
             order, controlled, ..

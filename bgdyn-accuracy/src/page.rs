@@ -1,4 +1,4 @@
-//! The report of a study: one self-contained HTML page, and the same in Markdown.
+//! Writes the report of a study: one self-contained HTML page, and the same in Markdown.
 
 use std::fmt::Write;
 
@@ -8,21 +8,21 @@ use crate::order_check::verdicts;
 use crate::pareto::targets;
 use crate::study::{Facts, Study};
 
-/// What times were measured on.
+/// The machine on which times were measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
-    /// The processor, as the system names it.
+    /// Name of the processor in the system.
     pub processor: String,
-    /// `rustc --version`
+    /// Output of `rustc --version`.
     pub compiler: String,
-    /// When, as a date.
+    /// The date.
     pub date: String,
-    /// How the code was compiled.
+    /// The compiler flags.
     pub flags: String,
 }
 
 impl Machine {
-    /// This machine, as far as it can be asked.
+    /// Returns this machine, as far as the system describes it.
     pub fn here() -> Machine {
         let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let model = info.lines().find_map(|l| l.strip_prefix("model name"));
@@ -54,7 +54,7 @@ impl Machine {
     }
 }
 
-/// The date in UTC, `2026-01-31` (days to a date: Fliegel and Van Flandern 1968).
+/// Returns the date in UTC, `2026-01-31` (days to a date: Fliegel and Van Flandern 1968).
 fn today() -> String {
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
     let days = now.map_or(0, |d| d.as_secs() / 86_400) as i64;
@@ -69,14 +69,14 @@ fn today() -> String {
     format!("{year}-{month:02}-{day:02}")
 }
 
-/// What is measured, in words: the same in both reports.
+/// The definition of the error, the same in both reports.
 const ERROR: &str = "The error of a run is the largest distance of the scene's measured output from the reference over equally spaced sample times. The reference is made by extrapolation of order 12; what it is off by is taken from a second one with a tolerance a hundred times as large.";
 const VARIED: &str = "One factor is varied at a time, from all effects in f64 by the cheapest formulation: the method with its step or tolerance, the scalar, the way the equations are written, the effects. Steps are halved, tolerances divided by ten, until the error is rounding or falls no more.";
 const POINTS: &str = "Leaving out `inertia` can make a scene dearer: its links are point masses then. Where they come to lie on a joint's axis, this joint has next to no inertia, and the mass matrix loses digits. The generator sees that in sampled states and solves by articulated bodies, which keep the digits and take more operations. A joint that has no inertia in any state has no acceleration: `derivative` refuses, and no steps are given.";
 const TIMES: &str = "Times are of compiled code, runs of the whole scene with what the method needs, medians of five rounds in which every run is timed in turn, in each round the best of three measurements. Integrators call the scene's functions through a pointer. Times of one call of `derivative` are taken in the same way, at the start of the run, without a pointer.";
 const GUESSES: &str = "Times are estimates from the weighted count of operations: no cargo, or no crates, to compile the scene with. Nothing of the evaluator's own speed is in them.";
 
-/// What a study is about, in a sentence.
+/// Describes the subject of a study, in a sentence.
 fn about(facts: &Facts) -> String {
     format!(
         "{}. Measured: `{}`, in {}, at {} times up to {} s; it moves by {} {}. The reference is off by {} {}; rounding in f64 begins at {} {}.",
@@ -94,7 +94,7 @@ fn about(facts: &Facts) -> String {
     )
 }
 
-/// The front as rows of a table: error, way, time.
+/// Returns the front as rows of a table: error, configuration, time.
 fn front_rows(study: &Study) -> Vec<[String; 3]> {
     let facts = &study.facts;
     let mark = if study.is_measured() { "" } else { "~" };
@@ -113,7 +113,7 @@ fn front_rows(study: &Study) -> Vec<[String; 3]> {
     targets(study).iter().map(row).collect()
 }
 
-/// The verdicts as rows of a table: method, scalar, equations, words.
+/// Returns the verdicts as rows of a table: integrator, scalar, equations, words.
 fn verdict_rows(study: &Study) -> Vec<([String; 4], bool)> {
     let row = |v: crate::Verdict| {
         let words = v.words();
@@ -125,7 +125,7 @@ fn verdict_rows(study: &Study) -> Vec<([String; 4], bool)> {
 
 const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#282828;max-width:1040px;margin:2em auto;padding:0 1em}h1{font-size:1.7em}h2{margin-top:2.2em;border-top:2px solid #282828;padding-top:.6em}h3{font-size:1.05em;margin-bottom:.3em}table{border-collapse:collapse;margin:.6em 0}th,td{text-align:left;padding:.2em 1.2em .2em 0;border-bottom:1px solid #e3e3e3}th{font-weight:600}.alarm{color:#c2410c}.faint{color:#777}svg{max-width:100%;height:auto}nav a{margin-right:1em}:root{color-scheme:light dark}@media (prefers-color-scheme: dark){body{background:#161616;color:#bfbfbf}h2{border-color:#bfbfbf}th,td{border-color:#333}a{color:#689de5}.alarm{color:#dc6410}.faint{color:#838383}}";
 
-/// The report as one HTML file that fetches nothing.
+/// Returns the report as one HTML file without external resources.
 pub fn page(studies: &[Study], machine: &Machine) -> String {
     let mut text = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>What accuracy costs in time</title><style>{STYLE}</style></head><body>\n<h1>What accuracy costs in time</h1>\n"
@@ -152,7 +152,7 @@ pub fn page(studies: &[Study], machine: &Machine) -> String {
     text + "</body></html>\n"
 }
 
-/// One scene's part of the page.
+/// Writes one scene's section of the page.
 fn section(text: &mut String, study: &Study) {
     let scene = &study.facts.scene;
     let about = escaped(&about(&study.facts));
@@ -191,7 +191,8 @@ fn section(text: &mut String, study: &Study) {
     *text += "</table>\n";
 }
 
-/// The report in Markdown, with the figures as files beside it. `again` is the command that makes it.
+/// Returns the report in Markdown, with the figures as files beside it. `again` is the command that
+/// creates it.
 pub fn readme(studies: &[Study], machine: &Machine, again: &str) -> String {
     let measured = studies.iter().all(Study::is_measured);
     let times = if measured { TIMES } else { GUESSES };

@@ -1,18 +1,18 @@
-//! The Pareto front: rows that no other row beats in both error and time.
+//! The Pareto front: rows that no other row dominates in error and time.
 
 use crate::row::Row;
 use crate::study::Study;
 
-/// The cheapest way to an error.
+/// The cheapest row for an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// The error wanted.
+    /// The required error.
     pub target: f64,
-    /// The row that has it for the least time.
+    /// The row that reaches it in the least time.
     pub row: Row,
 }
 
-/// The rows of the full scene that no other row beats in error and time at once, from the largest
+/// Returns the rows of the full scene that no other row dominates in error and time, from the largest
 /// error to the smallest.
 pub fn front(study: &Study) -> Vec<Row> {
     let mut rows: Vec<(&Row, f64, f64)> = of_scene(study);
@@ -28,7 +28,7 @@ pub fn front(study: &Study) -> Vec<Row> {
     front
 }
 
-/// Rows with error and time, of the scene with all effects and its equations as they are by default, in
+/// Returns rows with error and time, of the scene with all effects and its default equations, in
 /// velocities or momenta.
 fn of_scene(study: &Study) -> Vec<(&Row, f64, f64)> {
     let usual = |r: &&Row| ["cheapest", "canonical"].contains(&r.formulation.as_str());
@@ -40,12 +40,12 @@ fn of_scene(study: &Study) -> Vec<(&Row, f64, f64)> {
     full.filter_map(|r| Some((r, r.error?, r.ns?))).collect()
 }
 
-/// For each decade of the error the cheapest row that has it.
+/// Returns, for each decade of the error, the cheapest row that reaches it.
 pub fn targets(study: &Study) -> Vec<Choice> {
     let front = front(study);
     let decades = (-14..=0).rev().map(|k| 10_f64.powi(k));
     let chosen = decades.filter_map(|target| {
-        // The front rises in time as it falls in error: the first is the cheapest.
+        // On the front the time increases as the error decreases: the first row is the cheapest.
         let row = front
             .iter()
             .find(|r| r.error.is_some_and(|e| e <= target))?;
@@ -54,7 +54,7 @@ pub fn targets(study: &Study) -> Vec<Choice> {
     });
     let mut found: Vec<Choice> = Vec::new();
     for choice in chosen {
-        // One line for each row: with the smallest error that it has.
+        // One line for each row, with the smallest error that it reaches.
         match found.last_mut() {
             Some(last) if last.row == choice.row => *last = choice,
             _ => found.push(choice),

@@ -4,15 +4,15 @@ use std::fmt;
 
 use crate::configuration::RunError;
 
-/// What one call takes: measured, or known beforehand.
+/// The time of one call: measured, or estimated.
 pub enum Call {
-    /// Makes so many calls.
+    /// Makes this number of calls.
     Compiled(Box<dyn Fn(usize)>),
-    /// ns, an estimate from the operations.
+    /// Estimated time from the operations, ns.
     Estimated(f64),
 }
 
-/// A scene with all effects, or all but some, whose costs are asked for.
+/// A scene with all effects, or some of them, whose costs are measured.
 pub struct Priced {
     /// The effects of the scene: `all`, `all but friction`.
     pub effects: String,
@@ -21,11 +21,11 @@ pub struct Priced {
     pub operations: usize,
     /// One call of `derivative`.
     pub call: Call,
-    /// Steps of [`STEPS_METHOD`](crate::STEPS_METHOD) from the start to this time, s.
+    /// Returns the steps of [`STEPS_METHOD`](crate::STEPS_METHOD) from the start to this time, s.
     pub steps: Box<dyn Fn(f64) -> Result<usize, RunError>>,
 }
 
-/// Without the closures.
+/// Prints all fields except the closures.
 impl fmt::Debug for Priced {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Priced")

@@ -1,40 +1,40 @@
-//! A row of `accuracy.csv`, written and read.
+//! A row of `accuracy.csv`, with its conversion from and to text.
 
 use crate::configuration::StepControl;
 use crate::table::written;
 
-/// Whether a row's numbers hold.
+/// Whether a row has valid numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Error and time were measured.
     Ok,
     /// The error was measured; the time is an estimate from the weighted count of operations.
     Estimated,
-    /// There is no motion to speak of, with the reason.
+    /// The run failed, with the reason.
     Failed(String),
 }
 
-/// What came of one run of a scene.
+/// The result of one run of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The scene's name.
     pub scene: String,
     /// The effects: `all`, `all but friction`, `gravity+inertia`, `none`.
     pub effects: String,
-    /// The method of integration.
+    /// The integrator.
     pub method: String,
     /// The step, s, or the tolerance.
     pub step_control: StepControl,
     /// The scalar: `f64`, `f32`.
     pub scalar: String,
-    /// How the equations are written.
+    /// The equations: `cheapest`, or a formulation's name.
     pub formulation: String,
     /// Largest distance from the reference, in the measured output's unit; for fewer effects the
     /// change of the motion.
     pub error: Option<f64>,
     /// Time of compiled code per simulated millisecond, ns.
     pub ns: Option<f64>,
-    /// Whether that holds.
+    /// The validity of these numbers.
     pub status: Status,
 }
 
@@ -51,7 +51,7 @@ const COLUMNS: [&str; 9] = [
     "status",
 ];
 
-/// Rows as CSV, with a header.
+/// Returns rows as CSV, with a header.
 pub fn rows_csv<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
     let header = COLUMNS.map(str::to_owned).to_vec();
     let rows = rows.into_iter().map(|row| row.record().to_vec());
@@ -59,12 +59,12 @@ pub fn rows_csv<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
 }
 
 impl Row {
-    /// Whether error and time are there.
+    /// Returns whether error and time exist.
     pub fn holds(&self) -> bool {
         !matches!(self.status, Status::Failed(_))
     }
 
-    /// Its fields, in the order of the columns.
+    /// Returns its fields, in the order of the columns.
     pub(crate) fn record(&self) -> [String; 9] {
         let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.3e}"));
         let status = match &self.status {
@@ -85,7 +85,7 @@ impl Row {
         ]
     }
 
-    /// The row of such fields; `None` where they are none.
+    /// Parses a row from its fields; `None` if they are invalid.
     pub(crate) fn of_record(fields: Vec<String>) -> Option<Row> {
         let [
             scene,

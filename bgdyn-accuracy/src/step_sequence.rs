@@ -1,29 +1,29 @@
-//! The sequence of steps and tolerances of a method, chosen by errors only, not by times.
+//! Chooses the sequence of steps and tolerances of an integrator, by errors only, not by times.
 //!
-//! Equal input gives the same rows everywhere.
+//! Equal input gives the same rows on every machine.
 
 use crate::configuration::{Configuration, Grid, RunError, StepControl};
 use crate::integrate::distance;
 
-/// How thorough a study is.
+/// The extent of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Rounds in which everything is timed in turn; the median counts.
+    /// Number of rounds in which everything is timed in turn; the median counts.
     pub rounds: usize,
-    /// Samples of a run.
+    /// Number of samples of a run.
     pub samples: usize,
-    /// The most steps of a run by fixed steps.
+    /// Largest number of fixed steps of a run.
     pub steps: usize,
-    /// The same of methods that solve equations in each step.
+    /// The same for integrators that solve equations in each step.
     pub implicit_steps: usize,
     /// The smallest tolerance.
     pub tolerance: f64,
-    /// Time that one measurement takes at least, s.
+    /// Least duration of one measurement, s.
     pub resolution: f64,
 }
 
 impl Effort {
-    /// For figures.
+    /// Settings for figures.
     pub const FULL: Effort = Effort {
         rounds: 5,
         samples: 20,
@@ -33,7 +33,7 @@ impl Effort {
         resolution: 4e-4,
     };
 
-    /// For a quick look, and for tests.
+    /// Settings for a quick study, and for tests.
     pub const QUICK: Effort = Effort {
         rounds: 5,
         samples: 10,
@@ -44,7 +44,7 @@ impl Effort {
     };
 }
 
-/// What came of one run.
+/// The result of one run.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial {
     pub step_control: StepControl,
@@ -52,31 +52,31 @@ pub(crate) struct Trial {
     pub outcome: Result<(f64, Option<f64>), RunError>,
 }
 
-/// What errors are held against.
+/// The scale of errors.
 pub(crate) struct ErrorScale<'a> {
     pub reference: &'a [Vec<f64>],
     /// The reference's own error.
     pub error: f64,
-    /// How far the output moves.
+    /// The size of the motion of the output.
     pub size: f64,
-    /// The largest distance of the output from its origin: what its rounding goes by.
+    /// The largest distance of the output from its origin, which its rounding is relative to.
     pub largest: f64,
 }
 
-/// Errors above this multiple of the motion are no motion.
+/// Errors above this multiple of the motion count as failures.
 const LOST: f64 = 10.0;
 /// The largest tolerance.
 const FIRST: f64 = 1e-3;
-/// Failures that are kept in front of the first success.
+/// Number of recorded failures before the first success.
 const SHOWN: usize = 2;
 
 impl ErrorScale<'_> {
-    /// Errors below this are rounding.
+    /// Returns the level below which errors are rounding.
     pub fn floor(&self, epsilon: f64) -> f64 {
         (16.0 * epsilon * self.largest).max(4.0 * self.error)
     }
 
-    /// One run.
+    /// Makes one run.
     pub fn attempt(
         &self,
         configuration: &Configuration,
@@ -99,15 +99,15 @@ impl ErrorScale<'_> {
     }
 }
 
-/// Whether a method solves equations in each step.
+/// Returns whether an integrator solves equations in each step.
 fn is_implicit(method: &str) -> bool {
     ["midpoint", "gauss", "rodas"]
         .iter()
         .any(|m| method.contains(m))
 }
 
-/// A configuration's steps or tolerances from the coarsest on: halved, or a tenth each, until the error is
-/// rounding, or falls no more, or the limits of the effort are reached.
+/// Returns the runs with a configuration's steps or tolerances, from the coarsest on: halved, or a tenth
+/// each, until the error is rounding, or no longer decreases, or the limits of the effort are reached.
 pub(crate) fn step_sequence(
     configuration: &Configuration,
     grid: &Grid,
@@ -143,7 +143,7 @@ pub(crate) fn step_sequence(
             }
         }
     }
-    // Of failures before the first success the last ones show where it begins.
+    // Of the failures before the first success, the last ones show the limit.
     let first = all
         .iter()
         .position(|t| t.outcome.is_ok())
@@ -152,7 +152,7 @@ pub(crate) fn step_sequence(
     all
 }
 
-/// A tolerance as it is written: 1e-6, not 1.0000000000000002e-6.
+/// Rounds a tolerance to its decimal: 1e-6, not 1.0000000000000002e-6.
 fn rounded(step_control: StepControl) -> StepControl {
     match step_control {
         StepControl::Tolerance(x) => {

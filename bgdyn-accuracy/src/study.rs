@@ -1,4 +1,4 @@
-//! The study of one scene: reference solution, runs, times.
+//! Runs the study of one scene: reference solution, runs, times.
 
 use std::fmt;
 
@@ -11,50 +11,50 @@ use crate::step_sequence::{Effort, ErrorScale, Trial, step_sequence};
 use crate::table::{records, written};
 use crate::test_case::TestCase;
 
-/// What a study is about.
+/// The subject of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// The scene's name.
     pub scene: String,
-    /// What it is, in a line.
+    /// Its description, in a line.
     pub description: String,
     /// The measured output.
     pub output: String,
     /// Its unit.
     pub unit: String,
-    /// When the runs end, s.
+    /// End of the runs, s.
     pub end: f64,
-    /// How many samples they are compared at.
+    /// Number of samples for the comparison.
     pub samples: usize,
     /// Whether its laws have kinks.
     pub kinked: bool,
-    /// How far the output moves from where it begins.
+    /// The size of the motion of the output from its start.
     pub size: f64,
-    /// Errors in `f64` below this are rounding, or the reference's.
+    /// Errors in `f64` below this are due to rounding, or to the reference.
     pub floor: f64,
-    /// What the reference is off by: the difference from one with a hundred times the tolerance.
+    /// The estimated error of the reference: the difference from one with a hundred times the tolerance.
     pub reference_error: f64,
 }
 
 /// A scene's study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// What it is about.
+    /// The subject.
     pub facts: Facts,
-    /// What came of it.
+    /// The results.
     pub rows: Vec<Row>,
-    /// What the scene costs with all effects, and without each.
+    /// The cost of the scene with all effects, and without each.
     pub costs: Vec<Cost>,
 }
 
-/// Why a scene cannot be studied.
+/// The reason why a scene cannot be studied.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failed {
     /// It has no reference.
     NoReference,
     /// Its reference's run ends early.
     Reference(RunError),
-    /// Two references differ by so much of the motion.
+    /// Two references differ by this fraction of the motion.
     Uncertain(f64),
 }
 
@@ -73,13 +73,13 @@ impl fmt::Display for Failed {
 
 impl std::error::Error for Failed {}
 
-/// References that differ by more than this part of the motion tell nothing.
+/// References that differ by more than this fraction of the motion are not usable.
 const CERTAIN: f64 = 1e-6;
 
 /// Studies a scene.
 ///
 /// # Errors
-/// Where there is no reference to go by.
+/// If there is no usable reference.
 pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
     let grid = Grid {
         end: test_case.end,
@@ -108,7 +108,7 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
     }
     for ablation in &test_case.ablations {
         let step_control = own_step_control(test_case, &grid);
-        // A motion far from the reference is a finding here, not a failure.
+        // A motion far from the reference is a result here, not a failure.
         let far = ErrorScale {
             size: f64::INFINITY,
             ..scale
@@ -133,13 +133,13 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
     })
 }
 
-/// How far an output moves from its first sample.
+/// Returns the distance of an output from its first sample.
 fn moved(reference: &[Vec<f64>]) -> f64 {
     let still = vec![reference[0].clone(); reference.len()];
     distance(reference, &still).max(f64::MIN_POSITIVE)
 }
 
-/// The scene's own step control; a step is taken as often as fits between two samples.
+/// Returns the scene's own step control; a fixed step is adjusted to the interval between samples.
 fn own_step_control(test_case: &TestCase, grid: &Grid) -> StepControl {
     match test_case.own.1 {
         StepControl::Step(h) => {
@@ -149,7 +149,7 @@ fn own_step_control(test_case: &TestCase, grid: &Grid) -> StepControl {
     }
 }
 
-/// The rows of what was tried, with times.
+/// Returns the rows of the trials, with times.
 fn rows(scene: &str, tried: &[(&Configuration, Trial)], grid: &Grid, effort: &Effort) -> Vec<Row> {
     let measured = |t: &Trial| matches!(t.outcome, Ok((_, None)));
     let jobs = tried.iter().filter(|(_, t)| measured(t));
@@ -181,8 +181,8 @@ fn rows(scene: &str, tried: &[(&Configuration, Trial)], grid: &Grid, effort: &Ef
 }
 
 impl Study {
-    /// As text, for programs that measure and programs that show: CSV records of facts, costs and rows, each with
-    /// its kind in front.
+    /// Converts to text, for programs that measure and programs that display: CSV records of facts, costs
+    /// and rows, each with its kind as the first field.
     pub fn write(&self) -> String {
         let record = |kind: &str, fields: &[String]| {
             let kind = std::iter::once(kind.to_owned());
@@ -194,7 +194,8 @@ impl Study {
         written(std::iter::once(facts).chain(costs).chain(rows))
     }
 
-    /// The studies in a text of [`Study::write`], one after the other; `None` where it is none.
+    /// Parses the studies in a text of [`Study::write`], one after the other; `None` if the text is
+    /// invalid.
     pub fn read(text: &str) -> Option<Vec<Study>> {
         let mut all: Vec<Study> = Vec::new();
         for mut fields in records(text) {
@@ -212,7 +213,7 @@ impl Study {
         Some(all)
     }
 
-    /// Whether times were measured.
+    /// Returns whether times were measured.
     pub fn is_measured(&self) -> bool {
         !self.rows.iter().any(|r| r.status == Status::Estimated)
     }

@@ -1,30 +1,30 @@
-//! SVG text of the few shapes that figures consist of.
+//! Writes SVG text of the few shapes in figures.
 //!
-//! Colours are written as CSS has them (`#282828`); dashes as `stroke-dasharray` has them, empty for a
-//! line without gaps.
+//! Colours have the notation of CSS (`#282828`); dashes that of `stroke-dasharray`, empty for a solid
+//! line.
 
 use std::fmt::Write;
 
 use crate::dark::with_dark_mode;
 use crate::format::escaped;
 
-/// Colour of axes and words.
+/// Colour of axes and texts.
 pub const INK: &str = "#282828";
-/// Colour of what stands back.
+/// Colour of less important parts.
 pub const FAINT: &str = "#777777";
 /// Colour of failures.
 pub const ALARM: &str = "#c2410c";
 /// Colour of grid lines.
 pub const GRID: &str = "#e3e3e3";
 
-/// Where a text stands from its point.
+/// The alignment of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// It begins there.
+    /// The text begins at the point.
     Start,
-    /// It is centred there.
+    /// The text is centred at the point.
     Middle,
-    /// It ends there.
+    /// The text ends at the point.
     End,
 }
 
@@ -41,7 +41,7 @@ pub enum Marker {
     Cross,
 }
 
-/// A drawing under way. Units are pixels, y points down.
+/// A drawing in progress. Units are pixels, y points down.
 #[derive(Debug)]
 pub struct Drawing {
     width: f64,
@@ -50,7 +50,7 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// An empty drawing of this size.
+    /// Returns an empty drawing of this size.
     pub fn new(width: f64, height: f64) -> Self {
         Drawing {
             width,
@@ -59,12 +59,12 @@ impl Drawing {
         }
     }
 
-    /// Its width.
+    /// Returns its width.
     pub fn width(&self) -> f64 {
         self.width
     }
 
-    /// A straight line, one pixel wide.
+    /// Draws a straight line, one pixel wide.
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, dashes: &str) {
         let dashes = match dashes {
             "" => String::new(),
@@ -78,12 +78,12 @@ impl Drawing {
         .expect("text");
     }
 
-    /// A line through points.
+    /// Draws a line through points.
     pub fn curve(&mut self, points: &[(f64, f64)], colour: &str, dashes: &str) {
         self.polyline(points, colour, 1.8, dashes);
     }
 
-    /// A line through points, so many pixels wide.
+    /// Draws a line of this width through points.
     pub fn stroke(&mut self, points: &[(f64, f64)], colour: &str, width: f64) {
         self.polyline(points, colour, width, "");
     }
@@ -101,7 +101,7 @@ impl Drawing {
         .expect("text");
     }
 
-    /// A filled rectangle from its upper left corner.
+    /// Draws a filled rectangle from its upper left corner.
     pub fn rectangle(&mut self, (x, y): (f64, f64), (w, h): (f64, f64), colour: &str) {
         writeln!(
             self.body,
@@ -110,7 +110,7 @@ impl Drawing {
         .expect("text");
     }
 
-    /// A filled polygon.
+    /// Draws a filled polygon.
     pub fn area(&mut self, points: &[(f64, f64)], colour: &str) {
         let corners = joined(points);
         writeln!(
@@ -120,7 +120,7 @@ impl Drawing {
         .expect("text");
     }
 
-    /// A disc of this radius.
+    /// Draws a disc of this radius.
     pub fn disc(&mut self, (x, y): (f64, f64), radius: f64, colour: &str) {
         writeln!(
             self.body,
@@ -129,7 +129,7 @@ impl Drawing {
         .expect("text");
     }
 
-    /// A point.
+    /// Draws a marker.
     pub fn marker(&mut self, (x, y): (f64, f64), marker: Marker, colour: &str) {
         let r = 4.0;
         let path = |points: &[(f64, f64)]| {
@@ -160,12 +160,12 @@ impl Drawing {
         writeln!(self.body, "{shape}").expect("text");
     }
 
-    /// A line of text; the point is on its baseline.
+    /// Writes a line of text; the point is on its baseline.
     pub fn text(&mut self, at: (f64, f64), size: u32, colour: &str, anchor: Anchor, text: &str) {
         self.words(at, size, "", (colour, anchor, text));
     }
 
-    /// The same in bold.
+    /// Writes the same in bold.
     pub fn bold(&mut self, at: (f64, f64), size: u32, colour: &str, anchor: Anchor, text: &str) {
         self.words(at, size, " font-weight=\"bold\"", (colour, anchor, text));
     }
@@ -190,7 +190,7 @@ impl Drawing {
         .expect("text");
     }
 
-    /// A text that reads upwards, centred.
+    /// Writes a vertical text, upwards and centred.
     pub fn upright(&mut self, (x, y): (f64, f64), size: u32, text: &str) {
         let text = escaped(text);
         writeln!(
@@ -200,7 +200,7 @@ impl Drawing {
         .expect("text");
     }
 
-    /// Begins a group of shapes; viewers show the title where the pointer rests on one of them.
+    /// Begins a group of shapes; viewers show the title as a tooltip of its shapes.
     pub fn group(&mut self, title: &str) {
         writeln!(self.body, "<g><title>{}</title>", escaped(title)).expect("text");
     }
@@ -210,7 +210,7 @@ impl Drawing {
         self.body.push_str("</g>\n");
     }
 
-    /// The drawing as a file's text, for light and dark pages.
+    /// Returns the drawing as a file's text, for light and dark pages.
     pub fn finish(self) -> String {
         let Drawing {
             width,
@@ -224,7 +224,7 @@ impl Drawing {
     }
 }
 
-/// Points as SVG lists them, in tenths of a pixel.
+/// Returns points in the notation of SVG, in tenths of a pixel.
 fn joined(points: &[(f64, f64)]) -> String {
     let all = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}"));
     all.collect::<Vec<_>>().join(" ")

@@ -1,6 +1,6 @@
-//! Records as CSV text, and the other way.
+//! Converts records to CSV text and back.
 
-/// The CSV text of records, which need not have equal numbers of fields.
+/// Returns the CSV text of records, which may have different numbers of fields.
 pub(crate) fn written(records: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut writer = csv::WriterBuilder::new()
         .flexible(true)
@@ -11,7 +11,7 @@ pub(crate) fn written(records: impl IntoIterator<Item = Vec<String>>) -> String 
     String::from_utf8(writer.into_inner().expect("memory")).expect("fields are text")
 }
 
-/// The records of a CSV text.
+/// Returns the records of a CSV text.
 pub(crate) fn records(text: &str) -> impl Iterator<Item = Vec<String>> {
     let reader = csv::ReaderBuilder::new()
         .flexible(true)

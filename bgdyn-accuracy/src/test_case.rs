@@ -7,39 +7,40 @@ use nalgebra::SVector;
 use crate::configuration::{Configuration, Grid, RunError, StepControl};
 use crate::priced::Priced;
 
-/// The measured output at each sample, in double-double, by a tolerance.
+/// Returns the measured output at each sample, in double-double, with a tolerance.
 pub type References = Box<dyn Fn(&Grid, f64) -> Result<Vec<Vec<Dd>>, RunError>>;
 
-/// A scene as it is studied.
+/// A scene for a study.
 pub struct TestCase {
     /// The scene's name.
     pub scene: String,
-    /// What it is, in a line.
+    /// Its description, in a line.
     pub description: String,
-    /// The measured output: a place or a coordinate.
+    /// The measured output: a site or a coordinate.
     pub output: String,
     /// The measured output's unit.
     pub unit: String,
-    /// When it ends, s.
+    /// End of the run, s.
     pub end: f64,
-    /// The scene's own method and step control, by which effects are compared.
+    /// The scene's own integrator and step control, with which effects are compared.
     pub own: (String, StepControl),
-    /// Whether its laws have kinks, which steps end at only as exactly as they are found.
+    /// Whether its laws have kinks; the accuracy of steps that end there is limited by that of the event
+    /// search.
     pub kinked: bool,
     /// The reference.
     pub reference: Option<References>,
-    /// Tolerances of the reference and of the coarser run that its error is taken from.
+    /// Tolerances of the reference and of the coarser run for its error estimate.
     pub tolerances: (f64, f64),
-    /// Ways to run the scene with all effects, each with its own sequence of steps or tolerances.
+    /// Configurations for the scene with all effects, each with its own sequence of steps or tolerances.
     pub configurations: Vec<Configuration>,
     /// The scene with fewer effects, each at the scene's own step control.
     pub ablations: Vec<Configuration>,
-    /// The scene with all effects, and without each: what a call and a run cost.
+    /// The scene with all effects, and without each: the cost of a call and of a run.
     pub prices: Vec<Priced>,
 }
 
 impl TestCase {
-    /// A scene that nothing is known of yet: names, unit, end and the scene's own way to run.
+    /// Returns a test case without data: names, unit, end and the scene's own settings.
     pub fn new(
         [scene, description, output, unit]: [&str; 4],
         end: f64,
@@ -63,7 +64,7 @@ impl TestCase {
     }
 }
 
-/// Without the closures.
+/// Prints all fields except the closures.
 impl std::fmt::Debug for TestCase {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("TestCase")
@@ -76,7 +77,7 @@ impl std::fmt::Debug for TestCase {
     }
 }
 
-/// What is known of an integrator beforehand.
+/// Returns the properties of an integrator.
 struct Known;
 
 impl WithIntegrator<SVector<f64, 1>> for Known {
@@ -88,8 +89,8 @@ impl WithIntegrator<SVector<f64, 1>> for Known {
     }
 }
 
-/// Order of a method and whether it goes by a tolerance, by its name in scenes: one with `canonical_`
-/// in front is that method on momenta. `None` where there is no such method.
+/// Returns the order of an integrator and whether it has step control, by its name in scenes; the prefix
+/// `canonical_` means the integrator of the canonical form. `None` if the name is unknown.
 pub fn order(name: &str) -> Option<(u32, bool)> {
     with_integrator(name.strip_prefix("canonical_").unwrap_or(name), Known)
 }

@@ -1,4 +1,4 @@
-//! A study of a motion in closed form, x(t) = cos t, by methods whose results are known: right ones
+//! Tests a study of a motion in closed form, x(t) = cos t, by integrators with known results: correct ones
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
@@ -9,7 +9,7 @@ use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
 use nalgebra::SVector;
 
-/// A few steps and one round: times are looked at by nobody.
+/// A few steps and one round: the times are not evaluated.
 const EFFORT: Effort = Effort {
     rounds: 1,
     resolution: 1e-6,
@@ -45,7 +45,7 @@ fn oscillator(
 }
 
 const RIGHT: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
-/// Two weights have changed places: consistent, of order 1.
+/// Two weights are exchanged: consistent, of order 1.
 const WRONG: [f64; 4] = [1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0, 1.0 / 6.0];
 
 fn configuration(formulation: &str, weights: [f64; 4]) -> Configuration {
@@ -156,7 +156,7 @@ fn a_study_is_read_as_it_was_written() {
     assert_eq!(Study::read("scene,effects\n1,2"), None);
 }
 
-/// A study with costs: what is left out takes less, or more.
+/// Returns a study with costs.
 fn priced() -> Study {
     let mut study = studied(RIGHT);
     for (effects, error) in [("all but springs", 0.5), ("all but drag", 0.0)] {
@@ -189,7 +189,7 @@ fn costs_of_effects_are_written_and_read() {
     assert_eq!(table, wanted);
 }
 
-/// Costs are those of calls with an effect and without it: no difference of two times is shown.
+/// Costs are those of calls with and without an effect; no difference of two times is shown.
 #[test]
 fn the_figure_of_effects_shows_calls_and_steps() {
     let study = priced();
@@ -280,7 +280,7 @@ impl Plant for Decay {
     }
 }
 
-/// ẋ = −x by controlled steps: one step behind the other to the end, more of them for a longer run.
+/// ẋ = −x with step control: consecutive steps to the end, more of them for a longer run.
 #[test]
 fn steps_are_counted() {
     use bgdyn_sim::{HybridState, WithIntegrator};

@@ -1,4 +1,4 @@
-//! Accuracy studies by the evaluator: errors are measured, times are estimated from the number of calls.
+//! Accuracy studies with the evaluator: errors are measured, times are estimated from the number of calls.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -16,12 +16,12 @@ use bgdyn_sim::{INTEGRATORS, Jacobian, Plant, Power, with_integrator};
 use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
 use crate::timing::estimate;
 
-/// The method of references.
+/// The integrator of references.
 const REFERENCE: &str = "extrapolation12";
-/// Tolerances of the reference and of the coarser one: the evaluator's plant is in `f64`.
+/// Tolerances of the reference and of the coarser one: the evaluator computes in `f64`.
 const TOLERANCES: (f64, f64) = (1e-14, 1e-12);
 
-/// What one call of each function takes in compiled code, ns: an estimate.
+/// The estimated time of one call of each function in compiled code, ns.
 #[derive(Clone, Copy, Debug)]
 struct Calls {
     /// Operations of `derivative`.
@@ -51,17 +51,17 @@ impl Calls {
     }
 }
 
-/// A scene through the evaluator that adds up what its calls would take.
+/// A scene in the evaluator that sums the estimated times of its calls.
 #[derive(Clone, Debug)]
 struct Counted {
     plant: Rc<Evaluated<'static>>,
     calls: Calls,
-    /// ns so far.
+    /// Estimated time so far, ns.
     spent: Rc<Cell<f64>>,
 }
 
 impl Counted {
-    /// The scene: it stays, since a study is the program's last act.
+    /// Leaks the scene: a study is the last action of the program.
     fn new(system: SceneEquations) -> Self {
         let calls = Calls::of(&system);
         let system = Box::leak(Box::new(system));
@@ -76,7 +76,7 @@ impl Counted {
         self.spent.set(self.spent.get() + ns);
     }
 
-    /// What a call and a run cost.
+    /// Returns the cost of a call and of a run.
     fn price(&self, effects: &str) -> Priced {
         let counted = self.clone();
         Priced {
@@ -94,7 +94,7 @@ impl Counted {
         }
     }
 
-    /// Runs it by a method of this name.
+    /// Returns the runner with the integrator of this name.
     fn runner(&self, method: &str) -> Runner {
         let (counted, method) = (self.clone(), method.to_owned());
         Box::new(move |grid, step_control| {
@@ -193,7 +193,7 @@ impl Measured for Counted {
     }
 }
 
-/// The scene as a test case; `None` where it has nothing to measure.
+/// Returns the scene as a test case; `None` if it has nothing to measure.
 pub(crate) fn test_case(system: &SceneEquations, end: Option<f64>) -> Option<TestCase> {
     let full = measured(system)?;
     let scene = &full.scene;

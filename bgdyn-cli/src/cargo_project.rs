@@ -1,4 +1,4 @@
-//! A scratch project: the user's cargo builds it, and it is kept, so that the next call compiles less.
+//! A scratch project that the user's cargo builds. It is not deleted, so that the next call compiles less.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -6,17 +6,17 @@ use std::{env, fs};
 
 use anyhow::{Context, Result, bail};
 
-/// A scratch crate of one purpose.
+/// A scratch crate for one purpose.
 pub(crate) struct CargoProject {
     folder: PathBuf,
 }
 
 impl CargoProject {
-    /// The crate with this name. It depends on `bgdyn`, a path or a version, and on these other
+    /// Creates the crate with this name. It depends on `bgdyn`, a path or a version, and on these other
     /// crates of the same repository and version.
     ///
     /// # Errors
-    /// Where its folder cannot be made.
+    /// If its folder cannot be created.
     pub fn new(name: &str, bgdyn: &str, others: &[&str]) -> Result<Self> {
         let source = |inside: &str| -> Result<String> {
             Ok(match Path::new(bgdyn).join("Cargo.toml").is_file() {
@@ -42,10 +42,10 @@ impl CargoProject {
         Ok(project)
     }
 
-    /// Writes a file of it, where that changes the file.
+    /// Writes one of its files, if the content changes.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If it cannot be written.
     pub fn write(&self, name: &str, text: &str) -> Result<()> {
         let path = self.folder.join(name);
         if fs::read_to_string(&path).is_ok_and(|old| old == text) {
@@ -54,10 +54,10 @@ impl CargoProject {
         fs::write(&path, text).with_context(|| format!("{} cannot be written", path.display()))
     }
 
-    /// Builds and runs it: what it prints.
+    /// Builds and runs it, and returns its output.
     ///
     /// # Errors
-    /// Where there is no cargo, it cannot have the crates, or the program fails.
+    /// If there is no cargo, if cargo cannot get the crates, or if the program fails.
     pub fn run(&self) -> Result<String> {
         let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let done = Command::new(cargo)
@@ -74,7 +74,7 @@ impl CargoProject {
     }
 }
 
-/// The user's folder for what can be made again.
+/// Returns the user's cache folder.
 fn cache() -> PathBuf {
     let named = env::var_os("XDG_CACHE_HOME").map(PathBuf::from);
     let home = env::var_os("HOME").or_else(|| env::var_os("USERPROFILE"));

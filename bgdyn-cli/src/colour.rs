@@ -1,4 +1,4 @@
-//! Colours of messages on a terminal, line by line.
+//! Colours messages on a terminal, line by line.
 
 use std::env::var_os;
 use std::io::{IsTerminal, stderr};
@@ -18,7 +18,7 @@ pub(crate) enum Colour {
     Never,
 }
 
-/// Whether stderr has colours, once that is decided.
+/// Whether stderr has colours, once decided.
 static WANTED: OnceLock<bool> = OnceLock::new();
 
 const RED: &str = "1;31";
@@ -27,7 +27,7 @@ const BLUE: &str = "34";
 const GREEN: &str = "32";
 
 impl Colour {
-    /// From now on stderr has colours by this choice.
+    /// Sets the use of colours on stderr.
     pub(crate) fn choose(self) {
         let _ = WANTED.set(match self {
             Colour::Always => true,
@@ -37,7 +37,7 @@ impl Colour {
     }
 }
 
-/// Whether the terminal and the usual variables ask for colours.
+/// Returns whether the terminal and the usual environment variables permit colours.
 fn by_surroundings() -> bool {
     let set = |name| var_os(name).is_some_and(|value| !value.is_empty());
     let forced = var_os("CLICOLOR_FORCE").is_some_and(|value| !value.is_empty() && value != "0");
@@ -45,7 +45,7 @@ fn by_surroundings() -> bool {
     !set("NO_COLOR") && (forced || (stderr().is_terminal() && !dumb))
 }
 
-/// The text as stderr gets it.
+/// Returns the text for stderr, with colours if they are in use.
 pub(crate) fn painted(text: &str) -> String {
     match WANTED.get() {
         Some(true) => text.split_inclusive('\n').map(line).collect(),
@@ -53,7 +53,7 @@ pub(crate) fn painted(text: &str) -> String {
     }
 }
 
-/// One line, coloured by what it begins with.
+/// Returns one line, coloured according to its beginning.
 fn line(line: &str) -> String {
     let (text, end) = match line.strip_suffix('\n') {
         Some(text) => (text, "\n"),
@@ -100,7 +100,7 @@ fn line(line: &str) -> String {
     }
 }
 
-/// `FILE:LINE:COLUMN:` and what follows.
+/// Splits a line into `FILE:LINE:COLUMN:` and the rest.
 fn placed(text: &str) -> Option<(&str, &str)> {
     let end = text.find(": ")?;
     let mut parts = text[..end].rsplitn(3, ':');

@@ -1,4 +1,4 @@
-//! Invariants of reader, check and importer for any text, called by property tests and by the fuzzer.
+//! Invariants of parser, check and importer for any text, called by property tests and by the fuzzer.
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::format::is_scene;
@@ -7,11 +7,12 @@ use bgdyn_codegen::read;
 
 use crate::import;
 
-/// Feeds a text to the reader of mechanisms, to that of scenes and to the importer.
+/// Passes a text to the parser of mechanisms, to that of scenes and to the importer.
 ///
 /// # Panics
-/// Where a promise is broken: a mechanism exists exactly where there is no fault; every fault has a place in the
-/// text and one line; whatever the importer makes can be read; its errors start with a line and a column.
+/// If an invariant is violated: a mechanism exists exactly if there is no fault; every fault has a
+/// position in the text and one line; the output of the importer can be parsed; its errors start with a
+/// line and a column.
 pub fn any_text(text: &str) {
     let (mechanism, faults) = read(text, Some("arm"));
     assert_eq!(
@@ -20,7 +21,7 @@ pub fn any_text(text: &str) {
         "a mechanism and a fault, or neither"
     );
     well_said(&faults, text);
-    // What the macro writes in place of a refused spec.
+    // The module that the macro writes in place of that of a refused spec.
     let _ = Interface::guess(text, "arm");
     if is_scene(text) {
         scene(text);
@@ -28,7 +29,7 @@ pub fn any_text(text: &str) {
     urdf(text);
 }
 
-/// A mechanism that scenes may stand on, with one element to call for.
+/// A mechanism for scenes, with one element to include.
 const ARM: &str = "\
 format: 1
 links:
@@ -44,7 +45,7 @@ fn scene(text: &str) {
     }
 }
 
-/// Faults are told in single lines, each with a place in the text.
+/// Checks that faults are single lines, each with a position in the text.
 fn well_said(faults: &Faults, text: &str) {
     let lines = text
         .split(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}'])

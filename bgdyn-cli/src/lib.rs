@@ -73,7 +73,7 @@ pub fn run() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             let text = format!("{error:#}");
-            // A refusal that was explained already is an empty error.
+            // An empty error is a refusal that was reported already.
             if !text.is_empty() {
                 output::tell(&format!("bgdyn: {text}\n"));
             }

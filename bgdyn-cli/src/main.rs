@@ -1,4 +1,4 @@
-//! The command `bgdyn`.
+//! The command `bgdyn`: calls the library.
 
 use std::process::ExitCode;
 

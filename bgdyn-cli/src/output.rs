@@ -1,6 +1,6 @@
-//! Standard output with errors, and standard error without.
+//! Writes to standard output with error handling, and to standard error without.
 //!
-//! A reader that closes the pipe is neither a panic nor a failure.
+//! A reader that closes the pipe causes neither a panic nor a failure.
 
 use std::io::{ErrorKind, Write};
 
@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 
 use crate::colour::painted;
 
-/// Writes to stdout. Whoever reads it may stop early (`| head -1`).
+/// Writes to stdout, whose reader may stop early (`| head -1`).
 pub(crate) fn print(text: &str) -> Result<()> {
     let mut stdout = std::io::stdout().lock();
     let written = stdout
@@ -20,7 +20,7 @@ pub(crate) fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Writes to stderr; there is nowhere to say that it failed.
+/// Writes to stderr; a failure cannot be reported.
 pub(crate) fn tell(text: &str) {
     let _ = std::io::stderr().lock().write_all(painted(text).as_bytes());
 }

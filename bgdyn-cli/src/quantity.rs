@@ -1,19 +1,19 @@
-//! Reads numbers with units from the command line, as the reader of files does.
+//! Parses numbers with units from the command line, by the rules of files.
 
 use bgdyn_codegen::format::{Dimension, Number, quantity};
 use bgdyn_runtime::Dd;
 
 use crate::usage::Usage;
 
-/// The number in SI units that `text` writes: `30 deg`, `0.5`.
+/// Returns the number in `text` in SI units: `30 deg`, `0.5`.
 ///
 /// # Errors
-/// What a file's reader says of it, with the way out.
+/// The message of the parser of files, with advice.
 pub(crate) fn value(text: &str, fit: &[Dimension]) -> Result<Dd, String> {
     read(text, fit).map(|number| number.value)
 }
 
-/// The same with its unit.
+/// Returns the same with its unit.
 ///
 /// # Errors
 /// As [`value`].
@@ -24,7 +24,7 @@ pub(crate) fn read(text: &str, fit: &[Dimension]) -> Result<Number, String> {
     })
 }
 
-/// The same of a quantity with this SI unit, nothing for a pure number.
+/// Returns the value of a quantity with this SI unit, empty for a pure number.
 ///
 /// # Errors
 /// As [`value`].
@@ -32,10 +32,10 @@ pub(crate) fn value_in(text: &str, si: &str) -> Result<Dd, String> {
     value(text, &[Dimension::measured_in(si)])
 }
 
-/// The value of an option that must be greater than 0: `--step 1 ms`.
+/// Returns the value of an option that must be greater than 0: `--step 1 ms`.
 ///
 /// # Errors
-/// As [`value`]; and where it is not greater than 0.
+/// As [`value`]; also if it is not greater than 0.
 pub(crate) fn positive(
     option: &str,
     text: Option<&String>,

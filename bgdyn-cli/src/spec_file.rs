@@ -25,17 +25,17 @@ pub(crate) struct SpecFile {
     pub(crate) stem: String,
 }
 
-/// What the name of standard input is, in place of a file's.
+/// The path that means standard input.
 const STDIN: &str = "-";
-/// The name of what comes from standard input and says none.
+/// The default name of a spec from standard input.
 pub(crate) const STDIN_NAME: &str = "stdin";
 
-/// Whether standard input is meant.
+/// Returns whether the path means standard input.
 pub(crate) fn is_stdin(path: &Path) -> bool {
     path.as_os_str() == STDIN
 }
 
-/// A path as messages show it.
+/// Returns a path as printed in messages.
 pub(crate) fn shown(path: &Path) -> String {
     match is_stdin(path) {
         true => "<stdin>".into(),
@@ -53,7 +53,7 @@ impl SpecFile {
         }
     }
 
-    /// The same, whatever is in it.
+    /// Reads a file of any content.
     pub(crate) fn read_any(path: &Path) -> Result<Self> {
         let text = read_text(path)?;
         let stem = match is_stdin(path) {
@@ -67,7 +67,7 @@ impl SpecFile {
         })
     }
 
-    /// That it is a URDF, if it is one.
+    /// Returns a fault if the file is a URDF.
     pub(crate) fn urdf(&self) -> Option<Fault> {
         is_urdf(&self.text).then(|| {
             let file = match self.path.to_str() {
@@ -80,34 +80,34 @@ impl SpecFile {
         })
     }
 
-    /// The mechanism, if the spec passes, and all that was found.
+    /// Returns the mechanism, if the spec is valid, and all findings.
     pub(crate) fn read(&self) -> (Option<Mechanism>, Faults) {
         bgdyn_codegen::read(&self.text, Some(&self.stem))
     }
 
-    /// Whether it is a scene's file.
+    /// Returns whether it is a scene's file.
     pub(crate) fn is_scene(&self) -> bool {
         bgdyn_codegen::format::is_scene(&self.text)
     }
 
-    /// The text of a file named from this one.
+    /// Returns the text of a file named relative to this one.
     pub(crate) fn load(&self, path: &str) -> Result<String, String> {
         std::fs::read_to_string(beside(&self.path, path)).map_err(|e| e.to_string())
     }
 
-    /// The scene, if it and its mechanism pass, and all that was found.
+    /// Returns the scene, if it and its mechanism are valid, and all findings.
     pub(crate) fn read_scene(&self) -> Result<(SceneEquations, Faults), Refusal> {
         read_scene(&self.text, &self.stem, |path| self.load(path))
     }
 
-    /// The scene; what was found goes to stderr.
+    /// Returns the scene; prints the findings to stderr.
     pub(crate) fn scene(&self) -> Result<SceneEquations> {
         let (system, warnings) = self.read_scene().map_err(|r| self.refused(r))?;
         tell(&self.render(&warnings));
         Ok(system)
     }
 
-    /// A refusal as an error; its faults go to stderr.
+    /// Converts a refusal to an error; prints its faults to stderr.
     pub(crate) fn refused(&self, refusal: Refusal) -> anyhow::Error {
         if let Refusal::Options(names) = refusal {
             return unknown(names).into();
@@ -117,7 +117,7 @@ impl SpecFile {
         anyhow!(why)
     }
 
-    /// A refusal's faults, for people, and how many there are.
+    /// Returns a refusal's faults as text, and their number in words.
     pub(crate) fn refusal(&self, refusal: Refusal) -> (String, String) {
         let shown = self.path.display();
         match refusal {
@@ -149,7 +149,7 @@ impl SpecFile {
         }
     }
 
-    /// A refusal's faults, each with its file where that is another.
+    /// Returns a refusal's faults, each with its file if that is another one.
     pub(crate) fn findings(&self, refusal: &Refusal) -> Vec<(Option<String>, Fault)> {
         match refusal {
             Refusal::Spec(faults) => faults.0.iter().map(|f| (None, f.clone())).collect(),
@@ -168,12 +168,12 @@ impl SpecFile {
         }
     }
 
-    /// What was found, for people.
+    /// Returns the findings as text.
     pub(crate) fn render(&self, faults: &Faults) -> String {
         faults.render(&self.path.display().to_string(), &self.text)
     }
 
-    /// The mechanism; what was found goes to stderr.
+    /// Returns the mechanism; prints the findings to stderr.
     pub(crate) fn mechanism(&self) -> Result<Mechanism> {
         let (mechanism, faults) = self.read();
         tell(&self.render(&faults));
@@ -181,7 +181,7 @@ impl SpecFile {
     }
 }
 
-/// The name that a spec gives itself.
+/// Returns the name in a spec.
 fn written_name(text: &str) -> Option<String> {
     let name = match bgdyn_codegen::format::is_scene(text) {
         true => parse_scene(text).0?.name,
@@ -190,14 +190,14 @@ fn written_name(text: &str) -> Option<String> {
     name.value().cloned()
 }
 
-/// Whether a text is XML with a robot in it. The beginning decides first: a spec may quote XML.
+/// Returns whether a text is XML with a robot in it. The beginning decides first: a spec may quote XML.
 fn is_urdf(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     let xml = ["<?xml", "<!--", "<robot"];
     xml.iter().any(|start| text.starts_with(start)) && text.contains("<robot")
 }
 
-/// A file's text, or that of standard input for `-`.
+/// Returns a file's text, or that of standard input for `-`.
 pub(crate) fn read_text(path: &Path) -> Result<String> {
     let shown = shown(path);
     let bytes = match is_stdin(path) {
@@ -265,7 +265,7 @@ impl Asked {
 }
 
 impl Choice {
-    /// Options with this choice.
+    /// Returns options with this choice.
     pub(crate) fn options(&self) -> Result<Options> {
         let formulation = self.formulation.as_deref().map(formulation_named);
         Ok(Options {
@@ -276,7 +276,7 @@ impl Choice {
     }
 }
 
-/// Names asked for in vain are bad usage.
+/// Converts unknown names to a usage error.
 pub(crate) fn unknown(names: Vec<Unknown>) -> Usage {
     let lines: Vec<String> = names.into_iter().map(|u| u.message).collect();
     Usage(lines.join("\nbgdyn: "))

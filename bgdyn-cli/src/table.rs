@@ -1,6 +1,6 @@
-//! Tables of comma-separated values: written, and read with the position of each cell.
+//! Writes and parses comma-separated values, with the position of each cell.
 
-/// A row of a table, with its place in the text.
+/// A row of a table, with its text.
 pub(crate) struct TableRow<'a> {
     /// The line in which it begins, from 1 on.
     pub(crate) line: u32,
@@ -10,9 +10,10 @@ pub(crate) struct TableRow<'a> {
 }
 
 impl TableRow<'_> {
-    /// Line and column at which a cell begins, from 1 on.
+    /// Returns line and column of the start of a cell, from 1 on.
     pub(crate) fn position(&self, cell: usize) -> (u32, u32) {
-        // It begins behind the first comma up to which there are so many cells: one in quotes ends none.
+        // The cell begins after the first comma that completes this number of cells: a comma in quotes
+        // completes none.
         let commas = self.text.match_indices(',').map(|(at, _)| at + 1);
         let ends = |at: &usize| row_of(&self.text[..*at]).is_some_and(|cells| cells.len() > cell);
         let begin = std::iter::once(0)
@@ -28,7 +29,7 @@ impl TableRow<'_> {
     }
 }
 
-/// The rows of a table. Empty lines and those that begin with `#` are none.
+/// Returns the rows of a table, without empty lines and lines that begin with `#`.
 pub(crate) fn rows(text: &str) -> Vec<TableRow<'_>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = reader(text);
@@ -40,7 +41,7 @@ pub(crate) fn rows(text: &str) -> Vec<TableRow<'_>> {
         }
         let (from, to) = (before.byte() as usize, reader.position().byte() as usize);
         let (mut text, mut line) = (&text[from..to], before.line() as u32);
-        // What was skipped belongs to no row.
+        // Skipped lines belong to no row.
         while let Some((first, rest)) = text.split_once('\n')
             && (first.starts_with('#') || first.trim().is_empty())
         {
@@ -54,7 +55,7 @@ pub(crate) fn rows(text: &str) -> Vec<TableRow<'_>> {
     }
 }
 
-/// The cells of the first row.
+/// Returns the cells of the first row.
 fn row_of(text: &str) -> Option<csv::StringRecord> {
     reader(text).into_records().next()?.ok()
 }
@@ -67,14 +68,14 @@ fn reader(text: &str) -> csv::Reader<&[u8]> {
         .from_reader(text.as_bytes())
 }
 
-/// Without surrounding spaces, and without quotes that such spaces kept from being signs.
+/// Removes surrounding spaces, and quotes that such spaces made part of the text.
 fn cell(text: &str) -> String {
     let text = text.trim();
     let inner = text.strip_prefix('"').and_then(|t| t.strip_suffix('"'));
     inner.unwrap_or(text).trim().to_owned()
 }
 
-/// Records as the text of a table.
+/// Returns records as the text of a table.
 pub(crate) fn written(records: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for record in records {
@@ -97,7 +98,7 @@ mod tests {
             .collect();
         let wanted: [&[&str]; 4] = [
             &["name", "mass"],
-            // A quote behind a space is a letter.
+            // A quote after a space is a letter.
             &["\"left", "upper\"", "1"],
             &["left, upper", "2"],
             &["two\nlines", "say \"so\"", "3"],

@@ -1,4 +1,4 @@
-//! Times of generated code: measured in a scratch project, or estimated.
+//! Times generated code: measured in a scratch project, or estimated.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use bgdyn_codegen::system::SceneEquations;
 
 use crate::cargo_project::CargoProject;
 
-/// States in which a scene is timed, around its start.
+/// Number of states in which a scene is timed, around its start.
 const STATES: usize = 64;
 
 /// The program's own part of the scratch crate.
@@ -62,10 +62,10 @@ fn time<S: HybridSystem<f64>>(scene: &S) -> f64 {
 }
 "#;
 
-/// ns per call of the derivative of each scene.
+/// Returns ns per call of the derivative of each scene.
 ///
 /// # Errors
-/// Where there is no cargo, or it cannot have the crates.
+/// If there is no cargo, or cargo cannot get the crates.
 pub(crate) fn times(systems: &[SceneEquations], bgdyn: &str) -> Result<Vec<f64>> {
     let project = CargoProject::new("times", bgdyn, &[])?;
     let (mut modules, mut calls) = (String::new(), String::new());
@@ -94,8 +94,8 @@ pub(crate) fn times(systems: &[SceneEquations], bgdyn: &str) -> Result<Vec<f64>>
     numbers.collect()
 }
 
-/// A guess of a call's time from its operations, ns: what such a call takes on a machine of 3 GHz
-/// that starts two operations a cycle and waits for one in three.
+/// Estimates a call's time from its operations, ns: for a machine of 3 GHz that starts two operations per
+/// cycle and waits for one in three.
 pub(crate) fn estimate(o: Operations) -> f64 {
     let quick = (o.total() + o.other) as f64;
     0.4 * quick + 4.0 * (o.div + o.sqrt) as f64 + 12.0 * o.sincos as f64

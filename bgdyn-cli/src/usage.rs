@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What is wrong with the call.
+/// The error of the call.
 #[derive(Debug)]
 pub(crate) struct Usage(pub(crate) String);
 

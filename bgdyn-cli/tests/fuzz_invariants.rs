@@ -1,4 +1,4 @@
-//! Texts of all kinds against what reader, check and importer promise.
+//! Tests the invariants of parser, check and importer with texts of all kinds.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use bgdyn_cli::fuzz_invariants::any_text;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// What the files leave out: anchors, folded text, quotes, a snap.
+/// Syntax that the files do not have: anchors, folded text, quotes, a snap.
 const DENSE: &str = "\
 format: 1
 name: arm
@@ -35,7 +35,7 @@ frames:
   - { name: tool, link: forearm, origin: { xyz: [0.25, 0, 0] } }
 ";
 
-/// Specs, scenes and URDFs of the repository, sound ones and others.
+/// Returns specs, scenes and URDFs of the repository, valid and invalid ones.
 fn seeds() -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folders = [
@@ -63,10 +63,10 @@ fn the_dense_spec_is_sound() {
     assert!(mechanism.is_some(), "{faults:?}");
 }
 
-/// Texts that once broke a promise; each was found by the fuzzer.
+/// Texts that once violated an invariant; the fuzzer found them.
 #[test]
 fn found_once() {
-    // A name in a flow mapping may run over lines; the message that quoted it did, too.
+    // A name in a flow mapping may extend over lines; the message that quoted it did so too.
     any_text("scene: 1\nmechanism: arm.yaml\nintegration: { method: rk\n\n4 }\n");
 }
 
@@ -75,7 +75,7 @@ fn every_file_of_the_repository() {
     seeds().iter().for_each(|text| any_text(text));
 }
 
-/// Words of the formats, and what may do harm to a reader.
+/// Words of the formats, and difficult texts.
 const WORDS: &[&str] = &[
     "solid: sphere",
     "solid: box",

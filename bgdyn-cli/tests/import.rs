@@ -9,7 +9,7 @@ const LIMITS: &str = include_str!("urdf/limits.urdf");
 const VERSION_1_2: &str = include_str!("urdf/version_1_2.urdf");
 const NAMES: &str = include_str!("urdf/names.urdf");
 
-/// Everything an import says, as one text.
+/// Returns all messages of an import, as one text.
 fn told(import: &Import) -> String {
     let mut out = format!("{}\n--- {}\n", import.yaml, import.name);
     for note in &import.notes {
@@ -25,7 +25,7 @@ fn error(urdf: &str) -> String {
     import(urdf).unwrap_err().to_string()
 }
 
-/// A robot of two links, with this text as the joint and this as the child's inertial.
+/// Returns a robot of two links, with this text as the joint and this one as the child's inertial.
 fn with(joint: &str, inertial: &str) -> String {
     format!(
         "<robot name=\"r\">\n<link name=\"a\"/>\n<link name=\"b\">{inertial}</link>\n{joint}</robot>"

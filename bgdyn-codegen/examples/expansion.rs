@@ -1,6 +1,6 @@
-//! How long the macro takes for each spec, unoptimised as Cargo builds it for development:
-//! `cargo run --profile plain -p bgdyn-codegen --example expansion -- specs/panda.yaml …` gives the
-//! shortest of five expansions with the default methods, and with the derivatives too.
+//! Times the macro for each spec, not optimised, as Cargo builds it for development: `cargo run --profile
+//! plain -p bgdyn-codegen --example expansion -- specs/panda.yaml …` prints the shortest of five
+//! expansions with the default methods, and with the derivatives.
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
-//! Generation from a build script: a spec becomes a file of Rust source in `OUT_DIR`.
+//! Generates code from a build script: writes a spec's Rust source to `OUT_DIR`.
 //!
-//! In `Cargo.toml`, with `bgdyn` without its macro, which saves compiling the generator twice:
+//! In `Cargo.toml`, with `bgdyn` without its macro, so that the generator is compiled only once:
 //! ```toml
 //! [dependencies]
 //! bgdyn = { version = "0.1", default-features = false }
@@ -14,11 +14,11 @@
 //!     Ok(())
 //! }
 //! ```
-//! and where the module is wanted:
+//! and in the source file that contains the module:
 //! ```ignore
 //! include!(concat!(env!("OUT_DIR"), "/scara.rs")); // pub mod scara { … }
 //! ```
-//! A change of the spec runs the script again; a mistake in it is shown as the macro shows it.
+//! A change of the spec runs the script again; errors in the spec have the same text as the macro's.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -32,15 +32,15 @@ use crate::pipeline::generate_file;
 use crate::refusal::Refusal;
 use crate::verify::explain;
 
-/// Writes the module of a spec to `OUT_DIR`: [`Build`] with nothing asked for in particular.
+/// Writes the module of a spec to `OUT_DIR`, with the default options of [`Build`].
 ///
 /// # Errors
-/// What is wrong with the spec, or with its file.
+/// The errors of the spec, or of reading its file.
 pub fn build(spec: impl AsRef<Path>) -> Result<PathBuf, Error> {
     Build::new(spec).write()
 }
 
-/// A request for the source text of a module.
+/// Options for the source text of a module.
 #[derive(Clone, Debug)]
 pub struct Build {
     spec: PathBuf,
@@ -59,12 +59,12 @@ pub struct Source {
     pub module: String,
     /// The text.
     pub text: String,
-    /// What a reader of the spec should know though nothing refuses it, one line each.
+    /// Warnings about the spec, one line each.
     pub warnings: Vec<String>,
 }
 
-/// Why there is no module. Its text is all that a user needs to read; `Debug` shows the same, so
-/// that a build script's `main` may return it.
+/// The error text for the user. `Debug` prints the same text, so that a build script's `main` can return
+/// it.
 pub struct Error(String);
 
 impl fmt::Display for Error {
@@ -82,8 +82,8 @@ impl fmt::Debug for Error {
 impl std::error::Error for Error {}
 
 impl Build {
-    /// The module of the spec at this path: absolute, or below the package's directory, which is
-    /// where build scripts run.
+    /// Starts with the spec at this path: absolute, or relative to the package's directory, in which build
+    /// scripts run.
     pub fn new(spec: impl AsRef<Path>) -> Self {
         Build {
             spec: spec.as_ref().to_path_buf(),
@@ -96,78 +96,78 @@ impl Build {
         }
     }
 
-    /// The methods wanted instead of the usual ones: [`Options::methods`].
+    /// Sets the methods to generate instead of the default ones: [`Options::methods`].
     pub fn methods<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         self.options.methods = Some(names.into_iter().map(Into::into).collect());
         self
     }
 
-    /// The links and frames wanted instead of the usual ones: [`Options::frames`].
+    /// Sets the links and frames instead of the default ones: [`Options::frames`].
     pub fn frames<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         self.options.frames = Some(names.into_iter().map(Into::into).collect());
         self
     }
 
-    /// Whether first derivatives of inverse and forward dynamics are wanted.
+    /// Sets whether first derivatives of inverse and forward dynamics are generated.
     pub fn derivatives(mut self, wanted: bool) -> Self {
         self.options.derivatives = wanted;
         self
     }
 
-    /// Whether the Jacobian of a scene's rates is wanted: [`Options::jacobian`].
+    /// Sets whether the Jacobian of a scene's rates is generated: [`Options::jacobian`].
     pub fn jacobian(mut self, wanted: bool) -> Self {
         self.options.jacobian = wanted;
         self
     }
 
-    /// Whether the canonical form of a scene is wanted: [`Options::canonical`].
+    /// Sets whether the canonical form of a scene is generated: [`Options::canonical`].
     pub fn canonical(mut self, wanted: bool) -> Self {
         self.options.canonical = wanted;
         self
     }
 
-    /// One formulation for every method instead of the cheapest of each.
+    /// Sets one formulation for every method instead of the cheapest one of each.
     pub fn formulation(mut self, name: &str) -> Self {
         self.formulation = Some(name.into());
         self
     }
 
-    /// What to choose the formulations by: `"operations"`, the default, or `"accuracy"`, the fewest
-    /// digits lost in `f64`.
+    /// Sets the criterion of choice among formulations: `"operations"`, the default, or `"accuracy"`, the
+    /// fewest digits lost in `f64`.
     pub fn prefer(mut self, name: &str) -> Self {
         self.preference = Some(name.into());
         self
     }
 
-    /// Whether the generated functions are compared with equation (6) before they are written, which
-    /// they are by default: [`Options::verify`].
+    /// Sets whether the generated functions are compared with equation (6) before they are written; the
+    /// default is true: [`Options::verify`].
     pub fn verify(mut self, wanted: bool) -> Self {
         self.options.verify = wanted;
         self
     }
 
-    /// Another name for the module than the file's stem. The struct keeps the stem's.
+    /// Sets a name of the module other than the file's stem. The struct's name remains that of the stem.
     pub fn module(mut self, name: &str) -> Self {
         self.module = Some(name.into());
         self
     }
 
-    /// The module's visibility instead of `pub`: `pub(crate)`, or nothing.
+    /// Sets the module's visibility instead of `pub`: `pub(crate)`, or empty.
     pub fn visibility(mut self, visibility: &str) -> Self {
         self.visibility = visibility.into();
         self
     }
 
-    /// The path by which the including crate reaches bgdyn, where that is not `::bgdyn`.
+    /// Sets the path of bgdyn in the crate that includes the module, if it is not `::bgdyn`.
     pub fn bgdyn(mut self, path: &str) -> Self {
         self.bgdyn = path.into();
         self
     }
 
-    /// The source text; writes nothing.
+    /// Returns the source text; writes no file.
     ///
     /// # Errors
-    /// What is wrong with the request, the file or the spec.
+    /// The errors of the options, the file or the spec.
     pub fn source(&self) -> Result<Source, Error> {
         let shown = self.spec.display();
         let bytes = std::fs::read(&self.spec)
@@ -186,11 +186,11 @@ impl Build {
         })
     }
 
-    /// Writes the module to `OUT_DIR`, under its name with the ending `.rs`, and tells cargo when to
-    /// run the build script again. Gives the file's path.
+    /// Writes the module to `OUT_DIR`, under its name with the extension `.rs`, and prints cargo's
+    /// directives for running the build script again. Returns the file's path.
     ///
     /// # Errors
-    /// As [`Build::source`]; and where this is no build script, or the file cannot be written.
+    /// As [`Build::source`]; also if this is not a build script, or the file cannot be written.
     pub fn write(&self) -> Result<PathBuf, Error> {
         println!("cargo::rerun-if-changed={}", self.spec.display());
         let folder = std::env::var_os("OUT_DIR")
@@ -205,7 +205,7 @@ impl Build {
         Ok(path)
     }
 
-    /// The text of a scene's mechanism, from the path that the scene writes.
+    /// Reads the file of a scene's mechanism, from the path in the scene.
     fn load(&self, path: &str) -> Result<String, String> {
         let path = beside(&self.spec, path);
         println!("cargo::rerun-if-changed={}", path.display());

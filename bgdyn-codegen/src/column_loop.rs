@@ -1,38 +1,39 @@
-//! Columns of a result that are the same expressions of different values: one loop computes them.
+//! Columns of a result that are the same expressions of different values, computed by one loop.
 //!
-//! Forward dynamics is linear in the efforts, so each column of its derivatives is the same chain of
-//! operations, M⁻¹ dτ, for another dτ. Written out, the columns of an arm are the longest part of its code
-//! and outgrow the instruction cache. As a loop they run in the lanes of a register.
+//! Forward dynamics is linear in the efforts, so each column of its derivatives is the same sequence of
+//! operations, M⁻¹ dτ, for a different dτ. Without a loop, the columns of an arm are the longest part of
+//! its code and exceed the instruction cache. In a loop they run in the lanes of a register.
 //!
-//! What all columns read, and what each column reads of its own, are results of the straight-line code
-//! before the loop, the stage. Factoring and cutting see the stage alone. The count is that of the columns
-//! written out; where a loop would take one operation more, they stay written out.
+//! The values that all columns read, and the values that each column reads, are results of the
+//! straight-line code before the loop, the stage. Factoring and cutting process only the stage. The
+//! operation count is that of the unrolled columns; if a loop would need one operation more, the columns
+//! stay unrolled.
 
 use bgdyn_runtime::Scalar;
 
 use crate::expr::{Graph, Inputs, Leaf, Node, NodeId, QuickMap, Signed, evaluate, reachable};
 
-/// The block of [`Leaf::Passed`] that stands for values that all columns share.
+/// The block of [`Leaf::Passed`] for values that all columns share.
 pub(crate) const SHARED: usize = 0;
-/// The block of [`Leaf::Passed`] that stands for values of a column.
+/// The block of [`Leaf::Passed`] for values of one column.
 pub(crate) const OWN: usize = 1;
 
 /// Columns that one loop computes.
 #[derive(Clone, Debug)]
 pub struct ColumnLoop {
-    /// The expressions of one column, over [`Leaf::Passed`]: of block 0 what all columns read, of
-    /// block 1 what a column has of its own.
+    /// The expressions of one column, over [`Leaf::Passed`]: block 0 is what all columns read, block 1 the
+    /// values of the column.
     pub graph: Graph,
     /// The results of a column.
     pub outputs: Vec<Signed>,
-    /// Where in the stage's results stands what all columns read.
+    /// Indices in the stage's results of the values that all columns read.
     pub shared: Vec<usize>,
-    /// Where stands what each column has of its own: a list for each column.
+    /// Indices of the values of each column: one list per column.
     pub own: Vec<Vec<usize>>,
 }
 
 impl ColumnLoop {
-    /// The results of every column from the stage's.
+    /// Computes the results of every column from the stage's results.
     fn evaluate<T: Scalar>(&self, stage: &[T], refused: &mut T::Refused) -> Vec<Vec<T>> {
         let at = |places: &[usize]| places.iter().map(|&k| stage[k]).collect::<Vec<T>>();
         let column = |own: &Vec<usize>| {
@@ -43,23 +44,23 @@ impl ColumnLoop {
     }
 }
 
-/// Where a result of a function with loops comes from.
+/// The source of a result of a function with loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResultSource {
     /// A result of the stage.
     Stage(usize),
     /// A result of a loop.
     Column {
-        /// Which loop.
+        /// Index of the loop.
         group: usize,
-        /// Which of its columns.
+        /// Index of the column in the loop.
         column: usize,
-        /// Which result of the column.
+        /// Index of the result in the column.
         row: usize,
     },
 }
 
-/// The loops of a function, and how its result is put together.
+/// The loops of a function, and the composition of its result.
 #[derive(Clone, Debug)]
 pub struct LoopedResult {
     /// The loops.
@@ -69,7 +70,7 @@ pub struct LoopedResult {
 }
 
 impl LoopedResult {
-    /// The function's results from those of the stage.
+    /// Computes the function's results from those of the stage.
     pub(crate) fn evaluate<T: Scalar>(&self, stage: &[T], refused: &mut T::Refused) -> Vec<T> {
         let groups = self.groups.iter();
         let found: Vec<Vec<Vec<T>>> = groups.map(|g| g.evaluate(stage, refused)).collect();
@@ -81,8 +82,9 @@ impl LoopedResult {
     }
 }
 
-/// One column's expressions in a graph of their own, and what it reads of the graph that it was made
-/// in, as [`SHARED`] values in this order. Its own values are [`OWN`] leaves there already.
+/// Copies one column's expressions into a graph of their own. Also returns the values that it reads from
+/// the original graph, as [`SHARED`] values in this order. The values of the column are [`OWN`] leaves
+/// already.
 pub(crate) fn column(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>, Vec<Signed>) {
     let own = of_column(from, outputs);
     let mut to = Graph::default();
@@ -119,7 +121,7 @@ pub(crate) fn column(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>, V
     (to, outputs, shared)
 }
 
-/// The nodes that depend on what a column has of its own.
+/// Marks the nodes that depend on the values of a column.
 fn of_column(graph: &Graph, outputs: &[Signed]) -> Vec<bool> {
     let needed = reachable(graph, outputs);
     let mut own = vec![false; graph.len()];

@@ -1,6 +1,6 @@
-//! Faults of a spec: position in the file, rule, message with the numbers seen, and help.
+//! Faults of a spec: position in the file, rule, message with the actual numbers, and help.
 //!
-//! This file holds the data, `render` their text. The messages themselves are in `wording`.
+//! This file has the data type, `render` its text output, `wording` the messages.
 
 mod quote;
 mod render;
@@ -12,7 +12,7 @@ use std::fmt;
 use quote::one_line;
 pub(crate) use suggest::unknown_name;
 
-/// A place in the spec's text; lines and columns count from 1.
+/// A position in the spec's text; lines and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     /// Line, from 1.
@@ -21,16 +21,16 @@ pub struct Position {
     pub column: usize,
 }
 
-/// A place in the spec: in its text and in its structure.
+/// A location in the spec: in its text and in its structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Location {
-    /// Where in the text.
+    /// Position in the text.
     pub position: Position,
-    /// Where in the structure: `links[2].inertia.xx`; empty for the whole file.
+    /// Path in the structure: `links[2].inertia.xx`; empty for the whole file.
     pub path: String,
 }
 
-/// How grave a finding is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// The spec is refused.
@@ -39,25 +39,25 @@ pub enum Severity {
     Warning,
 }
 
-/// One thing wrong with a spec.
+/// An error or a warning about a spec.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
     /// Fault or warning.
     pub severity: Severity,
-    /// Where in the text.
+    /// Position in the text.
     pub position: Position,
-    /// Where in the structure: `links[2].inertia.xx`.
+    /// Path in the structure: `links[2].inertia.xx`.
     pub path: String,
-    /// Name of the rule broken, stable: `unknown-parent`.
+    /// Stable name of the violated rule: `unknown-parent`.
     pub rule: &'static str,
-    /// What is wrong, with the numbers seen.
+    /// The error, with the actual numbers.
     pub message: String,
-    /// The way out.
+    /// Advice.
     pub help: Option<String>,
 }
 
 impl Fault {
-    /// A fault at `location` against `rule`.
+    /// Returns a fault at `location` against `rule`.
     pub fn new(location: &Location, rule: &'static str, message: impl Into<String>) -> Self {
         Fault {
             severity: Severity::Fault,
@@ -69,7 +69,7 @@ impl Fault {
         }
     }
 
-    /// The same finding with a way out.
+    /// Adds advice to the finding.
     pub fn with_help(self, help: impl Into<String>) -> Self {
         Fault {
             help: Some(one_line(help.into())),
@@ -77,7 +77,7 @@ impl Fault {
         }
     }
 
-    /// The same finding as one that only follows from others.
+    /// Marks the finding as a consequence of others.
     pub(crate) fn following(self) -> Self {
         Fault {
             rule: FOLLOWS,
@@ -85,7 +85,7 @@ impl Fault {
         }
     }
 
-    /// The same finding as a warning.
+    /// Changes the finding to a warning.
     pub fn into_warning(self) -> Self {
         Fault {
             severity: Severity::Warning,
@@ -94,10 +94,10 @@ impl Fault {
     }
 }
 
-/// The rule of findings that only follow from others. They refuse the spec and are not shown.
+/// The rule of findings that are consequences of others. They refuse the spec and are not shown.
 const FOLLOWS: &str = "follows";
 
-/// All that was found in one run, in the order of the file.
+/// All findings of one run, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Faults(pub Vec<Fault>);
 
@@ -107,12 +107,12 @@ impl Faults {
         self.0.push(fault);
     }
 
-    /// Whether anything refuses the spec.
+    /// Returns whether a finding refuses the spec.
     pub fn any_fault(&self) -> bool {
         self.0.iter().any(|f| f.severity == Severity::Fault)
     }
 
-    /// Whether anything refuses what stands behind this key of the file.
+    /// Returns whether a finding refuses the value of this key of the file.
     pub fn any_in(&self, key: &str) -> bool {
         let inside = |f: &Fault| match f.path.strip_prefix(key) {
             Some(rest) => rest.is_empty() || rest.starts_with(['.', '[']),
@@ -123,7 +123,7 @@ impl Faults {
             .any(|f| f.severity == Severity::Fault && inside(f))
     }
 
-    /// How many findings refuse the spec.
+    /// Returns the number of findings that refuse the spec.
     pub fn count(&self) -> usize {
         self.0
             .iter()
@@ -131,7 +131,7 @@ impl Faults {
             .count()
     }
 
-    /// How many findings refuse the spec, in words: `1 fault`, `3 faults`.
+    /// Returns the number of findings that refuse the spec, in words: `1 fault`, `3 faults`.
     pub fn tally(&self) -> String {
         match self.count() {
             1 => "1 fault".into(),
@@ -139,24 +139,24 @@ impl Faults {
         }
     }
 
-    /// Leaves out what only follows from other findings.
+    /// Removes findings that are consequences of others.
     pub(crate) fn forget_following(&mut self) {
         self.0.retain(|f| f.rule != FOLLOWS);
     }
 
-    /// Sorts by position; findings at one place keep their order.
+    /// Sorts by position; the order of findings at one position does not change.
     pub fn sort(&mut self) {
         self.0.sort_by_key(|f| f.position);
     }
 }
 
 impl Position {
-    /// The beginning of the file.
+    /// The start of the file.
     pub const START: Position = Position { line: 1, column: 1 };
 }
 
 impl Location {
-    /// The whole file.
+    /// Returns the location of the whole file.
     pub fn file() -> Self {
         Location {
             position: Position::START,

@@ -4,19 +4,19 @@ use std::path::Path;
 
 use crate::format::{is_scene, parse_scene};
 
-/// The name of a spec's module: the file's name up to its first dot.
+/// Returns the name of a spec's module: the file's name up to its first dot.
 pub fn stem(path: &Path) -> String {
     let name = path.file_name().map(|n| n.to_string_lossy());
     let stem = name.as_deref().and_then(|n| n.split('.').next());
     stem.unwrap_or_default().to_string()
 }
 
-/// The path of a file that is named by its path from another file.
+/// Returns the path of a file that is given relative to another file.
 pub fn beside(file: &Path, path: &str) -> std::path::PathBuf {
     file.parent().unwrap_or(Path::new("")).join(path)
 }
 
-/// The mechanism that a scene's text names, if it is a scene's and names one.
+/// Returns the mechanism that a scene's text names; `None` if the text is no scene or names none.
 pub fn mechanism_of(text: &str) -> Option<String> {
     let scene = is_scene(text).then(|| parse_scene(text).0).flatten()?;
     scene.mechanism.value().cloned()

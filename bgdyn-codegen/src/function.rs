@@ -1,4 +1,4 @@
-//! A function ready to be counted, evaluated or emitted.
+//! The type of a generated function, which can be counted, evaluated or emitted.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,18 +10,17 @@ use crate::column_loop::{ColumnLoop, LoopedResult};
 use crate::expr::{Cost, Graph, Inputs, Operations, Signed, cost, count, evaluate};
 use crate::method::{Method, Shape};
 
-/// A straight line of code: what it computes. Later blocks read its results as
-/// [`crate::expr::Leaf::Passed`].
+/// A piece of straight-line code. Later blocks read its results as [`crate::expr::Leaf::Passed`].
 #[derive(Clone, Debug)]
 pub struct Block {
     /// Its results, in order.
     pub outputs: Vec<Signed>,
-    /// Those of its results that are computed in loops; each is one of `outputs` as well.
+    /// The results that are computed in loops; each is one of `outputs` as well.
     pub products: Vec<InnerProducts>,
 }
 
-/// Entries of a symmetric matrix that are inner products of a vector of their row and one of their
-/// column: M_ij = x₀ y₀ + x₁ y₁ + …, summed in this order. All vectors are equally long.
+/// Entries of a symmetric matrix that are inner products of a vector of their row and one of their column:
+/// M_ij = x₀ y₀ + x₁ y₁ + …, summed in this order. All vectors have the same length.
 #[derive(Clone, Debug, Default)]
 pub struct InnerProducts {
     /// Vectors by row.
@@ -33,54 +32,54 @@ pub struct InnerProducts {
 }
 
 impl InnerProducts {
-    /// Row and column of each entry.
+    /// Returns row and column of each entry.
     pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
         let runs = self.runs.iter().cloned();
         runs.flat_map(|(column, rows)| rows.map(move |row| (row, column)))
     }
 }
 
-/// Where an entry on or below the diagonal stands among those of the lower triangle, row by row.
+/// Returns the index of an entry on or below the diagonal among those of the lower triangle, row by row.
 pub fn in_triangle(row: usize, column: usize) -> usize {
     row * (row + 1) / 2 + column
 }
 
-/// Something that was tried for a function, and what it costs.
+/// An alternative for a function, with its cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Considered {
     /// A plan or a formulation in words.
     pub what: String,
-    /// What it costs.
+    /// Its cost.
     pub cost: Cost,
 }
 
-/// A generated method: an expression graph, cut into blocks. The last block gives the result, or what
-/// loops over columns make it of.
+/// A generated method: an expression graph, divided into blocks. The result is that of the last block, or
+/// that of the loops over columns after it.
 #[derive(Clone, Debug)]
 pub struct Function {
-    /// Which method.
+    /// The method.
     pub method: Method,
     /// Its name in the generated code.
     pub name: String,
     /// Name of the formulation that was chosen, with its variant.
     pub formulation: String,
-    /// The cheapest plans of its formulation, with their cost before factoring; the one taken is
-    /// the first. None where there is nothing to choose.
+    /// The cheapest plans of its formulation, with their cost before factoring; the first one was chosen.
+    /// Empty if there are no choices.
     pub plans: Vec<Considered>,
-    /// Other ways to it that were made in full, with their cost when they were compared.
+    /// Rejected alternatives that were created completely, with their cost at the comparison.
     pub passed_over: Vec<Considered>,
-    /// Whether the order of its operations is what it is made for: it is not factored.
+    /// Whether its accuracy depends on the order of its operations; then it is not factored.
     pub ordered: bool,
     /// Expressions of all blocks.
     pub graph: Graph,
-    /// In the order of execution; at least one.
+    /// The blocks in the order of execution; at least one.
     pub blocks: Vec<Block>,
-    /// What follows them: parts of the result that are alike.
+    /// Loops over similar parts of the result, after the blocks.
     pub loops: Option<LoopedResult>,
 }
 
 impl Function {
-    /// A function of one block.
+    /// Returns a function of one block.
     pub fn flat(
         bond_graph: &Multibody,
         method: Method,
@@ -110,7 +109,7 @@ impl Function {
         }
     }
 
-    /// The same function, not to be factored.
+    /// Marks the function as ordered: it is not factored.
     pub(crate) fn in_order(self) -> Self {
         Function {
             ordered: true,
@@ -118,12 +117,12 @@ impl Function {
         }
     }
 
-    /// The loops over columns.
+    /// Returns the loops over columns.
     pub(crate) fn columns(&self) -> &[ColumnLoop] {
         self.loops.as_ref().map_or(&[], |loops| &loops.groups)
     }
 
-    /// One column of a loop as a function.
+    /// Returns one column of a loop as a function.
     pub(crate) fn of_column(&self, columns: &ColumnLoop) -> Function {
         Function {
             method: self.method,
@@ -141,17 +140,17 @@ impl Function {
         }
     }
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its result's shape.
+    /// Returns the shape of its result.
     pub fn shape(&self) -> Shape {
         self.method.shape()
     }
 
-    /// Operations of one call.
+    /// Returns the number of operations of one call.
     pub fn operations(&self) -> Operations {
         let mut all = self.straight();
         for one in self.columns() {
@@ -161,7 +160,7 @@ impl Function {
         all
     }
 
-    /// Operations of the blocks, without the loops that follow them.
+    /// Returns the number of operations of the blocks, without the loops after them.
     pub(crate) fn straight(&self) -> Operations {
         let mut all = Operations::default();
         for block in &self.blocks {
@@ -170,7 +169,7 @@ impl Function {
         all
     }
 
-    /// What one call costs.
+    /// Returns the cost of one call.
     pub fn cost(&self) -> Cost {
         let mut all = Cost::default();
         for block in &self.blocks {
@@ -191,7 +190,7 @@ impl Function {
         all
     }
 
-    /// Its value, without a compiler.
+    /// Returns its value, without a compiler.
     ///
     /// # Panics
     /// If `inputs` lacks a component.

@@ -1,16 +1,16 @@
-//! Finds the entries of a matrix that are inner products of two tables' vectors, so that a loop computes
-//! them.
+//! Finds the entries of a matrix that are inner products of the vectors of two tables, which a loop can
+//! compute.
 //!
 //! The mass matrix of 64 links has 2,016 entries, most of them sums of six products: a vector of the
-//! column times a vector of the row. Written out, they outgrow the instruction cache.
+//! column times a vector of the row. Unrolled, they exceed the instruction cache.
 //!
-//! The search knows no names and no physics. An entry takes part if it is a sum of products that nothing
-//! else reads. Two entries of a row share the row's vector: the nodes that both read. The other factors are
-//! the column's vector. Such entries form the last block (`Block::products`), each summed in the order of
-//! the vectors, so that the evaluator and the loop round alike. Other entries (the diagonal, the first
-//! columns with their zeros) are values of the earlier blocks. Generated code fills the tables and calls
-//! `inner_products` of the runtime, whose inner loop runs in the lanes of a register. It executes the
-//! operations that are counted, no more.
+//! The search uses neither names nor physics. A candidate entry is a sum of products without other
+//! readers. Two entries of a row have the row's vector in common: the nodes that both read. The other
+//! factors are the column's vector. Such entries form the last block (`Block::products`), each summed in
+//! the order of the vectors, so that the evaluator and the loop round in the same way. Other entries (the
+//! diagonal, the first columns with their zeros) are values of the earlier blocks. Generated code fills
+//! the tables and calls `inner_products` of the runtime, whose inner loop runs in the lanes of a register.
+//! It executes exactly the operations that are counted.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -18,7 +18,7 @@ use std::ops::Range;
 use crate::expr::{Graph, Node, NodeId, QuickMap, Signed, reads};
 use crate::function::InnerProducts;
 
-/// Entries from which on a loop is worth its tables.
+/// Smallest number of entries for which a loop saves time.
 const WORTH: usize = 64;
 
 /// One product of a sum, with its sign.
@@ -30,15 +30,15 @@ struct ProductTerm {
 
 /// An entry that is a sum of products.
 struct MatrixEntry {
-    /// Where it stands: row, column.
+    /// Its row and column.
     place: [usize; 2],
-    /// As they are summed.
+    /// The products in the order of summation.
     terms: Vec<ProductTerm>,
 }
 
 impl MatrixEntry {
-    /// The factors that stand beside those of `vector`, in its order, with their signs; nothing where
-    /// a term has none of them.
+    /// Returns the other factors of the products with those of `vector`, in its order, with their signs;
+    /// `None` if a term contains none of them.
     fn beside(&self, vector: &[Signed]) -> Option<Vec<Signed>> {
         let other = |x: &Signed| {
             let mut with = self.terms.iter().filter(|t| t.factors.contains(&x.node));
@@ -51,7 +51,7 @@ impl MatrixEntry {
         vector.iter().map(other).collect()
     }
 
-    /// One factor of each term that the other entry has too.
+    /// Returns one factor of each term that the other entry has too.
     fn shared(&self, other: &MatrixEntry) -> Option<Vec<Signed>> {
         let has = |x: &NodeId| other.terms.iter().any(|t| t.factors.contains(x));
         let one = |term: &ProductTerm| {
@@ -63,8 +63,8 @@ impl MatrixEntry {
     }
 }
 
-/// The tables of a symmetric matrix given by its lower triangle, row by row. The entries in them
-/// are read by nothing else.
+/// Returns the tables of a symmetric matrix given by its lower triangle, row by row. Nothing else reads
+/// the entries in them.
 pub fn products(graph: &Graph, triangle: &[Signed]) -> Vec<InnerProducts> {
     let entries = entries(graph, triangle);
     let mut by_node: QuickMap<NodeId, Vec<usize>> = QuickMap::default();
@@ -88,7 +88,7 @@ pub fn products(graph: &Graph, triangle: &[Signed]) -> Vec<InnerProducts> {
     found
 }
 
-/// The entries that are sums of two or more products, read by nothing else.
+/// Returns the entries that are sums of two or more products without other readers.
 fn entries(graph: &Graph, triangle: &[Signed]) -> Vec<MatrixEntry> {
     let reads = reads(graph, triangle);
     let places = (0..).flat_map(|row| (0..=row).map(move |column| [row, column]));
@@ -99,8 +99,7 @@ fn entries(graph: &Graph, triangle: &[Signed]) -> Vec<MatrixEntry> {
     triangle.iter().zip(places).filter_map(entry).collect()
 }
 
-/// The products of a sum in the order in which they are added: x₀ y₀, then fused with one after the
-/// other.
+/// Returns the products of a sum in the order of addition: x₀ y₀, then fused with one after the other.
 fn terms(graph: &Graph, reads: &[u32], e: Signed) -> Option<Vec<ProductTerm>> {
     let mut terms = Vec::new();
     let Signed { mut node, negative } = e;
@@ -123,20 +122,20 @@ fn terms(graph: &Graph, reads: &[u32], e: Signed) -> Option<Vec<ProductTerm>> {
     (terms.len() > 1).then_some(terms)
 }
 
-/// Entries that hang together by the vectors they share.
+/// Entries that are connected by common vectors.
 #[derive(Default)]
 struct FactorTables {
     /// Entries with the vectors of their row and their column.
     members: Vec<(usize, [Vec<Signed>; 2])>,
     /// Every vector by its first factor, with its side: of rows (0) or of columns (1).
     known: QuickMap<NodeId, (usize, Vec<Signed>)>,
-    /// Those that are still to be looked for in other entries.
+    /// Vectors whose entries are not searched yet.
     open: VecDeque<NodeId>,
 }
 
 impl FactorTables {
-    /// All that hangs together with an entry, but for entries that were tried before. The vector of
-    /// its row is what it shares with another one of that row.
+    /// Returns all entries connected with a given entry, without entries that were tried before. The
+    /// vector of its row is the common part with another entry of that row.
     fn grown(
         entries: &[MatrixEntry],
         by_node: &QuickMap<NodeId, Vec<usize>>,
@@ -167,7 +166,8 @@ impl FactorTables {
         Some(tables)
     }
 
-    /// Takes a vector of a side in; whether it is what is known by its first factor.
+    /// Adds a vector of a side; returns whether it is consistent with the known vector of its first
+    /// factor.
     fn meet(&mut self, side: usize, vector: &[Signed]) -> bool {
         let key = vector[0].node;
         if let Some((known_side, known)) = self.known.get(&key) {
@@ -178,7 +178,7 @@ impl FactorTables {
         true
     }
 
-    /// The products; nothing where a row or a column has several vectors.
+    /// Returns the products; `None` if a row or a column has several vectors.
     fn products(&self, entries: &[MatrixEntry]) -> Option<InnerProducts> {
         let mut products = InnerProducts::default();
         let mut places: Vec<[usize; 2]> = Vec::new();
@@ -199,7 +199,7 @@ impl FactorTables {
     }
 }
 
-/// Columns with ranges of rows in them, from (column, row) in order.
+/// Returns columns with ranges of rows, from sorted (column, row).
 fn runs(places: &[[usize; 2]]) -> Vec<(usize, Range<usize>)> {
     let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
     for &[column, row] in places {

@@ -12,24 +12,24 @@ use crate::unit::Dimension;
 pub struct StateCoordinate {
     /// Its name.
     pub name: String,
-    /// What stores its momentum.
+    /// The store of its momentum.
     pub store: MomentumStore,
     /// Whether its position is part of the state; a motor's charge is not.
     pub stored: bool,
-    /// What position, velocity and effort measure.
+    /// The dimensions of position, velocity and effort.
     pub dimensions: [Dimension; 3],
     /// Name of the velocity: `shoulder_rate`, `motor_current`.
     pub rate_name: String,
-    /// The coordinate that it starts with, where the scene does not say how it starts.
+    /// The coordinate whose initial position is its default.
     pub starts_with: Option<String>,
 }
 
-/// What stores a coordinate's momentum.
+/// The store of a coordinate's momentum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MomentumStore {
     /// The mechanism's links and rotors.
     Links(CoordinateId),
-    /// A store of its own: its effect's file says how large.
+    /// A store of its own, for which the effect's law gives the inertia.
     Own(String),
 }
 
@@ -38,27 +38,27 @@ pub enum MomentumStore {
 pub struct Variable {
     /// Its name.
     pub name: String,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
     /// One line of documentation.
     pub about: String,
-    /// What drives it, for inputs: the number of the coordinate whose own effort it is.
+    /// For inputs: the index of the coordinate whose drive it is.
     pub drives: Option<usize>,
     /// For inputs: the coordinate that a controller on it follows.
     pub follows: Option<String>,
-    /// For first-order states: what a scene gives for it at the start, if not the state itself.
+    /// For first-order states: the quantity that a scene gives at the start, if it is not the state
+    /// itself.
     pub entered: Option<InitialValueAs>,
 }
 
-/// How a scene gives the start of a state that it does not give directly: of a fluid volume, its
-/// pressure.
+/// The quantity by which a scene gives the start of a state indirectly: for a fluid volume, its pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InitialValueAs {
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
-    /// The least it may be.
+    /// Its least value.
     pub least: Dd,
-    /// What to do about less.
+    /// Advice for smaller values.
     pub way_out: &'static str,
 }
 
@@ -75,7 +75,7 @@ impl Variable {
     }
 }
 
-/// What the numbers of a scene's state are.
+/// The layout of a scene's state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StateLayout {
     /// Velocities: joints, then other coordinates with positions, then currents.
@@ -86,7 +86,7 @@ pub struct StateLayout {
     pub modes: Vec<Variable>,
     /// Inputs.
     pub inputs: Vec<Variable>,
-    /// Values whose fall through zero is an event.
+    /// Event functions; an event occurs where one falls through zero.
     pub events: Vec<Variable>,
 }
 
@@ -102,7 +102,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// The name of a reference's input.
+    /// Returns the name of a reference's input.
     pub fn name(self, reference: &str) -> String {
         match self {
             Level::Position => reference.to_owned(),
@@ -113,7 +113,7 @@ impl Level {
 }
 
 impl StateLayout {
-    /// Adds a coordinate with this name that stores its own momentum.
+    /// Adds a coordinate with this name and a store of its own.
     pub fn coordinate(
         &mut self,
         name: &str,
@@ -129,7 +129,7 @@ impl StateLayout {
             rate_name,
             starts_with: None,
         };
-        // Positions are those of the first velocities.
+        // Positions belong to the first velocities.
         let stored_before = self.coordinates.iter().filter(|c| c.stored).count();
         let at = if stored {
             stored_before
@@ -142,7 +142,8 @@ impl StateLayout {
         self.coordinates.insert(at, coordinate);
     }
 
-    /// Adds a coordinate at the scale of another one, with which it starts: a joint's drive.
+    /// Adds a coordinate at the scale of another one, whose initial position is its default: a joint's
+    /// drive.
     pub fn coordinate_beside(&mut self, name: &str, other: &str) {
         let Some(k) = self.coordinate_named(other) else {
             return;
@@ -159,7 +160,7 @@ impl StateLayout {
         self.states.push(Variable::new(name, dimension, about));
     }
 
-    /// Adds a first-order state whose start a scene gives by another quantity, which
+    /// Adds a first-order state that a scene initialises by another quantity, which
     /// [`crate::effect::Effect::initial_state`] converts.
     pub fn state_entered(
         &mut self,
@@ -192,8 +193,8 @@ impl StateLayout {
         }
     }
 
-    /// Adds the input that is the own effort of a coordinate: a torque, a voltage. A controller on
-    /// it follows the coordinate `follows`.
+    /// Adds the input that is the drive of a coordinate: a torque, a voltage. A controller on it follows
+    /// the coordinate `follows`.
     pub fn drive(&mut self, name: String, coordinate: &str, follows: &str, about: String) {
         let j = self.coordinates.iter().position(|c| c.name == coordinate);
         let dimension = j.map_or(Dimension::One, |j| self.coordinates[j].dimensions[2]);
@@ -204,7 +205,7 @@ impl StateLayout {
         });
     }
 
-    /// Adds an input on which a controller can follow a coordinate.
+    /// Adds an input with which a controller can follow a coordinate.
     pub fn control(&mut self, name: String, dimension: Dimension, follows: &str, about: String) {
         self.input(name, dimension, about);
         if let Some(input) = self.inputs.last_mut() {
@@ -240,23 +241,23 @@ impl StateLayout {
         }
     }
 
-    /// The mode that an event's fall may change; `None` where the law only has a kink.
+    /// Returns the mode that an event may change; `None` if the law only has a kink.
     pub fn mode_of(&self, event: &Variable) -> Option<usize> {
         self.modes.iter().position(|m| m.name == event.name)
     }
 
-    /// The coordinate with this name.
+    /// Returns the coordinate with this name.
     pub fn coordinate_named(&self, name: &str) -> Option<usize> {
         self.coordinates.iter().position(|c| c.name == name)
     }
 
-    /// The dimension of a coordinate's position: an angle where there is none of this name.
+    /// Returns the dimension of a coordinate's position; an angle if no coordinate has this name.
     pub fn position_of(&self, name: &str) -> Dimension {
         self.coordinate_named(name)
             .map_or(Dimension::Angle, |j| self.coordinates[j].dimensions[0])
     }
 
-    /// A name that two parts of the state, or two inputs, have.
+    /// Returns a name that two parts of the state, or two inputs, have.
     pub fn repeated(&self) -> Option<&str> {
         let stored = self.coordinates.iter().filter(|c| c.stored);
         let rates = self.coordinates.iter().map(|c| c.rate_name.as_str());
@@ -268,17 +269,17 @@ impl StateLayout {
         twice.or_else(|| inputs.find(|name| !in_inputs.insert(*name)))
     }
 
-    /// Number of positions.
+    /// Returns the number of positions.
     pub fn nq(&self) -> usize {
         self.coordinates.iter().filter(|c| c.stored).count()
     }
 
-    /// Number of velocities.
+    /// Returns the number of velocities.
     pub fn nv(&self) -> usize {
         self.coordinates.len()
     }
 
-    /// Number of first-order states.
+    /// Returns the number of first-order states.
     pub fn nx(&self) -> usize {
         self.states.len()
     }

@@ -1,6 +1,6 @@
-//! What the names and signs in generated code mean, with their units: the rows of a module's legend.
+//! The meaning and units of the names and signs in generated code: the rows of a module's legend.
 
-/// The components that a quantity has in its name.
+/// The components in a quantity's names.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Components {
     /// None: `mass_forearm`.
@@ -13,10 +13,10 @@ enum Components {
 
 /// A quantity that formulations name.
 pub struct LegendQuantity {
-    /// How its names begin: `h`.
+    /// Prefix of its names: `h`.
     pub prefix: &'static str,
     components: Components,
-    /// What it is.
+    /// Its meaning.
     pub meaning: &'static str,
     /// Its unit; `L` is the unit of length.
     pub unit: &'static str,
@@ -169,14 +169,14 @@ pub static QUANTITIES: [LegendQuantity; 30] = {
 };
 
 impl LegendQuantity {
-    /// The quantity that a name is one of, and the name of what it belongs to.
+    /// Returns the quantity of a name, and the name of its owner.
     pub fn of_name(name: &str) -> Option<(&'static LegendQuantity, &str)> {
         let (prefix, rest) = name.split_once('_')?;
         let mut found = QUANTITIES.iter().filter(|q| q.prefix == prefix);
         found.find_map(|q| Some((q, q.owner(rest)?)))
     }
 
-    /// What comes behind the components in the rest of a name.
+    /// Returns the part of a name after the components.
     fn owner<'n>(&self, rest: &'n str) -> Option<&'n str> {
         let axes = match self.components {
             Components::One => return Some(rest),
@@ -188,7 +188,7 @@ impl LegendQuantity {
         (components.len() == axes && components.chars().all(is_axis)).then_some(owner)
     }
 
-    /// How its names look: `h_x_…`.
+    /// Returns the pattern of its names: `h_x_…`.
     pub fn pattern(&self) -> String {
         let components = match self.components {
             Components::One => "",
@@ -198,7 +198,7 @@ impl LegendQuantity {
         format!("{}_{components}…", self.prefix)
     }
 
-    /// Its unit where lengths are in units of `length` metres.
+    /// Returns its unit if lengths are in units of `length` metres.
     pub fn unit_in(&self, length: f64) -> String {
         if length == 1.0 {
             let plain = self.unit.replace("/L²", "").replace("/L", "");
@@ -207,13 +207,13 @@ impl LegendQuantity {
         self.unit.replace('L', &format!("{length}"))
     }
 
-    /// Whether its unit depends on that of length.
+    /// Returns whether its unit depends on that of length.
     pub fn scales(&self) -> bool {
         self.unit.contains('L')
     }
 }
 
-/// Signs in the titles of sections: what a title contains, and what it means.
+/// Signs in the titles of sections: the text in a title, and its meaning.
 pub static SIGNS: [(&str, &str); 5] = [
     (
         "U = [",
@@ -237,7 +237,7 @@ pub static SIGNS: [(&str, &str); 5] = [
     ),
 ];
 
-/// What all names have in common.
+/// Conventions for all names.
 pub static AXES: [&str; 4] = [
     "The axes of a body: z along its joint's axis, or against it so that parallel joints share z; x along",
     "the common normal with the next joint's axis. Names end with the body or the joint that they belong to.",

@@ -1,12 +1,11 @@
-//! The generator behind bgdyn: it turns a mechanism in YAML into Rust tokens or source text.
+//! The code generator of bgdyn: converts a mechanism in YAML to Rust tokens or source text.
 //!
-//! One path, one direction: [`mod@format`] (the file as written) → [`mechanism`] (checked) →
-//! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) →
-//! [`emit`] (Rust tokens). Data types import no steps; [`pipeline`] runs the steps in order.
+//! The steps have one direction: [`mod@format`] (the parsed file) → [`mechanism`] (checked) →
+//! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) → [`emit`]
+//! (Rust tokens). Data types import no steps; [`pipeline`] runs the steps in order.
 //!
-//! Units, frames, the order of spatial vectors and the sign of gravity are said once, in
-//! [`bgdyn_runtime`]; how to add a joint, an effect, a formulation or a backend in
-//! `docs/extending.md`.
+//! [`bgdyn_runtime`] defines units, frames, the order of spatial vectors and the sign of gravity.
+//! `docs/extending.md` describes how to add a joint, an effect, a formulation or a backend.
 #![forbid(unsafe_code)]
 
 pub mod bond_graph;

@@ -12,15 +12,15 @@ use crate::mechanism::{self, Mechanism};
 pub struct Machine {
     /// Links, joints, frames.
     pub mechanism: Mechanism,
-    /// What else may act in it, in the file's order.
+    /// The declared effects, in the file's order.
     pub effects: Vec<Declaration>,
 }
 
-/// Checks a spec against every rule. `stem` is the file's name without its ending, if there is a
-/// file; only what stands before its first dot counts. `methods` are the names of what is generated,
-/// which no run-time parameter may have, `kinds` the effects that there are.
+/// Checks a spec against every rule. `stem` is the file's name without its extension, if there is a file;
+/// only the part before its first dot is used. `methods` are the names of generated methods, which no
+/// run-time parameter may have; `kinds` are all effects.
 ///
-/// The machine is there exactly if nothing refuses the spec.
+/// The machine is returned exactly if no fault refuses the spec.
 pub fn check(
     spec: &Spec,
     stem: Option<&str>,
@@ -49,14 +49,14 @@ pub fn check(
     (machine.filter(|_| sound), faults)
 }
 
-/// What can be said of the effects without the mechanism.
+/// Checks the effects as far as possible without the mechanism.
 fn alone(spec: &Spec, kinds: &EffectKinds, faults: &mut Faults) {
     for raw in spec.effects.value().into_iter().flatten() {
         parse_declaration(raw, kinds, faults);
     }
 }
 
-/// The effects, each sound by itself.
+/// Checks each effect separately.
 fn effects(
     spec: &Spec,
     mechanism: &Mechanism,

@@ -1,12 +1,12 @@
 //! 3-vectors and 3×3 matrices over any ring: double-doubles, expressions, patterns of zeros.
 //!
-//! Only what the equations need.
+//! It contains only the operations that the equations need.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use bgdyn_runtime::Dd;
 
-/// What vectors and matrices are made of.
+/// The entries of vectors and matrices.
 pub trait Ring:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -22,26 +22,26 @@ pub struct Vec3<T>(pub [T; 3]);
 pub struct Mat3<T>(pub [[T; 3]; 3]);
 
 impl<T: Copy> Vec3<T> {
-    /// Each component through `f`.
+    /// Applies `f` to each component.
     pub fn map<U: Copy>(self, f: impl FnMut(T) -> U) -> Vec3<U> {
         Vec3(self.0.map(f))
     }
 }
 
 impl<T: Ring> Vec3<T> {
-    /// self · b
+    /// Returns self · b.
     pub fn dot(self, b: Self) -> T {
         let ([x, y, z], [u, v, w]) = (self.0, b.0);
         x * u + y * v + z * w
     }
 
-    /// self × b
+    /// Returns self × b.
     pub fn cross(self, b: Self) -> Self {
         let ([x, y, z], [u, v, w]) = (self.0, b.0);
         Vec3([y * w - z * v, z * u - x * w, x * v - y * u])
     }
 
-    /// self times the scalar `k`
+    /// Returns self times the scalar `k`.
     pub fn scale(self, k: T) -> Self {
         self.map(|x| x * k)
     }
@@ -69,27 +69,27 @@ impl<T: Ring> Neg for Vec3<T> {
 }
 
 impl<T: Copy> Mat3<T> {
-    /// Entry (i, j) from `f(i, j)`.
+    /// Returns the matrix with the entries `f(i, j)`.
     pub fn from_fn(mut f: impl FnMut(usize, usize) -> T) -> Self {
         Mat3(std::array::from_fn(|i| std::array::from_fn(|j| f(i, j))))
     }
 
-    /// Each entry through `f`.
+    /// Applies `f` to each entry.
     pub fn map<U: Copy>(self, mut f: impl FnMut(T) -> U) -> Mat3<U> {
         Mat3::from_fn(|i, j| f(self.0[i][j]))
     }
 
-    /// The transposed matrix.
+    /// Returns the transposed matrix.
     pub fn transpose(self) -> Self {
         Self::from_fn(|i, j| self.0[j][i])
     }
 
-    /// Column `j`.
+    /// Returns column `j`.
     pub fn column(self, j: usize) -> Vec3<T> {
         Vec3([self.0[0][j], self.0[1][j], self.0[2][j]])
     }
 
-    /// Row `i`.
+    /// Returns row `i`.
     pub fn row(self, i: usize) -> Vec3<T> {
         Vec3(self.0[i])
     }
@@ -123,8 +123,8 @@ impl<T: Ring> Sub for Mat3<T> {
     }
 }
 
-/// Rotation by an angle about the unit vector n, by Rodrigues' formula:
-/// `n nᵀ + cos (1 − n nᵀ) + sin [n]×`. `constant` is a number as an entry.
+/// Returns the rotation by an angle about the unit vector n, by Rodrigues' formula: `n nᵀ + cos (1 − n nᵀ)
+/// + sin [n]×`. `constant` converts a number to an entry.
 pub fn rodrigues<T: Ring + Mul<Dd, Output = T>>(
     axis: Vec3<Dd>,
     (cos, sin): (T, T),

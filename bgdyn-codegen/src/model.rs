@@ -11,12 +11,12 @@ pub struct Model {
     pub mechanism: Mechanism,
     /// Its bond graph.
     pub bond_graph: BondGraph,
-    /// One function per method generated.
+    /// One function per generated method.
     pub functions: Vec<Function>,
 }
 
 impl Model {
-    /// The function of a method.
+    /// Returns the function of a method.
     pub fn function(&self, method: Method) -> Option<&Function> {
         self.functions.iter().find(|f| f.method == method)
     }

@@ -15,12 +15,12 @@ const KEYWORDS: [&str; 52] = [
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "_",
 ];
 
-/// Whether `text` is a keyword of Rust.
+/// Returns whether `text` is a keyword of Rust.
 pub fn is_keyword(text: &str) -> bool {
     KEYWORDS.contains(&text)
 }
 
-/// Whether `text` can name a mechanism, link, frame or joint: words of `a`–`z` and digits joined
+/// Returns whether `text` can name a mechanism, link, frame or joint: words of `a`–`z` and digits joined
 /// by single `_`, a letter first, no keyword.
 pub fn is_identifier(text: &str) -> bool {
     let word = |w: &str| {
@@ -33,8 +33,8 @@ pub fn is_identifier(text: &str) -> bool {
         && !is_keyword(text)
 }
 
-/// `text` in snake_case: lower case, `_` between words and for what is no letter or digit of ASCII,
-/// `n` before a leading digit. May be empty, or a keyword.
+/// Returns `text` in snake_case: lower case, `_` between words and for characters that are no ASCII
+/// letters or digits, `n` before a leading digit. The result may be empty, or a keyword.
 pub fn snake_case(text: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let spaced: String = text.chars().map(plain).collect();
@@ -45,8 +45,8 @@ pub fn snake_case(text: &str) -> String {
     name
 }
 
-/// The identifier nearest to `text`: in snake_case, `_n` after a keyword. Nothing where no letter or
-/// digit is left.
+/// Returns the identifier nearest to `text`: in snake_case, with `_n` after a keyword. `None` if no letter
+/// or digit is left.
 pub fn to_identifier(text: &str) -> Option<String> {
     let mut name = snake_case(text);
     if is_keyword(&name) {

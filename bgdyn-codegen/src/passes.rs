@@ -2,32 +2,33 @@
 //!
 //! | pass | job | on graphs |
 //! |---|---|---|
-//! | [`factor`] | common factors and sums, reciprocals: fewer operations | `expr/factor/`, `expr/quotient.rs` |
-//! | [`cheapest`] | takes one of the functions that formulations wrote | `expr/cost.rs` |
-//! | `reassociate` | orders the terms of sums by when they are known | `expr/arrange.rs` |
-//! | `fuse` | joins products to sums, moves signs into them | `expr/fuse.rs`, `expr/signs.rs` |
-//! | `cut` | splits what is too long into blocks | `cut.rs`, `products.rs` |
+//! | [`factor`] | extracts common factors and sums, replaces reciprocals: fewer operations |
+//! `expr/factor/`, `expr/quotient.rs` |
+//! | [`cheapest`] | chooses one of the functions of the formulations | `expr/cost.rs` |
+//! | `reassociate` | orders the terms of sums by the time of their availability | `expr/arrange.rs` |
+//! | `fuse` | fuses products with sums, moves signs into them | `expr/fuse.rs`, `expr/signs.rs` |
+//! | `cut` | divides long functions into blocks | `cut.rs`, `products.rs` |
 //!
-//! A function whose digits rest on the order of its operations ([`Function::ordered`]) passes all but
-//! the last as it is.
+//! For a function whose accuracy depends on the order of its operations ([`Function::ordered`]), only the
+//! last pass is applied.
 
 use crate::expr::{self, Cost, Graph, Signed};
 use crate::function::{Considered, Function};
 use crate::split_blocks::{cut, is_cut};
 
-/// The last passes over a function that is taken.
+/// Applies the last passes to the chosen function.
 pub fn finish(function: Function) -> Function {
     cut(fuse(reassociate(function)))
 }
 
-/// The same for a function that was taken for its digits: its sums keep their order. Which order loses
-/// the fewest digits is chance, and one that is not among the candidates was not measured.
+/// The same for a function that was chosen for its accuracy: the order of its sums does not change. Which
+/// order loses the fewest digits is random, and an order that was no candidate was not measured.
 pub fn finish_in_order(function: Function) -> Function {
     cut(fuse(function))
 }
 
-/// Factors common factors and sums out and multiplies by reciprocals, where that saves operations. A
-/// function in several blocks stays as it is.
+/// Extracts common factors and sums and replaces reciprocals, if that saves operations. A function with
+/// several blocks is not changed.
 pub fn factor(function: Function) -> Function {
     on_one_block(function, |graph, outputs| {
         let (graph, outputs) = expr::factor(graph, outputs);
@@ -35,7 +36,7 @@ pub fn factor(function: Function) -> Function {
     })
 }
 
-/// Adds the terms of sums in the order in which they are known, unless the function is going to be cut.
+/// Adds the terms of sums in the order of their availability, unless the function is going to be cut.
 fn reassociate(function: Function) -> Function {
     if is_cut(&function) {
         return function;
@@ -45,7 +46,7 @@ fn reassociate(function: Function) -> Function {
     })
 }
 
-/// Joins products to the sums that read them, and moves signs into these.
+/// Fuses products with the sums that read them, and moves signs into the sums.
 fn fuse(function: Function) -> Function {
     let join = |graph: Graph, outputs: Vec<Signed>| {
         let (graph, outputs) = expr::fuse(&graph, &outputs);
@@ -64,7 +65,7 @@ fn fuse(function: Function) -> Function {
     function
 }
 
-/// A pass over the graph of a function in one block, unless the order of its operations is to stay.
+/// Applies a pass to the graph of a function in one block, unless the order of its operations is fixed.
 fn on_one_block(
     mut function: Function,
     pass: impl FnOnce(Graph, Vec<Signed>) -> (Graph, Vec<Signed>),
@@ -76,7 +77,7 @@ fn on_one_block(
     function
 }
 
-/// The cheapest of several functions for one method, with the others noted in it; the first one of
+/// Returns the cheapest of several functions for one method, with a record of the others; the first one of
 /// equals.
 pub fn cheapest(candidates: impl IntoIterator<Item = Function>) -> Option<Function> {
     let candidates = candidates.into_iter();

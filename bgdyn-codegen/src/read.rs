@@ -14,11 +14,11 @@ use crate::refusal::Refusal;
 use crate::scene::{self, Verdict};
 use crate::system::SceneEquations;
 
-/// Reads and checks a spec. `stem` is the file's name without its ending, if there is a file; only
-/// what stands before its first dot counts.
+/// Parses and checks a spec. `stem` is the file's name without its extension, if there is a file; only the
+/// part before its first dot is used.
 ///
-/// The machine is there exactly if nothing refuses the spec; warnings may come with it. The findings
-/// are in the order of the file.
+/// The machine is returned exactly if no fault refuses the spec; there may be warnings in both cases. The
+/// findings are in the order of the file.
 pub fn read_machine(text: &str, stem: Option<&str>) -> (Option<Machine>, Faults) {
     let (spec, mut faults) = parse(text);
     let Some(spec) = spec else {
@@ -39,7 +39,7 @@ pub fn read(text: &str, stem: Option<&str>) -> (Option<Mechanism>, Faults) {
     (machine.map(|machine| machine.mechanism), faults)
 }
 
-/// Warns of joints that carry no inertia, which forward dynamics could only refuse.
+/// Returns warnings for joints without inertia, for which forward dynamics always fails.
 fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
     let graph = bond_graph::build(mechanism);
     let links = spec.links.value().into_iter().flatten();
@@ -54,11 +54,11 @@ fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
     found.collect()
 }
 
-/// Reads a scene and the mechanism it names. `load` gives the text of a file from the path that
-/// the scene writes.
+/// Parses and checks a scene and its mechanism. `load` returns the text of a file from the path in the
+/// scene.
 ///
 /// # Errors
-/// What is wrong with the scene or with its mechanism.
+/// The faults of the scene or of its mechanism.
 pub fn read_scene(
     text: &str,
     stem: &str,
@@ -131,8 +131,8 @@ pub fn read_scene(
     Ok((system, faults))
 }
 
-/// What is wrong with the equations of a scene that has faults, where it does not follow from these: values
-/// out of range may come from a start that could not be read.
+/// Returns the faults of the equations of a scene with other faults that are no consequences of these:
+/// values out of range may be due to an unreadable initial state.
 fn independent(found: Faults, faults: &Faults) -> Vec<Fault> {
     let elsewhere = |f: &Fault| f.severity == Severity::Fault && f.path.is_empty();
     let start =

@@ -4,30 +4,30 @@ use crate::fault::Faults;
 use crate::options::Unknown;
 use crate::verify::Difference;
 
-/// Why there is no module.
+/// The reason why there is no module.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// What is wrong with the spec.
+    /// The faults of the spec.
     Spec(Faults),
-    /// What is wrong with the mechanism that a scene names.
+    /// The faults of a scene's mechanism.
     Mechanism {
-        /// Its path, as the scene writes it.
+        /// Its path in the scene.
         path: String,
         /// Its text.
         text: String,
-        /// What is wrong with it.
+        /// Its faults.
         faults: Faults,
-        /// What is wrong with the scene besides.
+        /// The other faults of the scene.
         scene: Faults,
     },
-    /// Names asked for that the mechanism does not have, options that have no place here.
+    /// Requested names that the mechanism does not have, and options that are invalid here.
     Options(Vec<Unknown>),
-    /// Functions that do not equal equation (6): a fault of the generator.
+    /// Functions that differ from equation (6): an error of the generator.
     Unequal(Vec<Difference>),
 }
 
 impl Refusal {
-    /// An error where functions do not equal equation (6).
+    /// Returns an error if functions differ from equation (6).
     pub(crate) fn unless_equal(differences: Vec<Difference>) -> Result<(), Refusal> {
         match differences.is_empty() {
             true => Ok(()),

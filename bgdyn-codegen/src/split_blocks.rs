@@ -1,24 +1,24 @@
-//! Cuts a long function into blocks that pass values.
+//! Divides a long function into blocks that pass values.
 //!
-//! Compilers take time and stack that grow faster than the length of one straight line; a block
-//! becomes a function of its own. Sines stay with their cosines, and a comparison with what reads
-//! it, so that a cut costs no operation. Entries of a matrix that are inner products of two tables
-//! make the last block, whose code is loops.
+//! Compilers need time and stack that grow faster than the length of straight-line code, so each block
+//! becomes a function of its own. Sines stay with their cosines, and a comparison with its reader, so that
+//! a division costs no operation. Entries of a matrix that are inner products of two tables form the last
+//! block, whose code is loops.
 
 use crate::expr::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
 use crate::function::{Block, Function, InnerProducts, in_triangle};
 use crate::inner_products::products;
 use crate::method::Shape;
 
-/// Operations in a block at the most. Arms of seven axes stay in one piece.
+/// Largest number of operations in a block. Arms of seven axes are not divided.
 const MAX_BLOCK: usize = 3200;
 
-/// Whether the function is cut: its straight line is longer than one block.
+/// Returns whether the function is divided: its straight-line code is longer than one block.
 pub fn is_cut(function: &Function) -> bool {
     function.straight().total() > MAX_BLOCK
 }
 
-/// The same function in blocks of bounded length.
+/// Returns the function in blocks of bounded length.
 pub fn cut(function: Function) -> Function {
     if !is_cut(&function) || function.blocks.len() != 1 {
         return function;
@@ -41,7 +41,7 @@ pub fn cut(function: Function) -> Function {
     }
 }
 
-/// The block in which each node is computed; `None` for what stands where it is used.
+/// Returns the block in which each node is computed; `None` for nodes whose code is at their users.
 fn homes(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Vec<Option<usize>> {
     let needed = reachable(graph, outputs);
     let in_loops = in_loops(graph, outputs, products);
@@ -68,7 +68,7 @@ fn homes(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Vec<O
     homes
 }
 
-/// The nodes that are sums of products, or parts of such a sum.
+/// Returns, for each node, whether it is a sum of products or part of such a sum.
 fn in_loops(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Vec<bool> {
     let mut found = vec![false; graph.len()];
     for (row, column) in products.iter().flat_map(InnerProducts::places) {
@@ -85,10 +85,10 @@ fn in_loops(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Ve
 struct Cutter<'a> {
     graph: &'a Graph,
     homes: Vec<Option<usize>>,
-    /// The function's results, and each block's: nodes that later blocks read.
+    /// The function's results, and the results of each block: nodes that later blocks read.
     results: &'a [Signed],
     passed: Vec<Vec<NodeId>>,
-    /// The graph with blocks, and where a node of the old one is in it, block by block.
+    /// The graph with blocks, and the node in it of each original node, block by block.
     made: Graph,
     titles: u32,
     copies: QuickMap<NodeId, Signed>,
@@ -115,7 +115,7 @@ impl<'a> Cutter<'a> {
         self.passed.len()
     }
 
-    /// Notes every node that a later block, or the result, reads.
+    /// Collects every node that a later block, or the result, reads.
     fn find_passed(&mut self, last: usize) {
         let mut read_later = vec![false; self.graph.len()];
         let needed = reachable(self.graph, self.results);
@@ -139,7 +139,7 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// Calls `f` with the operands, seen through what stands where it is used.
+    /// Calls `f` with the operands; nodes without a block are replaced by their operands.
     fn for_each_read(&self, id: NodeId, f: &mut dyn FnMut(NodeId)) {
         self.graph
             .node(id)
@@ -174,7 +174,7 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// Enters inner products in the last block, each summed in the order of its vectors.
+    /// Adds inner products to the last block, each summed in the order of its vectors.
     fn enter(&mut self, products: Vec<InnerProducts>, block: &mut Block) {
         for mut found in products {
             for e in (found.rows.values_mut().chain(found.columns.values_mut())).flatten() {

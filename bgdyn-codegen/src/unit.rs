@@ -1,8 +1,8 @@
-//! Units that a number may have, and the physical dimension of each.
+//! Units of numbers, and the physical dimension of each.
 
 use std::fmt;
 
-/// What a number measures.
+/// The physical dimension of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// A pure number.
@@ -66,13 +66,13 @@ pub enum Dimension {
 /// A unit: `text` is 10^`exponent` of the SI unit, or a degree (per second).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// As written in the spec.
+    /// Its text in the spec.
     pub text: &'static str,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
-    /// Power of ten that leads to the SI unit.
+    /// The power of ten of the factor to the SI unit.
     pub exponent: i32,
-    /// Whether π/180 leads to the SI unit.
+    /// Whether π/180 is a factor to the SI unit.
     pub degrees: bool,
 }
 
@@ -94,7 +94,7 @@ const fn degrees(text: &'static str, dimension: Dimension) -> Unit {
     }
 }
 
-/// Every unit there is; a dimension's SI unit stands first.
+/// All units; a dimension's SI unit is first.
 static UNITS: [Unit; 57] = [
     unit("m", Dimension::Length, 0),
     unit("cm", Dimension::Length, -2),
@@ -156,8 +156,8 @@ static UNITS: [Unit; 57] = [
 ];
 
 impl Unit {
-    /// The unit written as `text`; `·`, `²`, `³`, `°`, `Ω` and `µ` may stand for `*`, `^2`,
-    /// `^3`, `deg`, `ohm` and `u`.
+    /// Returns the unit written as `text`; `·`, `²`, `³`, `°`, `Ω` and `µ` may replace `*`, `^2`, `^3`,
+    /// `deg`, `ohm` and `u`.
     pub fn find(text: &str) -> Option<&'static Unit> {
         let plain = text
             .replace('·', "*")
@@ -171,7 +171,7 @@ impl Unit {
 }
 
 impl Dimension {
-    /// The units that measure it, the SI unit first.
+    /// Returns the units of the dimension, the SI unit first.
     pub fn units(self) -> impl Iterator<Item = &'static str> {
         UNITS
             .iter()
@@ -179,12 +179,12 @@ impl Dimension {
             .map(|u| u.text)
     }
 
-    /// What this SI unit measures; a pure number where it is empty.
+    /// Returns the dimension of this SI unit; a pure number if it is empty.
     pub fn measured_in(si: &str) -> Dimension {
         Unit::find(si).map_or(Dimension::One, |unit| unit.dimension)
     }
 
-    /// Its SI unit; empty for a pure number.
+    /// Returns its SI unit; empty for a pure number.
     pub fn si(self) -> &'static str {
         self.units().next().unwrap_or("")
     }

@@ -1,5 +1,5 @@
-//! Choices by lost digits: forward dynamics that meets its bars, and `prefer: accuracy`. What was
-//! chosen at the generator's states is held to be better at others.
+//! Tests choices by accuracy: forward dynamics that meets its bars, and `prefer: accuracy`. Functions
+//! chosen at the generator's states must be better at other states.
 
 mod common;
 
@@ -19,7 +19,7 @@ fn accurate(robot: &Robot, method: Method) -> Function {
     accurate_by(robot, method, None)
 }
 
-/// By one formulation, or by any.
+/// Returns the most accurate function by one formulation, or by any.
 fn accurate_by(robot: &Robot, method: Method, by: Option<&'static dyn Formulation>) -> Function {
     let options = Options {
         prefer: Preference::Accuracy,
@@ -51,7 +51,7 @@ fn heavy(last: f64) -> Robot {
     common::hard::robot(&Chain::of_ratio(6, last))
 }
 
-/// A gimbal with light rings: where its first and last axis fall together, only the rings resist.
+/// A gimbal with light rings: if its first and last axis coincide, only the rings have inertia.
 fn gimbal(ring: &str) -> Robot {
     let ring = format!("inertia: {{ xx: {ring}, yy: {ring}, zz: {ring} }}");
     let text = format!(
@@ -76,7 +76,7 @@ links:
     Robot::read(&text, None)
 }
 
-/// Every body has a fair share of inertia; the states tried tell which way keeps its digits.
+/// Every own inertia ratio is large enough; the sampled states decide which function is accurate.
 #[test]
 fn states_decide_where_shares_do_not() {
     let method = Method::ForwardDynamics;
@@ -101,8 +101,8 @@ fn states_decide_where_shares_do_not() {
     }
 }
 
-/// A light arm whose heavy load is on the shoulder's axis when it is folded: the shoulder then
-/// moves next to nothing, the elbow far more than it should for so little. No way meets the bars.
+/// A light arm whose heavy load is on the shoulder's axis when it is folded: the shoulder then moves
+/// almost no inertia, the elbow far more. No function meets the bars.
 #[test]
 fn the_least_evil_is_told() {
     let robot = Robot::read(
@@ -130,7 +130,7 @@ links:
     assert!(text.starts_with("articulated"), "{text}");
 }
 
-/// Base parameters and factored sums cost digits.
+/// Base parameters and factored sums lose digits.
 #[test]
 fn accuracy_is_better_at_other_states() {
     let golden = common::golden::robot;
@@ -148,7 +148,7 @@ fn accuracy_is_better_at_other_states() {
     }
 }
 
-/// No way loses fewer digits at the states that the choice goes by, and every way gives the same.
+/// No function loses fewer digits at the sampled states, and all functions give the same result.
 #[test]
 fn accuracy_is_the_best_of_all() {
     for name in ["scara4", "puma560", "dpend2"] {
@@ -165,7 +165,7 @@ fn accuracy_is_the_best_of_all() {
                 let other = measured(&function);
                 let place = format!("{name}, {method:?}, {}", way.name());
                 common::assert_close::<Dd>(&s.value(&function), &literal, 1e-24, || place.clone());
-                // To a tenth of a rounding.
+                // Within a tenth of a rounding.
                 assert!(ulps <= other.ulps + 0.1, "{place}");
             }
             let x: Vec<Dd> = s.value(&fine);
@@ -190,8 +190,7 @@ fn operations_are_what_is_preferred_otherwise() {
     );
 }
 
-/// A formulation that is asked for is taken; accuracy decides how, and for the methods that it
-/// does not know.
+/// A selected formulation is used; accuracy chooses its variant, and the formulations of other methods.
 #[test]
 fn a_formulation_asked_for_is_taken() {
     let robot = common::golden::robot("puma560");

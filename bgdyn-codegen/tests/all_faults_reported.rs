@@ -1,4 +1,4 @@
-//! All faults of a file in one run, each at its place.
+//! Checks that all faults of a file are reported in one run, each with its location.
 
 use bgdyn_codegen::read;
 

@@ -1,4 +1,4 @@
-//! What a build script and the command ask for, and what they are told.
+//! Tests the options of build scripts and of the command, and their messages.
 #![cfg(feature = "source")]
 
 use std::fs;
@@ -115,7 +115,7 @@ fn what_stands_in_the_way_is_told() {
         let text = refusal(build);
         assert!(text.contains(wanted), "{text}");
     }
-    // Outside a build script there is nowhere to write.
+    // Outside a build script there is no folder for the output.
     let error = good().write().expect_err("no OUT_DIR here");
     assert!(error.to_string().starts_with("OUT_DIR is not set"));
 }

@@ -1,7 +1,7 @@
-//! Equations in closed form: what is printed is read back and evaluated beside the recursion, and looks
-//! as in a textbook; `docs/equations.md` shows it.
+//! Tests closed-form equations: the printed text is parsed and compared with the recursion, and must have
+//! textbook form; `docs/equations.md` shows it.
 //!
-//! After a wanted change: `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test closed_form`.
+//! After an intended change: `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test closed_form`.
 
 mod common;
 
@@ -20,10 +20,10 @@ use common::random::Draft;
 use common::rng::Rng;
 use common::{Robot, State, assert_close, natural_effort};
 
-/// Digits that lose nothing of an `f64`.
+/// Number of digits that preserves an `f64`.
 const ALL: usize = 17;
 
-/// Of the size that no term exceeds: the letters' values are read in `f64`.
+/// Relative to an upper bound of all terms: the letters' values are parsed in `f64`.
 const TOLERANCE: f64 = 1e-12;
 
 /// The specs that are too long for a closed form.
@@ -95,7 +95,7 @@ fn what_is_printed_is_the_inverse_dynamics() {
     }
 }
 
-/// Random trees with everything that makes structure; half of them with run-time parameters.
+/// Random trees with all structural features; half of them with run-time parameters.
 #[test]
 fn random_mechanisms() {
     let mut written = 0;
@@ -200,7 +200,7 @@ fn a_long_mechanism_is_refused() {
     assert_eq!(text(&form, 6), shown("elastic_arm"));
 }
 
-/// The parameter is a symbol of its own, wherever it stands.
+/// The parameter is a symbol of its own, wherever it occurs.
 #[test]
 fn run_time_parameters_keep_their_names() {
     let yaml = fs::read_to_string(root("specs/cart_pole.yaml")).expect("a spec");
@@ -210,7 +210,7 @@ fn run_time_parameters_keep_their_names() {
     insta::assert_snapshot!(text(&form, 6));
 }
 
-/// The page with each block under a comment `<!-- NAME -->` made anew.
+/// Returns the page with each block under a comment `<!-- NAME -->` regenerated.
 fn renewed(page: &str) -> String {
     let mut pieces = page.split("<!-- ");
     let mut made = pieces.next().expect("a beginning").to_owned();

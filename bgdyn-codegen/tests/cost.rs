@@ -1,4 +1,4 @@
-//! The weighted cost: what it counts, and that it decides.
+//! Tests the weighted cost: its terms, and the choices by it.
 
 mod common;
 
@@ -7,7 +7,7 @@ use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 use common::{Robot, golden};
 
-/// x·y + z, with a value that nobody needs beside it.
+/// x·y + z, with another value that is not used.
 fn product_and_sum(g: &mut Graph) -> (Signed, Signed) {
     let [x, y, z] = [0, 1, 2].map(|k| g.leaf(Leaf::Position(k)));
     let product = g.mul(x, y);
@@ -57,7 +57,7 @@ fn a_tree_of_sums_costs_less_than_a_chain() {
 
 #[test]
 fn an_operation_outweighs_what_decides_between_equals() {
-    // One addition more costs more than what fusing one saves.
+    // One more addition costs more than fusing one saves.
     let mut g = Graph::default();
     let [x, y, z, w] = [0, 1, 2, 3].map(|k| g.leaf(Leaf::Position(k)));
     let (a, b) = (g.mul(x, y), g.mul(z, w));
@@ -94,7 +94,7 @@ fn a_cost_is_told_part_by_part() {
     assert_eq!(Cost::default().to_string(), "0 = 0 mul + 0 add");
 }
 
-/// What a function tells of its search is true: what is taken costs no more than what is not.
+/// The search results of a function are true: the chosen one costs no more than the others.
 #[test]
 fn the_cheapest_is_taken() {
     for name in ["scara_rrpr", "puma_arm"] {
@@ -103,8 +103,8 @@ fn the_cheapest_is_taken() {
             let chosen = robot.chosen(method);
             let weight = chosen.cost().weighted();
             let place = format!("{name}, {method:?}");
-            // Plans are told without their sums of angles, for each of which axes that are not turned
-            // may take five operations more.
+            // The costs of plans are without sums of angles, each of which may save up to five operations
+            // of unrotated axes.
             let operations = chosen.cost().operations.total();
             for plan in &chosen.plans {
                 let most = plan.cost.operations.total() + 5;
@@ -119,8 +119,8 @@ fn the_cheapest_is_taken() {
     }
 }
 
-/// Of the plans of a larger mechanism the one that costs least before factoring is taken; the
-/// others that a function tells of cost more and more.
+/// For a larger mechanism, the plan that costs least before factoring is chosen; the others are listed in
+/// the order of their cost.
 #[test]
 fn plans_stand_in_the_order_of_their_cost() {
     let robot: Robot = golden::robot("puma_arm");

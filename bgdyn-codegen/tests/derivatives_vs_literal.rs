@@ -17,7 +17,7 @@ use common::random::Draft;
 use common::rng::Rng;
 use common::{Robot, State, assert_close, golden, natural_effort, sum_abs};
 
-/// Of double-double results, relative to their natural size.
+/// Tolerance of double-double results, relative to their natural size.
 const EXACT: f64 = 1e-26;
 
 /// ∂f/∂leaf_j by forward differentiation of the function's graph, row by row.
@@ -41,7 +41,7 @@ fn differentiated(function: &Function, state: &State, leaf: fn(usize) -> Leaf) -
         .collect()
 }
 
-/// What the recursion itself makes of a method, whether or not it is the cheapest.
+/// The recursion's own result for a method, whether or not it is the cheapest.
 fn structured(robot: &Robot, method: Method, state: &State) -> Vec<Dd> {
     state.value(&robot.whole("recursion", method))
 }
@@ -95,7 +95,7 @@ fn derivatives_of_two_thousand_mechanisms() {
     check(3_500..4_000, 6, true);
 }
 
-/// M ∂q̈/∂x = −∂τ/∂x, M ∂q̈/∂τ = 1, at the accelerations that the method returns itself; whether
+/// Checks M ∂q̈/∂x = −∂τ/∂x, M ∂q̈/∂τ = 1, at the accelerations that the method computes; returns whether
 /// M is regular.
 fn undoes_the_inverse(robot: &Robot, forward: &Function, mut state: State, what: &str) -> bool {
     let n = state.q.len();
@@ -148,7 +148,7 @@ fn forward_derivatives_undo_the_inverse() {
     assert!(regular > 30, "{regular}");
 }
 
-/// Where columns run in a loop, too: before the last passes, and as they are emitted.
+/// Also if columns run in a loop: before the last passes, and as emitted.
 #[test]
 fn columns_in_loops_undo_the_inverse() {
     for (name, columns) in [("scara_rrpr", 0), ("panda_gen", 12), ("chain8", 15)] {
@@ -167,7 +167,7 @@ fn columns_in_loops_undo_the_inverse() {
     }
 }
 
-/// Multiplications and additions of the chosen functions: upper bounds that no change may raise.
+/// Multiplications and additions of the chosen functions: upper bounds that no change may increase.
 #[test]
 fn counts_stay() {
     let bounds = [

@@ -1,4 +1,4 @@
-//! The expression graph: what folds, what is one node, what counts.
+//! Tests the expression graph: folding, sharing of nodes, counting.
 
 use bgdyn_codegen::expr::{Builder, Expr, Graph, Leaf, Node, Operations, Signed, count, reachable};
 use bgdyn_runtime::Dd;
@@ -61,7 +61,7 @@ fn constant_factors_merge() {
     let whole = g.mul(six, x);
     assert_eq!(outer, minus(whole));
     assert_eq!(count(&g, &[outer]), operations(1, 0));
-    // Undone by its inverse.
+    // Cancelled by its inverse.
     let half = number(&mut g, 0.5);
     assert_eq!(g.mul(half, twice), x);
     // Division by a constant is a product.
@@ -87,7 +87,7 @@ fn equal_terms_merge() {
     assert_eq!(g.add(x, x), twice);
     let gone = g.add(twice, minus(twice));
     assert_eq!(g.constant_of(gone), Some(Dd::ZERO));
-    // What double-double leaves of (1/3 + 1/3 + 1/3) − 1 is nothing.
+    // The rounding error of (1/3 + 1/3 + 1/3) − 1 in double-double counts as zero.
     let third = g.constant(Dd::ONE / Dd::from_f64(3.0));
     let (mut sum, minus_one) = (g.mul(third, y), number(&mut g, -1.0));
     for _ in 0..2 {
@@ -152,7 +152,7 @@ fn sums_of_angles() {
     let mut g = Graph::default();
     let [x, y, z] = xyz(&mut g);
     let zero = Dd::ZERO;
-    // Order does not matter, opposite angles cancel, one angle is itself.
+    // The order does not matter, opposite angles cancel, a single angle is not a sum.
     let sum = g.angle(&[x, y, z], zero);
     assert_eq!(sum, g.angle(&[z, x, y], zero));
     assert_eq!(g.angle(&[x, y, minus(x)], zero), y);
@@ -167,7 +167,7 @@ fn sums_of_angles() {
     let opposite = g.angle(&[minus(x)], -Dd::ONE);
     assert_eq!(offset, minus(opposite));
     assert_ne!(offset.node, g.angle(&[x], -Dd::ONE).node);
-    // Twice the same angle stays twice.
+    // Twice the same angle is not simplified.
     let twice = g.angle(&[x, x], zero);
     assert!(matches!(g.node(twice.node), Node::Angle(terms, ..) if terms.len() == 2));
 }
@@ -191,7 +191,7 @@ fn constants_pass_through_functions() {
         let value = g.constant_of(e).expect("a constant");
         assert!((value.to_f64() - x).abs() < 1e-15, "{value:?} against {x}");
     }
-    // A pivot that is a positive number from no subtraction needs no check.
+    // A pivot that is a positive constant without subtraction needs no check.
     let zero = number(&mut g, 0.0);
     assert_eq!(g.pivot(two, zero, 0), two);
     assert_ne!(g.pivot(zero, zero, 0), zero);
@@ -206,7 +206,7 @@ fn counting() {
         let outputs: Vec<Signed> = outputs.iter().map(|e| e.signed()).collect();
         b.with_graph(|g| count(g, &outputs))
     };
-    // A distinct product counts once, signs and arguments are free, what nobody reads is dead.
+    // A distinct product counts once, signs and arguments are free, unread nodes do not count.
     let dead = (x + z) * (y + z);
     assert!(!dead.is_zero());
     assert_eq!(counted(&[x, -y]), operations(0, 0));

@@ -1,4 +1,4 @@
-//! The evaluator and the tangent of every kind of node: `f64` against double-double, derivatives
+//! Tests the evaluator and the tangent of every kind of node: `f64` against double-double, derivatives
 //! against differences in double-double, refused pivots.
 
 use bgdyn_codegen::expr::{Graph, Inputs, Leaf, Signed, Tangent, evaluate};
@@ -101,7 +101,7 @@ fn at<T: Scalar<Refused = Option<usize>>>(g: &Graph, e: Signed, x: T, y: T) -> T
     value
 }
 
-/// Where the kinds are tried: x > 0 > y, x² > y.
+/// Arguments of the tests: x > 0 > y, x² > y.
 const POINTS: [(f64, f64); 3] = [(0.75, -1.25), (2.5, -0.3), (0.1, -3.0)];
 
 #[test]
@@ -121,7 +121,7 @@ fn every_kind_in_f64_and_double_double() {
     }
 }
 
-/// The values themselves, not only their agreement.
+/// Checks the values themselves, not only that scalars agree.
 #[test]
 fn known_values() {
     let value = |name: &str| {
@@ -190,7 +190,7 @@ fn derivative_of_every_kind() {
     }
 }
 
-/// What has no tangent stands still.
+/// Leaves without a tangent have zero rates.
 #[test]
 fn leaves_without_a_rate() {
     let (mut g, e) = graph(|g, x, y| g.mul(x, y));
@@ -216,11 +216,11 @@ fn pivots() {
         let value = evaluate(&g, &[e], &inputs, &mut refused)[0];
         (value, refused)
     };
-    // It stands clear of the rounding of what was subtracted, however small it is.
+    // A small pivot is accepted if it exceeds the rounding of the subtracted terms.
     assert_eq!(check(0.5, 1.0), (0.5, None));
     assert_eq!(check(2.0_f64.powi(-100), 0.0), (2.0_f64.powi(-100), None));
     assert_eq!(check(2e-14, 1.0), (2e-14, None));
-    // Zero, negative, lost in rounding, not a number: as it is, with the joint's number.
+    // Zero, negative, below rounding, NaN: the value is returned unchanged, with the joint's index.
     for (x, magnitude) in [
         (0.0, 0.0),
         (-1.0, 1.0),
@@ -238,7 +238,7 @@ fn pivots() {
     }
 }
 
-/// The first refusal stays.
+/// The first refusal is not overwritten.
 #[test]
 fn the_first_refused_joint_is_named() {
     let mut g = Graph::default();
@@ -254,7 +254,7 @@ fn the_first_refused_joint_is_named() {
     assert_eq!((values, refused), (vec![0.0, 0.0], Some(4)));
 }
 
-/// NaN and infinity are not lost on the way.
+/// NaN and infinity are not lost in operations.
 #[test]
 fn what_is_not_a_number_stays_so() {
     for (name, make) in KINDS {

@@ -16,13 +16,12 @@ use common::rng::Rng;
 use common::{Robot, State, golden, largest, natural_effort};
 use proptest::prelude::*;
 
-/// Of all that may have been added up in a value.
+/// Relative to the sum of the sizes of all terms in a value.
 const EXACT: f64 = 1e-28;
-/// Of a value, for each rounding it may have lost: a hundred roundings of a double-double.
+/// Relative to a value, for each rounding: a hundred roundings of a double-double.
 const ROUNDING: f64 = 1e-30;
 
-/// A random graph over five arguments, and for each output the sum of the sizes of all that was
-/// added up in it.
+/// A random graph over five arguments, and for each output the sum of the sizes of all its terms.
 struct Program {
     graph: Graph,
     outputs: Vec<Signed>,
@@ -54,7 +53,7 @@ impl Program {
             let b = minus(b, rng.chance(0.5));
             let new = match rng.below(12) {
                 0..=4 => (g.add(a, b), s + t),
-                // Degrees stay low, so that numbers do.
+                // Low degrees, so that numbers are not too large.
                 5..=9 if s * t < 1e6 => (g.mul(a, b), s * t),
                 10 => {
                     let (sin, cos) = (g.sin(a), g.cos(a));
@@ -119,9 +118,9 @@ proptest! {
     }
 }
 
-/// What a function's values are compared against: its largest one and the natural effort. Solving
-/// with the mass matrix loses digits, `lost` of them in units of the last; its derivatives twice. Other
-/// methods agree to `exact`.
+/// Returns the scale of a function's values: the largest one and the natural effort. A solution with the
+/// mass matrix loses digits, `lost` of them in units of the last; its derivatives twice. Other methods
+/// agree to `exact`.
 fn tolerance(method: Method, values: &[Dd], effort: f64, (lost, exact): (f64, f64)) -> f64 {
     let values: Vec<f64> = values.iter().map(|x| x.to_f64()).collect();
     let size = largest(&values).max(effort).max(1.0);
@@ -133,7 +132,7 @@ fn tolerance(method: Method, values: &[Dd], effort: f64, (lost, exact): (f64, f6
     relative * size
 }
 
-/// By how much a rounding grows in the factorisation M = Lᵀ D L: the largest M_jj/D_j.
+/// Returns the growth of rounding errors in the factorisation M = Lᵀ D L: the largest M_jj/D_j.
 fn growth(robot: &Robot, state: &State) -> f64 {
     let values: Vec<Dd> = state.value(&robot.function("literal", Method::MassMatrix));
     let n = robot.graph.coordinates.len();
@@ -153,8 +152,8 @@ fn growth(robot: &Robot, state: &State) -> f64 {
     grown
 }
 
-/// Two functions of one method at one state, which agree to `exact`. `growth` is only asked for where it
-/// matters.
+/// Compares two functions of one method at one state, which must agree to `exact`. `growth` is evaluated
+/// only if needed.
 fn compare(
     f: &Function,
     g: &Function,
@@ -162,7 +161,7 @@ fn compare(
     (effort, exact, growth): (f64, f64, &dyn Fn() -> f64),
     what: &str,
 ) {
-    // Pivots that are refused in `f64` may have no digits left in double-double either.
+    // Pivots that are refused in `f64` may have no correct digits in double-double either.
     let refused = |f: &Function| f.evaluate::<f64>(state.inputs()).1.is_some();
     if refused(f) || refused(g) {
         return;
@@ -186,7 +185,7 @@ fn compare(
     }
 }
 
-/// The function without factoring, in one piece, and with it.
+/// Compares the function without factoring, in one block, and with it.
 fn mechanism(seed: u64, most: usize) {
     let mut rng = Rng::new(seed);
     let draft = Draft::random(&mut rng, most);
@@ -195,7 +194,7 @@ fn mechanism(seed: u64, most: usize) {
     let state = State::random(&mut rng, &robot.motions());
     let effort = natural_effort(&robot, &state);
     let growth = || growth(&robot, &state);
-    // As in `common/laws.rs`: axes as they are written leave components that formulations round differently.
+    // As in `common/laws.rs`: axes without snapping have components that formulations round differently.
     let formulations = if draft.exact { NOISY } else { EXACT };
     let literal = Options {
         formulation: by_name("literal"),
@@ -262,7 +261,7 @@ fn norm(x: &[Dd]) -> f64 {
         .sqrt()
 }
 
-/// Inverse dynamics of one robot, before and after factoring, and what tells its natural size.
+/// Inverse dynamics of one robot, before and after factoring, with its natural size.
 struct Rounding {
     before: Function,
     after: Function,
@@ -281,7 +280,7 @@ impl Rounding {
         }
     }
 
-    /// Errors in `T`, in eps of ‖M a‖ + ‖c‖ + ‖g‖: before and after.
+    /// Returns errors in `T`, in eps of ‖M a‖ + ‖c‖ + ‖g‖: before and after.
     fn errors<T: Scalar<Refused = Option<usize>>>(
         &self,
         state: &State,
@@ -301,7 +300,7 @@ impl Rounding {
     }
 }
 
-/// Inverse dynamics of every golden robot to 32 eps; on average factoring loses nothing.
+/// Inverse dynamics of every golden robot is accurate to 32 eps; on average factoring loses nothing.
 #[test]
 fn rounding_errors_stay_as_they_are() {
     const STATES: u32 = 20;
@@ -343,7 +342,7 @@ fn rounding_errors_stay_as_they_are() {
     }
 }
 
-/// A pivot's magnitude bounds what is subtracted in its value: both are read as they were.
+/// A pivot's magnitude bounds the terms subtracted in its value: factoring changes neither.
 #[test]
 fn pivots_keep_what_they_compare() {
     let mut g = Graph::default();

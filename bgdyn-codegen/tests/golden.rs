@@ -1,5 +1,5 @@
-//! The golden robots through the evaluator, against Pinocchio's values: every method, by joint
-//! name, every formulation.
+//! Compares the golden robots in the evaluator with Pinocchio's values: every method, by joint name, every
+//! formulation.
 
 mod common;
 
@@ -8,7 +8,7 @@ use common::{FORMULATIONS, Robot, State, full, golden, largest};
 use nalgebra::DMatrix;
 use serde_json::Value;
 
-/// Beyond this many joints the literal sum is too large a graph.
+/// Largest number of joints for which the graph of the literal sum is small enough.
 const LITERAL_UP_TO: usize = 8;
 /// Relative to the largest entry.
 const TOLERANCE: f64 = 1e-12;
@@ -17,7 +17,7 @@ fn numbers(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(Value::as_f64).collect()
 }
 
-/// For each coordinate its joint's place in the golden file.
+/// Returns, for each coordinate, its joint's index in the golden file.
 fn order(robot: &Robot, values: &Value) -> Vec<usize> {
     let names: Vec<&str> = values["joints"]
         .as_array()
@@ -31,7 +31,7 @@ fn order(robot: &Robot, values: &Value) -> Vec<usize> {
     order
 }
 
-/// The worst error seen, in units of what is allowed, and how many entries were compared.
+/// The largest error, in units of the tolerance, and the number of compared entries.
 #[derive(Default)]
 struct Tally {
     worst: f64,
@@ -110,7 +110,7 @@ fn check(name: &str, robot: &Robot, formulation: &str, methods: &[Method], value
             };
             let mut relative = TOLERANCE;
             if method == Method::ForwardDynamics {
-                // Few states hold M; in the others it is our own, compared in the few.
+                // Few states contain M; in the others our own M is used, which is compared in the few.
                 let own = || {
                     let rows = full(&s.value::<f64>(&mass_matrix), n);
                     DMatrix::from_fn(n, n, |i, j| rows[i][j])
@@ -137,7 +137,7 @@ fn check(name: &str, robot: &Robot, formulation: &str, methods: &[Method], value
     }
 }
 
-/// Up to a constant: differences from the first state, beside the largest energy.
+/// Up to a constant: differences from the first state, relative to the largest energy.
 fn potential(tally: &mut Tally, energies: &[(f64, f64)], what: &str) {
     let Some(&(first, golden)) = energies.first() else {
         return;

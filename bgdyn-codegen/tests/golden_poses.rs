@@ -1,6 +1,5 @@
-//! Poses, velocities, Jacobians and J̇v of links and frames against values from outside: of a script
-//! that shares nothing with this project, and of Pinocchio. Every formulation, in double-double and in
-//! `f64`.
+//! Compares poses, velocities, Jacobians and J̇v of links and frames with external values: those of an
+//! independent script, and of Pinocchio. Every formulation, in double-double and in `f64`.
 
 mod common;
 
@@ -13,14 +12,14 @@ use bgdyn_runtime::{Dd, Scalar};
 use common::{FORMULATIONS, Robot, State, natural_size};
 use serde_json::Value;
 
-/// Beyond this many joints the literal sum is too large a graph.
+/// Largest number of joints for which the graph of the literal sum is small enough.
 const LITERAL_UP_TO: usize = 12;
-/// Of values in double-double, in roundings of the natural size: half of one is what the golden values
-/// are rounded by.
+/// Tolerance of values in double-double, in roundings of the natural size: half of one is the rounding of
+/// the golden values.
 const EXACT: f64 = 0.5;
-/// In `f64`, likewise.
+/// Tolerance in `f64`, in the same unit.
 const ROUNDED: f64 = 1.0;
-/// Of Pinocchio's own rounding, likewise.
+/// Tolerance for Pinocchio's own rounding, in the same unit.
 const PEER: f64 = 2.0;
 
 fn root(path: &str) -> PathBuf {
@@ -31,7 +30,7 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// The golden files of a folder: each file's stem and what it holds.
+/// Returns the golden files of a folder: each file's stem and content.
 fn files(folder: &str) -> Vec<(String, Value)> {
     let entries = fs::read_dir(root(folder)).expect("the folder of golden values");
     let paths = entries.map(|e| e.expect("an entry").path());
@@ -104,7 +103,7 @@ fn site(robot: &Robot, name: &str) -> SiteId {
     SiteId(found.unwrap_or_else(|| panic!("no place `{name}`")))
 }
 
-/// What is compared, and the largest error seen, in what is allowed.
+/// The comparison, and the largest error in units of the tolerance.
 #[derive(Default)]
 struct Tally {
     compared: usize,

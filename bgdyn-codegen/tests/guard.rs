@@ -1,5 +1,6 @@
-//! What forward dynamics pays for digits: arms of known geometry with random bodies take at most 5 % more
-//! operations than the cheapest formulation, unless that one loses digits in states the guard never saw.
+//! Checks the price of accuracy in forward dynamics: arms of known geometry with random bodies take at
+//! most 5 % more operations than the cheapest formulation, unless that one loses digits in states that the
+//! generator did not sample.
 
 mod common;
 
@@ -16,13 +17,13 @@ use common::rng::Rng;
 
 const METHOD: Method = Method::ForwardDynamics;
 
-/// What may be paid for nothing.
+/// Largest accepted price without a gain in accuracy.
 const PRICE: f64 = 1.05;
 
-/// Arms with as many bodies each as are drawn.
+/// Number of random arms per geometry.
 const BODIES: u64 = 12;
 
-/// Geometries, from the package's folder on.
+/// Geometries, relative to the package's folder.
 const ARMS: [&str; 10] = [
     "tests/outside/rx90",
     "tests/outside/kr6",
@@ -62,7 +63,7 @@ fn with_bodies(text: &str, rng: &mut Rng) -> String {
     out
 }
 
-/// A body of four points of one mass, about a random centre: no two of its moments are alike.
+/// Returns a body of four points of one mass, about a random centre: all its moments are different.
 fn body(rng: &mut Rng) -> String {
     let mass = 0.2 + 8.0 * rng.unit();
     let com = [0; 3].map(|_| rng.within(0.15));
@@ -94,7 +95,8 @@ fn arm(name: &str, seed: u64) -> Robot {
     Robot::read(&with_bodies(&text, &mut Rng::new(500 + seed)), stem)
 }
 
-/// The formulations' functions, factored where that is theirs, the one with the fewest operations first.
+/// Returns the formulations' functions, factored if the formulation permits it, the one with the fewest
+/// operations first.
 fn formulations(robot: &Robot) -> Vec<Function> {
     let names = ["recursion", "articulated_base", "articulated"];
     let mut all = names.map(|f| factor(robot.whole(f, METHOD))).to_vec();
@@ -102,7 +104,7 @@ fn formulations(robot: &Robot) -> Vec<Function> {
     all
 }
 
-/// The largest part of bars 2 and 3 that a function uses, as they are read.
+/// Returns the largest ratio of a function's errors to bars 2 and 3.
 fn used(robot: &Robot, f: &Function, states: usize) -> f64 {
     let generated = Generated::new(robot);
     let mut rng = Rng::new(23);
@@ -126,7 +128,7 @@ fn used(robot: &Robot, f: &Function, states: usize) -> f64 {
     most
 }
 
-/// Whether the cheapest formulation loses a bit and more that the chosen one keeps.
+/// Returns whether the cheapest formulation loses more than a bit that the chosen one does not.
 fn really_lost(robot: &Robot, cheapest: &Function, chosen: &Function) -> bool {
     let (cheap, dear) = (used(robot, cheapest, 400), used(robot, chosen, 400));
     println!("  the cheapest uses {cheap:.2} of the bars, the chosen one {dear:.2}");
@@ -182,8 +184,8 @@ fn specs_cost_no_more_unless_digits_are_lost() {
     assert!(seen > 10, "{seen}");
 }
 
-/// Bodies for which a state of the guard is beyond the bars by every way there is, or by the cheapest one
-/// only, by less than a bit: found among a hundred each.
+/// Bodies for which a sampled state exceeds the bars by every function, or by the cheapest one only, by
+/// less than a bit: found among a hundred each.
 #[test]
 fn a_state_beyond_the_bars_buys_nothing() {
     for (name, seed) in [

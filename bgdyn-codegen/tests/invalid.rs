@@ -1,4 +1,4 @@
-//! What a user sees for each file of `specs/invalid`: one fault per file.
+//! Tests the user's messages for each file of `specs/invalid`: one fault per file.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -68,7 +68,7 @@ where
     (kinetic, potential)
 }
 
-/// The joint efforts: for each j the mixed derivative of L in q̇_j and time, less ∂L/∂q_j.
+/// Returns the joint efforts: for each j the mixed derivative of L in q̇_j and time, minus ∂L/∂q_j.
 fn efforts(robot: &Robot, s: &State) -> Vec<f64> {
     let n = robot.nv();
     let on = |yes: bool| f64::from(u8::from(yes));
@@ -108,7 +108,7 @@ fn check(robot: &Robot, states: usize, rng: &mut Rng, what: &str) {
                 1e-13 * t.abs() + 1e-15 * natural,
                 place,
             );
-            // Zero with every centre of mass at the world's origin: no constant is free.
+            // Zero with every centre of mass at the world's origin: the constant is not arbitrary.
             let base: f64 = robot
                 .mechanism
                 .links()

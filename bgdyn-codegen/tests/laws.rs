@@ -13,19 +13,19 @@ use std::panic::{self, RefUnwindSafe};
 use common::laws::{self, Case};
 use common::rng::Rng;
 
-/// What a range of seeds has shown.
+/// The results for a range of seeds.
 #[derive(Default)]
 struct Seen {
-    /// Mass matrices that were regular.
+    /// Number of regular mass matrices.
     regular: usize,
-    /// The worst difference of the formulations, relative to natural size.
+    /// The largest difference of the formulations, relative to natural size.
     formulations: f64,
-    /// The worst error of forward dynamics, relative to its bar.
+    /// The largest error of forward dynamics, relative to its bar.
     forward: f64,
 }
 
-/// All laws on a range of seeds; `most` says how many joints a seed may have, `parameters` whether
-/// some numbers are run-time parameters.
+/// Checks all laws on a range of seeds; `most` is the largest number of joints of a seed, `parameters`
+/// whether some numbers are run-time parameters.
 fn check(seeds: Range<u64>, most: impl Fn(u64) -> usize + RefUnwindSafe, parameters: bool) -> Seen {
     let mut seen = Seen::default();
     let mut failed = Vec::new();
@@ -65,8 +65,8 @@ fn larger_mechanisms() {
     assert!(check(1000..1060, |_| 7, false).regular > 20);
 }
 
-/// Pivots of 1e-28, 1e-26 and 1e-30 between axes that differ by 1e-14, 1e-13 and 1e-15: articulated
-/// bodies solve them rightly.
+/// Pivots of 1e-28, 1e-26 and 1e-30 between axes that differ by 1e-14, 1e-13 and 1e-15: articulated bodies
+/// solve them correctly.
 #[test]
 fn almost_parallel_axes() {
     for seed in [10_230, 12_205, 12_236] {
@@ -80,8 +80,9 @@ fn with_run_time_parameters() {
     assert!(check(3000..3016, |_| 7, true).regular > 4);
 }
 
-/// A quarter of ten thousand mechanisms. Most are small: the time goes with the cube of the joints,
-/// and faults show in small mechanisms. Every other quarter has run-time parameters.
+/// A quarter of ten thousand mechanisms. Most are small: the time is proportional to the cube of the
+/// number of joints, and small mechanisms are sufficient to find errors. Every other quarter has run-time
+/// parameters.
 fn quarter(number: u64) {
     let most = |seed: u64| match seed % 20 {
         0 => 7,

@@ -1,6 +1,6 @@
-//! Bar 13 over every method there is, through the evaluator: numbers of any size give numbers or a refusal,
-//! and what is no number never leaves a component finite that depends on it. `tests/hard_cases` does the
-//! same for five methods in compiled code.
+//! Tests bar 13 over every method with the evaluator: numbers of any size give numbers or a refusal, and a
+//! component that depends on a NaN is never finite. `tests/hard_cases` does the same for five methods in
+//! compiled code.
 
 mod common;
 
@@ -16,7 +16,7 @@ use common::Robot;
 use common::bars::Digits;
 use common::rng::Rng;
 
-/// How large arguments may be: positions, everything else, and the smallest positive number.
+/// The largest arguments: positions, everything else, and the smallest positive number.
 trait Range: Digits {
     const POSITION: f64;
     const RATE: f64;
@@ -38,7 +38,7 @@ impl Range for f32 {
 /// Arguments: positions, velocities, accelerations, efforts.
 type Lists = [Vec<f64>; 4];
 
-/// Which of these a method reads.
+/// Returns which of these a method reads.
 fn read(method: Method) -> [bool; 4] {
     let takes = |argument| method.arguments().contains(&argument);
     [
@@ -49,7 +49,7 @@ fn read(method: Method) -> [bool; 4] {
     ]
 }
 
-/// A number of any size up to `most`, ±0 and denormals among them.
+/// Returns a number of any size up to `most`, including ±0 and denormals.
 fn wild<T: Range>(rng: &mut Rng, most: f64) -> f64 {
     let sign = if rng.chance(0.5) { 1.0 } else { -1.0 };
     match rng.below(8) {
@@ -61,7 +61,7 @@ fn wild<T: Range>(rng: &mut Rng, most: f64) -> f64 {
     }
 }
 
-/// The results; none where the function refuses, which it does where an acceleration is no number.
+/// Returns the results; `None` if the function refuses, which it does if an acceleration is not finite.
 fn value<T: Range>(robot: &Robot, f: &Function, x: &Lists) -> Option<Vec<f64>> {
     let all = |x: &[f64]| x.iter().map(|&x| T::from_f64(x)).collect();
     let parameters = robot.mechanism.parameters().iter();
@@ -102,7 +102,7 @@ fn stays_finite<T: Range>(robot: &Robot, f: &Function, rng: &mut Rng, states: us
     }
 }
 
-/// Each argument in turn not a number: what stays finite must not change with any other value of it.
+/// Sets each argument to NaN in turn: a result that stays finite must not depend on it.
 fn never_swallowed<T: Range>(robot: &Robot, f: &Function, rng: &mut Rng) -> usize {
     let n = robot.nv();
     let usual: Lists = std::array::from_fn(|_| (0..n).map(|_| rng.within(0.9)).collect());
@@ -137,7 +137,7 @@ fn never_swallowed<T: Range>(robot: &Robot, f: &Function, rng: &mut Rng) -> usiz
     spoiled
 }
 
-/// Every method of every spec in so many states and so many spoiled ones.
+/// Tests every method of every spec in this number of states and of states with NaN.
 fn run(states: usize, usual: usize) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs");
     let mut paths: Vec<_> = fs::read_dir(folder)

@@ -24,7 +24,7 @@ fn products(function: &Function) -> &[InnerProducts] {
     &function.blocks.last().expect("a block").products
 }
 
-/// What is emitted equals the joint-by-joint way and, where that is not too long, the literal sum.
+/// The emitted function equals the joint-by-joint method and, for short chains, the literal sum.
 fn equals_the_other_ways(name: &str, robot: &Robot, rng: &mut Rng) {
     let found = robot.function("common_axes", M);
     let state = State::random(rng, &robot.motions());
@@ -80,8 +80,8 @@ fn lost(robot: &Robot, way: &str) -> f64 {
     worst / f64::EPSILON
 }
 
-/// Moments about a far origin are larger than those about the joint; but what is lost by that is no
-/// more than what the way inwards loses.
+/// Moments about a distant origin are larger than those about the joint; but the resulting error is not
+/// larger than that of the joint-by-joint method.
 #[test]
 fn common_axes_lose_no_more_digits() {
     for name in ["chain8", "chain32", "chain64"] {
@@ -95,8 +95,8 @@ fn common_axes_lose_no_more_digits() {
     }
 }
 
-/// Counting takes common axes for chains in general position from some length on, and the
-/// joint-by-joint way for short ones.
+/// Counting chooses common axes for chains in general position from some length on, and the joint-by-joint
+/// method for short ones.
 #[test]
 fn counting_chooses() {
     for (name, operations) in [
@@ -124,7 +124,7 @@ fn counting_chooses() {
     }
 }
 
-/// Cutting and looping change neither the count nor the entries; no entry is computed twice.
+/// Blocks and loops change neither the count nor the entries; no entry is computed twice.
 #[test]
 fn loops_compute_what_is_counted() {
     for name in ["chain32", "chain64"] {
@@ -144,7 +144,7 @@ fn loops_compute_what_is_counted() {
             "{name}: {}",
             places.len()
         );
-        // Each entry of the table is the sum of its products, and nothing else is left to compute.
+        // Each entry of the table is the sum of its products, and no other entries remain.
         let mut terms = 0;
         for &(row, column) in &places {
             let entry = [last.outputs[in_triangle(row, column)]];

@@ -1,5 +1,5 @@
-//! Massless links in a row: solved where the body beyond them gives each joint inertia, refused in
-//! every state where it cannot.
+//! Tests consecutive massless links: solved if the outboard body gives each joint inertia, refused in
+//! every state if it cannot.
 
 mod common;
 
@@ -10,12 +10,12 @@ use bgdyn_runtime::Dd;
 use common::rng::Rng;
 use common::{Robot, State};
 
-/// Joints on massless links in a row, and a body.
+/// Joints on consecutive massless links, and a body.
 struct Row {
     axes: &'static [&'static str],
     step: &'static str,
     body: &'static str,
-    /// How many of the joints the body's inertia reaches.
+    /// Number of joints to which the body gives inertia.
     rank: usize,
 }
 
@@ -45,7 +45,7 @@ impl Row {
         Robot::read(&text, None)
     }
 
-    /// In seeded states: refused by the name of the joint that nothing is left for, or solved.
+    /// Checks seeded states: refused with the name of a joint without inertia, or solved.
     fn check(&self, states: usize) {
         let robot = self.robot();
         let f = robot.chosen(Method::ForwardDynamics);
@@ -108,8 +108,8 @@ fn massless_links_in_a_row_that_cannot() {
     }
 }
 
-/// ∂q̈/∂τ = M⁻¹ and ∂q̈/∂q where only articulated bodies keep the digits: the derivatives are as
-/// good as the accelerations.
+/// ∂q̈/∂τ = M⁻¹ and ∂q̈/∂q if only articulated bodies are accurate: the derivatives are as accurate as the
+/// accelerations.
 #[test]
 fn derivatives_beyond_a_massless_link() {
     let row = Row {
@@ -148,7 +148,7 @@ fn derivatives_beyond_a_massless_link() {
                 .fold(0.0, f64::max);
             for k in block {
                 let off = (Dd::from_f64(rough[k]) - exact[k]).abs().to_f64();
-                // The efforts all but cancel along the lock: that costs 1 / angle once.
+                // The efforts almost cancel near the gimbal lock, which costs a factor 1 / angle.
                 let bar = 64.0 * f64::EPSILON / angle * size;
                 assert!(off <= bar, "{angle}, {k}: {off:e} of {size:e}");
             }

@@ -1,4 +1,4 @@
-//! Messages about a spec or a scene are written in `src/fault` only.
+//! Checks that messages about a spec or a scene are in `src/fault` only.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! Poses, velocities and Jacobians of sites, the Coriolis matrix and first derivatives: against
-//! each other and against differences in double-double, on random mechanisms and golden robots.
+//! Tests poses, velocities and Jacobians of sites, the Coriolis matrix and first derivatives: against each
+//! other and against differences in double-double, on random mechanisms and golden robots.
 
 mod common;
 
@@ -40,7 +40,7 @@ impl Case {
         self.at(formulation, method, 0.0)
     }
 
-    /// The value where q has moved on by `step` · v.
+    /// The value at q + `step` · v.
     fn at(&self, formulation: &str, method: Method, step: f64) -> Vec<Dd> {
         let mut inputs = self.state.inputs::<Dd>();
         for (q, v) in inputs.q.iter_mut().zip(&self.state.v) {
@@ -200,7 +200,7 @@ fn derivatives_of_inverse_dynamics_are_its_slopes() {
     }
 }
 
-/// Golden derivatives stand for the first states of some robots.
+/// Golden derivatives exist for the first states of some robots.
 #[test]
 fn derivatives_equal_golden_values() {
     let mut compared = 0;

@@ -1,4 +1,4 @@
-//! A mechanism without a moving joint is accepted, and everything of it can be generated.
+//! Checks that a mechanism without a moving joint is accepted, and all its methods can be generated.
 
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::method::Method;

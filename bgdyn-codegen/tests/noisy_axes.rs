@@ -1,6 +1,6 @@
-//! Axes as they come out of a computation, taken as they are (`snap: 0`): off their exact
-//! directions by rounding or a little more, parallel and opposite to each other or nearly so. Every
-//! formulation equals the literal sum in double-double.
+//! Tests axes with rounding noise, without snapping (`snap: 0`): off their exact directions by rounding or
+//! a little more, exactly or almost parallel and opposite to each other. Every formulation equals the
+//! literal sum in double-double.
 
 mod common;
 
@@ -20,9 +20,9 @@ const METHODS: [Method; 6] = [
     Method::Bias,
 ];
 
-/// The largest difference, by a size that no term exceeds, that regrouping in double-double leaves:
-/// what is below 1e-26 of a direction counts as zero, and a common normal of two axes that are
-/// almost parallel is up to four times as far away as their joints.
+/// The largest difference due to regrouping in double-double, relative to an upper bound of all terms:
+/// components of a direction below 1e-26 count as zero, and a common normal of two almost parallel axes is
+/// up to four times as far away as their joints.
 const CLOSE: f64 = 1e-24;
 
 /// Three links, the axes of the first two as given.
@@ -54,7 +54,7 @@ links:
     )
 }
 
-/// Every way to the methods against the literal sum; forward dynamics as what it undoes.
+/// Compares every formulation with the literal sum; forward dynamics as the inverse.
 fn equals_the_literal_sum(text: &str) {
     let robot = Robot::read(text, None);
     let by = |name: &str, method: Method| {
@@ -104,8 +104,8 @@ fn equals_the_literal_sum(text: &str) {
     }
 }
 
-/// Off by what rounding leaves of a quarter turn (6.1e-17), by less and by more, up to where an
-/// axis is no longer 1 to the last digit of a double-double and beyond.
+/// Deviations by the rounding of a quarter turn (6.1e-17), smaller and larger ones, up to and beyond that
+/// at which an axis is no longer 1 to the last digit of a double-double.
 const OFF: [f64; 8] = [
     1e-17,
     6.123233995736766e-17,

@@ -1,5 +1,5 @@
-//! Kuzmin's (2)–(6) as they stand, evaluated with hyper-dual numbers in fixed axes, against the
-//! generated functions; and the bond graph's structure against the same numbers.
+//! Evaluates Kuzmin's (2)–(6) literally with hyper-dual numbers in fixed axes, against the generated
+//! functions; and checks the bond graph's structure against the same numbers.
 //!
 //! Nothing here uses the generator's equations: A_i(q) and r_i(q) come from the checked mechanism,
 //! everything else is their derivatives.
@@ -143,7 +143,7 @@ fn on_path(robot: &Robot, j: usize, i: usize) -> bool {
     false
 }
 
-/// The bond graph holds what the paper says it holds, and what it calls zero or constant is so.
+/// Checks that the bond graph has the elements of the paper, and that its zeros and constants are correct.
 fn check_structure(robot: &Robot, d: &Derivatives, what: &str) {
     let (graph, n, links) = (&robot.graph, robot.nv(), robot.mechanism.links().len());
     for j in 0..n {

@@ -1,5 +1,5 @@
-//! Run-time parameters through the evaluator: what they cost, what they are at zero, how they pass
-//! through long functions and refused specs.
+//! Tests run-time parameters with the evaluator: their cost, their effect at zero, and their use in long
+//! functions and refused specs.
 
 mod common;
 
@@ -21,7 +21,7 @@ fn with(spec: &str, more: &str) -> (String, String) {
     (text.clone(), format!("{links}\n{more}\n{frames}"))
 }
 
-/// A part bolted to a link, its mass a parameter and, if wanted, its centre of mass.
+/// Returns a part fixed to a link, with its mass as a parameter and, if `whole`, its centre of mass.
 fn part(link: &str, whole: bool) -> String {
     let com = if whole {
         "[{ parameter: x, value: 0 }, { parameter: y, value: 0 }, { parameter: z, value: 0 }]"
@@ -35,7 +35,7 @@ fn part(link: &str, whole: bool) -> String {
     )
 }
 
-/// A parameter at 0.0 is the mechanism without it, to four units of rounding of the result.
+/// With a parameter at 0.0 the result is that of the mechanism without it, to four units of rounding.
 #[test]
 fn a_payload_of_nothing_changes_nothing() {
     for spec in ["specs/puma560.yaml", "specs/scara.yaml"] {
@@ -70,7 +70,7 @@ fn a_payload_of_nothing_changes_nothing() {
     }
 }
 
-/// A payload costs what it adds to the tip, not what it weighs on every joint.
+/// The cost of a payload is that of changing the tip, not one per joint.
 #[test]
 fn a_payload_is_cheap() {
     let count = |text: &str, method| {

@@ -1,7 +1,7 @@
-//! The counts of `docs/performance.md` are what the generator makes, and none is above the best
+//! Checks that the counts of `docs/performance.md` are those of the generator, and none is above the best
 //! known one.
 //!
-//! After a wanted change: `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test performance`.
+//! After an intended change: `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test performance`.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -22,8 +22,8 @@ const METHODS: [(Method, &str); 4] = [
     (Method::InverseDynamicsDerivatives, "∂τ/∂q, ∂τ/∂v"),
 ];
 
-/// A robot, and the fewest multiplications/additions known for each method before bgdyn; sine
-/// pairs, divisions and roots of inverse and forward dynamics there.
+/// A robot, and the fewest multiplications/additions known for each method before bgdyn; sine pairs,
+/// divisions and roots of inverse and forward dynamics.
 struct Robot {
     name: &'static str,
     what: &'static str,
@@ -43,7 +43,7 @@ const ROBOTS: [Robot; 7] = [
     Robot { name: "iiwa_gen", what: "iiwa", best: [(261, 238), (134, 129), (499, 444), (2123, 1900)], pairs: [6, 6], divisions: 6 },
 ];
 
-/// What derivatives may cost of the best known count, which is plain forward differentiation.
+/// Largest cost of derivatives relative to the best known count, that of plain forward differentiation.
 const STRUCTURED: f64 = 0.7;
 
 fn folder(path: &str) -> PathBuf {

@@ -1,5 +1,5 @@
-//! Properties of the functions, by the evaluator, over mechanisms and states that shrink when they
-//! fail: all laws of `common::laws`, and what those leave out.
+//! Tests properties of the functions with the evaluator, over mechanisms and states that shrink when they
+//! fail: all laws of `common::laws`, and additional ones.
 
 mod common;
 #[path = "common/strategy.rs"]
@@ -45,7 +45,8 @@ fn under(draft: &Draft, gravity: [f64; 3]) -> Robot {
     Robot::read(&draft.yaml(), None)
 }
 
-/// The whole world turned about x by a quarter, gravity with it: y goes to z, and z to −y.
+/// Returns the whole world rotated about x by a quarter turn, including gravity: y becomes z, and z
+/// becomes −y.
 fn turned(draft: &Draft) -> Robot {
     let [x, y, z] = draft.gravity.unwrap_or([0.0, 0.0, -9.81]);
     let mut turned = Draft {
@@ -70,7 +71,7 @@ fn turned(draft: &Draft) -> Robot {
     Robot::read(&turned.yaml(), None)
 }
 
-/// Of the derivative of `size` along a motion.
+/// Returns the scale of the derivative of `size` along a motion.
 fn speed(state: &State) -> f64 {
     1.0 + common::sum_abs(&state.v)
 }
@@ -88,7 +89,7 @@ proptest! {
         laws::all(&Case::of(&machine), &mut Rng::new(1));
     }
 
-    /// Two gravities add up; the world may be turned; velocities enter as squares.
+    /// Two gravities superpose; the world may be rotated; velocities enter as squares.
     #[test]
     fn forces_superpose(machine in machine(5)) {
         let draft = &machine.draft;

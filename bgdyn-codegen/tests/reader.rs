@@ -1,4 +1,4 @@
-//! The reader alone: what YAML's scalars become, and where things stand.
+//! Tests the parser alone: the conversion of YAML's scalars, and positions.
 
 use bgdyn_codegen::format::{Spec, parse};
 use bgdyn_runtime::Dd;

@@ -1,5 +1,5 @@
-//! Small mechanisms on which a formulation was wrong once: recursion = literal, and as exact in
-//! `f64` as its terms allow.
+//! Tests small mechanisms on which a formulation was once wrong: recursion = literal, and as accurate in
+//! `f64` as its terms permit.
 
 mod common;
 
@@ -26,7 +26,7 @@ fn formulations_agree(links: &str) {
     }
 }
 
-/// The distance across a common axis in general position is rounding, not a direction.
+/// The distance along a common axis in general position is rounding, not a direction.
 #[test]
 fn two_joints_on_one_skew_axis() {
     formulations_agree(
@@ -49,7 +49,7 @@ fn two_joints_on_one_skew_axis() {
     );
 }
 
-/// Half a turn between a translation's basis and its axes is not none.
+/// Half a turn between a translation's basis and its axes must not be ignored.
 #[test]
 fn translation_with_a_phase_of_half_a_turn() {
     formulations_agree(
@@ -70,7 +70,7 @@ fn translation_with_a_phase_of_half_a_turn() {
     );
 }
 
-/// A quarter turn written with four digits: axes that meet 1e5 m away are as good as parallel.
+/// A quarter turn with four digits: axes that meet 1e5 m away count as parallel.
 #[test]
 fn nearly_parallel_axes() {
     for tilt in ["1.5708", "1.570796", "1.57079632"] {

@@ -1,5 +1,5 @@
-//! Mass matrices that cannot be inverted are refused by the name of a joint, in every state and
-//! scalar; massless links that can be are solved to the last digits.
+//! Checks that singular mass matrices are refused with the name of a joint, in every state and scalar;
+//! solvable massless links are solved to the last digits.
 
 mod common;
 
@@ -12,8 +12,8 @@ use common::rng::Rng;
 use common::{Robot, State};
 use serde_json::Value;
 
-/// What is generated when nothing is asked for, and the ways there are for it. The literal sum is
-/// the reference in double-double; its digits in `f64` are nobody's promise.
+/// The default function, and its alternatives. The literal sum is the reference in double-double; its
+/// accuracy in `f64` is not guaranteed.
 const FORMULATIONS: [&str; 5] = [
     CHOSEN,
     "recursion",
@@ -81,7 +81,7 @@ fn nothing_to_accelerate() {
     }
 }
 
-/// Two joints on one axis with nothing between them: M is singular whatever hangs on them.
+/// Two joints on one axis with nothing between them: M is singular for any outboard bodies.
 #[test]
 fn two_joints_on_one_axis() {
     let body = "mass: 1\n    inertia: { xx: 1, yy: 1, zz: 1 }";
@@ -106,7 +106,7 @@ fn two_joints_on_one_axis() {
     }
 }
 
-/// A massless link between crossed axes has the inertia of what it carries.
+/// A massless link between perpendicular axes has the inertia of the bodies outboard of it.
 #[test]
 fn massless_middle_of_a_gimbal() {
     let robot = robot(
@@ -150,8 +150,7 @@ fn massless_middle_of_a_gimbal() {
     }
 }
 
-/// A middle link with hardly any inertia: what was subtracted exactly is folded, a tiny true pivot
-/// passes.
+/// A middle link with almost no inertia: exact subtractions are folded, a tiny correct pivot is accepted.
 #[test]
 fn tiny_inertia_between_two_joints() {
     for exponent in [20, 40, 50, 60, 90] {
@@ -189,8 +188,8 @@ fn tiny_inertia_between_two_joints() {
     }
 }
 
-/// A massless link put before a random joint, on the same axis: singular in every state, at
-/// entries of M that are no constants.
+/// A massless link inserted before a random joint, on the same axis: singular in every state, with varying
+/// entries of M.
 #[test]
 fn two_joints_on_one_axis_of_random_mechanisms() {
     let (mut tried, mut passed) = (0, Vec::new());
@@ -246,7 +245,7 @@ fn solves(what: &str, robot: &Robot, case: &Value) {
     }
 }
 
-/// Exact answers: which joint is to be named, or the accelerations.
+/// Exact results: the joint in the error, or the accelerations.
 #[test]
 fn exact_answers() {
     let mut kinds = [0; 3];

@@ -1,5 +1,5 @@
-//! The example mechanisms in `specs/`: all are read without a finding, and each is what its
-//! comments say.
+//! Checks the example mechanisms in `specs/`: all are read without a finding, and each has the properties
+//! in its comments.
 
 mod common;
 
@@ -14,7 +14,7 @@ use common::rng::Rng;
 use common::{FORMULATIONS, Robot, State, assert_close, full, golden, largest};
 use nalgebra::DMatrix;
 
-/// Examples that are golden robots under nicer names: the example, the golden robot.
+/// Examples that are golden robots under other names: the example, the golden robot.
 const SAME: [(&str, &str); 3] = [
     ("panda", "panda7"),
     ("puma560", "puma560"),
@@ -88,7 +88,7 @@ fn equal(x: &Robot, y: &Robot, name: &str) {
             let (mut f, mut g) = (s.value::<f64>(&f), s.value::<f64>(&g));
             let mut allowed = TOLERANCE * largest(&g);
             if method == Method::PotentialEnergy {
-                // Up to a constant: the world's origin may be elsewhere.
+                // Up to a constant: the world's origin may differ.
                 let (f0, g0) = *first.get_or_insert((f[0], g[0]));
                 (f[0], g[0]) = (f[0] - f0, g[0] - g0);
                 allowed = allowed.max(TOLERANCE * g0.abs());
@@ -105,7 +105,7 @@ fn equal(x: &Robot, y: &Robot, name: &str) {
     }
 }
 
-/// The closed form that stands in the file's comment.
+/// The closed form in the file's comment.
 #[test]
 fn the_double_pendulum_is_the_textbooks() {
     let robot = robot("double_pendulum");
@@ -180,7 +180,7 @@ fn the_torsos_right_arm_mirrors_the_left() {
     let mut rng = Rng::new(3);
     for k in 0..STATES {
         let s = State::random(&mut rng, &robot.motions());
-        // Its mirror image: arms exchanged, the waist turned the other way.
+        // Its mirror image: arms exchanged, the waist rotated the other way.
         let mirrored = |x: &[f64]| {
             let mut y: Vec<f64> = x.iter().map(|x| -x).collect();
             for (&l, &r) in left.iter().zip(&right) {

@@ -1,4 +1,5 @@
-//! The generated text, stored beside the tests: a change of what is emitted is seen in review.
+//! Compares the generated text with the text stored beside the tests, so that reviews show a change of the
+//! output.
 //!
 //! The stored text was written by another process; `tests/compiled` compares the text of every spec
 //! between two processes.
@@ -25,7 +26,7 @@ fn text_of_the_scara() {
     insta::assert_snapshot!(text("scara.yaml"));
 }
 
-/// The literal sum, whose text is the longer one, cut into blocks where it is too long.
+/// The literal sum, whose text is longer, cut into blocks if it is too long.
 #[test]
 fn text_of_the_literal_sum() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/double_pendulum.yaml");

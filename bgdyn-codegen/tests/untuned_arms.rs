@@ -1,7 +1,7 @@
-//! Arms that no tuning has seen: inverse dynamics takes at least 15 % fewer operations than the
-//! plain recursion in link axes with base parameters, which `common/baseline.rs` makes by itself.
+//! Checks arms that were not used for tuning: inverse dynamics takes at least 15 % fewer operations than
+//! the plain recursion in link axes with base parameters of `common/baseline.rs`.
 //!
-//! `docs/outside.md` holds the counts. After a wanted change:
+//! `docs/outside.md` contains the counts. After an intended change:
 //! `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test untuned_arms`.
 
 mod common;
@@ -17,13 +17,13 @@ use common::baseline::{Moment, Zero, inverse_dynamics, operations};
 use common::rng::Rng;
 use common::{Robot, State, assert_close, golden, natural_effort};
 
-/// How much less than the baseline is asked for.
+/// The required saving relative to the baseline.
 const LESS: f64 = 0.15;
 
 /// Of double-double results, relative to their natural size.
 const EXACT: f64 = 1e-26;
 
-/// Specs of `tests/outside`, and what they are.
+/// Specs of `tests/outside`, with descriptions.
 const ARMS: [(&str, &str); 9] = [
     ("rx90", "Stäubli RX-90"),
     ("kr6", "KUKA KR 6 R900"),
@@ -91,7 +91,7 @@ fn the_baseline_counts_what_others_count() {
         let found = total(&operations(&golden::robot(name).mechanism, Moment::Tensor)) as f64;
         let near = |other: usize, share: f64| (found / other as f64 - 1.0).abs() <= share;
         assert!(near(study, 0.02), "{name}: {found}, {study} in the study");
-        // OpenSYMORO knows a few more shortcuts for parallel axes.
+        // OpenSYMORO has a few more simplifications for parallel axes.
         assert!(
             near(symbolic, 0.18),
             "{name}: {found}, {symbolic} by OpenSYMORO"

@@ -1,5 +1,5 @@
-//! The generator's check of its own work: every spec and every scene passes, and functions with a
-//! mistake of each known kind do not.
+//! Tests the generator's own verification: every spec and every scene passes, and functions with an error
+//! of each known kind do not.
 
 use std::path::{Path, PathBuf};
 
@@ -54,7 +54,7 @@ fn all() -> Options {
     }
 }
 
-/// Every function, scenes' Jacobian and canonical form with them.
+/// Returns every function, including scenes' Jacobian and canonical form.
 fn functions(system: &SceneEquations) -> Vec<Function> {
     let options = Options {
         jacobian: true,
@@ -125,7 +125,7 @@ links:
     inertia: { xx: 0.001, yy: 0.002, zz: 0.002 }
 ";
 
-/// The arm with a full rotor of the elbow on this link.
+/// Returns the arm with a full rotor of the elbow on this link.
 fn with_rotor(on: &str) -> SceneEquations {
     let text = format!(
         "scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products, gravity, motor: \
@@ -134,7 +134,8 @@ fn with_rotor(on: &str) -> SceneEquations {
     scene(&text, ARM)
 }
 
-/// A full rotor on any link, before its joint, on the link that this moves, and beyond: in every function.
+/// A full rotor on any link, inboard of its joint, on the link that it moves, and outboard: in every
+/// function.
 #[test]
 fn full_rotors_on_any_link_pass() {
     for on in ["upper", "fore", "hand"] {
@@ -144,7 +145,7 @@ fn full_rotors_on_any_link_pass() {
     }
 }
 
-/// Axes as they are (`snap: 0`), almost coordinate axes and almost opposite: in every method.
+/// Axes without snapping (`snap: 0`), almost coordinate axes and almost opposite: in every method.
 #[test]
 fn noisy_axes_pass() {
     for off in [1e-17, 1e-16, 3e-15, 1e-13] {
@@ -163,7 +164,8 @@ fn noisy_axes_pass() {
     }
 }
 
-/// The functions found to differ from those of `right`, where they are made from a changed graph.
+/// Returns the functions that are found to differ from those of `right`, if they are made from a changed
+/// graph.
 fn found(
     right: &SceneEquations,
     change: impl Fn(&mut BondGraph),
@@ -190,7 +192,7 @@ fn names(found: &[Difference]) -> Vec<&str> {
     found.iter().map(|d| d.function.as_str()).collect()
 }
 
-/// A mass matrix that lacks what a full rotor has about the axis of its own joint: 2 N J e·z.
+/// A mass matrix without a full rotor's entry about the axis of its own joint, 2 N J e·z.
 #[test]
 fn a_rotor_left_out_of_the_mass_matrix_is_found() {
     let right = with_rotor("hand");
@@ -215,7 +217,7 @@ fn a_rotor_left_out_of_the_mass_matrix_is_found() {
     assert_eq!(names(&inverse), ["inverse"], "{inverse:?}");
 }
 
-/// A Jacobian that leaves full rotors out.
+/// A Jacobian without full rotors.
 #[test]
 fn a_rotor_left_out_of_the_jacobian_is_found() {
     let right = with_rotor("upper");
@@ -236,7 +238,7 @@ fn a_rotor_left_out_of_the_jacobian_is_found() {
     assert_eq!(names(&differing), ["jacobian"], "{differing:?}");
 }
 
-/// Axes of a link that are not orthogonal, or point the other way.
+/// Axes of a link that are not orthogonal, or have the opposite direction.
 #[test]
 fn wrong_axes_are_found_in_every_method() {
     let graph = bond_graph::build(&mechanism(ARM, "arm"));
@@ -268,7 +270,7 @@ fn wrong_axes_are_found_in_every_method() {
     }
 }
 
-/// Each function of a scene that is compared, with the sign of one of its outputs turned.
+/// Each compared function of a scene, with the sign of one of its outputs changed.
 #[test]
 fn a_turned_sign_is_found_in_every_function_of_a_scene() {
     let right = with_rotor("hand");
@@ -301,7 +303,7 @@ fn a_turned_sign_is_found_in_every_function_of_a_scene() {
     }
 }
 
-/// Each method alone, with the sign of one of its outputs turned.
+/// Each method alone, with the sign of one of its outputs changed.
 #[test]
 fn a_turned_sign_is_found_in_every_method() {
     let model = bgdyn_codegen::pipeline::model(mechanism(ARM, "arm"), &all()).expect("a model");
@@ -319,7 +321,7 @@ fn a_turned_sign_is_found_in_every_method() {
     };
     for function in &model.functions {
         let values = function.evaluate(inputs.clone()).0;
-        // The effort of gravity at the vertical shoulder is zero, or a rounding.
+        // The effort of gravity at the vertical shoulder is zero, or a rounding error.
         let sized = values
             .iter()
             .enumerate()
@@ -360,7 +362,7 @@ fn a_difference_names_all_that_is_needed_to_see_it() {
     }
 }
 
-/// Nothing moves, so there is nothing to compare but energies and poses.
+/// Without coordinates only energies and poses are compared.
 #[test]
 fn a_mechanism_without_coordinates_passes() {
     let text = "format: 1\nlinks:\n  - name: post\n    joint: { type: fixed, origin: { xyz: [1, 2, 3] } }\n    \

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::Span;
 
-/// The file meant by `written`: beside the calling source file, in the package's directory, or in
-/// its `specs/` and `specs/scenes/`. Two different files of that name are an error, and so is none.
+/// Returns the file named `written`: beside the calling source file, in the package's directory, or in its
+/// `specs/` and `specs/scenes/`. It is an error if there are two different files of that name, or none.
 pub(crate) fn find(written: &str, span: Span) -> Result<PathBuf, String> {
     choose(written, &places(span), &here())
 }
 
-/// The only file called `written` in the places; messages shorten paths below `here`.
+/// Returns the only file named `written` in the directories; messages shorten paths below `here`.
 fn choose(written: &str, places: &[PathBuf], here: &Path) -> Result<PathBuf, String> {
     let candidates: Vec<PathBuf> = places.iter().map(|p| p.join(written)).collect();
     let mut found: Vec<(PathBuf, &PathBuf)> = Vec::new();
@@ -28,7 +28,7 @@ fn choose(written: &str, places: &[PathBuf], here: &Path) -> Result<PathBuf, Str
             .collect()
     };
     match found.as_slice() {
-        // By the name it was asked for, which a link's target need not have.
+        // Under the requested name, which can differ from that of a link's target.
         [(_, only)] => Ok((*only).clone()),
         [] => Err(format!(
             "bgdyn: no file `{written}`; looked for{}",
@@ -41,19 +41,19 @@ fn choose(written: &str, places: &[PathBuf], here: &Path) -> Result<PathBuf, Str
     }
 }
 
-/// The directory in which the compiler runs: the root of the workspace, as a rule.
+/// Returns the directory in which the compiler runs: usually the root of the workspace.
 fn here() -> PathBuf {
     std::env::current_dir().unwrap_or_default()
 }
 
-/// The path as rustc shows paths: from the directory in which it runs, if below that.
+/// Returns the path as rustc prints paths: relative to the directory in which it runs, if below that.
 fn shown<'p>(path: &'p Path, here: &Path) -> &'p Path {
     path.strip_prefix(here).unwrap_or(path)
 }
 
 fn places(span: Span) -> Vec<PathBuf> {
     let mut places = Vec::new();
-    // An editor's server may not know the source file; what it knows is enough.
+    // An editor's server may not know the source file; the other directories are sufficient.
     if let Some(source) = span.unwrap().local_file()
         && let Some(folder) = source.parent()
     {
@@ -68,7 +68,7 @@ fn places(span: Span) -> Vec<PathBuf> {
     places
 }
 
-/// The file's name.
+/// Returns the file's name.
 pub(crate) fn file_name(path: &Path) -> String {
     path.file_name()
         .map(|n| n.to_string_lossy().into_owned())
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// A directory of this test's own, with empty files.
+    /// Creates a directory for this test, with empty files.
     fn scratch(name: &str, files: &[&str]) -> PathBuf {
         let root = std::env::temp_dir().join(format!("bgdyn-find-{name}-{}", std::process::id()));
         fs::remove_dir_all(&root).ok();
@@ -92,7 +92,7 @@ mod tests {
         root.canonicalize().expect("the directory is there")
     }
 
-    /// Where the macro looks when `src/main.rs` calls it.
+    /// Returns the file that the macro finds if `src/main.rs` calls it.
     fn search(root: &Path, written: &str) -> Result<PathBuf, String> {
         let places = ["src", "", "specs"].map(|p| root.join(p));
         let found = choose(written, &places, root);
@@ -137,7 +137,7 @@ mod tests {
             "bgdyn: `a.yaml` could mean any of\n  src/a.yaml\n  specs/a.yaml\n\
              write a path that leaves only one of them"
         );
-        // The same file by two ways is one.
+        // Two paths of the same file count as one.
         let places = [root.join("src"), root.join("specs/../src")];
         assert!(choose("a.yaml", &places, &root).is_ok());
         fs::remove_dir_all(root).expect("it was there");

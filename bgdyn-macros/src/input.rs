@@ -8,24 +8,24 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
-/// The options there are.
+/// All options.
 const KNOWN: &str = "canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, verify, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
     pub(crate) path: LitStr,
-    /// What is asked for.
+    /// The generator's options.
     pub(crate) options: Options,
     /// Another name for the module.
     pub(crate) module: Option<String>,
     /// The module's visibility.
     pub(crate) visibility: TokenStream,
-    /// Where the names in `methods` and `frames` stand.
+    /// Positions of the names in `methods` and `frames`.
     methods: Vec<Span>,
     frames: Vec<Span>,
-    /// The options, where they stand.
+    /// The options in the call.
     given: Vec<Ident>,
-    /// What is wrong with the options. The module is made all the same.
+    /// Errors of the options. The module is generated in spite of them.
     pub(crate) errors: Vec<syn::Error>,
 }
 
@@ -43,7 +43,7 @@ impl Parse for Input {
         };
         if let Err(error) = parsed.all(input) {
             parsed.errors.push(error);
-            // What is left means nothing without what went before.
+            // After an error the rest of the input has no meaning.
             input.parse::<TokenStream>()?;
         }
         Ok(parsed)
@@ -51,7 +51,7 @@ impl Parse for Input {
 }
 
 impl Input {
-    /// The error on a name or an option that has no place here.
+    /// Returns the error of a name or an option that is not valid here.
     pub(crate) fn error(&self, unknown: &Unknown) -> syn::Error {
         let span = match unknown.option {
             Asked::Methods => self.methods.get(unknown.index).copied(),
@@ -139,7 +139,7 @@ impl Input {
     }
 }
 
-/// `[name, name]`
+/// Parses `[name, name]`.
 fn list(input: ParseStream<'_>) -> syn::Result<(Vec<Span>, Vec<String>)> {
     let content;
     syn::bracketed!(content in input);
@@ -147,7 +147,7 @@ fn list(input: ParseStream<'_>) -> syn::Result<(Vec<Span>, Vec<String>)> {
     Ok(names.iter().map(|n| (n.span(), n.to_string())).unzip())
 }
 
-/// `pub`, `pub(crate)`, `pub(self)`, `pub(in path)`
+/// Parses `pub`, `pub(crate)`, `pub(self)`, `pub(in path)`.
 fn visibility(input: ParseStream<'_>) -> syn::Result<TokenStream> {
     let mut visibility = input.parse::<Token![pub]>()?.to_token_stream();
     if input.peek(syn::token::Paren) {

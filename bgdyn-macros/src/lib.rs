@@ -1,7 +1,7 @@
 //! The procedural macro [`bgdyn!`]: finds the spec, calls bgdyn-codegen, reports errors.
 //!
-//! Units, frames, the order of spatial vectors and the sign of gravity of what it generates are said
-//! in the documentation of the crate `bgdyn-runtime`, which is `bgdyn::runtime`.
+//! The documentation of the crate `bgdyn-runtime`, which is `bgdyn::runtime`, defines units, frames, the
+//! order of spatial vectors and the sign of gravity of generated code.
 #![forbid(unsafe_code)]
 
 mod find;
@@ -24,10 +24,10 @@ use input::Input;
 /// bgdyn::bgdyn!("scara.yaml"); // pub mod scara { pub struct Scara … }
 /// ```
 ///
-/// The path is looked up beside the calling source file, then in the package's directory, then in
-/// its `specs/` and `specs/scenes/`. A file whose first key is `scene` is a scene: a mechanism with
-/// the effects that a run calls for. The module is called after the file, up to its first dot. A change of the file
-/// rebuilds the crate.
+/// The file is searched for beside the calling source file, then in the package's directory, then in its
+/// `specs/` and `specs/scenes/`. A file whose first key is `scene` is a scene: a mechanism with the
+/// effects of a run. The module has the file's name, up to its first dot. A change of the file rebuilds
+/// the crate.
 ///
 /// Options, in any order:
 ///
@@ -44,8 +44,8 @@ use input::Input;
 /// | `module = left_arm` | another name for the module; the struct keeps the file's |
 /// | `visibility = pub(crate)` | of the module, instead of `pub` |
 ///
-/// A spec with faults gives one error that lists them all. The module is there all the same, with
-/// everything that can be named, so that no call adds an error of its own.
+/// A spec with faults gives one error that lists them all. The module is generated in spite of them, with
+/// all names that a caller can use, so that no call adds an error of its own.
 #[proc_macro]
 pub fn bgdyn(input: TokenStream) -> TokenStream {
     let input = syn::parse_macro_input!(input as Input);
@@ -61,7 +61,7 @@ pub fn bgdyn(input: TokenStream) -> TokenStream {
     code.into()
 }
 
-/// Why there is no module, and what stands in for it.
+/// The reason why there is no module, and the replacement module.
 struct Refused {
     errors: Vec<syn::Error>,
     stand_in: Option<proc_macro2::TokenStream>,
@@ -147,7 +147,7 @@ fn module(
     }
 }
 
-/// The path by which the calling crate reaches bgdyn, renamed or not.
+/// Returns the path of bgdyn in the calling crate, also if it is renamed.
 fn crate_path() -> Result<proc_macro2::TokenStream, Refused> {
     use proc_macro_crate::{FoundCrate, crate_name};
     match crate_name("bgdyn") {

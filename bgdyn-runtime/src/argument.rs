@@ -1,10 +1,10 @@
-//! Arguments of generated functions, as a failed function shows them.
+//! Arguments of generated functions, as the error of a failed function names them.
 
-/// What a generated function shows its arguments to, one after the other, after it has failed: the
-/// argument, the names of its components, their values.
+/// A callback that receives the arguments of a failed function, one after the other: the argument, the
+/// names of its components, their values.
 pub type Look<'a, T> = dyn FnMut(Argument, &'static [&'static str], &[T]) + 'a;
 
-/// An argument of a function that has an error.
+/// An argument of a generated function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Argument {
@@ -29,7 +29,7 @@ pub enum Argument {
 }
 
 impl Argument {
-    /// Its name in signatures.
+    /// Returns the argument's name in signatures.
     pub const fn name(self) -> &'static str {
         match self {
             Argument::Q => "q",

@@ -4,19 +4,19 @@ use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use crate::Scalar;
 
-/// The vector of these entries.
+/// Returns the vector with the given entries.
 #[inline(always)]
 pub fn vector<T, const N: usize>(entries: [T; N]) -> SVector<T, N> {
     SVector::from_array_storage(ArrayStorage([entries]))
 }
 
-/// The matrix of these columns.
+/// Returns the matrix with the given columns.
 #[inline(always)]
 pub fn matrix<T, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatrix<T, R, C> {
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
 
-/// Copies what is below the diagonal to above it.
+/// Copies the entries below the diagonal to the entries above it.
 #[inline]
 pub fn mirror<T: Copy, const N: usize>(matrix: &mut SMatrix<T, N, N>) {
     let columns = &mut matrix.data.0;
@@ -27,11 +27,11 @@ pub fn mirror<T: Copy, const N: usize>(matrix: &mut SMatrix<T, N, N>) {
     }
 }
 
-/// Entries of a matrix that are inner products of a vector of their row and one of their column.
+/// Computes entries of a matrix as inner products of a vector of the row and a vector of the column.
 ///
-/// `rows[c][i]` is component c of the vector of row i; each run is a column with its first row and
-/// the row after its last, and has its column's vector at the same place in `columns`. Rows and
-/// columns that the matrix lacks are left out.
+/// `rows[c][i]` is component c of the vector of row i. A run is a column, its first row and the row after
+/// its last; run k uses the column vector at index k of `columns`. Rows and columns outside of the matrix
+/// are skipped.
 #[inline]
 pub fn inner_products<T, const N: usize, const L: usize, const C: usize, const K: usize>(
     matrix: &mut SMatrix<T, N, N>,

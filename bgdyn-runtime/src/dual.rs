@@ -1,8 +1,8 @@
-//! Implementation of [`Scalar`] for dual numbers: derivatives that are exact but for rounding.
+//! Implementation of [`Scalar`] for dual numbers: derivatives that are exact except for rounding.
 //!
-//! Comparisons, minima, maxima, signs and pivots are decided by the real part, as `==` on these
-//! types is. Real parts are those of `f64` (or `f32`) bit for bit, but after a division:
-//! `num-dual` multiplies by the reciprocal.
+//! Comparisons, minima, maxima, signs and pivots depend on the real part only, as `==` on these types
+//! does. Real parts equal those of `f64` (or `f32`) bit for bit, except after a division: `num-dual`
+//! multiplies by the reciprocal.
 
 use nalgebra::{Const, SVector};
 use num_dual::{Dual, Dual2, DualNum, DualVec, HyperDual};
@@ -12,10 +12,9 @@ use crate::singular::{failed, succeeded};
 use crate::two_sum::exact_sum;
 use crate::{Look, Scalar, Singular};
 
-/// What dual numbers may be made of: `f64`, `f32`, or dual numbers again (for derivatives of
-/// higher order).
+/// A component of dual numbers: `f64`, `f32`, or dual numbers again (for derivatives of higher order).
 pub trait DualPart: Scalar<Mask = bool, Refused = Option<usize>> + DualNum + Copy {
-    /// [`Scalar::sin_cos_sum`] of angles that need not lie in a slice.
+    /// [`Scalar::sin_cos_sum`] for angles that are not in a slice.
     fn sin_cos_of_all(
         angles: impl Iterator<Item = Self> + Clone,
         offset: (f64, f64),
@@ -38,14 +37,14 @@ macro_rules! float_part {
 
 float_part!(f64 f32);
 
-/// A function's value and first two derivatives at the real part.
+/// Value and first two derivatives of a function at the real part.
 type Taylor<T> = [T; 3];
 
 /// The chain rule.
 trait Chain: Copy {
     type Part: DualPart;
 
-    /// The function applied to a dual number.
+    /// Applies a function to a dual number.
     fn chain(self, f: Taylor<Self::Part>) -> Self;
 }
 
@@ -133,7 +132,7 @@ macro_rules! dual_scalar {
                 self.chain([f0, f1, -((f0 + f0) * f1)])
             }
 
-            // The derivative at 0 is 0.
+            // The derivative at 0 is taken as 0.
             fn abs(self) -> Self {
                 let (f0, f1) = (Scalar::abs(self.re), Scalar::sign(self.re));
                 self.chain([f0, f1, number(0.0)])
@@ -199,7 +198,7 @@ macro_rules! dual_scalar {
                 offset: (f64, f64),
             ) -> (Self, Self) {
                 let (s, c) = T::sin_cos_of_all(angles.clone().map(|x| x.re), offset);
-                // Derivatives add; the real part of this sum is not used.
+                // The derivatives add. The real part of this sum is not used.
                 let zero = <Self as Scalar>::from_f64(0.0);
                 let sum = angles.fold(zero, |sum, x| sum + x);
                 (sum.chain([s, c, -s]), sum.chain([c, -s, -c]))

@@ -11,9 +11,9 @@ use crate::{Look, Scalar, Singular};
 /// How many units in the last place of the subtracted terms a pivot must exceed.
 const PIVOT_ULPS: f64 = 64.0;
 
-/// What lanes and dual numbers need of the numbers they are made of.
+/// Operations on the components of lanes and of dual numbers.
 pub(crate) trait Float: TwoWord {
-    /// A pivot must exceed this many times the terms it was subtracted from.
+    /// A pivot must be larger than this number times the terms that were subtracted in it.
     const PIVOT_FLOOR: Self;
 }
 
@@ -24,8 +24,8 @@ macro_rules! float_scalar {
             type Refused = Option<usize>;
             type Singular<const N: usize> = Singular;
 
-            // Always: of constants, nothing is left of it but a constant, also where a compiler saves
-            // space and `f64` would be computed in software.
+            // Always inlined: a constant argument becomes a constant, also when the compiler optimises for
+            // size and `f64` would be computed in software.
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 x as $float
@@ -115,8 +115,8 @@ macro_rules! float_scalar {
                 refused: &mut Option<usize>,
             ) -> Self {
                 let floor = magnitude * Self::PIVOT_FLOOR;
-                // Written so that a NaN on either side is refused, and without `self > 0`, which
-                // together with infinity is compiled to thirty instructions on bits.
+                // These comparisons also refuse a NaN on either side. They avoid `self > 0`, which
+                // together with infinity compiles to thirty instructions on bits.
                 let floor = if floor < 0.0 { 0.0 } else { floor };
                 note_refused(self > floor && self < $float::INFINITY, joint, refused);
                 self
@@ -141,7 +141,7 @@ macro_rules! float_scalar {
         }
 
         impl TwoWord for $float {
-            // As `from_f64`.
+            // Always inlined, as `from_f64`.
             #[inline(always)]
             fn two_words(hi: f64, lo: f64) -> (Self, Self) {
                 let sum = hi as $float;

@@ -1,16 +1,16 @@
-//! Motions and limits of joints, as generated modules state them.
+//! Motions and limits of joints.
 
 /// The motion that a joint allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// About the axis: the coordinate is an angle, rad.
+    /// A rotation about the axis: the coordinate is an angle, rad.
     Rotation,
-    /// Along the axis: the coordinate is a displacement, m.
+    /// A translation along the axis: the coordinate is a displacement, m.
     Translation,
 }
 
-/// Limits of a joint as its spec states them; infinite where it states none. Generated functions
-/// clip nothing.
+/// Limits of a joint from its spec; infinite if the spec states none. Generated functions do not enforce
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Smallest coordinate: rad, m.

@@ -1,9 +1,8 @@
-//! Implementation of [`Scalar`] for the lanes of a SIMD register: several states at once.
+//! Implementation of [`Scalar`] for the lanes of a SIMD register, which compute several states together.
 //!
-//! Lane k of every result equals, bit for bit, what `f64` (or `f32`) makes of lane k of the
-//! inputs. Sines and cosines are computed in the lanes, but for large angles (`sine/`); the ones of
-//! `wide` lose the reduction of large angles. The other elementary functions are those of the scalar,
-//! lane by lane.
+//! Lane k of every result equals, bit for bit, the result of `f64` (or `f32`) for lane k of the arguments.
+//! Sines and cosines are computed in the lanes, except for large angles (`sine/`); those of `wide` lose
+//! accuracy for large angles. The other elementary functions are those of the scalar, lane by lane.
 
 use core::fmt;
 
@@ -16,23 +15,23 @@ use crate::singular::{sum, zero_if_finite};
 use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 
-/// There are no accelerations in at least one lane; the other lanes have theirs.
+/// The error if at least one lane has no accelerations; the other lanes have theirs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LaneSingular<T: nalgebra::Scalar, const LANES: usize, const N: usize> {
-    /// The accelerations; 0 in lanes that failed.
+    /// The accelerations; 0 in failed lanes.
     pub accelerations: SVector<T, N>,
-    /// For each lane its error; `None` where it succeeded.
+    /// The error of each lane; `None` if it succeeded.
     pub errors: [Option<Singular>; LANES],
 }
 
 impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> LaneSingular<T, LANES, N> {
-    /// The error of one lane; `None` where it succeeded, or where there is no such lane.
+    /// Returns the error of one lane; `None` if it succeeded, or if the lane does not exist.
     pub fn lane(&self, lane: usize) -> Option<Singular> {
         self.errors.get(lane).copied().flatten()
     }
 
-    /// The lanes that failed, each with its error.
+    /// Returns the failed lanes, each with its error.
     pub fn failed(&self) -> impl Iterator<Item = (usize, Singular)> + '_ {
         (0..LANES).filter_map(|lane| Some((lane, self.lane(lane)?)))
     }
@@ -58,9 +57,9 @@ impl<T: nalgebra::Scalar, const LANES: usize, const N: usize> core::error::Error
 macro_rules! lane_scalar {
     ($($lanes:ident: $float:ident, $n:literal;)*) => {$(
         impl Scalar for $lanes {
-            /// All bits of a lane are set where the comparison holds.
+            /// All bits of a lane are set if the comparison is true.
             type Mask = Self;
-            /// Index of the joint, -1 for none.
+            /// Index of the joint; -1 for none.
             type Refused = Self;
             type Singular<const N: usize> = LaneSingular<Self, $n, N>;
 
@@ -69,7 +68,7 @@ macro_rules! lane_scalar {
                 Self::splat(x as $float)
             }
 
-            // One instruction where the target has it, else a product and a sum: never a call.
+            // One instruction if the target has it, else a product and a sum; never a call.
             #[inline]
             fn mul_add(self, b: Self, c: Self) -> Self {
                 $lanes::mul_add(self, b, c)
@@ -179,7 +178,7 @@ macro_rules! lane_scalar {
                     }
                 }
                 if finite.all() {
-                    // Only a sum was too large.
+                    // The accelerations are finite; only their sum was too large.
                     return None;
                 }
                 arguments(&mut |argument, components, values| {

@@ -1,29 +1,30 @@
-//! The runtime of generated code: `no_std`, no heap, no panic, no `unsafe` (on some Arm processors one instruction).
+//! The runtime library of generated code: `no_std`, no heap, no panic, no `unsafe` (except one instruction
+//! on some Arm processors).
 //!
 //! # Conventions, said once
 //! - SI units and radians; torques and rates are those of the joint.
 //! - x forward, y left, z up; gravity is the acceleration of free fall in world axes,
 //!   `[0, 0, -9.81]` unless the spec says otherwise.
 //! - Fixed-axis roll-pitch-yaw: R = Rz(yaw)·Ry(pitch)·Rx(roll).
-//! - A coordinate grows about or along its joint's axis, by the right hand; an effort is positive
-//!   where it drives its coordinate up. What `gravity` returns are efforts: those that hold the
+//! - A coordinate grows about or along its joint's axis, by the right-hand rule; an effort is positive if
+//!   it accelerates its coordinate in the positive direction. `gravity` returns the efforts that hold the
 //!   mechanism at rest.
-//! - A pose's columns are the frame's axes in world axes, its translation the frame's origin.
-//! - Spatial vectors list the angular part first. Velocities, Jacobians and J̇ v of a frame are in
-//!   world axes, their linear part that of the frame's origin.
+//! - A pose's columns are the frame's axes in world axes; its translation is the frame's origin.
+//! - Spatial vectors list the angular part first. Velocities, Jacobians and J̇ v of a frame are in world
+//!   axes; their linear part is that of the frame's origin.
 //! - An inertia tensor's off-diagonal entries are *minus* the products of inertia
 //!   (Kuzmin 2007, eq. 1); `ixy` always means the tensor's entry, as in URDF.
 //! - `q` positions, `v` velocities, `a` accelerations, `tau` joint efforts.
 //!
 //! # Features, off by default
 //! - `wide`: [`Scalar`] for the lanes of the crate `wide`, re-exported as `wide`. Stays `no_std`.
-//! - `num-dual`: [`Scalar`] for the dual numbers of the crate `num-dual`, re-exported as
-//!   `num_dual`. That crate needs `std`; this one still does not use it.
+//! - `num-dual`: [`Scalar`] for the dual numbers of the crate `num-dual`, re-exported as `num_dual`. That
+//!   crate needs `std`; this crate does not use it.
 //! - `serde`: `Serialize` and `Deserialize` for the structs of generated modules (run-time parameters,
 //!   a scene's `State` and `Input`), for [`Limits`] and [`Dd`]; re-exported as `serde`. Stays `no_std`.
-//! - `alloc`: [`StateVector`] for nalgebra's `DVector`, of a size known when running. Needs a heap.
+//! - `alloc`: [`StateVector`] for nalgebra's `DVector`, whose size is known at run time. Needs a heap.
 #![no_std]
-// But for one instruction on some Arm processors: see `sqrt.rs`.
+// The exception is one instruction on some Arm processors: see `sqrt.rs`.
 #![cfg_attr(
     not(all(target_arch = "arm", target_abi = "eabihf")),
     forbid(unsafe_code)
@@ -83,7 +84,7 @@ pub use system::{Balance, Canonical, Contact, HybridSystem, Slope};
 #[cfg(feature = "wide")]
 pub use wide;
 
-/// Without the feature `serde` nothing is implemented.
+/// Without the feature `serde` it expands to nothing.
 #[cfg(not(feature = "serde"))]
 #[doc(hidden)]
 #[macro_export]

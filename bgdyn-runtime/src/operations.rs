@@ -1,9 +1,9 @@
-//! Operation counts, as generated modules state them.
+//! Operation counts of generated functions.
 
 use core::fmt;
 use core::ops::AddAssign;
 
-/// How many operations of each kind a function executes.
+/// The number of operations of each kind that a function executes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
     /// Multiplications.
@@ -21,7 +21,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// The counts in the order of the fields.
+    /// Returns counts from an array in the order of the fields.
     pub const fn new([mul, add, div, sqrt, sincos, other]: [usize; 6]) -> Self {
         Operations {
             mul,
@@ -33,7 +33,7 @@ impl Operations {
         }
     }
 
-    /// Multiplications and additions together: what robots are compared by.
+    /// Returns the number of multiplications and additions, the usual measure to compare functions.
     pub fn total(&self) -> usize {
         self.mul + self.add
     }

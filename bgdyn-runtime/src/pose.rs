@@ -10,7 +10,7 @@ use crate::{Scalar, rotation};
 
 /// Axes and origin of a frame in the world, or in any other frame.
 ///
-/// A product of poses is read from left to right: with `a` the pose of A in the world and `b` the pose
+/// Products of poses are written from left to right: if `a` is the pose of A in the world and `b` the pose
 /// of B in A, `a * b` is the pose of B in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<T> {
@@ -21,7 +21,7 @@ pub struct Pose<T> {
 }
 
 impl<T: Scalar> Pose<T> {
-    /// The pose of the world itself: no turn, no displacement.
+    /// Returns the pose of the world in the world: no rotation, no displacement.
     pub fn identity() -> Self {
         let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
         Pose {
@@ -30,9 +30,9 @@ impl<T: Scalar> Pose<T> {
         }
     }
 
-    /// The pose of the world in this frame.
+    /// Returns the pose of the world in this frame.
     ///
-    /// The rotation is transposed, so that it must be orthogonal, as those of generated functions are.
+    /// The rotation is transposed, so it must be orthogonal; poses of generated functions are.
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.transpose();
         let translation = rotation::turn(&rotation, &self.translation).map(|x| -x);
@@ -42,31 +42,31 @@ impl<T: Scalar> Pose<T> {
         }
     }
 
-    /// A point given in the frame's axes, in the world's, m.
+    /// Transforms a point from the frame to the world, m.
     pub fn transform_point(&self, p: &Vector3<T>) -> Vector3<T> {
         let turned = self.transform_vector(p);
         turned.zip_map(&self.translation, |a, b| a + b)
     }
 
-    /// A direction given in the frame's axes, in the world's.
+    /// Transforms a direction from the frame's axes to world axes.
     pub fn transform_vector(&self, v: &Vector3<T>) -> Vector3<T> {
         rotation::turn(&self.rotation, v)
     }
 
-    /// A twist given in the frame's axes, in the world's: angular part first, rad/s and m/s.
+    /// Transforms a twist from the frame's axes to world axes: angular part first, rad/s and m/s.
     ///
-    /// Both halves are turned, and the point that the linear part belongs to stays: of a twist at the
-    /// frame's origin that is what `velocity_X` and `jacobian_world_X` mean.
+    /// Both parts are rotated, and the reference point of the linear part does not change. For a twist at
+    /// the frame's origin the result has the convention of `velocity_X` and `jacobian_world_X`.
     pub fn turn_twist(&self, twist: &SVector<T, 6>) -> SVector<T, 6> {
         let [angular, linear] = halves(twist).map(|half| self.transform_vector(&half));
         join(&angular, &linear)
     }
 
-    /// The twist of a body given in the frame, in the world: angular part first, rad/s and m/s.
+    /// Transforms the twist of a body from the frame to the world: angular part first, rad/s and m/s.
     ///
-    /// Axes and point both change: the linear part given is the velocity of the body's point at the
-    /// frame's origin, the one returned is that of its point at the world's origin, v + p × ω.
-    /// [`Pose::turn_twist`] keeps the point.
+    /// Axes and reference point change: the given linear part is the velocity of the body at the frame's
+    /// origin; the returned one is its velocity at the world's origin, v + p × ω. [`Pose::turn_twist`]
+    /// does not change the point.
     pub fn transform_twist(&self, twist: &SVector<T, 6>) -> SVector<T, 6> {
         let [angular, linear] = halves(twist).map(|half| self.transform_vector(&half));
         let [[x, y, z]] = self.translation.data.0;
@@ -75,17 +75,18 @@ impl<T: Scalar> Pose<T> {
         join(&angular, &linear.zip_map(&moment, |v, m| v + m))
     }
 
-    /// What is left from this pose to `target`, angular part first: the rotation vector that turns this
+    /// Returns the error from this pose to `target`, angular part first: the rotation vector from this
     /// orientation to the target's ([`rotation::between`]), rad, and the displacement of the origin, m.
     ///
-    /// World axes, and the order of `jacobian_world_X`: J v = k · error leads straight to the target.
+    /// The error is in world axes, in the order of `jacobian_world_X`: velocities with J v = k · error
+    /// lead straight to the target.
     pub fn error_to(&self, target: &Self) -> SVector<T, 6> {
         let angular = rotation::between(&self.rotation, &target.rotation);
         let linear = target.translation.zip_map(&self.translation, |a, b| a - b);
         join(&angular, &linear)
     }
 
-    /// As a homogeneous matrix.
+    /// Returns the pose as a homogeneous matrix.
     pub fn to_homogeneous(&self) -> Matrix4<T> {
         let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
         Matrix4::from_fn(|i, j| match (i, j) {
@@ -110,7 +111,7 @@ fn join<T: Scalar>(angular: &Vector3<T>, linear: &Vector3<T>) -> SVector<T, 6> {
 impl<T: Scalar> Mul for Pose<T> {
     type Output = Self;
 
-    /// The pose of a frame given in this one, in what this one is given in.
+    /// Composes two poses: `inner` is given in the frame of `self`.
     fn mul(self, inner: Self) -> Self {
         Pose {
             rotation: rotation::product(&self.rotation, &inner.rotation),
@@ -119,7 +120,7 @@ impl<T: Scalar> Mul for Pose<T> {
     }
 }
 
-/// The same placement with a unit quaternion in place of the matrix.
+/// Converts the rotation matrix to a unit quaternion.
 impl<T: RealField> From<Pose<T>> for Isometry3<T> {
     fn from(pose: Pose<T>) -> Self {
         let rotation = Rotation3::from_matrix_unchecked(pose.rotation);
@@ -128,7 +129,7 @@ impl<T: RealField> From<Pose<T>> for Isometry3<T> {
     }
 }
 
-/// The same placement with a matrix in place of the unit quaternion.
+/// Converts the unit quaternion to a rotation matrix.
 impl<T: RealField> From<Isometry3<T>> for Pose<T> {
     fn from(isometry: Isometry3<T>) -> Self {
         Pose {

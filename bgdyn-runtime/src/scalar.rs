@@ -1,4 +1,4 @@
-//! The trait [`Scalar`], by which every generated function is generic.
+//! The trait [`Scalar`], the number type of generated functions.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -11,9 +11,9 @@ use crate::argument::Look;
 /// ([`crate::Dd`]), lanes of a SIMD register, dual numbers, or a type of your own (one that
 /// counts its operations, say).
 ///
-/// Every generated function is generic over it. Comparisons give a [`Scalar::Mask`] rather than a
-/// `bool`, and a failed pivot is a value rather than an early return, so that lanes and scalars
-/// run the same straight line of code.
+/// Every generated function is generic over it. Comparisons return a [`Scalar::Mask`] instead of a `bool`,
+/// and a failed pivot is a value instead of an early return, so that lanes and scalars run the same
+/// straight-line code.
 pub trait Scalar:
     Copy
     + Debug
@@ -25,38 +25,39 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Outcome of a comparison: `bool`, or one truth value per lane.
+    /// Result of a comparison: `bool`, or one truth value per lane.
     type Mask: Copy + Debug;
 
-    /// Which joints had a pivot refused so far: none yet, or the first one (per lane).
+    /// The first joint whose pivot was refused, or none (per lane).
     type Refused: Copy + Debug;
 
-    /// What [`Scalar::finish`] returns where a mass matrix was singular.
+    /// The error of [`Scalar::finish`] if the mass matrix was singular.
     type Singular<const N: usize>: Debug;
 
-    /// The nearest value to `x`.
+    /// Returns the value nearest to `x`.
     fn from_f64(x: f64) -> Self;
 
-    /// The nearest value to the unevaluated sum `hi + lo`; `hi` is the sum's nearest `f64`.
+    /// Returns the value nearest to the unevaluated sum `hi + lo`; `hi` is the `f64` nearest to the sum.
     fn from_parts(hi: f64, lo: f64) -> Self {
         let _ = lo;
         Self::from_f64(hi)
     }
 
-    /// `self · b + c`, with one rounding where the machine has it for no more than two.
+    /// Returns `self · b + c`, with one rounding if the machine computes that as fast as a product and a
+    /// sum.
     fn mul_add(self, b: Self, c: Self) -> Self;
-    /// Square root.
+    /// Returns the square root.
     fn sqrt(self) -> Self;
-    /// Sine and cosine of an angle in radians.
+    /// Returns sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 
-    /// Sine and cosine of the exact sum of `angles` and `offset.0 + offset.1`, in radians.
+    /// Returns sine and cosine of the exact sum of `angles` and `offset.0 + offset.1`, in radians.
     ///
-    /// A plain sum loses |q|·eps of its angle; implementations carry the sum's tail into the sine.
-    /// The additions are part of the sine: they do not count as operations.
+    /// A rounded sum has an error of |q|·eps; implementations add the rounding error of the sum to the
+    /// angle. These additions belong to the sine: they do not count as operations.
     fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self);
 
-    /// Sines and cosines of all angles of a call, each as [`Scalar::sin_cos_sum`] gives it: `f64` and
+    /// Returns sines and cosines of all angles of a call, each as [`Scalar::sin_cos_sum`] does. `f64` and
     /// `f32` compute them in lanes.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(
@@ -69,44 +70,47 @@ pub trait Scalar:
         })
     }
 
-    /// e to the power of `self`.
+    /// Returns e to the power of `self`.
     fn exp(self) -> Self;
-    /// Natural logarithm.
+    /// Returns the natural logarithm.
     fn ln(self) -> Self;
-    /// Hyperbolic tangent.
+    /// Returns the hyperbolic tangent.
     fn tanh(self) -> Self;
-    /// Absolute value.
+    /// Returns the absolute value.
     fn abs(self) -> Self;
-    /// The smaller one; NaN where either is NaN.
+    /// Returns the smaller number; NaN where either is NaN.
     fn min(self, other: Self) -> Self;
-    /// The larger one; NaN where either is NaN.
+    /// Returns the larger number; NaN where either is NaN.
     fn max(self, other: Self) -> Self;
-    /// −1, 0 or 1 with the sign of `self`; 0 for ±0, NaN for NaN.
+    /// Returns −1, 0 or 1 with the sign of `self`; 0 for ±0, NaN for NaN.
     fn sign(self) -> Self;
 
-    /// `self < other`; false where either is NaN.
+    /// Returns `self < other`; false where either is NaN.
     fn less(self, other: Self) -> Self::Mask;
-    /// `a` where the mask holds, else `b`.
+    /// Returns `a` where the mask is true, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
 
-    /// No pivot refused.
+    /// Returns the value for "no pivot refused".
     fn none_refused() -> Self::Refused;
 
-    /// Checks a pivot of a factorisation of the mass matrix. `self` came out of subtractions whose
-    /// terms were as large as `magnitude`.
+    /// Checks a pivot of a factorisation of the mass matrix. `self` is the result of subtractions whose
+    /// terms had the size `magnitude`.
     ///
-    /// Notes `joint` in `refused` (the first one stays) where `self` is not positive and finite, or does
-    /// not stand clear of the rounding error of those terms. Gives `self` either way: a division need not
-    /// wait for the comparisons, and [`Scalar::finish`] throws away what a refused pivot led to.
+    /// Records `joint` in `refused` (an earlier joint is not overwritten) if `self` is not positive and
+    /// finite, or is not larger than the rounding error of those terms. Returns `self` in either case: a
+    /// division need not wait for the comparisons, and [`Scalar::finish`] discards results of a refused
+    /// pivot.
     fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Self::Refused) -> Self;
 
-    /// Whether no pivot was refused and the sum of the accelerations is finite: then so are they all.
+    /// Returns whether no pivot was refused and the sum of the accelerations is finite; then all
+    /// accelerations are finite.
     fn succeeded<const N: usize>(accelerations: &SVector<Self, N>, refused: Self::Refused) -> bool;
 
-    /// The error that names the joint, where [`Scalar::succeeded`] is false: of a refused pivot, or of an
-    /// acceleration that is not finite; `None` where only the sum of the accelerations was too large.
-    /// `names` are those of the model's joints. `arguments` shows the arguments of the function that failed:
-    /// the first one that is NaN or infinite is the cause. A scalar may be slow here.
+    /// Returns the error if [`Scalar::succeeded`] is false: it names the joint of a refused pivot, or of
+    /// an acceleration that is not finite. Returns `None` if only the sum of the accelerations overflowed.
+    /// `names` are the names of the model's joints. `arguments` passes the arguments of the failed
+    /// function to a callback; the first component that is NaN or infinite is reported as the cause. This
+    /// function may be slow.
     fn failed<const N: usize>(
         accelerations: SVector<Self, N>,
         refused: Self::Refused,
@@ -114,10 +118,10 @@ pub trait Scalar:
         arguments: impl FnOnce(&mut Look<'_, Self>),
     ) -> Option<Self::Singular<N>>;
 
-    /// The accelerations, unless they have an error: [`Scalar::succeeded`] and [`Scalar::failed`] together.
+    /// Returns the accelerations or their error: [`Scalar::succeeded`] and [`Scalar::failed`] together.
     ///
     /// # Errors
-    /// Those of [`Scalar::failed`].
+    /// The error of [`Scalar::failed`].
     #[inline]
     fn finish<const N: usize>(
         accelerations: SVector<Self, N>,

@@ -1,6 +1,6 @@
 //! Serialisation by serde: generated structs, joint limits, double-doubles.
 //!
-//! Reading is strict: an unknown, missing or repeated field is an error of serde's.
+//! Deserialisation is strict: an unknown, missing or repeated field is an error of serde.
 
 use core::fmt;
 
@@ -51,7 +51,7 @@ macro_rules! __serde {
     };
 }
 
-/// Writes a struct of these fields.
+/// Serialises a struct with these fields.
 #[doc(hidden)]
 pub fn __write_fields<T: Serialize, S: Serializer>(
     serializer: S,
@@ -65,7 +65,7 @@ pub fn __write_fields<T: Serialize, S: Serializer>(
     writer.end()
 }
 
-/// Reads a struct of these fields; `space` is what their array holds before they are read.
+/// Deserialises a struct with these fields; `space` is the initial content of their array.
 #[doc(hidden)]
 pub fn __read_fields<'de, T, D, const N: usize>(
     deserializer: D,
@@ -90,7 +90,7 @@ where
 struct Fields<T, const N: usize> {
     name: &'static str,
     fields: &'static [&'static str],
-    /// Whether every field must be there; where one is not, it keeps its `space`.
+    /// Whether every field is required; a missing optional field has its value of `space`.
     needed: bool,
     space: T,
 }
@@ -132,7 +132,7 @@ impl<'de, T: Copy + Deserialize<'de>, const N: usize> Visitor<'de> for Fields<T,
     }
 }
 
-/// The name of a field, or its number, as its number.
+/// A field, deserialised from its name or its index.
 struct Key(&'static [&'static str]);
 
 impl<'de> DeserializeSeed<'de> for Key {
@@ -168,7 +168,7 @@ impl Visitor<'_> for Key {
 
 const LIMITS: &[&str] = &["lower", "upper", "velocity", "effort"];
 
-/// A limit that is not stated, infinite, is written as nothing: not every format has infinities.
+/// Serialises infinite limits as `None`, because some formats have no infinities.
 impl Serialize for Limits {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let stated = |x: f64, none: f64| (x != none).then_some(x);
@@ -190,7 +190,7 @@ impl Serialize for Limits {
     }
 }
 
-/// A limit that is nothing, or missing, is infinite.
+/// Deserialises a limit that is `None` or missing as infinite.
 impl<'de> Deserialize<'de> for Limits {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let visitor = Fields {
@@ -211,7 +211,7 @@ impl<'de> Deserialize<'de> for Limits {
     }
 }
 
-/// Its two words, the larger one first: no digit is lost.
+/// Serialises the two words, the larger one first; no digit is lost.
 impl Serialize for Dd {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         (self.hi(), self.lo()).serialize(serializer)

@@ -1,4 +1,4 @@
-//! The error of accelerations that do not exist: which joint, and why.
+//! The error of accelerations that do not exist: the joint and the cause.
 
 use core::fmt;
 
@@ -7,29 +7,30 @@ use nalgebra::SVector;
 use crate::argument::{Argument, Look};
 use crate::scalar::Scalar;
 
-/// The accelerations do not exist. [`Singular::cause`] says why: an argument is NaN or infinite, or
-/// the pivot of `joint` in the mass matrix is no larger than the rounding error of the terms that
-/// were subtracted in it, so that the matrix is singular or not distinguishable from a singular one.
+/// The error that the accelerations do not exist. [`Singular::cause`] returns the cause: an argument is
+/// NaN or infinite, or the pivot of `joint` in the mass matrix is not larger than the rounding error of
+/// the terms that were subtracted in it, so that the matrix is singular or not distinguishable from a
+/// singular one.
 ///
-/// Where every body has a fair share of the inertia that its joint moves, M is never singular, and
-/// a factor of M is refused at 64 units of rounding of the entry it was computed from. Elsewhere
-/// (massless links, heavy loads on light links) a bound for the error is computed beside the pivot.
-// Two words, which are returned in registers. A larger error costs every call that returns a `Result`, also where it
-// succeeds.
+/// If the own inertia ratio of every joint is large enough, M is never singular, and a pivot of M is
+/// refused at 64 units of rounding of the entry it was computed from. Otherwise (massless links, heavy
+/// loads on light links) a bound for the error is computed together with the pivot.
+// Two words, which are returned in registers. A larger error makes every call that returns a `Result`
+// slower, also if it succeeds.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Singular {
     kind: Kind,
-    /// Of the joint; where an argument is the cause, of its component.
+    /// Index of the joint; if an argument is the cause, of its component.
     index: u32,
     name: &'static &'static str,
 }
 
-/// Why there are no accelerations.
+/// The cause of missing accelerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cause {
-    /// The joint has no inertia left to accelerate: its pivot was refused.
+    /// The pivot of the joint was refused: the joint has no inertia left to accelerate.
     Pivot,
     /// An argument of the function is NaN or infinite.
     Argument {
@@ -38,12 +39,12 @@ pub enum Cause {
         /// Index of the component.
         index: usize,
     },
-    /// The joint's acceleration, or a state's rate, is not finite although the arguments are: a number
-    /// is too large for the scalar, or the state is outside of what the model can be in.
+    /// The joint's acceleration, or a state's rate, is not finite although the arguments are: a number is
+    /// too large for the scalar, or the state is outside of the model's domain.
     NotFinite,
 }
 
-/// A [`Cause`] without its index, whose unused values `Option` and `Result` take.
+/// A [`Cause`] without its index, so that `Option` and `Result` can use its unused values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 enum Kind {
@@ -94,12 +95,13 @@ impl Kind {
 }
 
 impl Singular {
-    /// The error that the joint with this index has no inertia left; `names` are those of all joints.
+    /// Returns the error that the joint with this index has no inertia left; `names` are those of all
+    /// joints.
     pub fn new(joint: usize, names: &'static [&'static str]) -> Self {
         Singular::of_kind(Kind::Pivot, joint, names)
     }
 
-    /// The error that the joint with this index has an acceleration that is not finite.
+    /// Returns the error that the joint with this index has an acceleration that is not finite.
     pub(crate) fn not_finite(joint: usize, names: &'static [&'static str]) -> Self {
         Singular::of_kind(Kind::NotFinite, joint, names)
     }
@@ -110,25 +112,25 @@ impl Singular {
         Singular { kind, index, name }
     }
 
-    /// Index of the joint at which it was noticed, in the order of `JOINT_NAMES`; where an argument is the
-    /// cause, of its component.
+    /// Returns the index of the joint that failed, in the order of `JOINT_NAMES`; if an argument is the
+    /// cause, the index of its component.
     pub const fn joint(&self) -> usize {
         self.index as usize
     }
 
-    /// Why there are no accelerations.
+    /// Returns the cause.
     pub const fn cause(&self) -> Cause {
         self.kind.cause(self.joint())
     }
 
-    /// Name of the joint; where an argument is the cause, of its component: of a joint, of a part of a
-    /// scene's state, of a run-time parameter.
+    /// Returns the name of the joint; if an argument is the cause, the name of its component: of a joint,
+    /// of a part of a scene's state, of a run-time parameter.
     pub const fn name(&self) -> &'static str {
         self.name
     }
 
-    /// Looks at an argument: its first component that is not finite, with this index, is the cause, unless
-    /// an argument before it is.
+    /// Checks an argument: its first component that is not finite, with this index, becomes the cause,
+    /// unless an earlier argument already is.
     pub(crate) fn look(
         &mut self,
         argument: Argument,
@@ -182,7 +184,7 @@ impl fmt::Display for Cause {
     }
 }
 
-/// As a struct, with the cause in words: `unwrap` shows this.
+/// Formats it as a struct, with the cause in words; a failed `unwrap` prints this.
 impl fmt::Debug for Singular {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Singular")
@@ -195,7 +197,7 @@ impl fmt::Debug for Singular {
 
 impl core::error::Error for Singular {}
 
-/// [`crate::Scalar::checked_pivot`] for scalars that are one number.
+/// [`crate::Scalar::checked_pivot`] for scalars without lanes.
 #[inline]
 pub(crate) fn note_refused(ok: bool, joint: usize, refused: &mut Option<usize>) {
     if !ok && refused.is_none() {
@@ -203,7 +205,7 @@ pub(crate) fn note_refused(ok: bool, joint: usize, refused: &mut Option<usize>) 
     }
 }
 
-/// [`crate::Scalar::succeeded`] for scalars that are one number.
+/// [`crate::Scalar::succeeded`] for scalars without lanes.
 #[inline]
 pub(crate) fn succeeded<T: Scalar, const N: usize>(
     accelerations: &SVector<T, N>,
@@ -212,7 +214,7 @@ pub(crate) fn succeeded<T: Scalar, const N: usize>(
     refused.is_none() && zero_if_finite(sum(accelerations)) == T::from_f64(0.0)
 }
 
-/// [`crate::Scalar::failed`] for scalars that are one number.
+/// [`crate::Scalar::failed`] for scalars without lanes.
 #[cold]
 #[inline(never)]
 pub(crate) fn failed<T: Scalar, const N: usize>(
@@ -224,7 +226,7 @@ pub(crate) fn failed<T: Scalar, const N: usize>(
     let mut error = match (refused, first_not_finite(accelerations.as_slice())) {
         (Some(joint), _) => Singular::new(joint, names),
         (None, Some(joint)) => Singular::not_finite(joint, names),
-        // Only their sum was too large.
+        // The accelerations are finite; only their sum was too large.
         (None, None) => return None,
     };
     arguments(&mut |argument, components, values| {
@@ -233,21 +235,22 @@ pub(crate) fn failed<T: Scalar, const N: usize>(
     Some(error)
 }
 
-/// Sum of the accelerations. Where it is finite, so are they all: one comparison for all of them.
+/// Returns the sum of the accelerations. If it is finite, all accelerations are: one comparison checks
+/// all.
 #[inline]
 pub(crate) fn sum<T: Scalar, const N: usize>(accelerations: &SVector<T, N>) -> T {
     let all = accelerations.iter().copied();
     all.reduce(|sum, x| sum + x).unwrap_or(T::from_f64(0.0))
 }
 
-/// Index of the first value that is not finite.
+/// Returns the index of the first value that is not finite.
 #[cold]
 fn first_not_finite<T: Scalar>(values: &[T]) -> Option<usize> {
     let wild = |&x: &T| zero_if_finite(x) != T::from_f64(0.0);
     values.iter().position(wild)
 }
 
-/// 0 for finite numbers, NaN for others.
+/// Returns 0 for finite numbers, NaN for others.
 #[allow(clippy::eq_op, reason = "that is how")]
 #[inline]
 pub(crate) fn zero_if_finite<T: Scalar>(x: T) -> T {

@@ -1,27 +1,27 @@
-//! Square roots.
+//! Square roots of `f32` for targets with and without `std`.
 //!
-//! The only `unsafe` of the crate, and only where the target is an Arm whose calls pass numbers in the
-//! registers of an FPU: that one has an instruction for the root, which no safe function of `core` or
-//! `libm` reaches; `libm` computes the root by whole numbers there, in some 60 instructions.
+//! This file has the only `unsafe` code of the crate, and only for Arm targets with the hard-float ABI:
+//! they have an instruction for the root that no safe function of `core` or `libm` uses; `libm` computes
+//! the root there with integers, in some 60 instructions.
 
-/// √x, correctly rounded; NaN of a negative x.
+/// Returns √x, correctly rounded; NaN for a negative x.
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline(always)]
 pub(crate) fn sqrt_f32(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
-/// √x, correctly rounded; NaN of a negative x.
+/// Returns √x, correctly rounded; NaN for a negative x.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[allow(unsafe_code)]
 #[inline(always)]
 pub(crate) fn sqrt_f32(x: f32) -> f32 {
     let mut bits = x.to_bits();
     // SAFETY: the ABI has single-precision registers, so the processor has VSQRT.F32. The compiler does
-    // not give out those registers here (it asks for a target feature that no target of microcontrollers
-    // names), so one is borrowed, and has its own number again at the end. The FPU's exception flags may
-    // change, and are not said to be preserved. Any value is taken; no memory and no stack is touched, and
-    // of one x always the same is made.
+    // not allocate those registers to operands here (it requires a target feature that no target of
+    // microcontrollers enables), so the code borrows one and restores its value at the end. The FPU's
+    // exception flags may change; they are not declared as preserved. Any input value is valid; the code
+    // touches no memory and no stack, and its result depends on x only.
     unsafe {
         core::arch::asm!(
             "vmov {own}, s0",

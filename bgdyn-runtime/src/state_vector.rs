@@ -1,4 +1,4 @@
-//! Vectors of scalars that scenes and integrators share: of a size known when compiling, or when running.
+//! Vectors of scalars that scenes and integrators share, of a size known at compile time or at run time.
 
 use core::fmt::Debug;
 
@@ -6,29 +6,29 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::Scalar;
 
-/// A vector that an integrator can work with, of a size known when compiling ([`SVector`]) or, with
-/// the feature `alloc`, when running (`DVector`).
+/// A vector of states for integrators, of a size known at compile time ([`SVector`]) or, with the feature
+/// `alloc`, at run time (`DVector`).
 pub trait StateVector: Clone + Debug + PartialEq {
-    /// What its components are.
+    /// The type of the components.
     type Scalar: Scalar;
-    /// A square matrix that maps such vectors to each other.
+    /// A square matrix that maps such vectors to such vectors.
     type Matrix: Clone + Debug;
     /// One value of any type per component.
     type Array<X: Copy + Debug + 'static>: Clone + Debug + AsRef<[X]> + AsMut<[X]> + 'static;
 
-    /// The components.
+    /// Returns the components.
     fn entries(&self) -> &[Self::Scalar];
-    /// The components, to be changed.
+    /// Returns the components, mutable.
     fn entries_mut(&mut self) -> &mut [Self::Scalar];
-    /// Zero, of the same size.
+    /// Returns a zero vector of the same size.
     fn zero(&self) -> Self;
-    /// The zero matrix.
+    /// Returns the zero matrix.
     fn matrix(&self) -> Self::Matrix;
-    /// The same value for every component.
+    /// Returns an array with the same value for every component.
     fn array<X: Copy + Debug + 'static>(&self, value: X) -> Self::Array<X>;
-    /// A matrix's entries, column by column.
+    /// Returns a matrix's entries, column by column.
     fn columns(matrix: &Self::Matrix) -> &[Self::Scalar];
-    /// A matrix's entries, column by column, to be changed.
+    /// Returns a matrix's entries, column by column, mutable.
     fn columns_mut(matrix: &mut Self::Matrix) -> &mut [Self::Scalar];
 
     /// Adds k·x.
@@ -38,14 +38,14 @@ pub trait StateVector: Clone + Debug + PartialEq {
         }
     }
 
-    /// self + k·x
+    /// Returns self + k·x.
     fn plus(&self, k: Self::Scalar, x: &Self) -> Self {
         let mut sum = self.clone();
         sum.add(k, x);
         sum
     }
 
-    /// k·self
+    /// Returns k·self.
     fn times(&self, k: Self::Scalar) -> Self {
         let mut product = self.clone();
         for x in product.entries_mut() {
@@ -54,7 +54,7 @@ pub trait StateVector: Clone + Debug + PartialEq {
         product
     }
 
-    /// matrix · self
+    /// Returns matrix · self.
     fn mapped(&self, matrix: &Self::Matrix) -> Self {
         let mut image = self.zero();
         let n = self.entries().len().max(1);
@@ -69,18 +69,18 @@ pub trait StateVector: Clone + Debug + PartialEq {
 
 /// One value of the type `X` per component of the vectors `V`.
 pub type ArrayOf<V, X> = <V as StateVector>::Array<X>;
-/// The square matrices that map the vectors `V` to each other.
+/// The square matrices that map vectors `V` to vectors `V`.
 pub type MatrixOf<V> = <V as StateVector>::Matrix;
 
-/// A vector of a size known when compiling: a scene's state, its modes, inputs, events, outputs.
+/// A vector of a size known at compile time: a scene's state, its modes, inputs, events, outputs.
 pub trait FixedVector: StateVector + Copy {
     /// The number of components.
     const LEN: usize;
 
-    /// The vector of the components that `entry` gives, by their index.
+    /// Returns the vector with the components `entry(index)`.
     fn from_entries(entry: impl FnMut(usize) -> Self::Scalar) -> Self;
 
-    /// The zero vector.
+    /// Returns the zero vector.
     fn zero_vector() -> Self {
         Self::from_entries(|_| Self::Scalar::from_f64(0.0))
     }

@@ -1,28 +1,28 @@
-//! Decides which contacts hold and which slip, for all joints at rest together.
+//! Determines which contacts hold and which slip, for all joints at rest together.
 
 use crate::state_vector::StateVector;
 use crate::{Contact, HybridSystem, Scalar};
 
-/// The modes of a scene's dry friction at an instant: which of the joints at rest hold, and in which
-/// direction the others begin to slip.
+/// Returns the modes of a scene's dry friction at an instant: which of the joints at rest hold, and in
+/// which direction the others begin to slip.
 ///
-/// At rest are the joints that `modes` holds (0) and those that slip by no more than `rest`, the rest
-/// keep their modes. A joint that holds keeps the slip it has: set it to 0 before.
+/// Joints at rest are those with mode 0 in `modes` and those that slip by no more than `rest`. The other
+/// joints retain their modes. The slip of a joint that holds is not changed: set it to 0 before the call.
 ///
-/// The answer is consistent: whatever holds does so within its limit, whatever slips does not turn
-/// back at once. Where friction has one size at rest and in motion it is the only one, the solution
-/// of a linear complementarity problem whose matrix is a part of M⁻¹, and it is found by pivoting on
-/// the least index (Murty 1974; with bounds on both sides Júdice and Pires 1992): all are held at
-/// first, and as long as any is inconsistent, the first of these changes sides. Where rest holds more
-/// than slipping resists there may be several answers; a joint that broke away at this instant then
-/// holds no more than it resists slipping.
+/// The result is consistent: every contact that holds is within its limit, and no contact that slips
+/// reverses at once. If static and sliding friction are equal, the result is unique: the solution of a
+/// linear complementarity problem whose matrix is a submatrix of M⁻¹. It is found by pivoting on the least
+/// index (Murty 1974; with bounds on both sides Júdice and Pires 1992): at first all contacts hold, and as
+/// long as any is inconsistent, the first of these changes its mode. If static friction is larger than
+/// sliding friction, there can be several solutions; then a joint that broke away at this instant holds at
+/// most the effort of sliding friction.
 ///
 /// # Termination
-/// Take the problem with its last joint fixed as solved. That joint's slip acceleration, with the
-/// others so solved, rises with its friction, for the matrix is positive definite; so the joint
-/// changes sides twice at most, and by induction the whole ends. A joint breaks away from rest once.
-/// Rounding errors cannot go round in circles for ever either: the number of changes is bounded by
-/// that of all combinations.
+/// Suppose that the problem is solved with the mode of its last joint fixed. The slip acceleration of that
+/// joint, with the others solved, increases with its friction, because the matrix is positive definite. So
+/// the joint changes its mode at most twice, and by induction the algorithm ends. A joint breaks away from
+/// rest once. Rounding errors cannot cause an infinite loop either: the number of changes is at most that
+/// of all combinations.
 ///
 /// # Errors
 /// As [`HybridSystem::derivative`].
@@ -41,9 +41,9 @@ where
     resolve_stiction_by(modes, rest, |modes| system.contacts(y, modes, input, t))
 }
 
-/// The mode that a coordinate's slip calls for: 0 where it is at rest against its counterpart, which
-/// is a slip of no more than `rest` in size (rad/s, m/s, A), else the sign of the slip. One that slips
-/// the way its `mode` says keeps it, however slow it is.
+/// Returns the mode for a coordinate's slip: 0 if it is at rest against its counterpart, that is if the
+/// slip is at most `rest` in size (rad/s, m/s, A), else the sign of the slip. A coordinate that slips in
+/// the direction of its `mode` retains the mode at any speed.
 pub fn mode_by_slip<T: Scalar<Mask = bool>>(mode: T, slip: T, rest: T) -> T {
     let zero = T::from_f64(0.0);
     if zero.less(mode * slip) {
@@ -55,11 +55,11 @@ pub fn mode_by_slip<T: Scalar<Mask = bool>>(mode: T, slip: T, rest: T) -> T {
     }
 }
 
-/// [`resolve_stiction`] for contacts that come from elsewhere, of a number known when compiling or when
-/// running: `contacts` gives one per mode, at the modes it is asked for.
+/// [`resolve_stiction`] for contacts of any source, with a number of modes known at compile time or at run
+/// time: `contacts` returns one contact per mode, for given modes.
 ///
 /// # Errors
-/// Those of `contacts`.
+/// The errors of `contacts`.
 pub fn resolve_stiction_by<T, M, C, E>(
     modes: &M,
     rest: T,
@@ -81,7 +81,7 @@ where
             now.entries_mut()[k] = zero;
         }
     }
-    // Which broke away at this instant.
+    // Joints that broke away at this instant.
     let mut broken = modes.array(false);
     let broken = broken.as_mut();
     for _ in 0..combinations(count) {
@@ -93,7 +93,7 @@ where
             changed = if mode != zero {
                 turns_back(mode, &found[k]).then_some(zero)
             } else if broken[k] {
-                // Does it slip on against the effort of slipping?
+                // Check whether the joint continues to slip against sliding friction.
                 let mut tried = now.clone();
                 let slip = against(&found[k]);
                 tried.entries_mut()[k] = slip;
@@ -115,17 +115,18 @@ where
     Ok(now)
 }
 
-/// The direction in which a joint gives way: against the effort that held it.
+/// Returns the direction in which a joint breaks away: opposite to the effort that held it.
 fn against<T: Scalar>(contact: &Contact<T>) -> T {
     -contact.holding.sign()
 }
 
-/// Whether a joint that slips from rest in this direction would be pushed back.
+/// Returns whether a joint that slips from rest in this direction would be accelerated backwards.
 fn turns_back<T: Scalar<Mask = bool>>(mode: T, contact: &Contact<T>) -> bool {
     (mode * contact.slip_rate).less(T::from_f64(0.0))
 }
 
-/// More changes than there can be: every combination of `n` joints, anew each time one breaks away.
+/// Returns an upper bound on the number of changes: every combination of `n` joints, again each time one
+/// breaks away.
 fn combinations(n: usize) -> usize {
     let all = u32::try_from(n).ok().and_then(|n| 3_usize.checked_pow(n));
     all.map_or(usize::MAX, |all| all.saturating_mul(n + 1))

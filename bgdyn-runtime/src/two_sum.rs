@@ -4,12 +4,12 @@ use crate::Scalar;
 
 /// Constants in two words.
 pub(crate) trait TwoWord: Scalar {
-    /// The nearest value to `hi`, and the nearest to the rest of `hi + lo`.
+    /// Returns the value nearest to `hi`, and the value nearest to the remainder of `hi + lo`.
     fn two_words(hi: f64, lo: f64) -> (Self, Self);
 }
 
-/// The sum of `angles` and `offset`, rounded, and what the rounding leaves, but for a single angle;
-/// in any arithmetic that rounds as `f64` and `f32` do, lane by lane.
+/// Returns the sum of `angles` and `offset`, rounded, and its rounding error (`None` for a single angle).
+/// Works in any arithmetic that rounds as `f64` and `f32` do, lane by lane.
 #[inline(always)]
 pub(crate) fn exact_sum<T: TwoWord>(
     mut angles: impl Iterator<Item = T>,
@@ -25,8 +25,8 @@ pub(crate) fn exact_sum<T: TwoWord>(
     let mut sums = 0;
     for angle in angles {
         sums += 1;
-        // Knuth's two-sum: the rounding error of the addition, exactly. What is left of earlier ones
-        // joins the shorter of its two ways, so that nothing waits for it.
+        // Knuth's two-sum: the exact rounding error of the addition. The errors of earlier additions are
+        // added to the shorter of its two paths, so that nothing waits for them.
         let next = sum + angle;
         let back = next - sum;
         let left = angle - back;
@@ -38,11 +38,11 @@ pub(crate) fn exact_sum<T: TwoWord>(
         return (sum, None);
     };
     if sums == 1 {
-        // The tail is half a unit in the last place: where more than that is left of the offset, the
-        // angle has cancelled it, and has no digits that the offset's first word has not.
+        // The tail must be at most half a unit in the last place. If more than that is left of the offset,
+        // the angle has cancelled it and has no digits below those of the offset's first word.
         return (sum, Some(tail));
     }
-    // And once more, so that it is.
+    // A second two-sum makes the tail that small.
     let angle = sum + tail;
     let back = angle - sum;
     (angle, Some((sum - (angle - back)) + (tail - back)))

@@ -30,7 +30,7 @@ proptest! {
         }
     }
 
-    /// All but the last bits cancel.
+    /// All except the last bits cancel.
     #[test]
     fn sum_that_cancels(a in operand(-3..3), ulps in -4..4_i32, lo in -1.0..1.0) {
         let hi = f64::from_bits((a.hi().to_bits() as i64 + i64::from(ulps)) as u64);
@@ -45,7 +45,7 @@ proptest! {
         prop_assert!(relative(product, &(ex(a) * ex(b))) <= 4.0, "{a:?} * {b:?}");
     }
 
-    /// Where a factor is too large to be split, or the low word too small for it.
+    /// A factor is too large to be split, or the low word is too small.
     #[test]
     fn product_of_extremes(a in operand(900..1023), b in operand(-1000..-3)) {
         let reference = ex(a) * ex(b);
@@ -61,7 +61,7 @@ proptest! {
 
     #[test]
     fn quotient_of_extremes(a in operand(-960..1023), b in operand(900..1023)) {
-        // Where the quotient itself keeps its low word.
+        // Only if the quotient's low word does not underflow.
         if a.hi().abs().log2() - b.hi().abs().log2() > -900.0 {
             prop_assert!(relative(a / b, &(ex(a) / ex(b))) <= 4.0, "{a:?} / {b:?}");
         }
@@ -87,7 +87,7 @@ proptest! {
         }
     }
 
-    /// Infinities and NaN come out as such, and finite numbers of any size never give NaN.
+    /// Infinities and NaN are preserved, and finite numbers of any size never give NaN.
     #[test]
     fn specials(a in special(), b in special()) {
         let (x, y) = (a.hi(), b.hi());

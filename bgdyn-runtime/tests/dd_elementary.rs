@@ -10,7 +10,7 @@ use proptest::prelude::*;
 /// 2⁻¹⁰⁶.
 const UNIT: f64 = f64::EPSILON * f64::EPSILON / 4.0;
 
-/// The larger error of sine and cosine, as a multiple of 2⁻¹⁰⁶.
+/// Returns the larger error of sine and cosine, as a multiple of 2⁻¹⁰⁶.
 fn angle_error((s, c): (Dd, Dd), (sin, cos): &(Exact, Exact)) -> f64 {
     distance(s, sin, UNIT).max(distance(c, cos, UNIT))
 }
@@ -29,7 +29,7 @@ proptest! {
         prop_assert!(relative(x.sin_cos().0, &ex(x).sin()) <= 4.0, "{x:?}");
     }
 
-    /// Where the sine or the cosine nearly vanishes.
+    /// Angles at which the sine or the cosine almost vanishes.
     #[test]
     fn near_multiples_of_a_quarter_turn(quarters in -4000..4000_i32, off in operand(-100..-10)) {
         let x = Dd::FRAC_PI_2 * Dd::from_f64(f64::from(quarters)) + off;
@@ -42,7 +42,7 @@ proptest! {
     fn sum_of_angles(
         a in operand(0..51), b in operand(0..51), c in operand(-10..10), offset in operand(-2..3)
     ) {
-        // The last one takes most of the others back.
+        // The last one almost cancels the others.
         let angles = [a, b, c, -(a + b)];
         let sum = ex(a) + ex(b) + ex(c) - ex(a + b) + ex(offset);
         let sines = Dd::sin_cos_sum(&angles, (offset.hi(), offset.lo()));
@@ -80,7 +80,8 @@ proptest! {
     }
 }
 
-/// With bits enough for all the whole turns of the largest `f64`, and for the fraction that is left.
+/// Returns the angle with enough bits for all the whole turns of the largest `f64`, and for the remaining
+/// fraction.
 fn wide(angle: Exact) -> Exact {
     angle.with_precision(2600).value()
 }
@@ -88,9 +89,9 @@ fn wide(angle: Exact) -> Exact {
 #[test]
 fn sine_and_cosine_of_large_angles() {
     let given = [1e6, 1e12, 1e15, 1e22, 1e100, f64::MAX];
-    // The `f64` nearest to a multiple of π/2, relatively (Kahan).
+    // The `f64` with the smallest relative distance from a multiple of π/2 (Kahan).
     let kahan = 6381956970095103.0 * 2_f64.powi(797);
-    // All the digits of 1/2π have their turn.
+    // Exponents that use all digits of 1/2π.
     let ladder = (30..1024).step_by(32).map(|n| 1.2345 * 2_f64.powi(n));
     for x in given.into_iter().chain([kahan]).chain(ladder) {
         for lo in [0.0, 0.3, -0.4] {
@@ -103,7 +104,7 @@ fn sine_and_cosine_of_large_angles() {
     }
 }
 
-/// Digits from another source than the library the other tests compare with: mpmath, 60 digits.
+/// Digits from another library than the one for the other tests: mpmath, 60 digits.
 #[test]
 fn published_digits() {
     let digits = |text: &str| -> Exact {

@@ -17,7 +17,7 @@ fn decimal(text: &str) -> Exact {
         .with_rounding()
 }
 
-/// Checks that `text` is read to half a unit in the last place of the low word.
+/// Checks that `text` is parsed to half a unit in the last place of the low word.
 fn assert_read(text: &str) {
     let x: Dd = text.parse().unwrap();
     assert_eq!(x.hi(), text.parse::<f64>().unwrap(), "{text}");
@@ -61,7 +61,7 @@ fn texts_are_read() {
             assert_read(&format!("-{text}"));
         }
     }
-    // The exact value of 0.1_f64 leaves nothing for the low word.
+    // The low word of the exact value of 0.1_f64 is zero.
     let word: Dd = "0.1000000000000000055511151231257827021181583404541015625"
         .parse()
         .unwrap();
@@ -147,7 +147,7 @@ proptest! {
         }
     }
 
-    /// 32 digits hold a double-double to half of 1e-31 at worst.
+    /// 32 digits represent a double-double to half of 1e-31 at worst.
     #[test]
     fn written_numbers_are_read_back(x in operand(-900..1000)) {
         let text = x.to_string();

@@ -1,4 +1,4 @@
-//! Numbers with significant digits, against the numbers that they are read back as.
+//! Tests numbers with significant digits against the numbers parsed from them.
 
 use bgdyn_runtime::Digits;
 
@@ -35,7 +35,7 @@ fn exponents_begin_where_they_are_asked_to() {
     let x = Digits::new(0.002, 3);
     assert_eq!(x.clone().plain(-2..6).to_string(), "2e-3");
     assert_eq!(x.plain(0..0).with_zeros().to_string(), "2.00e-3");
-    // No text gets longer than a number of 30 places.
+    // No text is longer than a number of 30 places.
     assert_eq!(Digits::new(1e300, 3).plain(-400..400).to_string(), "1e300");
     assert_eq!(
         Digits::new(1e-300, 3).plain(-400..400).to_string(),
@@ -47,7 +47,8 @@ fn exponents_begin_where_they_are_asked_to() {
     assert_eq!(longest.to_string().len(), "0.".len() + 30 - 1 + 17);
 }
 
-/// Over all sizes and signs: no more digits than asked for, and no more is lost than they leave out.
+/// For all sizes and signs: at most the selected number of digits, and an error of at most half a unit of
+/// the last one.
 #[test]
 fn no_more_is_lost_than_the_digits_left_out() {
     for k in 0..4000 {

@@ -1,4 +1,4 @@
-//! Dual numbers: values of the scalar, derivatives against differences in double-double.
+//! Tests dual numbers: values equal those of the scalar, derivatives equal differences in double-double.
 
 use bgdyn_runtime::nalgebra::{SVector, Vector2};
 use bgdyn_runtime::num_dual::{Dual, Dual2, Dual32, Dual64, DualSVec64, HyperDual, HyperDual64};
@@ -120,7 +120,7 @@ fn real_parts_are_those_of_the_floats() {
             DualSVec64::<2>::from_re(y),
         );
         let single = functions(Dual32::new(fx, 1.0), Dual32::from_re(fy));
-        // The first one divides.
+        // The first function divides.
         for k in 1..14 {
             for found in [dual[k].re, dual2[k].re, hyper[k].re, vector[k].re] {
                 assert_eq!(found.to_bits(), wanted[k].to_bits(), "function {k}");

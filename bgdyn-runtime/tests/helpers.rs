@@ -45,7 +45,7 @@ proptest! {
     fn skew_is_the_cross_product(v in vector(), x in vector(), s in vector()) {
         prop_assert!((rotation::skew(&v) * x - v.cross(&x)).norm() < 1e-14);
         prop_assert_eq!(rotation::unskew(&rotation::skew(&v)), v);
-        // A symmetric part does not show.
+        // A symmetric part has no influence.
         let symmetric = s * s.transpose();
         prop_assert!((rotation::unskew(&(rotation::skew(&v) + symmetric)) - v).norm() < 1e-14);
     }
@@ -78,7 +78,7 @@ proptest! {
     }
 }
 
-/// The senses of the turns, from a picture: x forward, y left, z up.
+/// The directions of rotations: x forward, y left, z up.
 #[test]
 fn quarter_turns_are_right_handed() {
     let turned = |r: Matrix3<f64>, v: [f64; 3]| (r * Vector3::from(v)).map(|x| x.round()).into();
@@ -86,7 +86,7 @@ fn quarter_turns_are_right_handed() {
         turned(rotation::about_x(HALF_PI), [0.0, 1.0, 0.0]),
         turned(rotation::about_y(HALF_PI), [0.0, 0.0, 1.0]),
         turned(rotation::about_z(HALF_PI), [1.0, 0.0, 0.0]),
-        // Rolls first, then yaws: left goes up and stays there.
+        // First roll, then yaw: left becomes up and does not change by the yaw.
         turned(rotation::rpy(HALF_PI, 0.0, HALF_PI), [0.0, 1.0, 0.0]),
     ];
     assert_eq!(
@@ -109,7 +109,7 @@ fn steiners_term_of_a_known_offset() {
     );
 }
 
-/// The helpers take every scalar; in double-double they keep its digits.
+/// The helpers work in every scalar; in double-double they are accurate to its digits.
 #[test]
 fn helpers_in_double_double() {
     let dd = Dd::from_f64;

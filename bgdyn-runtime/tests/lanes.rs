@@ -1,6 +1,6 @@
 //! Lane k of every result equals the scalar's result for lane k, bit for bit.
 
-// The generator's own: its crate is above this one.
+// That of the generator, whose crate depends on this one.
 #[path = "../../bgdyn-codegen/src/random.rs"]
 #[allow(dead_code)]
 mod random;
@@ -10,7 +10,7 @@ use bgdyn_runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 use bgdyn_runtime::{Argument, Cause, Scalar, Singular};
 use random::Random;
 
-/// Numbers to try.
+/// Numbers for the tests.
 trait Numbers {
     fn number(&mut self) -> f64;
 }
@@ -201,8 +201,8 @@ fn an_error_says_which_lanes_failed_and_where() {
     );
 }
 
-/// As of one number: a sum that overflows is no verdict on accelerations, and a lane that failed takes
-/// none with it.
+/// As for one number: an overflow of the sum does not refuse the accelerations, and a failed lane does not
+/// affect the others.
 #[test]
 fn accelerations_are_refused_one_by_one() {
     let names = &["shoulder", "elbow"];

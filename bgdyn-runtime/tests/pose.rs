@@ -1,10 +1,10 @@
-//! Poses and rotation vectors, against Rodrigues' formula in double-double.
+//! Tests poses and rotation vectors against Rodrigues' formula in double-double.
 
 use bgdyn_runtime::nalgebra::{Isometry3, Matrix3, SVector, Vector3};
 use bgdyn_runtime::{Dd, Pose, Scalar, rotation};
 use proptest::prelude::*;
 
-/// The turn about a unit axis by an angle: 1 + sin·K + (1 − cos)·K².
+/// Returns the rotation about a unit axis by an angle: 1 + sin·K + (1 − cos)·K².
 fn turn(axis: [f64; 3], angle: Dd) -> Matrix3<Dd> {
     let [x, y, z] = unit(axis).into();
     let (s, _) = angle.sin_cos();
@@ -41,7 +41,7 @@ const AXES: [[f64; 3]; 9] = [
     [-0.7, 0.1, 1e-12],
 ];
 
-/// Angles near no turn, near half a turn, and between.
+/// Returns angles near 0, near π, and between.
 fn angles() -> Vec<Dd> {
     let small = (0..=15).map(|k| Dd::from_f64(10f64.powi(-k)));
     let small: Vec<Dd> = small.collect();
@@ -50,7 +50,7 @@ fn angles() -> Vec<Dd> {
     small.iter().copied().chain(large).chain(between).collect()
 }
 
-/// The largest error of the vector, in units of `eps` of its length.
+/// Returns the largest error of the vector, in units of `eps` of its length.
 fn worst<T: Scalar>(eps: f64, value: impl Fn(T) -> Dd) -> f64 {
     let mut worst: f64 = 0.0;
     for axis in AXES {
@@ -68,7 +68,7 @@ fn worst<T: Scalar>(eps: f64, value: impl Fn(T) -> Dd) -> f64 {
 
 #[test]
 fn rotation_vectors_keep_the_digits_of_their_scalar() {
-    // In units of the length, near no turn too: an error of eps rad would be 1e15 of them.
+    // Relative to the length, also near angle 0: an error of eps rad would be 1e15 of these units.
     let double = worst::<f64>(f64::EPSILON, Dd::from_f64);
     assert!(double < 4.0, "f64: {double}");
     let single = worst::<f32>(f64::from(f32::EPSILON), |x| Dd::from_f64(x.into()));
@@ -147,14 +147,14 @@ proptest! {
         prop_assert!(far(&Pose::from(isometry), &a) < 1e-14);
     }
 
-    /// A body turns and moves: where its point is after a short time, and how fast that goes.
+    /// A moving body: the position of its point after a short time, and the point's velocity.
     #[test]
     fn twists_move_the_same_points(a in any_pose(), twist in any_twist(), p in any_twist()) {
         let at = |twist: &SVector<f64, 6>, point: &Vector3<f64>| -> Vector3<f64> {
             let spin = Vector3::new(twist[0], twist[1], twist[2]);
             Vector3::new(twist[3], twist[4], twist[5]) + spin.cross(point)
         };
-        // A point given in the frame, its velocity from the twist given there.
+        // A point given in the frame, and its velocity from the twist in the frame.
         let own = Vector3::new(p[0], p[1], p[2]);
         let wanted = a.transform_vector(&at(&twist, &own));
         let point = a.transform_point(&own);
@@ -185,7 +185,7 @@ fn the_derivative_is_right_where_there_is_no_turn() {
 #[test]
 fn lanes_give_the_bits_of_scalars() {
     use bgdyn_runtime::wide::f64x4;
-    // No turn, small, large, nearly half a turn: another way to the quaternion in every lane.
+    // Angles 0, small, large, almost π: a different branch for the quaternion in every lane.
     let lanes: [Matrix3<f64>; 4] = [
         Matrix3::identity(),
         rotation::about_x(1e-9),

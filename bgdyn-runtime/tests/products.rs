@@ -1,4 +1,4 @@
-//! Inner products of two tables, entry by entry.
+//! Tests inner products of two tables, entry by entry.
 
 use bgdyn_runtime::nalgebra::SMatrix;
 use bgdyn_runtime::{Dd, Scalar, inner_products, mirror};
@@ -43,7 +43,7 @@ fn runs_are_sums_of_products() {
     equal_plain_sums(Dd::from_f64);
 }
 
-/// Rows and columns beyond the matrix or its table are left out: no index fails.
+/// Rows and columns outside of the matrix or its table are skipped: no index is out of bounds.
 #[test]
 fn what_the_matrix_lacks_is_left_out() {
     let mut found = SMatrix::<f64, 3, 3>::from_element(-1.0);

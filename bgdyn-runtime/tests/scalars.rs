@@ -1,4 +1,4 @@
-//! The scalar trait for `f64`, `f32` and double-doubles.
+//! Tests the scalar trait for `f64`, `f32` and double-doubles.
 
 mod exact;
 
@@ -7,7 +7,7 @@ use bgdyn_runtime::{Argument, Cause, Dd, Look, Scalar, Singular};
 use exact::cases;
 use proptest::prelude::*;
 
-/// Numbers in common that the generic checks are written with.
+/// The scalars of the generic checks.
 trait Word: Scalar<Mask = bool, Refused = Option<usize>> {
     fn get(self) -> f64;
 }
@@ -74,7 +74,7 @@ proptest! {
     }
 }
 
-/// What a plain sum would lose.
+/// Accuracy that a rounded sum would lose.
 #[test]
 fn a_sum_of_large_angles_keeps_its_small_ones() {
     let (s, _) = f64::sin_cos_sum(&[1e12, 1e-9, -1e12], (0.0, 0.0));
@@ -82,7 +82,7 @@ fn a_sum_of_large_angles_keeps_its_small_ones() {
     assert_ne!((1e12 + 1e-9) - 1e12, 1e-9);
     let (s, _) = f64::sin_cos_sum(&[std::f64::consts::PI], (0.0, 1.2246467991473532e-16));
     assert!(s.abs() < 1e-31, "{s:e}");
-    // A tail too large for its series.
+    // A tail that is too large for its series.
     assert!(sum_error(&[1e12, 5e-5, 1e12], (0.0, 0.0)) < 2.0 * f64::EPSILON);
     assert!(sum_error(&[1e7_f32, 0.3, 1e7], (0.0, 0.0)) < 2.0 * f64::from(f32::EPSILON));
     assert!(
@@ -127,7 +127,7 @@ fn comparisons_of_all() {
     comparisons::<Dd>();
 }
 
-/// Whether a pivot is accepted; what comes back is the pivot.
+/// Returns whether a pivot is accepted; checks that the pivot is returned.
 fn accepted<T: Word>(pivot: f64, magnitude: f64) -> bool {
     let mut refused = T::none_refused();
     let t = <T as Scalar>::from_f64;
@@ -137,7 +137,7 @@ fn accepted<T: Word>(pivot: f64, magnitude: f64) -> bool {
     refused.is_none()
 }
 
-/// `least`: the smallest pivot accepted beside terms as large as 1.
+/// `least`: the smallest pivot that is accepted for terms of size 1.
 fn pivots<T: Word>(least: f64) {
     assert!(accepted::<T>(1.0, 1.0));
     for bad in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -157,7 +157,8 @@ fn pivots_of_all() {
     pivots::<f64>(64.0 * f64::EPSILON);
     pivots::<f32>(64.0 * f64::from(f32::EPSILON));
     pivots::<Dd>(2_f64.powi(-104));
-    // A true pivot of this size is lost among terms as large as 1, except in double-double.
+    // A correct pivot of this size cannot be distinguished from rounding of terms of size 1, except in
+    // double-double.
     assert!(!accepted::<f64>(2_f64.powi(-100), 1.0));
     assert!(!accepted::<f32>(2_f64.powi(-100), 1.0));
     assert!(accepted::<Dd>(2_f64.powi(-100), 1.0));
@@ -197,7 +198,7 @@ fn constants_keep_both_words_where_there_is_room() {
     assert_eq!(<f32 as Scalar>::from_parts(hi, lo), 0.1_f32);
 }
 
-/// Accelerations that are not finite are an error that names the first one's joint.
+/// Accelerations that are not finite are an error that names the joint of the first one.
 #[test]
 fn nothing_but_finite_accelerations() {
     use bgdyn_runtime::nalgebra::Vector2;
@@ -210,7 +211,7 @@ fn nothing_but_finite_accelerations() {
     assert!(f64::finish(Vector2::new(1.0, -2e300), None, &NAMES, |_| ()).is_ok());
 }
 
-/// Accelerations are checked by their sum: one that overflows, or is lost, is no verdict on them.
+/// Accelerations are checked by their sum: an overflow of the sum does not refuse them.
 #[test]
 fn accelerations_are_refused_one_by_one() {
     static NAMES: [&str; 2] = ["hip", "knee"];
@@ -225,7 +226,8 @@ fn accelerations_are_refused_one_by_one() {
     assert_eq!(f64::finish(none, None, &[], |_| ()), Ok(none));
 }
 
-/// The argument that is NaN or infinite is named, whatever was noticed first; without one the cause stays.
+/// The argument that is NaN or infinite is named, whatever error was found first; without one the cause
+/// does not change.
 fn explained<T: Scalar<Singular<2> = Singular, Refused = Option<usize>>>(
     accelerations: [f64; 2],
     refused: Option<usize>,

@@ -1,4 +1,4 @@
-//! What the feature `serde` reads and writes, as JSON. The structs are as generated modules have them.
+//! Tests JSON input and output of the feature `serde`. The structs are as in generated modules.
 
 use bgdyn_runtime::nalgebra::Vector2;
 use bgdyn_runtime::serde::de::value::SeqDeserializer;
@@ -102,7 +102,7 @@ fn double_double_keeps_every_digit() {
     let numbers = Vector2::new(long, -long / Dd::from_f64(3.0));
     for x in numbers.iter() {
         assert_eq!(to_string(x).expect("written"), words(x));
-        // Formats that keep the bits of an f64 keep those of its two words.
+        // Formats that preserve the bits of an f64 preserve those of its two words.
         let parts = SeqDeserializer::<_, de::value::Error>::new([x.hi(), x.lo()].into_iter());
         assert_eq!(Dd::deserialize(parts).expect("read"), *x);
     }
@@ -112,11 +112,11 @@ fn double_double_keeps_every_digit() {
     };
     let text = to_string(&state).expect("written");
     let read = from_str::<State<Dd>>(&text).expect("read");
-    // serde_json may read the last digit of an f64 otherwise.
+    // serde_json may parse the last digit of an f64 differently.
     assert!((read.swing_rate - state.swing_rate).abs() < Dd::from_f64(1e-31));
 }
 
-/// As JSON has the two words of a number.
+/// Returns the two words of a number in JSON.
 fn words(x: &Dd) -> String {
     to_string(&[x.hi(), x.lo()]).expect("written")
 }

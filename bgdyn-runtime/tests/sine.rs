@@ -1,6 +1,6 @@
 //! Sine and cosine of `f64` and `f32` against double-double: errors in units of the last place.
 
-// The generator's own: its crate is above this one.
+// That of the generator, whose crate depends on this one.
 #[path = "../../bgdyn-codegen/src/random.rs"]
 #[allow(dead_code)]
 mod random;
@@ -8,7 +8,7 @@ mod random;
 use bgdyn_runtime::{Dd, Scalar};
 use random::Random;
 
-/// A float of the two.
+/// `f64` or `f32`.
 trait Float: Scalar {
     /// Binary digits.
     const DIGITS: i32;
@@ -18,7 +18,7 @@ trait Float: Scalar {
     const LEAST: i32;
     fn of(x: f64) -> Self;
     fn wide(self) -> f64;
-    /// The numbers next to it, `steps` away.
+    /// Returns the number that is `steps` numbers away.
     fn beside(self, steps: i32) -> Self;
 }
 
@@ -43,21 +43,21 @@ macro_rules! float {
 float!(f64, i64, 53, 1e5, -1022);
 float!(f32, i32, 24, 1e4, -126);
 
-/// How far `found` is from `exact`, in units of the last place of `exact`.
+/// Returns the distance of `found` from `exact`, in units of the last place of `exact`.
 fn units<T: Float>(found: T, exact: Dd) -> f64 {
     let exponent = libm::ilogb(exact.hi()).max(T::LEAST);
     let off = (Dd::from(found.wide()) - exact).hi();
     libm::scalbn(off.abs(), T::DIGITS - 1 - exponent)
 }
 
-/// The larger error of sine and cosine of x.
+/// Returns the larger error of sine and cosine of x.
 fn error<T: Float>(x: T) -> f64 {
     let (s, c) = x.sin_cos();
     let (sin, cos) = Dd::from(x.wide()).sin_cos();
     units(s, sin).max(units(c, cos))
 }
 
-/// The largest error over arguments of `count` draws, and where it is.
+/// Returns the largest error over arguments of `count` draws, and its argument.
 fn worst<T: Float>(count: u64, mut draw: impl FnMut() -> f64) -> (f64, f64) {
     let mut found = (0.0, 0.0);
     for _ in 0..count {
@@ -71,7 +71,7 @@ fn worst<T: Float>(count: u64, mut draw: impl FnMut() -> f64) -> (f64, f64) {
     found
 }
 
-/// Uniform angles, angles of all sizes, and those next to every multiple of a quarter turn.
+/// Measures uniform angles, angles of all sizes, and those next to every multiple of a quarter turn.
 fn measure<T: Float>(count: u64, seed: u64) {
     let mut random = Random(seed);
     let check = |what: &str, (units, x): (f64, f64)| {
@@ -124,7 +124,7 @@ fn errors_of_f64_over_many() {
     measure::<f64>(34_000_000, 3);
 }
 
-/// Every `f32` there is, against double precision where that is good enough to tell.
+/// Every `f32`, against double precision if that is accurate enough.
 #[test]
 #[ignore = "five minutes"]
 fn errors_of_every_f32() {
@@ -143,8 +143,8 @@ fn errors_of_every_f32() {
     assert!(found.0 < 1.0, "{} units at {:e}", found.0, found.1);
 }
 
-/// Sums of two, which take a shorter way, and of three: of all sizes, such that all but cancel, and
-/// such that come close to a multiple of a quarter turn.
+/// Sums of two, which have a shorter code path, and of three: of all sizes, with cancellation, and close
+/// to a multiple of a quarter turn.
 fn sums<T: Float>(seed: u64) {
     let mut random = Random(seed);
     let mut found = (0.0, [0.0; 3]);
@@ -152,8 +152,8 @@ fn sums<T: Float>(seed: u64) {
         let size = libm::exp2(random.signed() * 12.0);
         let [a, b] = [0, 1].map(|_| T::of(random.signed() * size));
         let hi = random.signed() * 3.0;
-        // In two rounds of three the sum is a multiple of a quarter turn, often 0, but for a few units in
-        // the last place of the angle.
+        // In two rounds of three the sum differs from a multiple of a quarter turn, often 0, by a few
+        // units in the last place of the angle.
         let turns = match round % 4 {
             0 => 0.0,
             _ => (random.signed() * 1000.0).round(),
@@ -168,8 +168,8 @@ fn sums<T: Float>(seed: u64) {
             let wide: Vec<Dd> = angles.iter().map(|x| Dd::from(x.wide())).collect();
             let (sin, cos) = Dd::sin_cos_sum(&wide, offset);
             let (s, c) = T::sin_cos_sum(angles, offset);
-            // A sum with an offset is carried in two words, which a sine close to a multiple of a quarter
-            // turn can tell from the sum itself.
+            // A sum with an offset is computed in two words; a sine close to a multiple of a quarter turn
+            // shows the difference.
             let largest = wide.iter().fold(hi.abs(), |l, x| l.max(x.hi().abs()));
             let is_close = round % 3 != 0 && turns != 0.0;
             let words = match is_close && offset != (0.0, 0.0) {
@@ -196,14 +196,14 @@ fn errors_of_sums() {
     sums::<f32>(9);
 }
 
-/// Sums far beyond the limit of the branch-free path: of two angles, exact whatever is left of them;
-/// of three terms, but for |q|·eps².
+/// Sums far beyond the limit of the branch-free path: of two angles, exact for any remainder; of three
+/// terms, except for |q|·eps².
 fn large_sums<T: Float>(seed: u64) {
     let mut random = Random(seed);
     for round in 0..40_000 {
         let size = libm::exp2(33.0 + random.signed() * 20.0);
         let [a, b, c] = [0, 1, 2].map(|_| T::of(random.signed() * size));
-        // In one round of two the angles all but cancel.
+        // In one round of two the angles almost cancel.
         let b = if round % 2 == 0 {
             b
         } else {
@@ -236,7 +236,7 @@ fn errors_of_large_sums() {
     large_sums::<f32>(11);
 }
 
-/// What is no angle has no sine, small ones are their own.
+/// NaN and infinity have no sine; the sine of a small angle is the angle.
 #[test]
 fn ends_of_the_range() {
     for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -257,8 +257,8 @@ fn ends_of_the_range() {
     }
 }
 
-/// All angles of a call at once are what each is alone, however many there are, with large ones and
-/// what is no number among them.
+/// All angles of a call together have the results of separate calls, for any number, with large angles and
+/// NaN among them.
 #[test]
 fn at_once_as_alone() {
     fn same<T: Float, const K: usize>(random: &mut Random) {

@@ -1,4 +1,4 @@
-//! Which of several blocks at rest hold: `resolve_stiction` against every combination there is.
+//! Tests which of several blocks at rest hold: `resolve_stiction` against every combination of modes.
 
 use bgdyn_runtime::nalgebra::{SMatrix, SVector};
 use bgdyn_runtime::{Balance, Contact, HybridSystem, resolve_stiction};
@@ -23,7 +23,7 @@ impl<const K: usize> Blocks<K> {
             mass[(j, j)] = 1.0;
             force[j] = 0.0;
         }
-        // Gauss without exchange: the matrix is positive definite.
+        // Gaussian elimination without pivoting: the matrix is positive definite.
         for i in 0..K {
             for k in i + 1..K {
                 let factor = mass[(k, i)] / mass[(i, i)];
@@ -160,7 +160,8 @@ impl<const K: usize> Blocks<K> {
         resolve_stiction(self, &none, modes, &none, 0.0, rest).expect("not singular")
     }
 
-    /// Every combination in which what holds is within its limit and what slips does not turn back.
+    /// Returns every combination in which held blocks are within their limits and slipping ones do not
+    /// reverse.
     fn consistent(&self) -> Vec<SVector<f64, K>> {
         let none = SVector::zeros();
         let all = (0..3_usize.pow(K as u32))
@@ -193,7 +194,8 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// Blocks with a random positive definite mass matrix; `more` is how much more rest may hold.
+    /// Returns blocks with a random positive definite mass matrix; `more` is the excess of static
+    /// friction.
     fn blocks<const K: usize>(&mut self, more: f64) -> Blocks<K> {
         let root = SMatrix::<f64, K, K>::from_fn(|_, _| self.unit());
         let kinetic = SVector::from_fn(|_, _| self.unit().abs());
@@ -207,7 +209,7 @@ impl Random {
     }
 }
 
-/// With one size of friction there is one answer, and it is found.
+/// If static and sliding friction are equal, the solution is unique, and it is found.
 fn the_only_one<const K: usize>(tries: usize) {
     let mut random = Random(K as u64);
     let mut slipping = 0;
@@ -228,7 +230,7 @@ fn friction_of_one_size_settles_in_the_only_way() {
     the_only_one::<5>(400);
 }
 
-/// With more friction at rest the answer is one of the consistent ones; all hold where all can.
+/// With larger static friction the result is a consistent one; all hold if all can.
 #[test]
 fn more_friction_at_rest_settles_consistently() {
     let mut random = Random(9);
@@ -247,7 +249,7 @@ fn more_friction_at_rest_settles_consistently() {
     assert!(several > 100 && held > 100, "{several} {held}");
 }
 
-/// Two blocks on each other: a pull on the upper one drags the lower one along, or not.
+/// Two stacked blocks: a pull on the upper one moves the lower one along, or not.
 #[test]
 fn two_blocks_are_decided_together() {
     // Coordinates: the lower block on the floor, the upper one against the lower.
@@ -275,7 +277,7 @@ fn two_blocks_are_decided_together() {
     assert_eq!(resolved(-20.0, 3.0, 5.0), SVector::from([-1.0, -1.0]));
 }
 
-/// What moves keeps its mode; what is slower than `rest` is at rest; equal forces hold.
+/// A moving block retains its mode; one slower than `rest` is at rest; a load equal to the limit holds.
 #[test]
 fn only_blocks_at_rest_are_decided() {
     let mut blocks = Blocks {
@@ -292,7 +294,7 @@ fn only_blocks_at_rest_are_decided() {
     assert_eq!(blocks.resolved(&modes, 1e-6), SVector::from([1.0, -1.0]));
 }
 
-/// A number that is none ends it as well.
+/// NaN does not prevent termination.
 #[test]
 fn nonsense_terminates() {
     let mut blocks = Random(3).blocks::<3>(0.0);

@@ -6,20 +6,20 @@ use crate::coefficient::{Words, decimal, ratio};
 use crate::plant::Power;
 use crate::real::Of;
 
-/// Where the energy of a run went, J: for each entry what it supplied, stores more than at the
-/// start, and dissipated.
+/// The energy account of a run, J: for each entry the energy supplied, the increase of stored energy since
+/// the start, and the energy dissipated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit<E> {
-    /// Work that came from outside.
+    /// Work supplied from outside.
     pub supplied: E,
-    /// What is stored more than at the start.
+    /// Increase of stored energy since the start.
     pub stored: E,
-    /// Work that was lost.
+    /// Dissipated work.
     pub dissipated: E,
 }
 
 impl<E: StateVector> Audit<E> {
-    /// What the sums do not account for: the integration's error, in J.
+    /// Returns the sum supplied − stored − dissipated: the energy error of the integration, in J.
     pub fn drift(&self) -> Of<E> {
         let zero = Of::<E>::from_f64(0.0);
         let sum = |x: &E| x.entries().iter().fold(zero, |sum, &x| sum + x);
@@ -27,10 +27,10 @@ impl<E: StateVector> Audit<E> {
     }
 }
 
-/// Work added up step by step.
+/// Sums the work step by step.
 #[derive(Clone, Debug)]
 pub(crate) struct Ledger<E> {
-    /// Energy stored at the start and now, once there was a step.
+    /// Energy stored at the start and now; `None` before the first step.
     stored: Option<(E, E)>,
     work: Power<E>,
 }
@@ -47,7 +47,7 @@ const TWO: [(Words, Words); 2] = [
     ),
 ];
 
-/// … with four points, exact to degree 7.
+/// Times and weights of Gauss's quadrature with four points, exact to degree 7.
 const FOUR: [(Words, Words); 4] = [
     (
         decimal("0.069431844202973712388026755553595"),
@@ -67,13 +67,14 @@ const FOUR: [(Words, Words); 4] = [
     ),
 ];
 
-/// Times within a step at which power is looked at, and their weights, for a method of this order.
+/// Returns the times within a step at which power is evaluated, and their weights, for an integrator of
+/// this order.
 pub(crate) fn quadrature(order: u32) -> &'static [(Words, Words)] {
     if order <= 4 { &TWO } else { &FOUR }
 }
 
 impl<E: StateVector> Ledger<E> {
-    /// An empty one.
+    /// Returns an empty ledger.
     pub(crate) fn new(zero: E) -> Self {
         let work = Power {
             supplied: zero.clone(),
@@ -82,12 +83,12 @@ impl<E: StateVector> Ledger<E> {
         Ledger { stored: None, work }
     }
 
-    /// Whether there was a step.
+    /// Returns whether a step was recorded.
     pub(crate) fn is_open(&self) -> bool {
         self.stored.is_some()
     }
 
-    /// Notes the energy stored now.
+    /// Records the energy stored now.
     pub(crate) fn note(&mut self, energy: E) {
         self.stored = Some(match self.stored.take() {
             Some((start, _)) => (start, energy),
@@ -95,13 +96,13 @@ impl<E: StateVector> Ledger<E> {
         });
     }
 
-    /// Adds this power for this time.
+    /// Adds the work of this power over this time.
     pub(crate) fn add(&mut self, time: Of<E>, power: &Power<E>) {
         self.work.supplied.add(time, &power.supplied);
         self.work.dissipated.add(time, &power.dissipated);
     }
 
-    /// The account.
+    /// Returns the account.
     pub(crate) fn audit(&self) -> Audit<E> {
         let Power {
             supplied,

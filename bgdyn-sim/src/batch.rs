@@ -1,4 +1,4 @@
-//! Runs many copies of one plant on all cores, with results that do not depend on their number.
+//! Runs many copies of one plant on all cores; the results do not depend on the number of threads.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -15,18 +15,19 @@ use crate::plant::Plant;
 use crate::real::{Of, Real};
 use crate::run::{HybridState, Run};
 
-/// How many runs go at once where nothing else is said: as many as the machine has cores.
+/// Returns the default number of parallel runs: the number of cores.
 pub fn cores() -> NonZeroUsize {
     thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
-/// Does something with each input, on so many threads; the results stand in the inputs' order.
+/// Applies `work` to each input, on the given number of threads; the results are in the order of the
+/// inputs.
 ///
-/// Each result is what `work` makes of its input alone, so it is the same bit for bit whatever the
-/// number of threads. `watch` hears, on the calling thread, how many are done.
+/// Each result depends on its input alone, so it is the same bit for bit for any number of threads.
+/// `watch` is called on the calling thread with the number of finished inputs.
 ///
 /// # Panics
-/// Where `work` panics.
+/// If `work` panics.
 pub fn batch<I: Sync, R: Send>(
     inputs: &[I],
     threads: NonZeroUsize,
@@ -55,41 +56,42 @@ pub fn batch<I: Sync, R: Send>(
             watch(done + 1);
         }
     });
-    // A thread that panicked has ended the scope.
+    // The scope panics if a thread does, so every result exists.
     results.into_iter().flatten().collect()
 }
 
-/// How far a run of a batch goes, and by which steps.
+/// Number and length of the steps of a run of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Course<T> {
-    /// Length of a step, s; with a tolerance, time between two looks at the outputs.
+    /// Length of a step, s; with a tolerance, the time between two evaluations of the outputs.
     pub step: T,
-    /// How many steps.
+    /// Number of steps.
     pub steps: usize,
 }
 
-/// What is kept of a run of a batch.
+/// The results of a run of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<P: Plant, Y>
 where
     P::Modes: PartialEq,
 {
-    /// Where it ended.
+    /// State and modes at the end of the run.
     pub end: HybridState<P::State, P::Modes>,
-    /// The values looked at, at the end.
+    /// The observed values at the end.
     pub last: Y,
-    /// The least of each, over the ends of all steps.
+    /// The smallest of each observed value, over the ends of all steps.
     pub low: Y,
-    /// The largest of each.
+    /// The largest of each observed value.
     pub high: Y,
-    /// Where the energy went.
+    /// The energy account.
     pub audit: Audit<P::Entries>,
-    /// Why it ended early, if it did.
+    /// The reason for an early end.
     pub failure: Option<Failure<P::State, P::Error>>,
 }
 
-/// Takes a run to its end, with the extremes of what `look` sees: [`crate::ScenePlant::output`], or the
-/// state itself. A run that cannot go on is kept as far as it went.
+/// Runs to the end and records the extremes of the values that `look` returns:
+/// [`crate::ScenePlant::output`], or the state itself. The outcome of a failed run is that of its last
+/// successful step.
 pub fn outcome<P, M, Y>(
     mut run: Run<P, M>,
     course: Course<Of<P::State>>,

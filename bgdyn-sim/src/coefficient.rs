@@ -1,11 +1,11 @@
-//! Coefficients of integration methods in two words, exact enough for double-double.
+//! Coefficients of integrators in two words, exact enough for double-double.
 //!
-//! They are written as in the literature, as quotients of whole numbers or as decimals, and turned
-//! into words when compiling.
+//! They are written as in the literature, as quotients of integers or as decimals, and converted at
+//! compile time.
 
 use bgdyn_runtime::Scalar;
 
-/// A number as the unevaluated sum of two `f64`, the first one being the nearest to it.
+/// A number as the unevaluated sum of two `f64`, the first one being nearest to the number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Words(f64, f64);
 
@@ -13,24 +13,24 @@ pub(crate) struct Words(f64, f64);
 pub(crate) const ZERO: Words = Words(0.0, 0.0);
 
 impl Words {
-    /// The nearest value of a scalar type.
+    /// Returns the nearest value of a scalar type.
     pub(crate) fn to<T: Scalar>(self) -> T {
         T::from_parts(self.0, self.1)
     }
 
-    /// Whether it is 0.
+    /// Returns whether the number is 0.
     pub(crate) const fn is_zero(self) -> bool {
         self.0 == 0.0
     }
 }
 
-/// `n`/`d` of two whole numbers below 2⁵³, to 2⁻¹⁰⁵ of it.
+/// Returns `n`/`d` for two integers below 2⁵³, with a relative error of 2⁻¹⁰⁵.
 pub(crate) const fn ratio(n: f64, d: f64) -> Words {
     quotient(Words(n, 0.0), Words(d, 0.0))
 }
 
-/// The decimal number `text`: digits with at most one point among them, a sign in front, no
-/// exponent, at most 36 digits. To 2⁻¹⁰⁴ of it.
+/// Parses the decimal number `text`: an optional sign, digits with at most one point, no exponent, at most
+/// 36 digits. The relative error is 2⁻¹⁰⁴.
 pub(crate) const fn decimal(text: &str) -> Words {
     let text = text.as_bytes();
     let negative = text[0] == b'-';
@@ -57,7 +57,7 @@ pub(crate) const fn decimal(text: &str) -> Words {
     }
 }
 
-/// A whole number, to 106 bits.
+/// Converts an integer, to 106 bits.
 const fn whole(n: u128) -> Words {
     let hi = n as f64;
     let back = hi as u128;
@@ -69,7 +69,7 @@ const fn whole(n: u128) -> Words {
     Words(hi, lo)
 }
 
-/// Long division, one word at a time.
+/// Divides by long division, one word at a time.
 const fn quotient(n: Words, d: Words) -> Words {
     let q = n.0 / d.0;
     let rest = minus_product(n, q, d);
@@ -79,26 +79,26 @@ const fn quotient(n: Words, d: Words) -> Words {
     fast_sum(first.0, first.1 + rest.0 / d.0)
 }
 
-/// n − q·d
+/// Returns n − q·d.
 const fn minus_product(n: Words, q: f64, d: Words) -> Words {
     let p = q * d.0;
     let (q1, q2) = halves(q);
     let (d1, d2) = halves(d.0);
     let error = ((q1 * d1 - p) + q1 * d2 + q2 * d1) + q2 * d2;
-    // n and p agree in their leading digits, so that their difference is exact.
+    // n and p have the same leading digits, so their difference is exact.
     let difference = n.0 - p;
     let back = difference - n.0;
     let lost = (n.0 - (difference - back)) - (p + back);
     fast_sum(difference, lost + (n.1 - error - q * d.1))
 }
 
-/// a + b of |a| ≥ |b| or a = 0 (Dekker 1971).
+/// Returns a + b exactly, for |a| ≥ |b| or a = 0 (Dekker 1971).
 const fn fast_sum(a: f64, b: f64) -> Words {
     let sum = a + b;
     Words(sum, b - (sum - a))
 }
 
-/// The upper 26 bits, and the rest (Veltkamp).
+/// Returns the upper 26 bits of `a` and the rest (Veltkamp).
 const fn halves(a: f64) -> (f64, f64) {
     let t = 134_217_729.0 * a;
     let high = t - (t - a);

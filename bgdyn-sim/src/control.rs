@@ -1,21 +1,21 @@
-//! Step control: chooses the longest steps that the tolerance allows.
+//! Step control: chooses the longest steps that the tolerance permits.
 
 use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::ode::{Ode, ScalarOf};
 use crate::real::{Of, Real, largest};
 
-/// What error a step may have: `absolute` + `relative`·|y|, component by component.
+/// The permitted error of a step: `absolute` + `relative`·|y|, component by component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance<T> {
-    /// In the component's own unit.
+    /// Absolute error, in the component's unit.
     pub absolute: T,
-    /// Of the component's size.
+    /// Error relative to the component's size.
     pub relative: T,
 }
 
 impl<T: Real> Tolerance<T> {
-    /// The error allowed between two states, by component.
+    /// Returns the permitted error of a step between two states, by component.
     pub(crate) fn scale<Y: StateVector<Scalar = T>>(&self, from: &Y, to: &Y) -> Y {
         let mut scale = from.clone();
         for (s, y) in scale.entries_mut().iter_mut().zip(to.entries()) {
@@ -25,25 +25,26 @@ impl<T: Real> Tolerance<T> {
     }
 }
 
-/// A proportional-integral controller of the step (Gustafsson 1991; Hairer, Wanner II, IV.2): the next
-/// step is h·0.9·e^−α·e₋₁^β with the errors e of this step and e₋₁ of the last accepted one.
+/// A proportional-integral controller of the step size (Gustafsson 1991; Hairer, Wanner II, IV.2): the
+/// next step is h·0.9·e^−α·e₋₁^β with the errors e of this step and e₋₁ of the last accepted one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Controller {
-    /// 1/q of an error that falls as h^q.
+    /// 1/q for an error proportional to h^q.
     power: f64,
     /// Error of the last accepted step.
     last: f64,
-    /// Whether the step before was refused.
+    /// Whether the previous step was refused.
     refused: bool,
 }
 
-/// The least and the largest ratio of a step to the one before.
+/// The smallest and the largest ratio of consecutive steps.
 const RATIOS: (f64, f64) = (0.2, 6.0);
-/// Errors below this do not make steps longer.
+/// Errors below this value count as this value, so that one small error does not make the next step too
+/// long.
 const LEAST_ERROR: f64 = 1e-4;
 
 impl Controller {
-    /// For an error that falls with this power of the step.
+    /// Returns a controller for an error proportional to this power of the step.
     pub(crate) fn new(estimate: u32) -> Self {
         Controller {
             power: 1.0 / f64::from(estimate),
@@ -52,7 +53,7 @@ impl Controller {
         }
     }
 
-    /// Forgets the steps so far: the equation has changed.
+    /// Discards the history of steps, because the equation has changed.
     pub(crate) fn restart(&mut self) {
         *self = Controller {
             last: LEAST_ERROR,
@@ -60,13 +61,13 @@ impl Controller {
         };
     }
 
-    /// Error of the last accepted step.
+    /// Returns the error of the last accepted step.
     pub(crate) fn last(&self) -> f64 {
         self.last
     }
 
-    /// Whether a step with this error, in units of the tolerance, is accepted, and by how much the
-    /// next one is to be longer.
+    /// Returns whether a step with this error, in units of the tolerance, is accepted, and the ratio of
+    /// the next step to this one.
     pub(crate) fn judge(&mut self, error: f64) -> (bool, f64) {
         let beta = 0.2 * self.power;
         let alpha = self.power - 0.75 * beta;
@@ -79,7 +80,7 @@ impl Controller {
             (true, ratio.clamp(RATIOS.0, most))
         } else {
             self.refused = true;
-            // An error that is no number has no size to go by.
+            // An error that is not finite gives no ratio.
             let ratio = if error.is_finite() {
                 0.9 * power(error, -alpha)
             } else {
@@ -89,17 +90,17 @@ impl Controller {
         }
     }
 
-    /// A step failed without an error to go by.
+    /// Returns the ratio of the next step after a step that failed without an error estimate.
     pub(crate) fn failed(&mut self) -> f64 {
         self.judge(f64::INFINITY).1
     }
 }
 
-/// A first step, from the sizes of the state, its rates and their change (Hairer, Nørsett, Wanner I,
-/// II.4).
+/// Returns the first step, from the sizes of the state, its rates and their change (Hairer, Nørsett,
+/// Wanner I, II.4).
 ///
 /// # Errors
-/// Where there are no rates.
+/// If the rates do not exist.
 pub(crate) fn first_step<O: Ode>(
     ode: &O,
     (t, y): (ScalarOf<O>, &O::State),

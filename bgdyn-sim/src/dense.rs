@@ -4,15 +4,15 @@ use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::real::Of;
 
-/// The most terms of a polynomial: those of degree 7.
+/// The largest number of terms of a polynomial: those of degree 7.
 const TERMS: usize = 7;
 
-/// States within a step from t to t + h, as a polynomial in θ = (time − t)/h:
+/// The states within a step from t to t + h, as a polynomial in θ = (time − t)/h:
 ///
 /// y + θ (r₁ + (1 − θ) (r₂ + θ (r₃ + (1 − θ) (r₄ + …))))
 ///
-/// which is y at θ = 0 and y + r₁ at θ = 1 (Hairer, Nørsett, Wanner, Solving Ordinary Differential
-/// Equations I, II.6).
+/// It is y at θ = 0 and y + r₁ at θ = 1 (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations
+/// I, II.6).
 #[derive(Clone, Debug)]
 pub struct Dense<Y: StateVector> {
     t: Of<Y>,
@@ -22,14 +22,14 @@ pub struct Dense<Y: StateVector> {
 }
 
 impl<Y: StateVector> Dense<Y> {
-    /// The polynomial over the step of length `h` from `y` at time `t` with these terms; those after
-    /// the first `None` do not count.
+    /// Returns the polynomial over the step of length `h` from `y` at time `t` with these terms; terms
+    /// after the first `None` are ignored.
     pub fn new(t: Of<Y>, h: Of<Y>, y: &Y, terms: [Option<Y>; TERMS]) -> Self {
         let y = y.clone();
         Dense { t, h, y, terms }
     }
 
-    /// Terms of Hermite's cubic: a step by `change` with these rates at its ends.
+    /// Returns the terms of Hermite's cubic: a step by `change` with these rates at its ends.
     pub fn cubic(h: Of<Y>, change: &Y, first: &Y, last: &Y) -> [Option<Y>; TERMS] {
         let one = Of::<Y>::from_f64(1.0);
         let second = first.times(h).plus(-one, change);
@@ -38,23 +38,23 @@ impl<Y: StateVector> Dense<Y> {
         [change, Some(second), Some(third), None, None, None, None]
     }
 
-    /// Where the step begins.
+    /// Returns the start time of the step.
     pub fn start(&self) -> Of<Y> {
         self.t
     }
 
-    /// Its length.
+    /// Returns the length of the step.
     pub fn length(&self) -> Of<Y> {
         self.h
     }
 
-    /// The state at t + θh, for θ from 0 to 1.
+    /// Returns the state at t + θh, for θ from 0 to 1.
     pub fn at(&self, theta: Of<Y>) -> Y {
         let rest = Of::<Y>::from_f64(1.0) - theta;
         let mut sum: Option<Y> = None;
         for (i, term) in self.terms.iter().enumerate().rev() {
             let Some(term) = term else { continue };
-            // What stands within the brackets behind this term is multiplied by 1 − θ and θ in turn.
+            // The nested bracket after each term is multiplied by 1 − θ and θ in turn.
             let factor = if i % 2 == 0 { rest } else { theta };
             sum = Some(match sum {
                 Some(inner) => term.plus(factor, &inner),
@@ -64,7 +64,7 @@ impl<Y: StateVector> Dense<Y> {
         sum.map_or_else(|| self.y.clone(), |sum| self.y.plus(theta, &sum))
     }
 
-    /// The state at a time within the step.
+    /// Returns the state at a time within the step.
     pub fn at_time(&self, t: Of<Y>) -> Y {
         self.at((t - self.t) / self.h)
     }

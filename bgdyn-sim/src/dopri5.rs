@@ -10,10 +10,10 @@ use crate::ode::Ode;
 use crate::real::{Of, Real, largest};
 use crate::tableau::{Stage, all, combined};
 
-/// The pair RK5(4)7M by Dormand and Prince (1980): order 5 with an estimate of order 4, dense output
-/// of order 4. All coefficients are rational: as exact in double-double as in `f64`.
+/// The pair RK5(4)7M by Dormand and Prince (1980): order 5 with an estimate of order 4, dense output of
+/// order 4. All coefficients are rational and are exact to the precision of the scalar.
 ///
-/// A first choice for scenes that are not stiff, at relative tolerances from 1e-3 to 1e-8.
+/// The default choice for nonstiff scenes, at relative tolerances from 1e-3 to 1e-8.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dopri5;
 
@@ -49,7 +49,7 @@ const STAGES: [Stage; 6] = [
             ratio(-5103.0, 18656.0),
         ],
     },
-    // The end of the step: its rates are the first ones of the next.
+    // The end of the step: its rates are the first rates of the next step.
     Stage {
         c: ratio(1.0, 1.0),
         a: &WEIGHTS,
@@ -65,7 +65,7 @@ const WEIGHTS: [Words; 6] = [
     ratio(11.0, 84.0),
 ];
 
-/// Weights of order 5 less those of order 4.
+/// Weights of order 5 minus those of order 4.
 const ERROR: [Words; 7] = [
     ratio(71.0, 57600.0),
     ZERO,

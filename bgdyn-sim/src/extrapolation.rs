@@ -7,12 +7,12 @@ use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
 use crate::real::{Of, Real, largest};
 
-/// The method of Gragg, Bulirsch and Stoer with `K` rows, of order 2K: the modified midpoint rule
-/// with 2, 4, … 2K substeps, extrapolated to none (Gragg 1965; Hairer, Nørsett, Wanner, Solving
-/// Ordinary Differential Equations I, II.9).
+/// The method of Gragg, Bulirsch and Stoer with `K` rows, of order 2K: the modified midpoint rule with 2,
+/// 4, … 2K substeps, extrapolated to a substep of length zero (Gragg 1965; Hairer, Nørsett, Wanner,
+/// Solving Ordinary Differential Equations I, II.9).
 ///
-/// Its coefficients are whole numbers, so that nothing but the scalar limits it: for references in
-/// double-double. Fixed steps, or controlled by the difference of the last two extrapolations. Its
+/// Its coefficients are integers, so that only the scalar limits its accuracy: it computes references in
+/// double-double. The steps are fixed, or controlled by the difference of the last two extrapolations. The
 /// dense output is Hermite's cubic, of order 3.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extrapolation<const K: usize>;
@@ -21,7 +21,7 @@ pub struct Extrapolation<const K: usize>;
 pub type Extrapolation12 = Extrapolation<6>;
 
 impl<const K: usize> Extrapolation<K> {
-    /// The change over a step of length h by `substeps` substeps.
+    /// Returns the change over a step of length h with `substeps` substeps.
     fn midpoint<O: Ode>(
         ode: &O,
         (t, y): (Of<O::State>, &O::State),
@@ -47,7 +47,7 @@ impl<Y: StateVector, const K: usize> Integrator<Y> for Extrapolation<K>
 where
     Of<Y>: Real,
 {
-    /// The last two extrapolations' difference.
+    /// The difference of the last two extrapolations.
     type Stages = Y;
 
     fn info(&self) -> IntegratorInfo {
@@ -79,7 +79,7 @@ where
     ) -> Result<Step<Y, Y>, Reason<O::Error>> {
         let number = |n: usize| Of::<Y>::from_f64(n as f64);
         let first = ode.rates(from.t, from.y).map_err(Reason::Singular)?;
-        // The last diagonal of the scheme of Aitken and Neville.
+        // The last diagonal of the Aitken–Neville scheme.
         let mut row: [Y; K] = core::array::from_fn(|_| from.y.zero());
         for j in 0..K {
             let substeps = 2 * (j as u32 + 1);

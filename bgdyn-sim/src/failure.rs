@@ -6,47 +6,46 @@ use bgdyn_runtime::StateVector;
 
 use crate::real::Of;
 
-/// Why a step fails.
+/// The reason why a step fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason<E> {
     /// The rates do not exist: the mass matrix is singular.
     Singular(E),
-    /// A part of the state would be no finite number any more.
+    /// A component of the state would not be finite.
     NotFinite,
-    /// The equations of an implicit method are not solved after so many iterations.
+    /// The equations of an implicit integrator did not converge.
     NoConvergence {
-        /// How many there were.
+        /// Number of iterations.
         iterations: usize,
-        /// The last change in units of what rounding leaves of the state.
+        /// The last change in units of the state's rounding error.
         change: f64,
     },
-    /// The matrix of an implicit method is singular.
+    /// The matrix of an implicit integrator is singular.
     SingularMatrix,
-    /// The method needs the slopes of the rates, and they are not known.
+    /// The integrator needs the slopes of the rates, and they are not available.
     NoJacobian,
-    /// The tolerance asks for steps that time cannot resolve.
+    /// The tolerance requires steps that are too small for the resolution of time.
     StepTooSmall {
-        /// The step asked for.
+        /// The required step.
         h: f64,
         /// Estimated error of the last step tried, in units of the tolerance.
         error: f64,
     },
-    /// So many events followed each other within one step that time would not go on.
+    /// So many events occurred within one step that time would not advance.
     TooManyEvents {
-        /// How many there were.
+        /// Number of events.
         events: usize,
     },
 }
 
-/// Why an integration ended early. It stays where it was: at the end of the last step that
-/// succeeded.
+/// The early end of an integration. The integration remains at the end of the last successful step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure<Y: StateVector, E> {
-    /// Time that was reached, s.
+    /// Time at the end, s.
     pub t: Of<Y>,
-    /// State that was reached.
+    /// State at the end.
     pub y: Y,
-    /// Why it does not go on.
+    /// The reason.
     pub reason: Reason<E>,
 }
 

@@ -5,10 +5,10 @@ use bgdyn_runtime::{Scalar, StateVector};
 use crate::ode::{Jacobian, Ode, ScalarOf};
 use crate::real::{Of, Real};
 
-/// An equation whose slopes are taken from central differences of its rates, for methods that need
-/// them where nobody derived them. They cost two evaluations per component, and two thirds of the
-/// digits are right: enough for a Rosenbrock method's stability, while its error falls with its
-/// order only as far as those digits go.
+/// An equation whose slopes are central differences of its rates, for implicit integrators if no
+/// derivatives were generated. The differences need two evaluations per component, and two thirds of their
+/// digits are correct. That suffices for the stability of a Rosenbrock method, but its error falls with
+/// the method's order only down to this accuracy.
 #[derive(Clone, Copy, Debug)]
 pub struct FiniteDifferences<O>(pub O);
 
@@ -44,7 +44,7 @@ where
     }
 }
 
-/// Central differences over a step of ∛eps of a component's size.
+/// Returns central differences over a step of ∛eps times a component's size.
 pub(crate) fn differences<O: Ode>(
     ode: &O,
     t: ScalarOf<O>,
@@ -55,7 +55,7 @@ where
 {
     let [one, half, least, third] = [1.0, 0.5, 1e-3, 1.0 / 3.0].map(ScalarOf::<O>::from_f64);
     let small = (ScalarOf::<O>::EPSILON.ln() * third).exp();
-    // A component may be 0 now and of some size later: a part of the whole state's counts then.
+    // A component can be 0 now and larger later; so its size is at least a fraction of the largest one.
     let all = y.entries().iter().fold(small, |most, x| most.max(x.abs()));
     let slope = |ahead: O::State, behind: &O::State, distance: Of<O::State>| {
         ahead.plus(-one, behind).times(half / distance)

@@ -9,59 +9,59 @@ use crate::failure::Reason;
 use crate::ode::{Ode, ScalarOf};
 use crate::real::Of;
 
-/// What is known of an integrator beforehand.
+/// Properties of an integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IntegratorInfo {
-    /// Its name in scenes: `rk4`.
+    /// Name in scenes: `rk4`.
     pub name: &'static str,
-    /// Its order p: halving the step divides the error by 2ᵖ.
+    /// Order p: halving the step divides the error of a run by 2ᵖ.
     pub order: u32,
-    /// The power of the step with which its estimate of a step's error falls; `None` where it has no
-    /// estimate and takes fixed steps only.
+    /// The power of the step to which its estimate of a step's error is proportional; `None` for
+    /// integrators without an estimate, which take fixed steps only.
     pub estimate: Option<u32>,
-    /// Into how many parts a step is divided to look for events: long steps hold more.
+    /// Number of parts into which a step is divided in the search for events: long steps have more.
     pub looks: u32,
-    /// Whether it reads the slopes of the rates, [`Ode::jacobian`].
+    /// Whether the integrator reads the slopes of the rates, [`Ode::jacobian`].
     pub reads_jacobian: bool,
 }
 
-/// A step that a method has tried.
+/// A step that an integrator has tried.
 #[derive(Clone, Debug)]
 pub struct Step<Y: StateVector, S> {
-    /// Its length.
+    /// Length of the step.
     pub h: Of<Y>,
     /// y(t + h) − y(t)
     pub change: Y,
-    /// What the method keeps of it.
+    /// Data of the integrator about the step.
     pub stages: S,
 }
 
-/// Where a step begins.
+/// The start of a step.
 #[derive(Clone, Debug)]
 pub struct Start<'a, Y: StateVector, S> {
     /// Time.
     pub t: Of<Y>,
     /// State.
     pub y: &'a Y,
-    /// The step of the same equation that ended here, if there was one.
+    /// The previous step of the same equation, if any.
     pub before: Option<&'a Step<Y, S>>,
 }
 
-/// The rates at the end of a step, or why there are none.
+/// The rates at the end of a step, or the reason why they do not exist.
 type Tried<T, O> = Result<T, Reason<<O as Ode>::Error>>;
 
-/// A one-step method on states `Y`.
+/// A one-step integrator for states `Y`.
 pub trait Integrator<Y: StateVector> {
-    /// What a step leaves behind for its error, its dense output and the next step.
+    /// Data of a step for its error estimate, its dense output and the next step.
     type Stages: Clone + Debug;
 
-    /// What is known of it beforehand.
+    /// Returns the properties of the integrator.
     fn info(&self) -> IntegratorInfo;
 
-    /// A step of length `h`.
+    /// Computes a step of length `h`.
     ///
     /// # Errors
-    /// Where the rates do not exist, or the method's equations cannot be solved.
+    /// If the rates do not exist, or the integrator's equations cannot be solved.
     fn step<O: Ode<State = Y>>(
         &self,
         ode: &O,
@@ -69,17 +69,17 @@ pub trait Integrator<Y: StateVector> {
         h: Of<Y>,
     ) -> Tried<Step<Y, Self::Stages>, O>;
 
-    /// Estimate of a step's error in units of the tolerance, `scale` by component; 1 is just
-    /// allowed. `None` where the method has no estimate.
+    /// Returns the estimate of a step's error in units of the tolerance, where `scale` is the tolerance by
+    /// component; 1 is the largest accepted value. `None` for integrators without an estimate.
     fn error(&self, step: &Step<Y, Self::Stages>, scale: &Y) -> Option<Of<Y>> {
         let _ = (step, scale);
         None
     }
 
-    /// States within a step. Hermite's cubic through both ends where a method has nothing better.
+    /// Returns the states within a step. The default is Hermite's cubic through both ends.
     ///
     /// # Errors
-    /// Where the rates do not exist.
+    /// If the rates do not exist.
     fn dense<O: Ode<State = Y>>(
         &self,
         ode: &O,
@@ -90,7 +90,7 @@ pub trait Integrator<Y: StateVector> {
     }
 }
 
-/// Hermite's cubic over a step from `y` by `change`.
+/// Returns Hermite's cubic over a step from `y` by `change`.
 pub(crate) fn hermite<O: Ode>(
     ode: &O,
     t: ScalarOf<O>,

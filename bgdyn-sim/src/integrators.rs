@@ -1,4 +1,4 @@
-//! The list of integrators that a scene or a command can name.
+//! The list of integrators by name.
 
 use bgdyn_runtime::StateVector;
 
@@ -12,12 +12,12 @@ use crate::rk4::Rk4;
 use crate::rodas4::Rodas4;
 use crate::semi_implicit_euler::SemiImplicitEuler;
 
-/// What is to be done with an integrator that is chosen by name.
+/// A function that is generic over the integrator, which is chosen by name.
 pub trait WithIntegrator<Y: StateVector> {
-    /// What comes of it.
+    /// The result.
     type Output;
 
-    /// Does it.
+    /// Calls the function.
     fn with<M: Integrator<Y>>(self, integrator: M) -> Self::Output;
 }
 
@@ -26,7 +26,7 @@ macro_rules! integrators {
         /// Names of all integrators, in the order of the list.
         pub const INTEGRATORS: &[&str] = &[$($name),*];
 
-        /// Does something with the integrator of this name; `None` where there is none.
+        /// Calls a function with the integrator of this name; `None` if the name is unknown.
         pub fn with_integrator<Y: StateVector, W: WithIntegrator<Y>>(name: &str, what: W) -> Option<W::Output>
         where
             Of<Y>: Real,

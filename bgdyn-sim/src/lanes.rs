@@ -1,12 +1,12 @@
-//! Several runs at once, one in each lane of a SIMD register, by an explicit method with fixed steps.
+//! Runs several states at once, one in each lane of a SIMD register, by an explicit integrator with fixed
+//! steps.
 //!
-//! Every lane does what a [`crate::Solver`] with fixed steps does, operation by operation, so that its
-//! states are those of that run bit for bit; where the target has fused multiply-add, if both are
-//! compiled for it. Lanes differ in their states and in the model's run-time parameters, which are
-//! lanes themselves.
+//! Every lane does the same operations as a [`crate::Solver`] with fixed steps, so its states equal those
+//! of that run bit for bit (if the target has fused multiply-add, both must be compiled for it). Lanes
+//! differ in their states and in the model's run-time parameters, which are lanes, too.
 //!
-//! A lane whose mass matrix is singular, or whose state would not be finite, ends where it was; the
-//! others go on.
+//! A lane ends at its last state if its mass matrix is singular, or if its next state would not be finite;
+//! the other lanes continue.
 
 use core::convert::Infallible;
 use core::marker::PhantomData;
@@ -19,27 +19,27 @@ use crate::ode::Ode;
 use crate::real::{Of, Real};
 use crate::solver::sum_in_two;
 
-/// A scalar that holds one number per lane; a number by itself has one lane.
+/// A scalar that has one number per lane; a plain number has one lane.
 pub trait Lanes: Scalar {
-    /// How many lanes there are.
+    /// Number of lanes.
     const LANES: usize;
-    /// The number in a lane.
+    /// The type of the number in a lane.
     type Word: Real;
 
-    /// One number per lane.
+    /// Builds the scalar from one number per lane.
     fn pack(lane: impl FnMut(usize) -> Self::Word) -> Self;
 
-    /// The number in lane `k`, below [`Lanes::LANES`].
+    /// Returns the number in lane `k`, below [`Lanes::LANES`].
     fn lane(self, k: usize) -> Self::Word;
 
-    /// The accelerations of an error: those of the lanes that succeeded, NaN in the others.
+    /// Returns the accelerations of an error: those of the lanes that succeeded, NaN in the others.
     fn accelerations<const N: usize>(error: Self::Singular<N>) -> SVector<Self, N>;
 }
 
-/// The error of a scene's `derivative` in lanes, of which some may have succeeded.
+/// The error of a scene's `derivative` in lanes; some lanes may have succeeded.
 pub trait LaneError<T> {
-    /// The rate number `i` of those that the error stands for (of the velocities, then of the first-order
-    /// states): in the lanes that succeeded, NaN in the others.
+    /// Returns rate `i` (velocities first, then first-order states): values in the lanes that succeeded,
+    /// NaN in the others.
     fn rate(&self, i: usize) -> T;
 }
 
@@ -123,20 +123,20 @@ mod registers {
     }
 }
 
-/// States lane by lane as one; lanes beyond the last state repeat it.
+/// Packs one state per lane; lanes beyond the last state repeat it.
 ///
 /// # Panics
-/// Where there are none.
+/// If `states` is empty.
 pub fn packed<T: Lanes, const N: usize>(states: &[SVector<T::Word, N>]) -> SVector<T, N> {
     SVector::from_fn(|i, _| T::pack(|k| states[k.min(states.len() - 1)][i]))
 }
 
-/// The state in lane `k`.
+/// Returns the state in lane `k`.
 pub fn unpacked<T: Lanes, const N: usize>(states: &SVector<T, N>, k: usize) -> SVector<T::Word, N> {
     states.map(|x| x.lane(k))
 }
 
-/// A mechanism under the efforts τ(t, q, v), in any scalar; y is q, then v, so that `Y` is 2 `N`.
+/// A mechanism under the efforts τ(t, q, v), in any scalar; y is q followed by v, so that `Y` is 2 `N`.
 #[derive(Debug)]
 pub struct Driven<'a, T, M, F, const N: usize, const Y: usize> {
     model: &'a M,
@@ -150,7 +150,7 @@ where
     M: Dynamics<T, N, N>,
     F: Fn(T, &SVector<T, N>, &SVector<T, N>) -> SVector<T, N>,
 {
-    /// The mechanism under these efforts.
+    /// Returns the mechanism under these efforts.
     pub fn new(model: &'a M, efforts: F) -> Self {
         const { assert!(Y == 2 * N, "y is q, then v") };
         Driven {
@@ -188,7 +188,7 @@ where
     }
 }
 
-/// The rates of the first components by those that follow them.
+/// Returns the rates of the positions: the components that follow them.
 fn following<Y: FixedVector>(positions: usize, y: &Y) -> Y {
     let y = y.entries();
     Y::from_entries(|i| {
@@ -205,7 +205,7 @@ fn following<Y: FixedVector>(positions: usize, y: &Y) -> Y {
 #[derive(Debug)]
 pub struct SmoothScene<'a, T: Lanes, S: HybridSystem<T>> {
     scene: &'a S,
-    /// Inputs that the scene does not drive itself.
+    /// Inputs that the scene does not drive.
     pub given: S::Inputs,
 }
 
@@ -214,19 +214,19 @@ where
     T: Lanes,
     S: HybridSystem<T, Modes = SVector<T, 0>, Singular: LaneError<T>>,
 {
-    /// The scene, with all given inputs at 0.
+    /// Returns the scene with all given inputs at 0.
     pub fn new(scene: &'a S) -> Self {
         let given = S::Inputs::zero_vector();
         SmoothScene { scene, given }
     }
 
-    /// All inputs at an instant.
+    /// Returns all inputs at an instant.
     pub fn input(&self, t: T, y: &S::State) -> S::Inputs {
         self.scene
             .input(y, &S::Modes::zero_vector(), &self.given, t)
     }
 
-    /// The outputs that the scene asks for, at an instant.
+    /// Returns the outputs of the scene at an instant.
     pub fn output(&self, t: T, y: &S::State) -> S::Outputs {
         let input = self.input(t, y);
         self.scene.output(y, &S::Modes::zero_vector(), &input, t)
@@ -264,14 +264,14 @@ where
     }
 }
 
-/// Runs in lanes, where they are now.
+/// Runs in lanes, with their current time and states.
 #[derive(Clone, Debug)]
 pub struct LaneRun<Y: StateVector> {
     t: Of<Y>,
-    /// What rounding has taken from the time.
+    /// Rounding error of the time.
     low_time: Of<Y>,
     y: Y,
-    /// When each lane ended; infinity while it goes on.
+    /// End time of each lane; infinity while it runs.
     ended: Of<Y>,
 }
 
@@ -279,7 +279,7 @@ impl<Y: StateVector> LaneRun<Y>
 where
     Of<Y>: Lanes,
 {
-    /// From these states, at t = 0.
+    /// Returns runs from these states, at t = 0.
     pub fn new(y: Y) -> Self {
         let zero = Of::<Y>::from_f64(0.0);
         LaneRun {
@@ -290,22 +290,22 @@ where
         }
     }
 
-    /// Time, s: of the lanes that go on.
+    /// Returns the time of the running lanes, s.
     pub fn t(&self) -> Of<Y> {
         self.t
     }
 
-    /// States; of a lane that ended, the last one.
+    /// Returns the states; for a lane that ended, its last state.
     pub fn y(&self) -> &Y {
         &self.y
     }
 
-    /// When a lane ended, s; `None` while it goes on.
+    /// Returns the end time of a lane, s; `None` while it runs.
     pub fn ended(&self, k: usize) -> Option<<Of<Y> as Lanes>::Word> {
         Some(self.ended.lane(k)).filter(|t| t.is_finite())
     }
 
-    /// A step of the length `h`, s, in all lanes that go on.
+    /// Takes a step of the length `h`, s, in all running lanes.
     pub fn step<M, O>(&mut self, method: &M, ode: &O, h: f64)
     where
         M: Integrator<Y>,
@@ -317,7 +317,7 @@ where
             y: &self.y,
             before: None,
         };
-        // An explicit method has no other reason to fail than its rates.
+        // An explicit integrator fails only if its rates do.
         let Ok(step) = method.step(ode, &start, h) else {
             self.end(|_| true);
             return;
@@ -340,7 +340,7 @@ where
         (self.t, self.low_time) = sum_in_two(self.t, self.low_time + h);
     }
 
-    /// Ends the lanes for which `fails` holds.
+    /// Ends the lanes for which `fails` is true.
     fn end(&mut self, fails: impl Fn(usize) -> bool) {
         let before = self.ended;
         self.ended = Of::<Y>::pack(|k| match self.ended(k) {

@@ -1,4 +1,4 @@
-//! LU factorisation with partial pivoting, in any scalar that is one number.
+//! LU factorisation with partial pivoting, in any scalar without lanes.
 
 use bgdyn_runtime::{ArrayOf, StateVector};
 
@@ -9,7 +9,7 @@ use crate::real::{Of, Real};
 pub(crate) struct Lu<Y: StateVector> {
     /// Unit lower and upper factors in one matrix.
     factors: Y::Matrix,
-    /// The row that came to each place.
+    /// Index of the row that was moved to each row.
     pivots: ArrayOf<Y, usize>,
 }
 
@@ -17,7 +17,7 @@ impl<Y: StateVector> Lu<Y>
 where
     Of<Y>: Real,
 {
-    /// Factors a matrix on the space of `like`; `None` where a pivot is 0 or not finite.
+    /// Factors a matrix for vectors such as `like`; `None` if a pivot is 0 or not finite.
     pub(crate) fn new(mut factors: Y::Matrix, like: &Y) -> Option<Self> {
         let mut pivots = like.array(0);
         let n = like.entries().len();
@@ -43,7 +43,7 @@ where
     }
 }
 
-/// Factors an n × n matrix, column by column, in place. False where a pivot is 0 or not finite.
+/// Factors an n × n matrix, column by column, in place. Returns false if a pivot is 0 or not finite.
 pub(crate) fn factor<T: Real>(a: &mut [T], pivots: &mut [usize], n: usize) -> bool {
     for k in 0..n {
         let mut p = k;
@@ -76,7 +76,7 @@ pub(crate) fn factor<T: Real>(a: &mut [T], pivots: &mut [usize], n: usize) -> bo
 /// Solves with the factors of [`factor`], in place.
 pub(crate) fn solve<T: Real>(a: &[T], pivots: &[usize], x: &mut [T]) {
     let n = x.len();
-    // The factors' rows stand in their last order: x comes to it before anything is eliminated.
+    // The rows of the factors are in their final order: permute x before the elimination.
     for (k, &p) in pivots.iter().enumerate() {
         x.swap(k, p);
     }

@@ -1,6 +1,6 @@
 //! The classical Runge–Kutta method of order 4 on a mechanism (Kutta 1901).
 //!
-//! Positions advance by the mechanism's own `integrate`.
+//! Positions advance by the mechanism's `integrate`.
 
 use bgdyn_runtime::{Dynamics, Scalar};
 use nalgebra::SVector;
@@ -14,7 +14,7 @@ pub struct State<T: Scalar, const NQ: usize, const NV: usize> {
     pub v: SVector<T, NV>,
 }
 
-/// x + k·y, component by component.
+/// Returns x + k·y.
 fn plus_scaled<T: Scalar, const N: usize>(
     x: &SVector<T, N>,
     k: T,
@@ -23,7 +23,7 @@ fn plus_scaled<T: Scalar, const N: usize>(
     x.zip_map(y, |x, y| x + k * y)
 }
 
-/// The state after moving from `s` with the rates (v, a) for the time `h`.
+/// Returns the state after moving from `s` with the rates (v, a) for the time `h`.
 fn moved<M, T, const NQ: usize, const NV: usize>(
     model: &M,
     s: &State<T, NQ, NV>,
@@ -40,10 +40,10 @@ where
     }
 }
 
-/// One step of length `h`, s, from time `t` under the joint efforts `tau(t, state)`.
+/// Takes one step of length `h`, s, from time `t` under the joint efforts `tau(t, state)`.
 ///
 /// # Errors
-/// Where the mass matrix is singular at one of the four stages.
+/// If the mass matrix is singular at one of the four stages.
 pub fn rk4_step<M, T, const NQ: usize, const NV: usize>(
     model: &M,
     t: T,

@@ -6,7 +6,7 @@ use bgdyn_runtime::StateVector;
 
 use crate::real::Of;
 
-/// The components of an equation's state.
+/// The scalar type of an equation's state.
 pub type ScalarOf<O> = Of<<O as Ode>::State>;
 
 /// Slopes of the rates.
@@ -20,23 +20,23 @@ pub struct Jacobian<Y: StateVector> {
 
 /// ẏ = f(t, y)
 ///
-/// A state may have more components than degrees of freedom (a unit quaternion has four for three):
-/// its rates are then those of the components, along the set of possible states, and
-/// [`Ode::project`] takes a state back onto that set. A step leaves it by no more than its own
-/// error, so that the projection keeps the order.
+/// A state may have more components than degrees of freedom (a unit quaternion has four for three). Its
+/// rates are then those of the components, tangent to the manifold of valid states, and [`Ode::project`]
+/// projects a state onto that manifold. A step leaves the manifold by no more than its own error, so the
+/// projection preserves the order.
 pub trait Ode {
-    /// The states.
+    /// The type of the states.
     type State: StateVector;
-    /// Why there may be no rates: a singular mass matrix.
+    /// The error of missing rates: a singular mass matrix.
     type Error: Debug;
 
-    /// ẏ at time `t`.
+    /// Returns ẏ at time `t`.
     ///
     /// # Errors
-    /// Where the rates do not exist.
+    /// If the rates do not exist.
     fn rates(&self, t: ScalarOf<Self>, y: &Self::State) -> Result<Self::State, Self::Error>;
 
-    /// Slopes of the rates at time `t`; `None` where they are not known.
+    /// Returns the slopes of the rates at time `t`; `None` if they are not available.
     fn jacobian(
         &self,
         t: ScalarOf<Self>,
@@ -46,14 +46,14 @@ pub trait Ode {
         None
     }
 
-    /// How many components, the first ones, are positions: a semi-implicit step moves them by the
+    /// Returns the number of positions, the first components: a semi-implicit step advances them with the
     /// velocities at its end.
     fn positions(&self) -> usize {
         0
     }
 
-    /// The rates of the positions; the other components are not read. As [`Ode::rates`], where
-    /// nothing cheaper is known.
+    /// Returns the rates of the positions; the other components are not read. The default is
+    /// [`Ode::rates`].
     ///
     /// # Errors
     /// As [`Ode::rates`].
@@ -65,7 +65,7 @@ pub trait Ode {
         self.rates(t, y)
     }
 
-    /// Takes a state back onto the set of possible ones. Whether that changed it.
+    /// Projects a state onto the manifold of valid states. Returns whether that changed it.
     fn project(&self, y: &mut Self::State) -> bool {
         let _ = y;
         false

@@ -1,16 +1,16 @@
-//! Scalars that are one number, and the sizes of vectors of them.
+//! Scalars without lanes, and norms of their vectors.
 
 use bgdyn_runtime::{Dd, Scalar, StateVector};
 
-/// A scalar that is one number: what step control and iterations need to compare.
+/// A scalar without lanes, which step control and iterations can compare.
 pub trait Real: Scalar<Mask = bool> + PartialOrd {
     /// A bound on the relative rounding error of one operation.
     const EPSILON: Self;
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     fn to_f64(self) -> f64;
 
-    /// Whether it is neither infinite nor NaN.
+    /// Returns whether the number is neither infinite nor NaN.
     fn is_finite(self) -> bool;
 }
 
@@ -50,11 +50,11 @@ impl Real for Dd {
     }
 }
 
-/// The components of the vectors of `Y`.
+/// The scalar type of the vectors `Y`.
 pub type Of<Y> = <Y as StateVector>::Scalar;
 
-/// The largest of |x|ᵢ/sᵢ; a component whose scale is 0 counts only if it is not 0 itself. NaN
-/// where a component is.
+/// Returns the largest |x|ᵢ/sᵢ; a component whose scale is 0 counts only if it is not 0. NaN if a
+/// component is NaN.
 pub(crate) fn largest<Y: StateVector>(x: &Y, scale: &Y) -> Of<Y>
 where
     Of<Y>: Real,
@@ -70,7 +70,7 @@ where
     })
 }
 
-/// Whether every component is finite.
+/// Returns whether every component is finite.
 pub(crate) fn finite<Y: StateVector>(x: &Y) -> bool
 where
     Of<Y>: Real,

@@ -15,11 +15,11 @@ use crate::tableau::combined;
 /// stiffly accurate and L-stable (Steinebach 1995; its form and a relative are in Hairer, Wanner,
 /// Solving Ordinary Differential Equations II, 1996, IV.7 and VI.4).
 ///
-/// For stiff scenes: friction that is all but rigid, motors with fast windings, hydraulics. Six
-/// evaluations of the rates, one of their slopes and one factorisation per step, no iteration. Of
-/// this family it is the one that keeps its order where the fast part is driven. What shakes on a
-/// stiff spring is damped away unless the steps resolve it; a [`crate::Gauss`] method keeps it. The
-/// coefficients are published to 16 digits: in double-double no more than those are to be had.
+/// For stiff scenes: friction that is almost rigid, motors with fast windings, hydraulics. One step needs
+/// six evaluations of the rates, one of their slopes and one factorisation, and no iteration. Of its
+/// family it is the method that retains its order if the fast part is driven. It damps oscillations on a
+/// stiff spring unless the steps resolve them; a [`crate::Gauss`] integrator does not. The coefficients
+/// are published to 16 digits, which limits its accuracy in double-double.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rodas4;
 
@@ -99,7 +99,7 @@ const LAST: [Words; 4] = [
     decimal("-1.062004044111401"),
 ];
 
-/// The step; without the last stage it is of order 3.
+/// Weights of the step; without the last stage it is of order 3.
 const WEIGHTS: [Words; 6] = [LAST[0], LAST[1], LAST[2], LAST[3], ONE, ONE];
 
 /// The third and the fourth term of the dense output.
@@ -181,7 +181,7 @@ where
     }
 }
 
-/// I/(hγ) − J, factored.
+/// Factors I/(hγ) − J.
 fn factors<Y: StateVector>(jacobian: &Y::Matrix, h: Of<Y>, like: &Y) -> Option<Lu<Y>>
 where
     Of<Y>: Real,

@@ -7,11 +7,11 @@ use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
 use crate::ode::Ode;
 use crate::real::Of;
 
-/// The semi-implicit Euler method, of order 1 with fixed steps: velocities and first-order states
-/// move by their rates at the start, then positions by the velocities at the end.
+/// The semi-implicit Euler method, of order 1 with fixed steps: velocities and first-order states advance
+/// with their rates at the start, then positions with the velocities at the end.
 ///
-/// One evaluation of the rates per step, and far better on oscillations than the explicit method.
-/// Symplectic where the mass matrix is constant.
+/// It evaluates the rates once per step, and is much more accurate for oscillations than the explicit
+/// method. It is symplectic if the mass matrix is constant.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SemiImplicitEuler;
 
@@ -38,7 +38,7 @@ impl<Y: StateVector> Integrator<Y> for SemiImplicitEuler {
         let mut change = rates.times(h);
         let positions = ode.positions();
         if positions > 0 {
-            // The old positions with the new velocities.
+            // The state with the old positions and the new velocities.
             let mut moved = from.y.plus(Of::<Y>::from_f64(1.0), &change);
             moved.entries_mut()[..positions].copy_from_slice(&from.y.entries()[..positions]);
             let rates = ode

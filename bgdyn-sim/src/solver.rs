@@ -9,34 +9,34 @@ use crate::integrator::{Integrator, Start, Step};
 use crate::ode::Ode;
 use crate::real::{Of, Real, finite};
 
-/// A step that may be taken.
+/// A step that the solver can accept.
 #[derive(Clone, Debug)]
 pub(crate) struct Proposal<Y: StateVector, S> {
     pub(crate) step: Step<Y, S>,
-    /// Time and state where it leads, each with what its rounding leaves.
+    /// Time and state at the end of the step, each with its rounding error.
     pub(crate) t: (Of<Y>, Of<Y>),
     pub(crate) y: (Y, Option<Y>),
-    /// Whether the state is where the step itself leads.
+    /// Whether the state is that of the step, without projection.
     smooth: bool,
 }
 
-/// An integration by a one-step method, where it is now.
+/// Integrates an equation step by step.
 ///
-/// With a [`Tolerance`] and a method that estimates its error the steps are controlled, otherwise
-/// they are as long as [`Solver::advance`] says.
+/// With a [`Tolerance`] and an integrator that estimates its error, the steps are controlled; otherwise
+/// [`Solver::advance`] takes steps of the given length.
 #[derive(Clone, Debug)]
 pub struct Solver<Y: StateVector, M: Integrator<Y>> {
     integrator: M,
     t: Of<Y>,
     y: Y,
-    /// What rounding has taken from the time.
+    /// Rounding error of the time.
     low_time: Of<Y>,
-    /// What rounding has taken from the state; kept if sums are compensated.
+    /// Rounding error of the state, with compensated sums.
     low: Option<Y>,
-    /// The step that ended here, while the equation is the same.
+    /// The previous step, if its equation was the same.
     before: Option<Step<Y, M::Stages>>,
     control: Option<(Tolerance<Of<Y>>, Controller)>,
-    /// The next controlled step.
+    /// Length of the next controlled step.
     h: Option<Of<Y>>,
 }
 
@@ -44,7 +44,7 @@ impl<Y: StateVector, M: Integrator<Y>> Solver<Y, M>
 where
     Of<Y>: Real,
 {
-    /// From the state `y` at time `t`.
+    /// Returns a solver at the state `y` and the time `t`.
     pub fn new(integrator: M, t: Of<Y>, y: Y) -> Self {
         Solver {
             integrator,
@@ -58,15 +58,15 @@ where
         }
     }
 
-    /// With compensated sums (Kahan 1965): what rounding takes from the state when a step is added is
-    /// kept in a second word, and added with the next one.
+    /// Uses compensated sums (Kahan 1965): the rounding error of adding a step to the state is stored in a
+    /// second word, and added with the next step.
     #[must_use]
     pub fn compensated(mut self) -> Self {
         self.low = Some(self.y.zero());
         self
     }
 
-    /// With controlled steps, where the method estimates its error.
+    /// Controls the steps if the integrator estimates its error.
     #[must_use]
     pub fn with_tolerance(mut self, tolerance: Tolerance<Of<Y>>) -> Self {
         let estimate = self.integrator.info().estimate;
@@ -74,45 +74,45 @@ where
         self
     }
 
-    /// The integrator.
+    /// Returns the integrator.
     pub fn integrator(&self) -> &M {
         &self.integrator
     }
 
-    /// Time.
+    /// Returns the time.
     pub fn t(&self) -> Of<Y> {
         self.t
     }
 
-    /// State.
+    /// Returns the state.
     pub fn y(&self) -> &Y {
         &self.y
     }
 
-    /// What the state lacks for having been rounded, if sums are compensated: the state is
-    /// [`Solver::y`] plus this, unevaluated.
+    /// Returns the rounding error of the state with compensated sums: the state is [`Solver::y`] plus
+    /// this, unevaluated.
     pub fn low(&self) -> Option<&Y> {
         self.low.as_ref()
     }
 
-    /// Whether steps are controlled.
+    /// Returns whether steps are controlled.
     pub fn is_controlled(&self) -> bool {
         self.control.is_some()
     }
 
-    /// The state jumps, or its equation changes.
+    /// Restarts at a new state, after a jump of the state or a change of the equation.
     pub fn restart(&mut self, y: Y) {
         self.low = self.low.as_ref().map(|_| y.zero());
         self.y = y;
         self.forget();
     }
 
-    /// The clock shows `t`: an instant that lies within rounding of its own.
+    /// Sets the time to `t`, which differs from it by rounding only.
     pub(crate) fn set_clock(&mut self, t: Of<Y>) {
         (self.t, self.low_time) = (t, Of::<Y>::from_f64(0.0));
     }
 
-    /// The equation changes: nothing of earlier steps holds any more.
+    /// Discards data of earlier steps, because the equation has changed.
     pub fn forget(&mut self) {
         self.before = None;
         if let Some((_, controller)) = &mut self.control {
@@ -120,7 +120,7 @@ where
         }
     }
 
-    /// A failure here.
+    /// Returns a failure at the current time and state.
     pub(crate) fn failure<E>(&self, reason: Reason<E>) -> Failure<Y, E> {
         Failure {
             t: self.t,
@@ -137,10 +137,10 @@ where
         }
     }
 
-    /// One step: of the length `most`, or a controlled one no longer than that. Gives its length.
+    /// Takes one step: of the length `most`, or a controlled one that is not longer. Returns its length.
     ///
     /// # Errors
-    /// With the reason, where the step fails; the solver stays where it was.
+    /// The reason, if the step fails; the solver does not move.
     pub fn advance<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
@@ -153,7 +153,7 @@ where
         Ok(h)
     }
 
-    /// [`Solver::advance`], with the states within the step.
+    /// Takes a step as [`Solver::advance`] does, and returns the states within it.
     ///
     /// # Errors
     /// As [`Solver::advance`].
@@ -170,10 +170,10 @@ where
         Ok(dense)
     }
 
-    /// To the time `end`: one fixed step, or as many controlled ones as it takes.
+    /// Advances to the time `end`, by one fixed step or by several controlled ones.
     ///
     /// # Errors
-    /// As [`Solver::advance`]; the solver stays at the end of the last step that succeeded.
+    /// As [`Solver::advance`]; the solver remains at the end of the last successful step.
     pub fn advance_to<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
@@ -183,14 +183,14 @@ where
             let left = (end - self.t) - self.low_time;
             let taken = self.advance(ode, left)?;
             if taken >= left {
-                // Rounding must not leave a step of no length.
+                // Set the time exactly: rounding must not leave a step of length zero.
                 self.set_clock(end);
             }
         }
         Ok(())
     }
 
-    /// The step that [`Solver::advance`] would take.
+    /// Computes the step that [`Solver::advance`] would take.
     pub(crate) fn propose<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
@@ -211,7 +211,7 @@ where
         let least = resolved.max(Of::<Y>::from_f64(1e-300));
         let mut error = controller.last();
         loop {
-            // A little more than the step rather than a tiny one after it.
+            // Take a slightly longer step instead of a tiny one at the end.
             let shortened = h * Of::<Y>::from_f64(1.01) >= most;
             let length = if shortened { most } else { h };
             let tried = self.attempt(ode, length);
@@ -229,7 +229,7 @@ where
             let (accepted, ratio) = judged;
             let next = length * Of::<Y>::from_f64(ratio);
             if (shortened || length > least) && accepted {
-                // A step cut short by its end says nothing against longer ones.
+                // A step that was shortened to end at `most` does not limit the next step.
                 self.h = Some(if shortened { next.max(h) } else { next });
                 self.control = Some((tolerance, controller));
                 return tried;
@@ -242,7 +242,7 @@ where
         }
     }
 
-    /// A step of length `h`, whatever its error.
+    /// Computes a step of length `h`, for any error.
     pub(crate) fn attempt<O: Ode<State = Y>>(
         &self,
         ode: &O,
@@ -273,14 +273,14 @@ where
         })
     }
 
-    /// Takes a proposed step.
+    /// Accepts a proposed step.
     pub(crate) fn take(&mut self, proposal: Proposal<Y, M::Stages>) {
         (self.t, self.low_time) = proposal.t;
         (self.y, self.low) = proposal.y;
         self.before = proposal.smooth.then_some(proposal.step);
     }
 
-    /// States within a step that was proposed from here.
+    /// Returns the states within a proposed step.
     pub(crate) fn dense<O: Ode<State = Y>>(
         &self,
         ode: &O,
@@ -290,7 +290,7 @@ where
     }
 }
 
-/// a + b rounded, and what rounding leaves (Knuth's two-sum).
+/// Returns a + b rounded, and the rounding error (Knuth's two-sum).
 pub(crate) fn sum_in_two<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let back = sum - a;

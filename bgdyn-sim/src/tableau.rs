@@ -1,4 +1,4 @@
-//! Stages of explicit Runge–Kutta methods.
+//! Evaluates the stages of explicit Runge–Kutta methods.
 
 use bgdyn_runtime::StateVector;
 
@@ -8,13 +8,13 @@ use crate::integrator::Start;
 use crate::ode::{Ode, ScalarOf};
 use crate::real::Of;
 
-/// A stage: its time c, and the weights a of the rates before it.
+/// A stage: its time c, and the weights a of the rates of earlier stages.
 pub(crate) struct Stage {
     pub(crate) c: Words,
     pub(crate) a: &'static [Words],
 }
 
-/// Σ wⱼ kⱼ
+/// Returns Σ wⱼ kⱼ.
 pub(crate) fn combined<Y: StateVector>(weights: &[Words], rates: &[Y]) -> Y {
     let mut sum = rates[0].zero();
     for (w, k) in weights.iter().zip(rates) {
@@ -25,7 +25,7 @@ pub(crate) fn combined<Y: StateVector>(weights: &[Words], rates: &[Y]) -> Y {
     sum
 }
 
-/// The rates at these stages, behind those in `rates` already: kᵢ = f(t + cᵢh, y + h Σ aᵢⱼ kⱼ).
+/// Computes the rates at these stages, after those in `rates`: kᵢ = f(t + cᵢh, y + h Σ aᵢⱼ kⱼ).
 pub(crate) fn fill<O: Ode>(
     ode: &O,
     (t, y): (ScalarOf<O>, &O::State),
@@ -43,8 +43,8 @@ pub(crate) fn fill<O: Ode>(
     Ok(())
 }
 
-/// The rates at all stages of a step, of which `stages` lists those after the first; the first one's
-/// are `known` where the step before ended with them.
+/// Computes the rates at all stages of a step; `stages` lists all but the first. The rates at the first
+/// stage are `known` if the previous step ended with them.
 pub(crate) fn all<O: Ode, S, const N: usize>(
     ode: &O,
     from: &Start<'_, O::State, S>,

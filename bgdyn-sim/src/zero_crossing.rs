@@ -2,16 +2,17 @@
 
 use crate::real::Real;
 
-/// Evaluations at the most: bisection alone would need no more.
+/// Largest number of evaluations: bisection alone would need no more.
 const MAX_EVALUATIONS: u32 = 400;
 
-/// One end of the interval searched: where it is, and the value there.
+/// One end of the search interval: its position and the value at it.
 type End<T> = (T, T);
 
-/// The later end of an interval of length `width` at the most, on which `value` first passes through
-/// zero: positive or 0 at `low`, negative (as `passed` says) at `high`. `guess` is tried first.
+/// Returns the later end of an interval, not longer than `width`, in which `value` first passes through
+/// zero. The value is positive or 0 at `low`, and negative (according to `passed`) at `high`. `guess` is
+/// tried first.
 ///
-/// Regula falsi in the Illinois form (Dowell, Jarratt 1971), every fourth step a bisection.
+/// Regula falsi in the Illinois form (Dowell, Jarratt 1971); every fourth step is a bisection.
 pub(crate) fn first_passage<T: Real, E>(
     mut value: impl FnMut(T) -> Result<(T, bool), E>,
     (mut low, mut high): (End<T>, End<T>),
@@ -19,7 +20,7 @@ pub(crate) fn first_passage<T: Real, E>(
     width: T,
 ) -> Result<T, E> {
     let half = T::from_f64(0.5);
-    // Which end moved last.
+    // The end that moved last.
     let mut moved = None;
     for i in 0..MAX_EVALUATIONS {
         let length = high.0 - low.0;

@@ -9,7 +9,7 @@ use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::system::SceneEquations;
 
-/// The scenes, and when their runs end where that is not as the file says, s.
+/// The scenes, with the ends of their runs if they differ from the file, s.
 const SCENES: [(&str, Option<f64>); 8] = [
     ("cart_and_pole", None),
     ("scara_everything", None),

@@ -1,5 +1,5 @@
-//! Generates the models: OUT_DIR/gantry.rs, and OUT_DIR/wrist.rs with what the wrist's controller
-//! calls and nothing else.
+//! Generates the models: OUT_DIR/gantry.rs, and OUT_DIR/wrist.rs with only the methods that the wrist's
+//! controller calls.
 
 use bgdyn_codegen::build_script::{Build, Error, build};
 

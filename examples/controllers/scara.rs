@@ -1,5 +1,5 @@
-//! A SCARA puts a part from one place to another: computed torque at 1 kHz with a model generated
-//! from `specs/scara.yaml`, against a simulated arm that carries 2 kg the model knows nothing of.
+//! A SCARA moves a part from one place to another: computed torque at 1 kHz with a model generated from
+//! `specs/scara.yaml`, simulated with an arm that carries 2 kg unknown to the model.
 //!
 //! `cargo run --release -p controllers --example scara` prints a report and draws `target/scara/scara.svg`.
 
@@ -33,7 +33,7 @@ fn main() -> ExitCode {
 fn cell() -> Result<Cell<Scara, Scara, Scara, ScaraLoaded, 4>, String> {
     let machine = machine!(scara, Scara);
 
-    // Places of the tool: x, y, z in m and its angle about the vertical.
+    // Positions of the tool: x, y, z in m and its angle about the vertical.
     let place = |x, y, z, angle: f64| joints(&machine, &Point3::new(x, y, z), angle.to_radians());
     let home = place(0.45, 0.10, 0.22, 0.0)?;
     let above_pick = place(0.42, -0.22, 0.20, 0.0)?;
@@ -68,8 +68,8 @@ fn cell() -> Result<Cell<Scara, Scara, Scara, ScaraLoaded, 4>, String> {
 
 /// Inverse kinematics, elbow to the left.
 ///
-/// The law of cosines gives the elbow from the distance, the direction then gives the shoulder;
-/// the quill hangs head down, so that lowering and turning count against the world's z.
+/// The law of cosines gives the elbow from the distance, the direction then gives the shoulder; the
+/// quill's axis points down, so that its displacement and rotation are opposite to the world's z.
 fn joints(machine: &Machine<4>, tool: &Point3<f64>, angle: f64) -> Result<Joints<4>, String> {
     let (upper, fore) = ARMS;
     let square = tool.x * tool.x + tool.y * tool.y;
@@ -81,7 +81,7 @@ fn joints(machine: &Machine<4>, tool: &Point3<f64>, angle: f64) -> Result<Joints
     let shoulder = tool.y.atan2(tool.x) - (fore * elbow.sin()).atan2(upper + fore * elbow.cos());
     let q = Joints::from([shoulder, elbow, TOP - tool.z, shoulder + elbow - angle]);
 
-    // The constants above and the spec must agree: forward kinematics leads back.
+    // Checks the constants above against the spec by forward kinematics.
     let off = ((machine.tool)(&q) - tool).norm();
     if off > 1e-9 {
         return Err(format!("inverse kinematics misses {tool} by {off} m"));

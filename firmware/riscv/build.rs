@@ -1,4 +1,4 @@
-//! Generates the models, and the motions that the controllers are checked with.
+//! Generates the models, and the motions with which the controllers are checked.
 
 use std::path::PathBuf;
 use std::{env, fs};

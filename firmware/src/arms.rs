@@ -1,4 +1,4 @@
-//! What is measured: three arms, generated, and as lists of bodies for the textbook.
+//! The measured arms: generated, and as lists of bodies for the textbook recursions.
 
 include!(concat!(env!("OUT_DIR"), "/scara.rs"));
 include!(concat!(env!("OUT_DIR"), "/puma560.rs"));

@@ -1,10 +1,10 @@
-//! The board under QEMU: output by semihosting, and what happens on a panic.
+//! The board under QEMU: output by semihosting, and the panic handler.
 
 use core::panic::PanicInfo;
 
 use cortex_m_semihosting::{debug, hprintln};
 
-/// Ends the run: the program's exit status is 0 where all is `well`.
+/// Ends the run: the program's exit status is 0 if `well`.
 pub fn exit(well: bool) -> ! {
     debug::exit(if well {
         debug::EXIT_SUCCESS

@@ -13,16 +13,17 @@ use bgdyn::nalgebra::SVector;
 use control::{ComputedTorque, Record, check};
 use cortex_m_semihosting::hprintln;
 
-/// What the controllers compute with.
+/// The scalar of the controllers.
 #[cfg(not(feature = "double"))]
 pub type Real = f32;
-/// What the controllers compute with.
+/// The scalar of the controllers.
 #[cfg(feature = "double")]
 pub type Real = f64;
 
 include!(concat!(env!("OUT_DIR"), "/motions.rs"));
 
-/// Runs a motion on this board, with the gains that the host had, and ends the program by how it went.
+/// Runs a motion on this board, with the gains of the host, and ends the program with a status for
+/// success.
 pub fn run<M: Dynamics<Real, N, N>, const N: usize>(
     name: &str,
     arm: &M,

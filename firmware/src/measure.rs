@@ -1,4 +1,4 @@
-//! Instructions and stack of a call.
+//! Measures instructions and stack of a call.
 #![allow(unsafe_code)] // registers of the timer, and the stack below the stack pointer
 
 use core::hint::black_box;
@@ -10,15 +10,15 @@ const CONTROL: *mut u32 = TIMER as *mut u32;
 const VALUE: *mut u32 = (TIMER + 4) as *mut u32;
 const RELOAD: *mut u32 = (TIMER + 8) as *mut u32;
 
-/// Bytes below the stack pointer that are painted, and what with.
+/// Number of bytes below the stack pointer that are painted, and their value.
 const PAINTED: usize = 32 * 1024;
 const PAINT: u32 = 0xdead_beef;
 
-/// Counts instructions, under `-icount shift=8`: 256 ns of the board's clock each, 6.4 ticks of its
-/// timer, so that a tick more or less does not matter.
+/// Counts instructions, under `-icount shift=8`: 256 ns of the board's clock each, 6.4 ticks of its timer,
+/// so that an error of one tick has no effect.
 #[derive(Debug)]
 pub struct Counter {
-    /// What two readings with nothing between them count.
+    /// The count of two readings with nothing between them.
     own: u32,
 }
 
@@ -36,7 +36,7 @@ impl Counter {
         counter
     }
 
-    /// Instructions of `call`, a call and its return with its arguments set up.
+    /// Returns the instructions of `call`: a call and its return with its arguments set up.
     #[inline(always)]
     pub fn of(&self, call: impl FnOnce()) -> u32 {
         let before = ticks();
@@ -53,7 +53,7 @@ fn ticks() -> u32 {
     unsafe { VALUE.read_volatile() }
 }
 
-/// Bytes of stack that `call` uses, its return address and saved registers among them.
+/// Returns the bytes of stack that `call` uses, including its return address and saved registers.
 #[inline(never)]
 pub fn stack(call: &mut dyn FnMut()) -> usize {
     let call = black_box(call);
@@ -77,9 +77,9 @@ pub fn stack(call: &mut dyn FnMut()) -> usize {
     top - at
 }
 
-/// Whether the processor computes with `f64`: the Cortex-M7 of the board does, the M4 does not.
+/// Returns whether the processor computes with `f64`: the Cortex-M7 of the board does, the M4 does not.
 pub fn double_precision() -> bool {
-    // SAFETY: the identification of the processor, which can only be read.
+    // SAFETY: the identification register of the processor is read-only.
     let part = unsafe { (*cortex_m::peripheral::CPUID::PTR).base.read() } >> 4 & 0xfff;
     part == 0xc27
 }

@@ -1,4 +1,4 @@
-//! What is measured: the four functions of a model, generated or by the textbook, with the same
+//! The measured functions: the four functions of a model, generated or by the textbook, with the same
 //! arguments.
 
 use bgdyn::nalgebra::{RealField, SMatrix, SVector};
@@ -6,7 +6,7 @@ use bgdyn::{Dynamics, Scalar};
 use control::{ComputedTorque, Record};
 use textbook::Textbook;
 
-/// Results, wherever a function has one.
+/// The results of all functions.
 #[derive(Clone, Debug)]
 pub struct Out<T, const N: usize> {
     /// Efforts or accelerations.
@@ -28,8 +28,8 @@ impl<T: Scalar, const N: usize> Default for Out<T, N> {
     }
 }
 
-/// A model whose functions are measured: at the record's q and v, with its wanted acceleration as a,
-/// and with its efforts.
+/// A model whose functions are measured: at the record's q and v, with its desired acceleration as a, and
+/// with its efforts.
 pub trait Subject<T, const N: usize> {
     /// tau = ID(q, v, a)
     fn inverse_dynamics(&mut self, at: &Record<T, N>, out: &mut Out<T, N>);
@@ -44,7 +44,7 @@ pub trait Subject<T, const N: usize> {
 /// A function of a subject.
 pub type Function<S, T, const N: usize> = fn(&mut S, &Record<T, N>, &mut Out<T, N>);
 
-/// All of a subject's functions, with their names.
+/// Returns all of a subject's functions, with their names.
 pub fn functions<S: Subject<T, N>, T, const N: usize>() -> [(&'static str, Function<S, T, N>); 4] {
     [
         ("inverse dynamics", S::inverse_dynamics),
@@ -54,7 +54,7 @@ pub fn functions<S: Subject<T, N>, T, const N: usize>() -> [(&'static str, Funct
     ]
 }
 
-/// A generated model under control.
+/// A generated model with a controller.
 #[derive(Clone, Debug)]
 pub struct Generated<M, T, const N: usize> {
     /// The model.
@@ -86,7 +86,7 @@ impl<M: Dynamics<T, N, N>, T: Scalar, const N: usize> Subject<T, N> for Generate
     }
 }
 
-/// The textbook's recursions under control.
+/// The textbook's recursions with a controller.
 #[derive(Clone, Debug)]
 pub struct Plain<T: RealField + Copy, const N: usize> {
     /// The tree.

@@ -1,4 +1,4 @@
-//! No text makes reader, check or importer panic, or break what they promise.
+//! Checks that no text makes parser, check or importer panic, or violates their invariants.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| bgdyn_cli::fuzz_invariants::any_text(text));

@@ -1,5 +1,5 @@
-//! Operational-space control within the limits of the joints, for any model and any frame of it: no
-//! macro, no allocation, and of the standard library only what `core` has.
+//! Operational-space control within the limits of the joints, for any model and any of its frames: no
+//! macro, no allocation, no standard library except `core`.
 
 use core::marker::PhantomData;
 
@@ -11,13 +11,13 @@ use bgdyn::{Description, Dynamics, Kinematics, Scalar};
 pub struct ToPose<F, T> {
     /// Stiffness of the frame's motion, 1/s².
     pub stiffness: T,
-    /// Stiffness with which a joint is kept from the ends of its range, 1/s².
+    /// Stiffness that keeps a joint inside its range, 1/s².
     pub barrier: T,
     pub frame: PhantomData<F>,
 }
 
 impl<F: bgdyn::Frame, T: Scalar + RealField> ToPose<F, T> {
-    /// Joint efforts at the state q, v.
+    /// Returns the joint efforts at the state q, v.
     pub fn efforts<M, const N: usize>(
         &self,
         model: &M,
@@ -40,14 +40,14 @@ impl<F: bgdyn::Frame, T: Scalar + RealField> ToPose<F, T> {
         })
     }
 
-    /// The acceleration, bounded by what brings the joint to rest at the end of its range.
+    /// Limits the acceleration so that the joint can come to rest at the end of its range.
     fn within(&self, limits: &Limits, a: T, q: T, v: T) -> T {
         let braking = |end: f64| (number::<T>(end) - q) * self.barrier - v * critical(self.barrier);
         Scalar::max(Scalar::min(a, braking(limits.upper)), braking(limits.lower))
     }
 }
 
-/// Damping without overshoot.
+/// Returns critical damping.
 fn critical<T: Scalar>(stiffness: T) -> T {
     T::from_f64(2.0) * stiffness.sqrt()
 }
@@ -56,8 +56,8 @@ fn number<T: Scalar>(x: f64) -> T {
     T::from_f64(x)
 }
 
-/// The accelerations of the joints with which the frame has the wanted one, as far as it can: damped
-/// least squares.
+/// Returns the joint accelerations that give the frame the desired acceleration as closely as possible:
+/// damped least squares.
 fn accelerations<T: Scalar + RealField, const N: usize>(
     jacobian: &SMatrix<T, 6, N>,
     wanted: &SVector<T, 6>,

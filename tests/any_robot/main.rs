@@ -1,5 +1,5 @@
-//! One controller, written once over the traits, runs two different robots in two scalars; the traits
-//! are the modules' own methods; the feature `serde` needs no dependency of the caller's.
+//! Tests one controller, generic over the traits, on two different robots in two scalars; that the traits
+//! equal the modules' own methods; and that the feature `serde` needs no dependency of the caller.
 
 mod controller;
 
@@ -16,7 +16,8 @@ bgdyn::bgdyn!("tests/ui/pass/robots/lift.yaml", methods = [gravity]);
 bgdyn::bgdyn!("tests/ui/pass/swing.scene.yaml");
 bgdyn::bgdyn!("tests/any_robot/labels.yaml", methods = [gravity]);
 
-/// Where a run under the controller ends, and the largest share of a joint's effort that it took.
+/// Returns the final state of a run under the controller, and the largest ratio of a joint's effort to its
+/// limit.
 fn run<F: Frame, T: Scalar + RealField, M, const N: usize>(
     model: &M,
     [from, to]: [[f64; N]; 2],
@@ -58,7 +59,8 @@ where
     (q, model.pose(&q).error_to(&target), share)
 }
 
-/// Within the ranges of the joints the frame arrives; beyond one, that joint stops at its end.
+/// Inside the ranges of the joints the frame reaches its target; outside, a joint stops at the end of its
+/// range.
 fn arrives<F: Frame, T: Scalar + RealField, M, const N: usize>(
     model: &M,
     ways: [[f64; N]; 2],
@@ -122,7 +124,7 @@ fn one_controller_moves_a_puma() {
     puma_arrives::<f32>(1e-4);
 }
 
-/// What the traits give of a model, in one row of numbers.
+/// Returns all results of a model through the traits, in one row of numbers.
 fn through_traits<F: Frame, M, const N: usize>(model: &M, x: [SVector<f64, N>; 3]) -> Vec<f64>
 where
     M: Kinematics<F, f64, N, N> + Coriolis<f64, N, N> + Derivatives<f64, N, N>,
@@ -176,7 +178,7 @@ fn the_traits_are_the_methods() {
     assert_eq!(found, wanted);
 }
 
-/// Turning the error down is moving along the Jacobian: its derivative is the twist.
+/// The derivative of the pose error is the twist of the Jacobian.
 #[test]
 fn the_error_of_a_pose_shrinks_as_the_frame_moves() {
     let arm = puma560::Puma560::<f64>::default();

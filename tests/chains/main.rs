@@ -1,5 +1,5 @@
-//! The long chains, and one with a branch: their code is cut into blocks that are functions of their own, and most of the
-//! mass matrix is a loop over tables.
+//! Tests the long chains, and one with a branch: their code is cut into blocks that are separate
+//! functions, and most of the mass matrix is a loop over tables.
 
 #[path = "../numeric/counted.rs"]
 mod counted;
@@ -40,7 +40,7 @@ fn chain_of_64() {
     equals_golden::<f64, _, 64>("chain64", &model, &chain64::JOINT_NAMES, 1.0, |x| x);
 }
 
-/// The file is what it says.
+/// The file is the beginning of the longer one.
 #[test]
 fn chain_of_16_is_the_beginning_of_that_of_32() {
     let links = |text: &'static str| text.split_once("\nlinks:").expect("links").1.trim_end();
@@ -77,7 +77,7 @@ fn generated(text: &str, method: Method, formulation: Option<&str>) -> Function 
     function(&mechanism, method, &options).expect("a method of the trait")
 }
 
-/// Inverse dynamics, mass matrix and forward dynamics give the evaluator's values, word by word.
+/// Inverse dynamics, mass matrix and forward dynamics equal the evaluator's values, word by word.
 fn equals_the_evaluator<M: Dynamics<f64, N, N>, const N: usize>(model: &M, text: &str) {
     let of = |method| generated(text, method, None);
     let (id, m, fd) = (
@@ -108,7 +108,7 @@ fn compiled_chains_equal_the_evaluator() {
     equals_the_evaluator(&chain64::Chain64::default(), CHAIN_64);
 }
 
-/// What is compiled for 16 links equals equation (6) in double-double.
+/// The compiled code for 16 links equals equation (6) in double-double.
 #[test]
 fn chain_of_16_equals_the_literal_sum() {
     let model = chain16::Chain16::<f64>::default();
@@ -158,7 +158,7 @@ fn chain_of_16_equals_the_literal_sum() {
     }
 }
 
-/// Loops execute what is counted, too.
+/// The executed operations are those that are counted, also in loops.
 fn executes_what_is_counted<M: Dynamics<Counted, N, N>, const N: usize>(
     model: &M,
     operations: &[(&str, Operations)],

@@ -1,5 +1,5 @@
-//! Generates what the tests compile: the specs of the repository, those of this folder, and random
-//! trees. Specs and modules stand in `OUT_DIR`, where a failing one can be looked at.
+//! Generates the compiled models: the specs of the repository, those of this folder, and random trees.
+//! Specs and modules are written to `OUT_DIR`, for the inspection of a failing one.
 
 #[path = "generate.rs"]
 mod generate;
@@ -20,12 +20,12 @@ use bgdyn_codegen::method::Shape;
 use random::Draft;
 use rng::Rng;
 
-/// The moving joints of each random tree; its place is its seed.
+/// The number of moving joints of each random tree; its index is its seed.
 const TREES: [usize; 22] = [
     1, 2, 2, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 7, 7, 8, 9, 12,
 ];
 
-/// Compiled with first derivatives.
+/// Models compiled with first derivatives.
 const WITH_DERIVATIVES: [&str; 5] = ["double_pendulum", "scara", "gimbal", "panda", "tree_04"];
 
 fn main() {
@@ -70,7 +70,7 @@ fn read(folder: &Path) -> Vec<(String, String)> {
     paths.iter().map(spec).collect()
 }
 
-/// A module, and the list of its methods by number.
+/// Returns a module, and the list of its methods by index.
 fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
     let mut text = format!("include!(concat!(env!(\"OUT_DIR\"), \"/{name}.rs\"));\n");
     let model = struct_ident(name);

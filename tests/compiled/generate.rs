@@ -1,4 +1,4 @@
-//! How the models are generated, for the build script and for the tests.
+//! Generates the models, for the build script and for the tests.
 
 use std::path::Path;
 

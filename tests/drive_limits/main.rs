@@ -1,5 +1,5 @@
-//! Limits of voltage and current, and losses of gears: motions over them converge with the order of
-//! the method, and the limits are kept to round-off.
+//! Tests limits of voltage and current, and losses of gears: motions past them converge with the order of
+//! the integrator, and the limits are satisfied to rounding.
 
 use bgdyn::nalgebra::SVector;
 use bgdyn_sim::{
@@ -11,13 +11,13 @@ bgdyn::bgdyn!("winding.scene.yaml", jacobian = true);
 bgdyn::bgdyn!("at_once.scene.yaml", jacobian = true);
 bgdyn::bgdyn!("geared.scene.yaml", jacobian = true);
 
-/// Of the current, A.
+/// Limit of the current, A.
 const LIMIT: f64 = 25.0;
 
 /// The end of the runs, s.
 const END: f64 = 0.3;
 
-/// The state after `END` by a method in `steps` equal steps, and what was seen on the way.
+/// The state after `END` by an integrator in `steps` equal steps, with counts of events.
 struct Ended<const N: usize> {
     y: SVector<f64, N>,
     events: usize,
@@ -87,8 +87,8 @@ where
     }
 }
 
-/// The order from errors with steps halved again and again, by least squares over their logarithms:
-/// how far the steps are from the events varies, so that a single halving says little.
+/// Returns the order from errors with repeatedly halved steps, by least squares over their logarithms: the
+/// distance of the steps from the events varies, so that a single halving gives no reliable order.
 fn order(errors: &[f64]) -> f64 {
     let middle = (errors.len() as f64 - 1.0) / 2.0;
     let parts = errors.iter().enumerate().map(|(k, e)| {
@@ -99,7 +99,7 @@ fn order(errors: &[f64]) -> f64 {
     sum / squares
 }
 
-/// What is wrong with a method's errors for this order.
+/// Checks an integrator's errors for this order.
 fn converges(name: &str, errors: &[f64], wanted: f64) {
     let above: Vec<f64> = errors.iter().copied().filter(|e| *e > ROUNDING).collect();
     let found = order(&above);
@@ -111,10 +111,10 @@ fn converges(name: &str, errors: &[f64], wanted: f64) {
     );
 }
 
-/// Errors that rounding alone would leave, rad and rad/s.
+/// Rounding error of the results, rad and rad/s.
 const ROUNDING: f64 = 1e-12;
 
-/// Methods with their orders.
+/// Integrators with their orders.
 const FIXED: [(&str, f64); 7] = [
     ("rk4", 4.0),
     ("midpoint", 2.0),
@@ -137,8 +137,8 @@ fn a_limited_winding_converges_with_the_order_of_the_method() {
                 "{name}: {} A",
                 run.largest_current
             );
-            // The limits of the current are reached four times and left three times, those of the
-            // voltage left and reached seven times.
+            // The limits of the current are reached four times and left three times, those of the voltage
+            // left and reached seven times.
             assert_eq!((run.events, run.kinks), (7, 7), "{name}");
         }
         let errors = runs.map(|run| (run.y - right).fixed_rows::<2>(0).norm());
@@ -160,14 +160,14 @@ fn a_limited_current_without_inductance_converges_with_the_order_of_the_method()
     }
 }
 
-/// Over a reversal under load, and where the losses hold the joint for a while.
+/// A motion that reverses under load, during which the losses hold the joint for a while.
 #[test]
 fn a_gear_with_losses_converges_with_the_order_of_the_method() {
     let run = |name: &str, steps| with_integrator(name, Geared(steps)).expect("in the list");
     let right = run("gauss3", 4800).y;
     for (name, wanted) in FIXED {
         let runs = [300, 600, 1200, 2400].map(|steps| run(name, steps));
-        // FixedModes, let go, a reversal; the load changes its sign twice.
+        // The gear holds, is released, reverses; the load changes its sign twice.
         let seen: Vec<_> = runs.iter().map(|run| (run.events, run.kinks)).collect();
         assert_eq!(seen, [(3, 2); 4], "{name}");
         let errors = runs.map(|run| (run.y - right).fixed_rows::<2>(0).norm());
@@ -175,8 +175,8 @@ fn a_gear_with_losses_converges_with_the_order_of_the_method() {
     }
 }
 
-/// A gear that its load cannot turn back holds it without effort of the motor, and lets it go where
-/// the load is more than the losses: a weight G on a motor's τ stays between η τ and τ/η.
+/// A gear that its load cannot drive backwards holds it without effort of the motor, and releases it if
+/// the load exceeds the losses: a weight G on a motor's τ is between η τ and τ/η.
 #[test]
 fn a_gear_holds_what_its_losses_can_hold() {
     let scene = geared::Geared::<f64>::default();
@@ -200,7 +200,7 @@ fn a_gear_holds_what_its_losses_can_hold() {
     assert!(audit.drift().abs() < 1e-6, "{}", audit.drift());
 }
 
-/// With controlled steps the end does not depend on how the steps fell.
+/// With step control the end state does not depend on the sequence of steps.
 #[test]
 fn controlled_steps_agree_over_the_limits() {
     let scene = winding::Winding::<f64>::default();
@@ -222,8 +222,8 @@ fn controlled_steps_agree_over_the_limits() {
     }
 }
 
-/// FixedModes, the current does not move, and the power that the amplifier supplies is what the winding
-/// and the joint take.
+/// While it is held, the current is constant, and the power that the amplifier supplies is that of the
+/// winding and the joint.
 #[test]
 fn a_held_current_keeps_the_balance_of_power() {
     let scene = winding::Winding::<f64>::default();
@@ -242,7 +242,8 @@ fn a_held_current_keeps_the_balance_of_power() {
     assert!(audit.drift().abs() < 1e-6, "{}", audit.drift());
 }
 
-/// Lowered between two steps, the limit is reached as R and L say, and held again.
+/// After the limit is lowered between two steps, the current falls to it with the time constant L/R, and
+/// is held again.
 #[test]
 fn a_current_beyond_a_lowered_limit_falls_to_it() {
     let mut scene = winding::Winding::<f64>::default();

@@ -1,4 +1,4 @@
-//! The mechanisms of the single states, as specs: shared by the build script here and by the tests of
+//! The mechanisms of the single states, as specs, for the build script in this folder and for the tests of
 //! the generator.
 
 use std::fmt::Write;
@@ -11,7 +11,7 @@ pub fn cases(text: &str) -> Vec<Value> {
     file["cases"].as_array().expect("a list of cases").clone()
 }
 
-/// A list of numbers, each the `f64` that was meant.
+/// Returns a list of numbers, each the intended `f64`.
 pub fn list(value: &Value) -> Vec<f64> {
     let numbers = value.as_array().expect("a list");
     numbers
@@ -20,23 +20,23 @@ pub fn list(value: &Value) -> Vec<f64> {
         .collect()
 }
 
-/// All digits of the number that is meant.
+/// Returns all digits of the exact number.
 fn digits(x: f64) -> String {
     format!("{x:.120}")
 }
 
 /// A chain of links of unit length along x.
 pub struct Chain {
-    /// All axes along y; else z and y in turns.
+    /// All axes along y; otherwise alternating z and y.
     pub planar: bool,
     /// Moments of inertia about the centre of mass of a link of mass 1, kg·m².
     pub moments: [f64; 3],
-    /// Mass and inertia of each link in units of those of a link of mass 1.
+    /// Mass and inertia of each link relative to those of a link of mass 1.
     pub scales: Vec<f64>,
 }
 
 impl Chain {
-    /// Links that are alike but for the last one, which is `last` times as heavy.
+    /// Returns links that are equal except the last one, which is `last` times as heavy.
     pub fn new(links: usize, planar: bool, moments: [f64; 3], last: f64) -> Chain {
         let mut scales = vec![1.0; links];
         scales[links - 1] = last;
@@ -104,7 +104,7 @@ pub fn links_of(bodies: &[Value]) -> String {
         writeln!(text, "    mass: {mass}\n    com: {com:?}").unwrap();
         let moments = numbers("inertia_com");
         let names = ["xx", "yy", "zz", "xy", "xz", "yz"].iter().zip(moments);
-        // A moment about one axis alone is no body's.
+        // A moment about one axis alone is not that of a body.
         let terms: Vec<String> = names.map(|(name, x)| format!("{name}: {x:.110}")).collect();
         writeln!(text, "    nonphysical: allow").unwrap();
         writeln!(text, "    inertia: {{ {} }}", terms.join(", ")).unwrap();

@@ -1,11 +1,11 @@
-//! Circles of imports between the files of a crate.
+//! Finds cycles of imports between the files of a crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use crate::read::Imports;
 
-/// The files that reach each other by imports, in sets of more than one.
+/// Returns the sets of more than one file that reach each other by imports.
 pub fn circles(imports: &Imports) -> Vec<BTreeSet<PathBuf>> {
     let reached = |from: &PathBuf| {
         let mut reached = BTreeSet::new();
@@ -32,7 +32,7 @@ pub fn circles(imports: &Imports) -> Vec<BTreeSet<PathBuf>> {
     circles
 }
 
-/// A circle, one line for each import in it.
+/// Describes a cycle, one line for each import in it.
 pub fn description(name: &str, imports: &Imports, circle: &BTreeSet<PathBuf>) -> String {
     let mut text = format!("{name}: {} files\n", circle.len());
     for file in circle {

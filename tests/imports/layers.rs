@@ -1,14 +1,14 @@
 //! The layers of a crate: which file or folder may import which.
 //!
-//! A list has one line for each, from the ground up: `NAME: WHAT IT MAY IMPORT`. A name is a path below
-//! `src` without `.rs`; a file belongs to the longest name that it begins with.
+//! A list has one line for each, the lowest layer first: `NAME: PERMITTED IMPORTS`. A name is a path below
+//! `src` without `.rs`; a file belongs to the longest name that is a prefix of its path.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::read::Imports;
 
-/// What each layer imports.
+/// The imports of each layer.
 type Arrows = BTreeMap<String, BTreeSet<String>>;
 
 /// The lines of a list, in order.
@@ -24,7 +24,7 @@ fn lines(list: &str) -> Vec<(&str, Vec<&str>)> {
         .collect()
 }
 
-/// The layer of a file; a file that none names is a layer of its own.
+/// Returns the layer of a file; a file without a name in the list is a layer of its own.
 fn layer(file: &Path, list: &[(&str, Vec<&str>)]) -> String {
     let own = file.with_extension("").to_string_lossy().replace('\\', "/");
     let holds = |name: &&str| {
@@ -36,7 +36,7 @@ fn layer(file: &Path, list: &[(&str, Vec<&str>)]) -> String {
     longest.map_or(own.clone(), str::to_owned)
 }
 
-/// The arrows between layers. The crate's root, which lists all, is left out.
+/// Returns the imports between layers, without those of the crate's root, which lists all modules.
 pub fn arrows(imports: &Imports, list: &str) -> Arrows {
     let list = lines(list);
     let mut arrows = Arrows::new();
@@ -53,7 +53,7 @@ pub fn arrows(imports: &Imports, list: &str) -> Arrows {
     arrows
 }
 
-/// Where the arrows are not those of the list, or the list has one that runs up.
+/// Returns the imports that differ from the list, or those in the list that point upwards.
 pub fn differences(found: &Arrows, list: &str) -> Vec<String> {
     let list = lines(list);
     let mut wrong = Vec::new();

@@ -1,7 +1,8 @@
-//! Imports inside each crate go one way: no circle between files, and folders import only what their
-//! line in `layers/` allows.
+//! Checks that imports inside each crate have one direction: no cycle between files, and folders import
+//! only what their line in `layers/` permits.
 //!
-//! A file that uses another stands above it: a reader who begins below never needs what comes later.
+//! A file that uses another one is in a higher layer: a reader who begins at the lowest layer never needs
+//! a later file.
 
 mod circles;
 mod layers;
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 use circles::{circles, description};
 use read::imports;
 
-/// The crates that are held to it, by their folders.
+/// The checked crates, by their folders.
 const CRATES: &[&str] = &[
     "bgdyn-accuracy",
     "bgdyn-cli",
@@ -59,7 +60,7 @@ fn folders_import_what_their_line_allows() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// One name, one thing: a reader who knows a type of a crate does not meet another one of its name there.
+/// Each crate has only one type of each name.
 #[test]
 fn no_crate_has_two_types_of_one_name() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -73,12 +74,12 @@ fn no_crate_has_two_types_of_one_name() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A formulation can be read, and taken out, by itself: it imports what stands directly in
-/// `formulation/`, and nothing of the other formulations.
+/// A formulation can be read, and removed, separately: it imports the files directly in `formulation/`,
+/// and nothing of the other formulations.
 #[test]
 fn formulations_do_not_import_each_other() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("bgdyn-codegen/src");
-    // The folder of a formulation that a file is in, if it is in one.
+    // Returns the folder of a formulation that contains a file, if any.
     let folder = |file: &Path| {
         let mut parts = file.iter().map(|part| part.to_string_lossy().into_owned());
         let is_formulation = parts.next()? == "formulation";
@@ -103,7 +104,7 @@ fn formulations_do_not_import_each_other() {
     assert!(seen.len() >= 3, "{seen:?}");
 }
 
-/// Writes a small crate to a folder and gives its circles, as names of files.
+/// Writes a small crate to a folder and returns its cycles, as names of files.
 fn circles_of(name: &str, files: &[(&str, &str)]) -> Vec<Vec<String>> {
     let folder = std::env::temp_dir().join(format!("import_circles_{name}_{}", std::process::id()));
     for (file, text) in files {

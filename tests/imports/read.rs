@@ -1,7 +1,8 @@
-//! The imports between the files of a crate, read from their text.
+//! Finds the imports between the files of a crate, by parsing their text.
 //!
-//! A name that a module only passes on (`pub use`) counts as the file that defines it; `mod` declarations
-//! and code under `#[cfg(test)]` do not count. Methods called on a value leave no path and are not seen.
+//! A name that a module only re-exports (`pub use`) counts as that of the defining file; `mod`
+//! declarations and code under `#[cfg(test)]` do not count. Methods called on a value have no path and are
+//! not found.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,13 +10,13 @@ use std::path::{Path, PathBuf};
 
 use crate::words::code;
 
-/// Where a name of a module leads: to its file, or to another path.
+/// The target of a name in a module: its file, or another path.
 type Names = BTreeMap<String, Vec<String>>;
 
-/// A module of a file of its own.
+/// A module with its own file.
 struct Module {
     file: PathBuf,
-    /// Names that it passes on, and the paths from the root of the crate that they stand for.
+    /// Names that it re-exports, and their paths from the root of the crate.
     passed_on: Names,
     /// Paths from the root of the crate that its code uses.
     used: BTreeSet<Vec<String>>,
@@ -24,10 +25,10 @@ struct Module {
 /// The modules of a crate, by their paths from its root.
 type Modules = BTreeMap<Vec<String>, Module>;
 
-/// What a file takes from others: names by file.
+/// The imports of a file: names by file.
 pub type Imports = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
-/// Which file of a crate takes what from which.
+/// Returns the imports between all files of a crate.
 pub fn imports(source: &Path) -> Imports {
     let modules = modules(source);
     let mut imports = Imports::new();
@@ -45,7 +46,7 @@ pub fn imports(source: &Path) -> Imports {
     imports
 }
 
-/// The file that defines what a path names, and the name there. A path to a module alone is its file.
+/// Returns the file that defines a path's name, and the name in it. A path to a module alone is its file.
 fn definition(modules: &Modules, path: &[String], depth: usize) -> Option<(PathBuf, String)> {
     assert!(depth < 32, "{path:?} is passed on without end");
     let length = (0..=path.len()).rev();
@@ -58,7 +59,7 @@ fn definition(modules: &Modules, path: &[String], depth: usize) -> Option<(PathB
         return Some((module.file.clone(), name));
     };
     if let Some(target) = module.passed_on.get(name) {
-        // A name of another crate, or one that a module passes on under its own path.
+        // A name of another crate, or one that a module re-exports under its own path.
         if target.as_slice() == &path[..=own.len()] {
             return None;
         }
@@ -115,7 +116,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The names that a module passes on, and the paths that it uses, from the root of the crate.
+/// Returns the names that a module re-exports, and the paths that it uses, from the root of the crate.
 fn paths_of(
     code: &[String],
     own: &[String],
@@ -123,7 +124,7 @@ fn paths_of(
 ) -> (Names, BTreeSet<Vec<String>>) {
     let (mut passed_on, mut used) = (Names::new(), BTreeSet::new());
     let mut imported = Names::new();
-    // The words of the module's own code: all but its imports.
+    // The words of the module's own code, without its imports.
     let mut words = BTreeSet::new();
     let mut i = 0;
     while i < code.len() {
@@ -146,7 +147,7 @@ fn paths_of(
         }
         let before = i.checked_sub(1).map_or("", |i| code[i].as_str());
         let after = code.get(i + 1).map_or("", String::as_str);
-        // No name of a module, a function or a field that is declared here, and no method.
+        // Exclude declared names of modules, functions and fields, and methods.
         if !matches!(before, "mod" | "fn" | "." | "::") && after != ":" {
             words.insert(code[i].as_str());
         }
@@ -160,7 +161,7 @@ fn paths_of(
                 }
                 i += 2;
             }
-            // A module that was imported goes on by the path of its import.
+            // The path of an imported module continues that of its import.
             if let Some(first) = imported.get(&path[0]) {
                 let rest = path[1..].iter().cloned();
                 used.insert(first.iter().cloned().chain(rest).collect());
@@ -170,13 +171,13 @@ fn paths_of(
         }
         i += 1;
     }
-    // What a module passes on and uses itself, it imports as well.
+    // A name that a module re-exports and uses is imported as well.
     for (name, path) in &passed_on {
         if words.contains(name.as_str()) && !path.is_empty() {
             used.insert(path.clone());
         }
     }
-    // The name of a module is no import of its own: the path after it is one, if there is any.
+    // The name of a module alone is no import; the path after it is one, if it exists.
     let bare = |path: &Vec<String>| {
         let longer = used
             .iter()
@@ -190,7 +191,7 @@ fn paths_of(
     (passed_on, used)
 }
 
-/// The paths of a tree after `use`, each with the name that it gets.
+/// Returns the paths of a tree after `use`, each with the name that it gets.
 fn tree(code: &[String], i: &mut usize, before: &[String], all: &mut Vec<(Vec<String>, String)>) {
     let mut path = before.to_vec();
     while let Some(word) = code.get(*i) {
@@ -200,7 +201,7 @@ fn tree(code: &[String], i: &mut usize, before: &[String], all: &mut Vec<(Vec<St
             "{" => {
                 while code.get(*i).is_some_and(|next| next != "}") {
                     tree(code, i, &path, all);
-                    // Past the comma; or past a sign that no import has, in the body of a macro.
+                    // After the comma; or after another token in the body of a macro.
                     if code.get(*i).is_some_and(|next| next != "}") {
                         *i += 1;
                     }
@@ -226,7 +227,7 @@ fn tree(code: &[String], i: &mut usize, before: &[String], all: &mut Vec<(Vec<St
     all.push((path, name));
 }
 
-/// A path from the root of the crate; `None` where it leads to another crate.
+/// Returns a path from the root of the crate; `None` if it leads to another crate.
 fn absolute(
     path: &[String],
     own: &[String],

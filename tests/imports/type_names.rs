@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::words::code;
 
-/// The names that more than one file of a crate gives to a type, with these files.
+/// Returns the type names that more than one file of a crate defines, with these files.
 pub fn repeated(source: &Path, files: impl Iterator<Item = PathBuf>) -> Vec<String> {
     let mut defined: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for file in files {
@@ -22,8 +22,8 @@ pub fn repeated(source: &Path, files: impl Iterator<Item = PathBuf>) -> Vec<Stri
         .collect()
 }
 
-/// The types that a text defines outside of braces and parentheses. Those inside are associated types, types
-/// of one function, and text that a macro writes.
+/// Returns the types that a text defines outside of braces and parentheses. Those inside are associated
+/// types, types of one function, and text in macros.
 fn type_names(text: &str) -> Vec<String> {
     const KEYWORDS: [&str; 5] = ["struct", "enum", "union", "trait", "type"];
     let words = code(text);

@@ -1,11 +1,11 @@
-//! Rust text as words and signs.
+//! Splits Rust text into words and signs.
 
-/// The words and signs of a file, without comments, texts and what is under `#[cfg(test)]`.
+/// Returns the words and signs of a file, without comments, strings and code under `#[cfg(test)]`.
 pub fn code(text: &str) -> Vec<String> {
     without_tests(words(text))
 }
 
-/// Words and signs: `::` is one sign; comments and texts are left out.
+/// Returns words and signs: `::` is one sign; comments and strings are omitted.
 fn words(text: &str) -> Vec<String> {
     let c: Vec<char> = text.chars().collect();
     let at = |i: usize| c.get(i).copied().unwrap_or('\0');
@@ -38,7 +38,7 @@ fn words(text: &str) -> Vec<String> {
             }
             i += 1;
         } else if c[i] == '\'' && (at(i + 1) == '\\' || at(i + 2) == '\'') {
-            // A character; else a lifetime.
+            // A character literal; else a lifetime.
             i += if at(i + 1) == '\\' { 3 } else { 2 };
             while i < c.len() && c[i] != '\'' {
                 i += 1;
@@ -63,7 +63,7 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Without each item that follows `#[cfg(test)]`: up to its `;` or its last brace.
+/// Removes each item after `#[cfg(test)]`: up to its `;` or its last brace.
 fn without_tests(words: Vec<String>) -> Vec<String> {
     let mark = ["#", "[", "cfg", "(", "test", ")", "]"];
     let (mut left, mut i) = (Vec::new(), 0);

@@ -1,5 +1,5 @@
-//! Generates mechanisms and scenes with all methods that there are, and beside each of them, in `f64`
-//! and in `f32`, a function that does not link where the method can panic.
+//! Generates mechanisms and scenes with all methods, and for each method, in `f64` and in `f32`, a
+//! function that does not link if the method can panic.
 
 use std::path::PathBuf;
 use std::{env, fs};
@@ -15,7 +15,7 @@ const SPECS: [&str; 4] = [
     "firmware/specs/scara_payload.yaml",
 ];
 
-/// Effects of every kind.
+/// Scenes with effects of every kind.
 const SCENES: [&str; 7] = [
     "scara_everything",
     "puma_drives",
@@ -78,7 +78,7 @@ fn prove(module: &mut ItemMod) {
                 }
             }
         };
-        // The alias is no parameter: what belongs to its trait has to say so.
+        // The alias is no generic parameter: associated items must name its trait explicitly.
         let text = text.to_string();
         let text = text.replace("T :: Singular", "< T as __Scalar > :: Singular");
         let text = text.replace("T :: Refused", "< T as __Scalar > :: Refused");
@@ -86,7 +86,7 @@ fn prove(module: &mut ItemMod) {
     }
 }
 
-/// The public methods of a type's own.
+/// Returns the public inherent methods of a type.
 fn methods(item: &Item) -> Vec<(Type, Signature)> {
     let Item::Impl(ItemImpl {
         trait_: None,
@@ -104,7 +104,7 @@ fn methods(item: &Item) -> Vec<(Type, Signature)> {
     items.iter().filter_map(method).collect()
 }
 
-/// What the function is called that must not panic: methods of several types share a name.
+/// Returns the name of the function that must not panic: methods of several types have the same name.
 fn name_of(of: &Type, method: &Signature) -> Ident {
     let Type::Path(path) = of else {
         panic!("a method of no named type")
@@ -117,7 +117,7 @@ fn name_of(of: &Type, method: &Signature) -> Ident {
     format_ident!("{}_{}", of.unwrap_or_default().to_lowercase(), method.ident)
 }
 
-/// The method as a function that must not panic.
+/// Returns the method as a function that must not panic.
 fn wrapper(of: &Type, method: &Signature) -> syn::ItemFn {
     let (name, own) = (name_of(of, method), &method.ident);
     let given: Vec<&syn::PatType> = method

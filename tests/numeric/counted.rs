@@ -144,7 +144,7 @@ impl Scalar for Counted {
     }
 }
 
-/// What running `f` executes.
+/// Returns the operations that `f` executes.
 pub(crate) fn executed<R>(f: impl FnOnce() -> R) -> Operations {
     COUNT.set(Operations::default());
     let _ = std::hint::black_box(f());

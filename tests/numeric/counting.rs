@@ -1,5 +1,5 @@
-//! The compiled code executes exactly the operations that the generator counts: a scalar that
-//! counts runs every method, and what it counted equals the module's `OPERATIONS`.
+//! Checks that compiled code executes exactly the operations that the generator counts: a counting scalar
+//! runs every method, and its counts equal the module's `OPERATIONS`.
 
 use bgdyn::Dynamics;
 use bgdyn::nalgebra::SVector;
@@ -29,7 +29,7 @@ pub(crate) fn counts_equal<M: Dynamics<Counted, N, N>, const N: usize>(
         ("kinetic_energy", executed(|| model.kinetic_energy(&q, &v))),
         ("potential_energy", executed(|| model.potential_energy(&q))),
     ];
-    // The trait's methods stand first.
+    // The trait's methods come first.
     assert_eq!(runs.as_slice(), &operations[..7], "{robot}");
 }
 
@@ -75,7 +75,7 @@ fn so_do_the_other_methods() {
     assert_eq!(runs, whole::puma_arm::OPERATIONS[7..]);
 }
 
-/// `bgdyn ops` counts what the macro emits: both go through one generator.
+/// `bgdyn ops` counts the functions that the macro emits, because both use the same generator.
 #[test]
 fn the_generator_counts_the_same_again() {
     for (name, stated) in [

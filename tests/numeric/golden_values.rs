@@ -10,7 +10,7 @@ use serde_json::Value;
 /// Golden states of a robot, joints by name.
 pub(crate) struct Golden {
     states: Vec<Value>,
-    /// For each joint of the model its place in the file.
+    /// For each joint of the model its index in the file.
     places: Vec<usize>,
 }
 
@@ -66,7 +66,7 @@ fn assert_near<const R: usize, const C: usize>(
     wanted: &SMatrix<f64, R, C>,
     relative: f64,
 ) {
-    // Golden zeros carry the rounding error of what cancelled in them.
+    // Golden zeros contain the rounding error of terms that cancelled.
     let size = wanted.amax().max(1e-3);
     let error = (found - wanted).amax();
     assert!(

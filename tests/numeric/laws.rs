@@ -61,7 +61,7 @@ fn obeys<M: Dynamics<f64, N, N>, const N: usize>(
     }
 }
 
-/// Forward dynamics undoes inverse dynamics, to 8 n eps ‖M⁻¹‖ (‖M‖ ‖a‖ + ‖h‖).
+/// Checks that forward dynamics is the inverse of inverse dynamics, to 8 n eps ‖M⁻¹‖ (‖M‖ ‖a‖ + ‖h‖).
 fn undoes<M: Dynamics<f64, N, N>, const N: usize>(
     robot: &str,
     model: &M,

@@ -1,4 +1,4 @@
-//! Compiled code for a mechanism whose pivots are checked against their rounding error.
+//! Tests compiled code for a mechanism whose pivots are checked against their rounding error.
 
 use bgdyn::nalgebra::vector;
 
@@ -13,7 +13,8 @@ fn executes_what_is_counted() {
     counts_equal::<_, 3>("wrist", &Wrist::default(), &wrist::OPERATIONS);
 }
 
-/// Forward undoes inverse up to the lock; there the joint is named, by the derivatives as well.
+/// Forward dynamics is the inverse of inverse dynamics up to the gimbal lock; at the lock the error names
+/// the joint, also in the derivatives.
 #[test]
 fn solved_up_to_the_lock() {
     let model = Wrist::<f64>::default();

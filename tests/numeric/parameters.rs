@@ -1,4 +1,4 @@
-//! Run-time parameters in compiled code: fields, defaults, values set by the caller.
+//! Tests run-time parameters in compiled code: fields, defaults, values set by the caller.
 
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::{Argument, Cause};
@@ -57,7 +57,7 @@ fn changed<T: Scalar>() -> PumaPayload<T> {
     }
 }
 
-/// In the order of the file.
+/// Returns the parameters in the order of the file.
 fn values<T: Copy>(m: &PumaPayload<T>) -> Vec<T> {
     vec![
         m.hand_mass,
@@ -97,7 +97,7 @@ fn parameters_set_to_the_golden_robots_give_its_values() {
     equals_golden::<f32, _, 6>("puma560", &golden(), joints, unit, f64::from);
 }
 
-/// Every result of the trait's methods, in one list.
+/// Returns every result of the trait's methods, in one list.
 fn results<M: Dynamics<f64, 6, 6>>(
     model: &M,
     [q, v, a]: &[SVector<f64, 6>; 3],
@@ -209,7 +209,7 @@ fn derivatives_follow_the_parameters() {
     assert!(rest.amax() < 1e-12 * model.bias(&q, &v).amax());
 }
 
-/// Nothing at the hand: its joint cannot be accelerated, and the error says so.
+/// Without inertia at the hand its joint cannot be accelerated, and the error names it.
 #[test]
 fn inertia_set_to_zero_is_singular() {
     let model = PumaPayload::<f64> {
@@ -232,7 +232,7 @@ fn inertia_set_to_zero_is_singular() {
     assert!(held.forward_dynamics(&q, &zero, &zero).is_ok());
 }
 
-/// Forward dynamics names the argument that is NaN or infinite, a run-time parameter as well; each
+/// Forward dynamics names the argument that is NaN or infinite, also a run-time parameter; tested for each
 /// component of each argument.
 #[test]
 fn what_is_no_number_is_named() {

@@ -1,5 +1,5 @@
-//! Compiled poses, velocities, Jacobians and J̇v against values from outside, through the trait of
-//! frames: of `tests/golden/places.py`, and of Pinocchio.
+//! Compares compiled poses, velocities, Jacobians and J̇v with external values, through the trait of
+//! frames: those of `tests/golden/places.py`, and of Pinocchio.
 
 use std::fs;
 
@@ -28,12 +28,12 @@ bgdyn::bgdyn!(
     frames = [l_lf_kfe]
 );
 
-/// Roundings allowed, of the largest number that such a value is made of.
+/// Tolerance in roundings, relative to the largest term of a value.
 const ROUNDINGS: f64 = 8.0;
 
 struct Golden {
     file: Value,
-    /// For each joint of the model its place in the file.
+    /// For each joint of the model its index in the file.
     order: Vec<usize>,
 }
 
@@ -71,7 +71,7 @@ impl Golden {
     }
 }
 
-/// JSON is read with all digits.
+/// JSON numbers are parsed with all digits.
 fn number(value: &Value) -> f64 {
     let digits = value.as_number().expect("a number").to_string();
     digits.parse().expect("an f64")
@@ -94,7 +94,7 @@ fn assert_near<const R: usize, const C: usize>(
     );
 }
 
-/// Farthest distance in a Jacobian, no less than 1 m.
+/// Returns the largest distance in a Jacobian, at least 1 m.
 fn reach<const N: usize>(jacobian: &SMatrix<f64, 6, N>) -> f64 {
     jacobian.amax().max(1.0)
 }
@@ -128,7 +128,7 @@ fn motion<F, M, const N: usize>(
     assert_near(&format!("{what}, J̇ v"), found, rate, size * speed * speed);
 }
 
-/// All four methods of a frame.
+/// Compares all four methods of a frame.
 fn of_the_script<F, M, const N: usize>(robot: &str, model: &M)
 where
     F: Frame,
@@ -157,7 +157,7 @@ where
     }
 }
 
-/// Jacobian and J̇v of Pinocchio.
+/// Compares Jacobian and J̇v with those of Pinocchio.
 fn of_pinocchio<F, M, const N: usize>(robot: &str, model: &M)
 where
     F: Frame,

@@ -1,4 +1,4 @@
-//! The models, and what the tests need to know of each.
+//! The models, with the data that the tests need about each.
 
 macro_rules! robots {
     ($($path:literal, $module:ident, $model:ident, $n:literal;)*) => {

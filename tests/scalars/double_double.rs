@@ -1,5 +1,5 @@
-//! Compiled code in double-double extends that in `f64`. (`tests/compiled` holds it against the
-//! evaluator.)
+//! Checks that compiled code in double-double agrees with that in `f64`. (`tests/compiled` compares it
+//! with the evaluator.)
 
 use bgdyn::Dynamics;
 use bgdyn::nalgebra::SVector;

@@ -1,5 +1,5 @@
-//! Derivatives by dual numbers obey the laws that tie the methods together, and equal differences
-//! taken in double-double.
+//! Checks that derivatives by dual numbers obey the laws that relate the methods, and equal differences
+//! computed in double-double.
 
 use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::runtime::Dd;
@@ -12,12 +12,12 @@ use crate::models::scara4::Scara4;
 use crate::models::spherical_pendulum::SphericalPendulum;
 use crate::models::{State, vector, widen};
 
-/// Which argument the derivative is with respect to.
+/// The argument of the derivative.
 const Q: usize = 0;
 const V: usize = 1;
 const A: usize = 2;
 
-/// The state with a unit derivative of component `j` of argument `part`.
+/// Returns the state with a unit derivative of component `j` of argument `part`.
 fn along<const N: usize>(state: &State<f64, N>, part: usize, j: usize) -> State<Dual64, N> {
     let mut dual: State<Dual64, N> = widen(state);
     dual[part][j].eps = 1.0;
@@ -38,13 +38,13 @@ fn near<const R: usize, const C: usize>(
     );
 }
 
-/// Column by column, from what one derivative gives.
+/// Returns a matrix column by column, from one derivative each.
 fn columns<const N: usize>(f: impl Fn(usize) -> SVector<Dual64, N>) -> SMatrix<f64, N, N> {
     let columns: Vec<SVector<f64, N>> = (0..N).map(|j| f(j).map(|x| x.eps)).collect();
     SMatrix::from_columns(&columns)
 }
 
-/// ∂τ/∂(argument), central differences in double-double.
+/// Returns ∂τ/∂(argument), by central differences in double-double.
 fn difference<M: Dynamics<Dd, N, N>, const N: usize>(
     model: &M,
     state: &State<f64, N>,
@@ -132,7 +132,7 @@ fn obeys<const N: usize>(
             let [q, v, tau] = &along(state, A, j);
             model.forward_dynamics(q, v, tau).expect("M is regular")
         });
-        // The error of the inverse grows with it.
+        // The error of the inverse is proportional to its norm.
         let relative = 1e-14 * N as f64 * mass.amax() * mobility.amax().max(1.0);
         near(
             "M ∂a/∂τ = 1",

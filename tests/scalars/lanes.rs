@@ -1,4 +1,4 @@
-//! Models in lanes equal the scalar model lane by lane, bit for bit, failures included.
+//! Checks that models in lanes equal the scalar model lane by lane, bit for bit, including failures.
 
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
@@ -12,7 +12,7 @@ use crate::models::scara4::Scara4;
 use crate::models::spherical_pendulum::{self, SphericalPendulum};
 use crate::models::{State, results};
 
-/// A number that lanes are made of.
+/// The scalar of one lane.
 trait Word: Scalar<Singular<2> = Singular> {
     fn word(self) -> u64;
 }
@@ -71,13 +71,13 @@ fn packed<S: Word, T: Lanes<S, L>, const L: usize, const N: usize>(
 
 fn random_states<S: Word, const L: usize, const N: usize>(random: &mut Random) -> [State<S, N>; L] {
     std::array::from_fn(|_| {
-        // Now and then angles that need a long reduction.
+        // Sometimes angles that need exact reduction.
         let size = if random.signed() > 0.9 { 1e9 } else { 3.0 };
         [size, 2.0, 5.0].map(|size| SVector::from_fn(|_, _| S::from_f64(size * random.signed())))
     })
 }
 
-/// Fails where lanes and scalars differ in one bit.
+/// Fails if lanes and scalars differ in one bit.
 fn equal<S, T, MS, MT, const L: usize, const N: usize>(
     scalar: &MS,
     lanes: &MT,

@@ -18,12 +18,12 @@ pub(crate) fn vector<const N: usize>(random: &mut Random, size: f64) -> SVector<
 /// Positions, velocities, and accelerations or efforts.
 pub(crate) type State<T, const N: usize> = [SVector<T, N>; 3];
 
-/// A state turned into another scalar.
+/// Converts a state to another scalar.
 pub(crate) fn widen<T: Scalar, const N: usize>(state: &State<f64, N>) -> State<T, N> {
     state.map(|x| x.map(T::from_f64))
 }
 
-/// Everything a model computes but accelerations, with the name of the method.
+/// Returns everything a model computes except accelerations, with the name of the method.
 pub(crate) fn results<T: Scalar, M: Dynamics<T, N, N>, const N: usize>(
     model: &M,
     [q, v, a]: &State<T, N>,

@@ -1,4 +1,4 @@
-//! Run-time parameters in lanes, dual numbers and double-double.
+//! Tests run-time parameters in lanes, dual numbers and double-double.
 
 use bgdyn::Scalar;
 use bgdyn::nalgebra::SVector;
@@ -14,7 +14,7 @@ fn state(random: &mut Random) -> State<f64, 2> {
     [3.0, 2.0, 5.0].map(|size| vector(random, size))
 }
 
-/// Each lane with a payload of its own.
+/// Each lane has a different payload.
 #[test]
 fn lanes_carry_different_payloads() {
     let mut random = Random(3);
@@ -47,8 +47,7 @@ fn lanes_carry_different_payloads() {
 }
 
 /// The sensitivity to a parameter: efforts are linear in the mass, so that their derivative is a
-/// difference of any step; and quadratic in the centre of mass, so that central differences are
-/// exact.
+/// difference with any step; and quadratic in the centre of mass, so that central differences are exact.
 #[test]
 fn dual_numbers_give_the_derivative_by_a_parameter() {
     let mut random = Random(4);

@@ -1,4 +1,4 @@
-//! Runs in lanes and by several threads: bit for bit those of one number at a time.
+//! Checks that runs in lanes and by several threads equal scalar runs bit for bit.
 
 use bgdyn_codegen::random::Random;
 use std::num::NonZeroUsize;
@@ -26,13 +26,13 @@ fn starts<S: Scalar, const N: usize>(count: usize, seed: u64) -> Vec<SVector<S, 
     (0..count).map(|_| start()).collect()
 }
 
-/// Efforts that damp, and push in time.
+/// Efforts with damping and a function of time.
 fn efforts<T: Scalar, const N: usize>(t: T, _: &SVector<T, N>, v: &SVector<T, N>) -> SVector<T, N> {
     let (sine, _) = (t * T::from_f64(7.0)).sin_cos();
     v.map(|v| sine - T::from_f64(0.3) * v)
 }
 
-/// The end of a run of one number at a time.
+/// Returns the end of a scalar run.
 fn alone<O: Ode, M: Integrator<O::State>>(
     ode: &O,
     method: M,
@@ -50,7 +50,7 @@ where
     Some(solver.y().clone())
 }
 
-/// The ends of runs of a mechanism in lanes, `None` where a lane ended.
+/// Returns the ends of runs of a mechanism in lanes, `None` if a lane ended early.
 fn together<T, M, D, const N: usize, const Y: usize>(
     model: &D,
     method: &M,
@@ -100,7 +100,7 @@ fn a_lane_that_fails_leaves_the_others_alone() {
         for start in &mut starts {
             start[1] += 1.5;
         }
-        // Upright the azimuth moves nothing: its pivot vanishes.
+        // In the upright position the azimuth moves no inertia: its pivot vanishes.
         starts[failing] = SVector::zeros();
         let model = SphericalPendulum::<f64x4>::default();
         let found = together::<f64x4, _, _, 2, 4>(&model, &Rk4, &starts, 1e-3);
@@ -113,7 +113,7 @@ fn a_lane_that_fails_leaves_the_others_alone() {
     }
 }
 
-/// The ends of runs of the scene by so many threads, one number at a time.
+/// Returns the ends of scalar runs of the scene by this number of threads.
 fn by_threads(starts: &[SVector<f64, 6>], threads: usize) -> Vec<[SVector<f64, 6>; 4]> {
     let scene = PumaDistributed::<f64>::default();
     let threads = NonZeroUsize::new(threads).expect("some");
@@ -142,7 +142,7 @@ fn by_threads(starts: &[SVector<f64, 6>], threads: usize) -> Vec<[SVector<f64, 6
     found
 }
 
-/// The ends of runs of the scene in lanes, groups by two threads.
+/// Returns the ends of runs of the scene in lanes, with groups on two threads.
 fn in_lanes<T: Lanes<Word = f64>>(starts: &[SVector<f64, 6>]) -> Vec<[SVector<f64, 6>; 2]>
 where
     PumaDistributed<T>: Default + Sync,
@@ -172,7 +172,7 @@ where
 
 #[test]
 fn a_scene_runs_by_threads_and_in_lanes_as_alone() {
-    // No multiple of the lanes.
+    // Not a multiple of the number of lanes.
     let starts = starts::<f64, 6>(19, 3);
     let wanted = by_threads(&starts, 1);
     for threads in [2, 3] {

@@ -1,5 +1,5 @@
-//! Runs begin with modes that agree with their state, and keep them so after every change from
-//! outside: motions of a block with dry friction, against their closed form.
+//! Checks that runs begin with modes that are consistent with their state, and remain consistent after
+//! every change from outside: motions of a block with dry friction, against their closed form.
 
 use bgdyn::nalgebra::SVector;
 use bgdyn_sim::{
@@ -25,7 +25,7 @@ fn begin(position: f64, velocity: f64, mode: f64) -> HybridState<State, Modes> {
     }
 }
 
-/// The first-order method is as far off as its step is long.
+/// The error of the first-order integrator is of the size of its step.
 fn near(found: f64, expected: f64, method: &str) {
     let allowed = if method == "semi_implicit_euler" {
         5e-3
@@ -65,7 +65,7 @@ fn stops<M: Integrator<State> + Copy>(method: M, name: &str, mode: f64) {
         for _ in 0..3000 {
             run.step(1e-3).expect("a step");
         }
-        // v²/2 of the deceleration, after v of it.
+        // The displacement v²/2 of the deceleration, which lasts for the time v.
         near(run.y()[0], 0.5 + 2.0 * direction / FRICTION, name);
         assert_eq!(
             (run.y()[1], run.modes()[0], run.events),
@@ -88,7 +88,7 @@ fn a_moving_block_slips_whatever_mode_it_begins_with() {
     }
 }
 
-/// What a sampled controller does: an input is set between two steps.
+/// As with a sampled controller, an input is set between two steps.
 #[test]
 fn an_input_set_between_steps_makes_it_slip() {
     let scene = push::Push::<f64>::default();
@@ -102,7 +102,7 @@ fn an_input_set_between_steps_makes_it_slip() {
         }
         let t = 1e-3 * f64::from(1000 - pushed_from);
         near(run.y()[0], 0.5 * (10.0 - FRICTION) * t * t, "rk4");
-        // Let go of, it slides to rest; pushed less than friction resists, it stays.
+        // Released, it slides until it is at rest; pushed with less than the friction, it remains at rest.
         run.plant_mut().given[0] = 0.0;
         let v = run.y()[1];
         for _ in 0..(1000.0 * v / FRICTION) as usize + 2 {
@@ -120,7 +120,7 @@ fn an_input_set_between_steps_makes_it_slip() {
     }
 }
 
-/// A push against the motion does not make a moving joint stop or turn at once.
+/// A push against the motion neither stops nor reverses a moving joint at once.
 #[test]
 fn a_push_against_the_motion_slows_it_down() {
     let scene = push::Push::<f64>::default();
@@ -133,7 +133,7 @@ fn a_push_against_the_motion_slows_it_down() {
     for _ in 0..750 {
         run.step(1e-3).expect("a step");
     }
-    // At rest after 0.5 s, it goes back under 3 N less friction.
+    // At rest after 0.5 s, it moves back under 3 N minus friction.
     near(run.y()[1], -(3.0 - FRICTION) * 0.5, "rk4");
     assert_eq!(run.modes()[0], -1.0);
 }

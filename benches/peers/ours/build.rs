@@ -1,5 +1,5 @@
-//! Generates the models to be timed: the specs that `BGDYN_PEERS` names, one path a line. `robots.rs`
-//! has their modules, and one call of the macro `robots!` with all of them.
+//! Generates the models to be timed: the specs that `BGDYN_PEERS` names, one path per line. `robots.rs`
+//! contains their modules, and one call of the macro `robots!` with all of them.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -9,8 +9,8 @@ use bgdyn_codegen::build_script::Build;
 use bgdyn_codegen::emit::struct_ident;
 use bgdyn_codegen::files::stem;
 
-/// Joints up to which derivatives are generated, and states in lanes timed: beyond, the C of the
-/// peers takes minutes to compile.
+/// Largest number of joints for which derivatives are generated, and states in lanes timed: for more, the
+/// C code of the peers takes minutes to compile.
 const SMALL: usize = 12;
 
 fn main() {

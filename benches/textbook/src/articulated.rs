@@ -1,4 +1,4 @@
-//! Forward dynamics by articulated bodies: inertias as the joints beyond them let go.
+//! Forward dynamics by articulated bodies (Featherstone).
 
 use nalgebra::{Matrix3, RealField};
 
@@ -22,7 +22,7 @@ impl<T: RealField + Copy> ArticulatedInertia<T> {
         }
     }
 
-    /// A rigid body's.
+    /// Returns the inertia of a rigid body.
     fn of(rigid: &Inertia<T>) -> Self {
         ArticulatedInertia {
             tensor: rigid.tensor,
@@ -46,7 +46,7 @@ impl<T: RealField + Copy> ArticulatedInertia<T> {
         }
     }
 
-    /// What is left when a joint gives way: I − U Uᵀ / d.
+    /// Returns the projection along a joint: I − U Uᵀ / d.
     fn released(&self, u: &Force<T>, pivot: T) -> Self {
         let (moment, force) = (u.moment / pivot, u.force / pivot);
         ArticulatedInertia {
@@ -56,7 +56,7 @@ impl<T: RealField + Copy> ArticulatedInertia<T> {
         }
     }
 
-    /// The same in the carrier's axes, about its origin.
+    /// Returns the same in the parent's axes, about its origin.
     fn in_carrier(&self, x: &Transform<T>) -> Self {
         let turned = |m: &Matrix3<T>| x.rotation * m * x.rotation.transpose();
         let (tensor, cross, mass) = (
@@ -65,7 +65,7 @@ impl<T: RealField + Copy> ArticulatedInertia<T> {
             turned(&self.mass),
         );
         let p = x.origin.cross_matrix();
-        // About the new origin: moments grow by p × force.
+        // About the new origin moments increase by p × force.
         let shifted = cross + p * mass;
         ArticulatedInertia {
             tensor: tensor + p * cross.transpose() - shifted * p,
@@ -76,8 +76,8 @@ impl<T: RealField + Copy> ArticulatedInertia<T> {
 }
 
 impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
-    /// Joint accelerations under efforts, into `a`: rad/s², m/s². A singular mass matrix gives numbers
-    /// that are not finite.
+    /// Computes joint accelerations under efforts, into `a`: rad/s², m/s². A singular mass matrix gives
+    /// numbers that are not finite.
     pub fn forward_dynamics(&mut self, q: &[T], v: &[T], tau: &[T], a: &mut [T]) {
         self.velocities(q, v);
         self.articulate(tau);
@@ -92,7 +92,7 @@ impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
         }
     }
 
-    /// Outwards: velocities, velocity products c = v × S q̇ and forces p = v ×* I v.
+    /// Outboard sweep: velocities, velocity products c = v × S q̇ and forces p = v ×* I v.
     fn velocities(&mut self, q: &[T], v: &[T]) {
         for i in 0..self.joints() {
             let x = self.placed(i, q[i]);
@@ -110,8 +110,8 @@ impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
         }
     }
 
-    /// Inwards: U = I S, d = Sᵀ U, u = τ − Sᵀ p; the carrier takes over I − U Uᵀ/d and
-    /// p + (I − U Uᵀ/d) c + U u/d.
+    /// Inboard sweep: U = I S, d = Sᵀ U, u = τ − Sᵀ p; the parent receives I − U Uᵀ/d and p + (I − U Uᵀ/d)
+    /// c + U u/d.
     fn articulate(&mut self, tau: &[T]) {
         for i in (0..self.joints()).rev() {
             let inertia = self.articulated[i];

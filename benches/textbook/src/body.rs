@@ -1,15 +1,15 @@
-//! A mechanism as programs for any tree take it: moving bodies only, numbers in `f64`.
+//! A mechanism in the form of general tree algorithms: moving bodies only, numbers in `f64`.
 
 use nalgebra::{Matrix3, Vector3};
 
-/// A moving body and the joint that carries it. Links fixed to it are part of it.
+/// A moving body and the joint to its parent. Links fixed to it are part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
-    /// Number of the body that carries it; `None` for the world.
+    /// Index of the parent body; `None` for the world.
     pub parent: Option<usize>,
     /// Whether the joint is prismatic; else it is revolute.
     pub slides: bool,
-    /// Body axes in the carrier's at coordinate zero.
+    /// Pose of the body axes in the parent's at coordinate zero.
     pub placement: Placement,
     /// Unit vector of the joint's axis, in body axes.
     pub axis: Vector3<f64>,
@@ -24,14 +24,14 @@ pub struct Body {
 /// Axes and origin of one frame in another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// Columns are the placed frame's axes.
+    /// Columns are the inner frame's axes.
     pub rotation: Matrix3<f64>,
-    /// The placed frame's origin, m.
+    /// The inner frame's origin, m.
     pub translation: Vector3<f64>,
 }
 
 impl Placement {
-    /// No rotation, no displacement.
+    /// Returns the identity.
     pub fn identity() -> Self {
         Placement {
             rotation: Matrix3::identity(),
@@ -39,7 +39,7 @@ impl Placement {
         }
     }
 
-    /// What `inner` is seen from where `self` is placed.
+    /// Returns the pose of `inner`, given in `self`, in the frame in which `self` is given.
     pub fn of(&self, inner: &Placement) -> Self {
         Placement {
             rotation: self.rotation * inner.rotation,
@@ -48,7 +48,7 @@ impl Placement {
     }
 }
 
-/// What a point mass adds to the inertia about a point at the distance `r`: m (r·r 1 − r rᵀ).
+/// Returns the inertia of a point mass about a point at the distance `r`: m (r·r 1 − r rᵀ).
 pub(crate) fn steiner(mass: f64, r: &Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * r.dot(r) - r * r.transpose()) * mass
 }

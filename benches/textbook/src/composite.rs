@@ -1,4 +1,4 @@
-//! The mass matrix from composite bodies: everything beyond a joint as one rigid body.
+//! The mass matrix from composite bodies: all bodies outboard of a joint as one rigid body.
 
 use nalgebra::storage::StorageMut;
 use nalgebra::{Dim, Matrix, RealField};
@@ -6,7 +6,7 @@ use nalgebra::{Dim, Matrix, RealField};
 use super::Textbook;
 
 impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
-    /// The mass matrix, into `m`.
+    /// Computes the mass matrix, into `m`.
     pub fn mass_matrix<D, S>(&mut self, q: &[T], m: &mut Matrix<T, D, D, S>)
     where
         D: Dim,
@@ -22,8 +22,8 @@ impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
                 let carried = self.composite[i].in_carrier(&self.transform[i]);
                 self.composite[p] = self.composite[p].plus(&carried);
             }
-            // The force that moves the composite body at the joint's unit acceleration, seen by every
-            // joint on the way to the base.
+            // The force that moves the composite body at the joint's unit acceleration; its components
+            // along all inboard joints are entries of M.
             let mut force = self.composite[i].times(&self.joint[i].motion(T::one()));
             m[(i, i)] = self.joint[i].effort(&force);
             let mut at = i;

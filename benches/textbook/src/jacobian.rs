@@ -1,4 +1,4 @@
-//! How a place on a body moves per unit of each joint.
+//! The Jacobian of a point on a body.
 
 use nalgebra::storage::StorageMut;
 use nalgebra::{Dim, Matrix, RealField, U6, Vector3};
@@ -6,8 +6,8 @@ use nalgebra::{Dim, Matrix, RealField, U6, Vector3};
 use super::Textbook;
 
 impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
-    /// The Jacobian in world axes, angular part first, of a point of a body (in its axes, m), into
-    /// `jacobian`.
+    /// Computes the Jacobian in world axes, angular part first, of a point of a body (in its axes, m),
+    /// into `jacobian`.
     pub fn jacobian_world<D, S>(
         &mut self,
         q: &[T],

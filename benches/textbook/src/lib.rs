@@ -1,10 +1,10 @@
-//! The recursions of the textbooks for any tree, with loops over its bodies: what one writes without
-//! a generator. The yardstick of the benchmarks, not part of bgdyn.
+//! The recursions of the textbooks for any tree, with loops over its bodies, as written without a
+//! generator. The reference of the benchmarks, not part of bgdyn.
 //!
 //! Spatial vectors in body axes and about body origins (Featherstone 2008, *Rigid Body Dynamics
-//! Algorithms*): inverse dynamics by table 5.1, mass matrix by 6.2, forward dynamics by 7.1, with
-//! Plücker transforms kept as a rotation and a point, and inertias as mass, first moment and tensor.
-//! Nothing is allocated. `no_std` without the feature `mechanism`.
+//! Algorithms*): inverse dynamics by table 5.1, mass matrix by 6.2, forward dynamics by 7.1, with Plücker
+//! transforms stored as a rotation and a point, and inertias as mass, first moment and tensor. Nothing is
+//! allocated. `no_std` without the feature `mechanism`.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -24,17 +24,17 @@ pub use body::{Body, Placement};
 use articulated::ArticulatedInertia;
 use spatial::{Force, Inertia, Joint, Motion, Transform};
 
-/// A tree of up to `N` bodies, with room for the recursions' intermediate results.
+/// A tree of up to `N` bodies, with memory for the recursions' intermediate results.
 #[derive(Clone, Debug)]
 pub struct Textbook<T: RealField + Copy, const N: usize> {
     joints: usize,
     parent: [Option<usize>; N],
     joint: [Joint<T>; N],
     inertia: [Inertia<T>; N],
-    /// The acceleration of a world at rest in which everything falls: −g.
+    /// The upward acceleration of the base that represents gravity: −g.
     base: Motion<T>,
     sine: fn(T) -> (T, T),
-    // What the recursions keep of each body.
+    // Intermediate results of each body.
     transform: [Transform<T>; N],
     velocity: [Motion<T>; N],
     acceleration: [Motion<T>; N],
@@ -49,10 +49,10 @@ pub struct Textbook<T: RealField + Copy, const N: usize> {
 }
 
 impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
-    /// The tree of these bodies, which stand behind their carriers; `gravity` in world axes, m/s².
+    /// Returns the tree of these bodies, parents before children; `gravity` in world axes, m/s².
     ///
     /// # Panics
-    /// Where there are more than `N` bodies.
+    /// If there are more than `N` bodies.
     pub fn new(bodies: &[Body], gravity: Vector3<f64>) -> Self {
         let still = Motion::zero();
         let mut tree = Textbook {
@@ -85,17 +85,17 @@ impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
         tree
     }
 
-    /// The same tree with another sine and cosine than those of the scalar.
+    /// Returns the same tree with another sine and cosine than those of the scalar.
     pub fn with_sine(self, sine: fn(T) -> (T, T)) -> Self {
         Textbook { sine, ..self }
     }
 
-    /// Number of joints.
+    /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.joints
     }
 
-    /// Where joint `i` puts its body at this coordinate.
+    /// Returns the pose of joint `i`'s body at this coordinate.
     fn placed(&self, i: usize, q: T) -> Transform<T> {
         self.joint[i].place(q, self.sine)
     }

@@ -1,4 +1,4 @@
-//! The bodies of a mechanism of bgdyn.
+//! Converts a mechanism of bgdyn to moving bodies.
 
 extern crate std;
 
@@ -12,17 +12,17 @@ use nalgebra::{Matrix3, Vector3};
 use crate::body::steiner;
 pub use crate::body::{Body, Placement};
 
-/// A place on a moving body, or in the world (`body: None`).
+/// A site on a moving body, or in the world (`body: None`).
 #[derive(Clone, Copy, Debug)]
 pub struct Site {
     /// The body.
     pub body: Option<usize>,
-    /// The place in its axes.
+    /// Its pose in the body's axes.
     pub placement: Placement,
 }
 
-/// The moving bodies in the order of the coordinates. Run-time parameters take the values of the
-/// spec. Links fixed to the world are left out.
+/// Returns the moving bodies in the order of the coordinates. Run-time parameters have the values of the
+/// spec. Links fixed to the world are omitted.
 pub fn bodies(mechanism: &Mechanism) -> Vec<Body> {
     let mut bodies: Vec<Body> = mechanism
         .coordinates()
@@ -43,19 +43,19 @@ pub fn bodies(mechanism: &Mechanism) -> Vec<Body> {
     bodies
 }
 
-/// Names of the joints, in the order of the coordinates.
+/// Returns the names of the joints, in the order of the coordinates.
 pub fn joint_names(mechanism: &Mechanism) -> impl Iterator<Item = &str> {
     let links = mechanism.links();
     let coordinates = mechanism.coordinates().iter();
     coordinates.map(|&link| links[link.0].joint.name.as_str())
 }
 
-/// Which joints are prismatic.
+/// Returns which joints are prismatic.
 pub fn slides(bodies: &[Body]) -> Vec<bool> {
     bodies.iter().map(|b| b.slides).collect()
 }
 
-/// Where the link or frame of this name is.
+/// Returns the site of the link or frame of this name.
 pub fn place(mechanism: &Mechanism, name: &str) -> Option<Site> {
     let links = mechanism.links();
     if let Some(link) = links.iter().position(|l| l.name == name) {
@@ -69,7 +69,7 @@ pub fn place(mechanism: &Mechanism, name: &str) -> Option<Site> {
     })
 }
 
-/// Where a link's frame is on the body that it is part of.
+/// Returns a link's frame on its body.
 fn site(mechanism: &Mechanism, link: LinkId) -> Site {
     let link = &mechanism.links()[link.0];
     if let Some(coordinate) = link.joint.coordinate {
@@ -93,7 +93,7 @@ fn carrier(mechanism: &Mechanism, parent: Option<LinkId>) -> Site {
     parent.map_or(world, |parent| site(mechanism, parent))
 }
 
-/// The body of a moving link, without its inertia.
+/// Returns the body of a moving link, without its inertia.
 fn empty(mechanism: &Mechanism, link: LinkId) -> Body {
     let link = &mechanism.links()[link.0];
     let carrier = carrier(mechanism, link.parent);
@@ -108,7 +108,7 @@ fn empty(mechanism: &Mechanism, link: LinkId) -> Body {
     }
 }
 
-/// Adds a rigid part, whose frame is placed in the body's.
+/// Adds a rigid part, whose frame is given in the body's.
 fn add(body: &mut Body, mechanism: &Mechanism, part: &Inertial, at: &Placement) {
     let number = |value: Value| match value {
         Value::Fixed(x) => x.to_f64(),
@@ -121,7 +121,7 @@ fn add(body: &mut Body, mechanism: &Mechanism, part: &Inertial, at: &Placement) 
     let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     let axes = at.rotation * matrix(part.inertia.axes);
     let tensor = axes * tensor * axes.transpose();
-    // Both tensors are about their own centres: Steiner's terms of the pair about the common one.
+    // Both tensors are about their own centres: add Steiner's terms of the pair about the common one.
     let sum = body.mass + mass;
     if sum > 0.0 {
         let between = com - body.com;
@@ -139,7 +139,7 @@ fn placement(pose: &Pose) -> Placement {
     }
 }
 
-/// In `f64`.
+/// Converts to `f64`.
 pub fn vector(v: Vec3<Dd>) -> Vector3<f64> {
     Vector3::from(v.0.map(Dd::to_f64))
 }

@@ -1,11 +1,11 @@
-//! Recursive Newton–Euler: velocities and accelerations outwards, forces inwards.
+//! Recursive Newton–Euler algorithm: velocities and accelerations outboard, forces inboard.
 
 use nalgebra::RealField;
 
 use super::Textbook;
 
 impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
-    /// Joint efforts of a motion, into `tau`: N·m, N.
+    /// Computes the joint efforts of a motion, into `tau`: N·m, N.
     pub fn inverse_dynamics(&mut self, q: &[T], v: &[T], a: &[T], tau: &mut [T]) {
         for i in 0..self.joints() {
             let x = self.placed(i, q[i]);
@@ -35,12 +35,12 @@ impl<T: RealField + Copy, const N: usize> Textbook<T, N> {
         }
     }
 
-    /// Bias force, into `tau`: everything but M a.
+    /// Computes the bias force, into `tau`: everything except M a.
     pub fn bias(&mut self, q: &[T], v: &[T], tau: &mut [T]) {
         self.inverse_dynamics(q, v, &[T::zero(); N], tau);
     }
 
-    /// Efforts at rest, into `tau`.
+    /// Computes the efforts at rest, into `tau`.
     pub fn gravity(&mut self, q: &[T], tau: &mut [T]) {
         let zeros = [T::zero(); N];
         self.inverse_dynamics(q, &zeros, &zeros, tau);

@@ -18,7 +18,7 @@ pub(super) struct Force<T: RealField + Copy> {
     pub force: Vector3<T>,
 }
 
-/// A body's axes and origin in its carrier's.
+/// A body's axes and origin in its parent's.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transform<T: RealField + Copy> {
     pub rotation: Matrix3<T>,
@@ -33,7 +33,7 @@ pub(super) struct Inertia<T: RealField + Copy> {
     pub tensor: Matrix3<T>,
 }
 
-/// A joint: where it is at coordinate zero, and what it lets move.
+/// A joint: its pose at coordinate zero, and the motion that it allows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Joint<T: RealField + Copy> {
     slides: bool,
@@ -56,7 +56,7 @@ impl<T: RealField + Copy> Motion<T> {
         }
     }
 
-    /// v × m of motions.
+    /// Returns v × m of motions.
     pub fn cross(&self, m: &Self) -> Self {
         Motion {
             angular: self.angular.cross(&m.angular),
@@ -64,7 +64,7 @@ impl<T: RealField + Copy> Motion<T> {
         }
     }
 
-    /// v ×* f of a motion and a force.
+    /// Returns v ×* f of a motion and a force.
     pub fn cross_force(&self, f: &Force<T>) -> Force<T> {
         Force {
             moment: self.angular.cross(&f.moment) + self.linear.cross(&f.force),
@@ -97,7 +97,7 @@ impl<T: RealField + Copy> Transform<T> {
         }
     }
 
-    /// What a motion of the carrier is for the body.
+    /// Transforms a motion from the parent's axes to the body's.
     pub fn in_body(&self, m: &Motion<T>) -> Motion<T> {
         Motion {
             angular: self.rotation.tr_mul(&m.angular),
@@ -107,7 +107,7 @@ impl<T: RealField + Copy> Transform<T> {
         }
     }
 
-    /// What a force on the body is for the carrier.
+    /// Transforms a force from the body's axes to the parent's.
     pub fn in_carrier(&self, f: &Force<T>) -> Force<T> {
         let force = self.rotation * f.force;
         Force {
@@ -116,7 +116,7 @@ impl<T: RealField + Copy> Transform<T> {
         }
     }
 
-    /// Where `inner`, placed in the body, is in the carrier.
+    /// Returns the pose of `inner`, given in the body, in the parent.
     pub fn of(&self, inner: &Self) -> Self {
         Transform {
             rotation: self.rotation * inner.rotation,
@@ -134,7 +134,7 @@ impl<T: RealField + Copy> Inertia<T> {
         }
     }
 
-    /// A body's own.
+    /// Returns the inertia of a body.
     pub fn of(body: &Body) -> Self {
         let tensor = body.inertia + steiner(body.mass, &body.com);
         Inertia {
@@ -152,7 +152,7 @@ impl<T: RealField + Copy> Inertia<T> {
         }
     }
 
-    /// I m
+    /// Returns I m.
     pub fn times(&self, m: &Motion<T>) -> Force<T> {
         Force {
             moment: self.tensor * m.angular + self.moment.cross(&m.linear),
@@ -160,7 +160,7 @@ impl<T: RealField + Copy> Inertia<T> {
         }
     }
 
-    /// The same inertia in the carrier's axes, about its origin.
+    /// Returns the inertia in the parent's axes, about its origin.
     pub fn in_carrier(&self, x: &Transform<T>) -> Self {
         let (p, h) = (x.origin, x.rotation * self.moment);
         let tensor = x.rotation * self.tensor * x.rotation.transpose();
@@ -188,7 +188,7 @@ impl<T: RealField + Copy> Joint<T> {
         }
     }
 
-    /// No joint yet.
+    /// Returns a placeholder joint.
     pub fn none() -> Self {
         Joint {
             slides: true,
@@ -197,7 +197,7 @@ impl<T: RealField + Copy> Joint<T> {
         }
     }
 
-    /// Where it puts the body at this coordinate.
+    /// Returns the pose of the body at this coordinate.
     pub fn place(&self, q: T, sine: fn(T) -> (T, T)) -> Transform<T> {
         let Transform { rotation, origin } = self.zero;
         if self.slides {
@@ -215,7 +215,7 @@ impl<T: RealField + Copy> Joint<T> {
         }
     }
 
-    /// S x: the motion at this rate.
+    /// Returns S x: the motion at this rate.
     pub fn motion(&self, rate: T) -> Motion<T> {
         let along = self.axis.as_ref() * rate;
         if self.slides {
@@ -231,7 +231,7 @@ impl<T: RealField + Copy> Joint<T> {
         }
     }
 
-    /// Sᵀ f: the effort of a force at the joint.
+    /// Returns Sᵀ f: the effort of a force at the joint.
     pub fn effort(&self, f: &Force<T>) -> T {
         self.axis
             .dot(if self.slides { &f.force } else { &f.moment })

@@ -1,6 +1,6 @@
-//! Figures of rows with numbers: bars from zero, or dots on a logarithmic axis.
+//! Draws figures of rows with numbers: bars from zero, or dots on a logarithmic axis.
 //!
-//! Dots are used where the length of a bar would mean nothing.
+//! Dots are used if the length of a bar would have no meaning.
 
 use crate::format::short;
 use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
@@ -10,13 +10,13 @@ pub(super) struct Line {
     pub label: String,
     /// A number for each column.
     pub values: Vec<Option<f64>>,
-    /// Why the last column has none.
+    /// The reason why the last column has no number.
     pub failed: Option<String>,
 }
 
 /// A column.
 pub(super) struct Column {
-    /// What it shows, and of what or in which unit.
+    /// Its quantity, and its reference or unit.
     pub title: [String; 2],
     pub scale: Scale,
 }
@@ -34,7 +34,7 @@ pub(super) struct Bars {
     pub title: String,
     pub columns: Vec<Column>,
     pub lines: Vec<Line>,
-    /// Whether the first line is what the others are compared with.
+    /// Whether the first line is the reference for the others.
     pub compared: bool,
 }
 
@@ -43,14 +43,14 @@ const MARGIN: f64 = 24.0;
 const TOP: f64 = 104.0;
 const PITCH: f64 = 30.0;
 const THICK: f64 = 15.0;
-/// Room for labels, and for the numbers behind bars and dots.
+/// Widths for labels, and for the numbers behind bars and dots.
 const LABELS: f64 = 190.0;
 const NUMBERS: f64 = 62.0;
-/// Between two columns.
+/// Space between two columns.
 const GAP: f64 = 26.0;
 const BAR: &str = "#0072b2";
 const DOT: &str = "#d55e00";
-/// Letters that fit beside a column.
+/// Number of letters that fit beside a column.
 const LETTERS: usize = 24;
 
 impl Bars {
@@ -85,7 +85,7 @@ impl Bars {
         d.finish()
     }
 
-    /// The numbers of a column, with the heights of their lines.
+    /// Returns the numbers of a column, with the heights of their lines.
     fn numbers(&self, k: usize) -> impl Iterator<Item = (f64, f64)> {
         let lines = self.lines.iter().enumerate();
         lines.filter_map(move |(i, line)| Some((TOP + PITCH * i as f64, line.values[k]?)))
@@ -104,7 +104,7 @@ impl Bars {
             d.line((at, TOP + PITCH - 6.0), (at, bottom), INK, "4 3");
         }
         for (y, x) in self.numbers(k) {
-            // Not on the dashed line.
+            // Text is not placed on the dashed line.
             let beyond = first.filter(|_| self.compared).map_or(0.0, place);
             let crossed = place(x) < beyond && place(x) + NUMBERS > beyond;
             let end = if crossed { beyond } else { place(x) };
@@ -152,7 +152,8 @@ impl Bars {
         }
     }
 
-    /// Reasons in the last column, cut where there is no room; the pointer shows them whole.
+    /// Draws the reasons in the last column, shortened if there is no space; the tooltip shows the whole
+    /// text.
     fn failures(&self, d: &mut Drawing, width: f64) {
         let from = WIDTH - MARGIN - width;
         let letters = (LETTERS as f64 * (width / 170.0).max(1.0)) as usize;
@@ -171,7 +172,7 @@ impl Bars {
     }
 }
 
-/// Whole numbers in full.
+/// Prints a number; integers with all digits.
 fn number(x: f64) -> String {
     match x.fract() == 0.0 && x.abs() < 1e7 {
         true => format!("{x}"),

@@ -1,4 +1,4 @@
-//! The diagram of error against time, both on logarithmic axes.
+//! Draws the diagram of error against time, both on logarithmic axes.
 
 use crate::configuration::StepControl;
 use crate::row::Row;
@@ -9,12 +9,12 @@ pub(super) struct Series<'a> {
     pub label: String,
     /// A second line of the legend.
     pub note: String,
-    /// Whether that line is an alarm.
+    /// Whether that line is a warning.
     pub alarming: bool,
     pub colour: &'static str,
     pub marker: Marker,
     pub dashes: &'static str,
-    /// From the coarsest to the finest.
+    /// The rows, from the coarsest to the finest.
     pub rows: Vec<&'a Row>,
 }
 
@@ -23,9 +23,9 @@ pub(super) struct Diagram<'a> {
     pub title: String,
     pub x: String,
     pub y: String,
-    /// How far the output moves.
+    /// The size of the motion of the output.
     pub size: f64,
-    /// Where rounding begins in `f64`.
+    /// Errors below this are rounding in `f64`.
     pub floor: f64,
     pub series: Vec<Series<'a>>,
 }
@@ -35,7 +35,7 @@ const LEFT: f64 = 92.0;
 const RIGHT: f64 = 690.0;
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 520.0;
-/// Where failures are shown: above the plot.
+/// Height of the strip for failures, above the plot.
 const STRIP: f64 = 66.0;
 const LEGEND: f64 = 722.0;
 const ENTRY: f64 = 37.0;
@@ -74,14 +74,14 @@ impl Axis {
         self.from + part.min(1.0) * (self.to - self.from)
     }
 
-    /// Decades with a label: not more than fit.
+    /// Returns the decades with a label, at most as many as fit.
     fn decades(&self, most: i32) -> impl Iterator<Item = i32> {
         let every = ((self.high - self.low + most - 1) / most).max(1);
         (self.low..=self.high).filter(move |k| k % every == 0)
     }
 }
 
-/// 10^k as people write it.
+/// Prints 10^k.
 fn decade(k: i32) -> String {
     match k {
         -2..=4 => crate::format::number(10_f64.powi(k)),
@@ -103,7 +103,7 @@ impl Diagram<'_> {
         d.finish()
     }
 
-    /// The axes, over everything that is shown.
+    /// Returns the axes, with ranges that include all points.
     fn axes(&self) -> (Axis, Axis) {
         let rows = || {
             self.series
@@ -185,7 +185,7 @@ impl Diagram<'_> {
     }
 }
 
-/// A curve with its points, and its failures above.
+/// Draws a curve with its points, and its failures above.
 fn curve(d: &mut Drawing, series: &Series<'_>, x: &Axis, y: &Axis, floor: f64) {
     let held = series.rows.iter().filter(|r| r.holds());
     let point = |r: &&Row| Some((x.at(r.ns?), y.at(r.error?.max(0.3 * floor))));
@@ -199,8 +199,8 @@ fn curve(d: &mut Drawing, series: &Series<'_>, x: &Axis, y: &Axis, floor: f64) {
     }
 }
 
-/// The times at which failed runs are shown: those of the nearest run that holds, by the ratio of
-/// their steps. A failed tolerance has no such ratio and stands at that run's time.
+/// Returns the times at which failed runs are drawn: that of the nearest successful run, multiplied by the
+/// ratio of their steps. A failed tolerance has no such ratio and is drawn at that run's time.
 fn failures(series: &Series<'_>) -> impl Iterator<Item = f64> {
     let held = series.rows.iter().filter(|r| r.holds());
     let first = held

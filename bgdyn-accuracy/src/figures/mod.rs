@@ -19,14 +19,15 @@ use diagram::{Diagram, Series};
 pub struct Figure {
     /// The file's name: `arm_methods.svg`.
     pub name: String,
-    /// What it shows, in a sentence.
+    /// Its caption, in a sentence.
     pub caption: String,
-    /// SVG.
+    /// The SVG text.
     pub svg: String,
 }
 
-/// How a method is drawn: colour and marker. Okabe and Ito's palette, which colour-blind readers tell
-/// apart; circles are explicit methods, squares implicit ones, triangles methods on momenta.
+/// Returns the colour and marker of an integrator. The palette of Okabe and Ito is distinguishable for
+/// colour-blind readers; circles are explicit integrators, squares implicit ones, triangles integrators of
+/// the canonical form.
 fn look(method: &str) -> (&'static str, Marker) {
     let plain = method.strip_prefix("canonical_");
     let (colour, marker) = match plain.unwrap_or(method) {
@@ -46,11 +47,11 @@ fn look(method: &str) -> (&'static str, Marker) {
     }
 }
 
-/// What stands before a family of effects that is left out, in the names of ablations.
+/// Prefix of a family of effects that is left out, in the names of ablations.
 const ALL_BUT: &str = "all but ";
 
-/// The figures of a study: methods, scalars and momenta, formulations, effects left out, effects
-/// added one after the other. Those that would have nothing to compare are left away.
+/// Returns the figures of a study: integrators, scalars and canonical form, formulations, effects left
+/// out, effects added one after the other. Figures with nothing to compare are omitted.
 pub fn figures(study: &Study) -> Vec<Figure> {
     let all = [
         methods(study),
@@ -62,12 +63,12 @@ pub fn figures(study: &Study) -> Vec<Figure> {
     all.into_iter().flatten().collect()
 }
 
-/// "~" before a time that is an estimate.
+/// Returns "~" for estimated times.
 fn about(study: &Study) -> &'static str {
     if study.is_measured() { "" } else { "~" }
 }
 
-/// "gauss2 at 2 ms", "dopri5 with the tolerance 1e-6".
+/// Returns "gauss2 at 2 ms", "dopri5 with the tolerance 1e-6".
 pub(crate) fn way(row: &Row) -> String {
     let scalar = match row.scalar.as_str() {
         "f64" => "",
@@ -79,7 +80,7 @@ pub(crate) fn way(row: &Row) -> String {
     }
 }
 
-/// What an error of a good run costs: for a title.
+/// Returns the cost of a small error, for a title.
 fn message(study: &Study) -> String {
     let facts = &study.facts;
     let choices = targets(study);
@@ -102,7 +103,7 @@ fn message(study: &Study) -> String {
     }
 }
 
-/// A curve of the rows for which this holds.
+/// Returns a curve of the rows that satisfy a condition.
 fn series<'a>(
     study: &'a Study,
     verdict: &Verdict,
@@ -116,14 +117,14 @@ fn series<'a>(
             && r.scalar == verdict.scalar
             && r.formulation == verdict.formulation
     };
-    // The first row of a step control: the ablation `all` repeats the scene's own.
+    // The first row of a step control: the ablation `all` repeats the scene's own step control.
     let mut rows: Vec<&Row> = Vec::new();
     for row in study.rows.iter().filter(of) {
         if !rows.iter().any(|r| r.step_control == row.step_control) {
             rows.push(row);
         }
     }
-    // The scene's own step control comes last in the study.
+    // The scene's own step control is the last one in the study.
     rows.sort_by(|a, b| b.step_control.value().total_cmp(&a.step_control.value()));
     Series {
         label,
@@ -153,7 +154,7 @@ fn diagram<'a>(study: &'a Study, title: String, series: Vec<Series<'a>>) -> Stri
     .draw()
 }
 
-/// Error against time, one curve per method.
+/// Draws error against time, one curve per integrator.
 fn methods(study: &Study) -> Option<Figure> {
     let found = verdicts(study);
     let shown = found
@@ -167,7 +168,7 @@ fn methods(study: &Study) -> Option<Figure> {
     })
 }
 
-/// The same in `f32`, and on momenta.
+/// Draws the same in `f32`, and in canonical form.
 fn scalars(study: &Study) -> Option<Figure> {
     let found = verdicts(study);
     let has = |v: &Verdict, f: &dyn Fn(&Verdict) -> bool| {
@@ -219,7 +220,7 @@ fn scalars(study: &Study) -> Option<Figure> {
     })
 }
 
-/// What each formulation takes at the same step, and the least error that it reaches.
+/// Draws the time of each formulation at the same step, and the least error that it reaches.
 fn formulations(study: &Study) -> Option<Figure> {
     let by = |name: &str| {
         let of = study.rows.iter().filter(|r| {
@@ -281,7 +282,7 @@ fn formulations(study: &Study) -> Option<Figure> {
     })
 }
 
-/// A column of bars.
+/// Returns a column of bars.
 fn linear(what: String, unit: String) -> Column {
     Column {
         title: [what, unit],
@@ -289,7 +290,7 @@ fn linear(what: String, unit: String) -> Column {
     }
 }
 
-/// A column of dots, in the measured output's unit.
+/// Returns a column of dots, in the measured output's unit.
 fn logarithmic(what: String, study: &Study) -> Column {
     Column {
         title: [what, format!("{}, logarithmic", study.facts.unit)],
@@ -297,7 +298,8 @@ fn logarithmic(what: String, study: &Study) -> Column {
     }
 }
 
-/// The rows of ablations: the scene with all effects by its own way, then those that `name` takes.
+/// Returns the rows of ablations: the scene with all effects and its own settings, then those selected by
+/// `name`.
 fn ablations<'a>(
     study: &'a Study,
     name: impl Fn(&'a str) -> Option<&'a str>,
@@ -312,7 +314,8 @@ fn ablations<'a>(
     let own =
         |r: &&Row| r.effects == "all" && r.step_control == step_control && r.method == *method;
     let own = |r: &&Row| own(r) && r.scalar == "f64" && r.formulation == "cheapest";
-    // The ablation comes after the method's own sequence of steps, and is timed beside the other ablations.
+    // The ablation comes after the integrator's own sequence of steps, and is timed with the other
+    // ablations.
     Some((study.rows.iter().rfind(own)?, named))
 }
 
@@ -323,7 +326,7 @@ fn why(row: &Row) -> Option<String> {
     }
 }
 
-/// What each effect costs, and what it changes: the scene with all effects, and without each.
+/// Draws the cost of each effect, and its influence: the scene with all effects, and without each.
 fn left_out(study: &Study) -> Option<Figure> {
     let (_, named) = ablations(study, |e| e.strip_prefix(ALL_BUT))?;
     let of = |effects: &str| study.costs.iter().find(|c| c.effects == effects);
@@ -381,7 +384,7 @@ fn left_out(study: &Study) -> Option<Figure> {
     })
 }
 
-/// Effects added one after the other.
+/// Draws effects added one after the other.
 fn added(study: &Study) -> Option<Figure> {
     let (own, named) = ablations(study, |e| {
         (!e.starts_with("all")).then(|| e.rsplit('+').next().unwrap_or(e))

@@ -41,7 +41,7 @@ pub(crate) struct Accuracy {
     bgdyn: String,
 }
 
-/// What stands in front of a reason why the scene cannot be studied, in the program's output.
+/// Prefix of the program's output for the reason why the scene cannot be studied.
 const REFUSED: &str = "refused: ";
 
 impl Accuracy {
@@ -68,7 +68,7 @@ impl Accuracy {
         }
     }
 
-    /// The study of compiled code, or of the evaluator where there is no cargo.
+    /// Runs the study with compiled code, or with the evaluator if there is no cargo.
     fn study(&self, system: &SceneEquations, end: Option<f64>) -> Result<Study> {
         let program = match self.compiled(system, end) {
             Ok(text) => text,
@@ -89,7 +89,7 @@ impl Accuracy {
             .context("the program gave no study")
     }
 
-    /// What the program prints that studies the compiled scene.
+    /// Returns the output of the program that studies the compiled scene.
     fn compiled(&self, system: &SceneEquations, end: Option<f64>) -> Result<String> {
         let project = CargoProject::new("accuracy", &self.bgdyn, &["bgdyn-accuracy"])?;
         let text = variants(system, end).map_err(|e| anyhow!(e))?;
@@ -104,11 +104,11 @@ impl Accuracy {
     }
 }
 
-/// The study through the evaluator.
+/// Runs the study with the evaluator.
 fn evaluated(system: &SceneEquations, end: Option<f64>) -> Result<Study> {
     let test_case = crate::accuracy::test_case(system, end)
         .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
-    // The evaluator takes its time.
+    // The evaluator is slow.
     study(&test_case, &Effort::QUICK).map_err(|e| anyhow!("{e}"))
 }
 
@@ -133,7 +133,7 @@ fn write(study: &Study, out: &Path) -> Result<()> {
     )
 }
 
-/// The cheapest ways, and where the rest is.
+/// Lists the cheapest variants, and the files with the rest.
 fn summary(study: &Study, out: &Path) -> String {
     let facts = &study.facts;
     let mark = if study.is_measured() { "" } else { "~" };

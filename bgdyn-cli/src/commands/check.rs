@@ -1,4 +1,4 @@
-//! `bgdyn check`: reports all faults of a spec, or that there are none.
+//! `bgdyn check`: reports all faults of a spec, or that it has none.
 
 use std::path::{Path, PathBuf};
 
@@ -27,19 +27,19 @@ pub(crate) struct Check {
     json: bool,
 }
 
-/// What was found in one file.
+/// The findings of one file.
 #[derive(Default)]
 struct CheckedFile {
     ok: bool,
-    /// For stdout where no JSON is wanted.
+    /// Lines for stdout without `--json`.
     lines: Vec<String>,
-    /// For stderr where no JSON is wanted.
+    /// Text for stderr without `--json`.
     told: String,
-    /// For stderr either way.
+    /// Text for stderr in both cases.
     tally: Option<String>,
-    /// Whether that says of which file.
+    /// Whether that text names the file.
     names_its_file: bool,
-    /// As JSON: `model` or `scene`, and what it is.
+    /// As JSON: `model` or `scene`, and its description.
     model: Option<(&'static str, Value)>,
     findings: Vec<Value>,
 }
@@ -186,7 +186,7 @@ fn scene(spec: &SpecFile) -> CheckedFile {
     }
 }
 
-/// What snapping changed, on one line.
+/// Describes the changes by snapping, on one line.
 pub(crate) fn snapped_words(snapped: &Snapped) -> String {
     let Snapped {
         count,
@@ -201,7 +201,7 @@ pub(crate) fn snapped_words(snapped: &Snapped) -> String {
     format!("{what}; taken as exact, `snap: 0` at the top keeps what is written")
 }
 
-/// `elbow_motor: without inductance: …`
+/// Describes a solved algebraic loop: `elbow_motor: without inductance: …`.
 fn words(solved: &Solved) -> String {
     let elements = solved.elements.join(", ");
     let nodes = match solved.nodes.as_slice() {
@@ -236,7 +236,7 @@ fn scene_model(system: &SceneEquations) -> Value {
     })
 }
 
-/// The coordinates' joints, in the order of q.
+/// Returns the coordinates' joints, in the order of q.
 fn coordinates(mechanism: &Mechanism) -> Vec<&str> {
     let joint = |link: &LinkId| mechanism.links()[link.0].joint.name.as_str();
     mechanism.coordinates().iter().map(joint).collect()

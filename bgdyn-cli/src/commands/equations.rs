@@ -62,7 +62,7 @@ impl Equations {
         }
     }
 
-    /// A refusal with the way out.
+    /// Returns a refusal with advice.
     fn refused(&self, refused: &NoClosedForm) -> anyhow::Error {
         let (file, limit) = (self.file.display(), self.limit);
         match refused {

@@ -55,7 +55,7 @@ fn evaluate(
     };
     for &argument in function.method.arguments() {
         let values = match argument {
-            // `tau` may be the effort of the state's own motion: `tau_in` comes first.
+            // `tau` may be the effort of the state's own motion: `tau_in` has priority.
             Argument::Tau if state.get("tau_in").is_none() => vector(mechanism, state, "tau")?,
             _ => vector(mechanism, state, field(argument))?,
         };

@@ -81,7 +81,7 @@ impl Generate {
         }
     }
 
-    /// Whether the file at `path` holds `text`.
+    /// Fails unless the file at `path` contains `text`.
     fn compare(&self, path: &Path, text: &str) -> Result<()> {
         let found = read_text(path)?;
         if found == text {

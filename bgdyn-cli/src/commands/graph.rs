@@ -51,7 +51,7 @@ impl Graph {
         }
     }
 
-    /// The format asked for, or that of the output's name.
+    /// Returns the selected format, or that of the output's name.
     fn format(&self) -> Result<DrawingFormat> {
         let ending = self.output.as_deref().and_then(Path::extension);
         let ending = ending.map(|e| e.to_string_lossy().to_lowercase());

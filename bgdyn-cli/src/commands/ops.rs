@@ -95,10 +95,10 @@ struct OpsReport<'a> {
     explained: Option<Explained>,
 }
 
-/// What is said of each function, by its name, in the module's order.
+/// The explanation of each function, by its name, in the module's order.
 struct Explained(Vec<(String, String)>);
 
-/// Lists of lines, since strings of JSON show no ends of lines.
+/// Serialises lists of lines, because strings of JSON show no line breaks.
 impl Serialize for Explained {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
@@ -168,7 +168,7 @@ fn table(functions: &[Function]) -> String {
     text
 }
 
-/// Function by function: what was chosen, what the other ways cost, and how many digits each loses.
+/// Explains each function: the choice, the cost of the alternatives, and the digits that each loses.
 fn explained(mechanism: &Mechanism, model: &Model) -> Explained {
     let one = |f: &Function| (f.name().to_string(), explain(mechanism, model, f));
     Explained(model.functions.iter().map(one).collect())
@@ -199,7 +199,7 @@ fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
     text
 }
 
-/// Candidates and what they cost, one per line.
+/// Lists candidates with their cost, one per line.
 fn list(title: &str, all: &[Considered]) -> String {
     if all.is_empty() {
         return String::new();
@@ -210,7 +210,7 @@ fn list(title: &str, all: &[Considered]) -> String {
     format!("  {title}\n{}", lines.collect::<String>())
 }
 
-/// A rounding error in words.
+/// Describes a rounding error in words.
 fn summary(error: Option<RoundingError>) -> String {
     match error {
         Some(RoundingError { failures: 0, ulps }) => {

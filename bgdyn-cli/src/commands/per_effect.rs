@@ -13,23 +13,23 @@ use crate::timing::{estimate, times};
 /// A scene with some of its effects.
 #[derive(Serialize)]
 struct VariantCost {
-    /// What it is: effects added so far, or all but one.
+    /// The variant: effects added so far, or all except one.
     effects: Vec<String>,
     /// Multiplications and additions of the derivative.
     ops: usize,
-    /// Numbers that change in time.
+    /// Number of states.
     states: usize,
     /// ns per call of the derivative.
     ns: f64,
-    /// Whether `ns` was not measured but follows from the operations.
+    /// Whether `ns` is estimated from the operations.
     estimated: bool,
-    /// 1 / |λ| of the fastest mode at the start, s; null where there is none.
+    /// 1 / |λ| of the fastest mode at the start, s; null if there is none.
     fastest_time_constant: Option<f64>,
     #[serde(skip)]
     title: String,
 }
 
-/// Prints the table of a scene's effects: added one at a time, and all but one.
+/// Prints the table of a scene's effects: added one at a time, and all except one.
 pub(super) fn report(whole: &SceneEquations, json: bool, bgdyn: &str) -> Result<()> {
     let (titles, systems): (Vec<String>, Vec<SceneEquations>) =
         variants(whole)?.into_iter().unzip();
@@ -78,7 +78,7 @@ fn names(system: &SceneEquations) -> Vec<String> {
         .collect()
 }
 
-/// The scene without effects, with one more each time, and without each one in turn.
+/// Returns the scene without effects, with one more each time, and without each one in turn.
 fn variants(whole: &SceneEquations) -> Result<Vec<(String, SceneEquations)>> {
     let all = names(whole);
     let with = |names: &[&String]| {
@@ -101,7 +101,7 @@ fn variants(whole: &SceneEquations) -> Result<Vec<(String, SceneEquations)>> {
     Ok(found)
 }
 
-/// 1 / |λ| of the fastest mode at the start.
+/// Returns 1 / |λ| of the fastest mode at the start.
 fn fastest(system: &SceneEquations, derivative: &Function) -> Option<f64> {
     let slope = system.slope(derivative, &system.start())?;
     let n = slope.len();

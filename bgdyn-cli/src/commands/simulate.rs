@@ -74,11 +74,11 @@ struct NumericOptions {
     end: Option<f64>,
 }
 
-/// Drifts, of the energy that could move, above which the result means little.
+/// Energy drifts above this, relative to the energy that could move, make the result doubtful.
 const DRIFT: f64 = 1e-2;
-/// The same of errors, of the range of an output.
+/// The same for errors, relative to the range of an output.
 const ERROR: f64 = 1e-2;
-/// Steps that no run takes.
+/// Upper limit of the number of steps of a run.
 const STEPS: f64 = 1e10;
 
 impl Simulate {
@@ -125,7 +125,7 @@ impl Simulate {
         let mut told = report::report(&system, &run);
         print(&told)?;
         let closed = report::drift(&run);
-        // A drift that is no number is none that is small.
+        // A drift that is NaN is not small.
         if closed.is_nan() || closed > DRIFT {
             tell(&format!(
                 "bgdyn: warning: the energy does not add up by {} of what could move: the result means little; take a smaller step or tolerance\n",
@@ -162,7 +162,7 @@ impl Simulate {
         print(&format!("replay: {}\n", path.display()))
     }
 
-    /// The numbers given.
+    /// Returns the numbers of the options.
     fn numbers(&self) -> Result<NumericOptions, Usage> {
         use Dimension::{One, Time};
         if self.points < 2 {
@@ -176,7 +176,7 @@ impl Simulate {
         })
     }
 
-    /// The scene's way to run, as the options change it.
+    /// Returns the scene's settings of integration, changed by the options.
     fn integration(
         &self,
         scene: Integration,
@@ -222,7 +222,7 @@ impl Simulate {
         })
     }
 
-    /// Writes table and plot; gives what is said of them.
+    /// Writes table and plot; returns the message about them.
     fn write(&self, name: &str, columns: &[Column], run: &Record) -> Result<String> {
         let out = &self.out;
         let shown = |path: &Path| format!("{} cannot be written", path.display());
@@ -240,7 +240,7 @@ impl Simulate {
     }
 }
 
-/// Why a scene cannot start as it is told to.
+/// Returns the error that a scene cannot start from the given state.
 fn start_refused(faults: &Faults) -> anyhow::Error {
     let one = |f: &Fault| match &f.help {
         Some(help) => format!("{}: {help}", f.message),
@@ -250,13 +250,13 @@ fn start_refused(faults: &Faults) -> anyhow::Error {
     anyhow!("the scene cannot start so: {}", all.join("; "))
 }
 
-/// Runs a scene, with a word now and then on how far it has come.
+/// Runs a scene, with a display of the progress.
 fn watched(what: &'static str, plant: &Evaluated<'_>, way: &Way) -> Record {
     let mut progress = Progress::new(what);
     record_from(plant.clone(), way, &mut |share| progress.at(share))
 }
 
-/// "stick_slip: rk4 in steps of 0.001 s, to t = 5 s"
+/// Returns "stick_slip: rk4 in steps of 0.001 s, to t = 5 s".
 fn summary(name: &str, integration: &Integration) -> String {
     let Integration {
         method,
@@ -271,7 +271,7 @@ fn summary(name: &str, integration: &Integration) -> String {
     format!("{name}: {} {step_control}, to t = {end} s", method.name())
 }
 
-/// Compares the run with a finer one; gives what is told of it.
+/// Compares the run with a finer one; returns the message about the difference.
 fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) -> Result<String> {
     let finer = watched("once more, finer", plant, &way.finer());
     let against = match way.integration.step_control {

@@ -1,53 +1,53 @@
-//! The data of a drawing: junctions, transformers and one-ports, in the order of the tree.
+//! The data of a drawing: junctions, transformers and one-ports, in tree order.
 
 use std::fmt;
 
-/// The drawing of a bond graph, without places.
+/// The drawing of a bond graph, without coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Chart {
-    /// What it is the graph of.
+    /// The title.
     pub title: String,
-    /// What the spec says of it.
+    /// The description in the spec.
     pub description: Option<String>,
-    /// 1-junctions of the generalized velocities, each before those that it carries.
+    /// 1-junctions of the generalized velocities, each before those of outboard joints.
     pub velocities: Vec<Velocity>,
-    /// The links that move, parents first, each before the next of its carrier's other links.
+    /// The links that move, in depth-first order.
     pub links: Vec<ChartLink>,
-    /// Lines between two places, along which something acts: as links without a joint.
+    /// Lines between two sites with an element along them, drawn like links without a joint.
     pub lines: Vec<ChartLink>,
-    /// Frames of links at which something acts: their flow is [ω; v].
+    /// Frames of links with an element: their flow is [ω; v].
     pub sites: Vec<ChartLink>,
-    /// Names of links that no coordinate moves: none of their junctions is there.
+    /// Names of links that no coordinate moves, which have no junctions.
     pub still: Vec<String>,
-    /// Names of links that move and carry others, but have no store and no source: none of their
-    /// junctions is there, the velocities of their joints act on the links that they carry.
+    /// Names of moving links with children, but without store and source: they have no junctions, and the
+    /// velocities of their joints act on their children.
     pub folded: Vec<String>,
-    /// What has to be said of it beside.
+    /// Additional notes.
     pub notes: Vec<String>,
 }
 
 impl Chart {
-    /// Links, then lines, then sites.
+    /// Returns links, then lines, then sites.
     pub fn bands(&self) -> impl Iterator<Item = &ChartLink> {
         self.links.iter().chain(&self.lines).chain(&self.sites)
     }
 
-    /// Every flow, link by link.
+    /// Returns every flow, link by link.
     pub fn flows(&self) -> impl Iterator<Item = &Flow> {
         self.bands().flat_map(|link| &link.flows)
     }
 
-    /// Every transformer, link by link.
+    /// Returns every transformer, link by link.
     pub fn transformers(&self) -> impl Iterator<Item = &Transformer> {
         self.flows().flat_map(|flow| &flow.transformers)
     }
 
-    /// Whether a modulus varies with the coordinates.
+    /// Returns whether a modulus varies with the coordinates.
     pub fn varies(&self) -> bool {
         self.transformers().any(|t| t.symbol() == "MTF")
     }
 
-    /// Whether something with this property stands on a junction.
+    /// Returns whether a port on a junction has this property.
     pub fn has(&self, property: impl Fn(&Port) -> bool) -> bool {
         let on_links = self.flows().flat_map(|flow| &flow.ports);
         let on_velocities = self.velocities.iter().flat_map(|v| &v.ports);
@@ -61,7 +61,7 @@ impl Chart {
         false
     }
 
-    /// How much of the graph is there.
+    /// Returns the size of the graph in words.
     pub fn census(&self) -> String {
         let not_drawn = self.still.len() + self.folded.len();
         let (nv, links) = (self.velocities.len(), self.links.len() + not_drawn);
@@ -92,7 +92,7 @@ impl Chart {
     }
 }
 
-/// `1 link`, `2 links`
+/// Returns `1 link`, `2 links`.
 fn counted(n: usize, one: &str, several: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { several })
 }
@@ -108,7 +108,7 @@ pub(crate) struct Velocity {
     pub unit: &'static str,
     /// `N·m`
     pub effort: &'static str,
-    /// What acts on it: the drive first.
+    /// Its ports: the drive first.
     pub ports: Vec<Port>,
 }
 
@@ -117,14 +117,14 @@ pub(crate) struct Velocity {
 pub(crate) struct ChartLink {
     /// Its name.
     pub name: String,
-    /// The velocities that begin here, as places among [`Chart::velocities`]: those of the folded
-    /// links that carry it, then its own joint's.
+    /// The velocities that begin here, as indices into [`Chart::velocities`]: those of the folded links
+    /// before it, then its own joint's.
     pub velocities: Vec<usize>,
-    /// Its flows that transformers feed and on which something acts.
+    /// Its flows that transformers feed and that have ports.
     pub flows: Vec<Flow>,
 }
 
-/// The 1-junction of a link's flow, and what feeds it.
+/// The 1-junction of a link's flow, and its transformers.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Flow {
     /// `ṙ₂` or `ω₂`
@@ -136,12 +136,12 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// Whether its transformers meet in a 0-junction. A single one feeds the 1-junction itself.
+    /// Returns whether its transformers meet in a 0-junction. A single one feeds the 1-junction directly.
     pub fn sums(&self) -> bool {
         self.transformers.len() > 1
     }
 
-    /// Whether it is a vector.
+    /// Returns whether it is a vector.
     pub fn is_vector(&self) -> bool {
         self.transformers.iter().any(Transformer::is_vector)
     }
@@ -150,18 +150,18 @@ impl Flow {
 /// A transformer from a generalized velocity to a link's flow.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Transformer {
-    /// The velocity, as its place among [`Chart::velocities`].
+    /// The index of the velocity in [`Chart::velocities`].
     pub velocity: usize,
     /// `∂r₂/∂q₁` or `ρ₁²`
     pub name: String,
-    /// Its components x, y, z; a single one on the way to the rate of a length.
+    /// Its components x, y, z; a single one for the rate of a length.
     pub modulus: Vec<Component>,
-    /// What it varies with: `q₁…q₃`; empty for a constant one.
+    /// The coordinates that it varies with: `q₁…q₃`; empty for a constant one.
     pub varies: String,
 }
 
 impl Transformer {
-    /// `MTF` where the modulus varies with the coordinates, `TF` where it does not.
+    /// Returns `MTF` if the modulus varies with the coordinates, `TF` if it does not.
     pub fn symbol(&self) -> &'static str {
         match self.varies.is_empty() {
             true => "TF",
@@ -169,12 +169,12 @@ impl Transformer {
         }
     }
 
-    /// Whether it is a vector's.
+    /// Returns whether it is a vector.
     pub fn is_vector(&self) -> bool {
         self.modulus.len() > 1
     }
 
-    /// `(0, 0.17, ·)`
+    /// Returns `(0, 0.17, ·)`.
     pub fn vector(&self) -> String {
         let entries: Vec<String> = self.modulus.iter().map(Component::to_string).collect();
         format!("({})", entries.join(", "))
@@ -186,9 +186,9 @@ impl Transformer {
 pub(crate) enum Component {
     /// Zero at every q.
     Zero,
-    /// The same at every q, as it is written.
+    /// The same at every q, in printed form.
     Constant(String),
-    /// The same at every q, but known at run time only.
+    /// The same at every q, but known only at run time.
     Parameter,
     /// Varies with the coordinates.
     Varying,
@@ -205,37 +205,37 @@ impl fmt::Display for Component {
     }
 }
 
-/// What stands on a junction, by one bond.
+/// A node that is joined to a junction by one bond.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Port {
     /// `Se`, `Sf`, `I`, `R`, `C`, `GY`, `TF`, or a junction of its own: `1`, `0`.
     pub symbol: &'static str,
     /// `m₂ = 4.5 kg`
     pub text: String,
-    /// What does not fit beside it.
+    /// Text that does not fit beside it.
     pub more: Option<String>,
     /// Whether positive power flows from it into the junction.
     pub feeds: bool,
-    /// Whether the effort acts on the junction, where that is determined: there is the causal
-    /// stroke, else at the other end.
+    /// Whether the effort acts on the junction, if that is determined: then the causal stroke is at the
+    /// junction, else at the other end.
     pub on_junction: Option<bool>,
-    /// What stands behind it in turn.
+    /// The nodes behind it.
     pub ports: Vec<Port>,
 }
 
 impl Port {
-    /// Whether it is a junction.
+    /// Returns whether it is a junction.
     pub fn is_junction(&self) -> bool {
         matches!(self.symbol, "0" | "1")
     }
 
-    /// How many lines it takes.
+    /// Returns the number of lines that it needs.
     pub fn lines(&self) -> usize {
         lines(&self.ports)
     }
 }
 
-/// How many lines these take, one below the other.
+/// Returns the number of lines that these need, one below the other.
 pub(super) fn lines(ports: &[Port]) -> usize {
     ports.iter().map(Port::lines).sum::<usize>().max(1)
 }

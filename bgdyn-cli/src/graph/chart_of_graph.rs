@@ -1,4 +1,4 @@
-//! Builds the drawing of a bond graph, in the order of the tree.
+//! Builds the drawing of a bond graph, in tree order.
 
 use bgdyn_codegen::bond_graph::{
     self, BondGraph, BondNetwork, Effort, EffortSource, JunctionId, LinkFrame, Modulus, NodePart,
@@ -13,7 +13,7 @@ use super::notation::{coordinates, number, subscript, superscript};
 use super::unfold::Unfolding;
 
 impl Chart {
-    /// The drawing of a mechanism's bond graph.
+    /// Returns the drawing of a mechanism's bond graph.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let title = mechanism.label().unwrap_or(mechanism.name());
         let graph = bond_graph::build(mechanism);
@@ -24,7 +24,7 @@ impl Chart {
         Chart::of_graph(&graph, &mut unfolding, title, mechanism.description())
     }
 
-    /// The drawing of a bond graph. A flow on which nothing acts is left out.
+    /// Returns the drawing of a bond graph, without flows that have no ports.
     pub(super) fn of_graph(
         graph: &BondGraph,
         unfolding: &mut Unfolding<'_>,
@@ -61,8 +61,8 @@ impl Chart {
     }
 }
 
-/// The links without those that have no junctions but carry some that have, whose names come beside.
-/// The velocities of the joints of the latter begin at the next link.
+/// Removes links without junctions whose children have some, and returns their names. The velocities of
+/// their joints begin at the next link.
 fn folded(graph: &BondGraph, all: Vec<(LinkId, ChartLink)>) -> (Vec<ChartLink>, Vec<String>) {
     let acting = all.iter().filter(|(_, link)| !link.flows.is_empty());
     let mut carries_some = vec![false; graph.frames.len()];
@@ -87,7 +87,7 @@ fn folded(graph: &BondGraph, all: Vec<(LinkId, ChartLink)>) -> (Vec<ChartLink>, 
     (links, names)
 }
 
-/// The links, each before all that it carries and those before the next one.
+/// Returns the links in depth-first order.
 fn depth_first(frames: &[LinkFrame]) -> Vec<LinkId> {
     let carried = |by: Option<LinkId>| {
         let ids = (0..frames.len()).rev().map(LinkId);
@@ -102,7 +102,7 @@ fn depth_first(frames: &[LinkFrame]) -> Vec<LinkId> {
     order
 }
 
-/// What is written beside the drive of a joint.
+/// Returns the text beside the drive of a joint.
 pub(super) fn drive(graph: &BondGraph, part: &NodePart) -> Option<String> {
     let NodePart::Drive(Some(j)) = part else {
         return None;
@@ -111,7 +111,7 @@ pub(super) fn drive(graph: &BondGraph, part: &NodePart) -> Option<String> {
     Some(format!("P{}, {effort}", subscript(j.0 + 1)))
 }
 
-/// Units of the velocity of a joint and of its effort.
+/// Returns the units of the velocity of a joint and of its effort.
 fn units(graph: &BondGraph, j: CoordinateId) -> [&'static str; 2] {
     match graph.coordinates[j.0].motion {
         Motion::Rotation => ["rad/s", "N·m"],
@@ -155,7 +155,7 @@ fn link(
     }
 }
 
-/// Whether a link has neither mass nor inertia: its stores and its weight are nothing.
+/// Returns whether a link has neither mass nor inertia, so that its stores and its weight are zero.
 fn massless(graph: &BondGraph, i: LinkId) -> bool {
     let own = [graph.translation(i), graph.rotation(i)];
     let nothing = |value: &Value| *value == Value::Fixed(Dd::ZERO);
@@ -169,7 +169,7 @@ fn massless(graph: &BondGraph, i: LinkId) -> bool {
     stores.all(empty) && weights.all(|Effort::Weight { mass, .. }| nothing(mass))
 }
 
-/// The transformers into a link's flow, in the order of the velocities.
+/// Returns the transformers into a link's flow, in the order of the velocities.
 fn transformers(
     graph: &BondGraph,
     order: &[CoordinateId],
@@ -211,7 +211,7 @@ fn component(modulus: Modulus, nv: usize) -> Component {
     }
 }
 
-/// The store and the source on a link's junction. A source without effort is left out.
+/// Returns the store and the source on a link's junction, without a source of zero effort.
 fn ports(
     graph: &BondGraph,
     unfolding: &Unfolding<'_>,
@@ -239,7 +239,7 @@ fn store(graph: &BondGraph, i: LinkId, store: &Store) -> (String, Option<String>
     }
 }
 
-/// The diagonal, and behind it what else is not zero.
+/// Returns the diagonal, and the nonzero off-diagonal entries.
 fn tensor(graph: &BondGraph, i: LinkId, entries: [Value; 6]) -> (String, Option<String>) {
     let n = subscript(i.0 + 1);
     if entries == [Value::Fixed(Dd::ZERO); 6] {
@@ -279,7 +279,7 @@ fn vector(v: Vec3<Dd>) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// A number, or the name of the run-time parameter.
+/// Returns a number, or the name of the run-time parameter.
 fn value(graph: &BondGraph, value: Value) -> String {
     match value {
         Value::Fixed(x) => number(x.to_f64()),

@@ -1,14 +1,14 @@
 //! Prints a drawing in the language of Graphviz.
 //!
-//! Half arrows are half heads, causal strokes bars at a bond's end; a bond of three components is
-//! a double line.
+//! Half arrows are half heads, causal strokes are bars at a bond's end; a bond of three components is a
+//! double line.
 
 use std::fmt::Write;
 
 use super::chart::{Chart, ChartLink, Flow, Port, Transformer};
 
 impl Chart {
-    /// The drawing as the text of a DOT file.
+    /// Returns the drawing as the text of a DOT file.
     pub(crate) fn dot(&self) -> String {
         let notes = self.notes.iter().map(|note| format!("\n{note}"));
         let title = format!("{}: bond graph{}", self.title, notes.collect::<String>());
@@ -37,7 +37,7 @@ impl Chart {
     }
 }
 
-/// A link's junctions, transformers and one-ports in a frame of their own.
+/// Writes a link's junctions, transformers and one-ports in a cluster.
 fn cluster(text: &mut String, i: usize, link: &ChartLink) {
     let title = quoted(&link.name);
     *text += &format!("  subgraph cluster_{i} {{\n    label={title};\n    color=gray80;\n");
@@ -60,7 +60,7 @@ fn cluster(text: &mut String, i: usize, link: &ChartLink) {
     }
 }
 
-/// Bonds from the velocities by the transformers to a flow's 1-junction.
+/// Writes bonds from the velocities through the transformers to a flow's 1-junction.
 fn transformers(text: &mut String, flow: &Flow, one: &str) {
     let sum = format!("{one}_sum");
     for t in &flow.transformers {
@@ -88,7 +88,7 @@ fn words(t: &Transformer) -> String {
     }
 }
 
-/// What stands on a junction, and what stands behind it.
+/// Writes a port of a junction, and the nodes behind it.
 fn one_port(text: &mut String, port: &Port, junction: &str, own: &str, triple: bool) {
     let words = match port.symbol {
         sign @ ("0" | "1") => format!("{sign}\n{}", port.text).trim_end().to_owned(),
@@ -126,7 +126,7 @@ enum BondEnd {
     Head,
 }
 
-/// A bond with its half arrow at `to` and its causal stroke at one end.
+/// Writes a bond with its half arrow at `to` and its causal stroke at one end.
 fn bond(
     text: &mut String,
     indent: usize,
@@ -149,7 +149,7 @@ fn bond(
     writeln!(text, "{indent}{from} -> {to} [{}];", style.join(", ")).expect("text");
 }
 
-/// A text between quotes, its lines one below the other.
+/// Returns a text in quotes, its lines one below the other.
 fn quoted(text: &str) -> String {
     let text = text.replace('\\', "\\\\").replace('"', "\\\"");
     format!("\"{}\"", text.replace('\n', "\\n"))

@@ -1,4 +1,4 @@
-//! Layout of a drawing: the coordinates of its nodes, in the form of a staircase.
+//! Computes the coordinates of a drawing's nodes, in the form of a staircase.
 //!
 //! ```text
 //! 1 q̇₁ ↽ Se
@@ -8,33 +8,33 @@
 //! └──┴────┴───┴─ 0 ⇀ 1 ⇀ I       link 2
 //! ```
 //!
-//! The 1-junction of each velocity is stretched downwards into a bar, past all links that it moves.
-//! The 0-junction of each flow of a link is a bar across, past all velocities that feed it. Where
-//! both meet, and only where it exists, stands the transformer. In the order of the tree a velocity
-//! begins just above its own link and ends with the last link that it carries; so nothing but
-//! transformers stands left of a link's stores, and nothing at all right of them.
+//! The 1-junction of each velocity is extended downwards to a bar, past all links that it moves. The
+//! 0-junction of each flow of a link is a horizontal bar, past all velocities that feed it. The
+//! transformer is at the intersection of both, if it exists. In tree order a velocity begins just above
+//! its own link and ends with the last link outboard of it; so only transformers are left of a link's
+//! stores, and nothing is right of them.
 
 use super::chart::{Chart, ChartLink, Flow, Port, Transformer, Velocity, lines};
 
-/// Margin around all.
+/// Margin around the drawing.
 pub(super) const MARGIN: f64 = 28.0;
 /// From a velocity's bar to the centre of its transformers' symbols.
 pub(super) const SYMBOL: f64 = 42.0;
 /// From a velocity's bar to the bracket of the modulus.
 pub(super) const VECTOR: f64 = 64.0;
-/// From the centre of a transformer to the bar across.
+/// From the centre of a transformer to the horizontal bar.
 pub(super) const DROP: f64 = 36.0;
 /// From the upper edge of a link to the first transformers.
 const FIRST: f64 = 24.0;
 /// From one flow of a link to the next one.
 const ROW: f64 = 66.0;
-/// From the last bar across to the lower edge of a link.
+/// From the last horizontal bar to the lower edge of a link.
 const LAST: f64 = 24.0;
-/// Height of what stands above a link, for each velocity that begins there: its 1-junction.
+/// Height of the part above a link, for each velocity that begins there: its 1-junction.
 const HEAD: f64 = 50.0;
-/// Between the upper edge of it and that junction.
+/// Between the upper edge of this part and that junction.
 const ABOVE_HEAD: f64 = 34.0;
-/// From one thing that stands on a velocity's junction to the next one.
+/// From one port of a velocity's junction to the next one.
 pub(super) const PITCH: f64 = 27.0;
 /// Space between links.
 const GAP: f64 = 10.0;
@@ -42,19 +42,19 @@ const GAP: f64 = 10.0;
 const INDENT: f64 = 12.0;
 /// Between the columns and the 0-junctions.
 const BEFORE_ZERO: f64 = 16.0;
-/// From a 0-junction to the 1-junction that it feeds, and from there to what stands on it.
+/// From a 0-junction to the 1-junction that it feeds, and from there to its ports.
 pub(super) const BOND: f64 = 46.0;
 
 /// The coordinates of all parts of a drawing, px.
 #[derive(Debug)]
 pub(super) struct Layout {
-    /// Each velocity's.
+    /// The column of each velocity.
     pub columns: Vec<VelocityColumn>,
-    /// Each link's.
+    /// The band of each link.
     pub bands: Vec<Band>,
-    /// The right end of all.
+    /// The right end of the drawing.
     pub right: f64,
-    /// The lower end of all.
+    /// The lower end of the drawing.
     pub bottom: f64,
 }
 
@@ -62,29 +62,29 @@ pub(super) struct Layout {
 #[derive(Clone, Debug)]
 pub(super) struct VelocityColumn {
     pub x: f64,
-    /// Where its 1-junction stands.
+    /// Height of its 1-junction.
     pub head: f64,
-    /// Where its bar ends.
+    /// Height of the end of its bar.
     pub end: f64,
     width: f64,
 }
 
-/// The place of a link.
+/// The band of a link.
 #[derive(Debug)]
 pub(super) struct Band {
     pub top: f64,
     pub bottom: f64,
-    /// Left of its first transformer.
+    /// Left edge, before its first transformer.
     pub left: f64,
-    /// Where its 0-junctions stand.
+    /// Position of its 0-junctions.
     pub zero: f64,
-    /// Right of all its words.
+    /// Right edge, after its texts.
     pub right: f64,
-    /// Each flow's transformers, at the height of their symbols.
+    /// The transformers of each flow, by the height of their symbols.
     pub rows: Vec<f64>,
 }
 
-/// Lays everything out, below `top`.
+/// Computes the layout, below `top`.
 pub(super) fn layout(chart: &Chart, top: f64) -> Layout {
     let mut columns = columns(chart);
     let mut y = top;
@@ -119,7 +119,7 @@ pub(super) fn layout(chart: &Chart, top: f64) -> Layout {
     }
 }
 
-/// Columns as wide as the widest modulus in them.
+/// Returns columns as wide as the widest modulus in them.
 fn columns(chart: &Chart) -> Vec<VelocityColumn> {
     let mut x = MARGIN + INDENT;
     let mut columns = Vec::new();
@@ -146,7 +146,7 @@ fn cell_width(transformer: &Transformer) -> f64 {
     modulus.max(below) + 14.0
 }
 
-/// Width of a modulus with its brackets.
+/// Returns the width of a modulus with its brackets.
 pub(super) fn vector_width(transformer: &Transformer) -> f64 {
     let entries = transformer.modulus.iter();
     let widths = entries.map(|entry| text_width(&entry.to_string(), 11));
@@ -161,7 +161,7 @@ fn band(link: &ChartLink, columns: &[VelocityColumn], top: f64) -> Band {
     let used: Vec<&VelocityColumn> = used.map(|j| &columns[j]).collect();
     let left = used.iter().map(|c| c.x).reduce(f64::min);
     let left = left.unwrap_or(MARGIN + INDENT);
-    // Right of a line's junctions no bar runs down, either: lines stand below the whole tree.
+    // No bar is right of a line's junctions either: lines are below the whole tree.
     let is_line = link.flows.iter().any(|flow| !flow.is_vector());
     let cleared: Vec<&VelocityColumn> = match is_line {
         true => columns.iter().collect(),
@@ -189,25 +189,25 @@ fn band(link: &ChartLink, columns: &[VelocityColumn], top: f64) -> Band {
     }
 }
 
-/// From the 0-junction to the end of the words.
+/// Returns the distance from the 0-junction to the end of the text.
 fn flow_width(flow: &Flow) -> f64 {
     BOND + ports_width(&flow.ports) + 14.0
 }
 
-/// How high what stands above a link is.
+/// Returns the height of the part above a link.
 fn head_height(velocity: &Velocity) -> f64 {
     let more = velocity.ports.iter().any(|port| port.more.is_some());
     let room = if more { 10.0 } else { 0.0 };
     HEAD + room + PITCH * (lines(&velocity.ports) - 1) as f64
 }
 
-/// From a velocity's bar to the end of the words at its head.
+/// Returns the distance from a velocity's bar to the end of the text at its top.
 fn head_width(velocity: &Velocity) -> f64 {
     let name = format!("{} {} {}", velocity.symbol, velocity.name, velocity.unit);
     ports_width(&velocity.ports).max(text_width(&name, 14) + 16.0)
 }
 
-/// From a junction to the end of all that stands on it.
+/// Returns the distance from a junction to the end of its ports.
 fn ports_width(ports: &[Port]) -> f64 {
     let widths = ports
         .iter()
@@ -215,7 +215,7 @@ fn ports_width(ports: &[Port]) -> f64 {
     widths.fold(0.0, f64::max)
 }
 
-/// From the end of its bond to the end of what is written beside a sign.
+/// Returns the distance from the end of a port's bond to the end of its text.
 pub(super) fn words_width(port: &Port) -> f64 {
     if port.is_junction() {
         return 2.0;
@@ -228,7 +228,7 @@ pub(super) fn words_width(port: &Port) -> f64 {
     text_width(port.symbol, 13) + words + 16.0
 }
 
-/// About how wide a text is: sans-serif letters are a little more than half as wide as high.
+/// Estimates the width of a text: sans-serif letters are a little more than half as wide as high.
 pub(super) fn text_width(text: &str, size: u32) -> f64 {
     let narrow = |c: &char| " .,:·…()Iijlt1ⱼᵢⁱ".contains(*c) || ('₀'..='₉').contains(c);
     let all = text.chars().filter(|c| *c != '\u{307}').count() as f64;

@@ -5,10 +5,9 @@
 //!                                                   └──────────────────────write──▶ DOT
 //! ```
 //!
-//! [`Chart`] says what is drawn and in which order, with every word of it; it knows no coordinates.
-//! `layout.rs` computes coordinates, `svg/` draws, `dot.rs` writes. Nothing is drawn that is not in the data:
-//! no transformer that the structure makes zero, no flow that no transformer feeds, no source
-//! without effort.
+//! [`Chart`] defines the nodes of the drawing, their order and all texts, without coordinates. `layout.rs`
+//! computes coordinates, `svg/` and `dot.rs` print the drawing. Everything drawn is in the data:
+//! structurally zero transformers, flows without transformers and sources of zero effort are omitted.
 
 mod chart;
 mod chart_of_graph;

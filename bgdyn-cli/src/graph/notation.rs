@@ -1,13 +1,13 @@
-//! Numbers and symbols as drawings show them.
+//! Prints numbers and symbols for drawings.
 
 use bgdyn_runtime::Digits;
 
-/// A subscript: `₁₂`.
+/// Returns a subscript: `₁₂`.
 pub(super) fn subscript(n: usize) -> String {
     digits(n, '₀'..='₉')
 }
 
-/// A superscript: `¹²`.
+/// Returns a superscript: `¹²`.
 pub(super) fn superscript(n: usize) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     n.to_string()
@@ -22,13 +22,12 @@ fn digits(n: usize, signs: std::ops::RangeInclusive<char>) -> String {
     n.to_string().bytes().map(sign).collect()
 }
 
-/// A number with three digits, whole numbers up to a million with all of theirs: `0.0825`, `−1`,
-/// `2.38e−6`.
+/// Prints a number with three digits, integers up to a million with all digits: `0.0825`, `−1`, `2.38e−6`.
 pub(super) fn number(x: f64) -> String {
     Digits::new(x, 3).to_string().replace('-', "−")
 }
 
-/// Coordinates by their numbers, three and more in a row in short: `q₁…q₃, q₅`.
+/// Prints coordinates by their numbers, with three or more consecutive ones abbreviated: `q₁…q₃, q₅`.
 pub(super) fn coordinates(numbers: &[usize]) -> String {
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for &n in numbers {

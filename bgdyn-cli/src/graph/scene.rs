@@ -1,4 +1,4 @@
-//! What a scene's effects add to the drawing: nodes at joints, and flows along lines and at places of links.
+//! Adds a scene's effects to the drawing: nodes at joints, and flows along lines and at sites of links.
 
 use bgdyn_codegen::bond_graph::{BondGraph, GraphNode, NodePart, PlacePort, PortSite};
 use bgdyn_codegen::system::SceneEquations;
@@ -9,7 +9,7 @@ use super::notation::{coordinates, subscript};
 use super::unfold::Unfolding;
 
 impl Chart {
-    /// The drawing of a scene.
+    /// Returns the drawing of a scene.
     pub(crate) fn of_scene(system: &SceneEquations) -> Self {
         let (scene, graph, network) = (&system.scene, &system.graph, &system.network);
         let drive = |part: &NodePart| drive(graph, part);
@@ -63,7 +63,7 @@ impl Chart {
     }
 }
 
-/// The elements of which no node has been met, though they have some.
+/// Returns the elements with nodes, none of which was visited.
 fn not_met<'a>(system: &'a SceneEquations, unfolding: &Unfolding<'_>) -> Vec<&'a str> {
     let network = &system.network;
     let elements = system.scene.elements.iter().enumerate();
@@ -78,7 +78,7 @@ fn not_met<'a>(system: &'a SceneEquations, unfolding: &Unfolding<'_>) -> Vec<&'a
     missing.map(|(_, e)| e.name.as_str()).collect()
 }
 
-/// From the velocities that change a flow, in the order of the drawing.
+/// Returns the transformers from the velocities that change a flow, in the order of the drawing.
 fn transformers<'a>(
     graph: &BondGraph,
     names: impl Iterator<Item = &'a str>,

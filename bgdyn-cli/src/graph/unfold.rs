@@ -1,8 +1,8 @@
-//! What stands on a junction, as a tree: the bond graph of the effects walked from there.
+//! Converts the ports of a junction to a tree, by a walk through the bond graph of the effects.
 //!
-//! Parts of the links end the walk. A pressure that is met again, where hoses close a circle, is named
-//! and not drawn again. Resistors that are joined by 0-junctions of two bonds, with no volume between
-//! them, share a 1-junction.
+//! Parts of the links end the walk. A pressure that is visited again, where hoses close a circuit, is
+//! named and not drawn again. Resistors that are joined by 0-junctions of two bonds, with no volume
+//! between them, have a common 1-junction.
 
 use bgdyn_codegen::bond_graph::{
     BondNetwork, Causality, GraphNode, GraphNodeId, NodeKind, NodePart,
@@ -10,17 +10,17 @@ use bgdyn_codegen::bond_graph::{
 
 use super::chart::Port;
 
-/// The walk, and what it has met by now.
+/// The walk, and the nodes visited so far.
 pub(super) struct Unfolding<'a> {
     network: &'a BondNetwork,
     causality: Causality,
     met: Vec<bool>,
-    /// What is written beside the drive of a joint.
+    /// Returns the text beside the drive of a joint.
     drive: &'a dyn Fn(&NodePart) -> Option<String>,
 }
 
 impl<'a> Unfolding<'a> {
-    /// Nothing has been met.
+    /// Starts without visited nodes.
     pub fn new(network: &'a BondNetwork, drive: &'a dyn Fn(&NodePart) -> Option<String>) -> Self {
         Unfolding {
             network,
@@ -30,19 +30,19 @@ impl<'a> Unfolding<'a> {
         }
     }
 
-    /// Whether a node has been met.
+    /// Returns whether a node was visited.
     pub fn has_met(&self, node: GraphNodeId) -> bool {
         self.met[node.0]
     }
 
-    /// What stands on a junction of the links, a line or a site: drives first, hydraulics last.
+    /// Returns the ports of a junction of the links, a line or a site: drives first, hydraulics last.
     pub fn ports_of(&mut self, junction: GraphNodeId) -> Vec<Port> {
         let mut all = self.ports(junction, None);
         all.sort_by_key(|port| port.symbol == "TF" && port.ports.iter().any(Port::is_junction));
         all
     }
 
-    /// The same of a part of the mechanism.
+    /// Returns the same for a part of the mechanism.
     pub fn ports_at(&mut self, part: NodePart) -> Vec<Port> {
         match self.network.part(part) {
             Some(junction) => self.ports_of(junction),
@@ -50,14 +50,14 @@ impl<'a> Unfolding<'a> {
         }
     }
 
-    /// A store or a source of a link, with what is written beside it.
+    /// Returns a store or a source of a link, with its text.
     pub fn part(&self, part: NodePart, text: String, more: Option<String>) -> Option<Port> {
         let node = self.network.part(part)?;
         let (number, bond) = self.network.bonds_at(node).next()?;
         Some(self.bare_port(number, bond.other(node), text, more))
     }
 
-    /// What a junction is joined to, but for the bond by which the walk came.
+    /// Returns the nodes joined to a junction, except by the bond of arrival.
     fn ports(&mut self, junction: GraphNodeId, came: Option<usize>) -> Vec<Port> {
         let network = self.network;
         let mut all = Vec::new();
@@ -79,8 +79,8 @@ impl<'a> Unfolding<'a> {
         &self.network.nodes[id.0]
     }
 
-    /// Whether a node is drawn as what stands on this junction: an effect's or a drive, not met yet, not
-    /// what stands on a junction of the links itself.
+    /// Returns whether a node is drawn as a port of this junction: a node of an effect or a drive, not
+    /// visited yet, and not a port of a junction of the links itself.
     fn is_drawn_at(&self, node: GraphNodeId, junction: GraphNodeId) -> bool {
         let is_added =
             |id: GraphNodeId| matches!(self.node(id).part, NodePart::Effect | NodePart::Drive(_));
@@ -93,7 +93,7 @@ impl<'a> Unfolding<'a> {
         is_added(node) && !again && (self.node(node).kind.is_junction() || others.all(is_added))
     }
 
-    /// Whether it is a 0-junction of two bonds between two 1-junctions: their flows are one.
+    /// Returns whether it is a 0-junction of two bonds between two 1-junctions: their flows are equal.
     fn is_between(&self, node: GraphNodeId, junction: GraphNodeId) -> bool {
         let ends: Vec<NodeKind> = self
             .network
@@ -104,7 +104,7 @@ impl<'a> Unfolding<'a> {
         kinds == [NodeKind::Zero, NodeKind::One] && ends == [NodeKind::One; 2]
     }
 
-    /// What stands on the 1-junction behind a 0-junction of two bonds.
+    /// Returns the ports of the 1-junction behind a 0-junction of two bonds.
     fn beyond(&mut self, zero: GraphNodeId, came: usize) -> Vec<Port> {
         self.met[zero.0] = true;
         let mut bonds = self.network.bonds_at(zero);
@@ -116,7 +116,7 @@ impl<'a> Unfolding<'a> {
         self.ports(one, Some(number))
     }
 
-    /// A node on a junction with all that stands behind it.
+    /// Returns a node on a junction with all nodes behind it.
     fn port(&mut self, bond: usize, junction: GraphNodeId, id: GraphNodeId) -> Port {
         let node = self.node(id);
         let text = (self.drive)(&node.part).unwrap_or_else(|| node.text.clone());
@@ -131,7 +131,7 @@ impl<'a> Unfolding<'a> {
         }
     }
 
-    /// A node at the end of a bond from a junction.
+    /// Returns a node at the end of a bond from a junction.
     fn bare_port(
         &self,
         number: usize,

@@ -6,7 +6,7 @@ use super::placement::turned_by_quaternion;
 use super::xml::{EXPAND, Element, fault};
 use anyhow::Result;
 
-/// The name that every link and joint must have.
+/// Returns the name, which every link and joint must have.
 pub(super) fn name(element: &Element) -> Result<&str> {
     let missing = || {
         fault(
@@ -17,7 +17,7 @@ pub(super) fn name(element: &Element) -> Result<&str> {
     element.get("name").ok_or_else(missing)
 }
 
-/// The link that a joint's `<parent>` or `<child>` names.
+/// Returns the link in a joint's `<parent>` or `<child>`.
 pub(super) fn end<'a>(joint: &'a Element, part: &str) -> Result<&'a str> {
     let link = joint.child(part).and_then(|part| part.get("link"));
     let joint_name = shown(name(joint)?);
@@ -29,7 +29,7 @@ pub(super) fn end<'a>(joint: &'a Element, part: &str) -> Result<&'a str> {
     })
 }
 
-/// The translation of an origin, zero where there is none.
+/// Returns the translation of an origin, zero without one.
 pub(super) fn place(origin: Option<&Element>) -> Result<[Num; 3]> {
     match origin {
         Some(origin) if origin.get("xyz").is_some() => numbers(origin, "xyz"),
@@ -37,7 +37,7 @@ pub(super) fn place(origin: Option<&Element>) -> Result<[Num; 3]> {
     }
 }
 
-/// The rotation of an origin as roll, pitch, yaw.
+/// Returns the rotation of an origin as roll, pitch, yaw.
 pub(super) fn turn(origin: &Element) -> Result<[Num; 3]> {
     match (origin.get("rpy"), origin.get("quat_xyzw")) {
         (Some(_), Some(_)) => Err(fault(
@@ -74,7 +74,7 @@ fn not_a_number(element: &Element, attribute: &str, wanted: &str) -> anyhow::Err
     )
 }
 
-/// N finite numbers between white space.
+/// Returns N finite numbers separated by white space.
 pub(super) fn numbers<const N: usize>(element: &Element, attribute: &str) -> Result<[Num; N]> {
     let given = element
         .get(attribute)
@@ -91,12 +91,12 @@ pub(super) fn numbers<const N: usize>(element: &Element, attribute: &str) -> Res
     numbers.ok_or_else(|| not_a_number(element, attribute, &wanted()))
 }
 
-/// One finite number.
+/// Returns one finite number.
 pub(super) fn finite(element: &Element, attribute: &str) -> Result<Num> {
     numbers::<1>(element, attribute).map(|[number]| number)
 }
 
-/// A limit, which may be infinite; none where the attribute is missing.
+/// Returns a limit, which may be infinite; `None` if the attribute is missing.
 pub(super) fn bound(element: &Element, attribute: &str) -> Result<Option<Num>> {
     let parse = |text| Num::parse(text).ok_or_else(|| not_a_number(element, attribute, "a number"));
     element.get(attribute).map(parse).transpose()

@@ -82,7 +82,7 @@ pub fn run(args: ImportArgs) -> Result<()> {
         false => import_with(&text, &options),
     };
     let mut made = made.map_err(|error| {
-        // A place in the file follows its path at once.
+        // A position in the file follows its path without a space.
         let place = error.to_string().starts_with(|c: char| c.is_ascii_digit());
         anyhow!("{path}:{}{error}", if place { "" } else { " " })
     })?;
@@ -106,7 +106,7 @@ pub fn run(args: ImportArgs) -> Result<()> {
     Ok(())
 }
 
-/// A warning where the module could not be called after the file.
+/// Returns a warning if the module cannot have the name of the file.
 fn unfit_stem(output: &Path, name: &str) -> Option<String> {
     let file = output.file_name()?.to_string_lossy().into_owned();
     let stem = file.split('.').next().unwrap_or_default();

@@ -1,17 +1,17 @@
-//! Values that are used where a URDF lacks a required element.
+//! Fills in default values for elements that a URDF requires but does not have.
 
 use super::groups::Groups;
 use super::naming::shown;
 use super::select::version;
 use super::xml::Element;
 
-/// What an inertial consists of, beside its origin.
+/// The parts of an inertial, besides its origin.
 pub(super) const INERTIAL: [(&str, &[&str]); 2] = [
     ("mass", &["value"]),
     ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
 ];
 
-/// Adds what the URDF's rules ask for and its writer left out, and notes it.
+/// Adds missing required elements, and records them.
 pub(super) fn complete(root: &mut Element, groups: &mut Groups) {
     let velocity_needed = version(root) < (1, 2);
     for element in &mut root.children {

@@ -1,8 +1,8 @@
 //! Reads a table of Denavit–Hartenberg parameters into links and joints.
 //!
-//! A mechanism's link has its origin on its own joint's axis. A row of the modified convention places it
-//! there; of the standard one it says where the *next* axis is, so what stands behind the turn about z is
-//! carried over to the next row, and the last of it is a frame.
+//! A mechanism's link has its origin on its own joint's axis. A row of the modified convention gives this
+//! frame; a row of the standard convention gives the *next* axis. So the part after the rotation about z
+//! moves to the next row, and the part of the last row becomes a frame.
 
 use super::joint_type::JointType;
 use super::naming::shown;
@@ -24,7 +24,7 @@ pub enum Convention {
     Modified,
 }
 
-/// The columns that a table may have.
+/// The possible columns of a table.
 const COLUMNS: [&str; 24] = [
     "a",
     "alpha",
@@ -58,7 +58,7 @@ struct JointRow<'a> {
     columns: Vec<String>,
 }
 
-/// Reads a table. `name` is the robot's, `convention` that of rows that do not say theirs.
+/// Parses a table. `name` is the robot's, `convention` the default for rows without one.
 pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Result<Model> {
     let rows = joint_rows(text)?;
     let mut model = Model {
@@ -100,7 +100,7 @@ pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Re
     Ok(model)
 }
 
-/// The link before the first row.
+/// Returns the link before the first row.
 fn base() -> Link {
     Link {
         name: "base".into(),
@@ -110,7 +110,7 @@ fn base() -> Link {
     }
 }
 
-/// The rows below the names of the columns.
+/// Returns the rows below the names of the columns.
 fn joint_rows(text: &str) -> Result<Vec<JointRow<'_>>> {
     let mut rows = table::rows(text).into_iter();
     let Some(head) = rows.next() else {
@@ -134,7 +134,7 @@ fn joint_rows(text: &str) -> Result<Vec<JointRow<'_>>> {
     Ok(joints)
 }
 
-/// The names of the columns: those of [`COLUMNS`], each once, and the four numbers among them.
+/// Returns the names of the columns: those of [`COLUMNS`], each once, including the four numbers.
 fn columns(head: &TableRow<'_>) -> Result<Vec<String>> {
     let columns = &head.cells;
     for (i, column) in columns.iter().enumerate() {
@@ -159,14 +159,14 @@ fn columns(head: &TableRow<'_>) -> Result<Vec<String>> {
 }
 
 impl JointRow<'_> {
-    /// A cell with something in it, and where it begins.
+    /// Returns a nonempty cell with its position.
     fn cell(&self, name: &str) -> Option<(At, &str)> {
         let column = self.columns.iter().position(|column| column == name)?;
         let text = self.row.cells.get(column).filter(|text| !text.is_empty())?;
         Some((self.row.position(column), text))
     }
 
-    /// A number; none where the cell is empty.
+    /// Returns a number; `None` if the cell is empty.
     fn number(&self, name: &str, unit: Unit) -> Result<Option<Num>> {
         let Some((at, text)) = self.cell(name) else {
             return Ok(None);
@@ -214,7 +214,8 @@ impl JointRow<'_> {
         })
     }
 
-    /// The link's place in the axes in which the row begins, and the row's own frame in the link's axes.
+    /// Returns the link's pose in the axes in which the row begins, and the row's frame in the link's
+    /// axes.
     fn poses(&self, usual: Option<Convention>) -> Result<[Pose; 2]> {
         let [a, d] = [
             self.or_zero("a", Unit::Metre)?,
@@ -232,7 +233,8 @@ impl JointRow<'_> {
         })
     }
 
-    /// The link and its joint; `placed` is in the axes of the link before, `after` the row's frame in its own.
+    /// Returns the link and its joint; `placed` is in the axes of the previous link, `after` the row's
+    /// frame in those of this link.
     fn link(
         &self,
         number: usize,
@@ -286,7 +288,7 @@ impl JointRow<'_> {
         Ok((link, joint))
     }
 
-    /// Mass, centre of mass and tensor about it, which the row gives in its own frame's axes.
+    /// Returns mass, centre of mass and tensor about it, which the row gives in the axes of its own frame.
     fn inertial(&self, frame: &Pose) -> Result<Option<Inertial>> {
         let own = ["cx", "cy", "cz"].map(|name| self.or_zero(name, Unit::Metre));
         let [x, y, z] = own;
@@ -315,12 +317,12 @@ impl JointRow<'_> {
     }
 }
 
-/// What a column's numbers measure.
+/// The unit of a column's numbers.
 #[derive(Clone, Copy)]
 enum Unit {
-    /// m, or mm and cm where the cell says so.
+    /// m; or mm and cm if the cell contains the unit.
     Metre,
-    /// rad, or deg where the cell says so.
+    /// rad; or deg if the cell contains the unit.
     Radian,
     /// The SI unit.
     Si,

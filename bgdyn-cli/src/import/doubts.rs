@@ -1,4 +1,4 @@
-//! Warnings about suspicious data of a robot and about decisions of the importer.
+//! Warns about suspicious data of a robot and about decisions of the importer.
 
 use super::inertia::{DUST, Verdict, is_dust, judge};
 use super::joint_type::JointType;
@@ -10,7 +10,7 @@ use bgdyn_codegen::name::WORLD;
 use bgdyn_runtime::Digits;
 use std::collections::HashMap;
 
-/// Warnings about the robot as a whole.
+/// Returns warnings about the robot as a whole.
 pub(super) fn doubtful(model: &Model, tree: &Tree) -> Vec<String> {
     let mut warnings = Vec::new();
     if model.name.is_empty() {
@@ -42,7 +42,7 @@ pub(super) fn doubtful(model: &Model, tree: &Tree) -> Vec<String> {
     warnings
 }
 
-/// Sets tensors to zero that are what rounding left of one, and says of which links.
+/// Sets tensors to zero that are rounding errors of zero, and names their links.
 pub(super) fn without_dust(model: &mut Model) -> Option<String> {
     let mut names = Vec::new();
     for link in &mut model.links {
@@ -60,7 +60,7 @@ pub(super) fn without_dust(model: &mut Model) -> Option<String> {
     })
 }
 
-/// Warns of an inertial that no body has; true where the mechanism must allow it.
+/// Warns about an inertial that no body can have; returns true if the mechanism must permit it.
 pub(super) fn judge_inertial(link: &str, inertial: &Inertial, warnings: &mut Vec<String>) -> bool {
     if inertial.mass.value < 0.0 {
         let mass = &inertial.mass.text;
@@ -87,13 +87,13 @@ pub(super) fn judge_inertial(link: &str, inertial: &Inertial, warnings: &mut Vec
     matches!(verdict, Verdict::NoTriangle(_))
 }
 
-/// A number with six digits, for reading.
+/// Prints a number with six digits.
 pub(super) fn six_digits(value: f64) -> String {
     Digits::new(value, 6).to_string()
 }
 
-/// The links that are fixed to the world although nothing in the file says so, and that have mass: the maker may
-/// have meant a base that moves.
+/// Names the links with mass that are fixed to the world by default: the author may have meant a moving
+/// base.
 fn grounded(model: &Model, tree: &Tree) -> Option<String> {
     let heavy = |root: &usize| {
         let mut rigid = vec![*root];
@@ -111,7 +111,7 @@ fn grounded(model: &Model, tree: &Tree) -> Option<String> {
             format!("`{}` ({mass} kg)", shown(&model.links[*root].name))
         })
     };
-    // A root called so is what the maker stands the robot on.
+    // A root with this name is meant to be fixed to the world.
     let said = |root: &&usize| {
         let link = &model.links[**root];
         link.name != WORLD && link.place.is_none()

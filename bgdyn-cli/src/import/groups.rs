@@ -1,6 +1,6 @@
 //! Groups warnings by kind.
 
-/// Warnings of one kind, told in one line with the names they are about.
+/// Warnings of one kind, reported in one line with the names they are about.
 #[derive(Default)]
 pub(super) struct Groups(Vec<(&'static str, Vec<String>)>);
 
@@ -13,7 +13,7 @@ impl Groups {
         }
     }
 
-    /// One line for each kind.
+    /// Returns one line for each kind.
     pub(super) fn lines(self) -> impl Iterator<Item = String> {
         self.0
             .into_iter()

@@ -1,13 +1,13 @@
-//! Principal moments of an inertia tensor, and the rules that they break.
+//! Computes principal moments of an inertia tensor, and the rules that they violate.
 
-/// Relative to the largest principal moment.
+/// Tolerance, relative to the largest principal moment.
 const TOLERANCE: f64 = 1e-9;
 
-/// In kg·m²: a milligram 30 µm from the centre of mass. A tensor below it that no body has is what an
-/// exporter's rounding left of zero.
+/// In kg·m²: a milligram 30 µm from the centre of mass. An invalid tensor below this is the rounding error
+/// of a zero tensor.
 pub(super) const DUST: f64 = 1e-15;
 
-/// What the principal moments say of a tensor.
+/// The result of the check of a tensor's principal moments.
 #[derive(Debug, PartialEq)]
 pub(super) enum Verdict {
     Physical,
@@ -17,7 +17,7 @@ pub(super) enum Verdict {
     Indefinite([f64; 3]),
 }
 
-/// Judges the tensor with entries xx, yy, zz, xy, xz, yz.
+/// Checks the tensor with entries xx, yy, zz, xy, xz, yz.
 pub(super) fn judge(entries: [f64; 6]) -> Verdict {
     let moments = principal_moments(entries);
     let [small, middle, large] = moments;
@@ -31,16 +31,16 @@ pub(super) fn judge(entries: [f64; 6]) -> Verdict {
     }
 }
 
-/// Whether the tensor is impossible, and so small that it was zero before it was rounded.
+/// Returns whether the tensor is invalid, and so small that it was zero before rounding.
 pub(super) fn is_dust(entries: [f64; 6]) -> bool {
     entries.iter().all(|entry| entry.abs() < DUST)
         && matches!(judge(entries), Verdict::Indefinite(_))
 }
 
-/// The eigenvalues in ascending order, by Jacobi's rotations.
+/// Returns the eigenvalues in ascending order, by Jacobi rotations.
 pub(super) fn principal_moments([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 3] {
     let mut m = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    // Scaled to 1, so that neither large nor small entries leave the range of f64.
+    // Scaled to 1, so that neither large nor small entries exceed the range of f64.
     let scale = m
         .iter()
         .flatten()
@@ -59,7 +59,7 @@ pub(super) fn principal_moments([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 3] 
     moments
 }
 
-/// One rotation in the plane of p and q that makes their product of inertia 0.
+/// Applies the rotation in the plane of p and q that makes their product of inertia 0.
 fn rotate(m: &mut [[f64; 3]; 3], p: usize, q: usize) {
     let product = m[p][q];
     if product.abs() < f64::MIN_POSITIVE {

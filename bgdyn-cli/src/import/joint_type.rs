@@ -1,6 +1,6 @@
-//! The joint types of a URDF that a mechanism has.
+//! The joint types that a URDF and a mechanism have in common.
 
-/// How a joint moves.
+/// The motion of a joint.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum JointType {
     Revolute,
@@ -17,7 +17,7 @@ impl JointType {
         JointType::Fixed,
     ];
 
-    /// The word for it in a URDF, a table and a mechanism.
+    /// Returns its keyword in a URDF, a table and a mechanism.
     pub(super) fn keyword(self) -> &'static str {
         match self {
             JointType::Revolute => "revolute",
@@ -27,7 +27,7 @@ impl JointType {
         }
     }
 
-    /// The type of this keyword; none for other words.
+    /// Returns the type of this keyword; `None` for other words.
     pub(super) fn parse(keyword: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.keyword() == keyword)
     }

@@ -1,8 +1,9 @@
 //! `bgdyn import`: converts a URDF or a table of Denavit–Hartenberg parameters into a mechanism.
 //!
-//! Text → elements with their positions (`xml`) → the part a mechanism can hold, the rest counted (`select`) →
-//! links and joints (`reading`; of a table `dh`) → what the caller asks to change (`rework`) → their order (`tree`)
-//! and names (`naming`) → YAML (`writing`). `doubts` says what looks wrong, `placement` computes poses.
+//! Text → elements with their positions (`xml`) → the part that a mechanism can represent; the rest is
+//! counted (`select`) → links and joints (`reading`; for a table `dh`) → changes by options (`rework`) →
+//! their order (`tree`) and names (`naming`) → YAML (`writing`). `doubts` warns about suspicious data,
+//! `placement` computes poses.
 
 mod attributes;
 mod command;
@@ -35,25 +36,27 @@ pub use command::{ImportArgs, run};
 pub use dh::Convention;
 pub use options::{Lock, Options};
 
-/// A mechanism made from a URDF, and what there is to say about it.
+/// A mechanism made from a URDF, with messages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Import {
-    /// The mechanism, format 1. It has no `name:`: it is called after the file it is put into.
+    /// The mechanism, format 1. It has no `name:`: its name is that of its file.
     pub yaml: String,
-    /// The robot's name as an identifier: the stem of a file that fits.
+    /// The robot's name as an identifier: a suitable stem for the file.
     pub name: String,
-    /// The names that were changed, a line each for robot, links and joints:
-    /// ``links `Upper-Arm` → `upper_arm`, `Hand 1` → `hand_1` ``.
+    /// The names that were changed, one line each for robot, links and joints: ``links `Upper-Arm` →
+    /// `upper_arm`, `Hand 1` → `hand_1` ``.
     pub notes: Vec<String>,
-    /// What was not taken over, and what looks wrong, one line each.
+    /// Omitted and suspicious data, one line each.
     pub warnings: Vec<String>,
-    /// What was written, on one line: how many links, joints, frames and effects, and what is fixed to the world.
+    /// A summary on one line: the numbers of links, joints, frames and effects, and what is fixed to the
+    /// world.
     pub written: String,
 }
 
-/// Makes a mechanism from the text of a URDF.
+/// Converts the text of a URDF to a mechanism.
 ///
-/// Links keep the order of their joints, numbers their decimal text. An error starts with `LINE:COLUMN: `.
+/// Links are in the order of their joints, numbers have their original text. An error starts with
+/// `LINE:COLUMN: `.
 pub fn import(urdf_text: &str) -> Result<Import> {
     import_with(urdf_text, &Options::default())
 }
@@ -61,13 +64,14 @@ pub fn import(urdf_text: &str) -> Result<Import> {
 /// [`import`] with options.
 ///
 /// # Errors
-/// What is wrong with the text, with `LINE:COLUMN: ` before it, or with an option, with its name before it.
+/// The error of the text, prefixed by `LINE:COLUMN: `, or of an option, prefixed by its name.
 pub fn import_with(urdf_text: &str, options: &Options) -> Result<Import> {
     made(reading::read(urdf_text)?, options)
 }
 
-/// Makes a mechanism from a table of Denavit–Hartenberg parameters: comma-separated values, the columns named in the
-/// first line (`docs/import.md`). `convention` is that of rows that do not say theirs, `name` the robot's name.
+/// Converts a table of Denavit–Hartenberg parameters to a mechanism: comma-separated values with the names
+/// of the columns in the first line (`docs/import.md`). `convention` is the default for rows without one,
+/// `name` the robot's name.
 ///
 /// # Errors
 /// As [`import_with`].
@@ -82,7 +86,7 @@ pub fn import_table(
 
 fn made(mut model: Model, options: &Options) -> Result<Import> {
     let dusty = doubts::without_dust(&mut model);
-    // What is wrong with the file comes first.
+    // Errors of the file are reported first.
     tree::order(&model)?;
     let told = rework::rework(&mut model, options)?;
     let tree = tree::order(&model)?;
@@ -154,7 +158,7 @@ impl Identifiers {
         }
     }
 
-    /// Those that are not as they were.
+    /// Lists the names that changed.
     fn notes(&self, model: &Model) -> Vec<String> {
         let links = model.links.iter().map(|link| &link.name);
         let joints = model.joints.iter().map(|joint| &joint.name);
@@ -169,7 +173,8 @@ impl Identifiers {
     }
 }
 
-/// The links as text, those that no joint carries first; adds the names of their joints to those taken.
+/// Returns the links as text, those without a joint first; adds the names of their joints to the used
+/// names.
 fn entries(
     model: &Model,
     tree: &tree::Tree,
@@ -187,7 +192,7 @@ fn entries(
     };
     let mut entries = Vec::new();
     for root in &tree.roots {
-        // Without a joint of its own the root's would be called so: find another name where a joint has that one.
+        // By default, the joint of a root has this name: find another name if a joint has it already.
         let default = format!("{}_mount", named.links[*root]);
         let mount = taken.contains(&default).then(|| free(&default, taken));
         taken.insert(mount.clone().unwrap_or(default));
@@ -210,14 +215,14 @@ fn entries(
     entries
 }
 
-/// The name, or its first numbered form that is not taken.
+/// Returns the name, or its first numbered form that is not in use.
 fn free(name: &str, taken: &HashSet<String>) -> String {
     let numbered = (2..).map(|number| format!("{name}_{number}"));
     let mut names = [name.to_owned()].into_iter().chain(numbered);
     names.find(|name| !taken.contains(name)).unwrap_or_default()
 }
 
-/// The frames with their names and those of their links.
+/// Returns the frames with their names and those of their links.
 fn frames<'a>(
     model: &'a Model,
     named: &'a Identifiers,
@@ -231,7 +236,7 @@ fn frames<'a>(
     frames.collect()
 }
 
-/// What damping and friction of joints are as effects.
+/// Returns damping and friction of joints as effects.
 fn effects<'a>(
     model: &'a Model,
     named: &'a Identifiers,
@@ -263,7 +268,7 @@ fn has_losses(joint: &reading::Joint) -> bool {
     joint.damping.is_some() || joint.friction.is_some()
 }
 
-/// What was written, on one line.
+/// Returns the summary of the mechanism, on one line.
 fn written(model: &Model, tree: &tree::Tree, named: &Identifiers, effects: usize) -> String {
     let moving = model
         .joints
@@ -286,7 +291,7 @@ fn written(model: &Model, tree: &tree::Tree, named: &Identifiers, effects: usize
     )
 }
 
-/// The names that changed, on one line.
+/// Returns the names that changed, on one line.
 fn renamed<'a>(
     what: &str,
     names: impl Iterator<Item = (&'a String, &'a String)>,

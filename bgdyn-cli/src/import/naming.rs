@@ -4,12 +4,14 @@ use std::collections::{HashMap, HashSet};
 
 use bgdyn_codegen::name::{WORLD, is_keyword, snake_case};
 
-/// Whether the name can stay: words of lower-case letters and digits joined by single `_`, no reserved word.
+/// Returns whether the name is valid without change: words of lower-case letters and digits joined by
+/// single `_`, no reserved word.
 pub(super) fn is_identifier(name: &str) -> bool {
     !name.is_empty() && identifier(name, "_") == name
 }
 
-/// One name as an identifier; a reserved word gets `_kind` appended, a name without letters and digits is `kind`.
+/// Converts one name to an identifier; a reserved word gets `_kind` appended, a name without letters and
+/// digits becomes `kind`.
 pub(super) fn identifier(name: &str, kind: &str) -> String {
     match snake_case(name) {
         name if name.is_empty() => kind.into(),
@@ -18,8 +20,8 @@ pub(super) fn identifier(name: &str, kind: &str) -> String {
     }
 }
 
-/// Identifiers for all names, no two alike. Names that are identifiers already keep theirs; of the others, the first
-/// comes first, and a clash gets `_2`, `_3`, ….
+/// Converts all names to different identifiers. Names that are identifiers already do not change; of the
+/// others, an earlier one has priority, and a clash gets `_2`, `_3`, ….
 pub(super) fn identifiers(names: &[&str], kind: &str) -> Vec<String> {
     let mut used = HashSet::new();
     let kept: Vec<bool> = names
@@ -47,7 +49,7 @@ pub(super) fn identifiers(names: &[&str], kind: &str) -> Vec<String> {
     names.iter().zip(kept).map(choose).collect()
 }
 
-/// A name as it is shown in a message or a comment: one line, whatever it holds.
+/// Returns a name for a message or a comment, on one line.
 pub(super) fn shown(name: &str) -> String {
     let visible =
         |c: char| !c.is_control() && !matches!(c, '\u{85}' | '\u{2028}' | '\u{2029}' | '\u{feff}');

@@ -1,4 +1,4 @@
-//! Decimal numbers with their text as it was written.
+//! Decimal numbers with their original text.
 
 use bgdyn_runtime::{Dd, Digits};
 
@@ -9,17 +9,18 @@ pub(super) struct Num {
     pub(super) value: f64,
 }
 
-/// So many digits the mechanism's reader keeps; longer texts are cut to the shortest that gives the same f64.
+/// Number of digits that the parser of mechanisms reads; longer texts are replaced by the shortest with
+/// the same f64.
 const MAX_DIGITS: usize = 32;
 
 /// Integers of more digits are written with a decimal point.
 const MAX_INTEGER: usize = 18;
 
-/// What follows the digits of an angle in degrees.
+/// The unit after the digits of an angle in degrees.
 const DEGREES: &str = " deg";
 
 impl Num {
-    /// Zero.
+    /// Returns zero.
     pub(super) fn zero() -> Self {
         Num {
             text: "0".into(),
@@ -27,18 +28,18 @@ impl Num {
         }
     }
 
-    /// N zeros.
+    /// Returns N zeros.
     pub(super) fn zeros<const N: usize>() -> [Self; N] {
         [(); N].map(|()| Num::zero())
     }
 
-    /// A computed value, in its shortest form that reads back the same.
+    /// Returns a computed value, in the shortest form that parses to the same value.
     pub(super) fn computed(value: f64) -> Self {
         let text = Digits::shortest(value).plain(-5..17).to_string();
         Num { text, value }
     }
 
-    /// Reads a decimal. `inf` and what overflows give an infinite value; anything else that is no number, `None`.
+    /// Parses a decimal. `inf` and overflow give an infinite value; a text that is no number gives `None`.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
         let (negative, size) = match text.strip_prefix('-') {
@@ -72,13 +73,13 @@ impl Num {
             text.push('e');
             text.push_str(exponent);
         } else if fraction.is_empty() && whole.len() > MAX_INTEGER {
-            // YAML readers want integers to fit a machine word.
+            // YAML parsers require integers to fit a machine word.
             text.push_str(".0");
         }
         Some(Num { text, value })
     }
 
-    /// An angle from its degrees, written with their unit: `90 deg`.
+    /// Returns an angle given in degrees, with the unit: `90 deg`.
     pub(super) fn degrees(text: &str) -> Option<Self> {
         let degrees = Num::parse(text).filter(|degrees| degrees.value.is_finite())?;
         if degrees.is_zero() {
@@ -92,7 +93,7 @@ impl Num {
         Some(angle)
     }
 
-    /// The value in double-double: the decimal as it stands, degrees in rad.
+    /// Returns the value in double-double: the exact decimal, degrees converted to rad.
     pub(super) fn exact(&self) -> Dd {
         let read = |text: &str| text.parse::<Dd>().ok().filter(|x| x.is_finite());
         match self.text.strip_suffix(DEGREES) {
@@ -102,13 +103,13 @@ impl Num {
         .unwrap_or(Dd::from_f64(self.value))
     }
 
-    /// Whether the number is 0.
+    /// Returns whether the number is 0.
     pub(super) fn is_zero(&self) -> bool {
         self.value == 0.0
     }
 }
 
-/// Whether all of them are 0.
+/// Returns whether all of them are 0.
 pub(super) fn all_zero(numbers: &[Num]) -> bool {
     numbers.iter().all(Num::is_zero)
 }

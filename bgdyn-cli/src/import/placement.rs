@@ -4,10 +4,10 @@ use super::number::{Num, all_zero};
 use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
 use bgdyn_runtime::Dd;
 
-/// Angles this near a multiple of 90° are one: what is off is the rounding of double-double.
+/// Angles this close to a multiple of 90° count as exact: the deviation is the rounding of double-double.
 const EXACT: f64 = 1e-25;
 
-/// A placement as a mechanism writes it: `xyz` in m, `rpy` in rad.
+/// A pose in the notation of a mechanism: `xyz` in m, `rpy` in rad.
 #[derive(Clone, Debug)]
 pub(super) struct Placement {
     pub(super) xyz: [Num; 3],
@@ -15,7 +15,7 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// No displacement, no turn.
+    /// Returns the identity.
     pub(super) fn identity() -> Self {
         Placement {
             xyz: Num::zeros(),
@@ -27,8 +27,8 @@ impl Placement {
         all_zero(&self.xyz) && all_zero(&self.rpy)
     }
 
-    /// `inner`, given in this placement's axes, in the axes in which this one is given. Where one of the
-    /// two is none, the other's text stays as it is.
+    /// Returns `inner`, given in this pose's axes, in the axes in which this one is given. If one of the
+    /// two is the identity, the text of the other does not change.
     pub(super) fn then(&self, inner: &Placement) -> Placement {
         if inner.is_identity() {
             return self.clone();
@@ -39,7 +39,7 @@ impl Placement {
         self.pose().then(&inner.pose()).placement()
     }
 
-    /// The same in double-double.
+    /// Converts it to double-double.
     pub(super) fn pose(&self) -> Pose {
         let [roll, pitch, yaw] = self.rpy.each_ref().map(Num::exact);
         let turned = about(2, yaw).then(&about(1, pitch)).then(&about(0, roll));
@@ -50,7 +50,7 @@ impl Placement {
     }
 }
 
-/// A placement in double-double.
+/// A pose in double-double.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pose {
     pub(super) rotation: Mat3<Dd>,
@@ -58,7 +58,7 @@ pub(super) struct Pose {
 }
 
 impl Pose {
-    /// `inner`, given in this pose's axes, in the axes in which this one is given.
+    /// Returns `inner`, given in this pose's axes, in the axes in which this one is given.
     pub(super) fn then(&self, inner: &Pose) -> Pose {
         Pose {
             rotation: self.rotation * inner.rotation,
@@ -66,7 +66,7 @@ impl Pose {
         }
     }
 
-    /// As numbers of a mechanism. At a pitch of ±90° the yaw is 0.
+    /// Converts it to the numbers of a mechanism. At a pitch of ±90° the yaw is 0.
     pub(super) fn placement(&self) -> Placement {
         let r = self.rotation.0;
         let level = (r[0][0] * r[0][0] + r[1][0] * r[1][0]).sqrt();
@@ -82,7 +82,7 @@ impl Pose {
     }
 }
 
-/// A displacement.
+/// Returns a displacement.
 pub(super) fn displaced(by: [Dd; 3]) -> Pose {
     Pose {
         translation: Vec3(by),
@@ -90,14 +90,15 @@ pub(super) fn displaced(by: [Dd; 3]) -> Pose {
     }
 }
 
-/// A turn about a coordinate axis: 0 is x. What is off a quarter turn by the rounding of an `f64` is one.
+/// Returns a rotation about a coordinate axis: 0 is x. A deviation from a quarter turn by the rounding of
+/// an `f64` is removed.
 pub(super) fn about(axis: usize, angle: Dd) -> Pose {
     let mut e = [Dd::ZERO; 3];
     e[axis] = Dd::ONE;
     turned(Vec3(e), angle)
 }
 
-/// A turn about an axis of any length but zero.
+/// Returns a rotation about an axis of any length except zero.
 pub(super) fn turned(axis: Vec3<Dd>, angle: Dd) -> Pose {
     let (sin, cos) = sin_cos(angle);
     Pose {
@@ -106,9 +107,9 @@ pub(super) fn turned(axis: Vec3<Dd>, angle: Dd) -> Pose {
     }
 }
 
-/// The turn of a quaternion x, y, z, w of any length but zero.
+/// Returns the rotation of a quaternion x, y, z, w of any length except zero.
 pub(super) fn turned_by_quaternion(quaternion: [Dd; 4]) -> Pose {
-    // Scaled, so that no square leaves the range.
+    // Scaled, so that no square overflows or underflows.
     let largest = quaternion.iter().map(|x| x.to_f64().abs());
     let largest = Dd::from_f64(largest.fold(0.0, f64::max));
     let [x, y, z, w] = quaternion.map(|part| part / largest);
@@ -128,7 +129,7 @@ pub(super) fn turned_by_quaternion(quaternion: [Dd; 4]) -> Pose {
     }
 }
 
-/// The vector at length 1.
+/// Returns the vector at length 1.
 pub(super) fn unit(v: Vec3<Dd>) -> Vec3<Dd> {
     let length = v.dot(v).sqrt();
     v.map(|x| x / length)
@@ -149,14 +150,14 @@ fn sin_cos(angle: Dd) -> (Dd, Dd) {
     }
 }
 
-/// How many quarter turns the angle is, if it is within this of a whole number of them.
+/// Returns the number of quarter turns of the angle, if the deviation from an integer is at most `within`.
 fn quarters(angle: Dd, within: f64) -> Option<i64> {
     let count = (angle / Dd::FRAC_PI_2).to_f64().round();
     let off = angle - Dd::FRAC_PI_2 * Dd::from_f64(count);
     (off.to_f64().abs() <= within).then_some(count as i64)
 }
 
-/// The angle whose sine and cosine are these: found in `f64`, and corrected once.
+/// Returns the angle with this sine and cosine: computed in `f64`, and corrected once.
 fn angle(sin: Dd, cos: Dd) -> Dd {
     let near = Dd::from_f64(sin.to_f64().atan2(cos.to_f64()));
     let (s, c) = near.sin_cos();
@@ -164,7 +165,7 @@ fn angle(sin: Dd, cos: Dd) -> Dd {
 }
 
 fn metres(x: Dd) -> Num {
-    // What products of zeros and ones leave of a sum that cancels.
+    // The rounding error of products of zeros and ones in a sum that cancels.
     if x.to_f64().abs() < EXACT {
         return Num::zero();
     }
@@ -184,7 +185,8 @@ mod tests {
     use super::{Num, Placement, turned_by_quaternion};
     use bgdyn_runtime::Dd;
 
-    /// The quaternion of half angles, multiplied together, gives the same turn; also at a pitch near and of 90°.
+    /// The product of the quaternions of half angles is the same rotation; also for a pitch near and at
+    /// 90°.
     #[test]
     fn quaternions_are_turns() {
         let half = |text: &str| (Num::parse(text).unwrap().exact() / Dd::from_f64(2.0)).sin_cos();

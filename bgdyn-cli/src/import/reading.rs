@@ -1,4 +1,4 @@
-//! Reads URDF text into links and joints, with numbers as they were written.
+//! Parses URDF text into links and joints, with the original text of numbers.
 
 use super::attributes::{bound, end, finite, name, numbers, place, turn};
 use super::defaults::{INERTIAL, complete};
@@ -11,15 +11,15 @@ use super::select::{select, version};
 use super::xml::{At, Element, fault, parse};
 use anyhow::Result;
 
-/// A robot as far as a mechanism can hold it.
+/// The part of a robot that a mechanism can represent.
 pub(super) struct Model {
     pub(super) name: String,
-    /// What it was read from: the first words of the mechanism's comment.
+    /// Its source: the first words of the mechanism's comment.
     pub(super) source: String,
     pub(super) links: Vec<Link>,
     /// In the order of the file.
     pub(super) joints: Vec<Joint>,
-    /// Places on links that are no bodies.
+    /// Sites on links that are no bodies.
     pub(super) frames: Vec<Frame>,
     pub(super) warnings: Vec<String>,
 }
@@ -28,11 +28,11 @@ pub(super) struct Link {
     pub(super) name: String,
     pub(super) at: At,
     pub(super) inertial: Option<Inertial>,
-    /// Where a link that no joint carries is fixed to the world; at its origin if nothing is said.
+    /// Pose in the world of a link without a joint; by default its origin.
     pub(super) place: Option<Placement>,
 }
 
-/// A named place on a link.
+/// A named site on a link.
 pub(super) struct Frame {
     pub(super) name: String,
     /// The name of its link.
@@ -41,7 +41,7 @@ pub(super) struct Frame {
 }
 
 impl Link {
-    /// Whether it has a mass or a tensor.
+    /// Returns whether it has a mass or a tensor.
     pub(super) fn is_body(&self) -> bool {
         let inertial = self.inertial.as_ref();
         inertial.is_some_and(|it| !it.mass.is_zero() || !it.tensor.iter().all(Num::is_zero))
@@ -65,9 +65,9 @@ pub(super) struct Joint {
     pub(super) origin: Placement,
     pub(super) axis: [Num; 3],
     pub(super) limits: Limits,
-    /// Viscous damping, N·m·s/rad or N·s/m; none where it is 0.
+    /// Viscous damping, N·m·s/rad or N·s/m; `None` if it is 0.
     pub(super) damping: Option<Num>,
-    /// Coulomb friction, N·m or N; none where it is 0.
+    /// Coulomb friction, N·m or N; `None` if it is 0.
     pub(super) friction: Option<Num>,
 }
 
@@ -79,7 +79,7 @@ pub(super) struct Limits {
     pub(super) effort: Option<Num>,
 }
 
-/// Reads a URDF, by the rules of the version that the file states.
+/// Parses a URDF, by the rules of the version in the file.
 pub(super) fn read(text: &str) -> Result<Model> {
     let (mut root, ignored) = select(&parse(text)?)?;
     refuse_types(&root)?;
@@ -101,7 +101,7 @@ pub(super) fn read(text: &str) -> Result<Model> {
     })
 }
 
-/// One error for all joints of types that a mechanism does not have.
+/// Returns one error for all joints of types that a mechanism does not have.
 fn refuse_types(root: &Element) -> Result<()> {
     let mut first = None;
     let mut wrong = Vec::new();
@@ -155,10 +155,10 @@ fn link(element: &Element) -> Result<Link> {
     })
 }
 
-/// The axis of a joint that has no `<axis>`: x.
+/// The default axis of a joint without `<axis>`: x.
 const DEFAULT_AXIS: [f64; 3] = [1.0, 0.0, 0.0];
 
-/// One joint. `strict`: the file's version is 1.2 or later.
+/// Parses one joint. `strict`: the file's version is 1.2 or later.
 fn joint(element: &Element, strict: bool, groups: &mut Groups) -> Result<Joint> {
     let joint_name = name(element)?;
     let label = format!("`{}`", shown(joint_name));
@@ -211,7 +211,8 @@ fn joint(element: &Element, strict: bool, groups: &mut Groups) -> Result<Joint> 
     })
 }
 
-/// Every limit must be a number. Since version 1.2 no range may be empty, and no velocity or effort negative.
+/// Checks that every limit is a number. Since version 1.2 no range may be empty, and no velocity or effort
+/// negative.
 fn check_limit(limit: &Element, strict: bool, label: &str) -> Result<()> {
     let bounds = ["lower", "upper", "velocity", "effort"].map(|attribute| bound(limit, attribute));
     let [lower, upper, velocity, effort] = bounds;
@@ -241,8 +242,8 @@ fn check_limit(limit: &Element, strict: bool, label: &str) -> Result<()> {
     Ok(())
 }
 
-/// The limits of a joint that moves. Before version 1.2 a position limit that is missing is 0, since then there is
-/// none.
+/// Parses the limits of a joint that moves. Before version 1.2 a missing position limit is 0, since then
+/// there is none.
 fn limits(
     element: &Element,
     kind: JointType,
@@ -312,7 +313,7 @@ fn limits(
     Ok(limits)
 }
 
-/// A joint's damping and friction; tells of what a mechanism cannot hold, with the values.
+/// Parses a joint's damping and friction; reports values that a mechanism cannot represent.
 fn dynamics(
     element: &Element,
     kind: JointType,

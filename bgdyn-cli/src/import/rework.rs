@@ -12,10 +12,10 @@ use anyhow::{Result, bail};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::math::Vec3;
 
-/// The word that means every link that may be a frame.
+/// The word for every link that can be a frame.
 const ALL: &str = "all";
 
-/// Changes the robot as asked, and says what that leaves out.
+/// Applies the options to the robot, and returns messages about omitted parts.
 pub(super) fn rework(model: &mut Model, options: &Options) -> Result<Vec<String>> {
     let mut told = Vec::new();
     for asked in &options.lock {
@@ -30,7 +30,8 @@ pub(super) fn rework(model: &mut Model, options: &Options) -> Result<Vec<String>
     Ok(told)
 }
 
-/// Whether a name of the robot is what a caller calls it: as in the file, or as in the mechanism.
+/// Returns whether a name of the robot matches the caller's name: that in the file, or that in the
+/// mechanism.
 fn is_called(name: &str, asked: &str, kind: &str) -> bool {
     name == asked || identifier(name, kind) == asked
 }
@@ -43,7 +44,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-/// The only link of this name; the names as in the file come first.
+/// Returns the only link of this name; the names in the file have priority.
 fn link(model: &Model, asked: &str, option: &str) -> Result<usize> {
     let exact = model.links.iter().position(|link| link.name == asked);
     let called = |link: &super::reading::Link| is_called(&link.name, asked, "link");
@@ -57,7 +58,7 @@ fn link(model: &Model, asked: &str, option: &str) -> Result<usize> {
     )
 }
 
-/// Fixes a joint where its coordinate has a value.
+/// Fixes a joint at a value of its coordinate.
 fn lock(model: &mut Model, asked: &Lock) -> Result<()> {
     let Lock { joint, value, unit } = asked;
     let moves = |it: &Joint| it.kind != JointType::Fixed;
@@ -105,7 +106,7 @@ fn lock(model: &mut Model, asked: &Lock) -> Result<()> {
     Ok(())
 }
 
-/// The joint that carries each link.
+/// Returns the joint of each link.
 fn carriers(model: &Model, tree: &Tree) -> Vec<Option<usize>> {
     let mut carriers = vec![None; model.links.len()];
     for (joint, (_, child)) in tree.ends.iter().enumerate() {
@@ -114,7 +115,7 @@ fn carriers(model: &Model, tree: &Tree) -> Vec<Option<usize>> {
     carriers
 }
 
-/// Keeps the links from one to the other, and what is fixed to them.
+/// Retains the links from one to the other, and everything fixed to them.
 fn chain(model: &mut Model, base: &str, tip: &str) -> Result<Vec<String>> {
     let tree = order(model)?;
     let (base, tip) = (link(model, base, "--chain")?, link(model, tip, "--chain")?);
@@ -135,7 +136,7 @@ fn chain(model: &mut Model, base: &str, tip: &str) -> Result<Vec<String>> {
         passed.push(at);
         kept[at] = true;
     }
-    // The base stands where it does with every joint at 0, so that gravity keeps its direction.
+    // The base is in its position with every joint at 0, so that the direction of gravity is correct.
     let mut place = Placement::identity();
     let mut below = base;
     while let Some(joint) = carriers[below] {
@@ -163,7 +164,7 @@ fn chain(model: &mut Model, base: &str, tip: &str) -> Result<Vec<String>> {
     Ok(told)
 }
 
-/// Keeps what fixed joints join to a kept link, away from the base.
+/// Retains everything that fixed joints connect to a retained link, away from the base.
 fn keep_fixed(model: &Model, tree: &Tree, kept: &mut [bool]) {
     let mut more = true;
     while more {
@@ -177,7 +178,7 @@ fn keep_fixed(model: &Model, tree: &Tree, kept: &mut [bool]) {
     }
 }
 
-/// Says what a chain leaves out.
+/// Lists the parts that a chain omits.
 fn without(model: &Model, tree: &Tree, kept: &[bool]) -> Vec<String> {
     let left = model.links.iter().zip(kept).filter(|(_, kept)| !**kept);
     let left: Vec<_> = left.map(|(link, _)| link).collect();
@@ -197,7 +198,7 @@ fn without(model: &Model, tree: &Tree, kept: &[bool]) -> Vec<String> {
     )]
 }
 
-/// Makes links without inertia frames of the links that carry them.
+/// Converts links without inertia to frames of their parents.
 fn frames(model: &mut Model, asked: &[String]) -> Result<()> {
     let tree = order(model)?;
     let carriers = carriers(model, &tree);
@@ -220,7 +221,7 @@ fn frames(model: &mut Model, asked: &[String]) -> Result<()> {
         }
         frame[found] = true;
     }
-    // What carries a body or a joint stays a link: of those asked for by name that is an error.
+    // A link that carries a body or a joint remains a link; if it was selected by name, that is an error.
     loop {
         let carries = tree
             .ends
@@ -259,10 +260,10 @@ fn frames(model: &mut Model, asked: &[String]) -> Result<()> {
 }
 
 impl Lock {
-    /// Reads `JOINT` or `JOINT=VALUE`.
+    /// Parses `JOINT` or `JOINT=VALUE`.
     ///
     /// # Errors
-    /// Where the value is no finite number, or its unit measures neither an angle nor a length.
+    /// If the value is no finite number, or its unit is neither that of an angle nor that of a length.
     pub fn parse(text: &str) -> Result<Lock, String> {
         let (joint, value) = text.rsplit_once('=').unwrap_or((text, "0"));
         let text = value.trim();
@@ -283,7 +284,7 @@ impl Lock {
     }
 }
 
-/// Whether a character belongs to what is written behind degrees: `deg`, `°`.
+/// Returns whether a character belongs to the unit of degrees: `deg`, `°`.
 fn unit_of_degrees(c: char) -> bool {
     "deg° ".contains(c)
 }

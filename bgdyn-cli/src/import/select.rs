@@ -1,20 +1,20 @@
-//! Selects the elements of a URDF that a mechanism can hold, and counts all others by name.
+//! Selects the elements of a URDF that a mechanism can represent, and counts all others by name.
 
 use super::xml::{Element, fault};
 use anyhow::Result;
 
-/// An element that is taken over: its attributes, the elements inside it.
+/// An element that is imported: its attributes, and the elements inside it.
 struct Kind {
     name: &'static str,
     attributes: Attributes,
     children: &'static [Kind],
-    /// Whether it may stand only once in its parent.
+    /// Whether its parent may have only one.
     once: bool,
 }
 
 enum Attributes {
     These(&'static [&'static str]),
-    /// All of them: whoever reads the element tells what becomes of them.
+    /// All of them: the reader of the element reports their use.
     Any,
 }
 use Attributes::{Any, These};
@@ -80,7 +80,7 @@ const ROBOT: Kind = Kind {
     once: true,
 };
 
-/// What was left out, in the order of first sight: what it is, how often, how many mesh files in it.
+/// The omitted elements, in the order of first occurrence: name, count, number of mesh files.
 #[derive(Default)]
 struct Ignored(Vec<(String, usize, usize)>);
 
@@ -96,7 +96,7 @@ impl Ignored {
     }
 }
 
-/// The part of the robot that can be taken over, and one line for each kind of thing that cannot.
+/// Returns the part of the robot that can be imported, and one line for each kind of element that cannot.
 pub(super) fn select(root: &Element) -> Result<(Element, Vec<String>)> {
     if root.name != ROBOT.name {
         return Err(fault(
@@ -161,7 +161,7 @@ fn keep(
     Ok(kept)
 }
 
-/// The version of the format, 1.0 unless the robot says otherwise (a malformed one counts as none).
+/// Returns the version of the format; 1.0 if it is missing or malformed.
 pub(super) fn version(root: &Element) -> (u32, u32) {
     let parse = |text: &str| {
         let (major, minor) = text.trim().split_once('.')?;
@@ -170,7 +170,7 @@ pub(super) fn version(root: &Element) -> (u32, u32) {
     root.get("version").and_then(parse).unwrap_or((1, 0))
 }
 
-/// `1 time`, `3 times`.
+/// Returns `1 time`, `3 times`.
 pub(super) fn plural(count: usize, word: &str) -> String {
     match count {
         1 => format!("1 {word}"),

@@ -6,15 +6,16 @@ use super::xml::fault;
 use anyhow::Result;
 use std::collections::HashMap;
 
-/// The links in the order of the mechanism: those without a joint first, the others as their joints come in the file.
+/// The links in the order of the mechanism: those without a joint first, the others in the order of their
+/// joints in the file.
 pub(super) struct Tree {
-    /// Indices of links that no joint carries.
+    /// Indices of links without a joint.
     pub(super) roots: Vec<usize>,
     /// For each joint the indices of its parent and its child.
     pub(super) ends: Vec<(usize, usize)>,
 }
 
-/// Orders the links; an error names a link that is missing, given twice, carried twice or on a loop.
+/// Sorts the links; an error names a link that is missing, repeated, the child of two joints or on a loop.
 pub(super) fn order(model: &Model) -> Result<Tree> {
     let mut index = HashMap::new();
     for (i, link) in model.links.iter().enumerate() {
@@ -63,9 +64,10 @@ pub(super) fn order(model: &Model) -> Result<Tree> {
     Ok(Tree { roots, ends })
 }
 
-/// Every link must come to a root when its parents are followed.
+/// Checks that the parents of every link lead to a root.
 fn refuse_cycles(model: &Model, carrier: &[Option<usize>], ends: &[(usize, usize)]) -> Result<()> {
-    // For each link the start of the walk that saw it first: a walk that meets itself goes round.
+    // For each link the start of the walk that visited it first: a walk that visits its own links is a
+    // cycle.
     let mut seen = vec![None; carrier.len()];
     for start in 0..carrier.len() {
         let mut link = start;

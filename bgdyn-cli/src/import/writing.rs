@@ -6,22 +6,22 @@ use super::number::{Num, all_zero};
 use super::placement::Placement;
 use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
 
-/// Longer lines are broken up.
+/// Longer lines are broken.
 const WIDTH: usize = 100;
 
-/// A link as it stands in the mechanism.
+/// A link in the notation of the mechanism.
 pub(super) struct LinkEntry<'a> {
     pub(super) link: &'a Link,
     pub(super) name: &'a str,
-    /// The name of the link that carries it; none for the fixed base.
+    /// The name of the parent link; `None` for the fixed base.
     pub(super) parent: Option<&'a str>,
     pub(super) joint: Option<(&'a Joint, &'a str)>,
-    /// A name for the joint that fixes a root, where the default name is taken.
+    /// A name for the joint that fixes a root, if the default name is in use.
     pub(super) mount: Option<String>,
     pub(super) allow_nonphysical: bool,
 }
 
-/// The text up to the first link.
+/// Returns the text up to the first link.
 pub(super) fn head(model: &Model, snap: Option<&str>) -> String {
     let robot = match model.name.as_str() {
         "" => "robot without a name".to_owned(),
@@ -40,7 +40,7 @@ pub(super) fn head(model: &Model, snap: Option<&str>) -> String {
     text + "\nlinks:\n"
 }
 
-/// The list of frames, with their names and those of their links; nothing where there is none.
+/// Returns the list of frames, with their names and those of their links; empty without frames.
 pub(super) fn frames(frames: &[(&Frame, &str, &str)]) -> String {
     let entry = |(frame, name, link): &(&Frame, &str, &str)| {
         let mut keys = vec![format!("name: {}", scalar(name))];
@@ -67,7 +67,7 @@ pub(super) struct Effect<'a> {
     pub(super) value: &'a Num,
 }
 
-/// The effects that scenes may call for; nothing where there is none.
+/// Returns the effects that scenes can include; empty without effects.
 pub(super) fn effects(effects: &[Effect<'_>]) -> String {
     let entry = |effect: &Effect<'_>| {
         let ([law, key], joint) = (effect.law, scalar(effect.joint));
@@ -81,7 +81,7 @@ pub(super) fn effects(effects: &[Effect<'_>]) -> String {
     }
 }
 
-/// One link of the list.
+/// Returns one link of the list.
 pub(super) fn entry(entry: &LinkEntry<'_>) -> String {
     let mut lines = vec![format!("name: {}", scalar(entry.name))];
     if entry.name != entry.link.name {
@@ -132,7 +132,7 @@ fn write_joint(joint: &Joint, name: &str, lines: &mut Vec<String>) {
     }
 }
 
-/// The key `axis`, nothing for z, which is the default.
+/// Returns the key `axis`; `None` for z, which is the default.
 fn axis(axis: &[Num; 3]) -> Option<String> {
     let name = match axis.each_ref().map(|number| number.value) {
         [0.0, 0.0, 1.0] => return None,
@@ -228,7 +228,7 @@ fn scalar(text: &str) -> String {
         match c {
             '"' | '\\' => out.extend(['\\', c]),
             ' '..='~' => out.push(c),
-            // Letters and signs of the Basic Multilingual Plane that YAML prints.
+            // Letters and signs of the Basic Multilingual Plane that YAML can print.
             '\u{a0}'..='\u{2027}' | '\u{202a}'..='\u{d7ff}' => out.push(c),
             c if u32::from(c) <= 0xffff => out.push_str(&format!("\\u{:04x}", u32::from(c))),
             c => out.push_str(&format!("\\U{:08x}", u32::from(c))),

@@ -1,31 +1,32 @@
-//! XML text to a small tree that remembers the position of each element.
+//! Parses XML text into a tree with the position of each element.
 
 use anyhow::{Result, anyhow};
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-/// Deeper nesting than this is refused: no URDF comes near, and it bounds every recursion.
+/// Deeper nesting is refused: no URDF is close to it, and it bounds every recursion.
 const MAX_DEPTH: usize = 64;
 
-/// Elements, texts and comments of a file, at most: only a document that expands its own entities has more.
+/// Largest number of elements, texts and comments of a file: only a document that expands its own entities
+/// has more.
 const MAX_NODES: u32 = 1 << 22;
 
 /// Line and column, both from 1.
 pub(super) type At = (u32, u32);
 
-/// An element: attributes in the order of the file, children likewise.
+/// An element: attributes and children in the order of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Element {
-    /// The name, with its prefix where it has one.
+    /// The name, with its prefix if it has one.
     pub(super) name: String,
     pub(super) attributes: Vec<(String, String)>,
     pub(super) children: Vec<Element>,
-    /// Whether text other than white space stands directly inside.
+    /// Whether it directly contains text other than white space.
     pub(super) text: bool,
     pub(super) at: At,
 }
 
 impl Element {
-    /// An element of this name with nothing in it.
+    /// Returns an empty element of this name.
     pub(super) fn empty(name: &str, at: At) -> Self {
         let (attributes, children) = (Vec::new(), Vec::new());
         Element {
@@ -37,35 +38,35 @@ impl Element {
         }
     }
 
-    /// The value of an attribute.
+    /// Returns the value of an attribute.
     pub(super) fn get(&self, attribute: &str) -> Option<&str> {
         let found = self.attributes.iter().find(|(name, _)| name == attribute);
         found.map(|(_, value)| value.as_str())
     }
 
-    /// The first child of this name.
+    /// Returns the first child of this name.
     pub(super) fn child(&self, name: &str) -> Option<&Element> {
         self.children.iter().find(|child| child.name == name)
     }
 
-    /// All children of this name.
+    /// Returns all children of this name.
     pub(super) fn all<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Element> {
         self.children.iter().filter(move |child| child.name == name)
     }
 
-    /// How many elements of this name stand at or below this one.
+    /// Returns the number of elements of this name at or below this one.
     pub(super) fn count(&self, name: &str) -> usize {
         let below: usize = self.children.iter().map(|child| child.count(name)).sum();
         below + usize::from(self.name == name)
     }
 }
 
-/// An error at a position of the file: `LINE:COLUMN: message`.
+/// Returns an error at a position of the file: `LINE:COLUMN: message`.
 pub(super) fn fault((line, column): At, message: impl std::fmt::Display) -> anyhow::Error {
     anyhow!("{line}:{column}: {message}")
 }
 
-/// Reads the one root element.
+/// Parses the only root element.
 pub(super) fn parse(text: &str) -> Result<Element> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = Lines::new(text);
@@ -79,10 +80,10 @@ pub(super) fn parse(text: &str) -> Result<Element> {
     element(document.root_element(), &lines, 1)
 }
 
-/// The error of a text that is not XML.
+/// Returns the error of a text that is not XML.
 fn malformed(lines: &Lines<'_>, error: &Error) -> anyhow::Error {
     let at = match error {
-        // The parser gives no position for what ends too early.
+        // The parser gives no position for a premature end.
         Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
             lines.at(lines.text.len())
         }
@@ -102,7 +103,7 @@ fn malformed(lines: &Lines<'_>, error: &Error) -> anyhow::Error {
     )
 }
 
-/// The element, and what stands in it, `depth` levels from the top.
+/// Converts the element, and its content, `depth` levels from the top.
 fn element(node: Node<'_, '_>, lines: &Lines<'_>, depth: usize) -> Result<Element> {
     let start = node.range().start;
     let (at, name) = (lines.at(start), lines.name(start + 1));
@@ -135,7 +136,7 @@ fn element(node: Node<'_, '_>, lines: &Lines<'_>, depth: usize) -> Result<Elemen
     Ok(read)
 }
 
-/// A text and where its lines start.
+/// A text and the starts of its lines.
 struct Lines<'a> {
     text: &'a str,
     starts: Vec<usize>,
@@ -148,7 +149,7 @@ impl<'a> Lines<'a> {
         Lines { text, starts }
     }
 
-    /// Line and column of a byte.
+    /// Returns line and column of a byte.
     fn at(&self, byte: usize) -> At {
         let line = self.starts.partition_point(|start| *start <= byte);
         let before = &self.text[self.starts[line - 1]..byte];
@@ -156,7 +157,7 @@ impl<'a> Lines<'a> {
         (number(line), number(before.chars().count() + 1))
     }
 
-    /// The name that starts at a byte, as written, with its prefix.
+    /// Returns the name that starts at a byte, with its prefix.
     fn name(&self, byte: usize) -> &'a str {
         let rest = &self.text[byte..];
         let ends = |c: char| c.is_whitespace() || matches!(c, '/' | '>' | '=');
@@ -164,6 +165,6 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// What to do with a file that was not expanded.
+/// Advice for a file that was not expanded.
 pub(super) const EXPAND: &str =
     ": expand the file first (`xacro robot.urdf.xacro > robot.urdf`) and import the result";

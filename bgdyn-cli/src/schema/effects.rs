@@ -1,4 +1,4 @@
-//! The JSON Schema of effects, from the generator's own list.
+//! Builds the JSON Schema of effects from the generator's list of effects.
 
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::parts::{described, identifier, object, triple, value};
 
-/// Keys by the word after `type`.
+/// Returns the keys by the word of the key `type`.
 pub(super) fn effects() -> Value {
     let written = EFFECTS.iter().filter(|effect| !effect.built_in());
     let (mut words, mut branches) = (Vec::new(), Vec::new());
@@ -33,7 +33,7 @@ fn keys(effect: &dyn Effect) -> Value {
     let keys = keys.map(|key| (key.name, described(key.about, reads(key.reads))));
     let needed = declared.iter().filter(|key| key.needed);
     let needed: Vec<&str> = needed.map(|key| key.name).collect();
-    // `joints` may be in place of `joint`.
+    // `joints` may replace `joint`.
     let others: Vec<&str> = needed.iter().copied().filter(|n| *n != "joint").collect();
     let mut found = object(&keys.chain([word]).collect::<Vec<_>>(), &others);
     if others.len() < needed.len() {
@@ -59,7 +59,7 @@ pub(super) fn reads(reads: Reads) -> Value {
     }
 }
 
-/// Numbers under the last words of `names`; three may be a list.
+/// Returns numbers with the last words of `names` as keys; three may be a list.
 fn group(names: &[&'static str], fit: &[Dimension]) -> Value {
     let short = names
         .iter()

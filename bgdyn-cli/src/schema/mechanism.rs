@@ -1,4 +1,4 @@
-//! The JSON Schema of a mechanism's file.
+//! Builds the JSON Schema of a mechanism's file.
 
 use bgdyn_codegen::format::{Dimension, LENGTHS};
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::effects::effects;
 use super::parts::{axis, described, file, identifier, object, quantity, text, triple, value};
 
-/// The schema of a mechanism's file.
+/// Returns the schema of a mechanism's file.
 pub fn mechanism() -> Value {
     file(
         "A mechanism of bgdyn, format 1",

@@ -1,7 +1,7 @@
 //! The JSON Schemas of mechanisms and scenes, for completion and checks in editors.
 //!
-//! They say what the readers say about keys, words, types and units; what a check finds by computing (a tensor
-//! that no body has, a circle of parents) is for `bgdyn check`.
+//! They have the same rules as the parsers for keys, words, types and units. Faults that need computation
+//! (an invalid tensor, a cycle of parents) are found by `bgdyn check`.
 
 mod effects;
 mod mechanism;

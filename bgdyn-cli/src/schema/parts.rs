@@ -3,7 +3,8 @@
 use bgdyn_codegen::format::Dimension;
 use serde_json::{Map, Value, json};
 
-/// A whole file: its version under `version`, its name, what it is about, and these keys.
+/// Returns the schema of a whole file: its version under the key `version`, its name, its description, and
+/// these keys.
 pub(super) fn file(
     title: &str,
     version: &str,
@@ -35,7 +36,7 @@ pub(super) fn file(
     schema
 }
 
-/// A mapping with these keys and no others.
+/// Returns a mapping with these keys and no others.
 pub(super) fn object(keys: &[(&str, Value)], needed: &[&str]) -> Value {
     let properties: Map<String, Value> = keys
         .iter()
@@ -74,7 +75,7 @@ pub(super) fn axis() -> Value {
     json!({ "anyOf": [{ "enum": letters }, triple(json!({ "type": "number" }))] })
 }
 
-/// A number, or text with one of the units of these dimensions.
+/// Returns a number, or text with one of the units of these dimensions.
 pub(super) fn quantity(fit: &[Dimension]) -> Value {
     let units = fit.iter().flat_map(|dimension| dimension.units());
     let units: Vec<String> = units.map(escaped).collect();
@@ -86,7 +87,7 @@ pub(super) fn quantity(fit: &[Dimension]) -> Value {
     json!({ "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern }] })
 }
 
-/// A unit in a pattern, with the signs that may stand for its letters.
+/// Returns a unit in a pattern, with the signs that may replace its letters.
 fn escaped(unit: &str) -> String {
     let spellings = [
         ("^2", r"(\^2|²)"),
@@ -112,7 +113,7 @@ fn escaped(unit: &str) -> String {
     pattern
 }
 
-/// A quantity, or a run-time parameter.
+/// Returns a quantity, or a run-time parameter.
 pub(super) fn value(fit: &[Dimension]) -> Value {
     let number = quantity(fit);
     let keys = [("parameter", identifier()), ("value", number.clone())];

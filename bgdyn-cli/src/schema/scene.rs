@@ -1,4 +1,4 @@
-//! The JSON Schema of a scene's file.
+//! Builds the JSON Schema of a scene's file.
 //!
 //! The mechanism determines the dimensions of inputs, coordinates and state variables, so their numbers
 //! may have any unit here.
@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use super::effects::{effects, reads};
 use super::parts::{described, file, identifier, object, quantity, text};
 
-/// The schema of a scene's file.
+/// Returns the schema of a scene's file.
 pub fn scene() -> Value {
     let named = |about: &str, item: Value| {
         described(
@@ -60,7 +60,7 @@ pub fn scene() -> Value {
     )
 }
 
-/// An effect called for: a word, or a name with a value.
+/// Returns an included effect: a word, or a name with a value.
 fn called() -> Value {
     let built_in = EFFECTS.iter().filter(|effect| effect.built_in());
     let known: Map<String, Value> = built_in
@@ -80,7 +80,7 @@ fn called() -> Value {
     ] })
 }
 
-/// The value of a built-in effect: that of its only key, or a mapping.
+/// Returns the value of a built-in effect: that of its only key, or a mapping.
 fn setting(effect: &dyn Effect) -> Value {
     let keys = effect.keys().iter();
     let keys: Vec<_> = keys
@@ -91,7 +91,7 @@ fn setting(effect: &dyn Effect) -> Value {
     described(effect.summary(), json!({ "anyOf": ways }))
 }
 
-/// An effect of the mechanism with other values: keys of any effect.
+/// Returns an effect of the mechanism with other values: keys of any effect.
 fn changed() -> Value {
     let all = EFFECTS.iter().filter(|effect| !effect.built_in());
     let mut names: Vec<&str> = all
@@ -107,12 +107,12 @@ fn changed() -> Value {
     json!({ "type": "object", "propertyNames": { "enum": names } })
 }
 
-/// A number, alone or with a unit.
+/// Returns a number, with or without a unit.
 fn number() -> Value {
     json!({ "type": ["number", "string"] })
 }
 
-/// The courses in time, by their words.
+/// Returns the signals in time, by their words.
 fn courses() -> Vec<(&'static str, Value)> {
     let time = quantity(&[Dimension::Time]);
     let point =
@@ -169,7 +169,7 @@ fn drive() -> Value {
     json!({ "anyOf": [given, number(), one_of(&words)] })
 }
 
-/// A mapping with exactly one of these keys.
+/// Returns a mapping with exactly one of these keys.
 fn one_of(keys: &[(&str, Value)]) -> Value {
     let mut mapping = object(keys, &[]);
     mapping["minProperties"] = json!(1);

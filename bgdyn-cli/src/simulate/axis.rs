@@ -1,11 +1,11 @@
-//! Axes of plots: ranges, scales, round numbers.
+//! Axes of plots: ranges, scales, tick labels.
 
 use super::report::short;
 
-/// What is larger than this, or smaller than its reciprocal, has no place on an axis.
+/// Values larger than this, or smaller than its reciprocal, are not shown.
 pub(super) const LARGEST: f64 = 1e250;
 
-/// How values become numbers of an axis: (value − offset)/10^exponent.
+/// The conversion of values to numbers of an axis: (value − offset)/10^exponent.
 pub(super) struct Axis {
     offset: f64,
     exponent: i32,
@@ -14,7 +14,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// For values in this range, with a margin on both sides.
+    /// Returns an axis for values in this range, with a margin on both sides.
     pub(super) fn new((low, high): (f64, f64)) -> Self {
         let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
         let size = low.abs().max(high.abs());
@@ -22,7 +22,7 @@ impl Axis {
             true => (0.0, 0.0, 0.0),
             false => (low, high, size),
         };
-        // A small change of a large value is shown as a change.
+        // A small change of a large value is shown as a difference.
         let change = high - low;
         let flat = change <= 1e-12 * size;
         let offset = if !flat && change < 1e-3 * size {
@@ -51,7 +51,7 @@ impl Axis {
         }
     }
 
-    /// The same without a margin: for time.
+    /// Returns the same without a margin, for time.
     pub(super) fn tight(low: f64, high: f64) -> Self {
         let axis = Axis::new((low, high));
         Axis {
@@ -61,7 +61,7 @@ impl Axis {
         }
     }
 
-    /// Round numbers on the axis, at most so many, with what is written beside them.
+    /// Returns round numbers on the axis, at most `most`, with their labels.
     pub(super) fn ticks(&self, most: usize) -> Vec<(f64, String)> {
         let span = self.high - self.low;
         let least = span / most as f64;
@@ -70,7 +70,7 @@ impl Axis {
         let step = steps.into_iter().find(|s| *s >= least);
         let step = step.unwrap_or(10.0 * power);
         let decimals = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
-        // A number that lies at an end but for rounding is on the axis.
+        // A number at an end of the axis is included in spite of rounding.
         let (first, last) = (self.low / step - 1e-9, self.high / step + 1e-9);
         let counts = first.ceil() as i64..=last.floor() as i64;
         let tick = |k: i64| (k as f64 * step, number(k as f64 * step, decimals));
@@ -98,7 +98,7 @@ impl Axis {
     }
 }
 
-/// A number with so many decimals at most.
+/// Prints a number with at most this number of decimals.
 fn number(x: f64, decimals: usize) -> String {
     let text = format!("{x:.decimals$}");
     let text = match text.contains('.') {

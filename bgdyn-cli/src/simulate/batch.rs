@@ -1,4 +1,4 @@
-//! Many runs of a scene, with a row of results for each.
+//! Runs a scene many times, with a row of results for each run.
 
 use std::iter::once;
 use std::num::NonZeroUsize;
@@ -16,17 +16,18 @@ use super::run_table::{Column, Way, headed};
 
 /// The results of a run of a batch.
 pub(crate) struct RunSummary {
-    /// Of each output: at the end, the least, the largest.
+    /// Of each output: the final value, the least, the largest.
     pub(crate) outputs: Vec<[f64; 3]>,
-    /// What the energy's account lacks, of the energy that could move.
+    /// The energy drift, relative to the energy that could move.
     pub(crate) drift: f64,
-    /// When it ended, s.
+    /// Time at the end, s.
     pub(crate) t: f64,
-    /// Why it ended early, or was not begun.
+    /// The reason for an early end, or for a run that did not start.
     pub(crate) failure: Option<String>,
 }
 
-/// Runs a scene for every row of `varied`, by so many threads; `watch` hears how many are done.
+/// Runs a scene for every row of `varied`, with this number of threads; `watch` receives the number of
+/// finished runs.
 pub(crate) fn run(
     system: &SceneEquations,
     plant: &Evaluated<'_>,
@@ -66,7 +67,7 @@ fn refused(faults: &bgdyn_codegen::fault::Faults) -> RunSummary {
     }
 }
 
-/// The runs as a table with commas.
+/// Returns the runs as comma-separated values.
 pub(crate) fn csv(columns: &[Column], varied: &BatchValues, told: &[RunSummary]) -> String {
     let mut header = vec!["run".to_owned()];
     header.extend(varied.quantities.iter().map(|q| headed(&q.name, q.unit)));

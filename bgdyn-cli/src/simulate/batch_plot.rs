@@ -1,4 +1,4 @@
-//! The plot of a batch: the final value of each output against each varied quantity.
+//! Plots a batch: the final value of each output against each varied quantity.
 
 use std::path::Path;
 
@@ -13,18 +13,18 @@ use super::run_table::Column;
 
 const PANEL: (f64, f64) = (400.0, 230.0);
 const HEADER: f64 = 60.0;
-/// More panels than these have no place on a page.
+/// Largest number of panels in a row of a page.
 const ACROSS: usize = 4;
 const DOWN: usize = 12;
-/// Points up to which each is drawn as a disc that can be told from its neighbours.
+/// Largest number of points that are drawn as distinguishable discs.
 const FEW: usize = 400;
-/// Between an output's least and largest value.
+/// Colour of the range of an output's values.
 const BAND: &str = "#e8e8e8";
 
 /// Draws a batch to a file.
 ///
 /// # Errors
-/// Where the file cannot be written.
+/// If the file cannot be written.
 pub(crate) fn draw(
     path: &Path,
     title: &str,
@@ -33,7 +33,7 @@ pub(crate) fn draw(
 ) -> std::io::Result<()> {
     let across = varied.quantities.len().min(ACROSS);
     let down = columns.len().min(DOWN);
-    // A single panel needs room for the title beside it.
+    // A single panel needs space for the title beside it.
     let width = if across == 1 { 1.5 * PANEL.0 } else { PANEL.0 };
     let mut d = Drawing::new(width * across as f64, HEADER + PANEL.1 * down as f64);
     d.text((16.0, 25.0), 18, INK, Anchor::Start, title);
@@ -60,7 +60,7 @@ pub(crate) fn draw(
     std::fs::write(path, d.finish())
 }
 
-/// One output against one quantity.
+/// Draws one output against one quantity.
 fn draw_panel(
     d: &mut Drawing,
     (at, width): ((f64, f64), f64),

@@ -1,4 +1,4 @@
-//! Values that override a scene's: from the command line, a file, a grid, or at random.
+//! Values that override a scene's: from the command line, a file, a grid, or random.
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::random::Random;
@@ -9,7 +9,7 @@ use crate::quantity::value_in;
 use crate::table::rows;
 use crate::usage::Usage;
 
-/// Runs that a batch may have.
+/// Largest number of runs of a batch.
 const RUNS: usize = 1_000_000;
 
 /// A quantity and its value, SI units.
@@ -23,7 +23,7 @@ pub(crate) struct BatchValues {
 }
 
 impl BatchValues {
-    /// What a run is given, after what all of them are given.
+    /// Returns the values of a run, after the values common to all runs.
     pub(crate) fn given(&self, fixed: &[Given], run: &[f64]) -> Vec<Given> {
         let own = self.quantities.iter().zip(run);
         let own = own.map(|(s, &x)| (s.clone(), Dd::from_f64(x)));
@@ -31,7 +31,7 @@ impl BatchValues {
     }
 }
 
-/// `NAME=VALUE`s of the options `--parameter` and `--initial`.
+/// Parses `NAME=VALUE` of the options `--parameter` and `--initial`.
 pub(crate) fn fixed(
     scene: &Scene,
     parameters: &[String],
@@ -64,7 +64,7 @@ pub(crate) fn fixed(
     Ok(found)
 }
 
-/// Runs of a table: names of quantities in the first line, a run per further line.
+/// Returns the runs of a table: names of quantities in the first line, one run per further line.
 pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValues> {
     let mut rows = rows(text).into_iter();
     let header = rows
@@ -103,7 +103,7 @@ pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValue
     }
 }
 
-/// A column's name, with or without its unit: `shoulder`, `shoulder [rad]`.
+/// Returns the quantity of a column's name, with or without its unit: `shoulder`, `shoulder [rad]`.
 fn headed(scene: &Scene, field: &str) -> Result<Override, String> {
     let (name, unit) = match field.split_once('[') {
         Some((name, rest)) => (name.trim(), Some(rest.trim_end_matches(']').trim())),
@@ -125,7 +125,7 @@ fn named(scene: &Scene, name: &str) -> Result<Override, String> {
     scene.override_named("part of the state or parameter", name, |_| true)
 }
 
-/// Runs over a grid: `NAME=FROM:TO:N` each, the last one fastest.
+/// Returns the runs of a grid: `NAME=FROM:TO:N` each, the last one fastest.
 pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<BatchValues, Usage> {
     let mut varied = BatchValues::default();
     varied.runs.push(vec![]);
@@ -165,7 +165,7 @@ pub(crate) fn grid(scene: &Scene, sweeps: &[String]) -> Result<BatchValues, Usag
     Ok(varied)
 }
 
-/// Runs by chance: `NAME=LOW:HIGH` each, evenly distributed and independent.
+/// Returns random runs: `NAME=LOW:HIGH` each, uniformly distributed and independent.
 pub(crate) fn chance(
     scene: &Scene,
     ranges: &[String],

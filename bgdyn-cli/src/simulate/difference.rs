@@ -1,23 +1,23 @@
-//! The distance between two runs of a scene.
+//! Computes the distance between two runs of a scene.
 
 use super::run_table::Record;
 
-/// How far two runs are apart.
+/// The distance between two runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// The column in which they are furthest apart, by its number.
+    /// The index of the column with the largest distance.
     pub column: usize,
-    /// When, s.
+    /// Time of this distance, s.
     pub t: f64,
-    /// How far, in the column's unit.
+    /// The distance, in the column's unit.
     pub size: f64,
-    /// How far, of the range that the column has in the run.
+    /// The distance, relative to the range of the column in the run.
     pub share: f64,
 }
 
 impl Record {
-    /// How far another run of the same scene is away at the points asked for, where that is furthest
-    /// by the columns' ranges; `None` where there are no columns.
+    /// Returns the largest distance to another run of the same scene at the output points, relative to the
+    /// columns' ranges; `None` without columns.
     pub fn difference(&self, other: &Record) -> Option<Difference> {
         let columns = self.rows.first()?.values.len();
         let of = |column| self.difference_in(column, other);
@@ -30,7 +30,7 @@ impl Record {
     fn difference_in(&self, column: usize, other: &Record) -> Difference {
         let values = self.rows.iter().map(|row| row.values[column]);
         let (low, high) = range(values);
-        // What rounding alone makes of a value that stands still is no range.
+        // A range that is only the rounding error of a constant value does not count.
         let scale = (high - low)
             .max(1e-9 * high.abs().max(low.abs()))
             .max(1e-15);
@@ -61,7 +61,7 @@ impl Record {
     }
 }
 
-/// Smallest and largest of `values`.
+/// Returns the smallest and largest of `values`.
 pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))

@@ -1,4 +1,4 @@
-//! A panel of a plot: its frame, numbers and labels, and the positions of values in it.
+//! A panel of a plot: its frame, numbers and labels, and the conversion of values to positions.
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, FAINT, GRID, INK};
 
@@ -8,7 +8,7 @@ use super::axis::Axis;
 pub(super) const BLUE: &str = "#0072b2";
 pub(super) const ORANGE: &str = "#d55e00";
 
-/// Room left of the frame for the numbers, above it for the title.
+/// Margin left of the frame for the numbers, above it for the title.
 const LEFT: f64 = 82.0;
 const TOP: f64 = 28.0;
 const RIGHT: f64 = 20.0;
@@ -18,7 +18,7 @@ pub(super) struct Panel<'a> {
     /// Its upper left corner and its size, px.
     pub at: (f64, f64),
     pub size: (f64, f64),
-    /// What is written above it, below it, and beside it.
+    /// The texts above it, below it, and beside it.
     pub title: String,
     pub below: String,
     pub beside: String,
@@ -27,14 +27,14 @@ pub(super) struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    /// Left, top, right and bottom of the frame.
+    /// Returns left, top, right and bottom of the frame.
     fn frame(&self) -> [f64; 4] {
         let ((x, y), (width, height)) = (self.at, self.size);
         let bottom = if self.below.is_empty() { 24.0 } else { 42.0 };
         [x + LEFT, y + TOP, x + width - RIGHT, y + height - bottom]
     }
 
-    /// Where values are, px.
+    /// Returns the position of values, px.
     pub fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let [left, top, right, bottom] = self.frame();
         let part = |axis: &Axis, v: f64| (axis.of(v) - axis.low) / (axis.high - axis.low);
@@ -44,19 +44,19 @@ impl Panel<'_> {
         )
     }
 
-    /// A line from the lower to the upper edge, at x.
+    /// Draws a line from the lower to the upper edge, at x.
     pub fn upright(&self, d: &mut Drawing, x: f64, colour: &str) {
         let [_, top, _, bottom] = self.frame();
         let (x, _) = self.place((x, 0.0));
         d.line((x, top), (x, bottom), colour, "");
     }
 
-    /// Where the lower edge is, px.
+    /// Returns the position of the lower edge, px.
     pub fn floor(&self) -> f64 {
         self.frame()[3]
     }
 
-    /// Draws everything but the curves.
+    /// Draws everything except the curves.
     pub fn draw(&self, d: &mut Drawing) {
         let [left, top, right, bottom] = self.frame();
         let middle = 0.5 * (left + right);

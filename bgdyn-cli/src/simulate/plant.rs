@@ -14,12 +14,12 @@ use nalgebra::{DMatrix, DVector};
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
 
-/// Why a scene has no rates, or no values, in a state.
+/// The error that a scene has no rates, or no values, in a state.
 #[derive(Clone, PartialEq)]
 pub struct Undefined {
     /// The coordinate or the first-order state.
     pub at: String,
-    /// Whether the mass matrix is singular there; otherwise the value is not finite.
+    /// Whether the mass matrix is singular; otherwise the value is not finite.
     pub singular: bool,
 }
 
@@ -36,17 +36,17 @@ impl fmt::Debug for Undefined {
     }
 }
 
-/// The numbers that a scene is integrated in.
+/// The variables in which a scene is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// y: positions, velocities, first-order states.
     Natural,
-    /// z: momenta in place of velocities, where Gauss–Legendre methods are symplectic.
+    /// z: momenta in place of velocities, for which Gauss–Legendre integrators are symplectic.
     Canonical,
 }
 
-/// A scene through the evaluator. Inputs that the scene does not drive are 0, run-time parameters as
-/// its files give them.
+/// A scene in the evaluator. Inputs that the scene does not drive are 0; run-time parameters have the
+/// values of its files.
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
     system: &'a SceneEquations,
@@ -54,7 +54,7 @@ pub struct Evaluated<'a> {
     functions: Arc<SceneFunctions>,
 }
 
-/// What is evaluated of a scene: the same from whichever state it starts.
+/// The functions of a scene, the same for every start.
 #[derive(Debug)]
 struct SceneFunctions {
     derivative: Function,
@@ -81,13 +81,13 @@ struct Canonical {
     rates: Function,
 }
 
-/// A value of a scene, or why there is none.
+/// A value of a scene, or the error that it does not exist.
 pub(crate) type Evaluation<T> = Result<T, Undefined>;
-/// What can hold a coordinate, mode by mode.
+/// The contacts that can hold a coordinate, mode by mode.
 type ContactsOf = Evaluation<Vec<Contact<f64>>>;
 
 impl<'a> Evaluated<'a> {
-    /// The scene in these numbers; `slopes` for methods that take the slope of the rates.
+    /// Returns the scene in these variables; `slopes` for integrators that need the slopes of the rates.
     pub fn new(system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
         let roles = system.roles();
         let if_there = |role| roles.contains(&role).then(|| system.function(role));
@@ -107,7 +107,7 @@ impl<'a> Evaluated<'a> {
             outputs: if_there(SceneFunction::Outputs),
             power: system.function(SceneFunction::Power),
             energy: system.function(SceneFunction::Energy),
-            // In momenta the slopes are not known: stages are then solved for without them.
+            // In canonical form the slopes are not available: stages are then solved without them.
             jacobian: (slopes && form == Form::Natural)
                 .then(|| system.function(SceneFunction::Jacobian)),
             canonical: (form == Form::Canonical).then(canonical),
@@ -122,7 +122,8 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// The same scene as it starts there ([`SceneEquations::with_overrides`]), with the functions of this one.
+    /// Returns the scene with another start ([`SceneEquations::with_overrides`]), with the functions of
+    /// this one.
     pub fn with_overrides<'b>(&self, system: &'b SceneEquations) -> Evaluated<'b> {
         Evaluated {
             system,
@@ -131,7 +132,7 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// Where the scene begins, at t = 0.
+    /// Returns the start of the scene, at t = 0.
     pub fn begin(&self) -> HybridState<Numbers, Numbers> {
         let start = &self.system.initial;
         let y = numbers(start.q.iter().chain(&start.v).chain(&start.x)).into();
@@ -143,10 +144,10 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// y of a state in the plant's own form.
+    /// Converts a state in the plant's form to y.
     ///
     /// # Errors
-    /// Where the mass matrix is singular.
+    /// If the mass matrix is singular.
     pub fn natural(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         match &self.functions.canonical {
             None => Ok(state.clone()),
@@ -158,7 +159,7 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// A state in the plant's own form, of y.
+    /// Converts y to a state in the plant's form.
     fn own(&self, t: f64, y: &Numbers, modes: &Numbers) -> Numbers {
         match &self.functions.canonical {
             None => y.clone(),
@@ -176,23 +177,23 @@ impl<'a> Evaluated<'a> {
         all
     }
 
-    /// Whether the scene asks for outputs.
+    /// Returns whether the scene has outputs.
     pub fn has_outputs(&self) -> bool {
         self.functions.outputs.is_some()
     }
 
-    /// The outputs that the scene asks for, at y; none where it asks for none.
+    /// Returns the outputs of the scene at y; empty without outputs.
     pub fn output(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
         let value = |f: &Function| f.evaluate(self.driven(t, y, modes)).0;
         self.functions.outputs.as_ref().map_or(vec![], value)
     }
 
-    /// The inputs at y: what the scene drives, and 0.
+    /// Returns the inputs at y: those that the scene drives, and 0 for the others.
     pub fn input(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
         self.driven(t, y, modes).u
     }
 
-    /// What functions read, with all inputs 0.
+    /// Returns the arguments of functions, with all inputs 0.
     fn arguments(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
         let layout = &self.system.scene.layout;
         let (nq, nv) = (layout.nq(), layout.nv());
@@ -209,7 +210,7 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// What functions read, with the inputs that the scene drives.
+    /// Returns the arguments of functions, with the inputs that the scene drives.
     fn driven(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
         let mut at = self.arguments(t, y, modes);
         if let Some(inputs) = &self.functions.inputs {
@@ -218,11 +219,11 @@ impl<'a> Evaluated<'a> {
         at
     }
 
-    /// What the stores hold at a state, J: the energy of its motion (what would be missing if every
-    /// velocity were 0), and the sizes of all entries together.
+    /// Returns the stored energy at a state, J: the energy of its motion (which would be missing if every
+    /// velocity were 0), and the sum of the sizes of all entries.
     ///
     /// # Errors
-    /// Where the mass matrix is singular and the state is one of momenta.
+    /// If the mass matrix is singular and the state contains momenta.
     pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<(f64, f64)> {
         let y = self.natural(t, state, modes)?;
         let energy = |y: &Numbers| -> Numbers {
@@ -235,7 +236,7 @@ impl<'a> Evaluated<'a> {
         Ok((motion, now.lp_norm(1)))
     }
 
-    /// A value that exists where the mass matrix is regular.
+    /// Evaluates a function that exists if the mass matrix is regular.
     fn regular(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
         let (values, refused) = function.evaluate(at);
         match refused {
@@ -244,7 +245,7 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// The same of rates, or of columns of rates, which must be finite.
+    /// Evaluates rates, or columns of rates, which must be finite.
     fn checked(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
         let values = self.regular(function, at)?;
         let layout = &self.system.scene.layout;
@@ -254,7 +255,7 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// The coordinates come first, then the first-order states.
+    /// Returns the error of rate `i`: the coordinates come first, then the first-order states.
     fn undefined(&self, i: usize, singular: bool) -> Undefined {
         let layout = &self.system.scene.layout;
         let at = match i.checked_sub(layout.nv()) {
@@ -265,7 +266,7 @@ impl<'a> Evaluated<'a> {
         Undefined { at, singular }
     }
 
-    /// What can hold a coordinate, mode by mode, at y.
+    /// Returns the contacts that can hold a coordinate, mode by mode, at y.
     fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> ContactsOf {
         let Some(contacts) = &self.functions.contacts else {
             return Ok(vec![]);
@@ -280,7 +281,7 @@ impl<'a> Evaluated<'a> {
         Ok(values.chunks_exact(4).map(one).collect())
     }
 
-    /// What can hold a coordinate at a time.
+    /// Returns the contacts at a time, as a function of state and modes.
     fn stiction(&self, t: f64) -> Stiction<'_, impl Fn(&Numbers, &Numbers) -> ContactsOf> {
         Stiction {
             event_modes: &self.functions.event_modes,
@@ -311,7 +312,7 @@ impl Plant for Evaluated<'_> {
             let rates = self.regular(&canonical.rates, at)?;
             return match rates.iter().position(|x| !x.is_finite()) {
                 None => Ok(rates.into()),
-                // A position's rate goes by the name of its coordinate.
+                // The error of a position's rate has the name of its coordinate.
                 Some(i) => Err(self.undefined(i.checked_sub(self.positions()).unwrap_or(i), false)),
             };
         }
@@ -332,7 +333,7 @@ impl Plant for Evaluated<'_> {
             Ok(values) => values,
             Err(undefined) => return Some(Err(undefined)),
         };
-        // The positions follow the velocities.
+        // The rates of positions are the velocities.
         let (n, nq) = (y.len(), self.positions());
         let entry = |i: usize, k: usize| match i.checked_sub(nq) {
             None => f64::from(u8::from(k == nq + i)),
@@ -414,7 +415,7 @@ impl Plant for Evaluated<'_> {
     fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         let y = self.natural(t, state, modes)?;
         let values = self.regular(&self.functions.power, self.driven(t, &y, modes))?;
-        // Of three numbers each the first is supplied, the last dissipated.
+        // Of each three numbers the first is supplied, the last dissipated power.
         let part = |k: usize| DVector::from_fn(values.len() / 3, |i, _| values[3 * i + k]);
         Ok(Power {
             supplied: part(0),

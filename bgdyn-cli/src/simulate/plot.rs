@@ -1,4 +1,4 @@
-//! The plot of a run: a panel for each column, over time.
+//! Plots a run: a panel for each column, over time.
 
 use std::path::Path;
 
@@ -11,17 +11,17 @@ use super::run_table::{Column, Record};
 
 const PANEL: (f64, f64) = (560.0, 210.0);
 const HEADER: f64 = 56.0;
-/// Columns up to which panels stand one below the other.
+/// Largest number of columns whose panels are one below the other.
 const FEW: usize = 3;
-/// More events than these would hide the curves.
+/// More events would hide the curves and are not drawn.
 const EVENTS: usize = 60;
-/// What events are marked by.
+/// Colour of event marks.
 const EVENT: &str = "#f2c6a5";
 
 /// Draws a run to a file.
 ///
 /// # Errors
-/// Where the file cannot be written.
+/// If the file cannot be written.
 pub(crate) fn draw(
     path: &Path,
     title: &str,
@@ -51,7 +51,7 @@ pub(crate) fn draw(
     std::fs::write(path, d.finish())
 }
 
-/// One column over time; where `last`, with the name of the time's axis.
+/// Draws one column over time; if `last`, with the name of the time axis.
 fn panel(
     d: &mut Drawing,
     (at, width): ((f64, f64), f64),

@@ -1,16 +1,16 @@
-//! Progress of a long run on a terminal.
+//! Displays the progress of a long run on a terminal.
 
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};
 
 use crate::output::tell;
 
-/// Runs that take less are not told of.
+/// Shorter runs have no display.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Time between two lines.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// A line on stderr, if that is a terminal, that says how far a run has come.
+/// A line on stderr, if that is a terminal, with the progress of a run.
 pub(crate) struct Progress {
     what: &'static str,
     next: Option<Instant>,
@@ -18,14 +18,14 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Of a run that begins now.
+    /// Returns the display of a run that begins now.
     pub(crate) fn new(what: &'static str) -> Self {
         let next = stderr().is_terminal().then(|| Instant::now() + PATIENCE);
         let shown = false;
         Progress { what, next, shown }
     }
 
-    /// This part of it is done.
+    /// Displays the finished fraction.
     pub(crate) fn at(&mut self, share: f64) {
         let now = Instant::now();
         if self.next.is_some_and(|next| now >= next) {

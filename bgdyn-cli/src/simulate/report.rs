@@ -10,10 +10,10 @@ use crate::table;
 
 use super::run_table::{Column, Event, Record, state_columns};
 
-/// Events that are told one by one; of more than these the number.
+/// Largest number of events that are listed; for more only their number is printed.
 const EVENTS: usize = 40;
 
-/// The points as a table with commas, the columns' units in its first line.
+/// Returns the points as comma-separated values, with the columns' units in the first line.
 pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
     let heads = columns.iter().map(Column::head);
     let header = once("t [s]".to_owned()).chain(heads).collect();
@@ -24,7 +24,7 @@ pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
     table::written(once(header).chain(rows))
 }
 
-/// Steps, events, the last state and the energy's account.
+/// Returns steps, events, the last state and the energy account.
 pub(crate) fn report(system: &SceneEquations, record: &Record) -> String {
     let mut text = format!("steps: {}", record.steps);
     if record.kinks > 0 {
@@ -53,7 +53,7 @@ fn events(system: &SceneEquations, record: &Record) -> String {
     text
 }
 
-/// What an event changed: "`belt` is held".
+/// Describes the change by an event: "`belt` is held".
 pub(crate) fn changes(system: &SceneEquations, event: &Event) -> String {
     let modes = system.scene.layout.modes.iter().enumerate();
     let changed = modes.filter(|&(i, _)| event.before[i] != event.after[i]);
@@ -70,7 +70,7 @@ pub(crate) fn changes(system: &SceneEquations, event: &Event) -> String {
     }
 }
 
-/// Where the run ended, part by part: "slide" and "0.1 m".
+/// Returns the final state, part by part: "slide" and "0.1 m".
 fn parts(system: &SceneEquations, record: &Record) -> Vec<[String; 2]> {
     let columns = state_columns(system);
     let values = columns.into_iter().zip(record.y.iter());
@@ -90,7 +90,7 @@ fn state(system: &SceneEquations, record: &Record) -> String {
     text
 }
 
-/// Where a run ended, on one line.
+/// Returns the final state, on one line.
 pub(crate) fn place(system: &SceneEquations, record: &Record) -> String {
     let parts = parts(system, record).into_iter();
     let told: Vec<String> = parts
@@ -126,8 +126,8 @@ fn energy(system: &SceneEquations, record: &Record) -> String {
     text
 }
 
-/// What the account lacks, of the energy that moved or could have (see [`Record::moved`]); 0 where it
-/// lacks nothing.
+/// Returns the energy drift relative to the energy that moved or could have moved (see [`Record::moved`]);
+/// 0 without drift.
 pub(crate) fn drift(record: &Record) -> f64 {
     let drift = record.audit.drift().abs();
     if drift == 0.0 {
@@ -137,12 +137,12 @@ pub(crate) fn drift(record: &Record) -> f64 {
     }
 }
 
-/// Six digits, with a power of ten where the number is very large or very small.
+/// Prints six digits, with a power of ten if the number is very large or very small.
 pub(crate) fn number(x: f64) -> String {
     digits(x).with_zeros().to_string()
 }
 
-/// At most six digits: as [`number`], without zeros behind the last other digit.
+/// Prints at most six digits: as [`number`], without trailing zeros.
 pub(crate) fn short(x: f64) -> String {
     digits(x).to_string()
 }
@@ -151,7 +151,7 @@ fn digits(x: f64) -> Digits {
     Digits::new(x, 6).plain(-3..6)
 }
 
-/// A quantity with its unit; an angle in degrees beside: `0.5 rad (28.6479°)`.
+/// Prints a quantity with its unit, for an angle also in degrees: `0.5 rad (28.6479°)`.
 pub(crate) fn quantity(x: f64, unit: &str) -> String {
     let plain = format!("{} {unit}", short(x));
     match unit.strip_prefix("rad") {

@@ -7,7 +7,7 @@ use bgdyn_sim::{Dense, Failure, Integrator, Run, Tolerance, WithIntegrator, with
 use super::plant::{Evaluated, Form, Numbers, Undefined};
 use super::run_table::{EnergyAt, Event, Record, Row, Way};
 
-/// A scene as a plant for the method that it is to be run by.
+/// Returns a scene as a plant for its integrator.
 pub fn prepared(system: &SceneEquations, method: IntegratorName) -> Evaluated<'_> {
     let form = match method.needs_canonical() {
         true => Form::Canonical,
@@ -16,28 +16,28 @@ pub fn prepared(system: &SceneEquations, method: IntegratorName) -> Evaluated<'_
     Evaluated::new(system, form, method.needs_jacobian())
 }
 
-/// Runs a scene; `watch` hears now and then which part of it is done.
+/// Runs a scene; `watch` receives the finished fraction from time to time.
 ///
-/// A run that fails ends early, with its reason in [`Record::failure`].
+/// A failed run ends early, with the reason in [`Record::failure`].
 ///
 /// # Panics
-/// Never: every method of scenes is one of `bgdyn_sim`'s.
+/// Never: every integrator of scenes is in `bgdyn_sim`.
 pub fn record(system: &SceneEquations, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
     record_from(prepared(system, way.integration.method), way, watch)
 }
 
-/// [`record`] of a plant that is there already: [`prepared`] for the method, or as it starts elsewhere.
+/// [`record`] for an existing plant: [`prepared`] for the integrator, or with another start.
 ///
 /// # Panics
 /// Never.
 pub fn record_from(plant: Evaluated<'_>, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
     let start = Start { plant, way, watch };
-    // The canonical form is the plant's business.
+    // The plant handles the canonical form.
     let integrator = way.integration.method.on_velocities();
     with_integrator(integrator.name(), start).expect("an integrator of the list")
 }
 
-/// A run about to begin.
+/// A run before its start.
 struct Start<'a> {
     plant: Evaluated<'a>,
     way: &'a Way,
@@ -66,14 +66,15 @@ impl WithIntegrator<Numbers> for Start<'_> {
 
 type Failed = Failure<Numbers, Undefined>;
 
-/// The energy that could move is no less than this share of what is stored: a hundredth of it, which the
-/// account may lack, is the rounding of sums of that size.
+/// The energy that could move is at least this fraction of the stored energy: then a drift of a hundredth
+/// of it is the rounding of sums of that size.
 const ROUNDING: f64 = 1e-12;
 
-/// Steps that may end at an event or a kink in a row: behind them the run halts at events only.
+/// Largest number of consecutive steps that end at an event or a kink; after them the run stops at events
+/// only.
 const ZENO_LIMIT: usize = 16;
 
-/// A straight line from a state to where a run is now.
+/// Returns a straight line from a state to the current state of a run.
 fn straight<M: Integrator<Numbers>>(
     t: f64,
     y: &Numbers,
@@ -84,14 +85,14 @@ fn straight<M: Integrator<Numbers>>(
     Dense::new(t, run.t() - t, y, terms)
 }
 
-/// A run, and what was kept of it so far.
+/// A run, and its record so far.
 struct RunRecorder<'a, M: Integrator<Numbers>> {
     run: Run<Evaluated<'a>, M>,
     outputs: bool,
     way: &'a Way,
     watch: &'a mut dyn FnMut(f64),
     rows: Vec<Row>,
-    /// How many of the points asked for are among them.
+    /// Number of recorded output points.
     points: usize,
     steps: usize,
     events: Vec<Event>,
@@ -156,7 +157,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             StepControl::Tolerance(_) => self.reach(end),
             StepControl::Step(h) => {
                 let mut steps = 1.0;
-                // A last step that is next to nothing is none.
+                // A last step of negligible length is omitted.
                 while steps * h < end - 1e-9 * h {
                     self.reach(steps * h)?;
                     steps += 1.0;
@@ -166,12 +167,12 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         }
     }
 
-    /// Time between two points, s.
+    /// Returns the time between two points, s.
     fn interval(&self) -> f64 {
         self.way.integration.end / (self.way.points - 1) as f64
     }
 
-    /// On to a time, one step of the method after the other.
+    /// Advances to a time, one step of the integrator after the other.
     fn reach(&mut self, target: f64) -> Result<(), Failed> {
         let span = target - self.run.t();
         let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
@@ -184,7 +185,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
                 let dense = self.run.advance_densely(left)?;
                 self.sample(&dense, &before, rest);
             } else {
-                // On without a halt at every kink.
+                // Continues without a stop at every kink.
                 let (t, y) = (self.run.t(), self.run.y().clone());
                 self.run.step(match self.way.integration.step_control {
                     StepControl::Step(_) => left,
@@ -207,7 +208,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         Ok(())
     }
 
-    /// Keeps the points that lie in a step.
+    /// Records the output points inside a step.
     fn sample(&mut self, step: &Dense<Numbers>, modes: &Numbers, rest: f64) {
         let now = self.run.t();
         while self.points < self.way.points {
@@ -225,7 +226,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         }
     }
 
-    /// Keeps an event, with the state after it.
+    /// Records an event, with the state after it.
     fn happened(&mut self, before: Numbers) {
         let (t, y) = (self.run.t(), self.run.y().clone());
         let after = self.run.modes().clone();
@@ -241,7 +242,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
     fn keep_with(&mut self, t: f64, state: &Numbers, modes: &Numbers, extra: bool) {
         let plant = self.run.plant();
         let y = plant.natural(t, state, modes);
-        // Where there are no velocities, nothing can be told of them.
+        // Undefined velocities are recorded as NaN.
         let y = y.unwrap_or_else(|_| state.map(|_| f64::NAN));
         let values = match self.outputs {
             true => plant.output(t, &y, modes),
@@ -259,7 +260,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         self.book();
     }
 
-    /// Notes the account of the energy where the run is.
+    /// Records the energy account at the current time.
     fn book(&mut self) {
         if !self.way.audited {
             return;
@@ -290,7 +291,7 @@ mod tests {
 
     use super::*;
 
-    /// What is known of an integrator beforehand, in vectors of run-time size.
+    /// Returns the properties of an integrator, for vectors of run-time size.
     struct Info;
 
     impl WithIntegrator<Numbers> for Info {
@@ -301,7 +302,7 @@ mod tests {
         }
     }
 
-    /// The table of names that a scene can give has the properties of the integrators themselves.
+    /// The table of names in scenes has the properties of the integrators themselves.
     #[test]
     fn integrators_of_scenes_are_those_of_the_list() {
         for named in IntegratorName::ALL {
@@ -322,7 +323,7 @@ mod tests {
             assert_eq!(named.needs_canonical(), name == canonical, "{name}");
             assert!(!on_velocities.needs_canonical(), "{name}");
         }
-        // All others have a use of their own: `gauss4` and the reference of accuracy studies.
+        // The others have special purposes: `gauss4` and the reference of accuracy studies.
         let is_named = |name: &&str| IntegratorName::named(name).is_some();
         let others = INTEGRATORS.iter().copied().filter(|name| !is_named(name));
         assert_eq!(others.collect::<Vec<_>>(), ["gauss4", "extrapolation12"]);

@@ -6,28 +6,28 @@ use bgdyn_sim::Audit;
 
 use super::plant::Numbers;
 
-/// A quantity that is told of a run.
+/// A recorded quantity of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Its name.
     pub name: String,
-    /// Its SI unit; nothing for a pure number.
+    /// Its SI unit; empty for a pure number.
     pub unit: &'static str,
 }
 
 impl Column {
-    /// What stands above it in a table: `slide [m]`.
+    /// Returns its header in a table: `slide [m]`.
     pub(crate) fn head(&self) -> String {
         headed(&self.name, self.unit)
     }
 }
 
-/// A name with its unit, 1 for a pure number: `slide [m]`.
+/// Returns a name with its unit, 1 for a pure number: `slide [m]`.
 pub(crate) fn headed(name: &str, unit: &str) -> String {
     format!("{name} [{}]", if unit.is_empty() { "1" } else { unit })
 }
 
-/// The parts of a scene's state, in the order of y.
+/// Returns the parts of a scene's state, in the order of y.
 pub(crate) fn state_columns(system: &SceneEquations) -> Vec<Column> {
     let layout = &system.scene.layout;
     let column = |name: &str, unit| Column {
@@ -43,7 +43,7 @@ pub(crate) fn state_columns(system: &SceneEquations) -> Vec<Column> {
     places.chain(rates).chain(states).collect()
 }
 
-/// What is told of a scene: its outputs, or its whole state where it names none.
+/// Returns the recorded quantities of a scene: its outputs, or its whole state if it names none.
 pub fn columns(system: &SceneEquations) -> Vec<Column> {
     if system.outputs.is_empty() {
         return state_columns(system);
@@ -68,20 +68,20 @@ pub struct Row {
     pub modes: Numbers,
     /// The inputs, driven ones and 0 for the others.
     pub inputs: Vec<f64>,
-    /// Whether it stands here for an event or for the end, not for one of the points asked for.
+    /// Whether it is a row for an event or for the end, and no output point.
     pub extra: bool,
 }
 
-/// The account of the energy at the end of a step, J, all entries together.
+/// The energy account at the end of a step, J, all entries together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyAt {
     /// Time, s.
     pub t: f64,
-    /// What came from outside.
+    /// Energy supplied from outside.
     pub supplied: f64,
-    /// What is stored more than at the start.
+    /// Increase of stored energy since the start.
     pub stored: f64,
-    /// What was lost.
+    /// Dissipated energy.
     pub dissipated: f64,
     /// Stored + dissipated − supplied.
     pub drift: f64,
@@ -98,47 +98,47 @@ pub struct Event {
     pub after: Numbers,
 }
 
-/// What is kept of a run.
+/// The record of a run.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// The points asked for, with rows at events between them.
+    /// The output points, with rows at events between them.
     pub rows: Vec<Row>,
-    /// The energy at ends of steps, one at most between two points; none of a run without account.
+    /// The energy account at ends of steps, at most one between two points; empty without an account.
     pub energy: Vec<EnergyAt>,
-    /// Steps that were taken, those up to events included.
+    /// Number of steps, including steps up to events.
     pub steps: usize,
     /// Events that changed a mode.
     pub events: Vec<Event>,
-    /// Kinks of laws that were passed.
+    /// Number of kinks of laws that were passed.
     pub kinks: usize,
-    /// Where it ended, s.
+    /// Time at the end, s.
     pub t: f64,
-    /// The state there, in positions and velocities.
+    /// State at the end, in positions and velocities.
     pub y: Numbers,
-    /// The modes there.
+    /// Modes at the end.
     pub modes: Numbers,
-    /// Where the energy went, J.
+    /// The energy account, J.
     pub audit: Audit<Numbers>,
-    /// The most energy that moved or could have at any of the points, J: supplied, stored more than at
-    /// the start, dissipated, or held by the motion itself; no less than 1e-12 of what is stored.
+    /// The largest energy that moved or could have moved at any of the points, J: supplied, increase of
+    /// stored energy, dissipated, or energy of the motion; at least 1e-12 of the stored energy.
     pub moved: f64,
-    /// Why it ended early, if it did.
+    /// The reason for an early end.
     pub failure: Option<String>,
 }
 
-/// How a run is made.
+/// The settings of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Way {
-    /// Method, steps, end.
+    /// Integrator, steps, end.
     pub integration: Integration,
-    /// At how many evenly spaced points from 0 to the end it is told of; at least 2.
+    /// Number of equally spaced output points from 0 to the end; at least 2.
     pub points: usize,
-    /// Whether energy is accounted for.
+    /// Whether the run has an energy account.
     pub audited: bool,
 }
 
 impl Way {
-    /// The same run, but for an error far below its own: half the step, a tenth of the tolerance.
+    /// Returns settings for an error far below that of this run: half the step, a tenth of the tolerance.
     #[must_use]
     pub fn finer(mut self) -> Self {
         self.integration.step_control = match self.integration.step_control {

@@ -1,10 +1,10 @@
-//! `bgdyn accuracy`, where there is no cargo to measure with.
+//! Tests `bgdyn accuracy` without cargo.
 
 use std::process::Command;
 
 use super::{bgdyn, root, scratch, table_rows};
 
-/// Runs the command without a cargo.
+/// Runs the command without cargo.
 fn without_cargo(arguments: &[&str]) -> std::process::Output {
     Command::new(env!("CARGO_BIN_EXE_bgdyn"))
         .arg("accuracy")
@@ -38,12 +38,12 @@ fn times_without_cargo_are_marked_as_estimates() {
     assert!(rows.iter().all(|r| r[8] != "ok"), "{text}");
     let held: Vec<_> = rows.iter().filter(|r| r[8] == "estimated").collect();
     assert!(held.len() > 20, "{text}");
-    // Errors are the evaluator's own: the smaller the step, the smaller they are.
+    // Errors are those of the evaluator: they decrease with the step.
     let errors = held.iter().filter(|r| r[1] == "all" && r[2] == "rk4");
     let errors: Vec<f64> = errors.map(|r| r[6].parse().expect("an error")).collect();
     assert!(errors[2] < 0.2 * errors[0], "{errors:?}");
     assert!(text.contains("all but springs"), "{text}");
-    // What each effect costs: all of them, and without each.
+    // The cost of all effects, and without each.
     let costs = std::fs::read_to_string(format!("{out}/costs.csv")).expect("a table");
     let costs = table_rows(&costs);
     assert_eq!(costs[0][1], "all");
@@ -55,7 +55,7 @@ fn times_without_cargo_are_marked_as_estimates() {
     };
     let (operations, steps) = (numbers(2), numbers(4));
     let all: Vec<f64> = operations.collect();
-    // The scene without an effect has no operation more, and every scene some steps.
+    // The scene without an effect never has more operations, and every scene takes steps.
     assert!(all.iter().all(|n| *n >= 0.0 && *n <= all[0]), "{all:?}");
     assert!(
         numbers(3).all(|ns| ns >= 0.0) && steps.into_iter().all(|n| n >= 1.0),

@@ -1,15 +1,15 @@
-//! The book's pages show what the command prints: every `$ bgdyn …` of a `console` block is run.
+//! Checks that the book's pages show the command's output: every `$ bgdyn …` of a `console` block is run.
 //!
-//! Output may be elided by a line `…`. `<!-- change: A => B -->` before a block changes the page's
-//! spec for that block. A block of Rust behind `<!-- generated: SPEC -->` is part of what is generated
-//! for that spec.
+//! A line `…` stands for omitted output. `<!-- change: A => B -->` before a block changes the page's spec
+//! for that block. A block of Rust after `<!-- generated: SPEC -->` is part of the generated code for that
+//! spec.
 
 use std::fs;
 use std::path::Path;
 
 use super::{bgdyn, bgdyn_in, root, scratch};
 
-/// Pages, and the folder in which a reader stands.
+/// Pages, and the folders of their commands.
 const PAGES: [(&str, &str); 4] = [
     ("docs/first_model.md", "examples/first_model"),
     ("docs/tests_to_copy.md", "examples/first_model"),
@@ -17,7 +17,7 @@ const PAGES: [(&str, &str); 4] = [
     ("docs/paper_to_code.md", "."),
 ];
 
-/// A command with what the page says that it prints.
+/// A command with its output on the page.
 #[derive(Default)]
 struct Shown {
     command: String,
@@ -25,7 +25,7 @@ struct Shown {
     changes: Vec<(String, String)>,
 }
 
-/// The commands of a page's `console` blocks.
+/// Returns the commands of a page's `console` blocks.
 fn shown(page: &str) -> Vec<Shown> {
     let mut all: Vec<Shown> = Vec::new();
     let (mut inside, mut changes) = (false, Vec::new());
@@ -51,7 +51,7 @@ fn shown(page: &str) -> Vec<Shown> {
     all
 }
 
-/// Whether `text` is `pattern` with something in place of its lines `…`.
+/// Returns whether `text` is `pattern` with any text in place of its lines `…`.
 fn matches(pattern: &str, text: &str) -> bool {
     let mut pieces = pattern.split("…\n");
     let Some(mut rest) = pieces.next().and_then(|first| text.strip_prefix(first)) else {
@@ -67,7 +67,7 @@ fn matches(pattern: &str, text: &str) -> bool {
     rest.is_empty() || last.is_some_and(|last| text.ends_with(last))
 }
 
-/// The folder of a command: the reader's, or one with the changed spec.
+/// Returns the folder of a command, or one with the changed spec.
 fn folder(reader: &Path, shown: &Shown) -> std::path::PathBuf {
     if shown.changes.is_empty() {
         return reader.to_owned();
@@ -105,7 +105,7 @@ fn pages_show_what_the_command_prints() {
     assert!(commands >= 10, "{commands} commands found");
 }
 
-/// The excerpts of generated code on a page: the spec, and the text.
+/// Returns the excerpts of generated code on a page: the spec, and the text.
 fn excerpts(page: &str) -> Vec<(&str, &str)> {
     let marked = page.split("<!-- generated: ").skip(1);
     marked
@@ -137,14 +137,14 @@ fn excerpts_are_what_is_generated() {
     }
 }
 
-/// How a code host names a heading.
+/// Returns the anchor of a heading on a code host.
 fn anchor(heading: &str) -> String {
     let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
     let kept: String = heading.to_lowercase().chars().filter(kept).collect();
     kept.replace(' ', "-")
 }
 
-/// The targets of a page's links, but for those of the web.
+/// Returns the targets of a page's links, except web addresses.
 fn links(page: &str) -> Vec<&str> {
     let ends = page.split("](").skip(1);
     let targets = ends.filter_map(|rest| Some(rest.split_once(')')?.0));

@@ -21,15 +21,15 @@ fn parsed(text: &str) -> Value {
     serde_json::from_str(text).expect("JSON")
 }
 
-/// Runs a method at states written out.
+/// Runs a method at the given states.
 fn at(test: &str, spec: &str, method: &str, states: &str) -> Run {
     let spec = scratch(test, "model.yaml", spec);
     let states = scratch(test, "states.json", format!("{{\"states\": [{states}]}}"));
     bgdyn(&["eval", &spec, method, "--states", &states])
 }
 
-/// The worst difference of two values of one shape, relative to the larger of 1 and the largest
-/// number expected.
+/// Returns the largest difference of two values of one shape, relative to the larger of 1 and the largest
+/// expected number.
 fn difference(found: &Value, expected: &Value) -> f64 {
     fn numbers(value: &Value, out: &mut Vec<f64>) {
         match value {
@@ -168,7 +168,7 @@ fn a_singular_mass_matrix_names_the_joint() {
     assert_eq!(report["errors"][0]["joint"], "wrist");
     let message = report["errors"][0]["message"].as_str().expect("text");
     assert!(message.starts_with("singular mass matrix: joint `wrist` "));
-    // What needs no inverse works.
+    // Methods without an inverse work.
     at("eval_singular", &spec, "gravity", states).good();
 }
 

@@ -24,7 +24,7 @@ initial: { slide: 0.1 m }
 outputs: [slide]
 ";
 
-/// Runs a function of the block's scene at states written out.
+/// Runs a function of the block's scene at the given states.
 fn at(test: &str, function: &str, states: &str, more: &[&str]) -> Run {
     scratch(test, "block.yaml", BLOCK);
     let scene = scratch(test, "pull.scene.yaml", SCENE);
@@ -38,7 +38,7 @@ fn told(run: &Run) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
-/// 2 v̇ = u − 50 x − 3 v, with u = 4 + 10 t where the state says nothing of it.
+/// 2 v̇ = u − 50 x − 3 v, with u = 4 + 10 t by default.
 #[test]
 fn states_by_name_and_as_arrays() {
     let states =

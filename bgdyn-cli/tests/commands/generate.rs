@@ -30,7 +30,7 @@ fn the_source_is_what_the_macro_gets() {
     let (tokens, _) = generate(&text, "scara4", &place, &Options::default()).expect("a good spec");
     let source = bgdyn(&["generate", SCARA]).good();
     let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");
-    // Commas at the end of lists and the quotes of documentation are the layout's; the titles above
+    // Trailing commas in lists and the quotes of documentation depend on the formatting; the titles above
     // statements are comments in the source.
     let plain = |t: String| -> String {
         let t = t.replace("doc = r\"", "doc = \"");
@@ -104,7 +104,7 @@ fn names_asked_for_in_vain_are_bad_usage() {
     assert!(stderr.contains("`Arm` cannot name a module"), "{stderr}");
 }
 
-/// With `--plain` formulas are infix; the statements, their names and their order stay.
+/// With `--plain` formulas are infix; the statements, their names and their order do not change.
 #[test]
 fn plain_text_has_the_same_statements() {
     let statements = |text: &str| -> Vec<String> {
@@ -124,7 +124,7 @@ fn plain_text_has_the_same_statements() {
         assert!(!body.contains("mul_add("), "{spec}");
         assert!(!body.contains(" k(") && !body.contains("(k("), "{spec}");
         let mut wanted = statements(&compiled);
-        // `k`, which makes a scalar of a number, is not in plain text.
+        // `k`, which converts a number to a scalar, is not in plain text.
         wanted.retain(|name| name != "k");
         assert!(wanted.len() > 100, "{spec}");
         assert_eq!(statements(&plain), wanted, "{spec}");

@@ -1,4 +1,4 @@
-//! The golden specs are what `bgdyn import` makes of the golden URDFs.
+//! Checks that the golden specs are the output of `bgdyn import` for the golden URDFs.
 
 use std::fs;
 

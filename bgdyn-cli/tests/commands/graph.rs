@@ -73,7 +73,7 @@ fn massless(mechanism: &Mechanism) -> Vec<usize> {
     none.map(|(i, _)| i).collect()
 }
 
-/// As many transformers as the data have, and every name.
+/// The drawing has all transformers of the data, and every name.
 #[test]
 fn what_is_drawn_is_what_is_there() {
     let specs = specs();
@@ -117,7 +117,7 @@ fn what_is_drawn_is_what_is_there() {
     }
 }
 
-/// A bond of a DOT file: its ends, and at which of them the causal stroke is.
+/// A bond of a DOT file: its ends, and the end with the causal stroke.
 struct Bond<'a> {
     ends: [&'a str; 2],
     strokes: [bool; 2],
@@ -150,7 +150,7 @@ fn parsed(dot: &str) -> (BTreeMap<&str, &str>, Vec<Bond<'_>>) {
     (nodes, bonds)
 }
 
-/// What Graphviz reads: brackets in pairs, names that are names, bonds between nodes that exist.
+/// The DOT text is valid: matching brackets, valid names, bonds between existing nodes.
 #[test]
 fn dot_is_sound() {
     for file in all() {
@@ -179,9 +179,9 @@ fn causal_strokes_obey_the_junctions() {
     }
 }
 
-/// The rules of causality: one effort given to a 0-junction, one flow to a 1-junction, one stroke
-/// at a transformer, none or two at a gyrator. A velocity's 1-junction may wait for what is asked:
-/// so may a drive behind a gear. A pressure that is drawn elsewhere gives its effort.
+/// Checks the rules of causality: one effort determines a 0-junction, one flow a 1-junction; one stroke at
+/// a transformer, none or two at a gyrator. A velocity's 1-junction, or a drive behind a gear, may be
+/// undetermined. A pressure that is drawn elsewhere determines its effort.
 fn obeys_causality(file: &str) {
     let dot = dot(file);
     let (nodes, bonds) = parsed(&dot);
@@ -211,8 +211,8 @@ fn obeys_causality(file: &str) {
     }
 }
 
-/// A vane actuator behind a four-way valve, with a leak between its sides and two orifices in
-/// series into a soft hose.
+/// A vane actuator behind a four-way valve, with leakage between its sides and two orifices in series into
+/// a soft hose.
 const VANE: &str = "\
 format: 1
 links:
@@ -239,7 +239,7 @@ fn hydraulics_of_a_joint() {
     let dot = dot(&file);
     let (nodes, bonds) = parsed(&dot);
     let count = |words: &str| nodes.values().filter(|label| label.contains(words)).count();
-    // Four ways of the valve, two of them to each side; the leak once; the series on one junction.
+    // The four paths of the valve, two of them to each side; the leakage once; the series on one junction.
     for (words, times) in [
         ("R: valve, open where x > 0", 2),
         ("R: valve, open where x < 0", 2),
@@ -267,7 +267,7 @@ fn hydraulics_of_a_joint() {
     assert_eq!(beside(named("R: first")), beside(named("R: second")));
 }
 
-/// What a scene calls for is in its drawing.
+/// All effects of a scene are in its drawing.
 #[test]
 fn every_effect_of_a_scene_is_named() {
     for path in files("specs/scenes") {
@@ -323,7 +323,7 @@ fn the_format_is_what_the_name_ends_with() {
     );
 }
 
-/// Faults are told as by `bgdyn check`, but for the last line.
+/// Faults are printed as by `bgdyn check`, except the last line.
 #[test]
 fn a_bad_file_is_refused_as_by_check() {
     for name in ["negative_mass", "unknown_parent"] {
@@ -346,7 +346,7 @@ fn a_bad_file_is_refused_as_by_check() {
     assert!(stderr.contains("a.svg cannot be written: "), "{stderr}");
 }
 
-/// The names of the world's own words reach the drawing unharmed.
+/// Names with special characters are escaped in the drawing.
 #[test]
 fn words_are_escaped() {
     let text = "\
@@ -377,7 +377,7 @@ links:
     parsed(&dot);
 }
 
-/// `docs/graph.md` says which commands made them.
+/// `docs/graph.md` contains the commands that made them.
 #[test]
 fn the_pictures_of_the_page_are_up_to_date() {
     for (name, file) in [

@@ -1,4 +1,4 @@
-//! The command `bgdyn` as scripts see it: what it prints, where, and how it exits.
+//! Tests the command `bgdyn` as a process: its output and its exit codes.
 
 mod accuracy;
 mod book;
@@ -57,19 +57,19 @@ fn bgdyn_in(folder: &Path, arguments: &[&str]) -> Run {
 }
 
 impl Run {
-    /// Its stdout, if it went well.
+    /// Returns its stdout, if it succeeded.
     fn good(self) -> String {
         assert_eq!(self.code, Some(0), "{}", self.stderr);
         self.stdout
     }
 
-    /// Its stderr, if it refused a bad input.
+    /// Returns its stderr, if it refused a bad input.
     fn bad_input(self) -> String {
         assert_eq!(self.code, Some(1), "{}", self.stderr);
         self.stderr
     }
 
-    /// Its stderr, if it was called wrongly.
+    /// Returns its stderr, if it was a usage error.
     fn bad_usage(self) -> String {
         assert_eq!(self.code, Some(2), "{}", self.stderr);
         assert_eq!(self.stdout, "");
@@ -85,7 +85,7 @@ fn table_rows(table: &str) -> Vec<Vec<String>> {
     rows.collect()
 }
 
-/// A file of one test, by the name of the test.
+/// Writes a file for one test, in a folder with the name of the test.
 fn scratch(test: &str, file: &str, text: impl AsRef<[u8]>) -> String {
     let path: PathBuf = [env!("CARGO_TARGET_TMPDIR"), test, file].iter().collect();
     fs::create_dir_all(path.parent().expect("a parent")).expect("a directory");

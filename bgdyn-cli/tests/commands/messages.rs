@@ -1,4 +1,4 @@
-//! What the commands say: of several files, of standard input, in colours, of numbers with units.
+//! Tests the messages of the commands: for several files, standard input, colours, numbers with units.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -12,7 +12,7 @@ const INVALID: &str = "specs/invalid/negative_mass.yaml";
 const SCENE: &str = "specs/scenes/stick_slip.scene.yaml";
 const ROBOT: &str = "<robot name=\"a\"><link name=\"b\"/></robot>";
 
-/// A run with this on its standard input and these variables.
+/// Runs the command with this standard input and these variables.
 fn fed(input: &str, arguments: &[&str], variables: &[(&str, &str)]) -> Run {
     let mut command = Command::new(env!("CARGO_BIN_EXE_bgdyn"));
     let command = command.args(arguments).current_dir(root());
@@ -140,7 +140,7 @@ fn standard_input_is_read_like_a_file() {
     assert!(made.contains("format: 1"), "{made}");
     let nameless = fed(&file(SCARA), &["check", "-"], &[]).good();
     assert!(nameless.starts_with("ok: stdin, "), "{nameless}");
-    // A scene finds its mechanism from where the command runs.
+    // The path of a scene's mechanism is relative to the scene, in any working directory.
     let folder = root().join("specs/scenes");
     let mut command = Command::new(env!("CARGO_BIN_EXE_bgdyn"));
     let scene = std::fs::File::open(root().join(SCENE)).expect("a file");
@@ -157,7 +157,7 @@ fn standard_input_is_read_like_a_file() {
     );
 }
 
-/// The text without what begins a colour and ends one.
+/// Returns the text without colour codes.
 fn bare(text: &str) -> String {
     let mut parts = text.split('\x1b');
     let mut out = parts.next().unwrap_or_default().to_owned();
@@ -214,7 +214,7 @@ fn a_pipe_gets_colours_only_where_they_are_asked_for() {
     assert!(!coloured(&["--color", "never"], &[("CLICOLOR_FORCE", "1")]));
 }
 
-/// Paths are shown as they were written, with line and column behind them.
+/// Paths are printed as in the call, followed by line and column.
 #[test]
 fn paths_stay_as_written() {
     let folder = root().join("specs/scenes");
@@ -281,7 +281,7 @@ fn table(options: &[&str]) -> String {
     std::fs::read_to_string(format!("{out}/{name}")).expect("a table")
 }
 
-/// A number with a unit is the number in SI units.
+/// A number with a unit equals the number in SI units.
 #[test]
 fn numbers_have_units_as_in_files() {
     let batch = scratch(
@@ -337,7 +337,7 @@ fn numbers_have_units_as_in_files() {
     assert_ne!(gravity("load=750 g"), gravity("load=0.7"));
 }
 
-/// Wrong dimensions and numbers that are none get the words of files, with the option in front.
+/// Wrong dimensions and invalid numbers have the same messages as in files, with the option as a prefix.
 #[test]
 fn numbers_that_are_none_are_refused() {
     scratch("messages_refused", "rod.yaml", ROD);

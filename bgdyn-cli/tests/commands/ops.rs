@@ -30,7 +30,7 @@ fn one_entry_for_each_function() {
     };
     assert_eq!(keys(&counts), ["functions"]);
     let mut methods: Vec<_> = Method::OF_TRAIT.iter().map(|m| m.name(&[])).collect();
-    // And those of the tip.
+    // Followed by those of the tip.
     let others = [
         "coriolis_matrix",
         "pose_l_j4",
@@ -49,7 +49,7 @@ fn one_entry_for_each_function() {
     }
 }
 
-/// What `tests/compiled` finds to be executed.
+/// The counts equal the executed operations of `tests/compiled`.
 #[test]
 fn counts_of_every_spec_are_the_models() {
     let mut specs = 0;
@@ -105,7 +105,7 @@ fn one_formulation_for_every_function() {
             "{method}"
         );
     }
-    // What a formulation does not know is made as if nothing was asked for.
+    // For a method that the selected formulation does not support, the default function is generated.
     let bodies = counts(&["--formulation", "articulated_base"]);
     let recursion = counts(&["--formulation", "recursion"]);
     let forward = "forward_dynamics";
@@ -118,7 +118,7 @@ fn one_formulation_for_every_function() {
     }
 }
 
-/// Digits cost operations, and the same spec's other commands take the same function.
+/// Accuracy costs operations, and the other commands use the same function.
 #[test]
 fn accuracy_may_be_preferred() {
     let puma = "tests/golden/specs/puma560.yaml";
@@ -147,7 +147,7 @@ fn accuracy_may_be_preferred() {
     assert_ne!(eval("operations"), eval("accuracy"));
 }
 
-/// On stdout, behind the table; with `--json` as part of it.
+/// On stdout, after the table; with `--json` as part of it.
 #[test]
 fn explanations_are_on_stdout() {
     let plain = bgdyn(&["ops", SCARA, "--explain"]);

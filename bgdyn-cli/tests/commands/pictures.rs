@@ -1,4 +1,4 @@
-//! What every picture of the repository and of the commands owes its reader.
+//! Checks properties of every picture in the repository and of the commands.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -22,7 +22,7 @@ fn drawings(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// A drawing with words of its own for a dark page, coordinates in tenths, no marks of code.
+/// Checks that a drawing has a style for dark pages, coordinates in tenths, and no code marks.
 fn holds(name: &str, svg: &str) {
     let dark = svg.split("prefers-color-scheme: dark").nth(1);
     let (rules, body) = dark.and_then(|d| d.split_once("</style>")).expect(name);
@@ -61,7 +61,7 @@ fn every_drawing_of_the_docs_is_for_dark_pages_too() {
     }
 }
 
-/// Curves of plots have as many places as they have values: none is moved to a whole pixel.
+/// Curves of plots have tenths of pixels: no point is rounded to a whole pixel.
 #[test]
 fn plots_have_tenths_of_pixels() {
     let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "pictures"].iter().collect();
@@ -108,8 +108,8 @@ links:
     joint: { name: dial, type: revolute, axis: z }
 ";
 
-/// Links without junctions are no part of the drawing, but their joints are; one at the end, which
-/// nothing follows, says that it has nothing.
+/// Links without junctions are not drawn, but their joints are; a link at the end of the chain without any
+/// shows a note.
 #[test]
 fn massless_links_are_folded() {
     let file = scratch("pictures", "massless.yaml", MASSLESS);
@@ -126,7 +126,7 @@ fn massless_links_are_folded() {
         "{svg}"
     );
     assert_eq!(svg.matches("has no store and no source").count(), 1);
-    // Every transformer is below the head of its velocity.
+    // Every transformer is below the start of its velocity's bar.
     let dot = bgdyn(&["graph", &file, "--format", "dot"]).good();
     assert_eq!(dot.matches("subgraph cluster_").count(), 2);
     for j in 0..3 {
@@ -134,7 +134,7 @@ fn massless_links_are_folded() {
     }
 }
 
-/// A slide with a stop on each side, an arm with one, and a load at its tip.
+/// A prismatic joint with a stop on each side, an arm with one stop, and a load at its tip.
 const STOPS: &str = "\
 format: 1
 parameters: {}

@@ -1,4 +1,4 @@
-//! `bgdyn schema` says what the reader says.
+//! Checks that `bgdyn schema` has the same rules as the parser.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -52,7 +52,7 @@ fn every_spec_fits() {
     }
 }
 
-/// The rules that are about keys, words, types and units, as far as one value alone tells.
+/// The rules about keys, words, types and units that one value alone can violate.
 const TOLD: [&str; 10] = [
     "unknown-key",
     "missing-key",
@@ -85,7 +85,7 @@ fn what_is_no_spec_does_not_fit() {
         let Ok(instance) = serde_yaml::from_str::<Value>(&text) else {
             continue;
         };
-        // Which keys a fixed joint has, and which units its joint, is for the check to tell.
+        // The keys of a fixed joint and the units of its joint are checked later.
         if stem == Some("unit_misfit_limit") || stem == Some("missing_key_joint_name") {
             continue;
         }
@@ -95,7 +95,7 @@ fn what_is_no_spec_does_not_fit() {
     assert_eq!(seen, BTreeSet::from(TOLD));
 }
 
-/// A spec with a key too many in each mapping of the format; the reader lists the keys that it knows.
+/// A spec with an unknown key in each mapping of the format; the parser lists the known keys.
 const EVERY_MAPPING: &str = "\
 format: 1
 zzzzzzzzzz: 1
@@ -113,7 +113,7 @@ frames:
   - { name: f, link: a, zzzzzzzzzz: 1 }
 ";
 
-/// Where in the schema the keys of the mapping at a path stand.
+/// Returns the keys in the schema for the mapping at a path.
 fn keys(schema: &Value, path: &str) -> BTreeSet<String> {
     let pointer = match path {
         "" => "/properties",
@@ -156,7 +156,7 @@ fn keys_are_those_of_the_reader_and_of_the_page() {
     assert_eq!(mappings, 8);
 }
 
-/// Texts with units, as the reader takes them.
+/// Texts with units, as the parser accepts them.
 #[test]
 fn quantities_are_those_of_the_reader() {
     let validator = validator();

@@ -1,4 +1,4 @@
-//! `bgdyn schema --scene` says what the reader of scenes says.
+//! Checks that `bgdyn schema --scene` has the same rules as the parser of scenes.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -29,7 +29,7 @@ effects:
   grease: { type: viscous, joint: shoulder, damping: 0.1 }
 ";
 
-/// What the reader and the check find in a scene over the mechanism above.
+/// Returns the faults of a scene with the mechanism above.
 fn faults(scene: &str) -> Faults {
     let text = format!("scene: 1\nmechanism: arm.yaml\n{scene}");
     match read_scene(&text, "run", |_| Ok(MECHANISM.to_owned())) {

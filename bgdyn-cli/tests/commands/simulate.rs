@@ -16,7 +16,7 @@ effects:
   rubber: { type: spring, joint: slide, stiffness: 50 N/m }
 ";
 
-/// Let go at 0.1 m, it swings with ω = 5 rad/s.
+/// Released at 0.1 m, it oscillates with ω = 5 rad/s.
 const SCENE: &str = "\
 scene: 1
 mechanism: block.yaml
@@ -92,8 +92,8 @@ fn every_kind_of_method_follows_the_known_motion() {
     }
 }
 
-/// The block on the belt, in closed form: it slips for 3π/20 s and sticks for 0.2 s. The report has
-/// six digits, the table all.
+/// The block on the belt, in closed form: it slips for 3π/20 s and sticks for 0.2 s. The report has six
+/// digits, the table all.
 #[test]
 fn events_are_told_when_they_are() {
     let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "simulate_belt"]
@@ -128,7 +128,7 @@ fn events_are_told_when_they_are() {
     // Six points, and a row for each event.
     let table = fs::read_to_string(out.join("stick_slip.csv")).expect("a table");
     assert_eq!(rows(&table).len(), 20);
-    // Friction takes what the belt supplies, but for what the spring holds at the end.
+    // Friction dissipates the energy from the belt, except the final energy of the spring.
     assert!(told.contains("belt             1.45500              0        1.40960"));
 }
 

@@ -1,4 +1,4 @@
-//! What the account of a run's energy is judged by.
+//! Tests the judgement of a run's energy account.
 
 use crate::{bgdyn, scratch};
 
@@ -18,7 +18,7 @@ links:
     inertia: { xx: 0.01, yy: 0.02, zz: 0.02 }
 ";
 
-/// What is told on stderr of a run of the arm.
+/// Returns the stderr of a run of the arm.
 fn told(test: &str, effects: &str, start: &str, run: &str) -> String {
     scratch(test, "arm.yaml", ARM);
     let scene = format!(

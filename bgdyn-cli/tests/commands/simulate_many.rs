@@ -1,4 +1,4 @@
-//! What runs of `bgdyn simulate` are given, and batches.
+//! Tests overrides of runs of `bgdyn simulate`, and batches.
 
 use std::fs;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ effects:
   rubber: { type: spring, joint: slide, stiffness: 50 N/m }
 ";
 
-/// With ω = √(50 N/m / m) it is at x₀ cos ω t.
+/// With ω = √(50 N/m / m) the position is x₀ cos ω t.
 const SCENE: &str = "\
 scene: 1
 mechanism: block.yaml

@@ -1,4 +1,4 @@
-//! The page that `bgdyn simulate` writes.
+//! Tests the page that `bgdyn simulate` writes.
 
 use std::fs;
 use std::path::PathBuf;
@@ -44,7 +44,7 @@ fn numbers(list: &Value) -> Vec<f64> {
 fn the_page_is_whole_and_needs_no_network() {
     let scene = "specs/scenes/stick_slip.scene.yaml";
     let (text, data, rows) = page("page_whole", scene, &["--points", "101"]);
-    // The one word with these letters that is no address.
+    // The only word with these letters that is no address.
     assert!(!text.replace("http-equiv", "").contains("http"));
     assert!(!text.contains("src="), "everything is inline");
     assert!(text.starts_with("<!doctype html>"));

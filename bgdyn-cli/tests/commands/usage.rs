@@ -92,7 +92,7 @@ fn every_help_has_an_example() {
     assert!(listed >= COMMANDS.len());
 }
 
-/// Runs the command, reads `bytes` of what it says, closes, and gives exit code and the other
+/// Runs the command, reads `bytes` of its output, closes the pipe, and returns exit code and the other
 /// stream.
 fn stop_reading(arguments: &[&str], bytes: usize) -> (Option<i32>, String) {
     let mut child = Command::new(env!("CARGO_BIN_EXE_bgdyn"))
@@ -113,7 +113,7 @@ fn stop_reading(arguments: &[&str], bytes: usize) -> (Option<i32>, String) {
 
 #[test]
 fn a_reader_may_stop_early() {
-    // More than a pipe holds, so that the command is still writing when the pipe closes.
+    // More than the capacity of a pipe, so that the command is still writing when the pipe closes.
     let chain = "tests/golden/specs/chain8.yaml";
     let ended = stop_reading(&["generate", chain], 10);
     assert_eq!(ended, (Some(0), String::new()));
@@ -124,7 +124,7 @@ fn a_reader_may_stop_early() {
     }
 }
 
-/// A scene takes no option of mechanisms in silence.
+/// A scene refuses options of mechanisms.
 #[test]
 fn options_that_a_scene_does_not_have() {
     const SCENE: &str = "specs/scenes/motor_linear_stiff.scene.yaml";

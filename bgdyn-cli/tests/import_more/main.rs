@@ -10,20 +10,20 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::random::Random;
 
-/// The mechanism of a text that has no fault.
+/// Returns the mechanism of a valid text.
 fn mechanism(yaml: &str) -> Mechanism {
     let (mechanism, faults) = bgdyn_codegen::read(yaml, Some("arm"));
     mechanism.unwrap_or_else(|| panic!("{}\n{yaml}", faults.render("arm.yaml", yaml)))
 }
 
-/// How many effects a file declares.
+/// Returns the number of effects that a file declares.
 fn effects(yaml: &str) -> usize {
     let (machine, faults) = bgdyn_codegen::read_machine(yaml, Some("arm"));
     let machine = machine.unwrap_or_else(|| panic!("{}\n{yaml}", faults.render("arm.yaml", yaml)));
     machine.effects.len()
 }
 
-/// A method's value at a state.
+/// Returns a method's value at a state.
 fn value(mechanism: &Mechanism, method: Method, [q, v, a]: [&[f64]; 3]) -> Vec<f64> {
     let function = function(mechanism, method, &Options::default()).expect("the method");
     let inputs = Inputs {
@@ -35,7 +35,7 @@ fn value(mechanism: &Mechanism, method: Method, [q, v, a]: [&[f64]; 3]) -> Vec<f
     function.evaluate(inputs).0
 }
 
-/// The pose of a place: rotation row by row or column by column as the method has it, and origin.
+/// Returns the pose of a site: rotation in the method's order, and origin.
 fn pose(mechanism: &Mechanism, place: &str, q: &[f64]) -> Vec<f64> {
     let sites = bgdyn_codegen::bond_graph::build(mechanism).multibody.sites;
     let method = Method::named(&sites, &format!("pose_{place}")).expect("the place");
@@ -53,7 +53,7 @@ fn near(a: &[f64], b: &[f64], bar: f64) {
     }
 }
 
-/// So many numbers in −1 … 1.
+/// Returns numbers in −1 … 1.
 fn many(random: &mut Random, count: usize) -> Vec<f64> {
     (0..count).map(|_| random.signed()).collect()
 }

@@ -1,11 +1,11 @@
-//! Joints locked, chains, frames, effects, `snap`, and what is said of all that.
+//! Tests locked joints, chains, frames, effects, `snap`, and their messages.
 
 use super::{effects, many, mechanism, near, pose, value};
 use bgdyn_cli::import::{Import, Lock, Options, import_with};
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
 
-/// A branched robot with tilted axes: the torso carries two arms, the right one a hand with a massless tool.
+/// A branched robot with tilted axes: the torso has two arms, the right one a hand with a massless tool.
 const ROBOT: &str = r#"<robot name="two arms">
 <link name="floor"/>
 <link name="Torso"><inertial><mass value="9"/><origin xyz="0 0.1 0.3"/><inertia ixx="0.3" iyy="0.2" izz="0.4" ixy="0" ixz="0" iyz="0"/></inertial></link>
@@ -39,7 +39,8 @@ fn list(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| name.to_string()).collect()
 }
 
-/// The efforts of the joints at these places of the whole robot, with these values of all coordinates.
+/// Returns the efforts of the joints with these indices in the whole robot, for these values of all
+/// coordinates.
 fn efforts(yaml: &str, state: [&[f64]; 3]) -> Vec<f64> {
     value(&mechanism(yaml), Method::InverseDynamics, state)
 }
@@ -115,7 +116,7 @@ fn a_locked_joint_at_zero_keeps_its_digits() {
     assert_eq!(degrees.yaml, radians.yaml);
 }
 
-/// Units are those of files, and they fit the joint.
+/// Units are those of files, and must fit the joint.
 #[test]
 fn a_lock_has_a_unit_that_its_joint_moves_in() {
     let yaml = |text: &str| {
@@ -163,7 +164,8 @@ fn a_chain_keeps_what_is_fixed_to_it_and_the_direction_of_gravity() {
         })
     };
     let mut numbers = Random(5);
-    // Of the right arm alone, and of what the shoulder carries with the shoulder at 0 and at rest.
+    // Those of the right arm alone, and of the bodies outboard of the shoulder with the shoulder at 0 and
+    // at rest.
     for (base, first) in [("Torso", 1), ("floor", 1), ("right", 2)] {
         for tip in ["tool0", "weight"] {
             let right = chain(base, tip);
@@ -269,7 +271,7 @@ fn damping_and_friction_are_declared_as_effects() {
             .iter()
             .any(|w| w.contains("left out, as asked"))
     );
-    // A locked joint has none.
+    // A locked joint has no limits.
     let locked = made(Options {
         lock: locks(&["Shoulder"]),
         ..Options::default()
@@ -356,7 +358,7 @@ fn what_is_asked_of_no_joint_is_an_error() {
     }
 }
 
-/// The base of the page falls like anything else, and is not turned by its fall.
+/// The base of the page falls freely, and does not rotate.
 #[test]
 fn the_base_of_the_page_moves_freely() {
     let page = include_str!("../../../docs/import.md");

@@ -1,4 +1,4 @@
-//! From the checked mechanism to its bond graph.
+//! Builds the bond graph of a checked mechanism.
 
 use bgdyn_runtime::Dd;
 
@@ -10,7 +10,7 @@ use super::{
 use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
-/// Builds the bond graph.
+/// Builds the bond graph of a mechanism.
 pub fn build(mechanism: &Mechanism) -> BondGraph {
     let links = mechanism.links();
     let mut graph = BondGraph {
@@ -42,7 +42,7 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
     graph
 }
 
-/// The links' frames, then the named ones. A tip is a link that carries no other.
+/// Returns the frames of the links, then the named frames. A tip is a link without children.
 fn sites(mechanism: &Mechanism) -> Vec<Site> {
     let links = mechanism.links();
     let tip = |i: usize| links.iter().all(|l| l.parent != Some(LinkId(i)));
@@ -87,7 +87,7 @@ fn frame(link: &Link) -> LinkFrame {
     }
 }
 
-/// Two junctions, each with a store and a source.
+/// Adds the two junctions of a link, each with a store and a source.
 fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
     let (translation, rotation) = (graph.translation(i), graph.rotation(i));
     graph
@@ -168,11 +168,11 @@ fn place(frame: &LinkFrame, parent: Option<PosePattern>) -> PosePattern {
     }
 }
 
-/// ρ_j^i and ∂r_i/∂q_j for every coordinate on the path from the base to link i.
+/// Adds the transformers ρ_j^i and ∂r_i/∂q_j for every coordinate on the path from the base to link i.
 fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
     let com = graph.frames[i.0].com.map(|c| match c {
         Value::Fixed(c) => Modulus::constant(c),
-        // A parameter keeps its place but has no value yet.
+        // The value of a parameter is not known at generation time.
         Value::Parameter(_) => Modulus::Varying(Coordinates::default()),
     });
     let mut path = Vec::new();
@@ -198,8 +198,8 @@ fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
     }
 }
 
-/// Pattern of r_i − o_l: from the origin of link l, on the path, to the centre of mass of link i.
-/// Summed link by link, so that what both have in common is left out.
+/// Returns the pattern of r_i − o_l: from the origin of link l, on the path, to the centre of mass of link
+/// i. The sum runs over the links between them, so that common terms never enter.
 fn lever(
     frames: &[LinkFrame],
     places: &[PosePattern],

@@ -1,27 +1,28 @@
-//! Causal strokes of a bond graph, by the sequential procedure of Karnopp, Margolis and Rosenberg.
+//! Assigns causal strokes to a bond graph by the sequential procedure of Karnopp, Margolis and Rosenberg.
 //!
-//! The stroke of a bond is at the end on which the effort acts. Sources come first, then stores with
-//! their state as the cause (integral causality), then resistors; each choice is followed through the
-//! junctions, transformers and gyrators before the next one. A store whose state follows from others has
-//! derivative causality. Resistors of which one had to be chosen, and which decide each other, are an
-//! algebraic loop. A junction that nothing gives its flow (1) or its effort (0) is a conflict.
+//! The stroke of a bond is at the end on which the effort acts. The procedure assigns sources first, then
+//! stores with their state as the cause (integral causality), then resistors. It propagates each choice
+//! through the junctions, transformers and gyrators before it makes the next one. A store whose state
+//! follows from other states has derivative causality. If a resistor's causality had to be chosen, the
+//! resistors that depend on this choice are an algebraic loop. A junction whose flow (1) or effort (0) no
+//! bond determines is a conflict.
 //!
-//! The velocities q̇ of a mechanism are given: the inertia of all links together is the store behind
-//! them, the mass matrix. So the stores of links have derivative causality, and the drive of a joint has
-//! no stroke: inverse dynamics takes q̇ and gives the effort, forward dynamics takes the effort. A store
-//! of its own on the junction of q̇, a rotor's, gives the flow.
+//! The velocities q̇ of a mechanism are given: their store is the inertia of all links together, the mass
+//! matrix. So the stores of links have derivative causality, and the drive of a joint has no stroke:
+//! inverse dynamics computes the effort from q̇, forward dynamics has the effort as an argument. A
+//! separate store on the junction of q̇, such as a rotor, determines the flow.
 
 use super::network::BondNetwork;
 use super::node::{GraphNodeId, NodeKind, NodePart};
 
-/// The strokes of a network, and what is not the usual case.
+/// The causal strokes of a network, with its dependent stores, algebraic loops and conflicts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Causality {
-    /// For each bond the node at whose end the stroke is; `None` where the question decides it.
+    /// For each bond, the node at the end with the stroke; `None` for the bonds of drives.
     pub strokes: Vec<Option<GraphNodeId>>,
     /// Stores in derivative causality.
     pub dependent: Vec<GraphNodeId>,
-    /// Resistors that decide each other, and the junctions between them, each loop by itself.
+    /// Algebraic loops: the resistors of each loop, and the junctions between them.
     pub loops: Vec<Vec<GraphNodeId>>,
     /// Junctions, transformers and gyrators whose bonds contradict each other.
     pub conflicts: Vec<GraphNodeId>,
@@ -43,11 +44,11 @@ struct Pass<'a> {
     /// The bonds of each node.
     bonds: Vec<Vec<usize>>,
     strokes: Vec<Option<GraphNodeId>>,
-    /// 1-junctions whose flow is given by no bond of theirs.
+    /// 1-junctions whose flow is given, and not determined by a bond.
     given: Vec<bool>,
-    /// Bonds that are left without a stroke: of the drives.
+    /// Bonds of drives, which have no stroke.
     open: Vec<bool>,
-    /// The nodes whose bonds changed.
+    /// Nodes whose bonds changed and that are not processed yet.
     waiting: Vec<GraphNodeId>,
     loops: Vec<Vec<GraphNodeId>>,
     conflicts: Vec<GraphNodeId>,
@@ -82,7 +83,7 @@ impl<'a> Pass<'a> {
         self.network.bonds[bond].other(node)
     }
 
-    /// The flows that are given: velocities without a store of their own, flows of links at rest.
+    /// Marks the given flows: velocities without a store of their own, and flows of links at rest.
     fn velocities(&mut self) {
         for node in self.network.ids() {
             let at = |kind| {
@@ -134,8 +135,8 @@ impl<'a> Pass<'a> {
         self.follow();
     }
 
-    /// Stores that are not decided yet have integral causality: the effort acts on an inertia, and comes
-    /// from a compliance. Those of the links come last.
+    /// Assigns integral causality to the stores without causality: the effort acts on an inertia, and
+    /// comes from a compliance. The stores of the links come last.
     fn stores(&mut self) {
         let is_link =
             |node: &GraphNodeId| matches!(self.network.nodes[node.0].part, NodePart::Store(_));
@@ -154,7 +155,8 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Resistors that are not decided yet give the flow of a 1-junction, or the effort of a 0-junction.
+    /// Assigns causality to the remaining resistors: each determines the flow of a 1-junction, or the
+    /// effort of a 0-junction.
     fn resistors(&mut self) {
         for node in self.network.ids() {
             let [bond] = self.bonds[node.0][..] else {
@@ -181,7 +183,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// What one choice decided, if it is more than one element.
+    /// Records an algebraic loop if one choice determined more than one element.
     fn note_loop(&mut self, before: &[Option<GraphNodeId>]) {
         let changed = (0..before.len()).filter(|&b| before[b] != self.strokes[b]);
         let ends = changed.flat_map(|b| {
@@ -222,7 +224,7 @@ impl<'a> Pass<'a> {
             && !matches!(self.kind(node), NodeKind::Transformer | NodeKind::Gyrator)
     }
 
-    /// Follows what was decided through the nodes.
+    /// Propagates assigned strokes through the nodes.
     fn follow(&mut self) {
         while let Some(node) = self.waiting.pop() {
             match self.kind(node) {
@@ -235,8 +237,8 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// One bond of a junction brings the common variable: the flow to a 1-junction, on a bond whose
-    /// effort acts on the other end; the effort to a 0-junction.
+    /// Assigns strokes at a junction, where one bond determines the common variable: the flow of a
+    /// 1-junction, by a bond whose effort acts on the other end; the effort of a 0-junction.
     fn junction(&mut self, node: GraphNodeId, is_zero: bool) {
         let bonds = self.bonds[node.0].clone();
         let brings = |b: &usize| self.strokes[*b].map(|s| (s == node) == is_zero);
@@ -259,7 +261,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// The node itself, or the other end of its bond.
+    /// Returns the node itself, or the node at the other end of the bond.
     fn end(&self, bond: usize, node: GraphNodeId, own: bool) -> GraphNodeId {
         match own {
             true => node,
@@ -267,7 +269,8 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// A transformer has the effort on one of its ends, a gyrator on both or on none.
+    /// Assigns strokes at a two-port: at a transformer the effort acts on one end, at a gyrator on both or
+    /// on none.
     fn two_port(&mut self, node: GraphNodeId, is_transformer: bool) {
         let [a, b] = self.bonds[node.0][..] else {
             return;
@@ -310,7 +313,7 @@ mod tests {
         nodes.iter().map(text).filter(|t| !t.is_empty()).collect()
     }
 
-    /// Whether the effort acts on this one-port.
+    /// Returns whether the effort acts on this one-port.
     fn acts_on(network: &BondNetwork, causality: &Causality, node: GraphNodeId) -> bool {
         let (bond, _) = network.bonds_at(node).next().expect("a bond");
         causality.strokes[bond] == Some(node)
@@ -354,7 +357,7 @@ mod tests {
         assert_eq!(text(&n, &Causality::of(&n).dependent), ["second"]);
     }
 
-    /// A DC motor on a rotor that turns freely.
+    /// Returns a DC motor on a freely rotating rotor.
     fn motor(resistance: bool, inductance: bool) -> (BondNetwork, Causality) {
         let mut n = BondNetwork::empty();
         let (shaft, current) = (
@@ -389,7 +392,7 @@ mod tests {
         let (n, causality) = motor(true, false);
         assert!(acts_on(&n, &causality, named(&n, "R")));
         assert!(causality.loops.is_empty() && causality.conflicts.is_empty());
-        // The voltage gives the speed.
+        // The voltage determines the speed.
         let (n, causality) = motor(false, false);
         assert_eq!(text(&n, &causality.dependent), ["rotor"]);
     }

@@ -1,4 +1,4 @@
-//! Which velocities no store hangs on.
+//! Finds the velocities without an inertial store.
 
 use bgdyn_runtime::Dd;
 
@@ -9,8 +9,8 @@ use crate::mechanism::{CoordinateId, Motion, Value};
 const ZERO: Value = Value::Fixed(Dd::ZERO);
 
 impl BondGraph {
-    /// Coordinates that no link gives inertia, in any position and whatever the run-time parameters
-    /// are: M has a row of zeros there.
+    /// Returns the coordinates for which M has a row of zeros, at any position and for any run-time
+    /// parameters: no link gives them inertia.
     pub fn without_inertia(&self) -> Vec<CoordinateId> {
         let mut stores = vec![None; self.junctions.len()];
         for store in &self.stores {
@@ -18,7 +18,7 @@ impl BondGraph {
         }
         let mut moved = vec![false; self.coordinates.len()];
         for transformer in &self.transformers {
-            // Velocities are the first junctions.
+            // The first junctions are those of velocities.
             let (from, to) = (transformer.from.0, transformer.to);
             if !moved[from] {
                 moved[from] =
@@ -29,21 +29,21 @@ impl BondGraph {
         all.map(CoordinateId).collect()
     }
 
-    /// Whether a velocity that feeds a store's junction changes what the store holds.
+    /// Returns whether a velocity changes the momentum of a store through its junction.
     fn moves(&self, j: CoordinateId, junction: JunctionId, inertia: &StoreInertia) -> bool {
         let there = match inertia {
             StoreInertia::Mass(mass) => *mass != ZERO,
             StoreInertia::Tensor(entries) => *entries != [ZERO; 6],
         };
-        // What the joint's own link holds lies still in the joint's axes: there zeros are seen that
-        // the transformers, in fixed axes, do not tell.
+        // The inertia of the joint's own link is constant in the joint's axes. So zeros are known that the
+        // transformers, in fixed axes, do not show.
         let link = self.coordinates[j.0].link;
         let own = [self.translation(link), self.rotation(link)].contains(&junction);
         there && (!own || moved_by_own_joint(&self.frames[link.0], inertia))
     }
 }
 
-/// Whether the inertia of a link about, or along, its joint's axis is not zero.
+/// Returns whether the inertia of a link about, or along, its joint's axis is not zero.
 fn moved_by_own_joint(frame: &LinkFrame, inertia: &StoreInertia) -> bool {
     match (inertia, frame.motion) {
         (StoreInertia::Mass(_), Motion::Translation) => true,
@@ -64,7 +64,7 @@ fn moved_by_own_joint(frame: &LinkFrame, inertia: &StoreInertia) -> bool {
     }
 }
 
-/// Numbers, if none of them is a run-time parameter.
+/// Returns the numbers if none of them is a run-time parameter.
 fn fixed<const N: usize>(values: &[Value; N]) -> Option<[Dd; N]> {
     let mut numbers = [Dd::ZERO; N];
     for (number, value) in numbers.iter_mut().zip(values) {

@@ -1,10 +1,10 @@
 //! The bond graph of a mechanism, as plain data (Kuzmin 2007).
 //!
-//! One 1-junction per generalized velocity with a drive P_j on it; per link a translational and a
-//! rotational junction, each with an inertial store and an effort source; between them modulated
-//! transformers ∂r_i/∂q_j and ρ_j^i. A transformer that the structure makes zero does not exist; a
-//! component that is zero or constant says so: that is the graph's sparsity. Moduli are functions
-//! of the placement of the link frames, which stand beside the graph.
+//! Each generalized velocity has a 1-junction with a drive P_j. Each link has a translational and a
+//! rotational junction, each with an inertial store and an effort source. Modulated transformers ∂r_i/∂q_j
+//! and ρ_j^i connect them. A transformer that is structurally zero is omitted; a component that is zero or
+//! constant is marked. This is the sparsity of the graph. Moduli are functions of the poses of the link
+//! frames, which are part of the graph's data.
 
 mod build;
 mod causality;
@@ -32,7 +32,7 @@ pub use pattern::Modulus;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JunctionId(pub usize);
 
-/// What flow a 1-junction carries.
+/// The flow that a 1-junction carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Junction {
     /// The generalized velocity q̇_j, with the drive P_j as an effort source on it.
@@ -43,7 +43,7 @@ pub enum Junction {
     Rotation(LinkId),
 }
 
-/// What an inertial store stores.
+/// The inertia of an inertial store.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StoreInertia {
     /// Mass m_i, kg.
@@ -56,13 +56,13 @@ pub enum StoreInertia {
 /// An inertial store on a junction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Store {
-    /// Where it is.
+    /// The junction of the store.
     pub junction: JunctionId,
-    /// What it stores.
+    /// The inertia.
     pub inertia: StoreInertia,
 }
 
-/// An active effort that is not a drive.
+/// An active effort other than a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Effort {
     /// Weight: m_i g in fixed axes, N.
@@ -77,9 +77,9 @@ pub enum Effort {
 /// An effort source: R_i or M_i, the sum of its efforts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EffortSource {
-    /// Where it is.
+    /// The junction of the source.
     pub junction: JunctionId,
-    /// What acts; nothing in the sum is a source of zero effort.
+    /// The efforts in the sum; with none the source is zero.
     pub efforts: Vec<Effort>,
 }
 
@@ -94,10 +94,10 @@ pub struct Transformer {
     pub modulus: Vec3<Modulus>,
 }
 
-/// The bond graph of a mechanism. What is read of the [`Multibody`] can be read of its graph.
+/// The bond graph of a mechanism. It dereferences to its [`Multibody`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct BondGraph {
-    /// The bodies, joints and rotors that the graph is of.
+    /// The bodies, joints and rotors of the mechanism.
     pub multibody: Multibody,
     /// 1-junctions: velocities first, then a translational and a rotational one per link.
     pub junctions: Vec<Junction>,
@@ -118,8 +118,8 @@ impl Deref for BondGraph {
 }
 
 impl BondGraph {
-    /// The same graph without weights, link tensors and velocity products: what every scene begins
-    /// with, and adds to.
+    /// Returns the graph without weights, link tensors and velocity products. Every scene starts from it
+    /// and adds these.
     pub fn without_loads(mut self) -> Self {
         let rotational = |s: &Store| matches!(s.inertia, StoreInertia::Tensor(_));
         self.stores.retain(|s| !rotational(s));
@@ -134,7 +134,7 @@ impl BondGraph {
         self
     }
 
-    /// Gives every link its weight.
+    /// Adds its weight to every link.
     pub fn add_gravity(&mut self, gravity: Vec3<Dd>) {
         self.multibody.gravity = gravity;
         for i in 0..self.frames.len() {
@@ -147,7 +147,7 @@ impl BondGraph {
         }
     }
 
-    /// Gives every link its tensor.
+    /// Adds its inertia tensor to every link.
     pub fn add_link_inertia(&mut self, mechanism: &Mechanism) {
         for (i, link) in mechanism.links().iter().enumerate() {
             let entries = link.inertial.inertia.entries;
@@ -159,22 +159,22 @@ impl BondGraph {
         }
     }
 
-    /// The junction of q̇_j.
+    /// Returns the junction of q̇_j.
     pub fn velocity(&self, j: CoordinateId) -> JunctionId {
         JunctionId(j.0)
     }
 
-    /// The junction of ṙ_i.
+    /// Returns the junction of ṙ_i.
     pub fn translation(&self, i: LinkId) -> JunctionId {
         JunctionId(self.coordinates.len() + 2 * i.0)
     }
 
-    /// The junction of ω_i.
+    /// Returns the junction of ω_i.
     pub fn rotation(&self, i: LinkId) -> JunctionId {
         JunctionId(self.coordinates.len() + 2 * i.0 + 1)
     }
 
-    /// The transformers that feed a junction.
+    /// Returns the transformers that feed a junction.
     pub fn into(&self, junction: JunctionId) -> impl Iterator<Item = &Transformer> {
         self.transformers.iter().filter(move |t| t.to == junction)
     }

@@ -1,57 +1,57 @@
-//! The bodies, joints, rotors and places of a mechanism, as the recursion reads them.
+//! The bodies, joints, rotors and sites of a mechanism, as the recursion reads them.
 
 use bgdyn_runtime::Dd;
 
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Value};
 
-/// A place of [`Multibody::sites`].
+/// An index into [`Multibody::sites`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SiteId(pub usize);
 
-/// A named place whose motion can be asked for: a link's frame, or a frame named in the spec.
+/// A named site with methods for its motion: a link's frame, or a frame named in the spec.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
-    /// The link's or the frame's name.
+    /// Name of the link or of the frame.
     pub name: String,
     /// The link it is fixed to; `None` for the world.
     pub link: Option<LinkId>,
-    /// Its axes and origin in the link's axes.
+    /// Its pose in the link's axes.
     pub place: Pose,
-    /// Whether the spec names it as a frame, or no other link hangs on it: what a user asks for
-    /// who asks for nothing in particular.
+    /// Whether the spec names it as a frame, or it is the frame of a tip. Methods are generated for these
+    /// sites by default.
     pub prominent: bool,
 }
 
-/// Placement of a link's frame: what the moduli are functions of.
+/// Pose of a link's frame; the moduli are functions of these poses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkFrame {
     /// The link's name.
     pub name: String,
-    /// The link that carries it.
+    /// The parent link.
     pub parent: Option<LinkId>,
-    /// Link axes in the parent's at coordinate zero.
+    /// Pose of the link's axes in the parent's axes at coordinate zero.
     pub origin: Pose,
-    /// What the joint lets it do.
+    /// The motion that the joint allows.
     pub motion: Motion,
     /// Unit vector of the joint's axis in link axes.
     pub axis: Vec3<Dd>,
-    /// The coordinate that moves it.
+    /// The coordinate of the joint.
     pub coordinate: Option<CoordinateId>,
     /// Centre of mass in link axes, m.
     pub com: Vec3<Value>,
-    /// Columns: axes of the inertia tensor's entries in the link's.
+    /// The axes of the inertia tensor, as columns in the link's axes.
     pub tensor_axes: Mat3<Dd>,
 }
 
 /// A generalized coordinate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coordinate {
-    /// Its joint's name.
+    /// Name of its joint.
     pub name: String,
-    /// The link that its joint carries.
+    /// The link outboard of its joint.
     pub link: LinkId,
-    /// Angle or displacement.
+    /// Rotation or translation.
     pub motion: Motion,
 }
 
@@ -64,11 +64,11 @@ pub struct Rotor {
     pub inertia: Value,
     /// N, turns of the rotor per unit of the joint.
     pub ratio: Value,
-    /// What it turns with, if it is a full rotor.
+    /// The link that carries the rotor, if it is a full rotor.
     pub carrier: Option<Gyrostat>,
 }
 
-/// How a rotor sits on a link: per unit rate of the joint it has the momentum N J e there.
+/// The placement of a rotor on a link: a unit rate of the joint gives the momentum N J e on the link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gyrostat {
     /// The link.
@@ -77,7 +77,7 @@ pub struct Gyrostat {
     pub axis: Vec3<Dd>,
 }
 
-/// A tree of rigid bodies with joints, rotors behind gears, and what gravity they are in.
+/// A tree of rigid bodies with joints, rotors behind gears, and gravity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Multibody {
     /// Generalized coordinates, in the order of q.
@@ -90,22 +90,22 @@ pub struct Multibody {
     pub gravity: Vec3<Dd>,
     /// Rotors behind gears.
     pub rotors: Vec<Rotor>,
-    /// Whether the transformers' rates count: Coriolis, centrifugal and gyroscopic efforts.
+    /// Whether the transformers' rates are included: Coriolis, centrifugal and gyroscopic efforts.
     pub velocity_products: bool,
     /// Run-time parameters that values refer to.
     pub parameters: Vec<Parameter>,
-    /// The links' frames, then the named ones.
+    /// The sites: the frames of the links, then the named frames.
     pub sites: Vec<Site>,
 }
 
 impl Multibody {
-    /// The coordinate of the joint with this name.
+    /// Returns the coordinate of the joint with this name.
     pub fn coordinate_named(&self, name: &str) -> Option<CoordinateId> {
         let found = self.coordinates.iter().position(|c| c.name == name);
         found.map(CoordinateId)
     }
 
-    /// Mass, centre of mass and tensor of a link.
+    /// Returns mass, centre of mass and tensor of a link.
     pub fn inertial(&self, i: LinkId) -> Inertial {
         self.inertials[i.0]
     }

@@ -1,8 +1,8 @@
 //! The bond graph of a mechanism and of the effects on it, as nodes and bonds.
 //!
-//! A node is a junction, a store, a resistor, a transformer, a gyrator or a source; a bond joins two of
-//! them, its half arrow points where positive power flows. The junctions, stores, sources and
-//! transformers of the links come from the [`BondGraph`]; each effect adds its own by the functions
+//! A node is a junction, a store, a resistor, a transformer, a gyrator or a source. A bond joins two
+//! nodes; its half arrow points in the direction of positive power. The junctions, stores, sources and
+//! transformers of the links come from the [`BondGraph`]; each effect adds its own nodes by the functions
 //! here. A bond of the links carries three components and is one bond.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +18,7 @@ use crate::mechanism::{CoordinateId, LinkId};
 enum NodePressure {
     /// The 0-junction of a pressure.
     Junction(GraphNodeId),
-    /// A pressure that a source holds: the effect and its text. Each bond has a source of its own.
+    /// A pressure that a source imposes: the effect and its text. Each bond has a source of its own.
     Source(usize, String),
 }
 
@@ -29,21 +29,21 @@ pub struct BondNetwork {
     pub nodes: Vec<GraphNode>,
     /// The bonds.
     pub bonds: Vec<Bond>,
-    /// Lines and sites that effects act at.
+    /// Lines and sites at which effects act.
     pub ports: Vec<PlacePort>,
-    /// The 1-junctions of the coordinates by name, those that effects add among them.
+    /// The 1-junctions of the coordinates by name, including coordinates that effects add.
     velocities: Vec<(String, GraphNodeId)>,
-    /// The coordinates that move each place.
+    /// The coordinates that move each site.
     movers: BTreeMap<String, BTreeSet<CoordinateId>>,
     pressures: BTreeMap<String, NodePressure>,
-    /// Names of the coordinates with an effort of their own.
+    /// Names of the coordinates with a drive.
     driven: BTreeSet<String>,
-    /// The effect that adds nodes now.
+    /// The effect that is adding nodes.
     at: Option<usize>,
 }
 
 impl BondNetwork {
-    /// A network without nodes.
+    /// Returns a network without nodes.
     pub fn empty() -> Self {
         BondNetwork {
             nodes: Vec::new(),
@@ -57,8 +57,8 @@ impl BondNetwork {
         }
     }
 
-    /// The nodes and bonds of a mechanism. The coordinates with these names, those that effects add among
-    /// them, have an effort of their own.
+    /// Returns the nodes and bonds of a mechanism. `driven` names the coordinates that have a drive,
+    /// including coordinates that effects add.
     pub fn of_mechanism(graph: &BondGraph, driven: BTreeSet<String>) -> Self {
         let mut network = BondNetwork::empty();
         (network.movers, network.driven) = (movers(graph), driven);
@@ -77,7 +77,7 @@ impl BondNetwork {
         network
     }
 
-    /// The 1-junction of a link's flow with its store, its source and the transformers to it.
+    /// Adds the 1-junction of a link's flow with its store, its source and its transformers.
     fn add_flow(&mut self, graph: &BondGraph, junction: JunctionId) {
         let one = self.add_part(NodeKind::One, NodePart::Flow(junction));
         for (k, _) in matching(&graph.stores, |s| s.junction == junction) {
@@ -99,7 +99,7 @@ impl BondNetwork {
         self.feed(one, &feeds, NodePart::Sum(junction));
     }
 
-    /// Transformers from velocities to a flow; where there are several they meet in a 0-junction.
+    /// Adds transformers from velocities to a flow; several transformers are joined by a 0-junction.
     fn feed(&mut self, one: GraphNodeId, transformers: &[(NodePart, GraphNodeId)], sum: NodePart) {
         let mut target = one;
         if transformers.len() > 1 {
@@ -113,12 +113,12 @@ impl BondNetwork {
         }
     }
 
-    /// That the nodes which follow belong to the effect at this place among the scene's elements.
+    /// Sets the effect that the following nodes belong to, by its index among the scene's elements.
     pub fn begin(&mut self, element: usize) {
         self.at = Some(element);
     }
 
-    /// A node without bonds.
+    /// Adds a node without bonds.
     pub fn add(&mut self, kind: NodeKind, text: impl Into<String>) -> GraphNodeId {
         let id = GraphNodeId(self.nodes.len());
         self.nodes.push(GraphNode {
@@ -139,12 +139,13 @@ impl BondNetwork {
         id
     }
 
-    /// A bond: positive power flows `from` the one `to` the other.
+    /// Adds a bond with positive power from `from` to `to`.
     pub fn bond(&mut self, from: GraphNodeId, to: GraphNodeId) {
         self.bonds.push(Bond { from, to });
     }
 
-    /// A source, a store or a resistor on a junction: power flows from sources, and to the others.
+    /// Adds a source, a store or a resistor to a junction: power flows from sources, and to stores and
+    /// resistors.
     pub fn add_on(
         &mut self,
         junction: GraphNodeId,
@@ -159,18 +160,18 @@ impl BondNetwork {
         node
     }
 
-    /// Says what a node does in its effect's entry of the balance of power.
+    /// Sets the terms of a node in its effect's entry of the balance of power.
     pub fn set_powers(&mut self, node: GraphNodeId, powers: &[PowerTerm]) {
         self.nodes[node.0].powers = powers.to_vec();
     }
 
-    /// Says something more of a node.
+    /// Sets an additional note on a node.
     pub fn set_more(&mut self, node: GraphNodeId, more: Option<String>) {
         self.nodes[node.0].more = more;
     }
 
-    /// The 1-junction of the coordinate with this name; of one that an effect adds it is made where it
-    /// is first asked for.
+    /// Returns the 1-junction of the coordinate with this name. The junction of a coordinate that an
+    /// effect adds is created at the first call.
     pub fn velocity(&mut self, name: &str) -> GraphNodeId {
         if let Some((_, found)) = self.velocities.iter().find(|(own, _)| own == name) {
             return *found;
@@ -180,12 +181,12 @@ impl BondNetwork {
         one
     }
 
-    /// Whether the coordinate with this name has an effort of its own.
+    /// Returns whether the coordinate with this name has a drive.
     pub fn is_driven(&self, coordinate: &str) -> bool {
         self.driven.contains(coordinate)
     }
 
-    /// The source of the effort of its own on the coordinate with this name.
+    /// Returns the drive of the coordinate with this name.
     pub fn drive(&mut self, name: &str) -> GraphNodeId {
         let velocity = self.velocity(name);
         let joint = match self.nodes[velocity.0].part {
@@ -203,7 +204,7 @@ impl BondNetwork {
         drive
     }
 
-    /// A transformer between the own effort of a coordinate and its junction: a gear.
+    /// Adds a transformer, a gear, between the drive of a coordinate and its junction.
     pub fn add_to_drive(&mut self, coordinate: &str, text: String) -> GraphNodeId {
         let drive = self.drive(coordinate);
         let gear = self.add(NodeKind::Transformer, text);
@@ -213,7 +214,8 @@ impl BondNetwork {
         gear
     }
 
-    /// The 1-junction of the flow at a place, with the transformers from the velocities that move it.
+    /// Returns the 1-junction of the flow at a site, with the transformers from the velocities that move
+    /// it.
     pub fn port(&mut self, place: PortSite) -> GraphNodeId {
         if let Some(port) = self.ports.iter().find(|port| port.place == place) {
             return port.junction;
@@ -238,7 +240,7 @@ impl BondNetwork {
         junction
     }
 
-    /// The 0-junction of the pressure of a hydraulic node that the effect has.
+    /// Adds the 0-junction of the pressure of a hydraulic node of the effect.
     pub fn add_pressure(&mut self, node: &str) -> GraphNodeId {
         let zero = self.add(NodeKind::Zero, node);
         self.pressures
@@ -246,13 +248,13 @@ impl BondNetwork {
         zero
     }
 
-    /// A hydraulic node whose pressure the effect holds.
+    /// Adds a hydraulic node whose pressure the effect imposes.
     pub fn hold_pressure(&mut self, node: &str, text: String) {
         let source = NodePressure::Source(self.at.unwrap_or_default(), text);
         self.pressures.insert(node.to_owned(), source);
     }
 
-    /// The pressure of a hydraulic node: its 0-junction, or a source of its own for each call.
+    /// Returns the pressure of a hydraulic node: its 0-junction, or a new source for each call.
     pub fn pressure(&mut self, node: &str) -> GraphNodeId {
         match self.pressures.get(node).cloned() {
             Some(NodePressure::Junction(zero)) => zero,
@@ -265,7 +267,7 @@ impl BondNetwork {
         }
     }
 
-    /// Gives the weights of the links to the effect; their energy is stored.
+    /// Assigns the weights of the links to the effect; their energy counts as stored.
     pub fn claim_weights(&mut self) {
         for node in &mut self.nodes {
             if let NodePart::Source(_) = node.part {
@@ -274,23 +276,23 @@ impl BondNetwork {
         }
     }
 
-    /// All nodes.
+    /// Returns all nodes.
     pub fn ids(&self) -> impl Iterator<Item = GraphNodeId> + use<> {
         (0..self.nodes.len()).map(GraphNodeId)
     }
 
-    /// The bonds at a node, in the order in which they were added, by their numbers.
+    /// Returns the bonds at a node with their indices, in the order in which they were added.
     pub fn bonds_at(&self, node: GraphNodeId) -> impl Iterator<Item = (usize, &Bond)> {
         matching(&self.bonds, move |bond| bond.joins(node))
     }
 
-    /// The node that is this part of the mechanism.
+    /// Returns the node of this part of the mechanism.
     pub fn part(&self, part: NodePart) -> Option<GraphNodeId> {
         let found = self.nodes.iter().position(|node| node.part == part);
         found.map(GraphNodeId)
     }
 
-    /// The terms that the nodes of an effect have in its entry of the balance of power.
+    /// Returns the terms of an effect's nodes in its entry of the balance of power.
     pub fn powers_of(&self, element: usize) -> impl Iterator<Item = PowerTerm> {
         let own = self
             .nodes
@@ -300,7 +302,7 @@ impl BondNetwork {
     }
 }
 
-/// Those that fit, with their numbers.
+/// Returns the items that match, with their indices.
 fn matching<'a, T>(
     all: &'a [T],
     fits: impl Fn(&T) -> bool + 'a,
@@ -308,7 +310,7 @@ fn matching<'a, T>(
     all.iter().enumerate().filter(move |(_, x)| fits(x))
 }
 
-/// The coordinates that move each place.
+/// Returns the coordinates that move each site.
 fn movers(graph: &BondGraph) -> BTreeMap<String, BTreeSet<CoordinateId>> {
     let of_link = |mut link: Option<LinkId>| {
         let mut found = BTreeSet::new();

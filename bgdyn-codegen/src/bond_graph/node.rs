@@ -5,20 +5,20 @@ use std::collections::BTreeSet;
 use super::JunctionId;
 use crate::mechanism::CoordinateId;
 
-/// A node of [`BondNetwork::nodes`](super::BondNetwork::nodes).
+/// An index into [`BondNetwork::nodes`](super::BondNetwork::nodes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct GraphNodeId(pub usize);
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeKind {
     /// 1-junction: one flow, the efforts sum to zero.
     One,
     /// 0-junction: one effort, the flows sum to zero.
     Zero,
-    /// Inertial store: its state gives the flow.
+    /// Inertial store: its state determines the flow.
     Inertia,
-    /// Compliance: its state gives the effort.
+    /// Compliance: its state determines the effort.
     Compliance,
     /// Resistor: an algebraic law between effort and flow.
     Resistor,
@@ -33,7 +33,7 @@ pub enum NodeKind {
 }
 
 impl NodeKind {
-    /// The sign of a bond graph: `1`, `0`, `I`, `C`, `R`, `TF`, `GY`, `Se`, `Sf`.
+    /// Returns the symbol in a bond graph: `1`, `0`, `I`, `C`, `R`, `TF`, `GY`, `Se`, `Sf`.
     pub fn symbol(self) -> &'static str {
         match self {
             NodeKind::One => "1",
@@ -48,17 +48,17 @@ impl NodeKind {
         }
     }
 
-    /// Whether it is a junction.
+    /// Returns whether it is a junction.
     pub fn is_junction(self) -> bool {
         matches!(self, NodeKind::One | NodeKind::Zero)
     }
 
-    /// Whether positive power flows from it by convention.
+    /// Returns whether it is a source, from which positive power flows.
     pub(super) fn is_source(self) -> bool {
         matches!(self, NodeKind::EffortSource | NodeKind::FlowSource)
     }
 
-    /// What it does in the balance of power if nothing else is said.
+    /// Returns the default terms in the balance of power.
     pub(super) fn usual_powers(self) -> Vec<PowerTerm> {
         match self {
             NodeKind::Inertia | NodeKind::Compliance => vec![PowerTerm::Stored],
@@ -72,30 +72,32 @@ impl NodeKind {
 /// A term of the balance of power.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PowerTerm {
-    /// PowerTerm that comes from outside.
+    /// Power from outside.
     Supplied,
     /// Rate of a stored energy.
     Stored,
-    /// PowerTerm that is lost.
+    /// Dissipated power.
     Dissipated,
 }
 
-/// What of the mechanism or of a scene a node is.
+/// The part of the mechanism or of a scene that a node represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodePart {
     /// The 1-junction of q̇_j.
     Velocity(CoordinateId),
-    /// The effort of its own on a coordinate, an input or sought; with the joint's number, if it is one.
+    /// The drive of a coordinate, which is an input or an unknown; with the coordinate's index if it
+    /// belongs to a joint.
     Drive(Option<CoordinateId>),
-    /// The 1-junction of a link's flow, by its number in [`BondGraph::junctions`](super::BondGraph::junctions).
+    /// The 1-junction of a link's flow, by its index in
+    /// [`BondGraph::junctions`](super::BondGraph::junctions).
     Flow(JunctionId),
-    /// The 0-junction before it, where several transformers feed it.
+    /// The 0-junction before that flow, if several transformers feed it.
     Sum(JunctionId),
-    /// A transformer, by its place in [`BondGraph::transformers`](super::BondGraph::transformers).
+    /// A transformer, by its index in [`BondGraph::transformers`](super::BondGraph::transformers).
     Transformer(usize),
-    /// A store of a link, by its place in [`BondGraph::stores`](super::BondGraph::stores).
+    /// A store of a link, by its index in [`BondGraph::stores`](super::BondGraph::stores).
     Store(usize),
-    /// A source on a link, by its place in [`BondGraph::sources`](super::BondGraph::sources).
+    /// A source on a link, by its index in [`BondGraph::sources`](super::BondGraph::sources).
     Source(usize),
     /// What joins a velocity and the flow at a place of [`BondNetwork::ports`](super::BondNetwork::ports), or sums these flows.
     Port(usize),
@@ -106,31 +108,31 @@ pub enum NodePart {
 /// A node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphNode {
-    /// What it is.
+    /// The kind.
     pub kind: NodeKind,
-    /// What of the mechanism or of a scene it is.
+    /// The part of the mechanism or of a scene.
     pub part: NodePart,
-    /// Its name and its number as the file writes it; empty for the parts of links.
+    /// Its name and its number as in the file; empty for parts of links.
     pub text: String,
-    /// What else a reader should know of it.
+    /// An additional note for the reader.
     pub more: Option<String>,
-    /// The effect that it belongs to, by its place among the scene's elements.
+    /// The effect that it belongs to, by its index among the scene's elements.
     pub element: Option<usize>,
     /// Its terms in the effect's entry of the balance of power.
     pub powers: Vec<PowerTerm>,
 }
 
-/// A bond: positive power flows from the one to the other.
+/// A bond: positive power flows from one node to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bond {
-    /// Where the power comes from.
+    /// The node that power flows from.
     pub from: GraphNodeId,
-    /// Where the half arrow is.
+    /// The node that power flows to, with the half arrow.
     pub to: GraphNodeId,
 }
 
 impl Bond {
-    /// The node at the other end.
+    /// Returns the node at the other end.
     pub fn other(&self, node: GraphNodeId) -> GraphNodeId {
         if self.from == node {
             self.to
@@ -139,27 +141,27 @@ impl Bond {
         }
     }
 
-    /// Whether it ends at a node.
+    /// Returns whether a node is at one of its ends.
     pub fn joins(&self, node: GraphNodeId) -> bool {
         self.from == node || self.to == node
     }
 }
 
-/// Where an effect acts that acts on no coordinate of its own.
+/// The site of an effect that acts on no coordinate directly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PortSite {
-    /// Along the line between two places: its flow is the rate of the length, m/s.
+    /// The line between two sites: its flow is the rate of the length, m/s.
     Line([String; 2]),
-    /// On a link, at the origin of a place: its flow is [ω; v], rad/s and m/s.
+    /// The origin of a site on a link: its flow is [ω; v], rad/s and m/s.
     Site(String),
 }
 
-/// The flow at a place, with the transformers from the velocities that move it.
+/// The flow at a site, with the transformers from the velocities that move it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacePort {
-    /// Where.
+    /// The site.
     pub place: PortSite,
-    /// The coordinates that change it.
+    /// The coordinates that move it.
     pub coordinates: BTreeSet<CoordinateId>,
     /// The 1-junction of its flow.
     pub junction: GraphNodeId,

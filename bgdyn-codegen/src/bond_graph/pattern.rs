@@ -1,8 +1,8 @@
-//! Structural zeros and constants, found by computing with patterns instead of numbers.
+//! Finds structural zeros and constants by computing with patterns instead of numbers.
 //!
-//! A [`Modulus`] abstracts a number that depends on the coordinates: zero, a constant, or varying
-//! with some of them. Sums and products of patterns are sound: what they call zero or constant is
-//! so at every q. They may miss a cancellation that needs a trigonometric identity.
+//! A [`Modulus`] abstracts a number that depends on the coordinates: zero, constant, or varying with some
+//! of them. Sums and products of patterns are sound: what is found to be zero or constant is so at every
+//! q. A cancellation that needs a trigonometric identity can be missed.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -21,15 +21,15 @@ pub enum Modulus {
     Varying(Coordinates),
 }
 
-/// A set of coordinates: which ones a modulus varies with.
+/// A set of coordinates, those that a modulus depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coordinates([u64; 4]);
 
 impl Coordinates {
-    /// How many coordinates a set tells apart; those beyond share one place.
+    /// Number of coordinates that a set can distinguish; all later coordinates share one bit.
     const PLACES: usize = 256;
 
-    /// The set of one.
+    /// Returns the set with one coordinate.
     pub fn one(j: CoordinateId) -> Self {
         let place = j.0.min(Self::PLACES - 1);
         let mut words = [0; 4];
@@ -37,7 +37,7 @@ impl Coordinates {
         Coordinates(words)
     }
 
-    /// Whether it may contain `j`.
+    /// Returns whether it may contain `j`.
     pub fn contains(self, j: CoordinateId) -> bool {
         let place = j.0.min(Self::PLACES - 1);
         self.0[place / 64] >> (place % 64) & 1 == 1
@@ -49,7 +49,7 @@ impl Coordinates {
 }
 
 impl Modulus {
-    /// A constant, zero as such.
+    /// Returns a constant, or `Zero` for 0.
     pub fn constant(x: Dd) -> Self {
         if x == Dd::ZERO {
             Modulus::Zero
@@ -58,7 +58,7 @@ impl Modulus {
         }
     }
 
-    /// Whether it is zero at every q.
+    /// Returns whether it is zero at every q.
     pub fn is_zero(self) -> bool {
         self == Modulus::Zero
     }
@@ -71,7 +71,7 @@ impl Add for Modulus {
             (Modulus::Zero, x) | (x, Modulus::Zero) => x,
             (Modulus::Constant(x), Modulus::Constant(y)) => {
                 let sum = x + y;
-                // What double-double leaves of an exact cancellation.
+                // The rounding error of an exact cancellation in double-double.
                 let noise = (x.abs() + y.abs()) * Dd::from_f64(1e-29);
                 if sum.abs() <= noise {
                     Modulus::Zero

@@ -1,13 +1,14 @@
-//! Asks the formulations for their offers, makes the functions, and takes one for each method.
+//! Collects the offers of the formulations, creates the functions, and chooses one for each method.
 //!
-//! 1. Candidates are the functions of the formulations that offer themselves in place of the others; if
-//!    none does, of those that offer themselves as candidates.
-//! 2. The digits of forward dynamics are checked ([`super::keep_digits`]). While no candidate keeps its
-//!    digits, or there is none, the reserves are made one by one, then the last resorts.
-//! 3. Of the functions that are left the one with the least cost is taken, after factoring.
+//! 1. The candidates are the functions of the formulations that offer themselves in place of the others;
+//! if there are none, of those that offer themselves as candidates.
+//! 2. The accuracy of forward dynamics is checked ([`super::keep_digits`]). If no candidate meets its
+//! bounds, or there is no candidate, the reserves are created one by one, then the last resorts.
+//! 3. The function with the least cost after factoring is chosen.
 //!
-//! Where a formulation is asked for, the methods that it knows are its own. Formulations that differentiate
-//! the functions of other methods offer themselves all the same: those functions are its own as well.
+//! If the user selected a formulation, it provides all methods that it supports. Formulations that
+//! differentiate the functions of other methods still make offers, because those functions are then of the
+//! selected formulation.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeSet;
@@ -23,13 +24,13 @@ use crate::function::Function;
 use crate::method::Method;
 use crate::passes::{cheapest, factor};
 
-/// The functions chosen for one mechanism. It remembers them: methods are made of each other.
+/// The functions chosen for one mechanism. Results are cached, because methods use each other's functions.
 pub struct Choice<'a> {
     pub(super) prepared: Prepared<'a>,
     pub(super) asked: Option<&'static dyn Formulation>,
     bounds: OnceCell<ErrorBounds>,
     forward: OnceCell<Rc<Candidates>>,
-    /// Methods that are being chosen.
+    /// Methods whose choice is in progress.
     open: RefCell<BTreeSet<Method>>,
 }
 
@@ -37,7 +38,8 @@ pub struct Choice<'a> {
 type Offered = (&'static dyn Formulation, Offer);
 
 impl<'a> Choice<'a> {
-    /// Nothing chosen yet. Where a formulation is asked for, the methods it knows are its own.
+    /// Starts with no choices. If the user selected a formulation (`asked`), it provides the methods that
+    /// it supports.
     pub fn new(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
         Choice {
             prepared: Prepared::new(graph),
@@ -48,21 +50,21 @@ impl<'a> Choice<'a> {
         }
     }
 
-    /// The function of the method with the least cost, before the last passes; of forward dynamics, among
-    /// those that keep their digits.
+    /// Returns the function of the method with the least cost, before the last passes; for forward
+    /// dynamics, among those that meet the error bounds.
     pub fn function(&self, method: Method) -> Option<Rc<Function>> {
         self.chosen(method).1
     }
 
-    /// The functions for forward dynamics that keep their digits, the cheapest first, as their formulations
-    /// write them.
+    /// Returns the functions for forward dynamics that meet the error bounds, the cheapest first, in the
+    /// form of their formulations.
     pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {
         let made = || self.chosen(Method::ForwardDynamics).0;
         let candidates = self.forward.get_or_init(made);
         candidates.accepted.iter().map(|candidate| &candidate.plain)
     }
 
-    /// All functions for the method that are worth a look, and the one that is taken.
+    /// Returns the candidates for the method, and the chosen one.
     pub(super) fn chosen(&self, method: Method) -> (Rc<Candidates>, Option<Rc<Function>>) {
         if let Some(chosen) = self.prepared.chosen(method) {
             return chosen;
@@ -94,7 +96,7 @@ impl<'a> Choice<'a> {
         })
     }
 
-    /// The functions of the formulation asked for, where it knows the method.
+    /// Returns the function of the selected formulation, if it supports the method.
     fn asked_for(&self, method: Method) -> Vec<CheckedCandidate> {
         let Some(asked) = self.asked.filter(|f| f.knows(method)) else {
             return Vec::new();
@@ -104,22 +106,22 @@ impl<'a> Choice<'a> {
         self.make_offered(&offered, method, unchecked)
     }
 
-    /// The function of the formulation asked for, as it writes it; `None` where it does not make the
-    /// method.
+    /// Returns the function of the selected formulation in the form of that formulation; `None` if it does
+    /// not create the method.
     pub(crate) fn asked_plain(&self, method: Method) -> Option<Function> {
         let made = self.asked_for(method).into_iter();
         made.map(|(_, candidate)| candidate.plain).next()
     }
 
-    /// What the formulations offer that know the method.
+    /// Returns the offers of the formulations that support the method.
     fn offers(&self, all: &[&'static dyn Formulation], method: Method) -> Vec<Offered> {
         let known = all.iter().filter(|f| f.knows(method));
         let offered = known.map(|&f| (f, f.offer(&self.prepared, method)));
         offered.collect()
     }
 
-    /// The functions of these offers: those in place of the candidates, else the candidates; and reserves
-    /// while none of them keeps its digits.
+    /// Creates the functions of these offers: those in place of the candidates, else the candidates; then
+    /// reserves, until one function meets the error bounds.
     fn make_offered(
         &self,
         offered: &[Offered],
@@ -148,7 +150,7 @@ impl<'a> Choice<'a> {
         made
     }
 
-    /// A formulation's function, after those that it reads.
+    /// Creates a formulation's function, after the functions that it depends on.
     fn make(&self, formulation: &dyn Formulation, method: Method) -> Option<Function> {
         for &other in formulation.reads(method) {
             self.chosen(other);
@@ -157,7 +159,7 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// A function whose digits are not checked.
+/// Returns a function whose accuracy is not checked.
 fn unchecked(plain: Function) -> CheckedCandidate {
     let generated = factor(plain.clone());
     (BoundReport::default(), Candidate { plain, generated })

@@ -1,20 +1,21 @@
-//! Sorts candidates by cost among those that keep their digits, as far as `conditioning/` can tell.
+//! Sorts candidates for forward dynamics by cost, among those whose rounding errors meet the bounds.
 //!
-//! 1. Each is measured in sampled states (`conditioning/sample_states.rs`): generic ones, fast ones, large
-//!    efforts, and states with neighbouring common normals in line or across. `reference_solution.rs` solves
-//!    M q̈ = τ − h there in double-double, and `error_bounds.rs` compares the errors in `f64` with bounds:
-//!    backward error joint by joint, forward error by the condition number, the round trip through the
-//!    efforts, and at most three digits lost beyond what rounding the arguments costs. The exact answer for
-//!    arguments that round to the same numbers counts as right.
-//! 2. The cheapest candidate that meets the bounds wins; if none does, the nearest one. A candidate that
-//!    exceeds them by less than a bit, in at most one state of twenty, loses no digit in this sense: it wins
-//!    unless another one costs at most 5 % more.
-//! 3. A function is measured again after factoring. If it then comes near the bounds or exceeds them, its
-//!    operations keep their order. Of 74 functions (`specs/`, `tests/outside`, eight arms with random bodies)
-//!    that costs seven up to 4.8 % (`crane`: 173 operations for 165), 0.25 % in all.
+//! 1. Each candidate is measured in sampled states (`conditioning/sample_states.rs`): generic ones, fast
+//! ones, large efforts, and states with neighbouring common normals in line or perpendicular.
+//! `reference_solution.rs` solves M q̈ = τ − h in double-double, and `error_bounds.rs` compares the errors
+//! in `f64` with bounds: backward error joint by joint, forward error by the condition number, the round
+//! trip through the efforts, and at most three digits lost beyond the effect of rounding the arguments.
+//! The exact result for arguments that round to the same numbers counts as correct.
+//! 2. The cheapest candidate that meets the bounds is chosen; if there is none, the one closest to them. A
+//! candidate that exceeds them by less than one bit, in at most one state of twenty, counts as losing no
+//! digit: it is chosen unless another one costs at most 5 % more.
+//! 3. A function is measured again after factoring. If it then comes close to the bounds or exceeds them,
+//! the order of its operations is not changed. Of 74 functions (`specs/`, `tests/outside`, eight arms with
+//! random bodies) seven cost up to 4.8 % more by this (`crane`: 173 operations instead of 165), 0.25 % in
+//! total.
 //!
-//! The condition number is no bound where the efforts almost balance the bias: rounding one argument then
-//! moves q̈ by more. `tests/common/bars.rs` measures that before it allows anything.
+//! The condition number is no bound if the efforts almost balance the bias: rounding one argument then
+//! changes q̈ by more. `tests/common/bars.rs` measures this effect before it permits an error.
 
 use std::cmp::Ordering;
 
@@ -23,15 +24,16 @@ use crate::formulation::{Candidate, Candidates};
 use crate::function::Function;
 use crate::passes::factor;
 
-/// What may be paid, in units of the cheapest function's cost, where that loses no digit.
+/// The largest accepted cost of a more accurate function, relative to the cheapest one that loses no
+/// digit.
 const PRICE: f64 = 1.05;
 
 /// A candidate, and its errors compared with the bounds.
 pub(super) type CheckedCandidate = (BoundReport, Candidate);
 
-/// A function with its errors: factored, unless that brings it near the bounds, or beyond, and nearer
-/// than it was. As factoring saves little, that is judged without rounding any argument; but where no digit
-/// is lost, no more is paid than [`PRICE`].
+/// Returns a function with its errors: factored, unless factoring brings it close to the bounds or beyond
+/// them, and increases its errors. Since factoring saves little, this comparison allows for no rounding of
+/// arguments; but if no digit is lost, the extra cost is limited to [`PRICE`].
 pub(super) fn check(bounds: &ErrorBounds, plain: Function) -> CheckedCandidate {
     let (report, generated) = factor_with_care(bounds, &plain);
     (report, Candidate { plain, generated })
@@ -54,14 +56,15 @@ fn factor_with_care(bounds: &ErrorBounds, plain: &Function) -> (BoundReport, Fun
     (before, kept)
 }
 
-/// What a function costs, as functions are compared.
+/// Returns the cost by which functions are compared.
 fn cost(function: &Function) -> f64 {
     function.cost().weighted() as f64
 }
 
-/// Sorts functions for one method: accepted are those that meet the bounds, the cheapest first; where
-/// there are none, the one that comes nearest. But where one that costs less loses no digit, and they cost
-/// more than [`PRICE`] times as much, that one. Each says what is wrong with those that exceed them.
+/// Sorts functions for one method: those that meet the bounds are accepted, the cheapest first; if there
+/// are none, the one closest to the bounds. But if a cheaper one loses no digit, and the accepted ones
+/// cost more than [`PRICE`] times as much, the cheaper one is accepted. Each function that exceeds the
+/// bounds gets a text with the reason.
 pub(super) fn sort(mut tried: Vec<CheckedCandidate>) -> Candidates {
     tried.sort_by_key(|(_, candidate)| candidate.generated.cost().weighted());
     let wrong: String = tried
@@ -97,8 +100,8 @@ pub(super) fn sort(mut tried: Vec<CheckedCandidate>) -> Candidates {
     }
 }
 
-/// Of the functions that exceed the bounds and lose no digit the cheapest, where it is to be taken: those
-/// that meet them cost too much for what they keep, or there are none.
+/// Returns the cheapest function that exceeds the bounds and loses no digit, if it is to be used: those
+/// that meet the bounds cost too much, or do not exist.
 fn spared(accepted: &[CheckedCandidate], borderline: &[CheckedCandidate]) -> Option<usize> {
     let price = |(_, candidate): &CheckedCandidate| cost(&candidate.generated);
     let k = borderline

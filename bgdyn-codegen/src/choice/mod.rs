@@ -1,13 +1,13 @@
-//! Which function is generated for each method.
+//! Chooses the function that is generated for each method.
 //!
 //! | file | job |
 //! |---|---|
-//! | `choose.rs` | asks the formulations for their offers, makes the functions, takes one |
-//! | `keep_digits.rs` | sorts candidates by cost among those that keep their digits |
-//! | `most_accurate.rs` | the function that loses the fewest digits, whatever it costs |
-//! | `prefer.rs` | takes the one or the other, after the last passes |
+//! | `choose.rs` | collects the formulations' offers, creates the functions, chooses one |
+//! | `keep_digits.rs` | sorts candidates by cost among those that meet the error bounds |
+//! | `most_accurate.rs` | chooses the function with the smallest error at any cost |
+//! | `prefer.rs` | chooses by cost or by accuracy, after the last passes |
 //!
-//! Formulations know nothing of this: an [`Offer`](crate::formulation::Offer) is all that they say.
+//! Formulations are independent of this choice: they only state an [`Offer`](crate::formulation::Offer).
 
 mod choose;
 mod keep_digits;

@@ -1,9 +1,9 @@
-//! `prefer: accuracy`: the function that loses the fewest digits in `f64`, whatever it costs.
+//! Chooses the function that loses the fewest digits in `f64`, at any cost (`prefer: accuracy`).
 //!
-//! Every formulation that knows the method takes part, factored and not, and is judged at the sampled
-//! states. Losses that agree to a tenth of a rounding are equal; then the count decides. To have no answer
-//! where another way has one is worse than any error. The literal sum takes part for up to 8 joints, its
-//! derivatives for up to 4.
+//! Every formulation that supports the method is a candidate, factored and not factored, and is measured
+//! at the sampled states. Errors that agree to a tenth of a rounding count as equal; then the number of
+//! operations decides. A failure where another candidate has a result is worse than any error. The literal
+//! sum is a candidate for up to 8 joints, its derivatives for up to 4.
 
 use super::choose::Choice;
 use crate::bond_graph::BondGraph;
@@ -16,13 +16,13 @@ use crate::passes::factor;
 /// Joints up to which the literal sum is tried: its graph grows with the cube of their number.
 const MAX_LITERAL: usize = 8;
 
-/// The same for methods that come from differentiating it.
+/// The same limit for methods that differentiate the literal sum.
 const MAX_LITERAL_DERIVED: usize = 4;
 
-/// The method's function that loses the fewest digits at the sampled states, by the formulation
-/// asked for, where it knows the method, else by any; factored, or with its operations as the
-/// formulation has them. Losses that agree to a tenth of a rounding are equal: then operations
-/// decide.
+/// Returns the method's function that loses the fewest digits at the sampled states: of the selected
+/// formulation, if it supports the method, else of any formulation; factored, or with the operations of
+/// the formulation. Errors that agree to a tenth of a rounding count as equal; then the number of
+/// operations decides.
 pub(super) fn most_accurate(
     graph: &BondGraph,
     method: Method,
@@ -51,7 +51,7 @@ fn is_affordable(graph: &BondGraph, method: Method, formulation: &dyn Formulatio
     formulation.name() != LITERAL || graph.coordinates.len() <= most
 }
 
-/// A formulation's function, factored and not.
+/// Returns a formulation's function, factored and not factored.
 fn variants(
     graph: &BondGraph,
     method: Method,
@@ -59,7 +59,7 @@ fn variants(
 ) -> Vec<Function> {
     let choice = Choice::new(graph, Some(formulation));
     let plain = match method {
-        // These are compared, and shared, as they are after factoring.
+        // These methods share their functions in the factored form.
         Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
             choice.function(method).map(|f| (*f).clone())
         }

@@ -1,4 +1,5 @@
-//! The function that is generated for a method: the one with the least cost, or the most accurate one.
+//! Returns the function that is generated for a method: the one with the least cost, or the most accurate
+//! one.
 
 use std::rc::Rc;
 
@@ -8,22 +9,22 @@ use crate::function::Function;
 use crate::method::Method;
 use crate::passes::{finish, finish_in_order};
 
-/// What the choice among several functions for a method goes by.
+/// The criterion of choice among several functions for a method.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preference {
     /// The fewest operations.
     #[default]
     Operations,
-    /// The fewest digits lost in `f64`, by [`crate::conditioning::rounding_error::rounding_error`];
-    /// operations decide between equals.
+    /// The fewest digits lost in `f64`, by [`crate::conditioning::rounding_error::rounding_error`]; for
+    /// equal errors, the fewest operations.
     Accuracy,
 }
 
 impl Preference {
-    /// Every preference there is.
+    /// All preferences.
     pub const ALL: [Preference; 2] = [Preference::Operations, Preference::Accuracy];
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(self) -> &'static str {
         match self {
             Preference::Operations => "operations",
@@ -32,8 +33,8 @@ impl Preference {
     }
 }
 
-/// The function that is generated for a method, after the last passes; `None` where no formulation makes
-/// the method.
+/// Returns the function that is generated for a method, after the last passes; `None` if no formulation
+/// creates the method.
 pub fn prefer(choice: &Choice<'_>, method: Method, preference: Preference) -> Option<Function> {
     match preference {
         Preference::Operations => choice

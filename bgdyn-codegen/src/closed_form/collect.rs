@@ -1,4 +1,4 @@
-//! Collects the terms of polynomials into equations as a book prints them.
+//! Collects the terms of polynomials into equations in textbook form.
 
 use std::collections::BTreeMap;
 
@@ -10,16 +10,16 @@ use super::polynomial::{CANCELLED, Polynomial, Symbol};
 use super::tidy::{Entry, tidy};
 use crate::mechanism::NumberSymbol;
 
-/// q̈_k, q̇_k q̇_l or nothing: what a coefficient stands before.
+/// The product q̈_k, q̇_k q̇_l or 1 that a coefficient multiplies.
 type VelocityProduct = Vec<(Atom, u32)>;
 
-/// The coefficient of a motion.
+/// The coefficient of an acceleration or of a product of velocities.
 struct TermCoefficient {
     motion: VelocityProduct,
     entries: Vec<Entry>,
 }
 
-/// An effort's coefficients.
+/// The coefficients of an effort.
 pub(super) struct Collected {
     accelerations: Vec<TermCoefficient>,
     velocities: Vec<TermCoefficient>,
@@ -27,7 +27,7 @@ pub(super) struct Collected {
 }
 
 impl Collected {
-    /// The terms of an effort by what they stand before.
+    /// Collects the terms of an effort by the product that they multiply.
     pub fn new(effort: &Polynomial, letters: &[NumberSymbol]) -> Self {
         let mut motions: BTreeMap<Vec<(Symbol, u32)>, BTreeMap<_, Entry>> = BTreeMap::new();
         let largest = effort.terms().map(|(_, value)| value.hi().abs());
@@ -69,21 +69,21 @@ impl Collected {
         collected
     }
 
-    /// Number of terms.
+    /// Returns the number of terms.
     pub fn len(&self) -> usize {
         let lists = [&self.accelerations, &self.velocities, &self.rest];
         let all = lists.into_iter().flatten();
         all.map(|coefficient| coefficient.entries.len()).sum()
     }
 
-    /// Number of products of letters in all terms.
+    /// Returns the number of products of letters in all terms.
     pub fn products(&self) -> usize {
         let lists = [&self.accelerations, &self.velocities, &self.rest];
         let entries = lists.into_iter().flatten().flat_map(|c| &c.entries);
         entries.map(|entry| entry.definition.len()).sum()
     }
 
-    /// The effort as it is printed.
+    /// Returns the effort in printed form.
     pub fn print(&self, names: &mut NamesOfSums<'_>) -> Sum {
         let mut sum = Sum::new();
         for coefficient in &self.accelerations {
@@ -114,7 +114,7 @@ fn powers(of: &[(Atom, u32)]) -> Vec<Factor> {
     of.iter().map(power).collect()
 }
 
-/// One product: number, letters, sines, motion.
+/// Returns one product: number, letters, sines, velocity product.
 fn printed(entry: &Entry, names: &mut NamesOfSums<'_>, motion: Vec<Factor>) -> Term {
     let (scale, primitive) = entry.definition.primitive();
     let mut factors = number(scale);
@@ -127,7 +127,7 @@ fn printed(entry: &Entry, names: &mut NamesOfSums<'_>, motion: Vec<Factor>) -> T
     }
 }
 
-/// M_jk q̈_k: the entry of the mass matrix in parentheses where it is a sum.
+/// Returns M_jk q̈_k, with the entry of the mass matrix in parentheses if it is a sum.
 fn inertial(coefficient: &TermCoefficient, names: &mut NamesOfSums<'_>) -> Option<Term> {
     let motion = powers(&coefficient.motion);
     if let [one] = &coefficient.entries[..] {
@@ -143,7 +143,7 @@ fn inertial(coefficient: &TermCoefficient, names: &mut NamesOfSums<'_>) -> Optio
     if sum.is_empty() {
         return None;
     }
-    // A sum that begins with a minus is a sum with a minus before it.
+    // A minus sign of the first term is moved in front of the parentheses.
     let negative = sum[0].negative;
     sum.iter_mut().for_each(|term| term.negative ^= negative);
     let mut factors = vec![Factor::Sum(sum)];
@@ -151,16 +151,16 @@ fn inertial(coefficient: &TermCoefficient, names: &mut NamesOfSums<'_>) -> Optio
     Some(Term { negative, factors })
 }
 
-/// Products of velocities that have the same letters and sines before them.
+/// Products of velocities with the same letters and sines in their coefficients.
 struct Shared<'a> {
     entry: &'a Entry,
     primitive: Definition,
     shape: Vec<(Atom, u32)>,
-    /// The number before each product.
+    /// The number in front of each product.
     products: Vec<(Dd, &'a VelocityProduct)>,
 }
 
-/// The velocity terms, those with common letters and sines together.
+/// Groups the velocity terms by their letters and sines.
 fn shared(velocities: &[TermCoefficient]) -> Vec<Shared<'_>> {
     let mut all: Vec<Shared<'_>> = Vec::new();
     for coefficient in velocities {
@@ -186,7 +186,8 @@ fn shared(velocities: &[TermCoefficient]) -> Vec<Shared<'_>> {
 }
 
 impl Shared<'_> {
-    /// Whether a number is a small whole multiple of those before the products, or they of it.
+    /// Returns whether a number is a small integer multiple of those in front of the products, or they of
+    /// it.
     fn commensurable(&self, scale: Dd) -> bool {
         let whole = |x: f64| (1..=4).any(|n| (x - f64::from(n)).abs() < 1e-12);
         let ratio = |&(k, _): &(Dd, &VelocityProduct)| (scale / k).hi().abs();
@@ -217,7 +218,7 @@ impl Shared<'_> {
         Term { negative, factors }
     }
 
-    /// The rate that all products share, where none is a square.
+    /// Returns the velocity that all products have as a factor, if none is a square.
     fn common_rate(&self) -> Option<&Atom> {
         let mixed = |(_, motion): &(Dd, &VelocityProduct)| motion.len() == 2;
         let (_, first) = self.products.iter().all(mixed).then(|| &self.products[0])?;
@@ -228,7 +229,8 @@ impl Shared<'_> {
         first.iter().map(|(rate, _)| rate).find(|rate| shared(rate))
     }
 
-    /// The products over the least number before one of them, without the rate that they share.
+    /// Returns the products divided by the least number in front of one of them and by their common
+    /// velocity.
     fn sum(&self, least: Dd, negative: bool, common: Option<&Atom>) -> Sum {
         let product = |(k, motion): &(Dd, &VelocityProduct)| {
             let mut factors = number(*k / least);
@@ -242,7 +244,7 @@ impl Shared<'_> {
         self.products.iter().map(product).collect()
     }
 
-    /// ±(q̇_i ± q̇_j …)², if that is what the products are: its sign and the sum.
+    /// Returns ±(q̇_i ± q̇_j …)², if the products have this form: its sign and the sum.
     fn square(&self, least: Dd) -> Option<(bool, Sum)> {
         let whole = |k: Dd, n: f64| (k.abs() / least - Dd::from_f64(n)).hi().abs() < 1e-12;
         let (mut squares, mut others) = (Vec::new(), Vec::new());
@@ -258,7 +260,7 @@ impl Shared<'_> {
         if squares.iter().any(|s| s.1 != sign) || others.len() != n * (n - 1) / 2 {
             return None;
         }
-        // The sign of each rate is that of its product with the first one.
+        // The sign of each velocity is that of its product with the first one.
         let turned = |rate: &Atom| {
             let with = others.iter().find(|(a, b, _)| *a == first && *b == rate);
             with.is_some_and(|&(_, _, negative)| negative != sign)

@@ -11,11 +11,11 @@ use crate::mechanism::NumberSymbol;
 /// Longer sums get a name.
 const WRITTEN_OUT: usize = 5;
 
-/// The most products of letters of equations that are written out: in longer ones all sums and
-/// products of letters get names.
+/// The largest number of products of letters for equations that are written out; in longer ones all sums
+/// and products of letters get names.
 const SHORT: usize = 40;
 
-/// Powers of letters, rising.
+/// Powers of letters, in increasing order.
 pub(super) type Letters = Vec<(usize, u32)>;
 
 /// Σ number · letters
@@ -34,7 +34,7 @@ impl Definition {
         self.0.retain(|_, value| *value != Dd::ZERO);
     }
 
-    /// self + k · other
+    /// Returns self + k · other.
     pub fn plus(&self, k: f64, other: &Self) -> Self {
         let mut sum = self.clone();
         for (letters, value) in &other.0 {
@@ -43,18 +43,18 @@ impl Definition {
         sum
     }
 
-    /// k · self
+    /// Returns k · self.
     pub fn scaled(&self, k: Dd) -> Self {
         let scaled = |(letters, value): (&Letters, &Dd)| (letters.clone(), *value * k);
         Definition(self.0.iter().map(scaled).collect())
     }
 
-    /// Number of products.
+    /// Returns the number of products.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether it equals k · other, to rounding.
+    /// Returns whether it equals k · other, within rounding.
     pub fn is(&self, k: f64, other: &Self) -> bool {
         let k = Dd::from_f64(k);
         let close = |x: Dd, y: Dd| (x - y).hi().abs() <= CANCELLED * x.hi().abs();
@@ -62,7 +62,7 @@ impl Definition {
             && (self.0.iter().zip(&other.0)).all(|((a, x), (b, y))| a == b && close(*x, k * *y))
     }
 
-    /// The number it is a multiple by, and what of: the first product has the factor 1 there.
+    /// Splits it into a number and a sum whose first product has the factor 1.
     pub fn primitive(&self) -> (Dd, Definition) {
         let first = self.0.values().next().copied().unwrap_or(Dd::ONE);
         (first, self.scaled(Dd::ONE / first))
@@ -85,7 +85,7 @@ impl Definition {
     }
 }
 
-/// The sums met so far, and the names of the long ones.
+/// The sums used so far, and the names of the long ones.
 pub(super) struct NamesOfSums<'a> {
     letters: &'a [NumberSymbol],
     /// Whether the equations are short enough to be written in letters.
@@ -94,7 +94,7 @@ pub(super) struct NamesOfSums<'a> {
 }
 
 impl<'a> NamesOfSums<'a> {
-    /// For equations of so many products of letters.
+    /// Starts with no names, for equations with this number of products of letters.
     pub fn new(letters: &'a [NumberSymbol], products: usize) -> Self {
         NamesOfSums {
             letters,
@@ -103,7 +103,7 @@ impl<'a> NamesOfSums<'a> {
         }
     }
 
-    /// What the names stand for.
+    /// Returns the definitions of the names.
     pub fn into_constants(self) -> Vec<NamedSum> {
         let named = |definition: &Definition| NamedSum {
             definition: match self.split(definition) {
@@ -120,8 +120,8 @@ impl<'a> NamesOfSums<'a> {
         self.named.iter().map(named).collect()
     }
 
-    /// A primitive sum as factors: its name, its letters, or the letters that all its products
-    /// share and a sum in parentheses.
+    /// Returns a primitive sum as factors: its name, its letters, or the common letters of its products
+    /// and a sum in parentheses.
     pub fn factors(&mut self, primitive: &Definition) -> Vec<Factor> {
         if !self.is_short(primitive) {
             let (mut factors, rest) = self.without_weight(primitive);
@@ -135,13 +135,13 @@ impl<'a> NamesOfSums<'a> {
         joined(factors, rest)
     }
 
-    /// The sum written out, if it is short: its products, to stand in a larger sum.
+    /// Returns the sum written out, if it is short, as part of a larger sum.
     pub fn written_out(&self, definition: &Definition) -> Option<Sum> {
         let short = self.is_short(definition);
         short.then(|| self.terms(definition, &[]))
     }
 
-    /// Whether it is written in letters: a letter always is.
+    /// Returns whether it is written in letters; a single letter always is.
     fn is_short(&self, definition: &Definition) -> bool {
         let letters = |product: &Letters| product.iter().map(|(_, n)| n).sum::<u32>();
         match self.short {
@@ -150,7 +150,7 @@ impl<'a> NamesOfSums<'a> {
         }
     }
 
-    /// A sum of weights as g and a sum of masses, which may have a name already.
+    /// Returns a sum of weights as g and a sum of masses, which may have a name already.
     fn without_weight(&self, definition: &Definition) -> (Vec<Factor>, Definition) {
         let g = self
             .letters
@@ -175,7 +175,7 @@ impl<'a> NamesOfSums<'a> {
         })
     }
 
-    /// The letters that every product shares, and what is left.
+    /// Splits the letters common to all products from the rest.
     fn split(&self, definition: &Definition) -> (Vec<Factor>, Sum) {
         let mut products = definition.0.keys();
         let mut common = products.next().cloned().unwrap_or_default();
@@ -188,7 +188,7 @@ impl<'a> NamesOfSums<'a> {
         (self.print(&common), self.terms(definition, &common))
     }
 
-    /// The products, without the letters that they share.
+    /// Returns the products without their common letters.
     fn terms(&self, definition: &Definition, common: &[(usize, u32)]) -> Sum {
         let term = |(letters, &value): (&Letters, &Dd)| {
             let left = |&(l, n): &(usize, u32)| (l, n - power(common, l));
@@ -205,7 +205,7 @@ impl<'a> NamesOfSums<'a> {
         definition.0.iter().map(term).collect()
     }
 
-    /// Letters in the order in which books write them: weight, mass, inertia, lengths.
+    /// Returns letters in the order of textbooks: weight, mass, inertia, lengths.
     fn print(&self, letters: &[(usize, u32)]) -> Vec<Factor> {
         let rank = |l: usize| {
             let order = ["g", "m", "J", "l", "c"];
@@ -218,7 +218,8 @@ impl<'a> NamesOfSums<'a> {
     }
 }
 
-/// The letters that all products share, times the sum of what is left; of one product nothing is.
+/// Returns the common letters times the sum of the remaining factors; for a single product only the
+/// letters.
 fn joined(mut common: Vec<Factor>, rest: Sum) -> Vec<Factor> {
     if !matches!(&rest[..], [one] if one.factors.is_empty()) {
         common.push(Factor::Sum(rest));
@@ -231,7 +232,7 @@ fn power(letters: &[(usize, u32)], letter: usize) -> u32 {
     found.map_or(0, |&(_, n)| n)
 }
 
-/// |x| as a factor; nothing where it is 1.
+/// Returns |x| as a factor; empty for 1.
 pub(super) fn number(x: Dd) -> Vec<Factor> {
     let size = x.abs();
     if (size - Dd::ONE).hi().abs() <= CANCELLED {

@@ -6,36 +6,36 @@ use super::NoClosedForm;
 use super::polynomial::{Angle, Polynomial, Symbol, combined};
 use crate::expr::{Graph, Leaf, Node, NodeId, Signed, reachable};
 
-/// What the leaves of a graph stand for.
+/// The symbols of the leaves of a graph.
 pub(super) struct Leaves {
-    /// For each coordinate the group of parallel axes of its angle, or what it is as a displacement.
+    /// For each coordinate the group of parallel axes of its angle, or its kind of displacement.
     pub positions: Vec<CoordinateForm>,
     /// For each run-time parameter.
     pub parameters: Vec<Polynomial>,
 }
 
-/// What a coordinate is in a polynomial.
+/// The form of a coordinate in a polynomial.
 #[derive(Clone, Copy)]
 pub(super) enum CoordinateForm {
     /// An angle of this group.
     Angle(usize),
     /// The displacement of a joint.
     Displacement(usize),
-    /// A length: a displacement that never changes.
+    /// A length: a displacement that is constant.
     Length(usize),
 }
 
-/// How far an expansion may go.
+/// Limits of an expansion.
 pub(super) struct Budget {
-    /// Terms of one sum.
+    /// Largest number of terms of one sum.
     pub terms: usize,
-    /// Products of two terms, all in all.
+    /// Largest number of products of two terms, in total.
     pub products: usize,
-    /// Products made so far.
+    /// Number of products so far.
     pub spent: usize,
 }
 
-/// The outputs as polynomials.
+/// Expands the outputs into polynomials.
 pub(super) fn expand(
     graph: &Graph,
     outputs: &[Signed],
@@ -51,7 +51,7 @@ pub(super) fn expand(
     };
     for i in (0..graph.len()).filter(|&i| needed[i]) {
         let id = NodeId::at(i);
-        // An angle is no polynomial: its sine and cosine are.
+        // An angle is no polynomial; only its sine and cosine are.
         if !expansion.is_angle(id) {
             let polynomial = expansion.step(id)?;
             expansion.made[i] = Some(polynomial);
@@ -122,7 +122,7 @@ impl Expansion<'_> {
         })
     }
 
-    /// A rate, but for lengths, which have none.
+    /// Returns a rate; zero for lengths.
     fn moving(&self, j: usize, symbol: Symbol) -> Polynomial {
         match self.leaves.positions[j] {
             CoordinateForm::Length(_) => Polynomial::default(),
@@ -140,7 +140,7 @@ impl Expansion<'_> {
         Ok(self.at(a)?.times(self.at(b)?))
     }
 
-    /// The sine or cosine of a coordinate, or of a sum of coordinates and a constant.
+    /// Returns the sine or cosine of a coordinate, or of a sum of coordinates and a constant.
     fn wave(&self, of: NodeId, sine: bool) -> Result<Polynomial, NoClosedForm> {
         let (terms, offset) = match self.graph.node(of) {
             Node::Leaf(Leaf::Position(_)) => (vec![(of, 1)], Dd::ZERO),

@@ -10,11 +10,11 @@ use crate::mechanism::{Motion, NumberSymbol};
 pub struct ClosedForm {
     /// The mechanism's name.
     pub name: String,
-    /// The joints of the coordinates, in the order of q, and what they do.
+    /// The joints of the coordinates with their motions, in the order of q.
     pub joints: Vec<(String, Motion)>,
-    /// The links, by which letters are numbered.
+    /// The links, whose indices number the letters.
     pub links: Vec<String>,
-    /// What the equations are written in.
+    /// The letters of the equations.
     pub letters: Vec<NumberSymbol>,
     /// Sums of letters that have a name of their own: a₁, a₂, …
     pub constants: Vec<NamedSum>,
@@ -22,10 +22,10 @@ pub struct ClosedForm {
     pub efforts: Vec<Sum>,
 }
 
-/// A sum of products of letters with a name, since it is long and often met.
+/// A long sum of products of letters that occurs often and therefore has a name.
 #[derive(Clone, Debug)]
 pub struct NamedSum {
-    /// What it stands for.
+    /// The sum.
     pub definition: Sum,
     /// Its value for the letters' values, SI units.
     pub value: Dd,
@@ -36,12 +36,12 @@ pub struct NamedSum {
 /// Terms; none is zero.
 pub type Sum = Vec<Term>;
 
-/// A product with a sign; of no factors it is 1.
+/// A product with a sign; the product of no factors is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
     /// Whether it is subtracted.
     pub negative: bool,
-    /// Its factors in the order of print.
+    /// The factors in printed order.
     pub factors: Vec<Factor>,
 }
 
@@ -58,7 +58,7 @@ pub enum Factor {
     Square(Sum),
 }
 
-/// What has a sign of its own in print.
+/// A factor with a symbol of its own.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Atom {
     /// One of [`ClosedForm::letters`].
@@ -78,7 +78,8 @@ pub enum Atom {
 }
 
 impl ClosedForm {
-    /// Leaves out which component a letter is where its vector has no other in the equations.
+    /// Removes the component index of a letter if no other component of its vector occurs in the
+    /// equations.
     pub(super) fn name_alone(mut self) -> Self {
         let met = self.letters_met();
         for &l in &met {
@@ -94,7 +95,7 @@ impl ClosedForm {
         self
     }
 
-    /// The letters that are met in the efforts or in a named sum.
+    /// Returns the letters that occur in the efforts or in a named sum.
     pub fn letters_met(&self) -> Vec<usize> {
         let mut met = Vec::new();
         let sums = self.constants.iter().map(|c| &c.definition);

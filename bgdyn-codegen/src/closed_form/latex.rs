@@ -8,8 +8,8 @@ use super::form::{Atom, ClosedForm, Sum};
 use super::notation::{Decimal, Notation, effort, terms, unit};
 use crate::mechanism::NumberSymbol;
 
-/// P_j and what they are written in as two environments `align*`, values to so many significant
-/// digits (1 to 17). Comments say which joint a coordinate belongs to.
+/// Prints P_j and their symbols as two environments `align*`, values with this number of significant
+/// digits (1 to 17). Comments name the joint of each coordinate.
 pub fn latex(form: &ClosedForm, digits: usize) -> String {
     let n = Typeset { form, digits };
     let mut text = format!("% {}: driving efforts in closed form\n", form.name);
@@ -49,13 +49,13 @@ fn align(rows: &[String]) -> String {
     format!("\\begin{{align*}}\n{rows}\n\\end{{align*}}\n")
 }
 
-/// The right side, a line for each term.
+/// Prints the right-hand side, one line for each term.
 fn right(n: &Typeset<'_>, sum: &Sum) -> String {
     let lines: Vec<String> = terms(n, sum);
     format!(" &= {}", lines.join(" \\\\\n  &\\quad "))
 }
 
-/// What is typeset.
+/// The notation of LaTeX.
 struct Typeset<'a> {
     form: &'a ClosedForm,
     digits: usize,
@@ -109,7 +109,7 @@ impl Notation for Typeset<'_> {
     }
 }
 
-/// `m_{2}`, `J_{zz,1}`; a run-time parameter's own name, upright.
+/// Prints `m_{2}`, `J_{zz,1}`; the name of a run-time parameter, upright.
 fn symbol(letter: &NumberSymbol) -> String {
     if letter.run_time {
         return format!("\\mathrm{{{}}}", escaped(&letter.symbol));

@@ -1,18 +1,18 @@
-//! Closed-form efforts P_j of small mechanisms, as a textbook prints them.
+//! Derives closed-form efforts P_j of small mechanisms, in textbook form.
 //!
-//! No generated code is made from it.
+//! Generated code does not use it.
 //!
-//! 1. The expression graph of the literal sum (6), made for the mechanism with letters for its numbers
-//!    ([`Mechanism::symbolic`]). The letters are run-time parameters, and prismatic joints of massless
-//!    links that never move.
-//! 2. Polynomials in normal form (`polynomial.rs`, `expand.rs`). For each group of parallel axes a term
-//!    holds at most one sine or cosine, of a sum of multiples of their angles. So every trigonometric
-//!    identity holds by itself, and terms cancel as soon as they meet.
-//! 3. Coefficients of q̈_k, q̇_k q̇_l and the rest, factored ([`ClosedForm`]).
-//! 4. Text or LaTeX ([`text`](text()), [`latex`](latex())).
+//! 1. Create the expression graph of the literal sum (6), for the mechanism with letters for its numbers
+//! ([`Mechanism::symbolic`]). The letters are run-time parameters, and prismatic joints of massless links
+//! that never move.
+//! 2. Convert it to polynomials in normal form (`polynomial.rs`, `expand.rs`). For each group of parallel
+//! axes a term has at most one sine or cosine, of a sum of multiples of their angles. In this form every
+//! trigonometric identity is satisfied automatically, and terms cancel as soon as they are added.
+//! 3. Collect the coefficients of q̈_k, q̇_k q̇_l and the rest, factored ([`ClosedForm`]).
+//! 4. Print text or LaTeX ([`text`](text()), [`latex`](latex())).
 //!
-//! The number of terms and of products of terms is limited, so that a mechanism whose equations are too
-//! long to read is refused early.
+//! The number of terms and of products of terms is limited, so that a mechanism with too long equations is
+//! refused early.
 
 mod collect;
 mod definition;
@@ -43,18 +43,18 @@ use polynomial::{Polynomial, Symbol};
 pub use refused::NoClosedForm;
 pub use text::text;
 
-/// The usual limit: what can still be read.
+/// The default limit of terms, for readable equations.
 pub const LIMIT: usize = 300;
 
-/// Terms that a sum on the way may have, for each term allowed in the end.
+/// Limit of terms of an intermediate sum, per term of the final limit.
 const ON_THE_WAY: usize = 15;
-/// Products of terms on the way, for each term allowed in the end.
+/// Limit of intermediate products, per term of the final limit.
 const PRODUCTS: usize = 250;
 
-/// P_j(q, q̇, q̈) of a mechanism without effects, from equation (6): `limit` terms at most.
+/// Returns P_j(q, q̇, q̈) of a mechanism without effects, from equation (6), with at most `limit` terms.
 ///
 /// # Errors
-/// Where the equations, or the sums on the way to them, are longer.
+/// If the equations, or intermediate sums, are longer.
 pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, NoClosedForm> {
     let symbolic = mechanism.symbolic();
     let mut graph = bond_graph::build(&symbolic.mechanism);
@@ -102,7 +102,7 @@ fn joints(mechanism: &Mechanism) -> Vec<(String, Motion)> {
     joints.map(|j| (j.name.clone(), j.kind.motion)).collect()
 }
 
-/// What each coordinate of the symbolic mechanism is.
+/// Returns the form of each coordinate of the symbolic mechanism.
 fn coordinates(mechanism: &Mechanism, symbolic: &SymbolicMechanism) -> Vec<CoordinateForm> {
     let mut groups: Vec<usize> = Vec::new();
     for (j, &link) in mechanism.coordinates().iter().enumerate() {
@@ -118,7 +118,7 @@ fn coordinates(mechanism: &Mechanism, symbolic: &SymbolicMechanism) -> Vec<Coord
     own.chain(lengths.map(CoordinateForm::Length)).collect()
 }
 
-/// The next coordinate on the way to the base that is an angle, if its axis is parallel to the link's.
+/// Returns the next inboard coordinate that is an angle, if its axis is parallel to the link's.
 fn parallel_before(mechanism: &Mechanism, link: LinkId) -> Option<usize> {
     let links = mechanism.links();
     let joint = &links[link.0].joint;
@@ -137,7 +137,7 @@ fn parallel_before(mechanism: &Mechanism, link: LinkId) -> Option<usize> {
     None
 }
 
-/// What the run-time parameters of the symbolic mechanism stand for. Weights become products of a
+/// Returns the polynomials of the symbolic mechanism's run-time parameters. Weights become products of a
 /// mass and of `g`, the last letter.
 fn weigh(
     graph: &mut BondGraph,

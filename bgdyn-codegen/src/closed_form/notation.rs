@@ -1,40 +1,40 @@
-//! Strings of sums and products, shared by plain text and LaTeX.
+//! Prints sums and products, for plain text and LaTeX.
 
 use bgdyn_runtime::{Dd, Digits};
 
 use super::form::{Atom, ClosedForm, Factor, Sum, Term};
 use super::polynomial::Angle;
 
-/// How signs are written.
+/// A notation: plain text or LaTeX.
 pub(super) trait Notation {
-    /// Between factors.
+    /// Separator of factors.
     const TIMES: &'static str;
-    /// Before what is subtracted, without spaces.
+    /// Minus sign, without spaces.
     const MINUS: &'static str;
-    /// Before a value that lost digits.
+    /// Sign before a rounded value.
     const ABOUT: &'static str;
-    /// Between a value and its unit.
+    /// Separator of a value and its unit.
     const GAP: &'static str;
 
-    /// Significant digits of values.
+    /// Number of significant digits of values.
     fn digits(&self) -> usize;
 
-    /// A unit, from its parts with their powers.
+    /// Prints a unit from its parts with their powers.
     fn unit(&self, parts: &[(&str, i32)]) -> String;
 
-    /// A positive number.
+    /// Prints a positive number.
     fn number(&self, x: Dd) -> String;
 
-    /// An atom that is no sine or cosine, to a power.
+    /// Prints a power of an atom that is no sine or cosine.
     fn symbol(&self, atom: &Atom, power: u32) -> String;
 
-    /// A sine or cosine to a power, of an angle as it is written by [`angle`].
+    /// Prints a power of a sine or cosine, of an angle printed by [`angle`].
     fn wave(&self, sine: bool, angle: &str, single: bool, power: u32) -> String;
 
-    /// In parentheses, to a power.
+    /// Prints a power of parentheses.
     fn parentheses(&self, inside: &str, power: u32) -> String;
 
-    /// `= 1.5 kg`
+    /// Prints a value: `= 1.5 kg`.
     fn value(&self, value: Dd, dimension: [i32; 3]) -> String {
         let sign = if value < Dd::ZERO { Self::MINUS } else { "" };
         let exact = Decimal::new(value.abs(), self.digits()).exact;
@@ -46,7 +46,7 @@ pub(super) trait Notation {
     }
 }
 
-/// A sum, its terms one after the other: the first with its minus, the others as they are to follow.
+/// Returns the printed terms of a sum: the first with its minus sign, the others with their sign.
 pub(super) fn terms<N: Notation>(n: &N, sum: &Sum) -> Vec<String> {
     let mut written = Vec::new();
     for (i, term) in sum.iter().enumerate() {
@@ -64,7 +64,7 @@ pub(super) fn terms<N: Notation>(n: &N, sum: &Sum) -> Vec<String> {
     written
 }
 
-/// A sum in one line.
+/// Prints a sum in one line.
 pub(super) fn sum<N: Notation>(n: &N, sum: &Sum) -> String {
     terms(n, sum).join(" ")
 }
@@ -90,7 +90,7 @@ fn wave<N: Notation>(n: &N, sine: bool, of: &Angle, power: u32) -> String {
     n.wave(sine, &angle(n, of), single, power)
 }
 
-/// Σ n_j q_j
+/// Prints Σ n_j q_j.
 fn angle<N: Notation>(n: &N, of: &Angle) -> String {
     let term = |&(j, multiple): &(usize, i32)| {
         let size = Dd::from_f64(f64::from(multiple.unsigned_abs()));
@@ -104,18 +104,18 @@ fn angle<N: Notation>(n: &N, of: &Angle) -> String {
     sum(n, &of.iter().map(term).collect())
 }
 
-/// A number in decimal, rounded to so many significant digits.
+/// A number in decimal, rounded to a number of significant digits.
 pub(super) struct Decimal {
-    /// Digits with a point, without the zeros that end them.
+    /// Digits with a point, without trailing zeros.
     pub digits: String,
-    /// The power of ten beside them, where there are many zeros else.
+    /// The power of ten, if the number would have many zeros without it.
     pub exponent: Option<i32>,
-    /// Whether nothing was lost.
+    /// Whether the digits are exact.
     pub exact: bool,
 }
 
 impl Decimal {
-    /// `digits`: 1 to 17.
+    /// Rounds a number to 1 to 17 digits.
     pub fn new(x: Dd, digits: usize) -> Self {
         let text = Digits::new(x.hi(), digits).to_string();
         let back: Dd = text.parse().unwrap_or(Dd::NAN);
@@ -132,7 +132,7 @@ impl Decimal {
     }
 }
 
-/// The unit of a product with these powers of kilogram, metre and second: its parts with their
+/// Returns the unit of a product with these powers of kilogram, metre and second: its parts with their
 /// powers.
 pub(super) fn unit(dimension: [i32; 3]) -> Vec<(&'static str, i32)> {
     let [kg, m, s] = dimension;
@@ -144,7 +144,7 @@ pub(super) fn unit(dimension: [i32; 3]) -> Vec<(&'static str, i32)> {
     parts.into_iter().filter(|&(_, n)| n != 0).collect()
 }
 
-/// The dimension of P_j.
+/// Returns the dimension of P_j.
 pub(super) fn effort(form: &ClosedForm, j: usize) -> [i32; 3] {
     match form.joints[j].1 {
         crate::mechanism::Motion::Rotation => [1, 2, -2],

@@ -1,23 +1,23 @@
 //! Polynomials in symbols, coordinates, velocities, accelerations, sines and cosines.
 //!
-//! Normal form: of the angles about parallel axes, a *group*, a term holds at most one sine or cosine,
-//! of a sum of whole multiples of them. Products within a group become sums by
-//! 2 cos A cos B = cos (A − B) + cos (A + B) and its like, so that sin² + cos² = 1 and every other
-//! identity of theirs holds by itself: two polynomials are equal exactly if their terms are.
+//! Normal form: for the angles about parallel axes, a *group*, a term has at most one sine or cosine, of a
+//! sum of integer multiples of them. Products within a group become sums by 2 cos A cos B = cos (A − B) +
+//! cos (A + B) and similar formulas, so that sin² + cos² = 1 and all other identities are satisfied
+//! automatically: two polynomials are equal exactly if their terms are.
 
 use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
-/// What is left of a sum is rounding where it is smaller than this part of what met in it: 2⁻⁹⁰.
+/// A sum smaller than this fraction (2⁻⁹⁰) of its largest term is a rounding error, and is dropped.
 pub(super) const CANCELLED: f64 = 1.0 / (1u128 << 90) as f64;
 
-/// What a power is taken of.
+/// The base of a power.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Symbol {
-    /// A letter, by its place in [`super::ClosedForm`]'s list.
+    /// A letter, by its index in the list of [`super::ClosedForm`].
     Letter(usize),
-    /// q_j of a sliding joint.
+    /// q_j of a prismatic joint.
     Position(usize),
     /// q̇_j
     Velocity(usize),
@@ -25,7 +25,7 @@ pub(super) enum Symbol {
     Acceleration(usize),
 }
 
-/// Σ n_j q_j: the coordinates, rising, with their multiples, none zero.
+/// Σ n_j q_j: the coordinates in increasing order, with their nonzero multiples.
 pub type Angle = Vec<(usize, i32)>;
 
 /// A sine or cosine.
@@ -35,24 +35,24 @@ pub(super) struct Wave {
     pub group: usize,
     /// Whether it is a sine.
     pub sine: bool,
-    /// Of which angle; the first multiple is positive.
+    /// The angle; its first multiple is positive.
     pub angle: Angle,
 }
 
-/// A product of powers and waves, at most one wave of a group, each in rising order.
+/// A product of powers and waves, at most one wave per group, each in increasing order.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Monomial {
-    /// Powers, none zero.
+    /// Nonzero powers.
     pub powers: Vec<(Symbol, u32)>,
     /// Sines and cosines.
     pub waves: Vec<Wave>,
 }
 
-/// A term's number.
+/// The number in front of a term.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coefficient {
     pub value: Dd,
-    /// The largest number that met in it: what its rounding error is relative to.
+    /// The largest number that was added to it, which its rounding error is relative to.
     size: f64,
 }
 
@@ -63,7 +63,7 @@ pub(super) struct Polynomial {
 }
 
 impl Polynomial {
-    /// A number times a monomial.
+    /// Returns a number times a monomial.
     pub fn term(value: Dd, monomial: Monomial) -> Self {
         let mut polynomial = Polynomial::default();
         let size = value.hi().abs();
@@ -71,12 +71,12 @@ impl Polynomial {
         polynomial.swept()
     }
 
-    /// A number.
+    /// Returns a number.
     pub fn number(value: Dd) -> Self {
         Polynomial::term(value, Monomial::default())
     }
 
-    /// A symbol.
+    /// Returns a symbol.
     pub fn symbol(symbol: Symbol) -> Self {
         let powers = vec![(symbol, 1)];
         Polynomial::term(
@@ -88,7 +88,7 @@ impl Polynomial {
         )
     }
 
-    /// sin or cos of an angle of one group, which is not zero.
+    /// Returns sin or cos of an angle of one group, which is not zero.
     pub fn wave(group: usize, sine: bool, angle: &[(usize, i32)]) -> Self {
         let (negative, angle) = signed(angle.to_vec());
         let value = if sine && negative { -Dd::ONE } else { Dd::ONE };
@@ -102,17 +102,17 @@ impl Polynomial {
         )
     }
 
-    /// Number of terms.
+    /// Returns the number of terms.
     pub fn len(&self) -> usize {
         self.terms.len()
     }
 
-    /// Its terms, in order.
+    /// Returns its terms, in order.
     pub fn terms(&self) -> impl Iterator<Item = (&Monomial, Dd)> {
         self.terms.iter().map(|(m, c)| (m, c.value))
     }
 
-    /// self + other, or self − other.
+    /// Returns self + other, or self − other.
     pub fn plus(&self, other: &Self, negative: bool) -> Self {
         let mut sum = self.clone();
         for (monomial, c) in &other.terms {
@@ -123,7 +123,7 @@ impl Polynomial {
         sum.swept()
     }
 
-    /// self · other
+    /// Returns self · other.
     pub fn times(&self, other: &Self) -> Self {
         let mut product = Polynomial::default();
         for (a, x) in &self.terms {
@@ -148,7 +148,7 @@ impl Polynomial {
         met.size = met.size.max(c.size);
     }
 
-    /// Without the terms that cancelled.
+    /// Removes the terms that cancelled.
     fn swept(mut self) -> Self {
         let remains = |c: &Coefficient| c.value.hi().abs() > CANCELLED * c.size;
         self.terms.retain(|_, c| remains(c));
@@ -156,7 +156,7 @@ impl Polynomial {
     }
 }
 
-/// The angle with a positive first multiple, and whether its sign was turned for it.
+/// Returns the angle with a positive first multiple, and whether its sign was changed.
 pub(super) fn signed(mut angle: Angle) -> (bool, Angle) {
     let negative = angle.first().is_some_and(|&(_, n)| n < 0);
     if negative {
@@ -165,7 +165,7 @@ pub(super) fn signed(mut angle: Angle) -> (bool, Angle) {
     (negative, angle)
 }
 
-/// a + k b
+/// Returns a + k b.
 pub(super) fn combined(a: &[(usize, i32)], b: &[(usize, i32)], k: i32) -> Angle {
     let mut sum: BTreeMap<usize, i32> = a.iter().copied().collect();
     for &(j, n) in b {
@@ -174,7 +174,8 @@ pub(super) fn combined(a: &[(usize, i32)], b: &[(usize, i32)], k: i32) -> Angle 
     sum.into_iter().filter(|&(_, n)| n != 0).collect()
 }
 
-/// The product of two monomials: several ones, each with a factor, where waves of a group meet.
+/// Returns the product of two monomials: several monomials with factors if waves of a group are
+/// multiplied.
 fn multiplied(a: &Monomial, b: &Monomial) -> Vec<(Monomial, f64)> {
     let mut powers: BTreeMap<Symbol, u32> = a.powers.iter().copied().collect();
     for &(symbol, n) in &b.powers {
@@ -196,7 +197,7 @@ fn multiplied(a: &Monomial, b: &Monomial) -> Vec<(Monomial, f64)> {
     products.into_iter().map(monomial).collect()
 }
 
-/// A product of waves of different groups times one more.
+/// Multiplies a product of waves of different groups by one more wave.
 fn with_wave(mut waves: Vec<Wave>, wave: &Wave, factor: f64) -> Vec<(Vec<Wave>, f64)> {
     let Some(at) = waves.iter().position(|w| w.group == wave.group) else {
         waves.push(wave.clone());

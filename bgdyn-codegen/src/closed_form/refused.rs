@@ -1,8 +1,8 @@
-//! Why a mechanism has no closed form of a useful length.
+//! The reasons why a mechanism has no closed form of a readable length.
 
 use std::fmt;
 
-/// Why there is no closed form.
+/// The reason why there is no closed form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoClosedForm {
     /// The equations have more terms than the limit.
@@ -10,17 +10,17 @@ pub enum NoClosedForm {
         /// Terms of all P_j.
         terms: usize,
     },
-    /// A sum on the way has too many terms for so much to cancel.
+    /// An intermediate sum has too many terms.
     LongSum {
-        /// Its terms.
+        /// Number of its terms.
         terms: usize,
     },
-    /// The way there takes too many products of two terms.
+    /// The expansion needs too many products of two terms.
     ManyProducts {
-        /// As many as were asked for when it was given up.
+        /// Number of products at which the expansion was stopped.
         products: usize,
     },
-    /// The equations hold more than sines, cosines, products and sums.
+    /// The equations have operations other than sines, cosines, products and sums.
     NotTrigonometric,
 }
 

@@ -11,8 +11,8 @@ use crate::mechanism::{Motion, NumberSymbol};
 /// Longer lines are broken.
 const WIDTH: usize = 96;
 
-/// P_j, what they are written in, and its values to so many significant digits (1 to 17), as plain
-/// Unicode text. `≈` stands where digits were lost.
+/// Prints P_j, their symbols and their values to a number of significant digits (1 to 17), as plain
+/// Unicode text. `≈` marks rounded values.
 pub fn text(form: &ClosedForm, digits: usize) -> String {
     let n = Plain { form, digits };
     let mut text = format!("{}: driving efforts in closed form\n\n", form.name);
@@ -59,7 +59,7 @@ pub fn text(form: &ClosedForm, digits: usize) -> String {
     text
 }
 
-/// Columns two spaces apart.
+/// Prints columns two spaces apart.
 fn table<const N: usize>(rows: &[[String; N]]) -> String {
     let width = |s: &String| s.chars().count();
     let widths: [usize; N] =
@@ -77,7 +77,7 @@ fn table<const N: usize>(rows: &[[String; N]]) -> String {
     text
 }
 
-/// `name = …`: in one line, or a line for each term.
+/// Prints `name = …`: in one line, or one line per term.
 fn equation(name: &str, n: &Plain<'_>, right: &Sum) -> String {
     let whole = format!("{name} = {}", sum(n, right));
     if whole.chars().count() <= WIDTH {
@@ -95,7 +95,7 @@ fn equation(name: &str, n: &Plain<'_>, right: &Sum) -> String {
     text
 }
 
-/// A line broken before an addition or subtraction, where it is too long.
+/// Breaks a long line before additions or subtractions.
 fn broken(line: &str, indent: &str) -> String {
     let mut pieces = vec![String::new()];
     let mut in_angle = false;
@@ -104,7 +104,7 @@ fn broken(line: &str, indent: &str) -> String {
             Some(piece) if in_angle || !matches!(word, "+ " | "− ") => *piece += word,
             _ => pieces.push(word.to_owned()),
         }
-        // The next parenthesis that closes is the one of the last sine or cosine.
+        // The next closing parenthesis is that of the last sine or cosine.
         in_angle = match word.rfind("sin(").max(word.rfind("cos(")) {
             Some(at) => !word[at..].contains(')'),
             None => in_angle && !word.contains(')'),
@@ -123,7 +123,7 @@ fn broken(line: &str, indent: &str) -> String {
     text + open.trim_end() + "\n"
 }
 
-/// What is written on a terminal.
+/// The notation for a terminal.
 struct Plain<'a> {
     form: &'a ClosedForm,
     digits: usize,
@@ -173,7 +173,7 @@ impl Notation for Plain<'_> {
     }
 }
 
-/// `m₂`, `Jzz₁`, `l₁,₂`; a run-time parameter's own name.
+/// Prints `m₂`, `Jzz₁`, `l₁,₂`; the name of a run-time parameter.
 fn symbol(letter: &NumberSymbol) -> String {
     let of = subscript(&letter.of);
     format!("{}{}{of}", letter.symbol, letter.component)
@@ -185,7 +185,7 @@ fn subscript(numbers: &[usize]) -> String {
     all.join(",")
 }
 
-/// Nothing for the first power.
+/// Prints a power; nothing for the first power.
 fn superscript(power: u32) -> String {
     let digit = |c: char| match c {
         '1' => '¹',
@@ -203,13 +203,13 @@ fn shifted(n: usize, zero: char) -> String {
     n.to_string().chars().map(|c| shift(c, zero)).collect()
 }
 
-/// A digit in the row of another zero.
+/// Returns a digit in the character range that begins at `zero`.
 fn shift(digit: char, zero: char) -> char {
     let n = digit.to_digit(10).unwrap_or(0);
     char::from_u32(zero as u32 + n).unwrap_or(digit)
 }
 
-/// `kg·m²`, `N·m`, `m/s²`
+/// Prints `kg·m²`, `N·m`, `m/s²`.
 fn written(unit: &[(&str, i32)]) -> String {
     let join = |sign: i32| {
         let parts = unit.iter().filter(|(_, n)| n.signum() == sign);

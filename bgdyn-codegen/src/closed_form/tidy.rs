@@ -1,4 +1,4 @@
-//! Rewrites sums of sines and cosines with products and squares, as books do, where that is shorter.
+//! Rewrites sums of sines and cosines as products and squares if that is shorter.
 
 use super::definition::{Definition, Letters};
 use super::form::Atom;
@@ -7,21 +7,21 @@ use super::polynomial::{Angle, Monomial, Symbol, combined, signed};
 /// Sines (`true`) and cosines of one group: none, one, or a product of two.
 type Waves = Vec<(bool, Angle)>;
 
-/// A group, and what two terms hold of it.
+/// A group, and the waves of two terms in it.
 type AngleDifference<'a> = (usize, &'a [(bool, Angle)], &'a [(bool, Angle)]);
 
-/// A coefficient's term: a sum of letters times powers of positions and run-time parameters, sines
-/// and cosines.
+/// A term of a coefficient: a sum of letters times powers of positions and run-time parameters, sines and
+/// cosines.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub definition: Definition,
     powers: Vec<(Symbol, u32)>,
-    /// By group, rising; no empty ones.
+    /// By group, in increasing order, without empty ones.
     waves: Vec<(usize, Waves)>,
 }
 
 impl Entry {
-    /// What stands beside the letters of a monomial.
+    /// Returns the factors of a monomial other than letters.
     pub fn new(powers: Vec<(Symbol, u32)>, monomial: &Monomial) -> Self {
         let waves = monomial.waves.iter();
         Entry {
@@ -38,7 +38,7 @@ impl Entry {
         self.definition.add(letters, value);
     }
 
-    /// Its factors but for the letters, in the order of print.
+    /// Returns its factors without the letters, in printed order.
     pub fn shape(&self) -> Vec<(Atom, u32)> {
         let mut shape: Vec<(Atom, u32)> = Vec::new();
         for &(symbol, n) in &self.powers {
@@ -69,7 +69,7 @@ impl Entry {
         shape
     }
 
-    /// The group in which two entries differ, if it is one only, with the waves of each in it.
+    /// Returns the group in which two entries differ, if there is only one, with the waves of each in it.
     fn differs<'a>(&'a self, other: &'a Self) -> Option<AngleDifference<'a>> {
         if self.powers != other.powers {
             return None;
@@ -88,13 +88,13 @@ impl Entry {
         found
     }
 
-    /// Its waves of a group.
+    /// Returns its waves of a group.
     fn of(&self, group: usize) -> &[(bool, Angle)] {
         let found = self.waves.iter().find(|(g, _)| *g == group);
         found.map_or(&[], |(_, waves)| waves)
     }
 
-    /// The same with two waves of a group in place of those it has.
+    /// Returns the entry with other waves of a group.
     fn with(&self, group: usize, mut waves: Waves, definition: Definition) -> Self {
         waves.sort();
         let mut entry = self.clone();
@@ -106,7 +106,7 @@ impl Entry {
     }
 }
 
-/// The same sum with fewer terms, and without cosines of double angles beside a constant.
+/// Returns the same sum with fewer terms, and without cosines of double angles next to a constant.
 pub(super) fn tidy(mut entries: Vec<Entry>) -> Vec<Entry> {
     entries.retain(|e| e.definition.len() > 0);
     while let Some((i, j, merged)) = pairs(&entries).find_map(|(i, j)| {
@@ -131,7 +131,7 @@ fn pairs(entries: &[Entry]) -> impl Iterator<Item = (usize, usize)> + use<> {
     (0..n).flat_map(move |i| (i + 1..n).map(move |j| (i, j)))
 }
 
-/// One wave, or the cosine of nothing, which is 1.
+/// Returns the only wave, or the cosine of 0 if there is none.
 fn single(waves: &[(bool, Angle)]) -> Option<(bool, &[(usize, i32)])> {
     match waves {
         [] => Some((false, &[])),
@@ -140,7 +140,8 @@ fn single(waves: &[(bool, Angle)]) -> Option<(bool, &[(usize, i32)])> {
     }
 }
 
-/// cos A + cos B = 2 cos ½(A+B) cos ½(A−B), and its like, where the halves are whole sums.
+/// Applies cos A + cos B = 2 cos ½(A+B) cos ½(A−B), and similar formulas, if the halves have integer
+/// multiples.
 fn product(a: &Entry, b: &Entry) -> Option<Entry> {
     let (group, x, y) = a.differs(b)?;
     let ((sine, x), (other, y)) = (single(x)?, single(y)?);
@@ -159,7 +160,7 @@ fn product(a: &Entry, b: &Entry) -> Option<Entry> {
     Some(a.with(group, waves, definition))
 }
 
-/// A + B cos 2X = (A + B) − 2B sin² X = (A − B) + 2B cos² X, whichever constant is shorter.
+/// Applies A + B cos 2X = (A + B) − 2B sin² X = (A − B) + 2B cos² X, whichever constant is shorter.
 fn squared(a: &Entry, b: &Entry) -> Option<[Entry; 2]> {
     let (group, x, y) = a.differs(b)?;
     let [(false, double)] = y else {
@@ -189,7 +190,7 @@ fn squared(a: &Entry, b: &Entry) -> Option<[Entry; 2]> {
     ])
 }
 
-/// The half of an angle whose multiples are all even.
+/// Returns half of an angle if its multiples are all even.
 fn half(angle: &[(usize, i32)]) -> Option<Angle> {
     let half = |&(j, n): &(usize, i32)| (n % 2 == 0).then_some((j, n / 2));
     angle.iter().map(half).collect()

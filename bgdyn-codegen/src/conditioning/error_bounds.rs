@@ -1,24 +1,24 @@
-//! Bounds for the rounding error of a forward dynamics, and its errors in `f64` compared with them.
+//! Compares the rounding errors of a forward dynamics in `f64` with bounds.
 //!
-//! With ε = 2⁻⁵², M and h = bias in double-double, q̈ the exact answer and q̈ + δ the one found:
-//! - backward: |M δ|_i ≤ 8 n ε (Σ_j |M_ij||q̈_j| + |τ_i| + |h_i|) for each joint i, or what the
-//!   joint's effort changes by where the arguments are rounded, whichever is more;
-//! - forward: ‖δ‖ ≤ (16 + cond M) ε ‖q̈‖ + ε ‖M⁻¹‖‖h‖, or four times what q̈ changes by where they are,
-//!   whichever is more;
-//! - round trip: where τ is the rounded effort of chosen accelerations a, they come back to within
-//!   8 n ε ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖);
-//! - digits: ‖δ‖ ≤ 1000 (ε ‖q̈‖ + what rounding the arguments costs), so that what cond M excuses
-//!   is not lost where the mechanism itself does not lose it;
-//! - what has an answer gets one.
+//! With ε = 2⁻⁵², M and h = bias in double-double, q̈ the exact result and q̈ + δ the computed one:
+//! - backward: |M δ|_i ≤ 8 n ε (Σ_j |M_ij||q̈_j| + |τ_i| + |h_i|) for each joint i, or the change of the
+//!   joint's effort due to rounding of the arguments, whichever is larger;
+//! - forward: ‖δ‖ ≤ (16 + cond M) ε ‖q̈‖ + ε ‖M⁻¹‖‖h‖, or four times the change of q̈ due to rounding of
+//!   the arguments, whichever is larger;
+//! - round trip: if τ is the rounded effort of chosen accelerations a, the computed accelerations are a to
+//!   within 8 n ε ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖);
+//! - digits: ‖δ‖ ≤ 1000 (ε ‖q̈‖ + the change due to rounding of the arguments), so that the condition
+//!   number does not excuse losses that the mechanism itself does not cause;
+//! - a function must return a result if one exists.
 //!
-//! Arguments are rounded by half an ε each: what is the exact answer for arguments that round to the
-//! same numbers is right, and no digit is lost. `tests/hard_cases` reads its bars the same way. Without
-//! that, 37 of 74 forward dynamics (`specs/`, `tests/outside`, eight arms with random bodies) would take
-//! more operations, up to 49 % more, 13 % in all.
+//! Arguments are rounded by half an ε each: the exact result for arguments that round to the same numbers
+//! counts as correct, and no digit is lost. `tests/hard_cases` defines its bars in the same way. Without
+//! this rule, 37 of 74 forward dynamics (`specs/`, `tests/outside`, eight arms with random bodies) would
+//! need more operations, up to 49 % more, 13 % in total.
 //!
-//! In a state of many thousands every way there is goes beyond this by a factor of a few: where several
-//! joints are at quarter turns, sines lose what no rounding of an angle makes up for. Digits are lost
-//! where a way goes beyond it in several of the states tried, or by [`LITTLE`].
+//! In one state of many thousands every known function exceeds these bounds by a small factor: if several
+//! joints are at quarter turns, the sines have errors that no rounding of an angle explains. A function
+//! loses digits if it exceeds the bounds in several of the sampled states, or by more than [`LITTLE`].
 
 use bgdyn_runtime::Dd;
 
@@ -32,72 +32,75 @@ use crate::function::{Function, in_triangle};
 
 const EPS: f64 = f64::EPSILON;
 
-/// How much larger than what rounding its arguments costs an error may be: three digits.
+/// Largest ratio of an error to the effect of rounding the arguments: three digits.
 const LOST: f64 = 1e3;
 
-/// How often what rounding the arguments changes q̈ by its error may be: where efforts and bias all but
-/// balance, that is all there is of q̈.
+/// Factor on the change of q̈ due to rounding of the arguments: if efforts and bias almost balance, q̈ is
+/// known only to within this change.
 const BALANCED: f64 = 4.0;
 
-/// How far beyond the bars the same mechanism may be in another state, or by another way that keeps as
-/// many digits: one bit.
+/// Largest ratio by which a function may exceed the bounds in a single state: one bit.
 const LITTLE: f64 = 2.0;
 
-/// Of how many states one may be beyond the bars: a mechanism that loses digits loses them in more.
+/// A function may exceed the bounds in one of this number of states; a function that loses digits does so
+/// in more.
 const SINGLE: usize = 20;
 
-/// States tried: generic ones, near aligned axes, and those in which a joint moves least.
+/// Numbers of sampled states: generic ones, near aligned axes, and those in which a joint moves the least
+/// inertia.
 const STATES: [usize; 3] = [8, 24, 12];
 
-/// How near to the bounds is near: the states tried are not all there are.
+/// A function is close to the bounds above this ratio: other states than the sampled ones can be worse.
 const MARGIN: f64 = 0.5;
 
-/// Joints up to which all of these are tried; of larger mechanisms fewer, in proportion to the
-/// square of their number, to which the work for each grows.
+/// Largest number of joints for which all of these states are used; for larger mechanisms fewer, in
+/// inverse proportion to the square of the number of joints, to which the work per state is proportional.
 const ALL: usize = 8;
 
-/// How a function stands to the bars. The order is that of harm.
+/// The errors of a function relative to the bounds. The order is by severity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub(crate) struct BoundReport {
-    /// States that have an answer, and none in `f64`.
+    /// Number of states with an exact result and a failure in `f64`.
     failures: usize,
-    /// The largest error over what is allowed.
+    /// The largest ratio of error to bound.
     ratio: f64,
-    /// The same by bars that round no argument.
+    /// The same ratio for bounds without rounding of arguments.
     strict_ratio: f64,
-    /// States in which an error is larger than what is allowed.
+    /// Number of states in which an error exceeds its bound.
     exceeded: usize,
-    /// States tried.
+    /// Number of states.
     states: usize,
 }
 
 impl BoundReport {
-    /// Whether every bar is met.
+    /// Returns whether every bound is met.
     pub fn holds(&self) -> bool {
         self.failures == 0 && self.ratio <= 1.0
     }
 
-    /// Whether it loses no digit: hardly beyond them, and that in single states only.
+    /// Returns whether no digit is lost: the bounds are exceeded by at most one bit and in single states
+    /// only.
     pub fn almost_holds(&self) -> bool {
         self.failures == 0 && self.ratio <= LITTLE && self.exceeded * SINGLE <= self.states
     }
 
-    /// Whether it is at most a digit beyond them.
+    /// Returns whether the bounds are exceeded by at most one digit.
     pub fn within_a_digit(&self) -> bool {
         self.failures == 0 && self.ratio <= 10.0
     }
 
-    /// Whether it comes near the bounds, or exceeds them, where no argument is rounded.
+    /// Returns whether it is close to the bounds, or exceeds them, without rounding of arguments.
     pub fn is_near(&self) -> bool {
         self.failures > 0 || self.strict_ratio > MARGIN
     }
 
-    /// Whether its errors are not larger than those of another function, no argument rounded.
+    /// Returns whether its errors are not larger than those of another function, without rounding of
+    /// arguments.
     pub fn is_no_worse_than(&self, other: &Self) -> bool {
         (self.failures, self.strict_ratio) <= (other.failures, other.strict_ratio)
     }
 
-    /// Its errors where no argument is rounded, in words.
+    /// Describes its errors without rounding of arguments, in words.
     pub fn in_strict_words(&self) -> String {
         match self.failures {
             0 => format!("up to {:.1e} times the error allowed", self.strict_ratio),
@@ -119,7 +122,7 @@ impl std::fmt::Display for BoundReport {
     }
 }
 
-/// The states of a mechanism with their answers.
+/// The sampled states of a mechanism with their reference solutions.
 pub(crate) struct ErrorBounds {
     answers: Vec<ReferenceSolution>,
     /// The lower triangle of M, row by row, and h.
@@ -128,7 +131,7 @@ pub(crate) struct ErrorBounds {
 }
 
 impl ErrorBounds {
-    /// States of the mechanism, with their answers.
+    /// Returns sampled states of the mechanism, with their reference solutions.
     pub fn new(graph: &BondGraph, geometry: &Geometry) -> Self {
         let n = geometry.bodies.len();
         let (made, outputs) = mass_and_bias(graph, geometry);
@@ -155,7 +158,7 @@ impl ErrorBounds {
         }
     }
 
-    /// The errors of a function, compared with the bounds.
+    /// Compares the errors of a function with the bounds.
     pub fn measure(&self, function: &Function) -> BoundReport {
         let mut all = BoundReport::default();
         for answer in &self.answers {
@@ -173,8 +176,7 @@ impl ErrorBounds {
         all
     }
 
-    /// The largest error of what was found, over what is allowed: where no argument is rounded, and as it
-    /// counts.
+    /// Returns the largest ratio of error to bound: without rounding of arguments, and with it.
     fn error_ratio(&self, answer: &ReferenceSolution, found: &[f64]) -> (f64, f64) {
         if found.iter().any(|x| !x.is_finite()) {
             return (f64::INFINITY, f64::INFINITY);
@@ -186,7 +188,7 @@ impl ErrorBounds {
             efforts: vec![0.0; off.len()],
             accelerations: 0.0,
         };
-        // What rounding changes can only allow more: it is worked out where that decides.
+        // Rounding of arguments only increases the bounds, so it is computed only if that decides.
         let strict = error_ratio(answer, &off, &found, &unrounded);
         let strict = strict.max(digits(answer, &off, 0.0));
         if strict <= MARGIN {
@@ -204,7 +206,7 @@ impl ErrorBounds {
     }
 }
 
-/// The largest error of what was found, over what is allowed with this rounding; digits apart.
+/// Returns the largest ratio of error to bound with this rounding, without the bound on digits.
 fn error_ratio(answer: &ReferenceSolution, off: &[Dd], found: &[Dd], rounding: &Rounding) -> f64 {
     let round_trip = if answer.round_trip {
         round_trip(answer, found)

@@ -1,9 +1,9 @@
-//! How well conditioned functions are: their errors in `f64` at sampled states of the mechanism.
+//! Measures errors of functions in `f64` at sampled states of the mechanism.
 //!
 //! | file | computes or holds |
 //! |---|---|
 //! | `sample_states.rs` | the states: random ones, and those in which the mass matrix is nearly singular |
-//! | `rounding_error.rs` | the error of any function, in roundings |
+//! | `rounding_error.rs` | the error of any function, in units of rounding |
 //! | `reference_solution.rs` | forward dynamics in double-double at one state, with norms of M |
 //! | `error_bounds.rs` | errors of forward dynamics compared with bounds |
 

@@ -1,4 +1,4 @@
-//! The solution of forward dynamics at one state, in double-double, with the norms that bound its error.
+//! Solves forward dynamics at one state in double-double, with the norms that bound rounding errors.
 
 use std::cell::OnceCell;
 
@@ -7,24 +7,23 @@ use bgdyn_runtime::{Dd, Scalar};
 use super::rounding_error::in_double_double;
 use crate::expr::Inputs;
 
-/// A pivot this much smaller than its diagonal entry is nothing but rounding error of
-/// double-double.
+/// A pivot smaller than this fraction of its diagonal entry is a rounding error of double-double.
 const SINGULAR: f64 = 1e-28;
 
-/// Steps of the power iteration, which comes to the norm from below: with 8, to within a factor
-/// of 1.2 where eigenvalues are close, to all digits where they are not.
+/// Number of steps of the power iteration, which converges to the norm from below: with 8, to within a
+/// factor of 1.2 if eigenvalues are close, to all digits otherwise.
 const STEPS: usize = 8;
 
 /// M and h of a state, in double-double.
 pub(super) struct MassAndBias {
     /// M
     pub mass: Vec<Vec<Dd>>,
-    /// h: the efforts that keep q̈ = 0.
+    /// h: the efforts at q̈ = 0.
     pub bias: Vec<Dd>,
 }
 
 impl MassAndBias {
-    /// From the lower triangle of M, row by row, and h after it.
+    /// Takes the lower triangle of M, row by row, followed by h.
     pub fn new(values: &[Dd], n: usize) -> Self {
         let (triangle, bias) = values.split_at(values.len() - n);
         let at = |i: usize, j: usize| triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
@@ -34,7 +33,7 @@ impl MassAndBias {
         }
     }
 
-    /// M a + h
+    /// Returns M a + h.
     fn efforts(&self, a: &[f64]) -> Vec<f64> {
         let a: Vec<Dd> = a.iter().map(|&a| Dd::from_f64(a)).collect();
         let efforts = product(&self.mass, &a);
@@ -42,35 +41,35 @@ impl MassAndBias {
         efforts.map(Dd::to_f64).collect()
     }
 
-    /// What is left of the efforts to accelerate.
+    /// Returns the efforts minus h, which accelerate the mechanism.
     fn drive(&self, efforts: &[Dd]) -> Vec<Dd> {
         let drive = efforts.iter().zip(&self.bias);
         drive.map(|(&u, &h)| u - h).collect()
     }
 }
 
-/// What changes where each argument is rounded by half an eps of itself: the sums over all of them.
+/// The effects of rounding each argument by half an eps of itself: the sums over all arguments.
 #[derive(Default)]
 pub(super) struct Rounding {
-    /// Of each joint's effort at the answer's accelerations.
+    /// Changes of each joint's effort at the exact accelerations.
     pub efforts: Vec<f64>,
-    /// Of ‖q̈‖.
+    /// Change of ‖q̈‖.
     pub accelerations: f64,
 }
 
-/// A state and its answer.
+/// A state and its exact solution.
 pub(super) struct ReferenceSolution {
     /// The state.
     pub inputs: Inputs<f64>,
     /// M
     pub mass: Vec<Vec<Dd>>,
-    /// h: the efforts that keep q̈ = 0.
+    /// h: the efforts at q̈ = 0.
     pub bias: Vec<f64>,
     /// q̈ under the efforts of the state.
     pub exact: Vec<Dd>,
-    /// What rounding the arguments changes, once it was asked for.
+    /// The effects of rounding the arguments, computed on demand.
     rounding: OnceCell<Rounding>,
-    /// Whether the efforts were made from the state's accelerations, and rounded.
+    /// Whether the efforts were computed from the state's accelerations, and rounded.
     pub round_trip: bool,
     /// ‖M‖
     pub most: f64,
@@ -79,8 +78,8 @@ pub(super) struct ReferenceSolution {
 }
 
 impl ReferenceSolution {
-    /// The answer in a state; `terms` knows M and h at any arguments. For a `round_trip` the state
-    /// gets the rounded efforts that its accelerations take. Nothing where M is singular.
+    /// Solves a state; `terms` computes M and h at any arguments. For a `round_trip` the efforts of the
+    /// state are computed from its accelerations and rounded. `None` if M is singular.
     pub fn new(
         mut inputs: Inputs<f64>,
         terms: impl Fn(&Inputs<Dd>) -> MassAndBias,
@@ -107,8 +106,8 @@ impl ReferenceSolution {
         })
     }
 
-    /// What rounding the arguments changes; `terms` as for [`ReferenceSolution::new`]. Worked out at the first
-    /// call: it takes M and h twice a joint.
+    /// Returns the effects of rounding the arguments; `terms` as for [`ReferenceSolution::new`]. They are
+    /// computed at the first call, with two evaluations of M and h per joint.
     pub fn rounding(&self, terms: impl Fn(&Inputs<Dd>) -> MassAndBias) -> &Rounding {
         self.rounding.get_or_init(|| self.rounded(terms))
     }
@@ -162,14 +161,14 @@ fn rows<T: Copy, U>(m: &[Vec<T>], f: impl Fn(T) -> U + Copy) -> Vec<Vec<U>> {
         .collect()
 }
 
-/// M = Lᵀ D L, from the last coordinate to the first, in numbers.
+/// The numerical factors of M = Lᵀ D L, from the last coordinate to the first.
 struct CholeskyFactor<T> {
     /// L below its unit diagonal, D⁻¹ on the diagonal.
     l: Vec<Vec<T>>,
 }
 
 impl CholeskyFactor<Dd> {
-    /// Nothing where a pivot is lost.
+    /// Factors M; `None` if a pivot is lost.
     fn new(mut m: Vec<Vec<Dd>>) -> Option<Self> {
         let n = m.len();
         let diagonal: Vec<f64> = (0..n).map(|k| m[k][k].to_f64()).collect();
@@ -199,7 +198,7 @@ impl CholeskyFactor<Dd> {
 }
 
 impl<T: Scalar> CholeskyFactor<T> {
-    /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
+    /// Solves M x = f: Lᵀ y = f, then L x = D⁻¹ y.
     fn solve(&self, mut x: Vec<T>) -> Vec<T> {
         let n = x.len();
         for k in (0..n).rev() {
@@ -217,7 +216,7 @@ impl<T: Scalar> CholeskyFactor<T> {
     }
 }
 
-/// m x
+/// Returns m x.
 pub(super) fn product<T: Scalar>(m: &[Vec<T>], x: &[T]) -> Vec<T> {
     let row = |row: &Vec<T>| {
         let terms = row.iter().zip(x).map(|(&m, &x)| m * x);
@@ -226,7 +225,7 @@ pub(super) fn product<T: Scalar>(m: &[Vec<T>], x: &[T]) -> Vec<T> {
     m.iter().map(row).collect()
 }
 
-/// √(x·x), without overflow on the way.
+/// Returns √(x·x), without intermediate overflow.
 pub(super) fn norm(x: impl Iterator<Item = f64> + Clone) -> f64 {
     let most = x.clone().fold(0.0, |most: f64, x| most.max(x.abs()));
     if most == 0.0 || !most.is_finite() {
@@ -235,9 +234,9 @@ pub(super) fn norm(x: impl Iterator<Item = f64> + Clone) -> f64 {
     most * x.map(|x| (x / most) * (x / most)).sum::<f64>().sqrt()
 }
 
-/// The largest eigenvalue of a positive definite matrix, by repeated products with it.
+/// Returns the largest eigenvalue of a positive definite matrix, by power iteration.
 fn spectral_norm(n: usize, product: impl Fn(Vec<f64>) -> Vec<f64>) -> f64 {
-    // No symmetry of a mechanism has these proportions.
+    // A start vector that is orthogonal to no eigenvector of a symmetric mechanism.
     let mut x: Vec<f64> = (0..n).map(|i| 1.0 + 0.37 * (i as f64).sin()).collect();
     let mut largest = 0.0;
     for _ in 0..STEPS {

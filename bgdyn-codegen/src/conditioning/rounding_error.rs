@@ -1,4 +1,4 @@
-//! The rounding error of a function: its value in `f64` against double-double, at sampled states.
+//! Measures the rounding error of a function: its value in `f64` against double-double, at sampled states.
 
 use bgdyn_runtime::Dd;
 
@@ -7,29 +7,28 @@ use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::function::Function;
 
-/// The error at the sampled states. A failure where a result exists is worse than any error.
+/// The largest error at the sampled states. A failure in a state with a result is worse than any error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RoundingError {
-    /// States that have an answer in double-double and none in `f64`.
+    /// Number of states with a result in double-double and none in `f64`.
     pub failures: usize,
-    /// The worst error in the others, in units of the rounding (2⁻⁵²) of the largest component of
-    /// the result: 1 is as good as rounding the exact result, 1,000 is three digits lost.
+    /// The largest error in the other states, in units of the rounding (2⁻⁵²) of the largest component of
+    /// the result: 1 is the error of rounding the exact result, 1,000 is three digits lost.
     pub ulps: f64,
 }
 
 impl RoundingError {
-    /// A key to sort by, the best first; errors that agree to a tenth of an ulp are equal.
+    /// Returns a key for sorting, the best first; errors that agree to a tenth of an ulp are equal.
     pub(crate) fn rank(self) -> (usize, u64) {
-        // Beyond the range of u64 the cast gives its largest number.
+        // Beyond the range of u64 the cast returns its largest number.
         (self.failures, (10.0 * self.ulps).ceil() as u64)
     }
 }
 
-/// The digits that a function loses. Generic states (positions anywhere within a turn, or a metre;
-/// velocities, accelerations and efforts of a few units, some a thousand times as large); for
-/// functions that invert the mass matrix also states near aligned axes. Run-time parameters as the
-/// spec has them. States without an answer in double-double do not count; nothing where that is
-/// every one.
+/// Returns the error of a function in generic states (positions anywhere within a turn, or a metre;
+/// velocities, accelerations and efforts of a few units, some a thousand times as large); for functions
+/// that invert the mass matrix also in states near aligned axes. Run-time parameters have the values of
+/// the spec. States without a result in double-double are ignored; `None` if there are no others.
 pub fn rounding_error(function: &Function, graph: &BondGraph) -> Option<RoundingError> {
     rounding_error_at(
         function,
@@ -40,7 +39,7 @@ pub fn rounding_error(function: &Function, graph: &BondGraph) -> Option<Rounding
 /// A state, and a method's result there in double-double.
 pub(crate) type ExactResult = (Inputs<f64>, Vec<Dd>);
 
-/// The states in which any of these ways to one method has an answer in double-double.
+/// Returns the states in which any of these functions for one method has a result in double-double.
 pub(crate) fn exact_results(ways: &[Function], graph: &BondGraph) -> Vec<ExactResult> {
     let mut states = random(graph);
     if ways.iter().any(|way| way.shape().checked()) {
@@ -56,7 +55,7 @@ pub(crate) fn exact_results(ways: &[Function], graph: &BondGraph) -> Vec<ExactRe
     answered.collect()
 }
 
-/// The digits that a function loses at these states; nothing where there are none.
+/// Returns the error of a function at these states; `None` if there are none.
 pub(crate) fn rounding_error_at(
     function: &Function,
     answers: &[ExactResult],
@@ -71,12 +70,12 @@ pub(crate) fn rounding_error_at(
     (!answers.is_empty()).then_some(worst)
 }
 
-/// The largest error over the largest component, in units of 2⁻⁵².
+/// Returns the largest error over the largest component, in units of 2⁻⁵².
 fn error_in_ulps(found: &[f64], exact: &[Dd]) -> f64 {
     let size = exact.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
     let off = exact.iter().zip(found);
     let off = off.map(|(x, &y)| (*x - Dd::from_f64(y)).to_f64().abs());
-    // A NaN counts as the largest of all.
+    // A NaN counts as the largest error.
     let off = off.fold(0.0, |most, x: f64| if x <= most { most } else { x });
     match off {
         0.0 => 0.0,
@@ -85,7 +84,7 @@ fn error_in_ulps(found: &[f64], exact: &[Dd]) -> f64 {
     }
 }
 
-/// The same numbers in double-double.
+/// Converts the numbers to double-double.
 pub(crate) fn in_double_double(state: &Inputs<f64>) -> Inputs<Dd> {
     let all = |x: &[f64]| x.iter().map(|&x| Dd::from_f64(x)).collect();
     Inputs {

@@ -1,10 +1,10 @@
-//! The states in which functions are tried: the same ones in every run for one mechanism.
+//! Samples the states in which functions are measured; for one mechanism they are the same in every run.
 //!
-//! Random ones, and those near which mass matrices come closest to losing rank: common normals of
-//! neighbouring axes in line or across, which is where axes become parallel and where an arm is
-//! stretched or folded, exactly and by a hair. Positions, velocities and efforts are numbers of
-//! `f64`. Of the seven functions whose factoring [`crate::choice`] gives up, six lose their digits near
-//! aligned axes only, and one (`crane`) where a joint moves least.
+//! Random states, and states near which mass matrices are closest to losing rank: common normals of
+//! neighbouring axes in line or perpendicular, where axes become parallel and where an arm is stretched or
+//! folded, exactly and almost. Positions, velocities and efforts are `f64` numbers. Of the seven functions
+//! that [`crate::choice`] does not factor, six lose their digits near aligned axes only, and one (`crane`)
+//! where a joint moves the least inertia.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -20,26 +20,26 @@ use crate::random::Random;
 /// Number of random states.
 const RANDOM: u64 = 24;
 
-/// States near aligned axes at the most.
+/// Largest number of states near aligned axes.
 const NEAR_SINGULAR: usize = 36;
 
 /// States in which all joints are aligned.
 const TOGETHER: u64 = 6;
 
-/// For one joint by itself: quarter turns from where its normals are in line, and how far off, rad.
+/// For a single joint: quarter turns from the position with normals in line, and the deviation, rad.
 const ONE_BY_ONE: [(f64, f64); 4] = [(0.0, 1e-8), (2.0, 1e-4), (1.0, 1e-8), (3.0, 0.0)];
 
-/// For all joints at once.
+/// Deviations for all joints together.
 const OFF: [f64; 3] = [0.0, 1e-8, 1e-4];
 
-/// States anywhere: positions within a turn, or a metre; velocities, accelerations and efforts of
-/// a few units; every fourth a thousand times as fast, every other fourth under a thousand times
-/// the effort. Run-time parameters as the spec has them.
+/// Returns random states: positions within a turn, or a metre; velocities, accelerations and efforts of a
+/// few units; every fourth state with a thousand times the velocities, every other fourth with a thousand
+/// times the efforts. Run-time parameters have the values of the spec.
 pub(crate) fn random(graph: &BondGraph) -> Vec<Inputs<f64>> {
     (0..RANDOM).map(|seed| random_state(graph, seed)).collect()
 }
 
-/// States near aligned axes: joint by joint with the others anywhere, and all at once.
+/// Returns states near aligned axes: one joint aligned and the others anywhere, and all joints aligned.
 pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
     let aligned = aligned_positions(graph);
     let joints: Vec<usize> = (0..aligned.len())
@@ -53,7 +53,8 @@ pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
         let mut state = random_state(graph, RANDOM + seed);
         let mut random = Random(!seed);
         for &j in &joints {
-            // The first ones all in line, then in line or folded, then any quarter turn.
+            // The first state has all normals in line, the next ones in line or folded, then any quarter
+            // turn.
             let turns = match seed {
                 0 | 1 => 0.0,
                 2 | 3 => 2.0 * random.below(2) as f64,
@@ -75,9 +76,9 @@ pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
     states
 }
 
-/// For each joint the aligned states in which it moves least, exactly and by a hair: there its row of
-/// M is what is left of terms that cancel. At most so many of them, spread over the joints. `moved`
-/// gives the inertia that a joint moves, as a function of the state.
+/// Returns, for each joint, the aligned states in which it moves the least inertia, exactly and almost: in
+/// them its row of M is the remainder of terms that cancel. At most this number of them, spread over the
+/// joints. `moved` returns the inertia that a joint moves, as a function of the state.
 pub(crate) fn least_inertia<F: Fn(&Inputs<f64>) -> f64>(
     graph: &BondGraph,
     most: usize,
@@ -101,7 +102,7 @@ pub(crate) fn least_inertia<F: Fn(&Inputs<f64>) -> f64>(
     states
 }
 
-/// The state in which joint i moves least, found joint by joint from the tips inwards.
+/// Returns the state in which joint i moves the least inertia, found joint by joint from the tips inboard.
 fn least_inertia_pose(
     graph: &BondGraph,
     aligned: &[Option<Dd>],
@@ -125,7 +126,7 @@ fn least_inertia_pose(
     state
 }
 
-/// At most so many items, spread over the list.
+/// Returns at most this number of items, spread over the list.
 pub(crate) fn subsample<T: Clone>(all: &[T], most: usize) -> Vec<T> {
     let kept = all.len().min(most);
     (0..kept)
@@ -162,11 +163,11 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     }
 }
 
-/// For each rotation that another joint carries, the position at which the common normals with the
-/// axes before and after it have one direction (θ = 0 of Denavit and Hartenberg). There, and every
-/// quarter turn from there, the neighbouring axes are as close to parallel as they come, and the
-/// arm is stretched or folded. At a tip the centre of mass takes the place of the next axis.
-/// `None` for joints on the base: M does not depend on their positions.
+/// Returns, for each rotation with an inboard joint, the position at which the common normals with the
+/// axes before and after it have the same direction (θ = 0 of Denavit and Hartenberg). At this position,
+/// and at every quarter turn from it, the neighbouring axes are as close to parallel as possible, and the
+/// arm is stretched or folded. At a tip the centre of mass replaces the next axis. `None` for joints on
+/// the base: M does not depend on their positions.
 fn aligned_positions(graph: &BondGraph) -> Vec<Option<Dd>> {
     let geometry = geometry(graph);
     let bodies = geometry.bodies.iter();
@@ -185,7 +186,7 @@ fn aligned_positions(graph: &BondGraph) -> Vec<Option<Dd>> {
         .collect()
 }
 
-/// m r of a body in its axes, run-time parameters as the spec has them.
+/// Returns m r of a body in its axes; run-time parameters have the values of the spec.
 fn first_moment(graph: &BondGraph, body: &Body) -> Vec3<Dd> {
     let number = |x: Value| match x {
         Value::Fixed(x) => x,

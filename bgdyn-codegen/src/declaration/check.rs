@@ -1,4 +1,4 @@
-//! The check of one effect: from its declared values to an element whose names and numbers are valid.
+//! Checks one effect: converts its declared values to an element with valid names and numbers.
 
 use bgdyn_runtime::Dd;
 
@@ -9,14 +9,14 @@ use crate::mechanism::Motion;
 use crate::name::is_identifier;
 
 impl Declaration {
-    /// The element, if its names are known and its numbers obey its rules.
+    /// Returns the element if its names are known and its numbers obey its rules.
     pub fn element(&self, context: &NameScope, faults: &mut Faults) -> Option<Element> {
         let before = faults.count();
         let joint = match self.fields.get("joint").map(|e| &e.value) {
             Some(ParsedValue::Text(joint)) => Some(joint.as_str()),
             _ => None,
         };
-        // What acts along a line acts on a length.
+        // An effect along a line acts on a length.
         let motion = joint.map_or(Some(Motion::Translation), |joint| context.motion_of(joint));
         let mut element = Element {
             name: self.name.value.clone(),
@@ -66,7 +66,7 @@ impl Declaration {
         (faults.count() == before).then_some(element)
     }
 
-    /// A joint's limit in place of a number.
+    /// Returns a joint's limit as a number of the effect.
     fn limit(&self, key: &Key, limit: f64, motion: Option<Motion>) -> Quantity {
         let dimension = match key.reads {
             Reads::Number(fit) => of_motion(fit, motion)[0],
@@ -140,7 +140,7 @@ impl Declaration {
     }
 }
 
-/// The names that may stand behind a key; `None` where any may.
+/// Returns the valid names for a key; `None` if every name is valid.
 fn known(reads: Reads, context: &NameScope) -> Option<Vec<&str>> {
     Some(match reads {
         Reads::Word([]) => return None,
@@ -163,7 +163,7 @@ fn known(reads: Reads, context: &NameScope) -> Option<Vec<&str>> {
     })
 }
 
-/// What the numbers behind a key may measure.
+/// Returns the valid dimensions of numbers for a key.
 fn dimensions(reads: Reads) -> &'static [Dimension] {
     match reads {
         Reads::Number(fit) | Reads::Vector(fit) | Reads::Group(_, fit) => fit,
@@ -195,7 +195,7 @@ fn unknown(
     }
 }
 
-/// Two dimensions are those of a rotation and of a translation.
+/// Selects one of two dimensions: that of a rotation or that of a translation.
 fn of_motion(fit: &'static [Dimension], motion: Option<Motion>) -> &'static [Dimension] {
     match (fit, motion) {
         ([turning, _], Some(Motion::Rotation)) => std::slice::from_ref(turning),

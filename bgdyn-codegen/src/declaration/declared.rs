@@ -1,22 +1,22 @@
-//! An effect as a file declares it, not yet checked.
+//! An effect as declared in a file, before the checks.
 
 use super::EffectKind;
 use super::element::node_names;
 use crate::format::{Fields, Located};
 
-/// An effect as a mechanism's file declares it; a scene may use it, with other values if it likes.
+/// An effect as declared in a mechanism's file; a scene may use it, with other values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Declaration {
     /// Its name.
     pub name: Located<String>,
-    /// What it is.
+    /// Its kind.
     pub effect: &'static dyn EffectKind,
     /// Its values.
     pub fields: Fields,
 }
 
 impl Declaration {
-    /// Names of the hydraulic nodes that it has.
+    /// Returns the names of its hydraulic nodes.
     pub fn nodes(&self) -> Vec<String> {
         let sides = self.effect.nodes(&|key| self.fields.get(key).is_some());
         node_names(&self.name.value, sides)

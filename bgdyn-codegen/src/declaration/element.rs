@@ -1,4 +1,4 @@
-//! A kind of effect as files declare it, and an effect with its checked values.
+//! The trait of effect kinds as files declare them, and the type of an effect with checked values.
 
 use bgdyn_runtime::Dd;
 
@@ -12,13 +12,13 @@ use crate::mechanism::{Limits, Mechanism};
 pub struct Quantity {
     /// The spec's value, in SI units.
     pub value: Dd,
-    /// Name of the run-time parameter whose default it is.
+    /// Name of the run-time parameter with this default value.
     pub parameter: Option<String>,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
-    /// As it stands in the file.
+    /// Its text in the file.
     pub text: String,
-    /// Where.
+    /// Its location.
     pub location: Location,
 }
 
@@ -27,9 +27,9 @@ pub struct Quantity {
 pub enum ElementValue {
     /// A number.
     Number(Quantity),
-    /// A word, or the name of a coordinate, a place, a node or an input.
+    /// A word, or the name of a coordinate, a site, a node or an input.
     Name(String),
-    /// Two of them.
+    /// Two names.
     Names([String; 2]),
     /// Three numbers.
     Vector([Dd; 3]),
@@ -42,119 +42,120 @@ pub enum ElementValue {
 pub struct Element {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub effect: &'static dyn EffectKind,
-    /// Where it stands in the file.
+    /// Its location in the file.
     pub location: Location,
     /// Its values by key.
     pub values: Vec<(&'static str, ElementValue)>,
 }
 
-/// A kind of effect, as files declare it: all but its equations.
+/// A kind of effect, as files declare it, without its equations.
 pub trait EffectKind: Sync {
-    /// The word after `type`.
+    /// Returns the word for the key `type`.
     fn keyword(&self) -> &'static str;
 
-    /// The word by which a scene calls for all effects of like kind: `friction`.
+    /// Returns the word for all effects of a family in a scene: `friction`.
     fn family(&self) -> &'static str;
 
-    /// One line: what it is, with its equation.
+    /// Returns one line with a description and the equation.
     fn summary(&self) -> &'static str;
 
-    /// The symbol of its element on the bond graph: `R`, `C`, `I`, `GY`, `TF`, `Se`, `MTF`.
+    /// Returns the symbol of its element on the bond graph: `R`, `C`, `I`, `GY`, `TF`, `Se`, `MTF`.
     fn symbol(&self) -> &'static str;
 
-    /// The keys it has. A value without keys is that of the first one.
+    /// Returns its keys. A value without a key belongs to the first one.
     fn keys(&self) -> &'static [Key];
 
-    /// Whether the spec has to say nothing of it: gravity, say. A scene calls it by its keyword.
+    /// Returns whether the effect needs no declaration in the spec (gravity, for example). A scene
+    /// includes it by its keyword.
     fn built_in(&self) -> bool {
         false
     }
 
-    /// Whether its name is that of a coordinate, on which other effects may act.
+    /// Returns whether its name is that of a coordinate, on which other effects may act.
     fn adds_coordinate(&self) -> bool {
         false
     }
 
-    /// The hydraulic nodes it has where `given` tells which keys are there: the empty name for one
-    /// that is called as the effect is, `a` for one with `_a` behind it.
+    /// Returns its hydraulic nodes; `given` returns whether a key is present. The empty string is a node
+    /// with the name of the effect, `a` a node with the suffix `_a`.
     fn nodes(&self, _given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
         &[]
     }
 
-    /// Whether its node has no volume, so that the flows into it must be nothing at every instant.
+    /// Returns whether its node has no volume, so that the flows into it sum to zero at every instant.
     fn is_junction(&self) -> bool {
         false
     }
 
-    /// Whether its pressure drop is the same function of its flow at all times, so that it can
-    /// stand in series with others like it.
+    /// Returns whether its pressure drop is the same function of its flow at all times, so that it can be
+    /// in series with similar elements.
     fn in_series(&self, _: &Element) -> bool {
         false
     }
 
-    /// How its law was solved where it has no store that it could wait for.
+    /// Returns how its law is solved if no store determines its variables.
     fn algebraic(&self, _: &Element) -> Option<&'static str> {
         None
     }
 
-    /// Whether a joint has one of them at most.
+    /// Returns whether a joint can have only one effect of this kind.
     fn once_per_joint(&self) -> bool {
         false
     }
 
-    /// What stands for a missing key where its joint has these limits.
+    /// Returns the default of a missing key from the limits of its joint.
     fn limit_for(&self, _key: &str, _: &Limits) -> Option<f64> {
         None
     }
 
-    /// When its law runs: those with smaller numbers first. Nodes stand before what joins them.
+    /// Returns the order of its law: smaller numbers run first. Nodes precede the elements that join them.
     fn order(&self) -> u8 {
         1
     }
 
-    /// What its numbers must obey.
+    /// Checks the rules of its numbers.
     fn check_values(&self, _: &mut ValueCheck<'_>) {}
 
-    /// What it must obey beside the scene's other effects.
+    /// Checks the rules for it together with the scene's other effects.
     fn check_in_scene(&self, _: &Element, _: &SceneContext<'_>, _: &mut Faults) {}
 
-    /// What it changes in the mechanism, before there is a graph.
+    /// Changes the mechanism, before the graph is built.
     fn modify_mechanism(&self, _: &Element, _: &mut Mechanism) {}
 
-    /// Coordinates, states, modes, inputs and events that it adds.
+    /// Declares the coordinates, states, modes, inputs and events that it adds.
     fn declare(&self, _: &Element, _: &mut StateLayout) {}
 
-    /// Whether a first-order state is its own.
+    /// Returns whether a first-order state belongs to this element.
     fn owns_state(&self, element: &Element, state: &str) -> bool {
         element.name == state
     }
 }
 
-/// What an effect finds beside it in its scene.
+/// The scene of an effect.
 pub struct SceneContext<'a> {
-    /// The scene's effects, itself among them.
+    /// The scene's effects, including this one.
     pub elements: &'a [Element],
-    /// The mechanism, locked joints welded.
+    /// The mechanism, with locked joints welded.
     pub mechanism: &'a Mechanism,
 }
 
-/// What an effect's rules look at, and where they report.
+/// The data for the rules of an effect, and the list of their errors.
 pub struct ValueCheck<'a> {
-    /// The element, its values of the right kind.
+    /// The element, whose values have the right types.
     pub element: &'a Element,
-    /// What is wrong with it.
+    /// The errors found.
     pub faults: &'a mut Faults,
 }
 
 impl Element {
-    /// What stands behind a key.
+    /// Returns the value of a key.
     pub fn get(&self, key: &str) -> Option<&ElementValue> {
         self.values.iter().find(|(k, _)| *k == key).map(|(_, v)| v)
     }
 
-    /// The number behind a key.
+    /// Returns the number of a key.
     pub fn quantity(&self, key: &str) -> Option<&Quantity> {
         match self.get(key) {
             Some(ElementValue::Number(quantity)) => Some(quantity),
@@ -162,13 +163,13 @@ impl Element {
         }
     }
 
-    /// The number behind a key as the file writes it, or the name of its run-time parameter.
+    /// Returns the number of a key in the file's text, or the name of its run-time parameter.
     pub fn written(&self, key: &str) -> Option<String> {
         let quantity = self.quantity(key)?;
         Some(quantity.parameter.clone().unwrap_or(quantity.text.clone()))
     }
 
-    /// Its numbers by key.
+    /// Returns its numbers by key.
     pub fn quantities(&self) -> impl Iterator<Item = (&'static str, &Quantity)> {
         self.values.iter().filter_map(|(key, value)| match value {
             ElementValue::Number(quantity) => Some((*key, quantity)),
@@ -176,7 +177,7 @@ impl Element {
         })
     }
 
-    /// The word or name behind a key.
+    /// Returns the word or name of a key.
     pub fn name(&self, key: &str) -> Option<&str> {
         match self.get(key) {
             Some(ElementValue::Name(name)) => Some(name),
@@ -184,7 +185,7 @@ impl Element {
         }
     }
 
-    /// The two names behind a key.
+    /// Returns the two names of a key.
     pub fn names(&self, key: &str) -> Option<&[String; 2]> {
         match self.get(key) {
             Some(ElementValue::Names(names)) => Some(names),
@@ -192,12 +193,12 @@ impl Element {
         }
     }
 
-    /// What a number of it stands for: "mass of `part`".
+    /// Returns a description of one of its numbers: "mass of `part`".
     pub fn meaning(&self, key: &str) -> String {
         format!("{key} of `{}`", self.name)
     }
 
-    /// The words behind a key.
+    /// Returns the words of a key.
     pub fn words(&self, key: &str) -> Option<&[String]> {
         match self.get(key) {
             Some(ElementValue::Words(words)) => Some(words),
@@ -205,20 +206,20 @@ impl Element {
         }
     }
 
-    /// Names of the hydraulic nodes that it has.
+    /// Returns the names of its hydraulic nodes.
     pub fn nodes(&self) -> Vec<String> {
         let sides = self.effect.nodes(&|key| self.get(key).is_some());
         node_names(&self.name, sides)
     }
 
-    /// Names of the hydraulic nodes that it joins.
+    /// Returns the names of the hydraulic nodes that it joins.
     pub fn joins(&self) -> Vec<&str> {
         let keys = self.effect.keys().iter();
         let keys = keys.filter(|k| k.reads == Reads::Node);
         keys.filter_map(|k| self.name(k.name)).collect()
     }
 
-    /// The three numbers behind a key.
+    /// Returns the three numbers of a key.
     pub fn vector(&self, key: &str) -> Option<[Dd; 3]> {
         match self.get(key) {
             Some(ElementValue::Vector(vector)) => Some(*vector),
@@ -227,7 +228,7 @@ impl Element {
     }
 }
 
-/// The nodes of an effect: its name, or its name with each of its sides.
+/// Returns the nodes of an effect: its name, or its name with each of its sides.
 pub(super) fn node_names(name: &str, sides: &[&str]) -> Vec<String> {
     let of = |side: &&str| match *side {
         "" => name.to_owned(),

@@ -6,23 +6,23 @@ use super::{ElementValue, Quantity, ValueCheck};
 use crate::fault::{Fault, Location, wording};
 
 impl ValueCheck<'_> {
-    /// The number behind a key.
+    /// Returns the number of a key.
     pub fn number(&self, key: &str) -> Option<&Quantity> {
         self.element.quantity(key)
     }
 
-    /// Its value, or this one.
+    /// Returns its value, or a default.
     pub fn value_or(&self, key: &str, default: f64) -> f64 {
         self.number(key).map_or(default, |q| q.value.to_f64())
     }
 
-    /// Where a key's value stands; the element's place without one.
+    /// Returns the location of a key's value, or of the element if the key is missing.
     pub fn location(&self, key: &str) -> Location {
         self.number(key)
             .map_or_else(|| self.element.location.clone(), |q| q.location.clone())
     }
 
-    /// The numbers behind these keys must not be negative.
+    /// Reports numbers of these keys that are negative.
     pub fn not_negative(&mut self, keys: &[&str], why: &str) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value < Dd::ZERO) {
@@ -32,7 +32,7 @@ impl ValueCheck<'_> {
         }
     }
 
-    /// The numbers behind these keys must be greater than zero.
+    /// Reports numbers of these keys that are not greater than zero.
     pub fn positive(&mut self, keys: &[&str], why: &str) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value <= Dd::ZERO) {
@@ -42,7 +42,7 @@ impl ValueCheck<'_> {
         }
     }
 
-    /// The number behind this key must not be greater than 1.
+    /// Reports a number of this key that is greater than 1.
     pub fn at_most_one(&mut self, key: &str, why: &str) {
         if let Some(q) = self.number(key).filter(|q| q.value > Dd::ONE) {
             let fault = wording::value_above_one(&q.location, key, &q.text, why);
@@ -50,7 +50,7 @@ impl ValueCheck<'_> {
         }
     }
 
-    /// The numbers behind these keys must not be run-time parameters.
+    /// Reports numbers of these keys that are run-time parameters.
     pub fn fixed(&mut self, keys: &[&str]) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.parameter.is_some()) {
@@ -61,7 +61,7 @@ impl ValueCheck<'_> {
         }
     }
 
-    /// The first number must not be greater than the second.
+    /// Reports a first number that is greater than the second.
     pub fn ordered(&mut self, small: &str, large: &str, why: &str) {
         if let (Some(a), Some(b)) = (self.number(small), self.number(large))
             && a.value > b.value
@@ -72,7 +72,7 @@ impl ValueCheck<'_> {
         }
     }
 
-    /// Exactly one of these keys must be there.
+    /// Reports if not exactly one of these keys is present.
     pub fn one_of(&mut self, keys: &[&str]) {
         let given: Vec<&str> = keys
             .iter()
@@ -90,12 +90,12 @@ impl ValueCheck<'_> {
         }
     }
 
-    /// Notes a finding.
+    /// Records an error.
     pub fn report(&mut self, fault: Fault) {
         self.faults.push(fault);
     }
 
-    /// Whether the key names this word.
+    /// Returns whether the value of the key is this word.
     pub fn says(&self, key: &str, word: &str) -> bool {
         matches!(self.element.get(key), Some(ElementValue::Name(name)) if name == word)
     }

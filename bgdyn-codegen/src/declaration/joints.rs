@@ -1,6 +1,6 @@
-//! The key `joints`: one declaration of an effect for several joints.
+//! Expands the key `joints`: one declaration of an effect for several joints.
 //!
-//! It stands for one effect per joint, called NAME_JOINT, with the same values.
+//! The declaration becomes one effect per joint, with the name NAME_JOINT and the same values.
 
 use super::{Declaration, EffectKind};
 use crate::fault::{Faults, wording};
@@ -14,11 +14,10 @@ pub const JOINTS: Key = Key {
     about: "`all`, or a list: one effect for each, called NAME_JOINT",
 };
 
-/// The key of one joint, which [`JOINTS`] stands in place of.
+/// The key of one joint, which [`JOINTS`] replaces.
 const JOINT: &str = "joint";
 
-/// The keys that an effect is declared with: its own, and that of several joints where it acts on
-/// one.
+/// Returns the keys for declaring an effect: its own, and the key of several joints if it acts on a joint.
 pub fn keys_declared(effect: &dyn EffectKind) -> Vec<Key> {
     let mut keys = effect.keys().to_vec();
     if let Some(at) = keys.iter().position(|key| key.name == JOINT) {
@@ -28,13 +27,13 @@ pub fn keys_declared(effect: &dyn EffectKind) -> Vec<Key> {
 }
 
 impl Declaration {
-    /// Whether it stands for one effect per joint.
+    /// Returns whether it declares one effect per joint.
     pub fn has_joints(&self) -> bool {
         self.fields.get(JOINTS.name).is_some()
     }
 
-    /// One effect for each of its joints, or itself where it has no `joints`. `all` are the names
-    /// that the word stands for.
+    /// Returns one effect for each of its joints, or itself if it has no `joints`. `all` are the names for
+    /// the word "all".
     pub fn of_each_joint(self, all: &[&str], faults: &mut Faults) -> Vec<Declaration> {
         let Some(joints) = self.fields.get(JOINTS.name).cloned() else {
             return vec![self];
@@ -61,8 +60,8 @@ impl Declaration {
         names.into_iter().map(one).collect()
     }
 
-    /// These values, and those of `base` whose keys are missing here; `joint` and `joints` are in
-    /// place of each other.
+    /// Returns these values, and those of `base` for missing keys; `joint` and `joints` replace each
+    /// other.
     pub(super) fn over(fields: Fields, base: &Fields) -> Fields {
         let given = |key| fields.get(key).is_some();
         let base = match given(JOINT) || given(JOINTS.name) {
@@ -73,7 +72,7 @@ impl Declaration {
     }
 }
 
-/// The joints meant, each once.
+/// Returns the joints of the key, each once.
 fn names(
     joints: &Located<ParsedValue>,
     all: &[&str],

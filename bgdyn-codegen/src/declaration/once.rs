@@ -1,4 +1,4 @@
-//! The check that a joint has at most one effect of certain types.
+//! Checks that a joint has at most one effect of certain types.
 
 use super::Element;
 use crate::fault::{Faults, wording};

@@ -1,4 +1,4 @@
-//! Reads the effects that a mechanism's file declares, and the ones that a scene calls for.
+//! Parses the effects that a mechanism's file declares, and those that a scene includes.
 
 use super::joints::keys_declared;
 use super::{Declaration, EffectKind, EffectKinds};
@@ -6,7 +6,7 @@ use crate::fault::{Faults, Location, wording};
 use crate::format::{Fields, Key, Located, Raw, Reads};
 use crate::name::is_identifier;
 
-/// The key that says what an effect is.
+/// The key for the type of an effect.
 const TYPE: Key = Key {
     name: "type",
     reads: Reads::Word(&[]),
@@ -14,7 +14,7 @@ const TYPE: Key = Key {
     about: "what it is",
 };
 
-/// The effect that a file declares under a name.
+/// Parses the effect that a file declares under a name.
 pub fn parse_declaration(
     raw: &Raw,
     kinds: &EffectKinds,
@@ -38,7 +38,7 @@ pub fn parse_declaration(
     })
 }
 
-/// The effects that a scene calls for by one entry of its list; the mechanism declares `known`.
+/// Returns the effects of one entry of a scene's list; the mechanism declares `known`.
 pub fn resolve_call(
     raw: &Raw,
     known: &[Declaration],
@@ -76,7 +76,7 @@ pub fn resolve_call(
     kin
 }
 
-/// The mechanism's effect, with the scene's values in place of its own.
+/// Returns the mechanism's effect with the scene's values in place of its own.
 fn with_overrides(raw: &Raw, own: &Declaration, faults: &mut Faults) -> Option<Declaration> {
     let own = own.clone().located_at(&raw.name.location);
     if raw.is_bare() {
@@ -102,7 +102,7 @@ fn with_overrides(raw: &Raw, own: &Declaration, faults: &mut Faults) -> Option<D
     })
 }
 
-/// The words by which a scene may call for effects.
+/// Returns the words by which a scene may include effects.
 fn callable<'a>(known: &'a [Declaration], kinds: &EffectKinds) -> Vec<&'a str> {
     let mut words: Vec<&str> = known.iter().map(|d| d.name.value.as_str()).collect();
     words.extend(kinds.iter().filter(|e| e.built_in()).map(|e| e.keyword()));
@@ -112,7 +112,7 @@ fn callable<'a>(known: &'a [Declaration], kinds: &EffectKinds) -> Vec<&'a str> {
     words
 }
 
-/// The words that may follow `type`.
+/// Returns the valid words for `type`.
 fn types(kinds: &EffectKinds) -> Vec<&'static str> {
     let types = kinds.iter().filter(|e| !e.built_in());
     types.map(EffectKind::keyword).collect()
@@ -144,7 +144,7 @@ fn fields_of(raw: &Raw, effect: &'static dyn EffectKind, faults: &mut Faults) ->
     raw.fields(("an effect's keys", &example), &keys, faults)
 }
 
-/// How the effect is written.
+/// Returns an example of the effect in the syntax of a file.
 pub(crate) fn example(effect: &dyn EffectKind) -> String {
     let needed = effect.keys().iter().filter(|k| k.needed);
     let keys: Vec<String> = needed.map(|k| format!("{}: …", k.name)).collect();
@@ -162,7 +162,7 @@ fn identifier(name: &Located<String>, faults: &mut Faults) {
 }
 
 impl Declaration {
-    /// The same with faults reported where a scene calls for it: the mechanism's file is another.
+    /// Moves its location to that of the scene's entry, because the mechanism is in another file.
     fn located_at(mut self, location: &Location) -> Self {
         self.name.location = location.clone();
         self.fields = self.fields.placed(location);

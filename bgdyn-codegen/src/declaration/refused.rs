@@ -1,26 +1,26 @@
-//! The names that refused effects may have defined, so that uses of them are not reported as well.
+//! Names that refused effects may have defined, so that their uses are not reported as unknown.
 
 use super::{Declaration, EffectKinds};
 use crate::format::{Key, ParsedValue, Raw, Reads};
 
-/// What effects that were refused may have brought.
+/// The names and families of refused effects.
 #[derive(Clone, Debug, Default)]
 pub struct RejectedEffects {
-    /// Beginnings of the names that they may have brought.
+    /// Prefixes of the names that they may have defined.
     words: Vec<String>,
-    /// Their families; `None` for one whose type is not known.
+    /// Their families; `None` if the type is unknown.
     families: Vec<Option<&'static str>>,
-    /// Whether there are effects of which not even the name is known.
+    /// Whether some refused effects have no known name.
     unread: bool,
 }
 
 impl RejectedEffects {
-    /// That effects of any kind and name are missing.
+    /// Records that effects of any kind and name may be missing.
     pub(crate) fn unread(&mut self) {
         self.unread = true;
     }
 
-    /// An entry of a scene's list from which there is no effect; the mechanism declares `known`.
+    /// Records an entry of a scene's list that gave no effect; the mechanism declares `known`.
     pub(crate) fn call(&mut self, raw: &Raw, known: &[Declaration], kinds: &EffectKinds) {
         let name = &raw.name.value;
         let own = known.iter().find(|d| d.name.value == *name);
@@ -33,7 +33,7 @@ impl RejectedEffects {
         let inputs = keys.filter_map(|key| raw.peek(key));
         self.words.extend(inputs.map(|input| input.value));
         self.words.push(name.clone());
-        // A word that is none may be meant for any of the mechanism's.
+        // An unknown word may refer to any effect of the mechanism.
         let meant = |d: &&Declaration| own.is_none_or(|own| own.name.value == d.name.value);
         if own.is_some() || !raw.is_mapping() {
             for declared in known.iter().filter(meant) {
@@ -43,7 +43,7 @@ impl RejectedEffects {
         self.families.push(family);
     }
 
-    /// An effect that breaks a rule.
+    /// Records an effect that breaks a rule.
     pub(crate) fn effect(&mut self, declared: &Declaration) {
         self.words_of(declared);
         self.families.push(Some(declared.effect.family()));
@@ -58,25 +58,25 @@ impl RejectedEffects {
         }
     }
 
-    /// Whether a name may be of a part that was to come from one of them.
+    /// Returns whether a name may belong to a refused effect.
     pub(crate) fn may_bring(&self, name: &str) -> bool {
         let begins = |word: &String| !word.is_empty() && name.starts_with(word.as_str());
         self.unread || self.words.iter().any(begins)
     }
 
-    /// Whether one of them may be of this family.
+    /// Returns whether a refused effect may be of this family.
     pub(crate) fn may_be(&self, family: &str) -> bool {
         let of = |found: &Option<&str>| found.is_none_or(|found| found == family);
         self.unread || self.families.iter().any(of)
     }
 
-    /// Whether there are none.
+    /// Returns whether no effect was refused.
     pub(crate) fn is_empty(&self) -> bool {
         !self.unread && self.families.is_empty()
     }
 }
 
-/// The keys behind which an effect names inputs.
+/// Returns the keys whose values are names of inputs.
 fn inputs(keys: &'static [Key]) -> impl Iterator<Item = &'static str> {
     let inputs = keys.iter().filter(|key| key.reads == Reads::Input);
     inputs.map(|key| key.name)

@@ -1,4 +1,4 @@
-//! Names: the ones that effects may refer to, and the ones that effects take themselves.
+//! The names that effects may refer to, and the names that effects define.
 
 use super::{Declaration, EffectKind, RejectedEffects};
 use crate::fault::{Faults, wording};
@@ -8,12 +8,11 @@ use crate::mechanism::{Limits, LinkId, Mechanism, Motion, SiteOrigins};
 /// The names that an effect may refer to.
 #[derive(Clone, Debug, Default)]
 pub struct NameScope {
-    /// Moving joints and the coordinates that effects add, with the dimension pair's index: 0 for
-    /// a rotation, 1 for a translation.
+    /// Moving joints and the coordinates that effects add, with their motions.
     pub coordinates: Vec<(String, Motion)>,
-    /// Limits of the joints that have any.
+    /// Limits of the joints that have limits.
     pub limits: Vec<(String, Limits)>,
-    /// Those of the coordinates that are no joints.
+    /// Names of the coordinates that are no joints.
     pub added: Vec<String>,
     /// Joints that a scene locks.
     pub locked: Vec<String>,
@@ -21,12 +20,12 @@ pub struct NameScope {
     pub(crate) sites: SiteOrigins,
     /// Hydraulic nodes.
     pub nodes: Vec<String>,
-    /// What effects that were refused may have brought.
+    /// The names that refused effects may have defined.
     pub refused: RejectedEffects,
 }
 
 impl NameScope {
-    /// The names of a mechanism; `locked` are joints that a scene holds.
+    /// Returns the names of a mechanism; `locked` are joints that a scene locks.
     pub fn of(mechanism: &Mechanism, locked: Vec<String>) -> NameScope {
         let coordinate = |&link: &LinkId| {
             let joint = &mechanism.links()[link.0].joint;
@@ -47,7 +46,7 @@ impl NameScope {
         }
     }
 
-    /// The same with what these effects add.
+    /// Returns the names with those that these effects add.
     pub fn with<'a>(mut self, declared: impl Iterator<Item = &'a Declaration> + Clone) -> Self {
         for d in declared.clone().filter(|d| d.effect.adds_coordinate()) {
             let on = match d.fields.get("joint").map(|j| &j.value) {
@@ -62,7 +61,7 @@ impl NameScope {
         self
     }
 
-    /// What an effect on a joint takes from the joint's limits for a key that it lacks.
+    /// Returns the default of a missing key of an effect from the limits of its joint.
     pub(super) fn limit_for(
         &self,
         effect: &dyn EffectKind,
@@ -82,8 +81,8 @@ impl NameScope {
     }
 }
 
-/// The names of effects and of their nodes are parts of the state's, so they must be no joint's
-/// and each must be the only one.
+/// Checks that the names of effects and of their nodes are unique and not those of joints, because they
+/// are names of parts of the state.
 pub(crate) fn check_unique_names(all: &[Declaration], mechanism: &Mechanism, faults: &mut Faults) {
     let joints = mechanism.links().iter().map(|l| &l.joint.name);
     let bodies = mechanism.links().iter().map(|l| &l.name);

@@ -1,13 +1,13 @@
-//! Hydraulic elements in series, which have one flow in common.
+//! Hydraulic elements in series, which have the same flow.
 
-/// Elements in series, joined by junctions without volume: one flow runs through all of them.
+/// Elements in series, joined by junctions without volume; the same flow passes through all of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
-    /// The node where it begins; its pressure is known.
+    /// The first node; its pressure is known.
     pub from: String,
-    /// The node where it ends; its pressure is known.
+    /// The last node; its pressure is known.
     pub to: String,
-    /// Elements by their place in the scene, and whether the flow runs from their `from` to their
+    /// Elements by their index in the scene, and whether the flow is directed from their `from` to their
     /// `to`.
     pub members: Vec<(usize, bool)>,
     /// The junctions between them.

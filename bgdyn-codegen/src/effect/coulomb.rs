@@ -1,5 +1,5 @@
-//! Coulomb friction that sticks and slips: holds its joint up to the static limit, lets it slide
-//! against the kinetic effort beyond. Which of the two is a mode of the state.
+//! Coulomb friction with sticking and slipping: it holds its joint up to the static limit; beyond, the
+//! joint slides against the kinetic effort. A mode of the state distinguishes the two.
 
 use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, nodes};
@@ -14,7 +14,7 @@ pub(super) struct Coulomb;
 /// The dimensions of a joint's effort.
 pub(super) const EFFORT: Reads = Reads::Number(&[Dimension::Torque, Dimension::Force]);
 
-/// What is said where `static` is less than `kinetic`.
+/// The message if `static` is less than `kinetic`.
 pub(super) const REST_HOLDS_MORE: &str = "rest holds at least what slipping resists";
 
 const KINETIC: Key = Key {

@@ -1,8 +1,8 @@
-//! Coulomb friction smoothed over a stated width: τ = −F tanh(s/w) at the slip s = q̇ − ṙ.
+//! Coulomb friction smoothed over a given width: τ = −F tanh(s/w) at the slip s = q̇ − ṙ.
 //!
-//! At |s| = w it has 76 % of F, at 2.65 w 99 %. It never holds: under a load τ₀ < F the joint creeps
-//! at w artanh(τ₀/F). Its steepest slope is F/w, a damping that a step of integration has to
-//! resolve. Friction that holds is `coulomb` or `lugre`.
+//! At |s| = w it is 76 % of F, at 2.65 w 99 %. It never holds: under a load τ₀ < F the joint creeps at w
+//! artanh(τ₀/F). Its steepest slope is F/w, a damping that a step of integration must resolve. The effects
+//! `coulomb` and `lugre` can hold.
 
 use super::coulomb::EFFORT;
 use super::viscous::{JOINT, REFERENCE};
@@ -26,7 +26,7 @@ pub(super) const WIDTH: Key = Key {
     about: "w, the slip at which friction has 76 % (tanh 1) of its size",
 };
 
-/// What is said where a width is not greater than 0.
+/// The message if a width is not greater than 0.
 pub(super) const NO_WIDTH: &str =
     "friction that jumps with the direction is `type: coulomb`, which sticks and slips";
 

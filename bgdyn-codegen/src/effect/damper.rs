@@ -1,4 +1,4 @@
-//! A damper, at a joint or along the line between two places: f = −b (ṡ − ṙ).
+//! A damper, at a joint or along the line between two sites: f = −b (ṡ − ṙ).
 
 use super::spring::{BETWEEN, MAYBE_JOINT};
 use super::viscous::{EFFORT_PER_RATE, REFERENCE};

@@ -1,13 +1,13 @@
 //! A DC motor with permanent magnets: a gyrator between the current and the joint. The charge is a
-//! coordinate, the current its velocity, the inductance its store and the voltage its drive; where
-//! there is no inductance the current follows from the voltage at once.
+//! coordinate, the current its velocity, the inductance its store and the voltage its drive. Without
+//! inductance the current is an algebraic function of the voltage.
 //!
-//! The supply limits the voltage, the amplifier the current. Without inductance both limits are kinks
-//! of the law, and events say where. With inductance the current is a state, and the amplifier holds
-//! it: a limit is a counterpart that moves at ±I, against which the current comes to rest when it gets
-//! there. It is held as long as the voltage asked for exceeds R I + k N q̇, which is what the motor
-//! gets then, and which may be more than the supply has where the joint turns the motor. A current
-//! beyond its limit, at the start or after the limit was lowered, falls to it with L di/dt = R (I − i).
+//! The supply limits the voltage, the amplifier the current. Without inductance both limits are kinks of
+//! the law, located by events. With inductance the current is a state, and the amplifier holds it: a limit
+//! is a contact at ±I, at which the current comes to rest. It is held as long as the required voltage
+//! exceeds R I + k N q̇. This is the motor's voltage then, and it can be more than the supply provides if
+//! the joint drives the motor. A current beyond its limit, at the start or after the limit was lowered,
+//! decreases to it with L di/dt = R (I − i).
 
 use bgdyn_runtime::Dd;
 
@@ -224,7 +224,7 @@ impl Effect for DcMotor {
     }
 }
 
-/// k N, of the motor with its gear.
+/// Returns k N of the motor with its gear.
 fn gyrator<'g>(element: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
     let one = sums.b.number(1.0);
     let ratio = sums.optional(element, &RATIO).unwrap_or(one);
@@ -234,15 +234,15 @@ fn gyrator<'g>(element: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
 /// The part of the name of the gear's mode.
 const GEAR: &str = "gear";
 
-/// The name of an event, or of a mode with its event.
+/// Returns the name of an event, or of a mode with its event.
 fn named(element: &Element, part: &str) -> String {
     format!("{}_{part}", element.name)
 }
 
-/// The limits of the current: the name of their mode, the sign of the current there.
+/// The limits of the current: the name of the mode, and the sign of the current at the limit.
 const SIDES: [(&str, f64); 2] = [("upper_limit", 1.0), ("lower_limit", -1.0)];
 
-/// The kinks of the limits, and the modes of a current that is held.
+/// Declares the kinks of the limits, and the modes of a current that is held.
 fn declare_limits(element: &Element, layout: &mut StateLayout) {
     let name = &element.name;
     if element.quantity(VOLTAGE_LIMIT.name).is_some() {
@@ -267,7 +267,7 @@ fn declare_limits(element: &Element, layout: &mut StateLayout) {
     }
 }
 
-/// The voltage within the supply's limit.
+/// Returns the voltage within the supply's limit.
 fn supplied_voltage<'g>(element: &Element, sums: &mut EffortSums<'g, '_>) -> Expr<'g> {
     let asked = sums.input(&element.name);
     match sums.optional(element, &VOLTAGE_LIMIT) {
@@ -290,23 +290,23 @@ struct Circuit<'g, 'e> {
     asked: Expr<'g>,
 }
 
-/// What flows through a motor.
+/// Current and voltages of a motor.
 struct Flowing<'g> {
     current: Expr<'g>,
-    /// The voltage at the motor, as the law has it.
+    /// The voltage at the motor in the law.
     supplied: Expr<'g>,
-    /// The same for those who measure it: where nothing limits it, what is asked for to the last bit.
+    /// The voltage as an output: without limits it equals the input bit for bit.
     measured: Expr<'g>,
 }
 
 impl<'g> Circuit<'g, '_> {
-    /// The limit of the current, where there is one.
+    /// Returns the limit of the current, if it has one.
     fn current_limit(&self, sums: &EffortSums<'g, '_>) -> Option<Expr<'g>> {
         let limit = sums.optional(self.element, &CURRENT_LIMIT);
         limit.filter(|_| sums.limited())
     }
 
-    /// The current that follows from the voltage at once: R i + k N q̇ = u, solved for i.
+    /// Solves R i + k N q̇ = u for the current i of a motor without inductance.
     fn at_once(&self, sums: &mut EffortSums<'g, '_>) -> Flowing<'g> {
         let wanted = (self.asked - self.induced) / self.resistance;
         let Some(limit) = self.current_limit(sums) else {
@@ -324,7 +324,7 @@ impl<'g> Circuit<'g, '_> {
         let drop = self.resistance * limit;
         Flowing {
             current,
-            // The amplifier lowers the voltage to what the limited current needs.
+            // The amplifier reduces the voltage to that of the limited current.
             supplied: self.resistance * current + self.induced,
             measured: (self.asked)
                 .max(self.induced - drop)
@@ -332,7 +332,8 @@ impl<'g> Circuit<'g, '_> {
         }
     }
 
-    /// The current that the inductance keeps; its acceleration is that of an own coordinate.
+    /// Returns the current of a motor with inductance; its acceleration is that of a coordinate of its
+    /// own.
     fn with_inductance(&self, inductance: Expr<'g>, sums: &mut EffortSums<'g, '_>) -> Flowing<'g> {
         let current = sums.own_velocity(self.element);
         let (free, applied) = match self.current_limit(sums) {
@@ -349,8 +350,8 @@ impl<'g> Circuit<'g, '_> {
         }
     }
 
-    /// The voltage that drives the current where nothing holds it, and the one that is applied where
-    /// the amplifier holds |i| to the limit I.
+    /// Returns the voltage that drives the free current, and the voltage that is applied if the amplifier
+    /// holds |i| at the limit I.
     fn held(
         &self,
         current: Expr<'g>,
@@ -360,14 +361,15 @@ impl<'g> Circuit<'g, '_> {
         let half = sums.b.number(0.5);
         let port = sums.coordinate(&self.element.name);
         let still = sums.b.zero();
-        // With this voltage the current stays as it is.
+        // With this voltage the current is constant.
         let keeps = self.resistance * current + self.induced;
         let (mut free, mut applied) = (self.asked, self.asked);
         for (side, sign) in SIDES {
             let at = limit * Dd::from_f64(sign);
             let name = named(self.element, side);
             let mode = sums.mode(&name);
-            // Beyond the limit, what would keep the current at it brings it back.
+            // Beyond the limit, the voltage of a constant current at the limit brings the current back to
+            // it.
             let back = self.resistance * at + self.induced;
             let (hold, back) = match sign > 0.0 {
                 true => (Hold::Lowers, free.min(back)),

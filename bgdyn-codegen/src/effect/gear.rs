@@ -1,9 +1,9 @@
-//! A gear with losses between a joint's own effort and the joint: η τ arrives where the effort
-//! drives (τ q̇ ≥ 0), τ/η where the joint drives it.
+//! A gear with losses between a joint's drive and the joint: the joint receives η τ if the drive supplies
+//! power (τ q̇ ≥ 0), τ/η if the joint drives the gear.
 //!
-//! The usual efficiency of gear catalogues, both ways the same. At rest the gear holds the joint with
-//! any effort between the two. The loss is in proportion to the load: what a gear takes without load
-//! is friction of the joint.
+//! η is the efficiency of gear catalogues, equal in both directions. At rest the gear holds the joint with
+//! any effort between the two. The loss is proportional to the load; losses without load belong to the
+//! friction of the joint.
 
 use super::viscous::JOINT;
 use super::{Effect, nodes};
@@ -73,8 +73,8 @@ impl Effect for GearEffect {
     }
 }
 
-/// Declares the mode of a gear with losses, with its event, and the event of its load's change of
-/// sign, which is a kink of the law.
+/// Declares the mode of a gear with losses, with its event, and the event at which its load changes sign,
+/// a kink of the law.
 pub(super) fn declare_mode(element: &Element, mode: &str, layout: &mut StateLayout) {
     let joint = element.name("joint").unwrap_or_default();
     let about =

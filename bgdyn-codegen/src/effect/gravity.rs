@@ -51,7 +51,7 @@ impl Effect for Gravity {
         network.claim_weights();
     }
 
-    /// V = −Σ m_i g · r_i
+    /// Adds V = −Σ m_i g · r_i.
     fn law(&self, _: &Element, sums: &mut EffortSums<'_, '_>) {
         if let [energy] = sums.potential_energy()[..] {
             sums.store(energy);

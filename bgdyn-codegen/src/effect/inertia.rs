@@ -1,5 +1,5 @@
-//! Link inertia, lumped or distributed: the second stage of a study adds its terms to the
-//! equations of the first (Kuzmin 2007, conclusion).
+//! Link inertia, lumped or distributed: the second stage of a study adds its terms to the equations of the
+//! first (Kuzmin 2007, conclusion).
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
@@ -48,6 +48,6 @@ impl Effect for LinkInertia {
     }
 
     fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
-        // The stores are the links' own.
+        // The stores are those of the links.
     }
 }

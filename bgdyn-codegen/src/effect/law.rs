@@ -1,4 +1,4 @@
-//! The interface of an effect: its constitutive law, and what it changes in the bond graph.
+//! The trait of effects: the constitutive law, and the changes in the bond graph.
 
 use crate::bond_graph::{BondGraph, BondNetwork};
 use crate::declaration::{EffectKind, Element};
@@ -6,16 +6,17 @@ use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
 use crate::mechanism::Mechanism;
 
-/// What an effect does: its constitutive law, and what it changes in the graph.
+/// An effect: its constitutive law, and its changes in the graph.
 pub trait Effect: EffectKind {
-    /// What it changes in the graph of links and joints.
+    /// Changes the graph of links and joints.
     fn modify_graph(&self, _: &Element, _: &Mechanism, _: &mut BondGraph) {}
 
-    /// The junctions, stores, resistors, transformers, gyrators and sources that it is in the bond graph,
-    /// among the elements of its `scene`. The drawing and the balance of power read them.
+    /// Adds its junctions, stores, resistors, transformers, gyrators and sources to the bond graph;
+    /// `scene` are all elements. The drawing and the balance of power use them.
     fn elements(&self, element: &Element, scene: &[Element], network: &mut BondNetwork);
 
-    /// What its state stores where the scene enters `entered` for it: a volume for a pressure.
+    /// Returns the initial value of its state if the scene gives `entered` for it: a volume for a
+    /// pressure.
     fn initial_state<'g>(
         &self,
         _: &Element,
@@ -26,6 +27,6 @@ pub trait Effect: EffectKind {
         entered
     }
 
-    /// Its constitutive law.
+    /// Adds its constitutive law.
     fn law(&self, _: &Element, _: &mut EffortSums<'_, '_>) {}
 }

@@ -1,10 +1,9 @@
 //! LuGre friction (Canudas de Wit, Olsson, Åström, Lischinsky 1995): the deflection z of bristles
 //! between the surfaces is a state.
 //!
-//! With σ₀z²/2 for the energy of the bristles the slip s loses
-//! |s| (g u² − σ₁ |s| u + (σ₁ + σ₂) |s|), u = ±σ₀z/g: no less than nothing at every speed where
-//! u ≤ F_s/F_c needs σ₂ ≥ σ₁ (F_s − F_c)/F_c. Barabanov and Ortega 2000 show that this condition is
-//! also necessary for passivity, whatever energy is taken.
+//! With the bristle energy σ₀z²/2, the slip s dissipates |s| (g u² − σ₁ |s| u + (σ₁ + σ₂) |s|), u =
+//! ±σ₀z/g. This is nonnegative at every speed with u ≤ F_s/F_c only if σ₂ ≥ σ₁ (F_s − F_c)/F_c. Barabanov
+//! and Ortega 2000 show that this condition is also necessary for passivity, with any energy function.
 
 use bgdyn_runtime::Dd;
 
@@ -136,7 +135,7 @@ impl Effect for LuGre {
         sums.push(&port, effort);
         sums.supply(effort * counterpart);
         sums.store(stiffness * z * z * Dd::from_f64(0.5));
-        // What the slip takes less what the bristles store: σ₀ z ż.
+        // The power from the slip minus the rate of the bristles' energy, σ₀ z ż.
         sums.dissipate(-(effort * slip) - stiffness * z * rate);
         sums.event(&element.name, slip);
     }

@@ -1,9 +1,9 @@
-//! Effects: what a scene can call for beside the links. One file each, one line each in
+//! The effects that a scene can include besides the links: one file per effect, one line each in
 //! [`EFFECTS`].
 //!
-//! An effect is an element of the bond graph. Its file says what its keys mean, what it adds to
-//! the state ([`EffectKind::declare`]), and its constitutive law ([`Effect::law`]): efforts on
-//! junctions, rates of states, and what it supplies, stores and dissipates.
+//! An effect is an element of the bond graph. Its file defines the meaning of its keys, its additions to
+//! the state ([`EffectKind::declare`]), and its constitutive law ([`Effect::law`]): efforts on junctions,
+//! rates of states, and the power that it supplies, stores and dissipates.
 
 mod law;
 mod nodes;
@@ -32,7 +32,7 @@ mod wrench;
 use crate::declaration::{EffectKind, EffectKinds, Element};
 pub use law::Effect;
 
-/// Every effect there is.
+/// All effects.
 pub static EFFECTS: [&dyn Effect; 27] = [
     &gravity::Gravity,
     &inertia::LinkInertia,
@@ -63,12 +63,12 @@ pub static EFFECTS: [&dyn Effect; 27] = [
     &payload::Payload,
 ];
 
-/// Their declarations.
+/// Returns their declarations.
 pub fn kinds() -> EffectKinds {
     EffectKinds::new(EFFECTS.into_iter().map(|effect| effect as &dyn EffectKind))
 }
 
-/// The effect that an element is of.
+/// Returns the effect of an element.
 pub fn of(element: &Element) -> &'static dyn Effect {
     let keyword = element.effect.keyword();
     let found = EFFECTS.into_iter().find(|e| e.keyword() == keyword);

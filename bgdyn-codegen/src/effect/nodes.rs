@@ -1,20 +1,20 @@
-//! Nodes of the bond graph that several effects add in the same way, and what is written beside them.
+//! Bond graph nodes that several effects add in the same way, and their texts.
 
 use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind, PortSite, PowerTerm};
 use crate::declaration::Element;
 
-/// `seal (viscous)`
+/// Returns the label of an element: `seal (viscous)`.
 pub(super) fn label(element: &Element) -> String {
     format!("{} ({})", element.name, element.effect.keyword())
 }
 
-/// `R = 0.6 ohm`, as the file writes it.
+/// Returns a number in the file's text: `R = 0.6 ohm`.
 pub(super) fn number(element: &Element, symbol: &str, key: &str) -> String {
     format!("{symbol} = {}", element.written(key).unwrap_or_default())
 }
 
-/// The 1-junction of the flow that the element acts on: of its `joint`, or of the line between its two
-/// places.
+/// Returns the 1-junction of the flow that the element acts on: of its `joint`, or of the line between its
+/// two sites.
 pub(super) fn port(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
     match element.names("between") {
         Some(ends) => network.port(PortSite::Line(ends.clone())),
@@ -22,13 +22,13 @@ pub(super) fn port(element: &Element, network: &mut BondNetwork) -> GraphNodeId 
     }
 }
 
-/// The 1-junction of the motion of the place that the element acts at.
+/// Returns the 1-junction of the motion of the element's site.
 pub(super) fn site(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
     let name = element.name("at").unwrap_or_default();
     network.port(PortSite::Site(name.to_owned()))
 }
 
-/// A resistor or a compliance at the element's port. Where a reference moves by itself it acts on the
+/// Adds a resistor or a compliance at the element's port. With a moving reference it acts on the
 /// difference of the two flows.
 pub(super) fn add_acting(
     element: &Element,
@@ -53,7 +53,7 @@ pub(super) fn add_acting(
     acting
 }
 
-/// The store of a rotor behind its gear, N² J, on a junction.
+/// Adds the store of a rotor behind its gear, N² J, to a junction.
 pub(super) fn add_rotor(
     element: &Element,
     junction: GraphNodeId,
@@ -67,7 +67,7 @@ pub(super) fn add_rotor(
     network.add_on(junction, NodeKind::Inertia, text)
 }
 
-/// What a gear with an efficiency loses.
+/// Returns the power terms of a gear with an efficiency.
 pub(super) fn gear_losses(element: &Element) -> &'static [PowerTerm] {
     match element.quantity("efficiency") {
         Some(_) => &[PowerTerm::Dissipated],
@@ -75,7 +75,7 @@ pub(super) fn gear_losses(element: &Element) -> &'static [PowerTerm] {
     }
 }
 
-/// A resistor that lets fluid run from one hydraulic node to another.
+/// Adds a resistor between two hydraulic nodes.
 pub(super) fn add_pipe(text: String, [from, to]: [&str; 2], network: &mut BondNetwork) {
     let flow = network.add(NodeKind::One, "q");
     network.add_on(flow, NodeKind::Resistor, text);

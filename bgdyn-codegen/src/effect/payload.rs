@@ -1,6 +1,6 @@
-//! A body carried by a link: it joins the mechanism as a link of its own, fixed at the place, before
-//! there is a graph. What is known of it moves into the base parameters of its carrier; a run-time
-//! parameter attaches it and, set to 0, lets it go.
+//! A body carried by a link. It becomes a link of the mechanism, fixed at the site, before the graph is
+//! built. Its known parameters become part of the base parameters of its carrier; a run-time parameter
+//! attaches it, and detaches it if set to 0.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,5 @@
-//! The rotor of a drive behind a gear: reflected inertia N²·J on the joint's junction, or the full
-//! rotor that also turns with the link it sits on.
+//! The rotor of a drive behind a gear: reflected inertia N²·J on the joint's junction, or the full rotor
+//! that also rotates with the link that carries it.
 
 use bgdyn_runtime::Dd;
 
@@ -72,7 +72,7 @@ impl EffectKind for RotorEffect {
         }
     }
 
-    /// Run-time parameters become the mechanism's, which its graph can refer to.
+    /// Adds its run-time parameters to those of the mechanism, which the graph refers to.
     fn modify_mechanism(&self, element: &Element, mechanism: &mut Mechanism) {
         for (key, quantity) in element.quantities() {
             if let Some(name) = &quantity.parameter {
@@ -118,7 +118,7 @@ impl Effect for RotorEffect {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
         let joint = nodes::port(element, network);
         let rotor = nodes::add_rotor(element, joint, network);
-        // Its energy is part of the links'.
+        // Its energy is included in that of the links.
         network.set_powers(rotor, &[]);
         let more = |link| format!("its spin also acts on {link}, which is not drawn");
         network.set_more(rotor, element.name("on").map(more));

@@ -1,10 +1,10 @@
 //! Series elasticity: the drive's rotor and its joint, with a spring and a damper between them.
 //!
-//! The rotor's angle, turned to the joint's scale by the gear (θ), is a coordinate with a store of
-//! its own: N²J θ̈ = τ_m − τ, τ = K (θ − q) + D (θ̇ − q̇), and τ drives the joint. This is the reduced
-//! model of Spong 1987: the rotor's kinetic energy is that of its own turning; its mass is its
-//! carrier's, and its gyroscopic terms are left out. Motors, friction, stops and inputs act on θ by
-//! the effect's name.
+//! The rotor's angle, scaled by the gear to that of the joint (θ), is a coordinate with a store of its
+//! own: N²J θ̈ = τ_m − τ, τ = K (θ − q) + D (θ̇ − q̇), and τ drives the joint. This is the reduced model
+//! of Spong 1987: the rotor's kinetic energy is that of its own rotation; its mass belongs to its carrier,
+//! and its gyroscopic terms are neglected. Motors, friction, stops and inputs act on θ by the effect's
+//! name.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,5 @@
-//! What dampers and smooth friction share: an effort that depends on the slip of a port against
-//! its counterpart, and takes from it all the power it is given.
+//! The common law of dampers and smooth friction: an effort that depends on the slip of a port against its
+//! counterpart, and dissipates the power that it receives.
 
 use crate::declaration::Element;
 use crate::effort_sums::EffortSums;
@@ -7,7 +7,7 @@ use crate::expr::Expr;
 use crate::format::Dimension;
 use crate::layout::{Level, StateLayout};
 
-/// The counterpart's speed is an input, where there is one.
+/// Declares the counterpart's speed as an input, if the element has a reference.
 pub(super) fn declare(element: &Element, layout: &mut StateLayout) {
     if let Some(reference) = element.name("reference") {
         let dimension = match element.name("joint") {
@@ -18,8 +18,7 @@ pub(super) fn declare(element: &Element, layout: &mut StateLayout) {
     }
 }
 
-/// Pushes the effort τ(s) at the slip s = ṗ − ṙ. It takes −τ s of power, of which the counterpart
-/// brings τ ṙ.
+/// Adds the effort τ(s) at the slip s = ṗ − ṙ. It dissipates −τ s; the counterpart supplies τ ṙ of it.
 pub(super) fn resist<'g>(
     element: &Element,
     sums: &mut EffortSums<'g, '_>,

@@ -1,4 +1,4 @@
-//! A spring, at a joint or along the line between two places.
+//! A spring, at a joint or along the line between two sites.
 
 use bgdyn_runtime::Dd;
 
@@ -12,7 +12,7 @@ use crate::layout::{Level, StateLayout};
 
 pub(super) struct Spring;
 
-/// The joint an effect acts on, where it may act between two places instead.
+/// The joint of an effect that can act between two sites instead.
 pub(super) const MAYBE_JOINT: Key = Key {
     name: "joint",
     reads: Reads::Coordinate,
@@ -20,7 +20,7 @@ pub(super) const MAYBE_JOINT: Key = Key {
     about: "the joint it acts on",
 };
 
-/// The two places between which an effect acts.
+/// The two sites between which an effect acts.
 pub(super) const BETWEEN: Key = Key {
     name: "between",
     reads: Reads::Sites,
@@ -101,7 +101,7 @@ impl Effect for Spring {
         let effort = -(stiffness * stretch) - preload;
         sums.push(&port, effort);
         sums.store(stretch * (stiffness * stretch * Dd::from_f64(0.5) + preload));
-        // The counterpart is pulled along: the effort's reaction moves with ṙ.
+        // The reference moves with ṙ against the reaction of the effort, and supplies power.
         sums.supply(effort * rate);
     }
 }

@@ -1,13 +1,12 @@
-//! Stops at a joint's limits, compliant, with a stated coefficient of restitution.
+//! Compliant stops at a joint's limits, with a given coefficient of restitution.
 //!
 //! The law of Hunt and Crossley 1975: at the depth δ the stop pushes back with k δ (1 + μ δ̇), never
-//! inwards. Unlike a spring beside a damper it begins and ends without a jump.
+//! inwards. Unlike the force of a spring with a parallel damper, its force begins and ends without a jump.
 //!
-//! μ follows from the restitution e that is wanted at an impact speed v. Of m ẍ = −k x (1 + μ ẋ),
-//! with ẋ as a function of x, every impact from v to −e v leaves (Marhefka and Orin 1999)
-//! (1 + e) y = ln((1 + y)/(1 − e y)), y = μ v: mass and stiffness drop out. With ρ = (1 − e)/(1 + e)
-//! and y = 2 z/(1 + e) this is coth z − 1/z = ρ, which has one root. Slower impacts have a greater
-//! restitution, faster ones a smaller one.
+//! μ follows from the required restitution e at an impact speed v. For m ẍ = −k x (1 + μ ẋ), with ẋ as a
+//! function of x, an impact from v to −e v satisfies (Marhefka and Orin 1999) (1 + e) y = ln((1 + y)/(1 −
+//! e y)), y = μ v, for any mass and stiffness. With ρ = (1 − e)/(1 + e) and y = 2 z/(1 + e) this is coth z
+//! − 1/z = ρ, which has one root. Slower impacts have a greater restitution, faster ones a smaller one.
 
 use bgdyn_runtime::Dd;
 
@@ -124,7 +123,7 @@ impl Effect for Stop {
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         let port = sums.port(element);
         let zero = sums.b.zero();
-        // How far the stops are away; 0 within them.
+        // `gap`: distance to the stops; 0 inside them.
         let (mut pushed, mut gap, mut follows) = (zero, None, zero);
         for (key, outwards) in [(&LOWER, -1.0), (&UPPER, 1.0)] {
             let Some(at) = sums.optional(element, key) else {
@@ -161,15 +160,15 @@ fn pulled(name: &str) -> String {
     format!("{name}_pulled")
 }
 
-/// What one stop does.
+/// The law of one stop.
 struct Side<'g> {
-    /// The effort it has on the joint.
+    /// The effort on the joint.
     effort: Expr<'g>,
-    /// The force its law has without the limit that it never pulls.
+    /// The force of the law without the condition that it never pulls.
     follows: Expr<'g>,
 }
 
-/// One stop; `depth` is negative before it is met.
+/// Returns one stop; `depth` is negative before contact.
 fn one_side<'g>(
     element: &Element,
     sums: &mut EffortSums<'g, '_>,
@@ -196,22 +195,22 @@ fn one_side<'g>(
     }
 }
 
-/// μ, s/m or s/rad: the damping with which an impact at `speed` has the restitution e, 0 < e ≤ 1.
+/// Returns μ, s/m or s/rad: the damping for the restitution e, 0 < e ≤ 1, of an impact at `speed`.
 fn damping(restitution: Dd, speed: Dd) -> Dd {
     let two = Dd::from_f64(2.0);
     let ratio = (Dd::ONE - restitution) / (Dd::ONE + restitution);
     two * inverse_langevin(ratio) / ((Dd::ONE + restitution) * speed)
 }
 
-/// The z ≥ 0 with coth z − 1/z = ρ, 0 ≤ ρ < 1. The left side rises with z and is greater than
-/// 1 − 1/z, so that z is no greater than 1/(1 − ρ).
+/// Solves coth z − 1/z = ρ for z ≥ 0, 0 ≤ ρ < 1. The left side increases with z and is greater than 1 −
+/// 1/z, so z is at most 1/(1 − ρ).
 fn inverse_langevin(ratio: Dd) -> Dd {
     if ratio <= Dd::ZERO {
         return Dd::ZERO;
     }
     let half = Dd::from_f64(0.5);
     let (mut low, mut high) = (Dd::ZERO, Dd::ONE / (Dd::ONE - ratio));
-    // Each halving gains a bit; a small root needs more than the 106 of a double-double.
+    // Each halving gains a bit; a small root needs more than the 106 bits of a double-double.
     for _ in 0..160 {
         let middle = (low + high) * half;
         if langevin(middle) < ratio {
@@ -223,8 +222,8 @@ fn inverse_langevin(ratio: Dd) -> Dd {
     (low + high) * half
 }
 
-/// coth z − 1/z for z > 0. Near zero, where the two cancel, by their continued fraction
-/// z/(3 + z²/(5 + z²/(7 + …))).
+/// Returns coth z − 1/z for z > 0. Near zero, where the terms cancel, it uses the continued fraction z/(3
+/// + z²/(5 + z²/(7 + …))).
 fn langevin(z: Dd) -> Dd {
     if z < Dd::from_f64(2.0) {
         let square = z * z;

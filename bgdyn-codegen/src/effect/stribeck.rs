@@ -1,10 +1,10 @@
 //! Smooth friction with a Stribeck curve, at the slip s = q̇ − ṙ:
 //! τ = −[F_c + (F_s − F_c) exp(−(s/v_s)²)] tanh(s/w) − b s.
 //!
-//! The curve falls from F_s to F_c with the speed (Stribeck 1902; the exponential form of Bo and
-//! Pavelescu 1982), the hyperbolic tangent smooths it at rest (Andersson, Söderberg, Björklund
-//! 2007). As it rises over the width while the curve falls, its peak is F_s only where w ≪ v_s; like
-//! every law without memory it never holds, but creeps.
+//! The curve falls from F_s to F_c with the speed (Stribeck 1902; the exponential form of Bo and Pavelescu
+//! 1982), the hyperbolic tangent smooths it at rest (Andersson, Söderberg, Björklund 2007). The tangent
+//! rises over the width w while the curve falls, so the peak is F_s only if w ≪ v_s. Like every law
+//! without memory it never holds, but creeps.
 
 use super::coulomb::{EFFORT, REST_HOLDS_MORE};
 use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
@@ -36,7 +36,7 @@ const STATIC: Key = Key {
     about: "F_s, friction close to rest",
 };
 
-/// The speed over which it falls.
+/// The speed over which the curve falls.
 const STRIBECK_SPEED: Key = Key {
     name: "stribeck_speed",
     reads: SPEED,
@@ -116,7 +116,7 @@ impl Effect for Stribeck {
     }
 }
 
-/// F_c + (F_s − F_c) exp(−(s/v_s)²); F_c where no `static` is given.
+/// Returns F_c + (F_s − F_c) exp(−(s/v_s)²); F_c without the key `static`.
 pub(super) fn curve<'g>(element: &Element, sums: &EffortSums<'g, '_>, slip: Expr<'g>) -> Expr<'g> {
     let kinetic = sums.number(element, &KINETIC);
     let [rest, speed] = [&STATIC, &STRIBECK_SPEED].map(|key| sums.optional(element, key));

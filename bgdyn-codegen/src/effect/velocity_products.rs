@@ -1,5 +1,5 @@
-//! Velocity products: the rates of the transformers, d/dt ∂r_i/∂q_j and ρ̇_j, with the gyroscopic
-//! term ω × J ω. Quasi-static scenes do without.
+//! Velocity products: the rates of the transformers, d/dt ∂r_i/∂q_j and ρ̇_j, with the gyroscopic term ω ×
+//! J ω. Quasi-static scenes omit them.
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
@@ -41,6 +41,6 @@ impl Effect for VelocityProducts {
     }
 
     fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
-        // The rates of the transformers add no node.
+        // The rates of the transformers add no nodes.
     }
 }

@@ -9,7 +9,7 @@ use crate::layout::StateLayout;
 
 pub(super) struct Viscous;
 
-/// The counterpart that friction and springs act against; the fixed world without it.
+/// The counterpart of friction and springs; by default the fixed world.
 pub(super) const REFERENCE: Key = Key {
     name: "reference",
     reads: Reads::Input,

@@ -1,5 +1,5 @@
-//! An external wrench on a link or at a frame: six inputs, or those asked for. A source of effort on
-//! the flow V = [ω; v] of the place: τ_j += J_jᵀ w.
+//! An external wrench on a link or at a frame, with six inputs or a selection of them. It is an effort
+//! source on the flow V = [ω; v] of the site: τ_j += J_jᵀ w.
 
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
@@ -13,7 +13,7 @@ use crate::math::Vec3;
 
 pub(super) struct WrenchEffect;
 
-/// The place of a link that an effect acts at.
+/// The site of a link at which an effect acts.
 pub(super) const AT: Key = Key {
     name: "at",
     reads: Reads::Site,
@@ -21,17 +21,17 @@ pub(super) const AT: Key = Key {
     about: "the link or frame at whose origin it acts",
 };
 
-/// Moments first, as everywhere.
+/// Moments first, as in all spatial vectors.
 const COMPONENTS: [&str; 6] = ["mx", "my", "mz", "fx", "fy", "fz"];
 
-/// The components that are inputs.
+/// Returns the components that are inputs.
 fn components(element: &Element) -> Vec<&'static str> {
     let asked = element.words("components");
     let wanted = |c: &&str| asked.is_none_or(|asked| asked.iter().any(|a| a == c));
     COMPONENTS.into_iter().filter(wanted).collect()
 }
 
-/// Refuses a place that cannot move.
+/// Refuses a site that cannot move.
 pub(super) fn moves(element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
     let mut frames = beside.mechanism.frames().iter();
     let at = element.name(AT.name).unwrap_or_default();
@@ -44,7 +44,7 @@ pub(super) fn moves(element: &Element, beside: &SceneContext<'_>, faults: &mut F
     }
 }
 
-/// V = Σ_j J_j q̇_j, angular part first, world axes.
+/// Returns V = Σ_j J_j q̇_j, angular part first, world axes.
 pub(super) fn twist<'g>(jacobian: &[[Expr<'g>; 6]], sums: &EffortSums<'g, '_>) -> [Expr<'g>; 6] {
     std::array::from_fn(|i| {
         let products = jacobian.iter().zip(&sums.v).map(|(j, &v)| j[i] * v);
@@ -52,13 +52,13 @@ pub(super) fn twist<'g>(jacobian: &[[Expr<'g>; 6]], sums: &EffortSums<'g, '_>) -
     })
 }
 
-/// Σ a_i b_i
+/// Returns Σ a_i b_i.
 pub(super) fn dot<'g>(a: &[Expr<'g>; 6], b: &[Expr<'g>; 6], sums: &EffortSums<'g, '_>) -> Expr<'g> {
     let products = a.iter().zip(b).map(|(&a, &b)| a * b);
     products.fold(sums.b.zero(), |sum, x| sum + x)
 }
 
-/// τ_j += J_jᵀ w
+/// Adds τ_j += J_jᵀ w.
 pub(super) fn act<'g>(
     jacobian: &[[Expr<'g>; 6]],
     wrench: &[Expr<'g>; 6],

@@ -1,8 +1,8 @@
-//! Losses of a gear, in proportion to its load.
+//! The losses of a gear, proportional to its load.
 //!
-//! Of an effort τ at the motor's side η τ arrives at the joint where the effort drives it, τ/η where
-//! the joint drives the motor. Which of the two is a matter of the direction of motion: at rest the
-//! gear holds, as dry friction does, with whatever effort lies between the two.
+//! For an effort τ at the motor's side, the joint receives η τ if the effort drives it, and τ/η if the
+//! joint drives the motor. The direction of motion decides. At rest the gear holds, as dry friction does,
+//! with any effort between the two.
 
 use super::parts::Hold;
 use crate::declaration::Element;
@@ -18,31 +18,31 @@ pub struct LossyGear<'g> {
 }
 
 impl<'g> LossyGear<'g> {
-    /// What arrives of an effort at the joint: all of it at rest.
+    /// Returns the effort at the joint of an effort at the motor's side; at rest they are equal.
     pub fn behind(self, b: &'g Builder, effort: Expr<'g>) -> Expr<'g> {
         let driving = self.choose(b, effort, effort * self.efficiency);
         (effort * self.mode).if_less(b.zero(), effort / self.efficiency, driving)
     }
 
-    /// The effort of which this arrives.
+    /// Returns the effort at the motor's side of an effort at the joint.
     pub fn before(self, b: &'g Builder, effort: Expr<'g>) -> Expr<'g> {
         let driving = self.choose(b, effort, effort / self.efficiency);
         (effort * self.mode).if_less(b.zero(), effort * self.efficiency, driving)
     }
 
-    /// `rest` where the gear holds the joint, else `moving`.
+    /// Returns `rest` if the gear holds the joint, else `moving`.
     fn choose(self, b: &'g Builder, rest: Expr<'g>, moving: Expr<'g>) -> Expr<'g> {
         self.mode.abs().if_less(b.number(0.5), rest, moving)
     }
 
-    /// The efforts that the gear can hold with besides the one it passes on.
+    /// Returns the efforts with which the gear can hold, besides the effort that it transmits.
     pub(super) fn hold(self, effort: Expr<'g>) -> Hold<'g> {
         let [less, more] = [effort * self.efficiency, effort / self.efficiency].map(|e| e - effort);
         Hold::Between([less.min(more), less.max(more)])
     }
 }
 
-/// The name of the event of the load's change of sign.
+/// Returns the name of the event at which the load changes sign.
 pub fn load_event(element: &Element) -> String {
     format!("{}_load", element.name)
 }

@@ -1,4 +1,4 @@
-//! Gears with losses between efforts and coordinates.
+//! Adds gears with losses between efforts and coordinates.
 
 use super::{EffortSums, LossyGear, Port, load_event};
 use crate::declaration::Element;
@@ -6,18 +6,18 @@ use crate::expr::Expr;
 use crate::format::Key;
 
 impl<'g> EffortSums<'g, '_> {
-    /// A gear with losses, whose efficiency is the number behind this key and whose mode has this
-    /// name; `None` where no efficiency is given.
+    /// Returns a gear with losses with the efficiency of this key and the mode with this name; `None`
+    /// without an efficiency.
     ///
     /// # Panics
-    /// Where the effect declares no such key, or no effect such a mode.
+    /// If the effect does not declare the key, or no effect declares the mode.
     pub fn gear(&self, element: &Element, efficiency: &Key, mode: &str) -> Option<LossyGear<'g>> {
         let efficiency = self.optional(element, efficiency)?;
         let mode = self.mode(mode);
         Some(LossyGear { efficiency, mode })
     }
 
-    /// The events of a gear under an effort at its motor's side, and what it can hold.
+    /// Adds the events of a gear under an effort at its motor's side, and its contact.
     pub fn load(
         &mut self,
         (element, mode): (&Element, &str),
@@ -30,7 +30,7 @@ impl<'g> EffortSums<'g, '_> {
         self.contact(mode, port, [zero, zero], gear.hold(effort));
     }
 
-    /// A gear between a coordinate's own effort and the coordinate.
+    /// Adds a gear between a coordinate's drive and the coordinate.
     pub fn gear_of_drive(&mut self, element: &Element, efficiency: &Key) {
         let joint = element.name("joint").unwrap_or_default();
         let found = self.scene.layout.coordinate_named(joint);

@@ -1,4 +1,5 @@
-//! What the effects' laws see and what they add: the sums on the junctions of one scene.
+//! The sums on the junctions of one scene: the arguments of the effects' laws, and the terms that laws
+//! add.
 
 mod gear;
 mod gears;
@@ -22,7 +23,7 @@ pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
 pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading};
 
-/// The sums that the laws of a scene's effects add to.
+/// The sums to which the laws of a scene's effects add.
 pub struct EffortSums<'g, 'a> {
     /// The graph under construction.
     pub b: &'g Builder,
@@ -33,18 +34,18 @@ pub struct EffortSums<'g, 'a> {
     /// Time.
     pub t: Expr<'g>,
     own: ActuatorEfforts,
-    /// The formulation asked for; the cheapest of each method where `None`.
+    /// The selected formulation; `None` for the cheapest one of each method.
     pub(crate) asked: Option<&'static dyn Formulation>,
     scene: &'a Scene,
     graph: &'a BondGraph,
     x: Vec<Expr<'g>>,
     modes: Vec<Expr<'g>>,
     u: Vec<Expr<'g>>,
-    /// Which element's law is at work.
+    /// Index of the element whose law runs.
     at: usize,
-    /// On each coordinate.
+    /// The effort on each coordinate.
     efforts: Vec<Expr<'g>>,
-    /// The gear between a coordinate's own effort and the coordinate.
+    /// The gear between a coordinate's drive and the coordinate.
     gears: BTreeMap<usize, LossyGear<'g>>,
     /// Inertia of the coordinates that store their own momentum.
     inertias: BTreeMap<usize, Expr<'g>>,
@@ -60,7 +61,8 @@ pub struct EffortSums<'g, 'a> {
 }
 
 impl<'g, 'a> EffortSums<'g, 'a> {
-    /// No law yet, under these inputs, with the mechanism's own methods by the formulation `asked`.
+    /// Starts without laws, with these inputs and with methods of the mechanism by the formulation
+    /// `asked`.
     pub(crate) fn empty(
         b: &'g Builder,
         scene: &'a Scene,
@@ -105,13 +107,13 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         }
     }
 
-    /// That the law of the element at this place is at work.
+    /// Begins the law of the element with this index.
     pub(crate) fn begin(&mut self, at: usize) {
         self.at = at;
     }
 }
 
-/// A method of the mechanism by the formulation asked for, its expressions copied; `leaf` may replace
+/// Copies the expressions of a method of the mechanism, by the selected formulation; `leaf` may replace
 /// leaves.
 pub(crate) fn copied<'g>(
     b: &'g Builder,

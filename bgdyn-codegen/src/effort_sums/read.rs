@@ -1,4 +1,4 @@
-//! What an effect's law reads.
+//! Values that an effect's law reads.
 
 use bgdyn_runtime::Dd;
 
@@ -14,23 +14,23 @@ use crate::method::Method;
 use crate::scene::Level;
 
 impl<'g, 'a> EffortSums<'g, 'a> {
-    /// Whether the limits of drives act: not where the coordinates' own efforts are sought.
+    /// Returns whether the limits of drives are active; they are not if the drives are unknowns.
     pub fn limited(&self) -> bool {
         self.own == ActuatorEfforts::FromInputs
     }
 
-    /// The number behind a key; 0 where the file does not give it.
+    /// Returns the number of a key; 0 if the file does not give it.
     ///
     /// # Panics
-    /// Where the element's effect does not declare the key.
+    /// If the element's effect does not declare the key.
     pub fn number(&self, element: &Element, key: &Key) -> Expr<'g> {
         self.optional(element, key).unwrap_or(self.b.zero())
     }
 
-    /// The number behind a key; `None` where the file does not give it.
+    /// Returns the number of a key; `None` if the file does not give it.
     ///
     /// # Panics
-    /// Where the element's effect does not declare the key.
+    /// If the element's effect does not declare the key.
     pub fn optional(&self, element: &Element, key: &Key) -> Option<Expr<'g>> {
         if !element.effect.keys().iter().any(|k| k.name == key.name) {
             undeclared(element, "key", key.name);
@@ -38,7 +38,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         element.quantity(key.name).map(|q| self.quantity(q))
     }
 
-    /// A number as an expression.
+    /// Returns a number as an expression.
     pub fn quantity(&self, quantity: &Quantity) -> Expr<'g> {
         let index = quantity.parameter.as_ref().and_then(|name| {
             let parameters = self.scene.parameters.iter();
@@ -50,50 +50,50 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         }
     }
 
-    /// The first-order state with this name.
+    /// Returns the first-order state with this name.
     ///
     /// # Panics
-    /// Where no effect of the scene declares it.
+    /// If no effect of the scene declares it.
     pub fn state(&self, name: &str) -> Expr<'g> {
         self.x[self.part("state", &self.scene.layout.states, name)]
     }
 
-    /// The mode with this name.
+    /// Returns the mode with this name.
     ///
     /// # Panics
-    /// Where no effect of the scene declares it.
+    /// If no effect of the scene declares it.
     pub fn mode(&self, name: &str) -> Expr<'g> {
         self.modes[self.part("mode", &self.scene.layout.modes, name)]
     }
 
-    /// The input with this name.
+    /// Returns the input with this name.
     ///
     /// # Panics
-    /// Where no effect of the scene declares it.
+    /// If no effect of the scene declares it.
     pub fn input(&self, name: &str) -> Expr<'g> {
         self.u[self.part("input", &self.scene.layout.inputs, name)]
     }
 
-    /// A reference's place, rate or acceleration; 0 without one.
+    /// Returns a reference's position, rate or acceleration; 0 without a reference.
     ///
     /// # Panics
-    /// Where no effect of the scene declares the reference up to this level.
+    /// If no effect of the scene declares the reference up to this level.
     pub fn reference(&self, name: Option<&str>, level: Level) -> Expr<'g> {
         name.map_or(self.b.zero(), |name| self.input(&level.name(name)))
     }
 
-    /// The velocity of the coordinate that the element itself adds.
+    /// Returns the velocity of the coordinate that the element adds.
     ///
     /// # Panics
-    /// Where it adds none.
+    /// If it adds no coordinate.
     pub fn own_velocity(&self, element: &Element) -> Expr<'g> {
         self.v[self.coordinate_index(&element.name)]
     }
 
-    /// Where the element acts: on its `joint`, or along the line between its two places.
+    /// Returns the port of the element: its `joint`, or the line between its two sites.
     ///
     /// # Panics
-    /// Where it has neither, or one that the scene does not have.
+    /// If it has neither, or the scene does not have it.
     pub fn port(&mut self, element: &Element) -> Port<'g> {
         match (element.name("joint"), element.names("between")) {
             (Some(joint), _) => self.coordinate(joint),
@@ -102,8 +102,8 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         }
     }
 
-    /// SI units of place, rate and effort where the element acts: those of its `joint`, or of a
-    /// length.
+    /// Returns the SI units of displacement, rate and effort at the element's port: those of its `joint`,
+    /// or of a length.
     pub fn port_units(&self, element: &Element) -> [&'static str; 3] {
         let layout = &self.scene.layout;
         let joint = element
@@ -115,19 +115,19 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             .map(Dimension::si)
     }
 
-    /// The place with this name.
+    /// Returns the site with this name.
     ///
     /// # Panics
-    /// Where no link or frame has the name.
+    /// If no link or frame has the name.
     pub fn site(&self, name: &str) -> SiteId {
         let found = self.graph.sites.iter().position(|s| s.name == name);
         SiteId(found.unwrap_or_else(|| undeclared(self.element_at_work(), "site", name)))
     }
 
-    /// A coordinate as a port.
+    /// Returns a coordinate as a port.
     ///
     /// # Panics
-    /// Where the scene has no coordinate with this name.
+    /// If the scene has no coordinate with this name.
     pub fn coordinate(&self, name: &str) -> Port<'g> {
         let j = self.coordinate_index(name);
         Port {
@@ -137,7 +137,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         }
     }
 
-    /// The distance of two places as a port: s = |r_b − r_a|, ∂s/∂q_j = n · (∂r_b/∂q_j − ∂r_a/∂q_j)
+    /// Returns the distance of two sites as a port: s = |r_b − r_a|, ∂s/∂q_j = n · (∂r_b/∂q_j − ∂r_a/∂q_j)
     /// with the unit vector n from a to b.
     pub fn line(&mut self, a: SiteId, b: SiteId) -> Port<'g> {
         let apart = self.pose(b).1 - self.pose(a).1;
@@ -158,7 +158,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         port
     }
 
-    /// ∂x/∂q_j
+    /// Returns ∂x/∂q_j.
     pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
         let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| g.constant(Dd::ONE));
         let x = x.signed();
@@ -166,7 +166,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         self.b.expr(slope)
     }
 
-    /// Axes and origin of a place in the world.
+    /// Returns axes and origin of a site in the world.
     pub fn pose(&mut self, site: SiteId) -> (Mat3<Expr<'g>>, Vec3<Expr<'g>>) {
         if let Some(pose) = self.poses.get(&site) {
             return *pose;
@@ -180,7 +180,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         pose
     }
 
-    /// Jacobian of a place, world axes: a column (angular part first) per joint.
+    /// Returns the Jacobian of a site, world axes: a column (angular part first) per joint.
     pub fn jacobian(&mut self, site: SiteId) -> Vec<[Expr<'g>; 6]> {
         let n = self.graph.coordinates.len();
         let rows = self.method(Method::Jacobian(site));
@@ -189,27 +189,27 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             .collect()
     }
 
-    /// Energy of the weights, if anything weighs.
+    /// Returns the energy of the weights; empty without gravity.
     pub fn potential_energy(&self) -> Vec<Expr<'g>> {
         self.method(Method::PotentialEnergy)
     }
 
-    /// A method of the mechanism, its expressions copied into this graph.
+    /// Copies the expressions of a method of the mechanism into this graph.
     pub(crate) fn method(&self, method: Method) -> Vec<Expr<'g>> {
         copied(self.b, (self.graph, self.asked), method, |_, _| None)
     }
 
-    /// What an earlier element gave.
+    /// Returns a value that an earlier element shared.
     pub fn shared(&self, node: &str, what: &'static str) -> Option<Expr<'g>> {
         self.shared.get(&(node.to_owned(), what)).copied()
     }
 
-    /// The scene's elements, for those that have to know of each other.
+    /// Returns the scene's elements.
     pub fn elements(&self) -> &'a [Element] {
         &self.scene.elements
     }
 
-    /// Elements in series.
+    /// Returns the chains of elements in series.
     pub fn chains(&self) -> &'a [Chain] {
         &self.scene.chains
     }

@@ -1,4 +1,4 @@
-//! What the scene's functions read of the sums.
+//! Results of the sums that the scene's functions read.
 
 use bgdyn_runtime::Dd;
 
@@ -6,7 +6,7 @@ use super::{ActuatorEfforts, Balance, Condition, Contact, EffortSums, Hold, Read
 use crate::expr::{Expr, Leaf};
 
 impl<'g> EffortSums<'g, '_> {
-    /// An expression's value at the start, run-time parameters at their defaults.
+    /// Returns an expression's value at the start, with default run-time parameters.
     pub(crate) fn at_start(&self, x: Expr<'g>, initial: &crate::scene::Initial) -> Dd {
         use bgdyn_runtime::Scalar as _;
         let inputs = crate::expr::Inputs {
@@ -28,14 +28,14 @@ impl<'g> EffortSums<'g, '_> {
         values[0]
     }
 
-    /// Own efforts of the coordinates that are inputs.
+    /// Returns a drive that is an input.
     pub(crate) fn own_effort(&self, j: usize) -> Expr<'g> {
         let parts = self.scene.layout.inputs.iter().zip(&self.u);
         let own = parts.filter(|(part, _)| part.drives == Some(j));
         own.fold(self.b.zero(), |sum, (_, &u)| sum + u)
     }
 
-    /// Own effort of a coordinate before its gear. A voltage goes through its motor's law.
+    /// Returns the drive of a coordinate before its gear. A voltage passes through its motor's law.
     pub(super) fn before_the_gear(&self, j: usize) -> Expr<'g> {
         let (stored, everywhere) = (
             self.scene.layout.coordinates[j].stored,
@@ -48,30 +48,30 @@ impl<'g> EffortSums<'g, '_> {
         }
     }
 
-    /// Own effort of a coordinate behind its gear.
+    /// Returns the drive of a coordinate behind its gear.
     pub(crate) fn drive(&self, j: usize) -> Expr<'g> {
         let own = self.before_the_gear(j);
         let gear = self.gears.get(&j);
         gear.map_or(own, |gear| gear.behind(self.b, own))
     }
 
-    /// The own effort that gives `effort` behind the coordinate's gear.
+    /// Returns the drive that gives `effort` behind the coordinate's gear.
     pub(crate) fn before_gear(&self, j: usize, effort: Expr<'g>) -> Expr<'g> {
         let gear = self.gears.get(&j);
         gear.map_or(effort, |gear| gear.before(self.b, effort))
     }
 
-    /// Effort on a coordinate by everything but its store, its own input included.
+    /// Returns the total effort on a coordinate without its store, including its input.
     pub(crate) fn effort(&self, j: usize) -> Expr<'g> {
         self.efforts[j] + self.drive(j)
     }
 
-    /// Whether an expression depends on any position.
+    /// Returns whether an expression depends on any position.
     pub(crate) fn reads_positions(&self, x: Expr<'g>) -> bool {
         !self.positions_of(x).is_empty()
     }
 
-    /// The positions that an expression depends on.
+    /// Returns the positions that an expression depends on.
     pub(crate) fn positions_of(&self, x: Expr<'g>) -> Vec<usize> {
         let x = x.signed();
         self.b.with_graph(|g| {
@@ -85,7 +85,7 @@ impl<'g> EffortSums<'g, '_> {
         })
     }
 
-    /// Inertia of a coordinate with a store of its own.
+    /// Returns the inertia of a coordinate with a store of its own.
     pub(crate) fn inertia_of(&self, j: usize) -> Option<Expr<'g>> {
         self.inertias.get(&j).copied()
     }
@@ -110,9 +110,9 @@ impl<'g> EffortSums<'g, '_> {
         &self.contacts
     }
 
-    /// What is left until a contact gives way, where its coordinate is held with this effort;
-    /// negative beyond. Frictions that hold the same coordinate share the effort: they give way
-    /// together, where it is more than the sum of their limits.
+    /// Returns the margin of a contact whose coordinate is held with this effort; negative beyond the
+    /// limit. Frictions that hold the same coordinate share the effort: they break away together if it
+    /// exceeds the sum of their limits.
     pub(crate) fn margin(&self, contact: &Contact<'g>, holding: Expr<'g>) -> Expr<'g> {
         let ranges = match contact.hold {
             Hold::Lowers => return -holding,
@@ -129,7 +129,7 @@ impl<'g> EffortSums<'g, '_> {
         (holding - least).min(most - holding)
     }
 
-    /// The efforts that a friction and the others that hold its coordinate now can hold with.
+    /// Returns the effort ranges of a friction and of the others that hold its coordinate now.
     fn ranges_with(&self, contact: &Contact<'g>) -> Vec<[Expr<'g>; 2]> {
         let (half, zero) = (self.b.number(0.5), self.b.zero());
         let beside = |c: &&Contact<'g>| c.coordinate == contact.coordinate;

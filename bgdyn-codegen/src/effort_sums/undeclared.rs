@@ -1,30 +1,30 @@
-//! Lookups by name in a law, and the panic where the name is not declared: an error of its author.
+//! Looks up parts by name in a law; panics if the name is not declared, an error of the law's author.
 
 use super::EffortSums;
 use crate::declaration::Element;
 use crate::scene::Variable;
 
 impl EffortSums<'_, '_> {
-    /// The element whose law runs.
+    /// Returns the element whose law runs.
     pub(super) fn element_at_work(&self) -> &Element {
         &self.scene.elements[self.at]
     }
 
-    /// The number of the part with this name among the scene's states, modes, inputs or events;
+    /// Returns the index of the part with this name among the scene's states, modes, inputs or events;
     /// `kind` is the word for one of them.
     pub(super) fn part(&self, kind: &str, parts: &[Variable], name: &str) -> usize {
         let found = parts.iter().position(|part| part.name == name);
         found.unwrap_or_else(|| undeclared(self.element_at_work(), kind, name))
     }
 
-    /// The number of the coordinate with this name.
+    /// Returns the index of the coordinate with this name.
     pub(super) fn coordinate_index(&self, name: &str) -> usize {
         let found = self.scene.layout.coordinate_named(name);
         found.unwrap_or_else(|| undeclared(self.element_at_work(), "coordinate", name))
     }
 }
 
-/// Panics: the law of this element reads or adds to something that is not declared.
+/// Panics: the law of this element uses a name that is not declared.
 pub(super) fn undeclared(element: &Element, kind: &str, name: &str) -> ! {
     panic!(
         "the law of the effect `{}` (element `{}`) uses the {kind} `{name}`, which is not declared",

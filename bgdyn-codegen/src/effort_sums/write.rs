@@ -1,4 +1,4 @@
-//! What an effect's law adds.
+//! Terms that an effect's law adds.
 
 use bgdyn_runtime::Dd;
 
@@ -8,32 +8,32 @@ use crate::declaration::Element;
 use crate::expr::Expr;
 
 impl<'g> EffortSums<'g, '_> {
-    /// An effort along a port.
+    /// Adds an effort along a port.
     pub fn push(&mut self, port: &Port<'g>, effort: Expr<'g>) {
         for &(j, transformer) in &port.transformers {
             self.efforts[j] = self.efforts[j] + transformer * effort;
         }
     }
 
-    /// An effort on the element's own coordinate.
+    /// Adds an effort on the element's own coordinate.
     ///
     /// # Panics
-    /// Where the element adds no coordinate.
+    /// If the element adds no coordinate.
     pub fn push_own(&mut self, element: &Element, effort: Expr<'g>) {
         let j = self.coordinate_index(&element.name);
         self.efforts[j] = self.efforts[j] + effort;
     }
 
-    /// An effort on one coordinate, by its number.
+    /// Adds an effort on one coordinate, by its index.
     pub fn push_on(&mut self, coordinate: usize, effort: Expr<'g>) {
         self.efforts[coordinate] = self.efforts[coordinate] + effort;
     }
 
-    /// The inertia of the coordinate that the element adds, and the kinetic (magnetic) energy with
-    /// it: ½ I v².
+    /// Sets the inertia of the coordinate that the element adds, and adds its kinetic (magnetic) energy ½
+    /// I v².
     ///
     /// # Panics
-    /// Where the element adds no coordinate.
+    /// If the element adds no coordinate.
     pub fn inertia(&mut self, element: &Element, inertia: Expr<'g>) {
         let j = self.coordinate_index(&element.name);
         self.inertias.insert(j, inertia);
@@ -41,26 +41,26 @@ impl<'g> EffortSums<'g, '_> {
         self.store(inertia * rate * rate * Dd::from_f64(0.5));
     }
 
-    /// ẋ of a first-order state; several effects may add to it.
+    /// Adds to the rate ẋ of a first-order state; several effects may add to it.
     ///
     /// # Panics
-    /// Where no effect of the scene declares the state.
+    /// If no effect of the scene declares the state.
     pub fn flow(&mut self, state: &str, rate: Expr<'g>) {
         let i = self.part("state", &self.scene.layout.states, state);
         self.rates[i] = self.rates[i] + rate;
     }
 
-    /// Power that the element takes from outside, W.
+    /// Adds power from outside to the element, W.
     pub fn supply(&mut self, power: Expr<'g>) {
         let balance = &mut self.balances[self.at];
         balance.supplied = balance.supplied + power;
     }
 
-    /// Power that another element takes from outside, W: a source of pressure gives it to whatever
-    /// lets fluid run.
+    /// Adds power from outside to another element, W: a source of pressure supplies the elements through
+    /// which fluid flows.
     ///
     /// # Panics
-    /// Where the scene has no element with this name.
+    /// If the scene has no element with this name.
     pub fn supply_by(&mut self, element: &str, power: Expr<'g>) {
         let found = self.scene.elements.iter().position(|e| e.name == element);
         let at = found.unwrap_or_else(|| undeclared(self.element_at_work(), "element", element));
@@ -68,32 +68,32 @@ impl<'g> EffortSums<'g, '_> {
         balance.supplied = balance.supplied + power;
     }
 
-    /// Energy that the element stores, J.
+    /// Adds energy that the element stores, J.
     pub fn store(&mut self, energy: Expr<'g>) {
         let balance = &mut self.balances[self.at];
         balance.stored = balance.stored + energy;
     }
 
-    /// Power that the element dissipates, W.
+    /// Adds power that the element dissipates, W.
     pub fn dissipate(&mut self, power: Expr<'g>) {
         let balance = &mut self.balances[self.at];
         balance.dissipated = balance.dissipated + power;
     }
 
-    /// A value whose fall through zero is the event with this name.
+    /// Sets the event function of this name; the event occurs where the value falls through zero.
     ///
     /// # Panics
-    /// Where no effect of the scene declares the event.
+    /// If no effect of the scene declares the event.
     pub fn event(&mut self, name: &str, value: Expr<'g>) {
         self.part("event", &self.scene.layout.events, name);
         self.events.insert(name.to_owned(), value);
     }
 
-    /// What can hold its coordinate at the rate of a counterpart, whose rate and acceleration are
-    /// the `reference`.
+    /// Adds a contact that can hold its coordinate at the rate of a counterpart; `reference` is the rate
+    /// and acceleration of the counterpart.
     ///
     /// # Panics
-    /// Where no effect of the scene declares the mode.
+    /// If no effect of the scene declares the mode.
     pub fn contact(
         &mut self,
         mode: &str,
@@ -114,7 +114,7 @@ impl<'g> EffortSums<'g, '_> {
         }
     }
 
-    /// A quantity worth knowing, in this SI unit.
+    /// Adds an output quantity, in this SI unit.
     pub fn reading(&mut self, name: String, value: Expr<'g>, unit: &'static str, about: String) {
         self.readings.push(Reading {
             name,
@@ -124,7 +124,7 @@ impl<'g> EffortSums<'g, '_> {
         });
     }
 
-    /// A value that must be positive, tried at the start and over the limits of the joints.
+    /// Adds a value that must be positive; it is checked at the start and over the limits of the joints.
     pub fn stays_positive(&mut self, value: Expr<'g>, what: String, way_out: &'static str) {
         self.conditions.push(Condition {
             element: self.at,
@@ -134,7 +134,7 @@ impl<'g> EffortSums<'g, '_> {
         });
     }
 
-    /// A value that one element gives to others: the pressure of a node.
+    /// Shares a value of this element with other elements: the pressure of a node.
     pub fn share(&mut self, node: &str, what: &'static str, value: Expr<'g>) {
         self.shared.insert((node.to_owned(), what), value);
     }

@@ -1,4 +1,4 @@
-//! The body of a method: one straight line, or calls of the blocks it was cut into.
+//! Emits the body of a method: straight-line code, or calls of its blocks.
 
 use std::collections::BTreeSet;
 
@@ -17,15 +17,14 @@ use crate::function::{Block, Function};
 use crate::method::{Method, Shape};
 use crate::model::Model;
 
-/// What a method consists of: its body, and the private functions of its blocks if it has
-/// several.
+/// The body of a method, and the private functions of its blocks if it has several.
 pub(super) struct FunctionBody {
     pub(super) body: TokenStream,
     pub(super) blocks: Vec<TokenStream>,
 }
 
-/// The body of a method, and its blocks; `finish` makes the result of its components,
-/// which stand in these places if it is a matrix.
+/// Returns the body of a method, and its blocks. `finish` builds the result from its components; for a
+/// matrix, the targets give their positions in it.
 pub(super) fn body(
     function: &Function,
     naming: &Naming<'_>,
@@ -39,7 +38,7 @@ pub(super) fn body(
             writer.entries = Entries::new(&block.outputs, places, &finish);
         }
         let statements = writer.block(&block.outputs, function);
-        // Only of shapes that are returned unchecked.
+        // Only results that are returned unchecked are written entry by entry.
         if let Some(result) = writer.written() {
             return FunctionBody {
                 body: quote! { #statements #result },
@@ -90,7 +89,7 @@ pub(super) fn body(
     }
 }
 
-/// The loops that follow the blocks, and the function's results, from those of the blocks.
+/// Adds the loops after the blocks, and the function's results, from those of the blocks.
 fn with_loops(
     function: &Function,
     naming: &Naming<'_>,
@@ -102,7 +101,7 @@ fn with_loops(
     }
 }
 
-/// A block as a private function, and the call of it.
+/// Emits a block as a private function, and the call of it.
 fn separate_block(
     function: &Function,
     naming: &Naming<'_>,
@@ -156,7 +155,7 @@ fn separate_block(
     (block, quote! { self.#name(#(#arguments),*) })
 }
 
-/// What a function does not read: arguments, as `q[joint]`, and run-time parameters.
+/// Returns the names that a function does not read: arguments, as `q[joint]`, and run-time parameters.
 pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
     let read: BTreeSet<Leaf> = function.blocks.iter().flat_map(of_block).collect();
@@ -180,7 +179,7 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     unread
 }
 
-/// The result of a method from its components.
+/// Returns the result of a method from its components.
 pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> TokenStream {
     let square = |values: &[TokenStream]| matrix(nv, values);
     let squares = |values: &[TokenStream], count: usize| -> Vec<TokenStream> {
@@ -233,7 +232,7 @@ pub(super) fn vector(values: &[TokenStream]) -> TokenStream {
     quote! { __rt::vector([#(#values),*]) }
 }
 
-/// A matrix of so many columns from its entries, row by row.
+/// Returns a matrix with this number of columns from its entries, row by row.
 fn matrix(columns: usize, values: &[TokenStream]) -> TokenStream {
     let column = |j: usize| {
         let entries = values.iter().skip(j).step_by(columns);

@@ -1,4 +1,4 @@
-//! Pieces of code, and the leaves they read.
+//! Pieces of code with their operator precedence, and the names of leaves.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::method::Argument;
 use crate::model::Model;
 use crate::scene::{StateLayout, Variable};
 
-/// How tightly a piece of code binds.
+/// Operator precedence of a piece of code.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Binding {
     Sum,
@@ -20,7 +20,7 @@ pub(super) enum Binding {
     Atom,
 }
 
-/// A piece of code for a node, without the sign it is used with.
+/// A piece of code for a node, without the sign that its user applies.
 #[derive(Clone)]
 pub(super) struct Code {
     pub(super) tokens: TokenStream,
@@ -28,7 +28,7 @@ pub(super) struct Code {
     pub(super) operations: usize,
 }
 
-/// Code that needs no parentheses anywhere.
+/// Code that never needs parentheses.
 pub(super) fn atom(tokens: TokenStream) -> Code {
     Code {
         tokens,
@@ -44,7 +44,7 @@ pub(super) struct SinePair {
     pub(super) cosine: Ident,
 }
 
-/// Whether a leaf is part of an argument with named parts.
+/// Returns whether a leaf is part of an argument with named parts.
 pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
     match argument {
         Argument::State => matches!(
@@ -59,7 +59,7 @@ pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
     }
 }
 
-/// What the leaves of a function are called.
+/// The names of a function's leaves.
 pub(super) struct Naming<'a> {
     /// Coordinates.
     pub(super) joints: Vec<&'a str>,
@@ -67,12 +67,12 @@ pub(super) struct Naming<'a> {
     pub(super) parameters: Vec<&'a str>,
     /// The parts of a scene's state and inputs; `None` for a mechanism.
     pub(super) layout: Option<&'a StateLayout>,
-    /// Whether formulas are infix.
+    /// Whether formulas use infix operators.
     pub(super) plain: bool,
 }
 
 impl<'a> Naming<'a> {
-    /// Of a mechanism's functions.
+    /// Names for a mechanism's functions.
     pub(super) fn of_model(model: &'a Model, plain: bool) -> Self {
         let coordinates = model.bond_graph.coordinates.iter();
         let parameters = model.mechanism.parameters().iter();
@@ -84,7 +84,7 @@ impl<'a> Naming<'a> {
         }
     }
 
-    /// Of a scene's functions.
+    /// Names for a scene's functions.
     pub(super) fn of_scene(scene: &'a SceneInterface, plain: bool) -> Self {
         let coordinates = scene.layout.coordinates.iter();
         Naming {
@@ -95,8 +95,8 @@ impl<'a> Naming<'a> {
         }
     }
 
-    /// The leaves that an argument's components hold, with the names of variables for them; none for
-    /// an argument with named parts.
+    /// Returns the leaves of an argument's components with names of variables for them; empty for an
+    /// argument with named parts.
     pub(super) fn components(&self, argument: Argument) -> Vec<(Leaf, String)> {
         let of_joints = |leaf: fn(usize) -> Leaf| {
             let names = self.joints.iter().enumerate();
@@ -128,7 +128,7 @@ impl<'a> Naming<'a> {
         }
     }
 
-    /// The field that holds a leaf of a scene.
+    /// Returns the field of a leaf of a scene.
     pub(super) fn field(&self, leaf: Leaf) -> Option<TokenStream> {
         let layout = self.layout?;
         let of = |whole: &str, part: &str| {
@@ -148,7 +148,7 @@ impl<'a> Naming<'a> {
     }
 }
 
-/// The leaves that the outputs read.
+/// Returns the leaves that the outputs read.
 pub(super) fn leaves(graph: &Graph, outputs: &[Signed]) -> BTreeSet<Leaf> {
     let needed = reachable(graph, outputs);
     let nodes = (0..needed.len())

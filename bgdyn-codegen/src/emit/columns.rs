@@ -1,4 +1,4 @@
-//! Columns that are alike: a loop over them, with what each reads of its own in arrays, row by row.
+//! Emits similar columns as a loop, with the values of each column in arrays, row by row.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -11,8 +11,8 @@ use crate::column_loop::{ColumnLoop, LoopedResult, OWN, ResultSource, SHARED};
 use crate::expr::{Leaf, Node, NodeId};
 use crate::function::Function;
 
-/// The loops, and the function's results with theirs among them; `stage` is the code of the results
-/// that the blocks give.
+/// Returns the loops, and the function's results including those of the loops; `stage` is the code of the
+/// results of the blocks.
 pub(super) fn columns(
     function: &Function,
     loops: &LoopedResult,

@@ -1,4 +1,4 @@
-//! The module's constants: sizes, names, motions, limits; what each method executes.
+//! Emits the module's constants: sizes, names, motions, limits, and operation counts of each method.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -9,7 +9,7 @@ use crate::function::Function;
 use crate::mechanism::{CoordinateId, Limits, Motion};
 use crate::model::Model;
 
-/// What stands at the head of the module.
+/// Returns the constants at the beginning of the module.
 pub(super) fn constants(model: &Model) -> TokenStream {
     let mechanism = &model.mechanism;
     let (nq, nv) = (size(mechanism.nq()), size(mechanism.nv()));
@@ -69,7 +69,7 @@ fn limits(limits: &Limits) -> TokenStream {
     }
 }
 
-/// The table of counts.
+/// Returns the table of operation counts.
 pub(super) fn operations<'a>(
     functions: impl ExactSizeIterator<Item = (&'a str, Operations)>,
 ) -> TokenStream {
@@ -93,12 +93,12 @@ pub(super) fn operations<'a>(
     }
 }
 
-/// The counts of a model's functions.
+/// Returns the operation counts of a model's functions.
 pub(super) fn counted(functions: &[Function]) -> TokenStream {
     operations(functions.iter().map(|f| (f.name(), f.operations())))
 }
 
-/// A size, as a reader writes it.
+/// Returns a size as a literal without a type.
 pub(super) fn size(n: usize) -> Literal {
     Literal::usize_unsuffixed(n)
 }

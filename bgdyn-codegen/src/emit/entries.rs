@@ -1,10 +1,9 @@
-//! Which entries of a result each node is, so that an entry is stored as soon as it is known.
+//! Maps nodes to entries of a result, so that an entry is stored as soon as it is computed.
 //!
-//! A result that is put together at the end is stored there as well, entry after entry, with nothing left to
-//! compute meanwhile: that costs the mass matrix of a PUMA 5 %, in lanes 9 % (`docs/order.md`). The code
-//! therefore begins with a whole result and overwrites its entries. Entries that are not yet known are
-//! initialised with the first known one: compilers remove those stores, but not a call that fills memory
-//! with zeros.
+//! If a result is built at the end, all entries are stored then, with no computation left to overlap: this
+//! costs the mass matrix of a PUMA 5 %, in lanes 9 % (`docs/order.md`). The code therefore begins with a
+//! whole result and overwrites its entries. Entries that are not yet known are initialised with the first
+//! known one: compilers remove those stores, but not a call that fills memory with zeros.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -12,30 +11,30 @@ use quote::{format_ident, quote};
 use crate::expr::{NodeId, QuickMap, Signed};
 use crate::method::Shape;
 
-/// Results with fewer entries are put together at the end: there is nothing to be gained.
+/// Results with fewer entries are built at the end, because nothing would be gained.
 const LEAST: usize = 16;
 
-/// What the result is called while it is written.
+/// The name of the result while it is written.
 pub(super) const NAME: &str = "entries";
 
-/// Code of the places where each output of a function stands.
+/// Code of the targets of each output of a function.
 pub(super) type EntryTargets = Vec<Vec<TokenStream>>;
 
 /// A result that is written entry by entry.
 pub(super) struct Entries<'a> {
     pub(super) outputs: &'a [Signed],
-    /// Which outputs a node is.
+    /// Indices of the outputs that are equal to a node.
     pub(super) of: QuickMap<NodeId, Vec<usize>>,
-    /// Where each output stands in the result.
+    /// Targets of each output in the result.
     pub(super) places: EntryTargets,
-    /// The whole result from its outputs.
+    /// Builds the whole result from its outputs.
     pub(super) whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
     /// Whether any entry has been written.
     pub(super) begun: bool,
 }
 
 impl<'a> Entries<'a> {
-    /// For an array.
+    /// Returns the entries of an array.
     pub(super) fn of_array(
         outputs: &'a [Signed],
         whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
@@ -48,7 +47,7 @@ impl<'a> Entries<'a> {
         Self::new(outputs, (0..outputs.len()).map(place).collect(), whole)
     }
 
-    /// For a result whose outputs stand in these places; nothing where it is put together at the end.
+    /// Returns the entries of a result with these targets; `None` if it is built at the end.
     pub(super) fn new(
         outputs: &'a [Signed],
         places: EntryTargets,
@@ -72,7 +71,7 @@ impl<'a> Entries<'a> {
     }
 }
 
-/// Where the outputs of a function stand in its matrices; nothing for other results.
+/// Returns the targets of a function's outputs in its matrices; `None` for other results.
 pub(super) fn places(shape: Shape, nv: usize) -> Option<EntryTargets> {
     let name = format_ident!("{NAME}");
     let place = |matrix: Option<usize>, i: usize, j: usize| {

@@ -1,5 +1,5 @@
-//! The private methods that show a failed function's arguments, among which the cause of its error is looked for: an
-//! argument that is NaN or infinite.
+//! Emits private methods that pass a failed function's arguments to a callback, which searches them for
+//! the cause of the error: an argument that is NaN or infinite.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::function::Function;
 use crate::layout::StateLayout;
 use crate::method::{Argument, Method, SceneFunction};
 
-/// The methods that the checked ones among these functions call, one for each list of arguments.
+/// Returns the methods that the checked functions call, one for each list of arguments.
 pub(super) fn explainers(functions: &[Function], naming: &Naming<'_>) -> TokenStream {
     let checked = functions.iter().filter(|f| f.shape().checked());
     let by_name: BTreeMap<&str, Method> = checked.map(|f| (name(f.method), f.method)).collect();
@@ -34,8 +34,8 @@ pub(super) fn explainers(functions: &[Function], naming: &Naming<'_>) -> TokenSt
     quote! { #(#methods)* }
 }
 
-/// These accelerations, or rates, as a `Result`: where they are not all there, the arguments are shown. What shows
-/// them is put together in the failing branch, so that it costs nothing elsewhere.
+/// Returns these accelerations, or rates, as a `Result`; if they do not all exist, the arguments are
+/// searched. The code for this is in the failing branch only, so that it costs nothing elsewhere.
 pub(super) fn checked(method: Method, values: &TokenStream, names: &TokenStream) -> TokenStream {
     let (explain, arguments) = (ident(name(method)), method.arguments().iter());
     let arguments = arguments.map(|a| ident(a.name()));
@@ -50,7 +50,7 @@ pub(super) fn checked(method: Method, values: &TokenStream, names: &TokenStream)
     }}
 }
 
-/// What a method's explainer is called.
+/// Returns the name of a method's explainer.
 fn name(method: Method) -> &'static str {
     match method {
         Method::Scene(SceneFunction::FromCanonical) => "explain_from_canonical",
@@ -59,7 +59,7 @@ fn name(method: Method) -> &'static str {
     }
 }
 
-/// Shows an argument: which one it is, the names of its components, their values.
+/// Emits the callback for an argument: the argument, the names of its components, their values.
 fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
     let name: Ident = ident(argument.name());
     let has = |part: fn(&StateLayout) -> bool| naming.layout.is_some_and(part);
@@ -100,7 +100,7 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
     }
 }
 
-/// Shows the run-time parameters.
+/// Emits the callback for the run-time parameters.
 fn parameters(names: &[&str]) -> Option<TokenStream> {
     let fields = names.iter().map(|name| ident(name));
     let values = quote! { &[#(self.#fields),*] };

@@ -1,4 +1,4 @@
-//! The legend of a module: which names and signs its functions use, with their meaning.
+//! Emits the legend of a module: the names and signs that its functions use, with their meaning.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use crate::expr::{Graph, Node, NodeId, reachable};
 use crate::function::Function;
 use crate::legend::{AXES, LegendQuantity, QUANTITIES, SIGNS};
 
-/// Lines of documentation: what the names and signs in the code mean; none where there are none.
+/// Returns lines of documentation for the names and signs in the code; empty without names.
 pub(super) fn legend(functions: &[Function]) -> Vec<String> {
     let (mut patterns, mut titles) = (BTreeSet::new(), BTreeSet::new());
     for function in functions {
@@ -48,7 +48,7 @@ pub(super) fn legend(functions: &[Function]) -> Vec<String> {
     lines
 }
 
-/// The nodes that a function computes.
+/// Returns the nodes that a function computes.
 fn nodes(function: &Function) -> impl Iterator<Item = NodeId> {
     let outputs = function.blocks.iter().flat_map(|b| &b.outputs).copied();
     let needed = reachable(&function.graph, &outputs.collect::<Vec<_>>());
@@ -57,7 +57,7 @@ fn nodes(function: &Function) -> impl Iterator<Item = NodeId> {
         .map(NodeId::at)
 }
 
-/// The name of a node.
+/// Returns the name of a node.
 fn name(graph: &Graph, id: NodeId) -> Option<&str> {
     match graph.node(id) {
         Node::Constant(c) => graph.constant_name(c.value()),

@@ -1,7 +1,7 @@
-//! A symmetric matrix whose entries are inner products of two tables' vectors, for the most part.
+//! Emits a symmetric matrix whose entries are mainly inner products of the vectors of two tables.
 //!
-//! The tables are filled with what the blocks before have computed, vectors of rows component by
-//! component: so the loop over the rows of a column runs in the lanes of a register.
+//! The tables contain results of earlier blocks, the vectors of rows component by component. So the loop
+//! over the rows of a column runs in the lanes of a register.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use super::writer::Writer;
 use crate::expr::Signed;
 use crate::function::{Block, Function, InnerProducts, in_triangle};
 
-/// Code of the matrix of a block with products.
+/// Returns the code for the matrix of a block with products.
 pub(super) fn matrix(function: &Function, naming: &Naming<'_>, block: &Block) -> TokenStream {
     let products = &block.products;
     let looped: BTreeSet<(usize, usize)> =
@@ -47,7 +47,8 @@ pub(super) fn matrix(function: &Function, naming: &Naming<'_>, block: &Block) ->
     }
 }
 
-/// The call that computes products: a vector for each run, the rows' vectors component by component.
+/// Returns the call that computes products: a vector for each run, the rows' vectors component by
+/// component.
 fn inner_products(writer: &mut Writer<'_>, products: &InnerProducts) -> TokenStream {
     let columns = products.runs.iter().map(|(column, _)| {
         let values = writer.results(&products.columns[column]);

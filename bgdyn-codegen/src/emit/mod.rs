@@ -1,4 +1,4 @@
-//! The emitter: a model becomes the tokens of a Rust module. It knows no physics.
+//! The emitter: converts a model to the tokens of a Rust module, without knowledge of physics.
 
 mod body;
 mod code;

@@ -1,4 +1,4 @@
-//! The module of a mechanism: constants, the struct, its methods, the traits.
+//! Emits the module of a mechanism: constants, the struct, its methods, the traits.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -11,7 +11,7 @@ use crate::function::Function;
 use crate::method::Method;
 use crate::model::Model;
 
-/// The module of a model.
+/// Returns the module of a model.
 pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let name = output.module_ident(model.mechanism.name());
     let bgdyn = &output.bgdyn;
@@ -104,7 +104,7 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
     docs
 }
 
-/// One method of the struct.
+/// Returns one method of the struct.
 fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenStream {
     let name = ident(function.name());
     let arguments = function.method.arguments();

@@ -1,4 +1,4 @@
-//! The numbers of a block that have names, as constants with what they are; and what the unit of length is.
+//! Emits the named numbers of a block as constants with a description, and comments on the unit of length.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use super::tokens::{COMMENT, number};
 use crate::expr::Name;
 use crate::legend::{LegendQuantity, QUANTITIES};
 
-/// The numbers with names that a block uses, in the order of their use.
+/// The named numbers that a block uses, in the order of their use.
 #[derive(Default)]
 pub(super) struct NamedConstants {
     identifiers: BTreeMap<(u64, u64), Ident>,
@@ -19,7 +19,7 @@ pub(super) struct NamedConstants {
 }
 
 impl NamedConstants {
-    /// The identifier of a number with this name.
+    /// Returns the identifier of a number with this name.
     pub(super) fn add(&mut self, names: &mut Names, name: &Name, value: Dd) -> TokenStream {
         let key = (value.hi().to_bits(), value.lo().to_bits());
         let identifier = self.identifiers.entry(key).or_insert_with(|| {
@@ -30,7 +30,7 @@ impl NamedConstants {
         quote! { #identifier }
     }
 
-    /// Their definitions, where lengths are in this unit.
+    /// Returns their definitions, with lengths in this unit.
     pub(super) fn items(&self, unit: Option<Dd>) -> TokenStream {
         let length = unit.map_or(1.0, Dd::to_f64);
         let items = self.items.iter().map(|(identifier, name, value)| {
@@ -41,7 +41,7 @@ impl NamedConstants {
     }
 }
 
-/// What a number of this name is: its meaning, whose it is, its unit.
+/// Describes a number with this name: its meaning, its owner, its unit.
 fn about(name: &Name, length: f64) -> String {
     let sign = if name.negative { ", times −1" } else { "" };
     match LegendQuantity::of_name(&name.text) {
@@ -53,7 +53,7 @@ fn about(name: &Name, length: f64) -> String {
     }
 }
 
-/// A comment that says the unit of length, and what that does to the quantities with these patterns.
+/// Returns a comment on the unit of length, and on its effect on the quantities with these patterns.
 pub(super) fn unit_of_length(unit: Dd, patterns: &BTreeSet<String>) -> String {
     let unit = unit.to_f64();
     let used = QUANTITIES.iter();

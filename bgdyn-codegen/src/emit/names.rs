@@ -1,4 +1,4 @@
-//! Names of local variables: the formulation's where it gave one, else numbers.
+//! Assigns names to local variables: the formulation's names if it gave any, else numbers.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use quote::format_ident;
 
 use crate::function::Function;
 
-/// Hands out names, each once.
+/// Assigns names, each once.
 #[derive(Default)]
 pub(super) struct Names {
     taken: BTreeSet<String>,
@@ -15,7 +15,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// `wanted`, with a number behind it where it is taken already.
+    /// Returns `wanted`, with a number as a suffix if the name is in use.
     pub(super) fn named(&mut self, wanted: &str) -> Ident {
         let mut name = wanted.to_string();
         let mut k = 2;
@@ -26,12 +26,12 @@ impl Names {
         Ident::new(&name, Span::call_site())
     }
 
-    /// Keeps a name from being handed out.
+    /// Reserves a name.
     pub(super) fn reserve(&mut self, name: &str) {
         self.taken.insert(name.to_owned());
     }
 
-    /// The next number.
+    /// Returns the next number as a name.
     pub(super) fn numbered(&mut self) -> Ident {
         loop {
             self.numbered += 1;
@@ -43,7 +43,7 @@ impl Names {
     }
 }
 
-/// The arrays of a loop.
+/// The names of the arrays of a loop.
 pub(super) struct LoopArrays {
     pub(super) shared: Ident,
     pub(super) own: Ident,
@@ -60,7 +60,7 @@ impl LoopArrays {
     }
 }
 
-/// Names that loops take in the code around them.
+/// Returns the names that loops use in the code around them.
 pub(super) fn loop_names(function: &Function) -> Vec<String> {
     let groups = 0..function.columns().len();
     let of = |group| {

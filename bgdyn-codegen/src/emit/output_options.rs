@@ -6,28 +6,28 @@ use quote::quote;
 use super::tokens::ident;
 use crate::name::is_identifier;
 
-/// Options of the written module: from which spec, under which name, for which crate.
+/// Options of the written module: its spec, its name, and its crate.
 #[derive(Clone, Debug)]
 pub struct OutputOptions {
     /// Path of the crate that re-exports the runtime: `::bgdyn`.
     pub bgdyn: TokenStream,
     /// Visibility of the module.
     pub visibility: TokenStream,
-    /// Name of the module; the mechanism's where `None`.
+    /// Name of the module; `None` for the mechanism's name.
     pub module: Option<String>,
     /// Name of the spec, for the header.
     pub source: String,
-    /// Path to include, so that a change of the spec rebuilds; `None` where the build script sees
-    /// to that.
+    /// Path of a file to include, so that a change of the spec causes a rebuild; `None` if the build
+    /// script does this.
     pub rebuild: Option<String>,
-    /// Other files to include for the same reason: a scene's mechanism.
+    /// Other files to include for the same reason, such as a scene's mechanism.
     pub also: Vec<String>,
-    /// Whether the code is for reading: infix formulas, which nobody compiles.
+    /// Whether the code is only for reading: infix formulas, not compiled.
     pub plain: bool,
 }
 
 impl OutputOptions {
-    /// For source text that a crate includes which calls bgdyn by its own name.
+    /// Returns options for source text that is included in a crate with a dependency named bgdyn.
     pub fn source_text(source: String) -> Self {
         OutputOptions {
             bgdyn: quote! { ::bgdyn },
@@ -40,28 +40,28 @@ impl OutputOptions {
         }
     }
 
-    /// The same for a crate that reaches bgdyn by this path.
+    /// Sets the path of bgdyn in the including crate.
     ///
     /// # Errors
-    /// Where the path is not Rust.
+    /// If the path is not valid Rust.
     pub fn with_crate(self, path: &str) -> Result<Self, String> {
         let bgdyn = tokens("the path", path)?;
         Ok(OutputOptions { bgdyn, ..self })
     }
 
-    /// The same with this visibility of the module.
+    /// Sets the visibility of the module.
     ///
     /// # Errors
-    /// Where it is not Rust.
+    /// If it is not valid Rust.
     pub fn with_visibility(self, visibility: &str) -> Result<Self, String> {
         let visibility = tokens("the visibility", visibility)?;
         Ok(OutputOptions { visibility, ..self })
     }
 
-    /// The same with this name of the module.
+    /// Sets the name of the module.
     ///
     /// # Errors
-    /// Where it is no snake_case identifier.
+    /// If it is no snake_case identifier.
     pub fn with_module(self, name: &str) -> Result<Self, String> {
         if !is_identifier(name) {
             return Err(format!(
@@ -72,7 +72,7 @@ impl OutputOptions {
         Ok(OutputOptions { module, ..self })
     }
 
-    /// What stands in the header of code that is for reading.
+    /// Returns the note in the header of code that is only for reading.
     pub(super) fn note(&self) -> &'static [&'static str] {
         match self.plain {
             true => &[
@@ -85,7 +85,7 @@ impl OutputOptions {
         }
     }
 
-    /// The module's name for a mechanism of this name.
+    /// Returns the module's name for a mechanism of this name.
     pub(super) fn module_ident(&self, mechanism: &str) -> proc_macro2::Ident {
         ident(self.module.as_deref().unwrap_or(mechanism))
     }
@@ -96,7 +96,7 @@ fn tokens(what: &str, text: &str) -> Result<TokenStream, String> {
         .map_err(|e| format!("{what} `{text}` is not Rust: {e}"))
 }
 
-/// Statements that include the spec, so that the compiler watches it.
+/// Returns statements that include the spec, so that the compiler tracks it.
 pub(super) fn rebuild(output: &OutputOptions) -> Option<TokenStream> {
     let path = output.rebuild.as_ref()?;
     let also = &output.also;

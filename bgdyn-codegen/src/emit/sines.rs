@@ -1,4 +1,4 @@
-//! Sines and cosines: a pair for each angle, several angles in one call.
+//! Emits sines and cosines: a pair for each angle, several angles in one call.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -8,12 +8,12 @@ use super::tokens::number;
 use super::writer::Writer;
 use crate::expr::{Leaf, Node, NodeId, Signed};
 
-/// Angles of one call at the most: the lanes of the widest register.
+/// Largest number of angles in one call: the lanes of the widest register.
 const AT_ONCE: usize = 8;
 
 impl Writer<'_> {
-    /// Sine and cosine of an angle, computed once as a pair. An angle that needs nothing but arguments
-    /// is computed together with the next ones of its kind.
+    /// Returns sine and cosine of an angle, computed once as a pair. An angle that depends only on
+    /// arguments is computed together with the next such angles.
     pub(super) fn sine_cosine(&mut self, angle: NodeId) -> SinePair {
         if let Some(pair) = self.sines.get(&angle) {
             return pair.clone();
@@ -26,7 +26,7 @@ impl Writer<'_> {
         let parts: Vec<TokenStream> = (together.iter().zip(&pairs))
             .map(|(&a, pair)| self.used(a, pair))
             .collect();
-        // Arguments stand in the graph where they are first used, which may be further on.
+        // The code of an argument may come later in the graph, where it is first used.
         for &angle in &together {
             self.bound(angle);
         }
@@ -51,7 +51,7 @@ impl Writer<'_> {
         pairs[0].clone()
     }
 
-    /// Whether an angle is one of the arguments, or a sum of them.
+    /// Returns whether an angle is an argument, or a sum of arguments.
     fn is_given(&self, angle: NodeId) -> bool {
         let is_leaf = |id: NodeId| matches!(self.graph.node(id), Node::Leaf(_));
         match self.graph.node(angle) {
@@ -60,8 +60,8 @@ impl Writer<'_> {
         }
     }
 
-    /// This angle and the next ones that need nothing but arguments and are not computed yet, in the
-    /// order in which they are needed.
+    /// Returns this angle and the next ones that depend only on arguments and are not computed yet, in the
+    /// order of use.
     fn next_given(&self, angle: NodeId) -> Vec<NodeId> {
         let mut found = vec![angle];
         for i in (0..self.needed.len()).filter(|&i| self.needed[i]) {
@@ -79,14 +79,14 @@ impl Writer<'_> {
         found
     }
 
-    /// Sees to the code of the arguments in an angle.
+    /// Ensures that the arguments in an angle have code.
     fn bound(&mut self, angle: NodeId) {
         let mut read = vec![angle];
         self.graph.node(angle).for_each_operand(|a| read.push(a));
         read.into_iter().for_each(|id| self.bind_leaf(id));
     }
 
-    /// Variables for sine and cosine of an angle.
+    /// Returns variables for sine and cosine of an angle.
     fn pair(&mut self, angle: NodeId) -> SinePair {
         let name = self.angle_name(angle);
         SinePair {
@@ -95,7 +95,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The pattern that binds what is used of a pair.
+    /// Returns the pattern that binds the used parts of a pair.
     fn used(&self, angle: NodeId, SinePair { sine, cosine }: &SinePair) -> TokenStream {
         let used = |node: &Node| {
             let id = self.graph.find(node);
@@ -109,7 +109,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The terms of an angle; its offset if it is a sum.
+    /// Returns the terms of an angle, and its offset if it is a sum.
     fn terms(&mut self, angle: NodeId) -> (Vec<TokenStream>, Option<TokenStream>) {
         let Node::Angle(terms, offset, negative) = self.graph.node(angle).clone() else {
             return (vec![self.operand(Signed::plus(angle), Binding::Sum)], None);
@@ -125,7 +125,7 @@ impl Writer<'_> {
         (terms, Some(quote! { (#hi, #lo) }))
     }
 
-    /// The joints whose angles are summed: `shoulder_elbow`.
+    /// Returns the names of the joints whose angles are summed: `shoulder_elbow`.
     fn angle_name(&self, angle: NodeId) -> String {
         let joint = |id: NodeId| match self.graph.node(id) {
             Node::Leaf(Leaf::Position(j)) => self.naming.joints[*j].to_string(),

@@ -1,10 +1,10 @@
-//! Source text of a module's tokens, with comments.
+//! Prints a module's tokens as source text with comments.
 
 use proc_macro2::TokenStream;
 
 use super::tokens::COMMENT;
 
-/// Formatted source text of a module's tokens.
+/// Returns the formatted source text of a module's tokens.
 pub fn source_text(module: TokenStream) -> String {
     let file = syn::parse2(module).expect("the emitter writes valid Rust");
     let text = prettyplease::unparse(&file);
@@ -15,7 +15,7 @@ pub fn source_text(module: TokenStream) -> String {
     lines.collect()
 }
 
-/// The comment that replaces this line, if the line is the attribute of a statement's title.
+/// Returns the comment that replaces this line, if the line is the attribute of a statement's title.
 fn comment(line: &str) -> Option<String> {
     let (margin, attribute) = line.split_at(line.len() - line.trim_start().len());
     let literal = attribute.strip_prefix("#[doc = ")?.strip_suffix(']')?;

@@ -1,4 +1,4 @@
-//! The statements of one block: a `let` for each value that is used more than once.
+//! Emits the statements of one block: a `let` for each value that is used more than once.
 
 use bgdyn_runtime::Dd;
 use proc_macro2::TokenStream;
@@ -12,11 +12,11 @@ use crate::expr::{Node, NodeId, Signed};
 use crate::function::Function;
 use crate::legend::LegendQuantity;
 
-/// Operations in one statement at the most: what a reader takes in at a glance.
+/// Largest number of operations in one statement, for readability.
 const STATEMENT: usize = 6;
 
 impl Writer<'_> {
-    /// Statements that compute a block.
+    /// Emits the statements of a block.
     pub(super) fn block(&mut self, outputs: &[Signed], function: &Function) -> TokenStream {
         let arguments = self.arguments(function, &leaves(self.graph, outputs));
         let unit = self.first_unit();
@@ -42,7 +42,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A comment on the unit of length with which the block begins, where that is not the metre.
+    /// Returns a comment on the unit of length at the beginning of the block, if it is not the metre.
     fn first_unit(&mut self) -> Option<String> {
         let needed = (0..self.needed.len()).filter(|&i| self.needed[i]);
         let nodes = needed.map(NodeId::at);
@@ -59,7 +59,7 @@ impl Writer<'_> {
         Some(unit_of_length(unit, &patterns))
     }
 
-    /// Code of the block's results.
+    /// Returns the code of the block's results.
     pub(super) fn results(&mut self, outputs: &[Signed]) -> Vec<TokenStream> {
         outputs
             .iter()
@@ -67,7 +67,7 @@ impl Writer<'_> {
             .collect()
     }
 
-    /// A number as a scalar.
+    /// Returns a number as a scalar.
     pub(super) fn scalar(&mut self, value: TokenStream) -> Code {
         if self.naming.plain {
             return atom(value);
@@ -76,7 +76,7 @@ impl Writer<'_> {
         atom(quote! { k(#value) })
     }
 
-    /// A number's name, or its digits where it has none.
+    /// Returns a number's name, or its digits if it has none.
     pub(super) fn number_of(&mut self, value: Dd) -> TokenStream {
         match self.graph.constant_name(value) {
             Some(name) => self.named_constants.add(&mut self.names, name, value),
@@ -84,7 +84,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes a node: the code where it is used, after a statement of its own if it needs one.
+    /// Emits a node: its code for the users, after a statement of its own if it needs one.
     fn node(&mut self, id: NodeId) {
         let i = id.0 as usize;
         let code = match self.graph.node(id) {
@@ -105,7 +105,7 @@ impl Writer<'_> {
                 self.push(id, quote! { let #mask = T::less(#a, #b); });
                 atom(quote! { #mask })
             }
-            // Written with the sine.
+            // Emitted with the sine.
             Node::Angle(..) => return,
             Node::Sin(a) => {
                 let sine = self.sine_cosine(*a).sine;

@@ -1,4 +1,4 @@
-//! Stores the entries of a result as soon as they are known.
+//! Emits stores of the entries of a result as soon as they are computed.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -10,13 +10,13 @@ use super::writer::Writer;
 use crate::expr::{Node, NodeId, Signed};
 
 impl Writer<'_> {
-    /// The result, if it was written entry by entry; if not although it was to be, all are constants.
+    /// Returns the result if it is written entry by entry; if no entry was written, all are constants.
     pub(super) fn written(&self) -> Option<Ident> {
         let begun = self.entries.as_ref().is_some_and(|entries| entries.begun);
         begun.then(|| format_ident!("{NAME}"))
     }
 
-    /// Writes a node that is known into the entries that it is.
+    /// Stores a computed node in its entries.
     pub(super) fn store(&mut self, id: NodeId) {
         let Some(mut entries) = self.entries.take() else {
             return;
@@ -38,7 +38,7 @@ impl Writer<'_> {
         self.entries = Some(entries);
     }
 
-    /// The whole result: constants where they belong, elsewhere the first entry.
+    /// Initialises the whole result: constants in their entries, the first node elsewhere.
     fn begin(&mut self, first: NodeId, entries: &Entries<'_>) {
         if let Some(code) = &self.code[first.0 as usize]
             && code.binding != Binding::Atom
@@ -60,7 +60,7 @@ impl Writer<'_> {
         self.push_untitled(quote! { #[doc = #title] let mut #name = #whole; });
     }
 
-    /// The code of a constant.
+    /// Returns the code of a constant.
     fn constant(&mut self, id: NodeId) -> Option<TokenStream> {
         match self.graph.node(id) {
             Node::Constant(c) => {

@@ -1,8 +1,8 @@
-//! The module of a refused spec: everything a caller can name, so that the user sees the one error
-//! that matters and not one more at every call.
+//! Emits the module of a refused spec with all names that a caller can use, so that the user sees only the
+//! error of the spec and no further errors at every call.
 //!
-//! The types are those of the real module, which lets inference go the way it will go. Where the
-//! number of joints is a guess, the methods take vectors of any size.
+//! The types are those of the real module, so that type inference gives the same result. If the number of
+//! joints is a guess, the methods take vectors of any size.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -18,7 +18,7 @@ use crate::mechanism::Pose;
 use crate::method::{Argument, Method};
 use crate::name::is_identifier;
 
-/// The module with bodies that never run.
+/// Returns the module with bodies that never run.
 pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
     let name = output.module_ident(&interface.name);
     let model = ident(&struct_ident(&interface.name));
@@ -73,7 +73,7 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
     }
 }
 
-/// Every link and frame: which of them the mended spec makes prominent is open.
+/// Returns all links and frames, because the default ones of the corrected spec are not known.
 fn sites(interface: &Interface) -> Vec<Site> {
     let names = interface.links.iter().chain(&interface.frames);
     let site = |name: &String| Site {
@@ -107,17 +107,17 @@ fn constants(interface: &Interface) -> TokenStream {
     }
 }
 
-/// A method; where the size is a guess, the vectors' own sizes count.
+/// Returns a method; if the size is a guess, it is generic over the sizes of the vectors.
 fn method(method: Method, sites: &[Site], sized: bool) -> TokenStream {
     let name = ident(&method.name(sites));
     let arguments = method.arguments();
     let names = arguments.iter().map(|a| ident(a.name()));
     let result = return_type(method.shape());
-    // Parameters of these names hide the module's constants.
+    // Generic parameters with these names hide the module's constants.
     let (sizes, types): (_, Vec<_>) = if sized {
         (None, arguments.iter().map(|a| argument_type(*a)).collect())
     } else if arguments == [Argument::Q] {
-        // Nothing but the positions tells how many velocities there are.
+        // Only the positions determine the number of velocities.
         let q = quote! { &__na::SVector<T, NV> };
         (Some(quote! { <const NV: usize> }), vec![q])
     } else {

@@ -1,4 +1,4 @@
-//! Tokens that all parts of a module share: identifiers, numbers, types, structs.
+//! Tokens for all parts of a module: identifiers, numbers, types, structs.
 
 use heck::ToUpperCamelCase;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -7,20 +7,20 @@ use quote::quote;
 use crate::mechanism::Parameter;
 use crate::method::{Argument, Shape};
 
-/// How the text of a doc attribute begins that becomes a comment: tokens cannot hold comments.
+/// Prefix of a doc attribute's text that becomes a comment, because tokens cannot contain comments.
 pub(super) const COMMENT: &str = "//";
 
-/// An identifier; the name must be one.
+/// Returns an identifier; the name must be valid.
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// UpperCamelCase of the module's name.
+/// Returns the module's name in UpperCamelCase.
 pub fn struct_ident(name: &str) -> String {
     name.to_upper_camel_case()
 }
 
-/// The struct: one public field per run-time parameter, otherwise zero-sized.
+/// Returns the struct: one public field per run-time parameter, otherwise zero-sized.
 pub(super) fn structure(name: &Ident, about: &str, parameters: &[Parameter]) -> TokenStream {
     let mut docs = vec![about.to_owned()];
     if !parameters.is_empty() {
@@ -55,14 +55,14 @@ pub(super) fn structure(name: &Ident, about: &str, parameters: &[Parameter]) -> 
     }
 }
 
-/// What reads and writes a struct of these fields, where the runtime has its feature `serde`.
+/// Returns the serialisation of a struct with these fields, for the feature `serde` of the runtime.
 pub(super) fn serde<'a>(name: &Ident, fields: impl Iterator<Item = &'a str>) -> TokenStream {
     let fields = fields.map(ident);
     quote! { __rt::__serde! { #name { #(#fields),* } } }
 }
 
-/// Public fields, so that a struct literal can set them; without any, one that takes no space and
-/// uses the scalar type.
+/// Returns public fields, so that a struct literal can set them; without any, a zero-sized field that uses
+/// the scalar type.
 pub(super) fn fields<'a>(
     names: impl ExactSizeIterator<Item = &'a str>,
     docs: impl Iterator<Item = String>,
@@ -74,13 +74,13 @@ pub(super) fn fields<'a>(
     quote! { #(#[doc = #docs] pub #names: T,)* }
 }
 
-/// A finite number without a type, in its shortest form: `2.2e-17`, not `0.000000000000000022`.
+/// Returns a finite number without a type, in its shortest form: `2.2e-17`, not `0.000000000000000022`.
 pub(super) fn number(x: f64) -> Literal {
     let text = format!("{x:?}");
     text.parse().expect("a finite number is a literal")
 }
 
-/// The type of an argument.
+/// Returns the type of an argument.
 pub(super) fn argument_type(argument: Argument) -> TokenStream {
     match argument {
         Argument::Q => quote! { &__na::SVector<T, NQ> },
@@ -94,7 +94,7 @@ pub(super) fn argument_type(argument: Argument) -> TokenStream {
     }
 }
 
-/// The type of a result.
+/// Returns the type of a result.
 pub(super) fn return_type(shape: Shape) -> TokenStream {
     match shape {
         Shape::Scalar => quote! { T },

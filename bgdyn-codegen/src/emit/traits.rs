@@ -1,5 +1,5 @@
-//! The traits of a mechanism's module: what its joints and frames are, and its methods, each by
-//! delegation.
+//! Emits the trait implementations of a mechanism's module: descriptions of its joints and frames, and its
+//! methods by delegation.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -8,20 +8,20 @@ use super::tokens::{argument_type, ident, return_type};
 use crate::bond_graph::{Site, SiteId};
 use crate::method::Method;
 
-/// What a module has that traits can carry.
+/// The parts of a module that its traits provide.
 pub(super) struct Traits<'a> {
     /// The struct's name.
     pub(super) name: &'a Ident,
-    /// The methods that it has.
+    /// Its methods.
     pub(super) methods: &'a [Method],
     pub(super) sites: &'a [Site],
-    /// Number of velocities; `None` where it is a guess: any number then.
+    /// Number of velocities; `None` if it is a guess, for any number.
     pub(super) nv: Option<usize>,
 }
 
 impl Traits<'_> {
-    /// The implementations, and the types of the frames. Where the number of joints is a guess, nothing
-    /// ever runs.
+    /// Returns the implementations, and the types of the frames. If the number of joints is a guess, the
+    /// code never runs.
     pub(super) fn tokens(&self) -> TokenStream {
         let has = |m: &Method| self.methods.contains(m);
         let whole = Method::OF_TRAIT.iter().all(has);
@@ -49,12 +49,12 @@ impl Traits<'_> {
         quote! { #dynamics #description #coriolis #slopes #(#kinematics)* #frames }
     }
 
-    /// The parameters of the implementation beside the scalar.
+    /// Returns the parameters of the implementation other than the scalar.
     fn sizes(&self) -> Option<TokenStream> {
         (self.nv.is_none()).then(|| quote! { , const NQ: usize, const NV: usize })
     }
 
-    /// What a method of a trait does: calls the struct's own.
+    /// Returns the body of a trait's method: a call of the struct's method.
     fn body(&self, call: TokenStream) -> TokenStream {
         match self.nv {
             Some(_) => call,
@@ -62,7 +62,7 @@ impl Traits<'_> {
         }
     }
 
-    /// The implementation of a trait, of a frame's where there is one.
+    /// Returns the implementation of a trait, for a frame if one is given.
     fn delegated(&self, of: TokenStream, frame: Option<Ident>, methods: &[Method]) -> TokenStream {
         let (name, sizes) = (self.name, self.sizes());
         let methods = methods.iter().map(|&m| self.delegate(m));
@@ -117,7 +117,7 @@ impl Traits<'_> {
         }
     }
 
-    /// The trait `Dynamics`: the methods, and how positions and velocities go together.
+    /// Returns the trait `Dynamics`: the methods, and the integration of positions.
     fn dynamics(&self) -> TokenStream {
         let (name, sizes) = (self.name, self.sizes());
         let methods = Method::OF_TRAIT.into_iter().map(|m| self.delegate(m));
@@ -148,7 +148,7 @@ impl Traits<'_> {
         }
     }
 
-    /// Sums or differences of the components of two vectors.
+    /// Returns sums or differences of the components of two vectors.
     fn joint_by_joint(&self, vectors: [&str; 2], operator: TokenStream) -> TokenStream {
         let n = self.nv.unwrap_or_default();
         let each =
@@ -161,7 +161,7 @@ impl Traits<'_> {
     }
 }
 
-/// The types that stand for the frames.
+/// Returns the types for the frames.
 fn frames<'a>(names: impl Iterator<Item = &'a str>) -> TokenStream {
     let frames = names.map(|name| {
         let (frame, doc) = (frame_type(name), format!(" The frame `{name}`."));
@@ -183,8 +183,8 @@ fn frames<'a>(names: impl Iterator<Item = &'a str>) -> TokenStream {
     }
 }
 
-/// The type of a frame: its words begin with capitals, and one that begins with a digit keeps its `_`, so
-/// that `tool_1` and `tool1` do not meet.
+/// Returns the type of a frame in UpperCamelCase. A word that begins with a digit retains its `_`, so that
+/// `tool_1` and `tool1` have different types.
 fn frame_type(name: &str) -> Ident {
     let word = |word: &str| match word.split_at(1) {
         (first, rest) if first.starts_with(|c: char| c.is_ascii_digit()) => {

@@ -1,4 +1,4 @@
-//! The state of writing one block: the code of each node, names, statements; and the code of one operation.
+//! The state of emitting one block (code of each node, names, statements), and the code of one operation.
 
 use std::collections::BTreeSet;
 
@@ -15,16 +15,16 @@ use crate::expr::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
 use crate::function::Function;
 use crate::method::Shape;
 
-/// Writes the statements of a function.
+/// Emits the statements of a function.
 pub(super) struct Writer<'a> {
     pub(super) graph: &'a Graph,
     pub(super) naming: &'a Naming<'a>,
     pub(super) names: Names,
-    /// Code to write where a node is used: a variable's name, or the whole operation.
+    /// Code for the users of a node: a variable's name, or the whole operation.
     pub(super) code: Vec<Option<Code>>,
-    /// Sine and cosine of a node.
+    /// Variables of sine and cosine of a node.
     pub(super) sines: QuickMap<NodeId, SinePair>,
-    /// How often a node is used in the block.
+    /// Number of uses of a node in the block.
     pub(super) uses: Vec<usize>,
     pub(super) statements: Vec<TokenStream>,
     /// The section of the last statement.
@@ -33,12 +33,12 @@ pub(super) struct Writer<'a> {
     /// Whether the block is a function of its own.
     separate: bool,
     pub(super) constants: bool,
-    /// The numbers with names that are used.
+    /// The named numbers in use.
     pub(super) named_constants: NamedConstants,
-    /// The unit of length that was said last, m.
+    /// The unit of length of the last comment, m.
     pub(super) unit: Option<Dd>,
     pub(super) pivots: bool,
-    /// The result, where it is written entry by entry.
+    /// The result, if it is written entry by entry.
     pub(super) entries: Option<Entries<'a>>,
 }
 
@@ -78,9 +78,9 @@ impl<'a> Writer<'a> {
         writer
     }
 
-    /// How often each node stands in the code.
+    /// Counts the uses of each node in the code.
     fn count_uses(&mut self, outputs: &[Signed], shape: Shape) {
-        // The entries off the diagonal of a symmetric matrix stand in it twice.
+        // The entries off the diagonal of a symmetric matrix are written twice.
         let times = if shape == Shape::Symmetric { 2 } else { 1 };
         for e in outputs {
             self.uses[e.node.0 as usize] += times;
@@ -117,7 +117,7 @@ impl<'a> Writer<'a> {
         bindings
     }
 
-    /// A `let` for the node.
+    /// Emits a `let` for the node.
     pub(super) fn bind(&mut self, id: NodeId, code: Code) -> Code {
         let variable = match self.graph.name(id) {
             Some(name) => self.names.named(&name.identifier()),
@@ -128,8 +128,8 @@ impl<'a> Writer<'a> {
         atom(quote! { #variable })
     }
 
-    /// Adds a statement that computes the node. Where a section begins, its title stands above as a
-    /// comment: tokens have none, so it is a doc attribute until [`super::source_text`].
+    /// Adds a statement that computes the node. At the beginning of a section, the title precedes it as a
+    /// comment: a doc attribute until [`super::source_text`], because tokens cannot contain comments.
     pub(super) fn push(&mut self, id: NodeId, statement: TokenStream) {
         let section = self.graph.section(id);
         let begins = section.filter(|_| section != self.section);
@@ -148,12 +148,12 @@ impl<'a> Writer<'a> {
         self.statements.push(quote! { #unit #title #statement });
     }
 
-    /// Adds a statement that computes nothing, so that no section begins with it.
+    /// Adds a statement that computes no node, so that no section begins with it.
     pub(super) fn push_untitled(&mut self, statement: TokenStream) {
         self.statements.push(statement);
     }
 
-    /// Has the function that makes constants bound.
+    /// Binds the function that makes constants.
     pub(super) fn use_constants(&mut self) {
         self.constants = true;
     }
@@ -171,12 +171,12 @@ impl<'a> Writer<'a> {
                 );
                 Some(atom(quote! { #name[#index] }))
             }
-            // Bound with the arguments, or a field of theirs.
+            // Bound with the arguments, or a field of one.
             leaf => self.naming.field(leaf).map(atom),
         }
     }
 
-    /// The code of an argument or a parameter, if it has no variable yet.
+    /// Emits an argument or a parameter that has no variable yet.
     pub(super) fn bind_leaf(&mut self, id: NodeId) {
         if let Node::Leaf(leaf) = *self.graph.node(id)
             && self.code[id.0 as usize].is_none()
@@ -263,7 +263,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// a b + c, or c − a b where `negative`, for readers.
+    /// Returns a b + c, or c − a b if `negative`, with infix operators.
     fn infix(&mut self, a: Signed, b: Signed, negative: bool, c: Signed) -> Code {
         let left = self.operand(a, Binding::Product);
         let right = self.operand(b, Binding::Atom);
@@ -292,14 +292,14 @@ impl<'a> Writer<'a> {
         atom(quote! { T::#name(#(#operands),*) })
     }
 
-    /// How many operations stand where the node is used.
+    /// Returns the number of operations in the code of a node.
     fn size(&self, id: NodeId) -> usize {
         self.code[id.0 as usize]
             .as_ref()
             .map_or(0, |c| c.operations)
     }
 
-    /// Code of a signed operand, in parentheses where its place binds tighter.
+    /// Returns the code of a signed operand, in parentheses if its context binds tighter.
     pub(super) fn operand(&mut self, e: Signed, place: Binding) -> TokenStream {
         let code = self.code[e.node.0 as usize]
             .clone()
@@ -316,8 +316,8 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Operands stand before their users, so every operand has its code; and [`Writer::node`] keeps
-/// what is no operation to itself.
+/// Operands precede their users, so every operand has its code; and [`Writer::node`] handles nodes that
+/// are no operations.
 fn unreachable_node<R>() -> R {
     unreachable!("the graph is in topological order")
 }

@@ -1,12 +1,12 @@
-//! Orders the terms of sums by the time at which they are known, which shortens the critical path.
+//! Orders the terms of sums by the time at which they are available, which shortens the critical path.
 //!
-//! The operations stay as they are; the critical path becomes shorter.
+//! The number of operations does not change.
 
 use super::cost::{latency, reads};
 use super::{Graph, Node, NodeId, QuickMap, Signed};
 
-/// Copies of `outputs` in a graph of their own, with the terms of every sum in the order in which
-/// they are there. Sums that something else reads as well, or that have a name, stay terms.
+/// Copies `outputs` to a new graph, with the terms of every sum in the order of their availability. Sums
+/// that have other readers, or a name, remain terms.
 pub fn reassociate(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let mut sums = Sums {
         from,
@@ -29,24 +29,24 @@ pub fn reassociate(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     (sums.to, outputs)
 }
 
-/// The pass.
+/// The state of the pass.
 struct Sums<'a> {
     from: &'a Graph,
     reads: Vec<u32>,
     to: Graph,
     copies: QuickMap<NodeId, Signed>,
-    /// When each node of `to` is there, in multiplications.
+    /// Time at which each node of `to` is available, in multiplications.
     ready: Vec<usize>,
 }
 
 impl Sums<'_> {
-    /// Whether a node is part of the sum that reads it: nothing else reads it.
+    /// Returns whether a node is part of the sum that reads it, because nothing else reads it.
     fn is_part(&self, id: NodeId) -> bool {
         let is_sum = matches!(self.from.node(id), Node::Add(..));
         is_sum && self.reads[id.0 as usize] == 1
     }
 
-    /// The nodes that are needed, but for sums that become part of another.
+    /// Returns the needed nodes, without sums that become part of another sum.
     fn wanted(&self) -> Vec<NodeId> {
         let needed = |i: usize| self.reads[i] > 0;
         let mut wanted: Vec<bool> = (0..self.from.len()).map(needed).collect();
@@ -67,7 +67,7 @@ impl Sums<'_> {
         self.copies[&e.node].flipped(e.negative)
     }
 
-    /// The same operation on the copies.
+    /// Returns the same operation on the copies.
     fn copied(&mut self, node: &Node) -> Signed {
         let copies = &self.copies;
         let copy = self
@@ -77,7 +77,8 @@ impl Sums<'_> {
         copy
     }
 
-    /// Notes when nodes made since the last call are there; the last one at `last`, if that is known.
+    /// Records the times of the nodes made since the last call; the time of the last one is `last`, if
+    /// given.
     fn note(&mut self, last: Option<usize>) {
         for i in self.ready.len()..self.to.len() {
             let node = &self.to.nodes[i];
@@ -90,7 +91,7 @@ impl Sums<'_> {
         }
     }
 
-    /// The sum with its terms in the order in which they are there.
+    /// Returns the sum with its terms in the order of their availability.
     fn sum(&mut self, id: NodeId) -> Signed {
         let mut terms = Vec::new();
         self.terms(Signed::plus(id), &mut terms);
@@ -111,7 +112,7 @@ impl Sums<'_> {
         sum
     }
 
-    /// The terms of a sum, those of its parts among them.
+    /// Collects the terms of a sum, including those of its parts.
     fn terms(&self, e: Signed, terms: &mut Vec<Signed>) {
         let Node::Add(a, b) = self.from.node(e.node) else {
             unreachable!("only sums have terms")
@@ -125,8 +126,8 @@ impl Sums<'_> {
         }
     }
 
-    /// When a term can be added: a product that nothing else reads goes in together with its
-    /// multiplication.
+    /// Returns the time at which a term can be added: a product without other readers is fused with its
+    /// addition.
     fn arrival(&self, term: Signed) -> usize {
         let ready = self.ready[self.at(term).node.0 as usize];
         let is_product = matches!(self.from.node(term.node), Node::Mul(..));
@@ -152,8 +153,8 @@ mod tests {
         e.flipped(true)
     }
 
-    /// A late term is added last, whatever the order in which the sum was written; products that go in
-    /// with their sum count as there one multiplication earlier.
+    /// A late term is added last, whatever the written order of the sum; fused products count as available
+    /// one multiplication earlier.
     #[test]
     fn sums_are_arranged_by_arrival() {
         let mut g = Graph::default();

@@ -1,7 +1,6 @@
-//! Arithmetic operators on expressions, so that a formulation reads like its equations.
+//! Arithmetic operators on expressions, with which formulations are written like their equations.
 //!
-//! Arithmetic on numbers stays outside the graph: a number becomes a node where it meets something
-//! that is none.
+//! Arithmetic on numbers creates no nodes: a number becomes a node when it is combined with a node.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -16,12 +15,12 @@ use crate::math::Vec3;
 #[derive(Clone, Default)]
 pub struct Builder {
     graph: RefCell<Graph>,
-    /// Whether nobody will read it: no names, no titles.
+    /// Whether the graph is not for readers: no names, no titles.
     silent: bool,
 }
 
 impl From<Graph> for Builder {
-    /// A graph open for more.
+    /// Continues the construction of a graph.
     fn from(graph: Graph) -> Self {
         Builder {
             graph: RefCell::new(graph),
@@ -37,22 +36,22 @@ pub struct Expr<'g> {
     value: Operand,
 }
 
-/// What an expression is.
+/// The content of an expression.
 #[derive(Clone, Copy, PartialEq)]
 enum Operand {
-    /// A number; no node of its own yet.
+    /// A number, which has no node yet.
     Number(Dd),
-    /// A node that is no constant.
+    /// A node that is not constant.
     Node(Signed),
 }
 
 impl Builder {
-    /// An empty graph.
+    /// Returns an empty graph.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// An empty graph that is only to be counted.
+    /// Returns an empty graph without names, for counting operations.
     pub fn silent() -> Self {
         Builder {
             silent: true,
@@ -60,7 +59,7 @@ impl Builder {
         }
     }
 
-    /// The graph made.
+    /// Returns the finished graph.
     pub fn into_graph(self) -> Graph {
         self.graph.into_inner()
     }
@@ -78,29 +77,29 @@ impl Builder {
         }
     }
 
-    /// An expression made in this graph.
+    /// Returns an expression of this graph.
     pub fn expr(&self, expr: Signed) -> Expr<'_> {
         self.make(|_| expr)
     }
 
-    /// A pass over the graph under construction.
+    /// Applies a pass to the graph under construction.
     pub fn with_graph<R>(&self, f: impl FnOnce(&mut Graph) -> R) -> R {
         f(&mut self.graph.borrow_mut())
     }
 
-    /// What is made from now on belongs under this title, for readers of the output.
+    /// Begins a section with this title, for readers of the output.
     pub fn section(&self, title: impl FnOnce() -> String) {
         if !self.silent {
             self.graph.borrow_mut().begin_section(title());
         }
     }
 
-    /// Sections that begin from now on have lengths in this unit, m.
+    /// Sets the unit of length of the following sections, m.
     pub fn unit_of_length(&self, unit: Dd) {
         self.graph.borrow_mut().set_unit_of_length(unit);
     }
 
-    /// A number.
+    /// Returns a number.
     pub fn constant(&self, x: Dd) -> Expr<'_> {
         Expr {
             builder: self,
@@ -108,27 +107,27 @@ impl Builder {
         }
     }
 
-    /// Zero.
+    /// Returns zero.
     pub fn zero(&self) -> Expr<'_> {
         self.constant(Dd::ZERO)
     }
 
-    /// A small number such as 1, 2 or ½.
+    /// Returns a small number such as 1, 2 or ½.
     pub fn number(&self, x: f64) -> Expr<'_> {
         self.constant(Dd::from_f64(x))
     }
 
-    /// A vector of numbers.
+    /// Returns a vector of numbers.
     pub fn vector(&self, v: Vec3<Dd>) -> Vec3<Expr<'_>> {
         v.map(|x| self.constant(x))
     }
 
-    /// An argument.
+    /// Returns an argument.
     pub fn leaf(&self, leaf: Leaf) -> Expr<'_> {
         self.make(|g| g.leaf(leaf))
     }
 
-    /// Cosine and sine of the exact sum of angles and a constant.
+    /// Returns cosine and sine of the exact sum of angles and a constant.
     pub fn cos_sin(&self, angles: &[Expr<'_>], offset: Dd) -> (Expr<'_>, Expr<'_>) {
         let terms: Vec<Signed> = angles.iter().map(|a| a.signed()).collect();
         let angle = self.graph.borrow_mut().angle(&terms, offset);
@@ -137,7 +136,7 @@ impl Builder {
 }
 
 impl<'g> Expr<'g> {
-    /// The expression in the graph.
+    /// Returns the expression in the graph.
     pub fn signed(self) -> Signed {
         match self.value {
             Operand::Number(x) => self.builder.graph.borrow_mut().constant(x),
@@ -149,7 +148,7 @@ impl<'g> Expr<'g> {
         self.builder.constant(x)
     }
 
-    /// Its value, if it is a constant.
+    /// Returns its value if it is a constant.
     pub fn as_constant(self) -> Option<Dd> {
         match self.value {
             Operand::Number(x) => Some(x),
@@ -157,7 +156,7 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// Whether it is the constant 0.
+    /// Returns whether it is the constant 0.
     pub fn is_zero(self) -> bool {
         self.as_constant() == Some(Dd::ZERO)
     }
@@ -174,7 +173,7 @@ impl<'g> Expr<'g> {
         self
     }
 
-    /// The same for what the mechanism gives: a number that several quantities share has no name.
+    /// Names a number of the mechanism; a number that several quantities share has no name.
     pub fn named_alone(self, name: impl FnOnce() -> String) -> Self {
         match self.value {
             Operand::Number(x) if !self.builder.silent => {
@@ -186,13 +185,13 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// Its value as a checked pivot of `joint`; see [`super::Node::Pivot`].
+    /// Returns its value as a checked pivot of `joint`; see [`super::Node::Pivot`].
     pub fn pivot(self, magnitude: Self, joint: usize) -> Self {
         let (value, magnitude) = (self.signed(), magnitude.signed());
         self.builder.make(|g| g.pivot(value, magnitude, joint))
     }
 
-    /// Its square root.
+    /// Returns its square root.
     pub fn sqrt(self) -> Self {
         let value = self.signed();
         self.builder.make(|g| g.sqrt(value))
@@ -208,42 +207,42 @@ impl<'g> Expr<'g> {
         self.builder.make(|g| f(g, x, y))
     }
 
-    /// e to its power.
+    /// Returns e to its power.
     pub fn exp(self) -> Self {
         self.of(Graph::exp)
     }
 
-    /// Its natural logarithm.
+    /// Returns its natural logarithm.
     pub fn ln(self) -> Self {
         self.of(Graph::ln)
     }
 
-    /// Its hyperbolic tangent.
+    /// Returns its hyperbolic tangent.
     pub fn tanh(self) -> Self {
         self.of(Graph::tanh)
     }
 
-    /// Its absolute value.
+    /// Returns its absolute value.
     pub fn abs(self) -> Self {
         self.of(Graph::abs)
     }
 
-    /// −1, 0 or 1.
+    /// Returns its sign: −1, 0 or 1.
     pub fn sign(self) -> Self {
         self.of(Graph::sign)
     }
 
-    /// The smaller one.
+    /// Returns the smaller value.
     pub fn min(self, b: Self) -> Self {
         self.of_two(b, Graph::min)
     }
 
-    /// The larger one.
+    /// Returns the larger value.
     pub fn max(self, b: Self) -> Self {
         self.of_two(b, Graph::max)
     }
 
-    /// `yes` where it is less than `bound`, else `no`.
+    /// Returns `yes` where it is less than `bound`, else `no`.
     pub fn if_less(self, bound: Self, yes: Self, no: Self) -> Self {
         if let (Some(x), Some(y)) = (self.as_constant(), bound.as_constant()) {
             return if x < y { yes } else { no };
@@ -255,7 +254,7 @@ impl<'g> Expr<'g> {
         })
     }
 
-    /// k times it.
+    /// Returns k times it.
     fn times(self, k: Dd) -> Self {
         match self.value {
             Operand::Number(x) => self.number(k * x),
@@ -265,7 +264,7 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// It and k.
+    /// Returns it plus k.
     fn and(self, k: Dd) -> Self {
         match self.value {
             Operand::Number(x) => self.number(cancelling_sum(x, k)),

@@ -2,8 +2,8 @@
 
 use super::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
 
-/// Copies of `outputs` in `to`; `leaf` may give another expression for a leaf. Everything is
-/// folded anew.
+/// Copies `outputs` to `to`; `leaf` may return another expression for a leaf. All constants are folded
+/// again.
 pub fn copy_into(
     to: &mut Graph,
     from: &Graph,
@@ -20,8 +20,8 @@ pub fn copy_into(
     })
 }
 
-/// `outputs` in `to`, with what `make` makes of each of these nodes in place of it; it is given the
-/// copies of the operands. Names and sections go along.
+/// Copies `outputs` to `to` with each of these nodes replaced by the result of `make`, whose argument is
+/// the copies of the operands. Names and sections are copied too.
 pub(super) fn remade(
     to: &mut Graph,
     from: &Graph,
@@ -44,7 +44,7 @@ pub(super) fn remade(
 }
 
 impl Graph {
-    /// The node's operation on other operands, folded.
+    /// Returns the node's operation on other operands, folded.
     pub(crate) fn rebuilt(&mut self, node: &Node, at: impl Fn(Signed) -> Signed) -> Signed {
         let plus = |id: &NodeId| at(Signed::plus(*id));
         match node {

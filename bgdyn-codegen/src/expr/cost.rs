@@ -1,20 +1,19 @@
-//! The cost of a function: a weighted sum of the operations that its compiled code executes.
+//! Computes the cost of a function: a weighted sum of the operations that its compiled code executes.
 //!
-//! Candidates are compared by it: plans, formulations, a function before and after factoring.
+//! It compares candidates: plans, formulations, a function before and after factoring.
 //!
-//! The unit is a multiplication or an addition. All weights are whole hundredths of it, so that
-//! the comparison is exact. Where a weight was measured, it was on one core of a Xeon at 2.8 GHz
-//! (2026): operations one by one in a loop of sixteen independent ones, and the times of 52
-//! functions generated for the arms in `specs/` fitted as a sum of their parts, which an
-//! operation enters with 0.21 to 0.25 ns, at an error of 16 %. On the mechanisms of this repository
-//! no choice depends on the weights of divisions, roots and sines: candidates for one function
-//! have the same number of them.
+//! The unit is a multiplication or an addition. All weights are integer hundredths of it, so that the
+//! comparison is exact. Weights were measured on one core of a Xeon at 2.8 GHz (2026): operations one by
+//! one in a loop of sixteen independent ones, and the times of 52 functions generated for the arms in
+//! `specs/` fitted as a sum of their parts, in which an operation takes 0.21 to 0.25 ns, with an error of
+//! 16 %. On the mechanisms of this repository no choice depends on the weights of divisions, roots and
+//! sines: candidates for one function have the same number of them.
 //!
-//! Small weights on the critical path and on additions that could be fused decide between near equals
-//! only. A sum of angles inside a sine weighs five operations, in finished functions only: this decides
-//! whether the axes of a tip are turned at its centre of mass. In unfinished graphs (a plan's, or
-//! between rounds of factoring) possible fusions have no weight: with any weight there, derivatives grew
-//! by an operation or two.
+//! Small weights on the critical path and on fusable additions decide only between almost equal costs. A
+//! sum of angles inside a sine has the weight of five operations, in finished functions only: this decides
+//! whether the axes of a tip are turned at its centre of mass. In unfinished graphs (a plan's, or between
+//! rounds of factoring) fusable additions have no weight: any weight made derivatives longer by an
+//! operation or two.
 
 use std::fmt;
 
@@ -23,12 +22,12 @@ use bgdyn_runtime::{Dd, Operations};
 use super::count::Counter;
 use super::{Graph, Node, Signed};
 
-/// A multiplication or an addition; both took the same time.
+/// A multiplication or an addition; both take the same time.
 const OPERATION: usize = 100;
 
-/// What a fused multiply-add saves where the target has one (`fuse.rs`): half an operation (8.3 fused
-/// against 12.5 separate ones in a ns on a Zen 5 core). Elsewhere it saves nothing. A fifth decides
-/// between near equals in favour of such a machine, and only between finished functions.
+/// The saving of a fused multiply-add if the target has one (`fuse.rs`): half an operation (8.3 fused
+/// against 12.5 separate ones in a ns on a Zen 5 core). Otherwise it saves nothing. A fifth decides
+/// between almost equal costs in favour of such a machine, and only between finished functions.
 const FUSABLE: usize = 20;
 
 /// A division: 8.0 times a multiplication in a loop of independent ones, 3.5 times in a chain.
@@ -40,39 +39,39 @@ const ROOT: usize = 1200;
 /// A pair of sine and cosine: 6.4 to 7.5 ns in the fit, about 30 operations.
 const SINE_COSINE: usize = 3000;
 
-/// An angle or a constant more in the sum inside a sine, which is carried exactly: nine operations by
-/// the code, a sum in two words and the second word on the way through the reduction. Five are enough
-/// to decide against turning a link's axes for the sake of four operations (which took 4 to 9 % of the
-/// time of SCARA and Panda); with nine, axes of parallel joints in common would go as well, at the price
-/// of 33 operations in a UR5's inverse dynamics. Counted in finished functions only: plans are searched
-/// by operations, and the ones found are weighed with and without turned axes.
+/// An additional angle or constant in the sum inside a sine, which is computed exactly: nine operations in
+/// the code, for a sum in two words and the second word of the reduction. Five are enough to decide
+/// against turning a link's axes to save four operations (which took 4 to 9 % of the time of SCARA and
+/// Panda); nine would also prevent common axes of parallel joints, at the price of 33 operations in a
+/// UR5's inverse dynamics. Counted in finished functions only: plans are searched by operations, and the
+/// plans found are compared with and without turned axes.
 const ANGLE: usize = 500;
 
-/// A comparison, a selection, a checked pivot: a comparison and what it multiplies. Estimated.
+/// A comparison, a selection, a checked pivot: a comparison and a multiplication of its operand.
+/// Estimated.
 const OTHER: usize = 200;
 
-/// An operation more on the critical path. Nothing could be seen of it in the fit: a processor
-/// works on several values at a time, and begins with the next call before one is done. A fifth
-/// decides between near equals.
+/// An additional operation on the critical path. Its effect was not visible in the fit: a processor works
+/// on several values at a time, and begins the next call before one is finished. A fifth decides between
+/// almost equal costs.
 const DEPTH: usize = 20;
 
-/// What computing a function once costs, part by part.
+/// The cost of computing a function once, part by part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
-    /// The operations, counted as everywhere.
+    /// The operation counts.
     pub operations: Operations,
-    /// Angles and constants that are added to others inside sines.
+    /// Number of angles and constants that are added to others inside sines.
     pub angles: usize,
-    /// Additions of a product that nothing else reads: the two can be fused, or are.
+    /// Additions of a product without other readers, which can be fused or are fused.
     pub fusable: usize,
-    /// The critical path: how long the longest chain of operations is of which each waits for the
-    /// one before, in multiplications.
+    /// The critical path: the length of the longest chain of dependent operations, in multiplications.
     pub depth: usize,
 }
 
 impl Cost {
-    /// The cost of a graph that is not finished: which product meets which sum in it says nothing
-    /// about what factoring will leave, so it is not counted; nor are sums of angles.
+    /// Returns the cost of an unfinished graph: without fusable additions, because factoring changes which
+    /// product is added to which sum, and without sums of angles.
     pub(crate) fn unfinished(self) -> Self {
         Cost {
             fusable: 0,
@@ -81,7 +80,7 @@ impl Cost {
         }
     }
 
-    /// The weighted sum, in hundredths of an operation.
+    /// Returns the weighted sum, in hundredths of an operation.
     pub fn weighted(&self) -> usize {
         let o = &self.operations;
         let executed = OPERATION * o.total()
@@ -90,13 +89,13 @@ impl Cost {
             + SINE_COSINE * o.sincos
             + ANGLE * self.angles
             + OTHER * o.other;
-        // There are no more fusable additions than additions.
+        // The number of fusable additions is at most that of additions.
         executed + DEPTH * self.depth - FUSABLE * self.fusable
     }
 }
 
 impl fmt::Display for Cost {
-    /// The sum and its parts: `29.6 = 12 mul + 17 add − 0.2 × 4 fusable + 0.2 × 7 in a row`.
+    /// Prints the sum and its parts: `29.6 = 12 mul + 17 add − 0.2 × 4 fusable + 0.2 × 7 in a row`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let o = &self.operations;
         write!(
@@ -122,12 +121,12 @@ impl fmt::Display for Cost {
     }
 }
 
-/// A number of hundredths, to be printed with no more places than it needs.
+/// Converts hundredths to a number that prints with as few decimals as possible.
 fn hundredths(n: usize) -> f64 {
     n as f64 / 100.0
 }
 
-/// What computing the outputs once costs.
+/// Returns the cost of computing the outputs once.
 pub fn cost(graph: &Graph, outputs: &[Signed]) -> Cost {
     let reads = reads(graph, outputs);
     let ready = ready(graph, &reads);
@@ -155,13 +154,13 @@ pub fn cost(graph: &Graph, outputs: &[Signed]) -> Cost {
     }
 }
 
-/// The nodes that are read.
+/// Returns the nodes that are read.
 fn needed<'a>(graph: &'a Graph, reads: &'a [u32]) -> impl Iterator<Item = (usize, &'a Node)> {
     let nodes = graph.nodes.iter().enumerate();
     nodes.filter(|&(i, _)| reads[i] > 0)
 }
 
-/// When each value that is read is there at the earliest, in multiplications.
+/// Returns the earliest time at which each value that is read is available, in multiplications.
 pub(super) fn ready(graph: &Graph, reads: &[u32]) -> Vec<usize> {
     let mut ready = vec![0; graph.len()];
     for (i, node) in needed(graph, reads) {
@@ -172,7 +171,8 @@ pub(super) fn ready(graph: &Graph, reads: &[u32]) -> Vec<usize> {
     ready
 }
 
-/// How often each node is read, by needed nodes and as an output; 0 for those that are not needed.
+/// Returns the number of readers of each node, among needed nodes and outputs; 0 for nodes that are not
+/// needed.
 pub(crate) fn reads(graph: &Graph, outputs: &[Signed]) -> Vec<u32> {
     let mut reads = vec![0; graph.len()];
     for e in outputs {
@@ -186,12 +186,12 @@ pub(crate) fn reads(graph: &Graph, outputs: &[Signed]) -> Vec<u32> {
     reads
 }
 
-/// How long a chain waits for an operation, in multiplications: measured for division (3.5), root
-/// (4.6) and sine (18), estimated for the others.
+/// Returns the latency of an operation, in multiplications: measured for division (3.5), root (4.6) and
+/// sine (18), estimated for the others.
 pub(super) fn latency(node: &Node) -> usize {
     match node {
         Node::Constant(_) | Node::Leaf(_) => 0,
-        // A sum of two, and the second word of it behind the reduction.
+        // A sum of two, and its second word after the reduction.
         Node::Angle(..) => 3,
         // Nothing waits for the comparisons.
         Node::Pivot(..) => 0,

@@ -1,15 +1,15 @@
-//! Exact operation counts of functions.
+//! Counts the operations of functions exactly.
 //!
-//! Each distinct reachable product is one multiplication (± 1 × x is free), each + or − one
-//! addition; negation and arithmetic on constants are free; sines and cosines count as pairs;
-//! divisions and roots apart; comparisons, selections, minima, exponentials and checked pivots are
-//! `other`. The sums of angles inside a sine are part of the sine.
+//! Each distinct reachable product is one multiplication (± 1 × x is free), each + or − one addition.
+//! Negation and arithmetic on constants are free; sines and cosines count as pairs; divisions and roots
+//! are counted separately; comparisons, selections, minima, exponentials and checked pivots are `other`.
+//! The sums of angles inside a sine are part of the sine.
 
 use bgdyn_runtime::Operations;
 
 use super::{Graph, Node, Signed};
 
-/// Which nodes the outputs need: one truth value per node.
+/// Returns, for each node, whether the outputs need it.
 pub fn reachable(graph: &Graph, outputs: &[Signed]) -> Vec<bool> {
     let mut needed = vec![false; graph.len()];
     for e in outputs {
@@ -23,7 +23,7 @@ pub fn reachable(graph: &Graph, outputs: &[Signed]) -> Vec<bool> {
     needed
 }
 
-/// The operations that computing the outputs once takes.
+/// Returns the number of operations for computing the outputs once.
 pub fn count(graph: &Graph, outputs: &[Signed]) -> Operations {
     let needed = reachable(graph, outputs);
     let mut counter = Counter::new(graph.len());
@@ -35,7 +35,7 @@ pub fn count(graph: &Graph, outputs: &[Signed]) -> Operations {
     counter.operations
 }
 
-/// Counts nodes, each of which is to be given once.
+/// Counts nodes; each node must be added once.
 pub(super) struct Counter {
     pub operations: Operations,
     /// Whether the pair of sine and cosine of each node was counted.
@@ -43,7 +43,7 @@ pub(super) struct Counter {
 }
 
 impl Counter {
-    /// For a graph of so many nodes.
+    /// Returns a counter for a graph of this number of nodes.
     pub fn new(nodes: usize) -> Self {
         Counter {
             operations: Operations::default(),
@@ -51,7 +51,7 @@ impl Counter {
         }
     }
 
-    /// Adds what a node executes.
+    /// Adds the operations of a node.
     pub fn add(&mut self, node: &Node) {
         let operations = &mut self.operations;
         match node {

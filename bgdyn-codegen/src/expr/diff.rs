@@ -1,20 +1,20 @@
-//! Forward differentiation: the tangent of every node for given tangents of the leaves.
+//! Forward differentiation: computes the tangent of every node for given tangents of the leaves.
 //!
-//! With q̇ as the tangent of q it gives a time derivative, with a unit vector a partial one.
+//! With q̇ as the tangent of q the result is a time derivative, with a unit vector a partial derivative.
 
 use bgdyn_runtime::Dd;
 
 use super::{Graph, Leaf, Node, NodeId, Signed};
 
-/// A forward-mode pass over a graph under construction; remembers the tangents it made.
+/// A forward-mode pass over a graph under construction; it stores the computed tangents.
 pub struct Tangent<S> {
     seed: S,
-    /// The tangents made, by node.
+    /// The computed tangents, by node.
     made: Vec<Option<Signed>>,
 }
 
 impl<S: FnMut(&mut Graph, Leaf) -> Option<Signed>> Tangent<S> {
-    /// A pass in which `seed` gives the tangent of a leaf, `None` for one held constant.
+    /// Returns a pass in which `seed` is the tangent of a leaf, `None` for a constant leaf.
     pub fn new(seed: S) -> Self {
         Tangent {
             seed,
@@ -22,9 +22,9 @@ impl<S: FnMut(&mut Graph, Leaf) -> Option<Signed>> Tangent<S> {
         }
     }
 
-    /// The tangent of `e`.
+    /// Returns the tangent of `e`.
     pub fn of(&mut self, g: &mut Graph, e: Signed) -> Signed {
-        // Operands first, by a stack of our own: graphs are deeper than the call stack likes.
+        // Operands first, with an explicit stack: graphs can be too deep for recursion.
         let mut stack = vec![e.node];
         if self.made.len() < g.len() {
             self.made.resize(g.len(), None);

@@ -1,30 +1,30 @@
-//! Running error analysis (Wilkinson 1963): a bound for the rounding error of every node.
+//! Running error analysis (Wilkinson 1963): computes a bound for the rounding error of every node.
 //!
 //! The bound of a node is an expression too.
 //!
-//! Each operation adds half a unit in the last place of its result to what its operands brought
-//! along, to first order. Bounds are in units of that half, eps/2, so that one expression serves
-//! every scalar. Arguments are exact, and so are numbers of few binary digits. A product, and a sum
-//! of terms that cannot cancel, keeps a small relative error however small it is: that is what
-//! tells a tiny true number from the rest of a cancellation, and it costs no operation to know.
+//! Each operation adds half a unit in the last place of its result to the errors of its operands, to first
+//! order. Bounds are in units of eps/2, so that one expression is valid for every scalar. Arguments are
+//! exact, and so are numbers of few binary digits. A product, and a sum of terms that cannot cancel, has a
+//! small relative error for any size. This distinguishes a small exact number from the result of a
+//! cancellation, and needs no operation.
 
 use bgdyn_runtime::Dd;
 
 use super::{Graph, Node, NodeId, QuickMap, Signed};
 
-/// Of a sine or cosine of an exact angle, in units of eps/2.
+/// Error of a sine or cosine of an exact angle, in units of eps/2.
 const SINE: f64 = 4.0;
 
 /// A bound for the rounding error of a number x, in units of eps/2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// This many times |x|.
+    /// This number times |x|.
     Relative(f64),
     /// The value of an expression.
     Absolute(Signed),
 }
 
-/// What is known of a node.
+/// Known properties of a node.
 #[derive(Clone, Copy)]
 struct Known {
     bound: Bound,
@@ -32,16 +32,16 @@ struct Known {
     positive: bool,
 }
 
-/// A pass over a graph under construction; remembers the bounds it made.
+/// A pass over a graph under construction; it stores the computed bounds.
 #[derive(Default)]
 pub struct ErrorBound {
     made: QuickMap<NodeId, Known>,
 }
 
 impl ErrorBound {
-    /// The bound for the rounding error of `e`.
+    /// Returns the bound for the rounding error of `e`.
     pub fn of(&mut self, g: &mut Graph, e: Signed) -> Bound {
-        // Operands first, by a stack of our own: graphs are deeper than the call stack likes.
+        // Operands first, with an explicit stack: graphs can be too deep for recursion.
         let mut stack = vec![e.node];
         while let Some(&id) = stack.last() {
             let before = stack.len();
@@ -77,7 +77,7 @@ impl ErrorBound {
             Node::Mul(a, b) => self.product(g, id, a, b),
             Node::Div(a, b) => self.quotient(g, id, a, b),
             Node::MulAdd(a, b, negative, c) => {
-                // As the product and the sum that it stands for.
+                // Bounded as a product and a sum.
                 let product = g.mul(plus(a), plus(b)).flipped(negative);
                 let known = self.product(g, product.node, a, b);
                 self.sum_of(g, id, (product, known), (c, self.made[&c.node]))
@@ -201,7 +201,7 @@ impl ErrorBound {
         Known { bound, positive }
     }
 
-    /// The bound as an expression.
+    /// Returns the bound as an expression.
     fn absolute(&self, g: &mut Graph, e: Signed) -> Signed {
         self.as_expression(g, e, self.made[&e.node].bound)
     }
@@ -213,13 +213,13 @@ impl ErrorBound {
         }
     }
 
-    /// k |e|
+    /// Returns k |e|.
     fn scaled(&self, g: &mut Graph, e: Signed, k: f64) -> Signed {
         let (k, size) = (g.constant(Dd::from_f64(k)), self.size(g, e));
         g.mul(k, size)
     }
 
-    /// |e|, factor by factor, so that sizes of factors are shared.
+    /// Returns |e|, factor by factor, so that sizes of factors are shared.
     fn size(&self, g: &mut Graph, e: Signed) -> Signed {
         let e = Signed::plus(e.node);
         if self.made.get(&e.node).is_some_and(|known| known.positive) {
@@ -234,14 +234,14 @@ impl ErrorBound {
         }
     }
 
-    /// What was brought along, and the rounding of the result itself.
+    /// Returns the sum of the operands' errors and the rounding of the result.
     fn rounded(&self, g: &mut Graph, brought: Signed, result: Signed) -> Bound {
         let size = self.size(g, result);
         Bound::Absolute(g.add(brought, size))
     }
 }
 
-/// Whether every binary scalar holds it: a number of few binary digits.
+/// Returns whether every binary scalar represents the number exactly: it has few binary digits.
 fn exact(x: Dd) -> bool {
     x.lo() == 0.0 && f64::from(x.hi() as f32) == x.hi()
 }

@@ -1,10 +1,10 @@
-//! The evaluator: the value of a function in any scalar type, without a compiler.
+//! Evaluates a function in any scalar type, without a compiler.
 
 use bgdyn_runtime::Scalar;
 
 use super::{Graph, Leaf, Node, Signed, reachable};
 
-/// What the leaves stand for.
+/// The values of the leaves.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs<T> {
     /// Positions.
@@ -28,7 +28,7 @@ pub struct Inputs<T> {
 }
 
 impl<T> Inputs<T> {
-    /// Results of blocks, and nothing else.
+    /// Returns inputs with results of blocks only.
     pub(crate) fn of_blocks(passed: Vec<Vec<T>>) -> Self {
         Inputs {
             q: Vec::new(),
@@ -60,7 +60,7 @@ impl<T: Scalar> Inputs<T> {
     }
 }
 
-/// Values of `outputs`; `refused` collects the pivots that were refused.
+/// Returns the values of `outputs`; `refused` records the pivots that were refused.
 ///
 /// # Panics
 /// If `inputs` lacks a leaf that the outputs read.
@@ -87,7 +87,7 @@ pub fn evaluate<T: Scalar>(
 struct Evaluation<T: Scalar> {
     values: Vec<T>,
     masks: Vec<Option<T::Mask>>,
-    /// Sine and cosine of the node, where something asked for them.
+    /// Sine and cosine of a node, if they are used.
     sines: Vec<Option<(T, T)>>,
 }
 

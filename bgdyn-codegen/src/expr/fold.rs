@@ -1,26 +1,26 @@
-//! Constructors of nodes, which fold constants and normalise signs: the only way to add a node.
+//! Constructors of nodes, which fold constants and normalise signs; nodes are added only by them.
 
 use bgdyn_runtime::{Dd, Scalar};
 
 use super::{Constant, Graph, Leaf, Node, NodeId, Signed};
 
-/// Sums of constants smaller than this part of their terms are cancellations, hence zero.
+/// Sums of constants smaller than this fraction of their terms are cancellations, hence zero.
 const CANCELLED: f64 = 1.0 / (1u128 << 98) as f64;
 
 impl Graph {
-    /// A number.
+    /// Returns a number.
     pub fn constant(&mut self, x: Dd) -> Signed {
         let negative = x < Dd::ZERO;
         let node = self.intern(Node::Constant(Constant::new(if negative { -x } else { x })));
         Signed { node, negative }
     }
 
-    /// An argument of the function.
+    /// Returns an argument of the function.
     pub fn leaf(&mut self, leaf: Leaf) -> Signed {
         Signed::plus(self.intern(Node::Leaf(leaf)))
     }
 
-    /// a + b
+    /// Returns a + b.
     pub fn add(&mut self, a: Signed, b: Signed) -> Signed {
         match (self.constant_of(a), self.constant_of(b)) {
             (Some(x), Some(y)) => return self.constant(cancelling_sum(x, y)),
@@ -39,7 +39,7 @@ impl Graph {
         self.intern_sum(a, b)
     }
 
-    /// x + k for a constant k: (y + k₀) + k = y + (k₀ + k).
+    /// Returns x + k for a constant k: (y + k₀) + k = y + (k₀ + k).
     pub(super) fn add_constant(&mut self, x: Signed, k: Dd) -> Signed {
         if let Node::Add(p, q) = *self.node(x.node) {
             let (p, q) = (Signed::plus(p).flipped(x.negative), q.flipped(x.negative));
@@ -63,7 +63,7 @@ impl Graph {
         }
     }
 
-    /// x = k·y with the constant factor k, 1 where there is none.
+    /// Splits x = k·y into the constant factor k (1 if there is none) and y.
     fn coefficient(&self, x: Signed) -> (Dd, NodeId) {
         let sign = if x.negative { -Dd::ONE } else { Dd::ONE };
         if let Node::Mul(k, y) = *self.node(x.node)
@@ -74,7 +74,7 @@ impl Graph {
         (sign, x.node)
     }
 
-    /// a · b
+    /// Returns a · b.
     pub fn mul(&mut self, a: Signed, b: Signed) -> Signed {
         let negative = a.negative ^ b.negative;
         let (ka, kb) = (
@@ -93,14 +93,15 @@ impl Graph {
         self.scale(k, x).flipped(negative)
     }
 
-    /// k · x for a constant k.
+    /// Returns k · x for a constant k.
     pub(super) fn times(&mut self, k: Dd, x: Signed) -> Signed {
         let negative = k < Dd::ZERO;
         let size = if negative { -k } else { k };
         self.scale(size, x.node).flipped(negative ^ x.negative)
     }
 
-    /// k · x for a constant k ≥ 0; the constant is the first operand, and there is only one.
+    /// Returns k · x for a constant k ≥ 0; the constant is the first operand, and the only constant
+    /// factor.
     fn scale(&mut self, k: Dd, x: NodeId) -> Signed {
         if k == Dd::ZERO {
             return self.constant(Dd::ZERO);
@@ -118,7 +119,7 @@ impl Graph {
         }
     }
 
-    /// a / b; by a constant it becomes a product.
+    /// Returns a / b; division by a constant becomes a product.
     pub fn div(&mut self, a: Signed, b: Signed) -> Signed {
         if let Some(k) = self.constant_of(b)
             && k != Dd::ZERO
@@ -136,17 +137,17 @@ impl Graph {
         }
     }
 
-    /// a · b + c as one node: for passes that fuse.
+    /// Returns a · b + c as one node, for passes that fuse.
     pub fn mul_add(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
         let product_negative = a.negative ^ b.negative;
         let (x, y) = (a.node.min(b.node), a.node.max(b.node));
         Signed::plus(self.intern(Node::MulAdd(x, y, product_negative, c)))
     }
 
-    /// The exact sum of angles and a constant, rad; for [`Graph::sin`] and [`Graph::cos`].
+    /// Returns the exact sum of angles and a constant, rad; for [`Graph::sin`] and [`Graph::cos`].
     ///
-    /// Equal angles of opposite sign cancel; the order of the terms does not matter. The first
-    /// term is positive, the returned sign carries the rest.
+    /// Equal angles of opposite sign cancel; the order of the terms does not matter. The first term is
+    /// positive; the returned value carries the sign of the sum.
     pub fn angle(&mut self, terms: &[Signed], offset: Dd) -> Signed {
         let mut sorted: Vec<Signed> = Vec::with_capacity(terms.len());
         for &term in terms {
@@ -176,7 +177,7 @@ impl Graph {
         }
     }
 
-    /// sin a
+    /// Returns sin a.
     pub fn sin(&mut self, a: Signed) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(x.sin_cos().0),
@@ -187,7 +188,7 @@ impl Graph {
         }
     }
 
-    /// cos a
+    /// Returns cos a.
     pub fn cos(&mut self, a: Signed) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(x.sin_cos().1),
@@ -195,17 +196,17 @@ impl Graph {
         }
     }
 
-    /// √a
+    /// Returns √a.
     pub fn sqrt(&mut self, a: Signed) -> Signed {
         self.unary(a, Scalar::sqrt, Node::Sqrt)
     }
 
-    /// eᵃ
+    /// Returns eᵃ.
     pub fn exp(&mut self, a: Signed) -> Signed {
         self.unary(a, Scalar::exp, Node::Exp)
     }
 
-    /// ln a
+    /// Returns ln a.
     pub fn ln(&mut self, a: Signed) -> Signed {
         self.unary(a, Scalar::ln, Node::Ln)
     }
@@ -217,12 +218,12 @@ impl Graph {
         }
     }
 
-    /// tanh a
+    /// Returns tanh a.
     pub fn tanh(&mut self, a: Signed) -> Signed {
         self.odd(a, Scalar::tanh, Node::Tanh)
     }
 
-    /// −1, 0, 1
+    /// Returns −1, 0 or 1.
     pub fn sign(&mut self, a: Signed) -> Signed {
         self.odd(a, Scalar::sign, Node::Sign)
     }
@@ -237,7 +238,7 @@ impl Graph {
         }
     }
 
-    /// |a|
+    /// Returns |a|.
     pub fn abs(&mut self, a: Signed) -> Signed {
         match self.constant_of(a) {
             Some(x) => self.constant(Scalar::abs(x)),
@@ -245,7 +246,7 @@ impl Graph {
         }
     }
 
-    /// The smaller of a and b.
+    /// Returns the smaller of a and b.
     pub fn min(&mut self, a: Signed, b: Signed) -> Signed {
         match (self.constant_of(a), self.constant_of(b)) {
             (Some(x), Some(y)) => self.constant(Scalar::min(x, y)),
@@ -254,7 +255,7 @@ impl Graph {
         }
     }
 
-    /// The larger of a and b.
+    /// Returns the larger of a and b.
     pub fn max(&mut self, a: Signed, b: Signed) -> Signed {
         match (self.constant_of(a), self.constant_of(b)) {
             (Some(x), Some(y)) => self.constant(Scalar::max(x, y)),
@@ -263,12 +264,12 @@ impl Graph {
         }
     }
 
-    /// The condition a < b, for [`Graph::select`].
+    /// Returns the condition a < b, for [`Graph::select`].
     pub fn less(&mut self, a: Signed, b: Signed) -> NodeId {
         self.intern(Node::Less(a, b))
     }
 
-    /// `a` where the condition holds, else `b`.
+    /// Returns `a` where the condition is true, else `b`.
     pub fn select(&mut self, condition: NodeId, a: Signed, b: Signed) -> Signed {
         if a == b {
             return a;
@@ -276,7 +277,7 @@ impl Graph {
         Signed::plus(self.intern(Node::Select(condition, a, b)))
     }
 
-    /// A pivot with its check; see [`Node::Pivot`].
+    /// Returns a pivot with its check; see [`Node::Pivot`].
     pub fn pivot(&mut self, value: Signed, magnitude: Signed, joint: usize) -> Signed {
         match (self.constant_of(value), self.constant_of(magnitude)) {
             (Some(x), Some(m)) if x > Dd::ZERO && m == Dd::ZERO => value,
@@ -285,7 +286,7 @@ impl Graph {
     }
 }
 
-/// x + y, and 0 where nothing but rounding errors of double-double is left of it.
+/// Returns x + y, or 0 if the sum is a rounding error of double-double.
 pub(super) fn cancelling_sum(x: Dd, y: Dd) -> Dd {
     let sum = x + y;
     let terms = x.hi().abs().max(y.hi().abs());

@@ -1,18 +1,18 @@
-//! Fuses a product with the one addition that uses it into a multiply-add, which rounds once.
+//! Fuses a product with the only addition that uses it into a multiply-add, which rounds once.
 //!
 //! A machine with fused multiply-adds executes it as one instruction.
 
 use super::copy::remade;
 use super::{Graph, Node, NodeId, Signed, cost};
 
-/// Copies of `outputs` in a graph of their own, with every addition of a product that nothing else
-/// reads as a [`Node::MulAdd`]. The count of operations stays. Of two such products the one that is
-/// there later is joined: the other is done by then.
+/// Copies `outputs` to a new graph, with every addition of a product without other readers as a
+/// [`Node::MulAdd`]. The operation count does not change. If both operands are such products, the later
+/// one is fused: the other one is computed by then.
 pub fn fuse(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let reads = cost::reads(from, outputs);
     let ready = cost::ready(from, &reads);
     let is_free = |id: NodeId| reads[id.0 as usize] == 1 && matches!(from.node(id), Node::Mul(..));
-    // Which operand of an addition goes in with it; the second one where `true`.
+    // Selects the operand of an addition that is fused; `true` for the second one.
     let joined = |node: &Node| {
         let Node::Add(a, b) = node else { return None };
         match (is_free(*a), is_free(b.node)) {
@@ -60,8 +60,8 @@ mod tests {
         e.flipped(true)
     }
 
-    /// A product that one sum alone reads is joined to it; of two the later one; one that is read twice
-    /// stays. Neither counts nor values change.
+    /// A product with one sum as its only reader is fused with it; of two such products the later one; a
+    /// product that is read twice is not. Neither counts nor values change.
     #[test]
     fn products_are_joined_to_the_sums_that_read_them() {
         let mut g = Graph::default();

@@ -15,34 +15,34 @@ pub struct Graph {
     /// The nodes by their hash.
     index: Index,
     pub(super) names: BTreeMap<NodeId, Name>,
-    /// Titles of the sections, and for each node the one in which it was made.
+    /// Titles of the sections, and for each node the section in which it was created.
     pub(super) titles: Vec<Title>,
     pub(super) sections: Vec<Section>,
-    /// The section that is open.
+    /// The current section.
     pub(super) open: Section,
-    /// The unit of length of the sections that are begun.
+    /// The unit of length of the following sections.
     pub(super) unit: Option<Dd>,
-    /// Names of numbers without their sign; nothing where several quantities have the value.
+    /// Names of numbers without their sign; `None` if several quantities have the value.
     pub(super) constant_names: BTreeMap<Constant, Option<Name>>,
 }
 
 impl Graph {
-    /// The node with this id.
+    /// Returns the node with this id.
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0 as usize]
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether the graph is empty.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// The one node equal to `node`.
+    /// Returns the unique node equal to `node`, and adds it if it is new.
     pub(crate) fn intern(&mut self, node: Node) -> NodeId {
         let hash = node.quick_hash();
         if let Some(id) = self.found(hash, &node) {
@@ -55,7 +55,7 @@ impl Graph {
         NodeId(id)
     }
 
-    /// The node equal to `node`, if there is one.
+    /// Returns the node equal to `node`, if it exists.
     pub fn find(&self, node: &Node) -> Option<NodeId> {
         self.found(node.quick_hash(), node)
     }
@@ -65,7 +65,7 @@ impl Graph {
         self.index.find(hash, is_it).map(NodeId)
     }
 
-    /// The value of a constant expression.
+    /// Returns the value of a constant expression.
     pub fn constant_of(&self, e: Signed) -> Option<Dd> {
         match self.node(e.node) {
             Node::Constant(c) => Some(if e.negative { -c.value() } else { c.value() }),

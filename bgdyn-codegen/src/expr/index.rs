@@ -1,23 +1,23 @@
 //! A hash table of interned values.
 //!
-//! The owner keeps the values in a list, in the order of insertion; the table holds their indices.
+//! The owner stores the values in a list, in the order of insertion; the table stores their indices.
 //!
-//! Nearly all that the generator does is to look for a node, and a macro runs as Cargo builds it
-//! for development, unoptimised: a plain table takes a tenth of the time of the library's there.
+//! Most of the generator's time is spent on looking up nodes, and Cargo builds macros for development
+//! without optimisation: there this simple table takes a tenth of the time of the standard library's.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Open addressing, a power of two of slots.
+/// Open addressing with a power of two of slots.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Index {
-    /// The upper half of the hash, and the place counted from 1 below it; 0 is free.
+    /// The upper half of the hash, and the index plus 1 in the lower half; 0 is free.
     slots: Vec<u64>,
     len: usize,
 }
 
 impl Index {
-    /// The place of the value that has this hash and is the one sought.
+    /// Returns the index of the value with this hash for which `is_sought` is true.
     pub fn find(&self, hash: u64, mut is_sought: impl FnMut(u32) -> bool) -> Option<u32> {
         if self.slots.is_empty() {
             return None;
@@ -37,7 +37,7 @@ impl Index {
         }
     }
 
-    /// Adds a value that is not there yet.
+    /// Adds a value that is not in the table.
     pub fn insert(&mut self, hash: u64, place: u32) {
         self.len += 1;
         if self.len * 3 > self.slots.len() * 2 {
@@ -66,12 +66,12 @@ impl Index {
     }
 }
 
-/// A hash with one more word in it: rotate, multiply. Its upper half is the better one.
+/// Mixes one more word into a hash: rotate, multiply. Its upper half has the better distribution.
 pub(super) fn mix(hash: u64, word: u64) -> u64 {
     (hash.rotate_left(26) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
-/// A quick hash for small keys: multiply and rotate. The order it gives is never seen.
+/// A fast hash for small keys: multiply and rotate. Its order has no effect on results.
 #[derive(Clone, Default, Debug)]
 pub(crate) struct QuickHasher(u64);
 

@@ -1,4 +1,4 @@
-//! Gives names to nodes and numbers, titles and units to sections. No pass decides by them.
+//! Assigns names to nodes and numbers, titles and units to sections. No pass depends on them.
 
 use std::collections::btree_map::Entry;
 
@@ -9,12 +9,12 @@ use super::naming::{Name, Section, Title};
 use super::node::{Constant, Node, NodeId, Signed};
 
 impl Graph {
-    /// The name that a formulation gave to a node, for readers of the output.
+    /// Returns the name that a formulation gave to a node, for readers of the output.
     pub fn name(&self, id: NodeId) -> Option<&Name> {
         self.names.get(&id)
     }
 
-    /// Names an expression; the first name of its node stays.
+    /// Names an expression, unless its node has a name.
     pub(crate) fn set_name(&mut self, e: Signed, text: impl FnOnce() -> String) {
         if !matches!(self.node(e.node), Node::Constant(_) | Node::Leaf(_)) {
             let named = || Name {
@@ -25,8 +25,8 @@ impl Graph {
         }
     }
 
-    /// Names a number. The first name stays; one that has to be the only one, `alone`, is none where
-    /// several quantities have the value. Numbers that equations bring along have no names.
+    /// Names a number, unless it has a name. With `alone`, the name is removed if several quantities have
+    /// the value. Numbers in equations have no names.
     pub(crate) fn set_constant_name(&mut self, x: Dd, text: impl FnOnce() -> String, alone: bool) {
         let negative = x < Dd::ZERO;
         let size = if negative { -x } else { x };
@@ -46,43 +46,43 @@ impl Graph {
         }
     }
 
-    /// The name of a number that is not negative.
+    /// Returns the name of a nonnegative number.
     pub fn constant_name(&self, x: Dd) -> Option<&Name> {
         self.constant_names.get(&Constant::new(x))?.as_ref()
     }
 
-    /// Names `copy` as the node `id` of another graph, of which it is a copy.
+    /// Gives `copy` the name of the node `id` of another graph.
     pub(crate) fn copy_name(&mut self, copy: Signed, from: &Graph, id: NodeId) {
         if let Some(name) = from.name(id) {
             self.set_name(copy.flipped(name.negative), || name.text.clone());
         }
     }
 
-    /// The title of the section in which a node was made.
+    /// Returns the title of the section in which a node was created.
     pub fn section(&self, id: NodeId) -> Option<&str> {
         let section = self.sections[id.0 as usize] as usize;
         section.checked_sub(1).map(|i| self.titles[i].text.as_str())
     }
 
-    /// The unit of length, m, of the section in which a node was made, where it knows one.
+    /// Returns the unit of length, m, of the section in which a node was created, if it is set.
     pub fn unit_of_length(&self, id: NodeId) -> Option<Dd> {
         let section = self.sections[id.0 as usize] as usize;
         section.checked_sub(1).and_then(|i| self.titles[i].unit)
     }
 
-    /// Sections that begin from now on have lengths in this unit, m.
+    /// Sets the unit of length of the following sections, m.
     pub(crate) fn set_unit_of_length(&mut self, unit: Dd) {
         self.unit = Some(unit);
     }
 
-    /// What is made from now on belongs under this title.
+    /// Begins a section with this title.
     pub(crate) fn begin_section(&mut self, title: String) {
         let unit = self.unit;
         self.titles.push(Title { text: title, unit });
         self.open = self.titles.len() as Section;
     }
 
-    /// Takes over another graph's titles. What it gives opens the section of a node of that graph.
+    /// Copies another graph's titles. The result is the offset for [`Graph::reopen_section`].
     pub(crate) fn adopt_sections(&mut self, from: &Graph) -> Section {
         let offset = self.titles.len() as Section;
         self.titles.extend(from.titles.iter().cloned());
@@ -96,7 +96,7 @@ impl Graph {
         offset
     }
 
-    /// Opens the section that `id` of `from` was made in; `offset` is where its titles went.
+    /// Opens the section in which `id` of `from` was created; `offset` is that of its copied titles.
     pub(crate) fn reopen_section(&mut self, from: &Graph, id: NodeId, offset: Section) {
         let section = from.sections[id.0 as usize];
         self.open = if section == 0 { 0 } else { section + offset };

@@ -1,9 +1,9 @@
 //! The expression graph: each value of a function is one node, shared and folded.
 //!
-//! A node is made once ([`Graph`] is hash-consed); what refers to it is an [`Signed`], a node with a
-//! sign, so that negation is free and x − y, y − x are one node. Constants are double-double and
-//! folded exactly enough to prove one regrouping equal to another. Counting, evaluation,
-//! differentiation and emission are passes over the graph and live in their own files.
+//! Equal nodes exist only once ([`Graph`] is hash-consed). Operands are [`Signed`], a node with a sign, so
+//! that negation is free and x − y, y − x share one node. Constants are double-double and folded
+//! accurately enough to prove that regrouped expressions are equal. Counting, evaluation, differentiation
+//! and emission are passes over the graph, each in its own file.
 
 mod arrange;
 mod build;

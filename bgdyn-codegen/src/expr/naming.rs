@@ -1,4 +1,4 @@
-//! Names of values, titles and units of sections: what a graph holds for readers of the output.
+//! Names of values, titles and units of sections, for readers of the output.
 
 use bgdyn_runtime::Dd;
 
@@ -12,20 +12,20 @@ pub struct Name {
 }
 
 impl Name {
-    /// An identifier for the node: `neg_m_elbow_turn` for −m_elbow_turn.
+    /// Returns an identifier for the node: `neg_m_elbow_turn` for −m_elbow_turn.
     pub fn identifier(&self) -> String {
         let prefix = if self.negative { "neg_" } else { "" };
         format!("{prefix}{}", self.text)
     }
 }
 
-/// What readers of the output find above a section.
+/// The title of a section for readers of the output.
 #[derive(Clone, Debug)]
 pub(super) struct Title {
     pub text: String,
-    /// The unit of length, m, where the section knows it.
+    /// The unit of length, m, if it is set.
     pub unit: Option<Dd>,
 }
 
-/// A stretch of the algorithm that readers of the output find under one title; 0 has none.
+/// A part of the algorithm that has one title in the output; 0 has none.
 pub(super) type Section = u32;

@@ -11,12 +11,12 @@ use super::index::{QuickHasher, mix};
 pub struct NodeId(pub(crate) u32);
 
 impl NodeId {
-    /// The node at this place of its graph.
+    /// Returns the node with this index in its graph.
     pub fn at(place: usize) -> Self {
         NodeId(place as u32)
     }
 
-    /// Its place in its graph.
+    /// Returns its index in its graph.
     pub fn place(self) -> usize {
         self.0 as usize
     }
@@ -39,7 +39,7 @@ impl Signed {
         }
     }
 
-    /// The same value with its sign flipped where `flip` holds.
+    /// Returns the value with its sign flipped if `flip` is true.
     pub(crate) fn flipped(self, flip: bool) -> Self {
         Signed {
             negative: self.negative ^ flip,
@@ -66,13 +66,13 @@ impl Constant {
         }
     }
 
-    /// Its value.
+    /// Returns its value.
     pub fn value(self) -> Dd {
         Dd::new(f64::from_bits(self.hi), f64::from_bits(self.lo))
     }
 }
 
-/// What a function is given.
+/// An argument of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Leaf {
     /// Component of q.
@@ -100,7 +100,7 @@ pub enum Leaf {
     },
 }
 
-/// An operation. Operands stand before the node that uses them.
+/// An operation. Operands precede the node that uses them.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
     /// A number, never negative.
@@ -113,11 +113,11 @@ pub enum Node {
     Mul(NodeId, NodeId),
     /// a / b.
     Div(NodeId, NodeId),
-    /// a · b + c in one rounding where the machine has it; `true`: the product's sign is flipped.
+    /// a · b + c with one rounding if the machine has it; `true`: the product's sign is flipped.
     MulAdd(NodeId, NodeId, bool, Signed),
     /// √a.
     Sqrt(Signed),
-    /// Σ ±angle + offset, carried exactly into the sine; read by [`Node::Sin`], [`Node::Cos`] only.
+    /// Σ ±angle + offset, exact in the sine; read by [`Node::Sin`], [`Node::Cos`] only.
     Angle(Box<[Signed]>, Constant, bool),
     /// Sine of an [`Node::Angle`] or of any value.
     Sin(NodeId),
@@ -131,18 +131,18 @@ pub enum Node {
     Tanh(NodeId),
     /// |a|.
     Abs(NodeId),
-    /// The smaller one.
+    /// The smaller value.
     Min(Signed, Signed),
-    /// The larger one.
+    /// The larger value.
     Max(Signed, Signed),
     /// −1, 0, 1.
     Sign(NodeId),
     /// a < b: a truth value, read by [`Node::Select`] only.
     Less(Signed, Signed),
-    /// The first value where the condition holds, else the second.
+    /// The first value where the condition is true, else the second.
     Select(NodeId, Signed, Signed),
-    /// A pivot of a factorisation of the mass matrix: the value, the size of what was subtracted
-    /// in it, the joint to name where it is refused.
+    /// A pivot of a factorisation of the mass matrix: the value, the magnitude of the subtracted terms,
+    /// and the joint for the error if it is refused.
     Pivot(Signed, Signed, usize),
 }
 
@@ -181,7 +181,7 @@ impl Node {
 }
 
 impl Node {
-    /// The node with each operand replaced. Where the node has no place for a sign, the
+    /// Returns the node with each operand replaced. If the node stores no sign of an operand, the
     /// replacement must have none.
     pub(crate) fn map_operands(self, mut f: impl FnMut(Signed) -> Signed) -> Node {
         let plain = |id: NodeId, f: &mut dyn FnMut(Signed) -> Signed| f(Signed::plus(id)).node;
@@ -212,7 +212,7 @@ impl Node {
         }
     }
 
-    /// Its hash: a short way for what there is most of.
+    /// Returns its hash, with a short computation for the most frequent kinds.
     pub(super) fn quick_hash(&self) -> u64 {
         let signed = |e: &Signed| u64::from(e.node.0) << 1 | u64::from(e.negative);
         match self {

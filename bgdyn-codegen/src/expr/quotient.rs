@@ -1,18 +1,18 @@
 //! Replaces a product with a reciprocal by a division where the reciprocal has no other use.
 //!
-//! x · (1/y) becomes x/y, which saves the product and one rounding. The last pivot of a factored mass
-//! matrix is used so.
+//! x · (1/y) becomes x/y, which saves the product and one rounding. It applies to the last pivot of a
+//! factored mass matrix.
 
 use bgdyn_runtime::Dd;
 
 use super::copy::remade;
 use super::{Graph, Node, NodeId, Signed, reads};
 
-/// The same values without reciprocals that one product alone reads.
+/// Returns the same values without reciprocals whose only reader is a product.
 pub fn fold_reciprocals(from: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed>) {
     let reads = reads(&from, &outputs);
     let is_one = |id: NodeId| matches!(from.node(id), Node::Constant(c) if c.value() == Dd::ONE);
-    // y of a node 1/y that nothing else reads.
+    // y of a node 1/y with a single reader.
     let divisor = |id: NodeId| match from.node(id) {
         Node::Div(one, y) if reads[id.place()] == 1 && is_one(*one) => Some(*y),
         _ => None,
@@ -34,7 +34,7 @@ pub fn fold_reciprocals(from: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed
             found = true;
         }
     }
-    // Most functions divide by nothing, and candidates are many: no copy of those.
+    // Most functions have no division, and there are many candidates: do not copy those.
     if !found {
         return (from, outputs);
     }
@@ -68,7 +68,7 @@ mod tests {
         e.flipped(true)
     }
 
-    /// A reciprocal that one product alone reads goes into a division; one that is read twice stays.
+    /// A reciprocal whose only reader is a product becomes a division; one that is read twice does not.
     #[test]
     fn a_reciprocal_of_one_product_is_divided_by() {
         let mut g = Graph::default();
@@ -94,7 +94,7 @@ mod tests {
         let expected = evaluate(&g, &outputs, &inputs, &mut None);
         assert_eq!(values[0], -expected[3]);
         assert_eq!(values[1..], expected[1..3]);
-        // Nothing is left to do.
+        // A second application changes nothing.
         assert_eq!(fold_reciprocals(quotients, found.clone()).1, found);
     }
 }

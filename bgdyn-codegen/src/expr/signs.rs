@@ -1,14 +1,14 @@
-//! Moves negations to places where they cost no operation.
+//! Moves negations to operations where they cost nothing.
 //!
-//! The graph keeps a sum in one of its two signs: −a·b − c is written −(a·b + c), so that equal sums
-//! meet. A machine takes an instruction for the sign in front, but none inside a fused multiply-add,
-//! whose product and summand may have either. So a sum that is read with the opposite sign is computed
-//! with it. Results are the same but for the sign of zero.
+//! The graph stores a sum with one of its two signs: −a·b − c is written −(a·b + c), so that equal sums
+//! share a node. A machine needs an instruction for the sign in front, but none inside a fused
+//! multiply-add, whose product and summand may have either sign. So a sum that is read with the opposite
+//! sign is computed with it. Results are equal except for the sign of zero.
 
 use super::copy::remade;
 use super::{Graph, Node, NodeId, Signed, reachable};
 
-/// Copies of `outputs` in a graph of their own, without the signs that can be had for nothing.
+/// Copies `outputs` to a new graph, without the signs that can be absorbed.
 pub fn absorb_negations(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let needed = reachable(from, outputs);
     let flips = flips(from, outputs, &needed);
@@ -30,8 +30,8 @@ pub fn absorb_negations(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>
     (to, outputs)
 }
 
-/// The sums that are to be computed with the opposite sign: those that are read so where a sign costs
-/// an instruction, oftener than otherwise, and elsewhere only where it costs none.
+/// Returns the sums to compute with the opposite sign: outputs and pivots read them negated more often
+/// than not, and all other readers are fused sums, in which a sign costs nothing.
 fn flips(graph: &Graph, outputs: &[Signed], needed: &[bool]) -> Vec<bool> {
     let mut gain = vec![0_i32; graph.len()];
     let mut bound = vec![false; graph.len()];
@@ -67,13 +67,13 @@ mod tests {
         e.flipped(true)
     }
 
-    /// A sum that is read with the opposite sign is computed with it, where nothing else but fused sums
-    /// read it.
+    /// A sum that is read with the opposite sign is computed with it, if only fused sums read it
+    /// otherwise.
     #[test]
     fn signs_move_into_sums() {
         let mut g = Graph::default();
         let [x, y, z] = xyz(&mut g);
-        // −(xy + z), also in a fused sum; −(y − z); −(xy + y), of which a root is taken.
+        // −(xy + z), also in a fused sum; −(y − z); −(xy + y) under a root.
         let free = g.mul_add(x, y, z);
         let reads = g.mul_add(free, x, y);
         let difference = g.add(y, minus(z));

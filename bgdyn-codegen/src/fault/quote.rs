@@ -1,9 +1,9 @@
-//! A user's text inside a message: quoted, shortened, on one line.
+//! Quotes a user's text in a message: shortened, on one line.
 
-/// How many characters of a user's text a message repeats.
+/// Largest number of characters of a user's text in a message.
 const QUOTE_WIDTH: usize = 60;
 
-/// A user's text between backticks, on one line and not too long.
+/// Returns a user's text between backticks, on one line and shortened.
 pub(crate) fn quote(text: &str) -> String {
     let mut shown: String = text.chars().take(QUOTE_WIDTH).flat_map(escape).collect();
     if text.chars().nth(QUOTE_WIDTH).is_some() {
@@ -12,7 +12,7 @@ pub(crate) fn quote(text: &str) -> String {
     format!("`{shown}`")
 }
 
-/// A message that may hold a user's text: what would break its line is escaped.
+/// Escapes line breaks in a message with a user's text.
 pub(crate) fn one_line(message: String) -> String {
     match message.contains(char::is_control) {
         true => message.chars().flat_map(escape).collect(),

@@ -2,15 +2,15 @@
 
 use super::{Fault, Faults, Severity};
 
-/// How many characters of a source line an excerpt shows.
+/// Largest number of characters of a source line in an excerpt.
 const EXCERPT_WIDTH: usize = 100;
-/// How many warnings of one cause are shown one by one.
+/// Largest number of warnings of one cause that are shown one by one.
 const REPEATS: usize = 3;
-/// Of how many repeated warnings the place is shown.
+/// Number of repeated warnings whose position is shown.
 const PLACES: usize = 5;
 
 impl Fault {
-    /// `FILE:LINE:COLUMN: links[2].inertia: message [rule]`, on one line.
+    /// Returns `FILE:LINE:COLUMN: links[2].inertia: message [rule]`, on one line.
     pub fn headline(&self, file: &str) -> String {
         let mut line = format!("{file}:{}: ", self.position);
         if self.severity == Severity::Warning {
@@ -22,7 +22,7 @@ impl Fault {
         line + &format!("{} [{}]", self.message, self.rule)
     }
 
-    /// The headline, the source line with a caret, the way out. Ends with a line break.
+    /// Returns the headline, the source line with a caret, and the advice. Ends with a line break.
     pub fn render(&self, file: &str, source: &str) -> String {
         let mut text = self.headline(file) + "\n";
         let number = self.position.line.to_string();
@@ -40,7 +40,7 @@ impl Fault {
 }
 
 impl Fault {
-    /// Whether both are warnings by the same rule with the same way out.
+    /// Returns whether both are warnings by the same rule with the same advice.
     fn has_the_cause_of(&self, other: &Fault) -> bool {
         let both = [self, other];
         both.iter().all(|f| f.severity == Severity::Warning)
@@ -50,9 +50,9 @@ impl Fault {
 }
 
 impl Faults {
-    /// Every finding with its excerpt, an empty line between them. Of more than three warnings
-    /// of one cause (the same rule, the same way out) the first is shown, with the number of others
-    /// and where they begin. Faults are shown one by one.
+    /// Returns every finding with its excerpt, with empty lines between them. Of more than three warnings
+    /// of one cause (the same rule, the same advice) only the first is shown, with the number and the
+    /// first positions of the others. Faults are shown one by one.
     pub fn render(&self, file: &str, source: &str) -> String {
         let mut texts = Vec::new();
         for (i, fault) in self.0.iter().enumerate() {
@@ -69,7 +69,7 @@ impl Faults {
     }
 }
 
-/// ` = 442 more of the same cause, at 9:5, 12:5, 15:5, …`
+/// Returns ` = 442 more of the same cause, at 9:5, 12:5, 15:5, …`.
 fn more(others: &[&Fault]) -> String {
     let shown = others.iter().take(PLACES).map(|f| f.position.to_string());
     let mut places: Vec<String> = shown.collect();
@@ -80,7 +80,7 @@ fn more(others: &[&Fault]) -> String {
     format!(" = {} more of the same cause, at {places}\n", others.len())
 }
 
-/// Line `number` (from 1) of `source`, by YAML's line breaks: LF, CR LF, CR.
+/// Returns line `number` (from 1) of `source`, by YAML's line breaks: LF, CR LF, CR.
 fn source_line(source: &str, number: usize) -> Option<&str> {
     let mut rest = source;
     for _ in 1..number {
@@ -96,7 +96,7 @@ fn source_line(source: &str, number: usize) -> Option<&str> {
     (!line.trim().is_empty()).then_some(line)
 }
 
-/// What of `line` is shown, and how many columns stand before the caret.
+/// Returns the visible part of `line`, and the number of columns before the caret.
 fn excerpt(line: &str, column: usize) -> (String, usize) {
     let characters: Vec<char> = line.chars().collect();
     let location = column.saturating_sub(1).min(characters.len());
@@ -136,7 +136,7 @@ mod tests {
         );
     }
 
-    /// Warnings of two causes in turn, `count` of each, and two faults like the first ones.
+    /// Warnings of two causes alternating, `count` of each, and two faults like the first ones.
     fn repeated(count: usize) -> Faults {
         let warning = |line| fault(line, 1).into_warning();
         let mut faults = Faults(vec![fault(1, 1), fault(2, 1)]);

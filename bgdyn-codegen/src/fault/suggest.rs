@@ -2,7 +2,7 @@
 
 use strsim::osa_distance;
 
-/// The nearest of `known` to `word`, if it is near enough to be meant: by insertions, deletions,
+/// Returns the word of `known` nearest to `word`, if it is near enough: by insertions, deletions,
 /// replacements and swaps of neighbours, up to a third of the longer word's letters.
 pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
@@ -18,7 +18,7 @@ pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     (near.0 <= limit && near.0 < length.max(1)).then_some(near.1)
 }
 
-/// No `what` is called `name`: the nearest of `known`, or `all` of them.
+/// Returns the message that no `what` has the name `name`, with the nearest of `known`, or `all` of them.
 pub(crate) fn unknown_name(what: &str, name: &str, known: &[&str], all: &str) -> String {
     match nearest(name, known.iter().copied()) {
         Some(near) => format!("no {what} is called `{name}`: did you mean `{near}`?"),

@@ -22,7 +22,7 @@ pub(crate) use reading::*;
 pub(crate) use scene::*;
 pub(crate) use values::*;
 
-/// A number with six digits, for what was computed.
+/// Prints a computed number with six digits.
 fn figure(x: f64) -> String {
     Digits::new(x, 6).to_string()
 }
@@ -39,7 +39,7 @@ fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().map(quote).collect::<Vec<_>>().join(", ")
 }
 
-/// "did you mean …?", or what is known.
+/// Returns "did you mean …?", or the list of known words.
 fn meant(word: &str, known: &[&str], otherwise: String) -> String {
     match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean {}?", quote(near)),

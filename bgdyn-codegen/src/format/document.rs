@@ -6,73 +6,73 @@ use crate::fault::Location;
 /// A mechanism's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
-    /// The file's mapping.
+    /// Location of the file's mapping.
     pub location: Location,
-    /// Whether everything in the file could be read; nothing is built from half a spec.
+    /// Whether everything in the file was parsed; nothing is built from an incomplete spec.
     pub complete: bool,
     /// Version of the format.
     pub format: Field<Number>,
     /// Name of the mechanism.
     pub name: Field<String>,
-    /// Its name elsewhere.
+    /// Its original name elsewhere.
     pub label: Field<String>,
-    /// Text for the docs.
+    /// Text for the documentation.
     pub description: Field<String>,
     /// Acceleration of free fall, world axes.
     pub gravity: Field<Vector>,
-    /// Angle within which directions are taken as exact.
+    /// Angle below which a direction is rounded to the exact one.
     pub snap: Field<Number>,
-    /// The links; those that are no mapping are left out.
+    /// The links; entries that are no mapping are omitted.
     pub links: Field<Vec<LinkSpec>>,
-    /// The named frames; those that are no mapping are left out.
+    /// The named frames; entries that are no mapping are omitted.
     pub frames: Field<Vec<FrameSpec>>,
-    /// What acts in it beside its links, by name, unread.
+    /// The effects besides the links, by name, not parsed.
     pub effects: Field<Vec<Raw>>,
 }
 
 /// An entry of `links`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkSpec {
-    /// The link's mapping.
+    /// Location of the link's mapping.
     pub location: Location,
     /// Its name.
     pub name: Field<String>,
-    /// Its name elsewhere.
+    /// Its original name elsewhere.
     pub label: Field<String>,
-    /// Name of the link that carries it.
+    /// Name of the parent link.
     pub parent: Field<String>,
-    /// How it is carried.
+    /// Its joint to the parent.
     pub joint: Field<JointSpec>,
     /// Mass.
     pub mass: Field<Number>,
     /// Centre of mass.
     pub com: Field<Vector>,
-    /// Tensor, or the solid that it is of.
+    /// Tensor, or solid.
     pub inertia: Field<InertiaSpec>,
-    /// `allow`, or a slip.
+    /// `allow`, or an invalid word.
     pub nonphysical: Field<String>,
 }
 
 /// A link's `joint`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointSpec {
-    /// The joint's mapping.
+    /// Location of the joint's mapping.
     pub location: Location,
     /// Its name.
     pub name: Field<String>,
-    /// Its name elsewhere.
+    /// Its original name elsewhere.
     pub label: Field<String>,
-    /// The word after `type`.
+    /// The word of the key `type`.
     pub kind: Field<String>,
-    /// Direction of its axis, of any length; a letter is read as the unit vector it stands for.
+    /// Direction of its axis, of any length; a letter denotes a unit vector.
     pub axis: Field<Vector>,
-    /// Place of the link in the parent.
+    /// Pose of the link in the parent.
     pub origin: Field<Origin>,
     /// Limits.
     pub limits: Field<LimitsSpec>,
 }
 
-/// A placement: `xyz` and `rpy`.
+/// A pose: `xyz` and `rpy`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Origin {
     /// Displacement.
@@ -94,24 +94,24 @@ pub struct LimitsSpec {
     pub effort: Field<Number>,
 }
 
-/// A link's `inertia`: entries of a tensor, or a solid of even density.
+/// A link's `inertia`: entries of a tensor, or a solid of uniform density.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InertiaSpec {
     /// xx, yy, zz, xy, xz, yz: entries of the tensor.
     pub entries: [Field<Number>; 6],
     /// xy, xz, yz: products of inertia, ∫xy dm, in place of the tensor's entries.
     pub products: Field<[Field<Number>; 3]>,
-    /// `com` or `origin`: the point that the tensor is about.
+    /// `com` or `origin`: the reference point of the tensor.
     pub about: Field<String>,
-    /// Axes of the entries, or of the solid, in the link's.
+    /// Axes of the entries, or of the solid, in the link's axes.
     pub rpy: Field<Vector>,
-    /// What solid it is: `box`, …
+    /// The kind of solid: `box`, …
     pub solid: Field<String>,
     /// Edges of a box.
     pub size: Field<Vector>,
     /// Lengths of a solid, in the order of [`LENGTHS`].
     pub lengths: [Field<Number>; 3],
-    /// Axis of a round solid; a letter is read as the unit vector it stands for.
+    /// Axis of a round solid; a letter denotes a unit vector.
     pub axis: Field<Vector>,
 }
 
@@ -121,14 +121,14 @@ pub const LENGTHS: [&str; 3] = ["radius", "inner_radius", "length"];
 /// An entry of `frames`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameSpec {
-    /// The frame's mapping.
+    /// Location of the frame's mapping.
     pub location: Location,
     /// Its name.
     pub name: Field<String>,
-    /// Its name elsewhere.
+    /// Its original name elsewhere.
     pub label: Field<String>,
     /// The link it is fixed to.
     pub link: Field<String>,
-    /// Its place on the link.
+    /// Its pose on the link.
     pub origin: Field<Origin>,
 }

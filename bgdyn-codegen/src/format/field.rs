@@ -1,30 +1,30 @@
-//! A value with its position in the file, and the state of a key: absent, unreadable, given.
+//! A value with its location in the file, and the state of a key: absent, unreadable, given.
 
 use crate::fault::Location;
 
-/// A value and where it stands.
+/// A value and its location.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located<T> {
     /// The value.
     pub value: T,
-    /// Where it stands.
+    /// Its location.
     pub location: Location,
 }
 
-/// What became of a key of a mapping.
+/// The state of a key of a mapping.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Field<T> {
-    /// The key is not there.
+    /// The key is missing.
     #[default]
     Absent,
-    /// The key is there, its value is not what belongs there; a fault says so already.
+    /// The key is present with an invalid value, for which a fault was reported.
     Broken,
-    /// The key is there with a value of the right type.
+    /// The key is present with a value of the right type.
     Given(Located<T>),
 }
 
 impl<T> Field<T> {
-    /// The value with its place, if given.
+    /// Returns the value with its location, if given.
     pub fn given(&self) -> Option<&Located<T>> {
         match self {
             Field::Given(located) => Some(located),
@@ -32,12 +32,12 @@ impl<T> Field<T> {
         }
     }
 
-    /// The value, if given.
+    /// Returns the value, if given.
     pub fn value(&self) -> Option<&T> {
         self.given().map(|located| &located.value)
     }
 
-    /// The value or, for an absent key, `default`; nothing for an unreadable one.
+    /// Returns the value or, for an absent key, `default`; `None` for an unreadable one.
     pub fn value_or<'a>(&'a self, default: &'a T) -> Option<&'a T> {
         match self {
             Field::Absent => Some(default),
@@ -46,12 +46,12 @@ impl<T> Field<T> {
         }
     }
 
-    /// Whether the key is not there.
+    /// Returns whether the key is missing.
     pub fn is_absent(&self) -> bool {
         matches!(self, Field::Absent)
     }
 
-    /// Whether the key's value could not be read.
+    /// Returns whether the key's value was unreadable.
     pub fn is_broken(&self) -> bool {
         matches!(self, Field::Broken)
     }

@@ -7,38 +7,38 @@ use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError, StrInput};
 
 use crate::fault::{Fault, Position, wording};
 
-/// How deep lists and mappings may be nested; the format needs seven.
+/// Largest nesting depth of lists and mappings; the format needs seven.
 const DEPTH: usize = 64;
 
-/// A value and where it stands.
+/// A value and its position.
 #[derive(Debug)]
 pub(super) struct TextNode {
-    /// Where it begins.
+    /// Position of its start.
     pub(super) position: Position,
-    /// Where its tag stands, if it has one.
+    /// Its tag, if any.
     pub(super) tag: Option<String>,
-    /// What it is.
+    /// Its kind.
     pub(super) shape: NodeShape,
     depth: usize,
 }
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Debug)]
 pub(super) enum NodeShape {
-    /// Text, not yet a type.
+    /// Text without a type.
     Scalar {
-        /// Quotes and line folding undone.
+        /// The text without quotes and line folding.
         text: String,
-        /// Whether it stands without quotes.
+        /// Whether it is written without quotes.
         plain: bool,
     },
     /// A list.
     List(Vec<Rc<TextNode>>),
-    /// Keys and values in turn.
+    /// Alternating keys and values.
     Map(Vec<(Rc<TextNode>, Rc<TextNode>)>),
 }
 
-/// The document's root, or nothing for an empty file.
+/// Returns the document's root, or `None` for an empty file.
 pub(super) fn index(text: &str) -> Result<Option<Rc<TextNode>>, Fault> {
     let mut builder = IndexBuilder::default();
     let mut parser: Parser<'_, StrInput<'_>> = Parser::new_from_str(text);
@@ -49,7 +49,7 @@ pub(super) fn index(text: &str) -> Result<Option<Rc<TextNode>>, Fault> {
     Ok(builder.root)
 }
 
-/// The keys of the root's mapping that are texts; of a text that is no YAML, those before the mistake.
+/// Returns the keys of the root's mapping that are texts; for invalid YAML, those before the error.
 pub(super) fn root_keys(text: &str) -> Vec<String> {
     let mut parser: Parser<'_, StrInput<'_>> = Parser::new_from_str(text);
     let (mut keys, mut depth, mut is_key) = (Vec::new(), 0_usize, true);
@@ -85,7 +85,7 @@ fn scan_fault(error: &ScanError) -> Fault {
     wording::yaml_syntax(position(*error.marker()), error.info())
 }
 
-/// A list or mapping whose end has not come yet.
+/// A list or mapping that has not ended yet.
 struct Open {
     position: Position,
     tag: Option<String>,

@@ -1,7 +1,7 @@
-//! The spec as it was written: typed values with their positions in the file, not yet checked.
+//! Parses a spec into typed values with their positions in the file, before the checks.
 //!
-//! [`parse`] reports what the format cannot say (syntax, unknown keys, wrong types, units);
-//! whether it makes a mechanism is for [`crate::machine::check`] to tell.
+//! [`parse`] reports violations of the format (syntax, unknown keys, wrong types, units);
+//! [`crate::machine::check`] checks the mechanism.
 
 mod document;
 mod field;

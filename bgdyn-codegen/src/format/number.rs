@@ -1,4 +1,4 @@
-//! Reads a number: a decimal with up to 32 digits, and a unit of the expected dimension.
+//! Parses a number: a decimal with up to 32 digits, and a unit of the expected dimension.
 
 use bgdyn_runtime::Dd;
 
@@ -7,10 +7,10 @@ use super::{Located, Number};
 use crate::fault::{Fault, Location, wording};
 use crate::unit::{Dimension, Unit};
 
-/// Sizes a number may have unless it is 0: beyond them no product would be safe from overflow.
+/// Permitted sizes of nonzero numbers: with others, products could overflow.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// The number that stands at `location` as a scalar of the given kind.
+/// Parses the number at `location`, a scalar of the given kind.
 pub(super) fn number(
     kind: YamlKind,
     text: &str,
@@ -46,10 +46,10 @@ pub(super) fn number(
     })
 }
 
-/// The number that a text outside of any file writes, as `30 deg` or `0.5` on a command line.
+/// Parses a number outside of any file, such as `30 deg` or `0.5` on a command line.
 ///
 /// # Errors
-/// As for a number in a file: no number, a unit that is none or measures something else.
+/// As for a number in a file: no number, an unknown unit, or a unit of another dimension.
 pub fn quantity(text: &str, fit: &[Dimension]) -> Result<Number, Fault> {
     let bare = decimal(text).is_some_and(|(_, _, rest)| rest.is_empty());
     let kind = match bare {
@@ -59,7 +59,7 @@ pub fn quantity(text: &str, fit: &[Dimension]) -> Result<Number, Fault> {
     number(kind, text.trim(), &Location::file(), fit)
 }
 
-/// Whether a number with its unit measures one of `fit`.
+/// Returns a fault if the dimension of a number's unit is not one of `fit`.
 pub(crate) fn misfit(number: &Located<Number>, fit: &[Dimension]) -> Option<Fault> {
     let unit = number.value.unit?;
     let fits = fit.contains(&unit.dimension);
@@ -94,7 +94,7 @@ fn decimal(text: &str) -> Option<(&str, i32, &str)> {
     spaced.then_some((mantissa, exponent, rest.trim_start()))
 }
 
-/// Splits `e-3 mm` into −3 and ` mm`; what is no power of ten stays whole.
+/// Splits `e-3 mm` into −3 and ` mm`; a text that begins with no power of ten is not split.
 fn power(text: &str) -> (i32, &str) {
     let Some(after) = text.strip_prefix(['e', 'E']) else {
         return (0, text);
@@ -105,7 +105,7 @@ fn power(text: &str) -> (i32, &str) {
     match after[..end].trim_start_matches('+').parse::<i32>() {
         Ok(exponent) => (exponent, rest),
         Err(_) if unsigned.len() == rest.len() => (0, text),
-        // More digits than an i32 holds: far out of range either way.
+        // More digits than an i32 holds: out of range in both directions.
         Err(_) => (
             if after.starts_with('-') {
                 -1_000_000
@@ -139,7 +139,7 @@ fn value(mantissa: &str, exponent: i32, unit: Option<&'static Unit>) -> Option<D
     if zero {
         return Some(Dd::ZERO);
     }
-    // Powers of ten go into the decimal: 300 mm is read as 300e-3, not divided by 1000.
+    // Powers of ten are added to the decimal's exponent: 300 mm is read as 300e-3, not divided by 1000.
     let exponent = exponent.saturating_add(unit.map_or(0, |u| u.exponent));
     let decimal = format!("{}e{exponent}", mantissa.trim_start_matches('+'));
     let size = decimal.parse::<f64>().ok()?.abs();
@@ -147,7 +147,7 @@ fn value(mantissa: &str, exponent: i32, unit: Option<&'static Unit>) -> Option<D
         return None;
     }
     let number: Dd = decimal.parse().ok()?;
-    // The quotient first: 90/180 is exact, so that 90 deg is the very double-double of π/2.
+    // The quotient first: 90/180 is exact, so that 90 deg is exactly the double-double of π/2.
     let degrees = unit.is_some_and(|u| u.degrees);
     let number = if degrees {
         number / Dd::from_f64(180.0) * Dd::PI

@@ -1,4 +1,4 @@
-//! Reads a spec from the tree of a file: one function for each mapping of the format.
+//! Parses a spec from the tree of a file: one function for each mapping of the format.
 
 use super::walk::{At, Mapping, Reader};
 use super::yaml::{self, Data};
@@ -10,7 +10,7 @@ use crate::fault::{Faults, wording};
 use crate::unit::Dimension;
 use bgdyn_runtime::Dd;
 
-/// Reads a spec. What cannot be read is reported and left out, the rest is there.
+/// Parses a spec. Unreadable parts are reported and omitted; the rest is returned.
 pub fn parse(text: &str) -> (Option<Spec>, Faults) {
     let mut reader = Reader::default();
     let tree = yaml::read(text, &mut reader.faults);

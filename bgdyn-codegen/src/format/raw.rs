@@ -1,6 +1,6 @@
-//! Unparsed entries, whose keys are known to a later step only: effects, inputs, initial values.
+//! Unparsed entries, whose keys only a later step knows: effects, inputs, initial values.
 //!
-//! They keep the values and positions of the file until that step says what it expects.
+//! They store the values and positions of the file until that step states what it expects.
 
 use super::walk::{At, Reader};
 use super::yaml::{Data, YamlKind, YamlTree};
@@ -9,18 +9,18 @@ use crate::fault::wording::Wanted;
 use crate::fault::{Faults, Location};
 use crate::unit::Dimension;
 
-/// A named entry, unread.
+/// A named entry, not parsed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raw {
-    /// The key before it; for a bare word of a list, that word.
+    /// Its key; for a bare word of a list, that word.
     pub name: Located<String>,
-    /// What stands behind the key.
+    /// Location of its value.
     pub location: Location,
     /// `None` for a bare word of a list.
     tree: Option<YamlTree>,
 }
 
-/// What may stand behind a key.
+/// The type of a key's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reads {
     /// A number of one of these dimensions, or a run-time parameter. Two dimensions are those of a
@@ -36,7 +36,7 @@ pub enum Reads {
     Joints,
     /// The name of a link or a frame.
     Site,
-    /// The names of two of them.
+    /// The names of two links or frames.
     Sites,
     /// The name of a hydraulic node: a supply, a tank, a line, a cylinder's side.
     Node,
@@ -46,8 +46,8 @@ pub enum Reads {
     Vector(&'static [Dimension]),
     /// Some of these words.
     Words(&'static [&'static str]),
-    /// Numbers of these dimensions under names of their own, `com.x` for the key `com`; each a
-    /// number or a run-time parameter. Three may be a list.
+    /// Numbers of these dimensions with names of their own, `com.x` for the key `com`; each is a number or
+    /// a run-time parameter. Three may be a list.
     Group(&'static [&'static str], &'static [Dimension]),
 }
 
@@ -56,15 +56,15 @@ pub enum Reads {
 pub struct Key {
     /// Its name.
     pub name: &'static str,
-    /// What may stand behind it.
+    /// The type of its value.
     pub reads: Reads,
-    /// Whether it must be there.
+    /// Whether it is required.
     pub needed: bool,
-    /// What it means: one line of documentation.
+    /// Its meaning: one line of documentation.
     pub about: &'static str,
 }
 
-/// What was read behind a key.
+/// The parsed value of a key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParsedValue {
     /// A number.
@@ -77,21 +77,21 @@ pub enum ParsedValue {
     Vector(Box<Vector>),
     /// Words.
     Words(Vec<Located<String>>),
-    /// Numbers under names of their own.
+    /// Numbers with names of their own.
     Group(Vec<(&'static str, Located<Number>)>),
 }
 
-/// The keys of an entry with what was read behind them.
+/// The keys of an entry with their parsed values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fields(Vec<(&'static str, Located<ParsedValue>)>);
 
 impl Fields {
-    /// What stands behind a key.
+    /// Returns the value of a key.
     pub fn get(&self, key: &str) -> Option<&Located<ParsedValue>> {
         self.0.iter().find(|(k, _)| *k == key).map(|(_, e)| e)
     }
 
-    /// These, and those of `base` whose keys are missing here.
+    /// Returns these, and those of `base` for missing keys.
     pub fn over(mut self, base: &Fields) -> Fields {
         for (key, entry) in &base.0 {
             if self.get(key).is_none() {
@@ -101,20 +101,20 @@ impl Fields {
         self
     }
 
-    /// These without a key.
+    /// Returns these without a key.
     pub fn without(mut self, key: &str) -> Fields {
         self.0.retain(|(k, _)| *k != key);
         self
     }
 
-    /// These and a name behind a key.
+    /// Returns these with a name as the value of a key.
     pub fn with(mut self, key: &'static str, name: Located<String>) -> Fields {
         let (value, location) = (ParsedValue::Text(name.value), name.location);
         self.0.push((key, Located { value, location }));
         self
     }
 
-    /// The same as if they stood at this place: of another file.
+    /// Returns these with another location, of another file.
     pub fn placed(mut self, location: &Location) -> Fields {
         for (_, entry) in &mut self.0 {
             entry.location = location.clone();
@@ -161,17 +161,17 @@ impl Raw {
         })
     }
 
-    /// Whether keys stand behind it.
+    /// Returns whether it has keys.
     pub fn is_mapping(&self) -> bool {
         matches!(&self.tree, Some(tree) if matches!(tree.data, Data::Map(_)))
     }
 
-    /// Whether nothing stands behind it, not even nothing.
+    /// Returns whether it has no value, not even an empty one.
     pub fn is_bare(&self) -> bool {
         self.tree.is_none()
     }
 
-    /// The word behind it, if it is one.
+    /// Returns its value if that is a word.
     pub fn as_word(&self) -> Option<&str> {
         match &self.tree.as_ref()?.data {
             Data::Scalar {
@@ -182,8 +182,8 @@ impl Raw {
         }
     }
 
-    /// The word behind a key of its mapping, if it is one; whatever else is wrong is told when its
-    /// fields are read.
+    /// Returns the word of a key of its mapping, if it is one; other errors are reported when its fields
+    /// are parsed.
     pub fn peek(&self, key: &str) -> Option<Located<String>> {
         let Data::Map(entries) = &self.tree.as_ref()?.data else {
             return None;
@@ -201,13 +201,13 @@ impl Raw {
         }
     }
 
-    /// The entries of its mapping, unread.
+    /// Returns the entries of its mapping, not parsed.
     pub fn entries(&self, what: Wanted<'_>, faults: &mut Faults) -> Vec<Raw> {
         let read = |r: &mut Reader, at: &At<'_>| r.table(at, what);
         self.with(faults, read).unwrap_or_default()
     }
 
-    /// The items of its list, unread, each named after the entry.
+    /// Returns the items of its list, not parsed, each with the name of the entry.
     pub fn items(&self, what: Wanted<'_>, faults: &mut Faults) -> Option<Vec<Raw>> {
         self.with(faults, |r, at| {
             let items = r.list(at, what)?;
@@ -220,7 +220,7 @@ impl Raw {
         })
     }
 
-    /// The number behind it.
+    /// Returns its number.
     pub fn number(&self, fit: &[Dimension], faults: &mut Faults) -> Option<Located<Number>> {
         let value = self.with(faults, |r, at| r.number(at, fit))?;
         Some(Located {
@@ -229,7 +229,7 @@ impl Raw {
         })
     }
 
-    /// Its fields, where these keys are known. A value without keys is that of the first one.
+    /// Parses its fields with these keys. A value without keys belongs to the first one.
     pub fn fields(&self, what: Wanted<'_>, keys: &[Key], faults: &mut Faults) -> Option<Fields> {
         let Some(at) = self.at() else {
             return Some(Fields::default());
@@ -326,7 +326,7 @@ impl Reader {
         }
     }
 
-    /// Named numbers by their names; three of them also in their order.
+    /// Parses named numbers by their names; three of them also in their order.
     fn group(
         &mut self,
         at: &At<'_>,
@@ -350,7 +350,7 @@ impl Reader {
         (self.faults.count() == before).then_some(found)
     }
 
-    /// The entries of a mapping whose keys are names.
+    /// Returns the entries of a mapping whose keys are names.
     pub(super) fn table(&mut self, at: &At<'_>, what: Wanted<'_>) -> Option<Vec<Raw>> {
         let entries = self.names(at, what)?;
         Some(
@@ -361,7 +361,7 @@ impl Reader {
         )
     }
 
-    /// The items of a list: bare words, or mappings of one key.
+    /// Returns the items of a list: bare words, or mappings of one key.
     pub(super) fn calls(&mut self, at: &At<'_>, what: Wanted<'_>) -> Option<Vec<Raw>> {
         let items = self.list(at, what)?;
         let mut calls = Vec::new();

@@ -1,4 +1,4 @@
-//! The file of a scene as it was written.
+//! Parses the file of a scene.
 
 use super::index::root_keys;
 use super::walk::{At, Reader};
@@ -9,39 +9,39 @@ use crate::fault::{Faults, Location};
 /// A scene's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpec {
-    /// The file's mapping.
+    /// Location of the file's mapping.
     pub location: Location,
-    /// Whether everything in the file could be read; nothing is built from half a spec.
+    /// Whether everything in the file was parsed; nothing is built from an incomplete spec.
     pub complete: bool,
     /// Version of the format.
     pub version: Field<Number>,
     /// Name of the scene.
     pub name: Field<String>,
-    /// Text for the docs.
+    /// Text for the documentation.
     pub description: Field<String>,
-    /// Path of the mechanism's file, from this one.
+    /// Path of the mechanism's file, relative to this one.
     pub mechanism: Field<String>,
-    /// Joints that stand still, with their coordinates.
+    /// Locked joints, with their coordinates.
     pub lock: Field<Vec<Raw>>,
-    /// Whether all of `effects` could be read, or there is none.
+    /// Whether all of `effects` was parsed, or is absent.
     pub effects_read: bool,
-    /// The effects called for: words, or names with keys.
+    /// The effects of the scene: words, or names with keys.
     pub effects: Field<Vec<Raw>>,
-    /// What drives the inputs.
+    /// The sources of the inputs.
     pub inputs: Field<Vec<Raw>>,
-    /// Where the run begins.
+    /// The initial state.
     pub initial: Field<Vec<Raw>>,
-    /// What is wanted of it.
+    /// The outputs.
     pub outputs: Field<Vec<Raw>>,
-    /// How it is run.
+    /// The integration.
     pub integration: Field<Raw>,
 }
 
-/// The key that makes a file a scene's.
+/// The key that marks the file of a scene.
 const SCENE: &str = "scene";
 
-/// Whether the text is a scene's: it has the key `scene`, in any place, and not `format` before it. Without
-/// either: it names a mechanism and has no links.
+/// Returns whether the text is a scene: it has the key `scene`, at any position, and not `format` before
+/// it. A text without either key is a scene if it names a mechanism and has no links.
 pub fn is_scene(text: &str) -> bool {
     let keys = root_keys(text);
     let has = |wanted: &str| keys.iter().any(|key| key == wanted);
@@ -54,7 +54,7 @@ pub fn is_scene(text: &str) -> bool {
     }
 }
 
-/// Reads a scene. What cannot be read is reported and left out, the rest is there.
+/// Parses a scene. Unreadable parts are reported and omitted; the rest is returned.
 pub fn parse_scene(text: &str) -> (Option<SceneSpec>, Faults) {
     let mut reader = Reader::default();
     let tree = yaml::read(text, &mut reader.faults);
@@ -62,7 +62,7 @@ pub fn parse_scene(text: &str) -> (Option<SceneSpec>, Faults) {
     let complete = !reader.faults.any_fault();
     reader.faults.sort();
     let effects_read = |spec: &SceneSpec| match spec.effects {
-        // An unknown key may be meant for it.
+        // An unknown key may be a misspelling of it.
         Field::Absent => complete,
         _ => !reader.faults.any_in("effects"),
     };

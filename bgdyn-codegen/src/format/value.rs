@@ -5,16 +5,16 @@ use bgdyn_runtime::Dd;
 use super::Located;
 use crate::unit::Unit;
 
-/// A number as written.
+/// A number in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
     /// Its value in SI units, read as a decimal.
     pub value: Dd,
-    /// The unit written behind it.
+    /// Its unit in the file.
     pub unit: Option<&'static Unit>,
-    /// As it stands in the file.
+    /// Its text in the file.
     pub text: String,
-    /// Name of the run-time parameter whose default it is, if it is written as one.
+    /// Name of the run-time parameter with this default, if it is one.
     pub parameter: Option<Located<String>>,
 }
 

@@ -1,4 +1,4 @@
-//! Typed readers of mappings, lists, texts and numbers, which note every fault and continue.
+//! Typed readers of mappings, lists, texts and numbers, which report every fault and continue.
 
 use super::number::number;
 use super::yaml::{Data, YamlEntry, YamlKind, YamlTree};
@@ -25,7 +25,7 @@ pub(super) struct Mapping<'t> {
     merged: bool,
 }
 
-/// Notes what is wrong along the way.
+/// Reads values and records faults.
 #[derive(Debug, Default)]
 pub(super) struct Reader {
     pub(super) faults: Faults,
@@ -81,7 +81,7 @@ fn join(path: &str, key: &str) -> String {
 }
 
 impl Reader {
-    /// The mapping at `at`, its unknown and repeated keys reported.
+    /// Returns the mapping at `at`; reports its unknown and repeated keys.
     pub(super) fn mapping<'t>(
         &mut self,
         at: &At<'t>,
@@ -136,7 +136,7 @@ impl Reader {
         mapping.entries.push(entry);
     }
 
-    /// The entries of a mapping whose keys are names, repeated ones reported.
+    /// Returns the entries of a mapping whose keys are names; reports repeated ones.
     pub(super) fn names<'t>(
         &mut self,
         at: &At<'t>,
@@ -184,7 +184,7 @@ impl Reader {
         Some(found)
     }
 
-    /// The value of `key`, read by `read`.
+    /// Returns the value of `key`, parsed by `read`.
     pub(super) fn field<'t, T>(
         &mut self,
         mapping: &Mapping<'t>,
@@ -192,7 +192,7 @@ impl Reader {
         read: impl FnOnce(&mut Self, &At<'t>) -> Option<T>,
     ) -> Field<T> {
         let Some(at) = mapping.get(key) else {
-            // What a merge key would have brought is not missing on top of it.
+            // A key that a merge key would have provided is not reported as missing.
             return if mapping.merged {
                 Field::Broken
             } else {
@@ -208,7 +208,7 @@ impl Reader {
         }
     }
 
-    /// The value of a key that must be there.
+    /// Returns the value of a required key.
     pub(super) fn needed<'t, T>(
         &mut self,
         mapping: &Mapping<'t>,
@@ -225,7 +225,7 @@ impl Reader {
         field
     }
 
-    /// The items of a list.
+    /// Returns the items of a list.
     pub(super) fn list<'t>(&mut self, at: &At<'t>, what: Wanted<'_>) -> Option<Vec<At<'t>>> {
         self.refuse_tag(at);
         if self.refuse_parameter(at) {
@@ -245,7 +245,7 @@ impl Reader {
         )
     }
 
-    /// A text; a number or a truth value is none.
+    /// Returns a text; a number or a truth value is an error.
     pub(super) fn text(&mut self, at: &At<'_>) -> Option<String> {
         self.refuse_tag(at);
         if self.refuse_parameter(at) {
@@ -267,7 +267,7 @@ impl Reader {
         }
     }
 
-    /// A number of one of the dimensions `fit`.
+    /// Returns a number of one of the dimensions `fit`.
     pub(super) fn number(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Number> {
         self.refuse_tag(at);
         if self.refuse_parameter(at) {
@@ -290,7 +290,7 @@ impl Reader {
             .ok()
     }
 
-    /// A number of one of the dimensions `fit`, or a run-time parameter that has it as its default.
+    /// Returns a number of one of the dimensions `fit`, or a run-time parameter with this default.
     pub(super) fn value(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Number> {
         if !matches!(at.tree.data, Data::Map(_)) {
             return self.number(at, fit);
@@ -315,12 +315,12 @@ impl Reader {
         })
     }
 
-    /// Three numbers.
+    /// Returns three numbers.
     pub(super) fn vector(&mut self, at: &At<'_>, fit: &[Dimension]) -> Option<Vector> {
         self.triple(at, |r, at| r.number(at, fit))
     }
 
-    /// Three numbers, each read by `read`.
+    /// Returns three numbers, each parsed by `read`.
     pub(super) fn triple(
         &mut self,
         at: &At<'_>,
@@ -349,7 +349,7 @@ impl Reader {
             .ok()
     }
 
-    /// Notes a run-time parameter where none may stand, and says whether there is one.
+    /// Reports a run-time parameter where none is permitted, and returns whether there is one.
     fn refuse_parameter(&mut self, at: &At<'_>) -> bool {
         let found = is_parameter(at.tree);
         if found {
@@ -365,13 +365,13 @@ impl Reader {
     }
 }
 
-/// Whether the tree is written as a run-time parameter.
+/// Returns whether the tree is a run-time parameter.
 fn is_parameter(tree: &YamlTree) -> bool {
     let named = |entry: &YamlEntry| entry.key.as_deref() == Some(PARAMETER);
     matches!(&tree.data, Data::Map(entries) if entries.iter().any(named))
 }
 
-/// What stands at a place, for messages.
+/// Describes a value, for messages.
 fn describe(tree: &YamlTree) -> String {
     match &tree.data {
         Data::List(items) => format!("a list of {}", items.len()),

@@ -1,7 +1,7 @@
-//! Reads YAML text into a tree of typed values with positions.
+//! Parses YAML text into a tree of typed values with positions.
 //!
-//! serde_yaml tells the type of every value (`1.5` a number, `x` a text, `~` nothing); the index
-//! tells where it stands and how it was written, so that numbers keep their decimals.
+//! serde_yaml determines the type of every value (`1.5` is a number, `x` a text, `~` null); the index
+//! provides its position and text, so that numbers retain their decimals.
 
 use serde::de::{
     Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
@@ -10,7 +10,7 @@ use serde::de::{
 use super::index::{NodeShape, TextNode, index};
 use crate::fault::{Fault, Faults, Position, wording};
 
-/// A typed value and where it stands.
+/// A typed value and its position.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct YamlTree {
     pub(super) position: Position,
@@ -18,7 +18,7 @@ pub(super) struct YamlTree {
     pub(super) data: Data,
 }
 
-/// What a value is.
+/// The content of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Data {
     Scalar { kind: YamlKind, text: String },
@@ -43,7 +43,7 @@ pub(super) struct YamlEntry {
     pub(super) value: YamlTree,
 }
 
-/// The file's tree, if its YAML is sound.
+/// Returns the file's tree, if its YAML is valid.
 pub(super) fn read(text: &str, faults: &mut Faults) -> Option<YamlTree> {
     match tree(text) {
         Ok(tree) => Some(tree),
@@ -115,7 +115,7 @@ fn entry(key: &TextNode, value: &TextNode, typed: Typed) -> Result<YamlEntry, Fa
     })
 }
 
-/// The types that serde_yaml sees; repeated keys stay, so that the reader can show both.
+/// The types according to serde_yaml; repeated keys are retained, so that the reader can report both.
 enum Typed {
     Scalar(YamlKind),
     List(Vec<Typed>),

@@ -5,7 +5,7 @@ use crate::expr::{Builder, Expr, Leaf};
 use crate::mechanism::{ParameterId, Value};
 use crate::method::{Argument, Method};
 
-/// The arguments of a method as expressions; what it does not take is zero.
+/// The arguments of a method as expressions; quantities that are no arguments are zero.
 pub(super) struct Arguments<'g> {
     /// Positions.
     pub q: Vec<Expr<'g>>,
@@ -15,12 +15,12 @@ pub(super) struct Arguments<'g> {
     pub a: Vec<Expr<'g>>,
     /// Joint efforts.
     pub tau: Vec<Expr<'g>>,
-    /// Whether the active efforts act.
+    /// Whether the active efforts are included.
     pub active: bool,
 }
 
 impl<'g> Arguments<'g> {
-    /// Those that the method takes.
+    /// Returns the arguments of a method.
     pub fn new(b: &'g Builder, graph: &Multibody, method: Method) -> Self {
         let n = graph.coordinates.len();
         let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Expr<'g>> {
@@ -29,8 +29,8 @@ impl<'g> Arguments<'g> {
                 .collect()
         };
         let takes = |argument| method.arguments().contains(&argument);
-        // Kinetic energy and velocities of frames always take the true velocities, even where
-        // velocity products are switched off.
+        // Kinetic energy and velocities of frames always use the true velocities, also without velocity
+        // products.
         let kinematic = method.site().is_some() || method == Method::KineticEnergy;
         let turning = graph.velocity_products || kinematic;
         Arguments {
@@ -43,17 +43,17 @@ impl<'g> Arguments<'g> {
     }
 }
 
-/// What a rotor adds to a joint's inertia: N² J.
+/// Returns the inertia that a rotor adds to a joint: N² J.
 pub(super) fn reflected<'g>(b: &'g Builder, rotor: &Rotor) -> Expr<'g> {
     spin(b, rotor) * value(b, rotor.ratio)
 }
 
-/// Momentum of a rotor about its axis per unit rate of the joint: N J.
+/// Returns the momentum of a rotor about its axis per unit rate of the joint: N J.
 pub(super) fn spin<'g>(b: &'g Builder, rotor: &Rotor) -> Expr<'g> {
     value(b, rotor.inertia) * value(b, rotor.ratio)
 }
 
-/// A number of the spec as an expression.
+/// Returns a number of the spec as an expression.
 pub(super) fn value<'g>(b: &'g Builder, value: Value) -> Expr<'g> {
     match value {
         Value::Fixed(x) => b.constant(x),

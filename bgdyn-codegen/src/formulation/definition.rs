@@ -1,4 +1,4 @@
-//! What a formulation is: its name, its offer for each method, its functions.
+//! The trait of formulations: name, offer for each method, functions.
 
 use super::prepared::Prepared;
 use crate::function::Function;
@@ -6,27 +6,27 @@ use crate::method::Method;
 
 /// A way to compute methods from the bond graph.
 pub trait Formulation: Sync {
-    /// The name by which it is asked for.
+    /// Returns its name, by which the user can select it.
     fn name(&self) -> &'static str;
 
-    /// One line: how it groups equation (6).
+    /// Returns one line: how it groups equation (6).
     fn summary(&self) -> &'static str;
 
-    /// Whether it knows the method, or what the method is derived from.
+    /// Returns whether it supports the method, or the method that this one is derived from.
     fn knows(&self, _: Method) -> bool {
         true
     }
 
-    /// How it offers itself for a method that it knows, where no formulation is asked for.
+    /// Returns its offer for a method that it supports, if no formulation is selected.
     fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer;
 
-    /// The other methods whose functions it is made of: [`Prepared::function`] has them when
+    /// Returns the other methods whose functions it uses: [`Prepared::function`] returns them when
     /// [`Formulation::function`] is called.
     fn reads(&self, _: Method) -> &'static [Method] {
         &[]
     }
 
-    /// The method's function; `None` where this formulation does not make it for this mechanism.
+    /// Returns the method's function; `None` if this formulation cannot create it for this mechanism.
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function>;
 }
 
@@ -36,17 +36,18 @@ impl std::fmt::Debug for dyn Formulation {
     }
 }
 
-/// How a formulation offers itself for one method of one mechanism.
+/// The offer of a formulation for one method of one mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Offer {
-    /// Made only where it is asked for by name.
+    /// Created only if selected by name.
     Never,
-    /// Made where nothing else keeps its digits, not even a reserve.
+    /// Created if no other function, not even a reserve, meets the error bounds.
     LastResort,
-    /// Made where no candidate keeps its digits, or where there is none.
+    /// Created if no candidate meets the error bounds, or if there is none.
     Reserve,
-    /// Made and compared with the other candidates.
+    /// Created and compared with the other candidates.
     Candidate,
-    /// Made in place of the candidates; why, where a reader of the function should know.
+    /// Created in place of the candidates; with the reason, if it is of interest to readers of the
+    /// function.
     Instead(Option<String>),
 }

@@ -1,9 +1,9 @@
-//! Formulations: equation (6) regrouped, each a way to compute the methods from the bond graph.
+//! Formulations: regroupings of equation (6), each of which computes the methods from the bond graph.
 //!
-//! One file or folder each, one line each in [`FORMULATIONS`]. The literal sum is the
-//! specification; the others must equal it. A formulation gets the mechanism [`Prepared`], makes an
-//! [`Offer`] for each method, and writes the function. What is taken is decided in `choice/`, by cost
-//! and by the errors that `conditioning/` measures: nothing here knows either.
+//! One file or folder each, one line each in [`FORMULATIONS`]. The literal sum is the specification; the
+//! others must equal it. A formulation receives the mechanism as [`Prepared`], makes an [`Offer`] for each
+//! method, and creates the function. `choice/` chooses among the functions, by cost and by the errors that
+//! `conditioning/` measures; formulations depend on neither.
 
 mod arguments;
 mod definition;
@@ -25,7 +25,7 @@ pub(crate) use solve::ltdl as solve_symmetric;
 /// The name of the literal sum.
 pub(crate) const LITERAL: &str = literal::NAME;
 
-/// Every formulation that can be asked for.
+/// All formulations that the user can select.
 pub static FORMULATIONS: [&dyn Formulation; 6] = [
     &literal::Literal,
     &recursion::Recursion,
@@ -35,19 +35,19 @@ pub static FORMULATIONS: [&dyn Formulation; 6] = [
     &recursion::Articulated::Base,
 ];
 
-/// Formulations that differentiate the functions chosen for other methods. They offer themselves
-/// whichever formulation is asked for, as those functions are that one's.
+/// Formulations that differentiate the functions chosen for other methods. They make offers for any
+/// selected formulation, because those functions belong to it.
 pub(crate) static DERIVED: [&dyn Formulation; 2] = [
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
 ];
 
-/// The literal sum of equation (6), which every other formulation must equal.
+/// Returns the literal sum of equation (6), which every other formulation must equal.
 pub fn specification() -> &'static dyn Formulation {
     &literal::Literal
 }
 
-/// The formulation with this name.
+/// Returns the formulation with this name.
 pub fn by_name(name: &str) -> Option<&'static dyn Formulation> {
     FORMULATIONS.into_iter().find(|f| f.name() == name)
 }

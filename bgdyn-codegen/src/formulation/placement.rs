@@ -1,4 +1,4 @@
-//! Where the link frames are: A_i(q), their origins and the joints' axes, in fixed axes.
+//! Poses of the link frames: A_i(q), their origins and the joints' axes, in fixed axes.
 
 use bgdyn_runtime::Dd;
 
@@ -7,7 +7,7 @@ use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::{LinkId, Motion};
 
-/// Placement of every link frame.
+/// Pose of every link frame.
 pub(super) struct Placement<'g> {
     /// A_i: link axes in fixed axes.
     pub(super) rotations: Vec<Mat3<Expr<'g>>>,
@@ -18,7 +18,7 @@ pub(super) struct Placement<'g> {
 }
 
 impl<'g> Placement<'g> {
-    /// From the base outwards.
+    /// Computes the poses from the base to the tips.
     pub(super) fn new(b: &'g Builder, graph: &Multibody, q: &[Expr<'g>]) -> Self {
         let mut placed = Placement {
             rotations: Vec::new(),
@@ -48,7 +48,7 @@ impl<'g> Placement<'g> {
         placed
     }
 
-    /// A point of link i, given in its axes.
+    /// Returns a point of link i, given in its axes.
     pub(super) fn point(&self, i: usize, p: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         self.origins[i] + self.rotations[i] * p
     }

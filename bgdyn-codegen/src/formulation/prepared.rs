@@ -1,4 +1,4 @@
-//! What formulations are given of one mechanism: its bond graph, its geometry, and what is computed once.
+//! The data that formulations receive about a mechanism: its bond graph, its geometry, and cached results.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -13,29 +13,30 @@ use crate::method::Method;
 /// A function for a method.
 #[derive(Clone)]
 pub(crate) struct Candidate {
-    /// As its formulation writes it: other functions are made of it.
+    /// In the form of its formulation, for use in other functions.
     pub plain: Function,
-    /// As it is generated.
+    /// In the generated form.
     pub generated: Function,
 }
 
-/// The functions for a method, sorted by the choice.
+/// The functions for a method, sorted by `choice/`.
 #[derive(Clone, Default)]
 pub(crate) struct Candidates {
-    /// Those that keep their digits, the cheapest first; where none does, the one that loses least.
+    /// Those that meet the error bounds, the cheapest first; if there are none, the one closest to the
+    /// bounds.
     pub accepted: Vec<Candidate>,
-    /// Those that exceed an error bound by a digit at most: derivatives may rest on them.
+    /// Those that exceed an error bound by at most one digit: derivatives may use them.
     pub borderline: Vec<Candidate>,
 }
 
-/// The functions for a method, and the one that is generated.
+/// The functions for a method, and the generated one.
 struct Chosen {
     candidates: Rc<Candidates>,
     function: Option<Rc<Function>>,
 }
 
-/// A mechanism, prepared for formulations. It remembers what several of them compute, and holds the
-/// chosen functions of methods that others are made of.
+/// A mechanism, prepared for formulations. It caches results that several formulations need, and stores
+/// the chosen functions of methods that others use.
 pub struct Prepared<'a> {
     /// The mechanism's bond graph.
     pub graph: &'a BondGraph,
@@ -46,7 +47,7 @@ pub struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Nothing computed yet.
+    /// Returns a preparation without cached results.
     pub fn new(graph: &'a BondGraph) -> Self {
         Prepared {
             graph,
@@ -56,31 +57,32 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// The chosen function of another method; `None` unless [`super::Formulation::reads`] names it.
+    /// Returns the chosen function of another method; `None` unless [`super::Formulation::reads`] names
+    /// it.
     pub fn function(&self, method: Method) -> Option<Rc<Function>> {
         self.chosen.borrow().get(&method)?.function.clone()
     }
 
-    /// All functions of another method that derivatives may rest on, under the same condition.
+    /// Returns all functions of another method that derivatives may use, under the same condition.
     pub(super) fn candidates(&self, method: Method) -> Rc<Candidates> {
         let chosen = self.chosen.borrow();
         let known = chosen.get(&method).map(|chosen| chosen.candidates.clone());
         known.unwrap_or_default()
     }
 
-    /// The frames of the recursion.
+    /// Returns the frames of the recursion.
     pub(crate) fn geometry(&self) -> &Geometry {
         self.geometry.get_or_init(|| geometry(self.graph))
     }
 
-    /// What was chosen for a method, if anything was.
+    /// Returns the choice for a method, if it was made.
     pub(crate) fn chosen(&self, method: Method) -> Option<(Rc<Candidates>, Option<Rc<Function>>)> {
         let chosen = self.chosen.borrow();
         let chosen = chosen.get(&method)?;
         Some((chosen.candidates.clone(), chosen.function.clone()))
     }
 
-    /// Notes what is chosen for a method.
+    /// Stores the choice for a method.
     pub(crate) fn choose(
         &self,
         method: Method,

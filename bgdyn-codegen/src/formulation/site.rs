@@ -1,4 +1,4 @@
-//! What a site's methods return, from its pose and the columns of its Jacobian.
+//! Computes the results of a site's methods from its pose and the columns of its Jacobian.
 
 use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
 use crate::math::{Mat3, Vec3};
@@ -13,18 +13,18 @@ pub(super) struct JacobianColumn<'g> {
     pub(super) linear: Vec3<Expr<'g>>,
 }
 
-/// Pose of a site and how the joints move it, fixed axes.
+/// Pose of a site and its Jacobian, fixed axes.
 pub(super) struct SiteMotion<'g> {
     /// Its axes.
     pub(super) rotation: Mat3<Expr<'g>>,
     /// Its origin, m.
     pub(super) origin: Vec3<Expr<'g>>,
-    /// A column per coordinate; `None` where it moves nothing.
+    /// A column per coordinate; `None` if the coordinate does not move it.
     pub(super) columns: Vec<Option<JacobianColumn<'g>>>,
 }
 
 impl<'g> SiteMotion<'g> {
-    /// The expressions of one of a site's methods.
+    /// Returns the expressions of one of a site's methods.
     pub(super) fn outputs(&self, b: &'g Builder, method: Method, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
         match method {
             Method::Pose(_) => self
@@ -41,7 +41,7 @@ impl<'g> SiteMotion<'g> {
         }
     }
 
-    /// Σ columns · v, angular part first.
+    /// Returns Σ columns · v, angular part first.
     fn velocity(&self, b: &'g Builder, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let (mut angular, mut linear) = (Vec3([b.zero(); 3]), Vec3([b.zero(); 3]));
         for (column, &rate) in self.columns.iter().zip(v) {
@@ -70,7 +70,7 @@ impl<'g> SiteMotion<'g> {
     }
 }
 
-/// Rates of change along the motion, the velocities held.
+/// Returns rates of change along the motion, at constant velocities.
 fn rates<'g>(b: &'g Builder, x: &[Expr<'g>], v: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let velocities: Vec<_> = v.iter().map(|v| v.signed()).collect();
     let mut rate = Tangent::new(|_: &mut Graph, leaf| match leaf {

@@ -1,10 +1,10 @@
-//! M x = f for a symmetric positive definite M, unrolled.
+//! Solves M x = f for a symmetric positive definite M, unrolled.
 
 use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Expr};
 
-/// The factors of M = Lᵀ D L, from the last coordinate to the first, which keeps the zeros of a
+/// The factors of M = Lᵀ D L, from the last coordinate to the first, which preserves the zeros of a
 /// branching mechanism (Featherstone 2005). Every pivot is checked.
 struct PivotFactor<'g> {
     b: &'g Builder,
@@ -22,8 +22,8 @@ impl<'g> PivotFactor<'g> {
         let mut inverse = vec![b.zero(); n];
         b.section(|| "M = Lᵀ D L, from the last joint to the first".into());
         for k in (0..n).rev() {
-            // Only what was really subtracted can have lost digits; what folded to a number was
-            // subtracted in double-double, which tells a small rest from nothing.
+            // Only subtractions at run time can lose digits; folded numbers were subtracted in
+            // double-double, which distinguishes a small difference from zero.
             let folded = mass[k][k].as_constant().is_some();
             let magnitude = if folded || mass[k][k] == original[k] {
                 b.zero()
@@ -56,7 +56,7 @@ impl<'g> PivotFactor<'g> {
         }
     }
 
-    /// x of M x = f: Lᵀ y = f, then L x = D⁻¹ y.
+    /// Solves M x = f: Lᵀ y = f, then L x = D⁻¹ y.
     fn solve(&self, mut x: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
         let n = x.len();
         self.b.section(|| "Lᵀ y = f, L x = D⁻¹ y".into());
@@ -75,7 +75,7 @@ impl<'g> PivotFactor<'g> {
     }
 }
 
-/// Solves M x = f for one f.
+/// Solves M x = f for one right-hand side.
 pub(crate) fn ltdl<'g>(
     b: &'g Builder,
     mass: Vec<Vec<Expr<'g>>>,

@@ -1,4 +1,4 @@
-//! The interface of a module whose spec is refused: its dimensions and the names of its parts.
+//! Guesses the interface of a module whose spec is refused: its dimensions and the names of its parts.
 
 mod scene;
 
@@ -7,26 +7,26 @@ use crate::mechanism::joint::{JOINT_TYPES, Motion};
 use crate::name::is_identifier;
 pub use scene::SceneInterface;
 
-/// The interface of a module without the mechanism behind it.
+/// The interface of a module without its mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interface {
     /// The module's name.
     pub name: String,
-    /// Names of the moving joints; empty where the spec gives none.
+    /// Names of the moving joints; empty if the spec gives none.
     pub joints: Vec<String>,
-    /// Names of the links; empty where the spec gives none.
+    /// Names of the links; empty if the spec gives none.
     pub links: Vec<String>,
-    /// Names of the frames; empty where the spec gives none.
+    /// Names of the frames; empty if the spec gives none.
     pub frames: Vec<String>,
     /// Names of the run-time parameters.
     pub parameters: Vec<String>,
-    /// Whether the mended spec will surely have as many joints.
+    /// Whether the corrected spec will certainly have this number of joints.
     pub certain: bool,
 }
 
 impl Interface {
-    /// The interface that the author of the spec most likely means. Nothing where the stem cannot
-    /// name a module.
+    /// Returns the interface that the author of the spec most likely means. `None` if the stem cannot name
+    /// a module.
     pub fn guess(text: &str, stem: &str) -> Option<Self> {
         if !is_identifier(stem) {
             return None;
@@ -70,7 +70,7 @@ fn frames(spec: &Spec) -> Vec<String> {
         .collect()
 }
 
-/// The name of the link's joint, if it seems to move.
+/// Returns the name of the link's joint, if it seems to be a moving one.
 fn moving_joint(link: &LinkSpec) -> Option<String> {
     let joint = match &link.joint {
         Field::Absent => return None,
@@ -81,7 +81,7 @@ fn moving_joint(link: &LinkSpec) -> Option<String> {
     (!fixed).then(|| joint.name.value().cloned().unwrap_or_default())
 }
 
-/// Whether a fault at this path leaves it open how many joints there are.
+/// Returns whether a fault at this path makes the number of joints uncertain.
 fn shapes_the_tree(path: &str) -> bool {
     let mut parts = path.split('.');
     let links = parts.next().unwrap_or_default();
@@ -92,8 +92,8 @@ fn shapes_the_tree(path: &str) -> bool {
     matches!(rest.as_slice(), [] | ["joint"] | ["joint", "type"])
 }
 
-/// The identifiers that stand behind a key `parameter`, each once: in the text, since a list with
-/// one bad number keeps none of its parameters.
+/// Returns the values of the keys `parameter` that are identifiers, each once. They are found in the text,
+/// because a list with one invalid number has no parameters after parsing.
 fn parameter_words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let lines = text.lines().filter_map(|line| line.split('#').next());
@@ -108,8 +108,8 @@ fn parameter_words(text: &str) -> Vec<String> {
     words
 }
 
-/// How many words of the text name a moving joint type: all there is to go by where the text is no
-/// YAML.
+/// Returns the number of words in the text that are moving joint types; the only information in a text
+/// that is no YAML.
 fn moving_words(text: &str) -> usize {
     let moving = |word: &str| {
         JOINT_TYPES

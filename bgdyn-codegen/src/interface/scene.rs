@@ -1,4 +1,4 @@
-//! The names in a scene's module, for sound scenes and for refused ones.
+//! The names in a scene's module, for valid scenes and for refused ones.
 
 use std::collections::BTreeSet;
 
@@ -11,20 +11,20 @@ use crate::name::is_identifier;
 use crate::scene::{self, Initial, MomentumStore, StateCoordinate, StateLayout, Variable};
 use crate::system::{Named, SceneEquations};
 
-/// The interface of a scene's module without the functions behind it.
+/// The interface of a scene's module without its functions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneInterface {
     /// The scene's name.
     pub name: String,
-    /// What the state and the inputs are made of.
+    /// The layout of the state and the inputs.
     pub layout: StateLayout,
-    /// Where the scene begins.
+    /// The initial state.
     pub initial: Initial,
     /// The parts of its outputs.
     pub outputs: Vec<Named>,
     /// The entries of its balance of power.
     pub entries: Vec<Named>,
-    /// The coordinate that each mode may hold.
+    /// The coordinate that each mode can hold.
     pub mode_coordinates: Vec<usize>,
     /// The instants, s, at which an input bends, in increasing order.
     pub corners: Vec<f64>,
@@ -33,7 +33,7 @@ pub struct SceneInterface {
 }
 
 impl SceneInterface {
-    /// Of a sound scene.
+    /// Returns the interface of a valid scene.
     pub fn of(system: &SceneEquations) -> Self {
         SceneInterface {
             name: system.scene.name.clone(),
@@ -47,8 +47,8 @@ impl SceneInterface {
         }
     }
 
-    /// The interface that the author of a refused scene most likely means. `mechanism` is the text
-    /// and the stem of the mechanism's file. Nothing where the scene's stem cannot name a module.
+    /// Returns the interface that the author of a refused scene most likely means. `mechanism` is the text
+    /// and the stem of the mechanism's file. `None` if the scene's stem cannot name a module.
     pub fn guess(text: &str, stem: &str, mechanism: Option<(&str, &str)>) -> Option<Self> {
         if !is_identifier(stem) {
             return None;
@@ -73,7 +73,7 @@ impl SceneInterface {
         Some(guess)
     }
 
-    /// What the file names and nothing declares: parts that the mended scene will have.
+    /// Adds names that the file uses and nothing declares: parts that the corrected scene will have.
     fn add_words(&mut self, spec: &SceneSpec) {
         fn words(field: Option<&Vec<Raw>>) -> impl Iterator<Item = String> {
             let names = field
@@ -117,7 +117,7 @@ impl SceneInterface {
         }
     }
 
-    /// A name that stands twice would be a mistake in the module as well.
+    /// Removes repeated names, which would be errors in the module as well.
     fn each_name_once(&mut self) {
         let new = |seen: &mut BTreeSet<String>, name: &str| seen.insert(name.to_owned());
         let layout = &mut self.layout;
@@ -147,7 +147,7 @@ impl SceneInterface {
     }
 }
 
-/// What a scene that is not sound has all the same.
+/// Returns the known parts of an invalid scene.
 fn sketched(spec: &SceneSpec, machine: &Machine) -> SceneInterface {
     let (layout, asked) = scene::sketch(spec, machine, &effect::kinds());
     let sites = bond_graph::build(&machine.mechanism).multibody.sites;
@@ -164,7 +164,7 @@ fn sketched(spec: &SceneSpec, machine: &Machine) -> SceneInterface {
     }
 }
 
-/// The joints that a mechanism's text seems to have.
+/// Returns the joints that a mechanism's text seems to have.
 fn joints(mechanism: &str) -> SceneInterface {
     let known = super::Interface::guess(mechanism, "mechanism");
     let names = known.into_iter().flat_map(|known| known.joints);

@@ -1,4 +1,4 @@
-//! The check of a spec: the only code that constructs a [`Mechanism`], and the faults that prevent it.
+//! Checks a spec: the only code that constructs a [`Mechanism`], and the faults that prevent it.
 
 mod direction;
 mod inertia;
@@ -19,14 +19,14 @@ pub(crate) use inertia::check_tensor;
 use order::LinkTree;
 use parameters::Parameters;
 
-/// The only version of the format there is.
+/// The only version of the format.
 const FORMAT: u32 = 1;
 
-/// Checks the links, joints and frames of a spec against every rule. `stem` is the file's name without
-/// its ending, if there is a file; only what stands before its first dot counts. `methods` are names
-/// that no run-time parameter may have.
+/// Checks the links, joints and frames of a spec against every rule. `stem` is the file's name without its
+/// extension, if there is a file; only the part before its first dot is used. `methods` are names that no
+/// run-time parameter may have.
 ///
-/// The mechanism is there where one can be put together. It is sound where there is no fault.
+/// The mechanism is returned if it can be built. It is valid if there is no fault.
 pub(crate) fn check(
     spec: &Spec,
     stem: Option<&str>,
@@ -87,7 +87,7 @@ fn standard_gravity() -> Vec3<Dd> {
     Vec3([Dd::ZERO, Dd::ZERO, down])
 }
 
-/// A link without its place in the tree.
+/// A link before its insertion in the tree.
 struct CheckedLink {
     name: String,
     label: Option<String>,
@@ -111,7 +111,8 @@ fn body(
     })
 }
 
-/// Where a number may be a run-time parameter. Its default obeys the rules for numbers.
+/// Checks inertial parameters, which may be run-time parameters. Their defaults obey the rules for
+/// numbers.
 fn inertial(
     link: &format::LinkSpec,
     directions: &Directions,
@@ -164,7 +165,7 @@ fn frame(
     })
 }
 
-/// The links in their order, and the link of every coordinate.
+/// Returns the links in their order, and the link of every coordinate.
 fn assemble(
     mut bodies: Vec<Option<CheckedLink>>,
     tree: &LinkTree<'_>,

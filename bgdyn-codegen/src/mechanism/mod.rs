@@ -1,7 +1,7 @@
 //! The checked mechanism: always valid, with parent links before their children.
 //!
-//! Only [`crate::machine::check`] can construct a [`Mechanism`]; nothing later checks again or fails on what a
-//! user wrote. Numbers are double-double, as the spec's decimals were read.
+//! Only [`crate::machine::check`] can construct a [`Mechanism`]; no later step checks again or fails
+//! because of the user's input. Numbers are double-double, parsed from the spec's decimals.
 
 mod check;
 pub mod joint;
@@ -48,11 +48,11 @@ pub enum Value {
 pub struct Parameter {
     /// Field name in the generated struct.
     pub name: String,
-    /// What it stands for: "mass of link `tool`"; several places with "and".
+    /// Its meaning: "mass of link `tool`"; several meanings are joined with "and".
     pub meaning: String,
-    /// The spec's value, which `Default` takes.
+    /// The spec's value, which is that of `Default`.
     pub default: Dd,
-    /// SI unit, for the docs (`kg`, `m`, …).
+    /// SI unit, for the documentation (`kg`, `m`, …).
     pub unit: &'static str,
 }
 
@@ -62,12 +62,12 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// A fixed placement: axes and origin of one frame in another.
+/// A constant pose: axes and origin of one frame in another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Columns are the axes of the placed frame in the other one.
+    /// Columns are the axes of the inner frame in the outer one.
     pub rotation: Mat3<Dd>,
-    /// Origin of the placed frame in the other one, m.
+    /// Origin of the inner frame in the outer one, m.
     pub translation: Vec3<Dd>,
 }
 
@@ -95,7 +95,7 @@ pub struct Inertial {
 }
 
 impl Inertial {
-    /// Whether any of it is a run-time parameter.
+    /// Returns whether any of them is a run-time parameter.
     pub fn varies(&self) -> bool {
         let mut values = self.com.0.iter().chain(&self.inertia.entries);
         let varies = |value: &Value| matches!(value, Value::Parameter(_));
@@ -108,12 +108,12 @@ impl Inertial {
 pub struct Tensor {
     /// xx, yy, zz, xy, xz, yz (tensor entries), kg·m².
     pub entries: [Value; 6],
-    /// Columns: the entries' axes in the link's. The identity unless an entry is a run-time
-    /// parameter: numbers are turned in the check.
+    /// Columns: the axes of the entries in the link's axes. The identity unless an entry is a run-time
+    /// parameter: the check rotates numbers.
     pub axes: Mat3<Dd>,
 }
 
-/// Limits of a joint as the spec states them; nothing is clipped.
+/// Limits of a joint in the spec; generated code does not enforce them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     /// Smallest coordinate, rad or m.
@@ -126,35 +126,35 @@ pub struct Limits {
     pub effort: Option<f64>,
 }
 
-/// The joint that carries a link.
+/// The joint between a link and its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// Its name elsewhere.
+    /// Its original name elsewhere.
     pub label: Option<String>,
     /// Its type.
     pub kind: &'static JointType,
     /// Unit vector of its axis, in link axes.
     pub axis: Vec3<Dd>,
-    /// Link axes in the parent's at coordinate zero.
+    /// Pose of the link's axes in the parent's axes at coordinate zero.
     pub origin: Pose,
-    /// Limits as stated.
+    /// Limits of the spec.
     pub limits: Limits,
-    /// Its place in q and v; `None` for a fixed joint.
+    /// Its index in q and v; `None` for a fixed joint.
     pub coordinate: Option<CoordinateId>,
 }
 
-/// A rigid link and the joint that carries it.
+/// A rigid link and the joint to its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Its name.
     pub name: String,
-    /// Its name elsewhere.
+    /// Its original name elsewhere.
     pub label: Option<String>,
-    /// The link that carries it; `None` for the fixed world. Always a smaller id.
+    /// The parent link; `None` for the fixed world. Always a smaller id.
     pub parent: Option<LinkId>,
-    /// How it is carried.
+    /// The joint to the parent.
     pub joint: Joint,
     /// Mass, centre of mass, inertia.
     pub inertial: Inertial,
@@ -165,23 +165,23 @@ pub struct Link {
 pub struct Frame {
     /// Its name.
     pub name: String,
-    /// Its name elsewhere.
+    /// Its original name elsewhere.
     pub label: Option<String>,
     /// The link it is fixed to.
     pub link: Option<LinkId>,
-    /// Frame axes in the link's.
+    /// Pose of the frame's axes in the link's axes.
     pub origin: Pose,
 }
 
-/// What snapping changed of a spec's directions: angles and axes taken as exact that were farther off
-/// than the rounding of an `f64`, 1e-15.
+/// Changes of a spec's directions by snapping: angles and axes that were rounded to the exact ones and
+/// differed by more than the rounding of an `f64`, 1e-15.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapped {
-    /// How many rotations and axes.
+    /// Number of rotations and axes.
     pub count: usize,
-    /// The farthest that one of their numbers was moved: rad, or of an axis's length.
+    /// The largest change of a number: rad, or relative to an axis's length.
     pub most: f64,
-    /// Where that is.
+    /// Its location.
     pub location: Location,
 }
 
@@ -200,58 +200,59 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// Names of the joints that move, in the order of the coordinates.
+    /// Returns the names of the moving joints, in the order of the coordinates.
     pub fn joint_names(&self) -> Vec<&str> {
         let of = |link: &LinkId| self.links[link.0].joint.name.as_str();
         self.coordinates.iter().map(of).collect()
     }
 
-    /// Its name: a snake_case identifier, the module's name.
+    /// Returns its name: a snake_case identifier, the module's name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its name elsewhere.
+    /// Returns its original name elsewhere.
     pub fn label(&self) -> Option<&str> {
         self.label.as_deref()
     }
 
-    /// What the spec says of it.
+    /// Returns the description in the spec.
     pub fn description(&self) -> Option<&str> {
         self.description.as_deref()
     }
 
-    /// Acceleration of free fall in world axes, m/s².
+    /// Returns the acceleration of free fall in world axes, m/s².
     pub fn gravity(&self) -> Vec3<Dd> {
         self.gravity
     }
 
-    /// The links, parents before children.
+    /// Returns the links, parents before children.
     pub fn links(&self) -> &[Link] {
         &self.links
     }
 
-    /// The named frames, in the file's order.
+    /// Returns the named frames, in the file's order.
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
 
-    /// The run-time parameters, in the file's order.
+    /// Returns the run-time parameters, in the file's order.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
 
-    /// For each coordinate the link whose joint it moves.
+    /// Returns, for each coordinate, the link of its joint.
     pub fn coordinates(&self) -> &[LinkId] {
         &self.coordinates
     }
 
-    /// What snapping changed of its directions; nothing where all were exact to 1e-15 or kept as written.
+    /// Returns the changes of directions by snapping; `None` if all were exact to 1e-15 or were not
+    /// changed.
     pub fn snapped(&self) -> Option<&Snapped> {
         self.snapped.as_ref()
     }
 
-    /// The same with these links welded to their carriers in these poses.
+    /// Returns the mechanism with these links welded to their parents in these poses.
     pub fn welded(&self, welds: &[(LinkId, Pose)]) -> Self {
         let mut welded = self.clone();
         for (link, pose) in welds {
@@ -269,8 +270,7 @@ impl Mechanism {
         welded
     }
 
-    /// Adds a body of this name, fixed to a link or at a frame on one. A place in the world carries
-    /// nothing.
+    /// Adds a body of this name, fixed to a link or at a frame on one. A site in the world adds nothing.
     pub fn carry(&mut self, name: &str, at: &str, inertial: Inertial) {
         let frame = self.frames.iter().find(|f| f.name == at);
         let link = self.links.iter().position(|l| l.name == at).map(LinkId);
@@ -298,7 +298,7 @@ impl Mechanism {
         });
     }
 
-    /// The run-time parameter of this name, added where it is new.
+    /// Returns the run-time parameter of this name, after adding it if it is new.
     pub fn parameter(
         &mut self,
         name: &str,
@@ -319,17 +319,17 @@ impl Mechanism {
         Value::Parameter(ParameterId(p))
     }
 
-    /// Number of velocities.
+    /// Returns the number of velocities.
     pub fn nv(&self) -> usize {
         self.coordinates.len()
     }
 
-    /// Number of positions.
+    /// Returns the number of positions.
     pub fn nq(&self) -> usize {
         self.coordinates.len()
     }
 
-    /// The joint of a coordinate.
+    /// Returns the joint of a coordinate.
     pub fn joint(&self, coordinate: CoordinateId) -> &Joint {
         &self.links[self.coordinates[coordinate.0].0].joint
     }

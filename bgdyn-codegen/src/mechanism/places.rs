@@ -1,14 +1,14 @@
-//! Positions of links and frames at a few sampled states, which show whether a distance can change.
+//! Samples positions of links and frames at a few states, to determine whether a distance can change.
 
 use bgdyn_runtime::Dd;
 
 use super::{LinkId, Mechanism, Motion, Pose};
 use crate::math::{Vec3, rodrigues};
 
-/// At so many positions.
+/// Number of sampled positions.
 const POSITIONS: usize = 4;
-/// Distances that differ by less, of the largest coordinate, are equal: rounding of double-double with
-/// room to spare.
+/// Distances that differ by less, relative to the largest coordinate, are equal: a bound with a margin for
+/// the rounding of double-double.
 const ROUNDING: f64 = 1e-26;
 
 /// The origins of links and frames in the world at sampled positions, m.
@@ -19,7 +19,7 @@ pub(crate) struct SiteOrigins {
 }
 
 impl SiteOrigins {
-    /// Those of a mechanism: links first, then frames.
+    /// Returns those of a mechanism: links first, then frames.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let poses: [Vec<Pose>; POSITIONS] = std::array::from_fn(|k| link_poses(mechanism, k));
         let links = mechanism.links().iter().enumerate();
@@ -36,12 +36,12 @@ impl SiteOrigins {
         SiteOrigins { names, origins }
     }
 
-    /// The names.
+    /// Returns the names.
     pub(crate) fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// The distance of two places where it is the same at all positions, m.
+    /// Returns the distance of two sites if it is the same at all positions, m.
     pub(crate) fn constant_distance(&self, a: &str, b: &str) -> Option<f64> {
         let of = |name: &str| {
             let i = self.names.iter().position(|known| known == name);
@@ -61,7 +61,7 @@ impl SiteOrigins {
     }
 }
 
-/// The poses of the links in the world at sampled position `k`.
+/// Returns the poses of the links in the world at sampled position `k`.
 fn link_poses(mechanism: &Mechanism, k: usize) -> Vec<Pose> {
     let mut poses: Vec<Pose> = Vec::with_capacity(mechanism.links().len());
     for link in mechanism.links() {
@@ -90,14 +90,14 @@ fn link_poses(mechanism: &Mechanism, k: usize) -> Vec<Pose> {
     poses
 }
 
-/// A coordinate at a sampled position: multiples of the golden ratio have no pattern that a mechanism
-/// could share.
+/// Returns a coordinate at a sampled position: multiples of the golden ratio have no pattern in common
+/// with a mechanism.
 fn sampled(coordinate: usize, position: usize) -> Dd {
     let step = (1 + coordinate * POSITIONS + position) as f64 * 0.618_033_988_749_894_9;
     Dd::from_f64(5.0 * (step - step.floor()) - 2.5)
 }
 
-/// `inner`, given in the axes of `outer`, in the axes in which `outer` is given.
+/// Returns the pose of `inner`, given in the axes of `outer`, in the axes in which `outer` is given.
 fn after(outer: Pose, inner: Pose) -> Pose {
     Pose {
         rotation: outer.rotation * inner.rotation,

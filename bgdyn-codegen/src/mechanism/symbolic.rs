@@ -1,4 +1,4 @@
-//! A mechanism with symbols in place of its numbers, for equations that people read.
+//! Replaces the numbers of a mechanism by symbols, for printed equations.
 
 use bgdyn_runtime::Dd;
 
@@ -10,35 +10,36 @@ use crate::math::Vec3;
 /// A letter for a number of the spec: m₂, l₁, Jzz₃.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberSymbol {
-    /// `m` mass, `c` place of the centre of mass, `J` entry of the tensor about it, `l` displacement
-    /// of a joint in its parent's axes; a run-time parameter's own name.
+    /// `m` mass, `c` centre of mass, `J` entry of the tensor about it, `l` displacement of a joint in its
+    /// parent's axes; the name of a run-time parameter.
     pub symbol: String,
-    /// Which component: `x`, `zz`; empty where there is only one.
+    /// The component: `x`, `zz`; empty if there is only one.
     pub component: &'static str,
-    /// Of which link, counted from 1 in the order of [`Mechanism::links`]; of a displacement the
-    /// link it is measured on, with the link it leads to where several hang on that one.
+    /// Its link, counted from 1 in the order of [`Mechanism::links`]. For a displacement: the parent link,
+    /// followed by the child link if the parent has several children.
     pub of: Vec<usize>,
-    /// In words: whose, and along which axis.
+    /// Description: the owner, and the axis.
     pub meaning: String,
-    /// The spec's value in SI units. Places are counted along the axis that makes it positive.
+    /// The spec's value in SI units. Positions are measured along the axis direction that makes them
+    /// positive.
     pub value: Dd,
     /// Its powers of kilogram, metre and second.
     pub dimension: [i32; 3],
-    /// Whether it is a run-time parameter, which has a name of its own.
+    /// Whether it is a run-time parameter, with a name of its own.
     pub run_time: bool,
 }
 
-/// A mechanism whose inertial numbers are run-time parameters, and whose joints' displacements are
-/// coordinates of massless carriers. Every number that its equations then hold is a direction.
+/// A mechanism whose inertial numbers are run-time parameters, and in which the joints' displacements are
+/// coordinates of massless carriers. All remaining numbers in its equations are directions.
 #[derive(Clone, Debug)]
 pub struct SymbolicMechanism {
-    /// It. Its own coordinates come first, then the displacements.
+    /// The mechanism. Its original coordinates come first, then the displacements.
     pub mechanism: Mechanism,
-    /// The letters. A mechanism's run-time parameters come first.
+    /// The letters. The original run-time parameters come first.
     pub letters: Vec<NumberSymbol>,
-    /// For each of its parameters the letter, and whether it stands for the letter's opposite.
+    /// For each of its parameters the letter, and whether it is the negative of the letter.
     pub parameters: Vec<(usize, bool)>,
-    /// For each coordinate beyond the mechanism's own the letter of the displacement.
+    /// For each additional coordinate the letter of the displacement.
     pub lengths: Vec<usize>,
 }
 
@@ -49,8 +50,8 @@ const LENGTH: [i32; 3] = [0, 1, 0];
 const INERTIA: [i32; 3] = [1, 2, 0];
 
 impl Mechanism {
-    /// The same mechanism with letters for masses, centres of mass, tensors and the displacements
-    /// between joints. The base's place stays as it is: no effort depends on it.
+    /// Returns the mechanism with letters for masses, centres of mass, tensors and the displacements
+    /// between joints. The base's position does not change: no effort depends on it.
     pub fn symbolic(&self) -> SymbolicMechanism {
         let mut all = SymbolicMechanism {
             mechanism: self.clone(),
@@ -100,8 +101,8 @@ impl Mechanism {
 }
 
 impl SymbolicMechanism {
-    /// Massless carriers from the parent's axes to the joint of link i: one slide for each component
-    /// of the displacement that is not zero. Gives the last one.
+    /// Adds massless carriers from the parent's axes to the joint of link i: one prismatic joint for each
+    /// nonzero component of the displacement. Returns the last one.
     fn displace(&mut self, from: &Mechanism, i: usize, parent: LinkId, place: LinkId) -> LinkId {
         let offsets = |l: &Link| l.joint.origin.translation.0.map(|x| x != Dd::ZERO);
         let beside = from.links.iter().filter(|l| l.parent == Some(parent));
@@ -137,7 +138,7 @@ impl SymbolicMechanism {
         last
     }
 
-    /// A massless link that slides along `axis` of `parent`.
+    /// Adds a massless link that slides along `axis` of `parent`.
     fn slide(&mut self, parent: LinkId, axis: Vec3<Dd>) -> LinkId {
         let zero = Value::Fixed(Dd::ZERO);
         let place = LinkId(self.mechanism.links.len());
@@ -169,7 +170,7 @@ impl SymbolicMechanism {
         place
     }
 
-    /// Letters for the numbers of a link's body.
+    /// Replaces the numbers of a link's body by letters.
     fn letter_body(&mut self, link: (usize, &str), inertial: &mut Inertial) {
         let (i, name) = link;
         let plain = |symbol: &str, component, meaning, dimension| NumberSymbol {
@@ -185,7 +186,7 @@ impl SymbolicMechanism {
         inertial.mass = self.letter(inertial.mass, mass);
         let numbers = inertial.com.map(|c| match c {
             Value::Fixed(x) => x,
-            // A parameter may become anything: the others are not alone.
+            // A parameter can have any value: the other components need their index.
             Value::Parameter(_) => Dd::ONE,
         });
         for axis in 0..3 {
@@ -200,7 +201,7 @@ impl SymbolicMechanism {
         }
     }
 
-    /// A letter for a number that is neither zero nor a run-time parameter already.
+    /// Returns a letter for a number that is neither zero nor a run-time parameter.
     fn letter(&mut self, value: Value, mut letter: NumberSymbol) -> Value {
         let Value::Fixed(x) = value else {
             return value;
@@ -208,7 +209,7 @@ impl SymbolicMechanism {
         if x == Dd::ZERO {
             return value;
         }
-        // Products of inertia keep their sign: nobody measures them along an axis.
+        // Products of inertia retain their sign: they are not measured along an axis.
         let opposite = x < Dd::ZERO && letter.dimension == LENGTH;
         letter.value = if opposite { -x } else { x };
         self.letters.push(letter);
@@ -218,13 +219,13 @@ impl SymbolicMechanism {
     }
 }
 
-/// An axis with its direction: `x`, `−x`.
+/// Returns an axis with its direction: `x`, `−x`.
 fn along(axis: usize, opposite: bool) -> String {
     let sign = if opposite { "−" } else { "" };
     format!("{sign}{}", AXES[axis])
 }
 
-/// The name of a vector's component: none where it is the only one.
+/// Returns the name of a vector's component; empty if it is the only one.
 fn component(v: Vec3<Dd>, axis: usize) -> &'static str {
     let several = v.0.iter().filter(|&&x| x != Dd::ZERO).count() > 1;
     if several { AXES[axis] } else { "" }

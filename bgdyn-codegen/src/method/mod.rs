@@ -1,6 +1,6 @@
 //! The methods of a generated model: names, arguments, shapes, units.
 //!
-//! The formulations, the emitter and the command line read them.
+//! The formulations, the emitter and the command line use them.
 
 mod scene_function;
 
@@ -34,7 +34,7 @@ pub enum Argument {
 }
 
 impl Argument {
-    /// Its name in signatures.
+    /// Returns its name in signatures.
     pub fn name(self) -> &'static str {
         match self {
             Argument::Q => "q",
@@ -51,14 +51,14 @@ impl Argument {
     }
 }
 
-/// What a method returns.
+/// The shape of a method's result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// One number.
     Scalar,
     /// NV numbers.
     Vector,
-    /// NV numbers, or the error that names a joint.
+    /// NV numbers, or an error with a joint.
     CheckedVector,
     /// A symmetric NV × NV matrix; the expressions are its lower triangle, row by row.
     Symmetric,
@@ -66,8 +66,8 @@ pub enum Shape {
     Square,
     /// Two NV × NV matrices.
     SquarePair,
-    /// NV accelerations and three NV × NV matrices, or the error that names a joint; only the
-    /// matrices are returned.
+    /// NV accelerations and three NV × NV matrices, or an error with a joint; only the matrices are
+    /// returned.
     CheckedSquares,
     /// A rotation matrix, row by row, and a point.
     Pose,
@@ -77,12 +77,12 @@ pub enum Shape {
     Jacobian,
     /// The named parts of a scene's result.
     Parts,
-    /// The same, or the error that names a coordinate.
+    /// The same, or an error with a coordinate.
     CheckedParts,
 }
 
 impl Shape {
-    /// How many expressions make the result; 0 for parts, whose number their scene knows.
+    /// Returns the number of expressions of the result; 0 for parts, whose number depends on the scene.
     pub fn len(self, nv: usize) -> usize {
         match self {
             Shape::Scalar => 1,
@@ -98,7 +98,7 @@ impl Shape {
         }
     }
 
-    /// Whether a singular mass matrix is an error.
+    /// Returns whether a singular mass matrix is an error.
     pub fn checked(self) -> bool {
         matches!(
             self,
@@ -130,19 +130,19 @@ pub enum Method {
     InverseDynamicsDerivatives,
     /// ∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ.
     ForwardDynamicsDerivatives,
-    /// Where a site is.
+    /// Pose of a site.
     Pose(SiteId),
-    /// How a site moves.
+    /// Velocity of a site.
     Velocity(SiteId),
-    /// How it moves per unit of each velocity.
+    /// Jacobian of a site.
     Jacobian(SiteId),
-    /// Its acceleration where the joints' accelerations are zero.
+    /// Acceleration of a site at zero joint accelerations.
     JacobianDotV(SiteId),
     /// A function of a scene.
     Scene(SceneFunction),
 }
 
-/// Names of all methods that a generated struct may have, whatever its places are called.
+/// Returns the names of all methods that a generated struct may have, for any names of sites.
 pub fn names() -> Vec<String> {
     let all = Method::possible(&[]);
     all.iter().map(|method| method.name(&[])).collect()
@@ -160,7 +160,7 @@ impl Method {
         Method::PotentialEnergy,
     ];
 
-    /// The four methods of a site.
+    /// Returns the four methods of a site.
     pub fn of_site(site: SiteId) -> [Method; 4] {
         [
             Method::Pose(site),
@@ -170,7 +170,7 @@ impl Method {
         ]
     }
 
-    /// Every method that a mechanism can have.
+    /// Returns every method that a mechanism can have.
     pub fn possible(sites: &[Site]) -> Vec<Method> {
         let own = [
             Method::CoriolisMatrix,
@@ -185,10 +185,10 @@ impl Method {
             .collect()
     }
 
-    /// The method with this name, if the mechanism can have it.
+    /// Returns the method with this name, if the mechanism can have it.
     ///
     /// # Errors
-    /// A sentence with the nearest name, or with all there are.
+    /// A sentence with the nearest name, or with all names.
     pub fn named(sites: &[Site], name: &str) -> Result<Method, String> {
         let possible = Method::possible(sites);
         let found = possible.iter().find(|m| m.name(sites) == name);
@@ -206,12 +206,12 @@ impl Method {
         })
     }
 
-    /// Whether the trait `Dynamics` has it.
+    /// Returns whether the trait `Dynamics` has it.
     pub fn of_trait(self) -> bool {
         Method::OF_TRAIT.contains(&self)
     }
 
-    /// The site it is about.
+    /// Returns the site of the method.
     pub fn site(self) -> Option<SiteId> {
         match self {
             Method::Pose(site)
@@ -222,7 +222,7 @@ impl Method {
         }
     }
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(self, sites: &[Site]) -> String {
         let site = |prefix: &str, site: SiteId| format!("{prefix}_{}", sites[site.0].name);
         match self {
@@ -244,7 +244,7 @@ impl Method {
         }
     }
 
-    /// Its arguments.
+    /// Returns its arguments.
     pub fn arguments(self) -> &'static [Argument] {
         use Argument::{A, Q, Tau, V};
         match self {
@@ -272,7 +272,7 @@ impl Method {
         }
     }
 
-    /// Its result.
+    /// Returns the shape of its result.
     pub fn shape(self) -> Shape {
         match self {
             Method::InverseDynamics | Method::Bias | Method::Gravity => Shape::Vector,
@@ -296,7 +296,7 @@ impl Method {
         }
     }
 
-    /// What the result is: one line of documentation.
+    /// Describes the result: one line of documentation.
     pub fn summary(self, sites: &[Site]) -> String {
         let of = |site: SiteId| format!("`{}`", sites[site.0].name);
         match self {
@@ -341,7 +341,7 @@ impl Method {
         }
     }
 
-    /// Units of the result.
+    /// Returns the units of the result.
     pub fn units(self) -> &'static str {
         match self {
             Method::InverseDynamics | Method::Bias | Method::Gravity => {

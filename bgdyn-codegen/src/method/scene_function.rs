@@ -1,37 +1,37 @@
-//! The functions of a scene: what each of them computes.
+//! The functions of a scene: names and descriptions.
 
-/// What a function of a scene is for.
+/// A function of a scene, by its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SceneFunction {
     /// v̇ and ẋ.
     Derivative,
-    /// Efforts at the coordinates behind given accelerations.
+    /// Drives of the coordinates for given accelerations.
     Inverse,
-    /// The inputs that the scene itself drives.
+    /// The inputs, with those that the scene drives.
     Inputs,
-    /// Values whose fall through zero is an event.
+    /// Event functions; an event occurs where one falls through zero.
     Events,
-    /// Slip, its acceleration, holding effort and limit of each mode.
+    /// Slip, its acceleration, holding effort and margin of each mode.
     Contacts,
     /// Power supplied, stored and dissipated by each effect.
     Power,
     /// Energy stored by each effect.
     Energy,
-    /// The outputs asked for.
+    /// The outputs of the scene.
     Outputs,
-    /// ∂ẏ/∂y and ∂ẏ/∂t, the inputs that the scene drives included: without the rows of q̇, column by
+    /// ∂ẏ/∂y and ∂ẏ/∂t, including the inputs that the scene drives: without the rows of q̇, column by
     /// column.
     Jacobian,
     /// Momenta of a state.
     ToCanonical,
-    /// Velocities of momenta.
+    /// Velocities from momenta.
     FromCanonical,
-    /// q̇, ṗ and ẋ at momenta, the inputs that the scene drives included.
+    /// q̇, ṗ and ẋ from momenta, including the inputs that the scene drives.
     CanonicalRates,
 }
 
 impl SceneFunction {
-    /// Every role.
+    /// All functions.
     pub const ALL: [SceneFunction; 12] = [
         SceneFunction::Derivative,
         SceneFunction::Inverse,
@@ -47,14 +47,14 @@ impl SceneFunction {
         SceneFunction::CanonicalRates,
     ];
 
-    /// Those of the canonical form.
+    /// The functions of the canonical form.
     pub const CANONICAL: [SceneFunction; 3] = [
         SceneFunction::ToCanonical,
         SceneFunction::FromCanonical,
         SceneFunction::CanonicalRates,
     ];
 
-    /// The method's name.
+    /// Returns the method's name.
     pub fn name(self) -> &'static str {
         match self {
             SceneFunction::Derivative => "derivative",
@@ -72,7 +72,7 @@ impl SceneFunction {
         }
     }
 
-    /// What the result is: one line of documentation.
+    /// Describes the result: one line of documentation.
     pub fn summary(self) -> &'static str {
         match self {
             SceneFunction::Derivative => {

@@ -1,4 +1,4 @@
-//! A file that holds a mechanism or a scene: its text to tokens.
+//! Generates the tokens of a file that contains a mechanism or a scene.
 
 use proc_macro2::TokenStream;
 
@@ -9,9 +9,8 @@ use crate::format::is_scene;
 use crate::options::Options;
 use crate::refusal::Refusal;
 
-/// From a spec's text to the tokens of its module, with warnings if there are any. `stem` is the
-/// file's stem, `output` says where and from what the code is generated. A scene's mechanism is read by
-/// `load`, from the path that the scene writes.
+/// Converts a spec's text to the tokens of its module, with its warnings. `stem` is the file's stem,
+/// `output` has the options of the module. `load` reads a scene's mechanism, from the path in the scene.
 ///
 /// # Errors
 /// As [`super::generate`], and as [`crate::read_scene`].

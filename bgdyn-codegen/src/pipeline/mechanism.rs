@@ -1,4 +1,4 @@
-//! A mechanism: its text to a model and to tokens, step by step.
+//! Converts a mechanism's text to a model and to tokens, step by step.
 
 use proc_macro2::TokenStream;
 
@@ -15,10 +15,10 @@ use crate::read::read;
 use crate::refusal::Refusal;
 use crate::verify::check_functions;
 
-/// From a mechanism's text to the tokens of its module; see [`super::generate_file`].
+/// Converts a mechanism's text to the tokens of its module; see [`super::generate_file`].
 ///
 /// # Errors
-/// Every fault found in the spec; or, where it has none, every name asked for that it lacks.
+/// Every fault in the spec; or, if there is none, every requested name that it does not have.
 pub fn generate(
     text: &str,
     stem: &str,
@@ -46,10 +46,10 @@ pub fn verify(model: &Model, options: &Options) -> Result<(), Refusal> {
     Refusal::unless_equal(check_functions(name, &model.bond_graph, &model.functions))
 }
 
-/// Builds the bond graph of a mechanism and chooses a function for each method asked for.
+/// Builds the bond graph of a mechanism and chooses a function for each selected method.
 ///
 /// # Errors
-/// Every name asked for that the mechanism does not have.
+/// Every requested name that the mechanism does not have.
 pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unknown>> {
     let bond_graph = bond_graph::build(&mechanism);
     let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
@@ -66,7 +66,7 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
     })
 }
 
-/// One function of a mechanism, without the others.
+/// Returns one function of a mechanism, without the others.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
     let graph = bond_graph::build(mechanism);
     prefer(

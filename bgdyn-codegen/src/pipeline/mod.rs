@@ -1,11 +1,11 @@
-//! The steps in order, from a spec's text to the tokens of its module.
+//! Runs the steps in order, from a spec's text to the tokens of its module.
 //!
 //! | file | from … to |
 //! |---|---|
 //! | `mechanism.rs` | a mechanism's text to its model and its tokens |
 //! | `scene.rs` | a scene's text to its functions and its tokens |
 //! | `any_file.rs` | the text of either |
-//! | `stub.rs` | a text that is refused to a module that replaces the one it would have given |
+//! | `stub.rs` | a refused text to a module that replaces the intended one |
 
 mod any_file;
 mod mechanism;

@@ -1,4 +1,4 @@
-//! A scene: its text to functions and tokens.
+//! Converts a scene's text to functions and tokens.
 
 use proc_macro2::TokenStream;
 
@@ -11,7 +11,7 @@ use crate::refusal::Refusal;
 use crate::system::SceneEquations;
 use crate::verify::check_scene;
 
-/// From a scene's text to the tokens of its module; see [`super::generate_file`].
+/// Converts a scene's text to the tokens of its module; see [`super::generate_file`].
 pub(super) fn generate_scene(
     text: &str,
     stem: &str,
@@ -31,8 +31,8 @@ pub(super) fn generate_scene(
     Ok((emit::scene_module(&system, &functions, output), findings))
 }
 
-/// The functions of a scene: the usual ones, what its method of integration needs, and what is
-/// asked for.
+/// Returns the functions of a scene: the default ones, those that its integrator needs, and those that the
+/// options select.
 pub fn scene_functions(system: &SceneEquations, options: &Options) -> Vec<Function> {
     let roles = system.roles_with(options.jacobian, options.canonical);
     let roles = roles.into_iter();

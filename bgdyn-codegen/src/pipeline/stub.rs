@@ -1,4 +1,5 @@
-//! The module that replaces the one of a refused spec: all that a caller can name, nothing that runs.
+//! Returns the module that replaces that of a refused spec: all names that a caller can use, without
+//! working code.
 
 use std::path::Path;
 
@@ -9,8 +10,8 @@ use crate::files::{mechanism_of, stem as stem_of};
 use crate::format::is_scene;
 use crate::interface::{Interface, SceneInterface};
 
-/// The module of a refused spec, or of one that could not be read (`text` is empty then): all a
-/// caller can name, nothing that runs. `load` gives the text of a scene's mechanism. Nothing where the
+/// Returns the module of a refused spec, or of an unreadable one (`text` is empty then): all names that a
+/// caller can use, without working code. `load` returns the text of a scene's mechanism. `None` if the
 /// stem cannot name a module.
 pub fn stub(
     text: &str,

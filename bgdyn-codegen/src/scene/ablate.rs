@@ -1,4 +1,4 @@
-//! Scenes with a part of their effects, to measure what each effect costs and changes.
+//! Removes effects from scenes, to measure the cost and the influence of each effect.
 
 use super::Scene;
 use super::causality::{chains, is_solvable};
@@ -8,8 +8,8 @@ use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 
 impl Scene {
-    /// The same scene with only the effects that `keep` says, and without those that act on what
-    /// then is missing or need it. Inputs, initial values and outputs that are not there any more fall away.
+    /// Returns the scene with only the effects for which `keep` is true, and without those that act on a
+    /// removed part or need one. Inputs, initial values and outputs of removed parts are dropped.
     pub fn with_effects(&self, keep: impl Fn(&Element) -> bool) -> Scene {
         let mut elements = self.elements.clone();
         elements.retain(|e| keep(e));
@@ -36,7 +36,7 @@ impl Scene {
             chains,
             ..self.clone()
         };
-        // Entries for what is gone are no faults here.
+        // Entries for removed parts are no faults here.
         let laid_out = assembled(
             bare.clone(),
             &RejectedEffects::default(),
@@ -45,7 +45,7 @@ impl Scene {
         let layout = &laid_out.layout;
         let known_input = |name: &str| layout.inputs.iter().any(|i| i.name == name);
         written.inputs.retain(|raw| known_input(&raw.name.value));
-        // With other efforts other modes hold: they are settled anew.
+        // Other efforts may need other modes: they are determined again.
         written.modes = Some(Vec::new());
         let scene = Scene { written, ..bare };
         Scene {
@@ -55,7 +55,7 @@ impl Scene {
     }
 }
 
-/// Whether an element still has what it needs beside it: a fluid, two elements at a junction.
+/// Returns whether an element still has the elements that it needs: a fluid, two elements at a junction.
 fn stands(element: &Element, left: &[Element], mechanism: &Mechanism) -> bool {
     let mut faults = Faults::default();
     let beside = SceneContext {
@@ -66,7 +66,7 @@ fn stands(element: &Element, left: &[Element], mechanism: &Mechanism) -> bool {
     !faults.any_fault() && is_solvable(element, left)
 }
 
-/// Whether an element refers to another: to its coordinate, or to one of its nodes.
+/// Returns whether an element refers to another: to its coordinate, or to one of its nodes.
 fn acts_on(element: &Element, other: &str) -> bool {
     let refers = |name: &String| {
         let side = name

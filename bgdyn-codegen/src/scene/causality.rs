@@ -1,30 +1,30 @@
-//! Causality: every element needs somebody who tells it its effort or its flow at each instant. A
-//! store does, by its state. Where there is none (a junction of two orifices without a volume, a
-//! winding without inductance) elements ask each other, and their laws form an algebraic loop. The
-//! loop is solved here, at generation time, or named.
+//! Causality of hydraulic elements: every element needs a cause, an effort or a flow that is determined at
+//! each instant. The state of a store is one. Without a store (a junction of two orifices without a
+//! volume, a winding without inductance) the laws of the elements form an algebraic loop. This file solves
+//! such loops at generation time, or reports them.
 //!
-//! What can be solved: elements in series. One flow q runs through all of them, and their pressure
-//! drops Δp_i = R_i q + S_i q|q| add up to R q + S q|q| with R = Σ R_i and S = Σ S_i, which has one
-//! solution. What cannot: three flows that meet without a volume, or an opening that varies, which
-//! may close and leave the pressure between two closed valves undetermined.
+//! Elements in series are solvable. They have the same flow q, and their pressure drops Δp_i = R_i q + S_i
+//! q|q| add up to R q + S q|q| with R = Σ R_i and S = Σ S_i, which has one solution. Not solvable are
+//! three flows at a junction without a volume, or a varying opening, which can close and leave the
+//! pressure between two closed valves undetermined.
 
 use super::Scene;
 use crate::declaration::{Chain, Element};
 use crate::fault::{Fault, Faults, wording};
 
-/// Elements without a store between them, and how they were solved.
+/// Elements without a store between them, and their solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solved {
     /// Their names.
     pub elements: Vec<String>,
     /// The nodes between them.
     pub nodes: Vec<String>,
-    /// How.
+    /// The method of solution.
     pub how: String,
 }
 
 impl Scene {
-    /// The elements that have no store to wait for, and how each was solved.
+    /// Returns the elements without a store as their cause, with their solutions.
     pub fn solved(&self) -> Vec<Solved> {
         let alone = self.elements.iter().filter_map(|e| {
             e.effect.algebraic(e).map(|how| Solved {
@@ -46,7 +46,7 @@ impl Scene {
     }
 }
 
-/// The chains of elements through junctions; what cannot be solved is a fault.
+/// Returns the chains of elements through junctions; unsolvable ones are faults.
 pub(super) fn chains(elements: &[Element], faults: &mut Faults) -> Vec<Chain> {
     let before = faults.count();
     let junctions = elements.iter().filter(|e| e.effect.is_junction());
@@ -70,7 +70,7 @@ pub(super) fn chains(elements: &[Element], faults: &mut Faults) -> Vec<Chain> {
             chains.push(chain);
         }
     }
-    // What no chain has reached runs in a circle.
+    // Elements that no chain has reached form a cycle.
     let reached = |j: &Element| chains.iter().any(|c| c.through.contains(&j.name));
     if let Some(junction) = junctions.iter().find(|j| !reached(j)) {
         let (name, location) = (&junction.name, &junction.location);
@@ -79,12 +79,12 @@ pub(super) fn chains(elements: &[Element], faults: &mut Faults) -> Vec<Chain> {
     chains
 }
 
-/// Whether an element is no junction, or one whose pressure can be solved for.
+/// Returns whether an element is no junction, or a junction with a solvable pressure.
 pub(super) fn is_solvable(element: &Element, elements: &[Element]) -> bool {
     !element.effect.is_junction() || unsolvable(element, elements).is_none()
 }
 
-/// Why the pressure of a junction cannot be solved for.
+/// Returns the reason why the pressure of a junction is not solvable.
 fn unsolvable(junction: &Element, elements: &[Element]) -> Option<Fault> {
     let (name, location) = (junction.name.as_str(), &junction.location);
     let joined = elements.iter().filter(|e| e.joins().contains(&name));
@@ -101,7 +101,7 @@ fn unsolvable(junction: &Element, elements: &[Element]) -> Option<Fault> {
     ))
 }
 
-/// The chain that begins with an element at a node of known pressure.
+/// Returns the chain that begins with an element at a node of known pressure.
 fn follow(
     first: usize,
     forward: bool,

@@ -1,29 +1,29 @@
 //! The settings of a scene's integration, and the table of the integrators that it can name.
 
-/// How a scene asks to be run.
+/// The settings of a scene's integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integration {
     /// The integrator.
     pub method: IntegratorName,
-    /// How its steps are chosen.
+    /// The choice of its steps.
     pub step_control: StepControl,
-    /// When it ends, s.
+    /// End of the run, s.
     pub end: f64,
 }
 
-/// How steps are chosen.
+/// The choice of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepControl {
-    /// Every step is as long, s.
+    /// Fixed steps of this length, s.
     Step(f64),
-    /// As long as the error of a step stays below this, absolute and relative.
+    /// Steps with an error below this tolerance, absolute and relative.
     Tolerance(f64),
 }
 
-/// An integrator, by the name that scenes give it. `TABLE` has its properties.
+/// An integrator, by its name in scenes. `TABLE` has its properties.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IntegratorName {
-    /// Semi-implicit Euler: velocities first, positions with the new ones.
+    /// Semi-implicit Euler: first the velocities, then the positions with the new velocities.
     SemiImplicitEuler,
     /// The classical Runge–Kutta method of order 4.
     Rk4,
@@ -47,22 +47,22 @@ pub enum IntegratorName {
     Dop853,
 }
 
-/// What an integrator reads of a scene beside its rates.
+/// Functions of a scene that an integrator reads besides its rates.
 #[derive(Clone, Copy)]
 enum RequiredFunctions {
     /// Nothing.
     Rates,
     /// The slope ∂ẏ/∂y.
     Jacobian,
-    /// The canonical form: it is this integrator on momenta in place of velocities.
+    /// The canonical form: the other integrator is the same one in velocities.
     Canonical(IntegratorName),
 }
 
 use IntegratorName as I;
 use RequiredFunctions::{Canonical, Jacobian, Rates};
 
-/// The integrators in the order of the enum: name, whether it can choose its steps by a tolerance, what
-/// it reads. A test of the command `bgdyn` compares every line with the integrator of that name.
+/// The integrators in the order of the enum: name, whether it has step control, functions that it reads. A
+/// test of the command `bgdyn` compares every line with the integrator of that name.
 const TABLE: [(IntegratorName, &str, bool, RequiredFunctions); 11] = [
     (I::SemiImplicitEuler, "semi_implicit_euler", false, Rates),
     (I::Rk4, "rk4", false, Rates),
@@ -93,7 +93,7 @@ const TABLE: [(IntegratorName, &str, bool, RequiredFunctions); 11] = [
 ];
 
 impl IntegratorName {
-    /// Every integrator there is.
+    /// All integrators.
     pub const ALL: [IntegratorName; TABLE.len()] = {
         let mut all = [I::Rk4; TABLE.len()];
         let mut i = 0;
@@ -105,32 +105,32 @@ impl IntegratorName {
         all
     };
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(self) -> &'static str {
         TABLE[self as usize].1
     }
 
-    /// The integrator with this name.
+    /// Returns the integrator with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|i| i.name() == name)
     }
 
-    /// Whether it can choose its steps by a tolerance.
+    /// Returns whether it can choose its steps by a tolerance.
     pub fn controls_its_error(self) -> bool {
         TABLE[self as usize].2
     }
 
-    /// Whether it takes the slope ∂ẏ/∂y: to solve for its stages in (q, v).
+    /// Returns whether it needs the slope ∂ẏ/∂y, to solve for its stages in (q, v).
     pub fn needs_jacobian(self) -> bool {
         matches!(TABLE[self as usize].3, Jacobian)
     }
 
-    /// Whether it runs on momenta in place of velocities.
+    /// Returns whether it integrates the canonical form.
     pub fn needs_canonical(self) -> bool {
         matches!(TABLE[self as usize].3, Canonical(_))
     }
 
-    /// The same integrator on velocities: itself, where it is not one on momenta.
+    /// Returns the same integrator in velocities; itself if it does not integrate the canonical form.
     pub fn on_velocities(self) -> Self {
         match TABLE[self as usize].3 {
             Canonical(same) => same,

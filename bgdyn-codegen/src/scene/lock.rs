@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use crate::math::rodrigues;
 use crate::mechanism::{Joint, Motion, Pose};
 
-/// Where a joint holds its link at a coordinate.
+/// Returns the pose of a joint's link at a coordinate.
 pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
     let Pose {
         rotation,
@@ -24,7 +24,7 @@ pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
     }
 }
 
-/// Cosine and sine of an angle, those of quarter turns exact.
+/// Returns cosine and sine of an angle, exact for quarter turns.
 fn cos_sin(angle: Dd) -> (Dd, Dd) {
     let (sin, cos) = angle.sin_cos();
     let exact = |x: Dd| {

@@ -5,25 +5,26 @@ use bgdyn_runtime::Dd;
 use super::Scene;
 use crate::fault::{Faults, Location, unknown_name, wording};
 
-/// Something that a run can be given.
+/// A value of a run that can be overridden.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Override {
     /// Its name.
     pub name: String,
-    /// Its SI unit; nothing for a pure number.
+    /// Its SI unit; empty for a pure number.
     pub unit: &'static str,
-    /// What it is.
+    /// Its kind.
     pub kind: OverrideKind,
 }
 
-/// What kind of thing a run can be given, by its place in the scene.
+/// The kind of a value, with its index in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverrideKind {
     /// A position at the start.
     Position(usize),
     /// A velocity at the start.
     Velocity(usize),
-    /// A first-order state at the start, as the scene enters it: of a fluid volume, its pressure.
+    /// An initial first-order state, in the quantity that the scene gives: for a fluid volume, its
+    /// pressure.
     State(usize),
     /// A mode at the start: −1 and 1 slipping, 0 stuck.
     Mode(usize),
@@ -32,15 +33,15 @@ pub enum OverrideKind {
 }
 
 impl OverrideKind {
-    /// Whether it is a run-time parameter, not a part of the state.
+    /// Returns whether it is a run-time parameter, not a part of the state.
     pub fn is_parameter(self) -> bool {
         matches!(self, OverrideKind::Parameter(_))
     }
 }
 
 impl Scene {
-    /// Everything that a run can be given: positions, velocities, first-order states, modes (`NAME_mode`),
-    /// run-time parameters.
+    /// Returns all values that can be overridden: positions, velocities, first-order states, modes
+    /// (`NAME_mode`), run-time parameters.
     pub fn overrides(&self) -> Vec<Override> {
         use OverrideKind::{Mode, Parameter, Position, State, Velocity};
         let layout = &self.layout;
@@ -70,10 +71,10 @@ impl Scene {
             .collect()
     }
 
-    /// What has this name among those for which `wanted` holds.
+    /// Returns the value with this name among those for which `wanted` is true.
     ///
     /// # Errors
-    /// With the names that there are, or the nearest one. `what` says what was looked for.
+    /// A message with all names, or the nearest one. `what` is the kind of value in the message.
     pub fn override_named(
         &self,
         what: &str,
@@ -98,15 +99,16 @@ impl Scene {
         }
     }
 
-    /// The same scene with these values, SI units, in place of its file's. A drive that the file does
-    /// not place starts with its joint; modes that are not among the values are settled anew.
+    /// Returns the scene with these values, SI units, in place of those in its file. A drive without a
+    /// position in the file starts with its joint; modes that are not among the values are determined
+    /// again.
     ///
     /// # Errors
-    /// Values that a state cannot have.
+    /// Invalid values of a state.
     pub fn with_overrides(&self, values: &[(Override, Dd)]) -> Result<Scene, Faults> {
         let mut scene = self.clone();
         let mut faults = Faults::default();
-        // What the file states of modes, it states of its own start.
+        // The modes in the file are valid only for the start in the file.
         let modes = values.iter().filter_map(|(s, _)| match s.kind {
             OverrideKind::Mode(i) => Some(i),
             _ => None,

@@ -1,6 +1,6 @@
-//! The balance of power: what each effect supplies, stores and dissipates.
+//! The balance of power: the power that each effect supplies, stores and dissipates.
 //!
-//! Σ supplied = Σ d(stored)/dt + Σ dissipated holds to round-off, whatever the effects are.
+//! Σ supplied = Σ d(stored)/dt + Σ dissipated is satisfied to rounding, for any effects.
 
 use super::dynamics::rates;
 use super::holds::held;
@@ -11,14 +11,14 @@ use crate::declaration::Element;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent};
 use crate::method::Method;
 
-/// The links' and rotors' own entry: kinetic energy.
+/// The entry of links and rotors: kinetic energy.
 const LINKS: &str = "links";
-/// The entry of the efforts that are inputs.
+/// The entry of the drives.
 const DRIVES: &str = "drives";
-/// The entry of what is missing without velocity products: ½ q̇ᵀ Ṁ q̇.
+/// The entry of the power that is missing without velocity products: ½ q̇ᵀ Ṁ q̇.
 const DROPPED: &str = "dropped_velocity_products";
 
-/// The entries of a scene's balance, in order.
+/// Returns the entries of a scene's balance, in order.
 pub(super) fn entries(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<Named> {
     all(system, sums)
         .into_iter()
@@ -26,14 +26,14 @@ pub(super) fn entries(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec
         .collect()
 }
 
-/// Its power is in W, its energy in J.
+/// Returns an entry; its power is in W, its energy in J.
 fn entry(name: String, about: String) -> Named {
     let unit = "";
     Named { name, unit, about }
 }
 
-/// The entries of the elements that have a term in the balance, by their nodes of the bond graph, and are
-/// not nothing; then the scene's own.
+/// Returns the entries of the elements with a nonzero term in the balance, according to their nodes of the
+/// bond graph; then the scene's own entries.
 fn all(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<(Named, EntrySource)> {
     let (scene, graph) = (&system.scene, &system.graph);
     let mut found = Vec::new();
@@ -69,7 +69,7 @@ fn all(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<(Named, EntryS
             EntrySource::Drives,
         );
     }
-    // Where the kinetic energy reads no position, M is constant and nothing is missing.
+    // If the kinetic energy depends on no position, M is constant and no power is missing.
     let kinetic = sums.method(Method::KineticEnergy)[0];
     if !graph.velocity_products && sums.reads_positions(kinetic) {
         let about = "½ q̇ᵀ Ṁ q̇, which the velocity products would have supplied";
@@ -78,8 +78,8 @@ fn all(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<(Named, EntryS
     found
 }
 
-/// Panics where the law of an element has a term in the balance that none of its nodes of the bond graph
-/// has: an error of the effect's author.
+/// Panics if the law of an element has a term in the balance that none of its bond graph nodes has: an
+/// error of the effect's author.
 fn check_terms(element: &Element, terms: &[PowerTerm], balance: Balance<'_>) {
     let all = [
         (PowerTerm::Supplied, balance.supplied, "supplies"),
@@ -96,7 +96,7 @@ fn check_terms(element: &Element, terms: &[PowerTerm], balance: Balance<'_>) {
     }
 }
 
-/// Where an entry comes from.
+/// The source of an entry.
 #[derive(Clone, Copy)]
 enum EntrySource {
     Element(usize),
@@ -105,7 +105,7 @@ enum EntrySource {
     Dropped,
 }
 
-/// Energy stored by each entry.
+/// Returns the energy stored by each entry.
 pub(super) fn energy<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
     let all = all(system, &sums);
@@ -117,12 +117,12 @@ pub(super) fn energy<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
     all.into_iter().map(stored).collect()
 }
 
-/// For each entry: power supplied, rate of the energy stored, power dissipated.
+/// Returns, for each entry, power supplied, rate of the stored energy, power dissipated.
 pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let mut sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
     let rates = rates(system, &sums, b);
-    // Friction that holds a joint against a moving counterpart takes its power from there. What holds
-    // a coordinate at the limit of its rate has it in the element's law.
+    // Friction that holds a joint against a moving counterpart receives its power from the counterpart.
+    // For a coordinate held at the limit of its rate, the element's law accounts for the power.
     if !sums.contacts().is_empty() {
         let holding = held(system, &sums, b).holding;
         let half = b.number(0.5);
@@ -170,7 +170,7 @@ pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>
     out
 }
 
-/// Rates of change along the motion.
+/// The rates of change along the motion.
 struct Along {
     tangents: Vec<(Leaf, Signed)>,
 }
@@ -183,7 +183,7 @@ impl Along {
         tangents.extend((0..nq).map(|j| (Leaf::Position(j), sums.v[j].signed())));
         tangents.extend((0..nv).map(|j| (Leaf::Velocity(j), rates[j].signed())));
         tangents.extend((0..nx).map(|i| (Leaf::State(i), rates[nv + i].signed())));
-        // A reference's place moves with its rate.
+        // A reference's position changes with its rate.
         for (i, part) in layout.inputs.iter().enumerate() {
             let rate = crate::scene::Level::Rate.name(&part.name);
             if let Some(k) = layout.inputs.iter().position(|p| p.name == rate) {

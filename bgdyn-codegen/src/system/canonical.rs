@@ -1,9 +1,9 @@
 //! The canonical form of a scene: momenta p = ∂T/∂v in place of velocities.
 //!
-//! p = M v at the joints, I v at coordinates that store their own momentum. With P = M v̇ + bias,
-//! ṗ = d/dt(M v) = E − bias + Ṁ v, which asks for no accelerations. A joint that is held has those
-//! of its counterpart, and the effort that holds it is what is left over: ṗ = M v̇ + Ṁ v. Lagrange's
-//! equations say the same as Ṁ v − bias = ∂T/∂q − gravity.
+//! p = M v at the joints, I v at coordinates with a store of their own. With P = M v̇ + bias, ṗ = d/dt(M
+//! v) = E − bias + Ṁ v, which needs no accelerations. A joint that is held has the acceleration of its
+//! counterpart, and the holding effort is the residual: ṗ = M v̇ + Ṁ v. This is equivalent to Lagrange's
+//! equations: Ṁ v − bias = ∂T/∂q − gravity.
 
 use bgdyn_runtime::Dd;
 
@@ -19,7 +19,7 @@ use crate::function::Function;
 use crate::math::Vec3;
 use crate::method::{Method, SceneFunction};
 
-/// How momenta are computed.
+/// The method of computing momenta.
 #[derive(Clone, Copy)]
 enum MomentumFunction {
     /// M times v.
@@ -28,12 +28,12 @@ enum MomentumFunction {
     Recursion,
 }
 
-/// How Ṁ v − bias is computed.
+/// The method of computing Ṁ v − bias.
 #[derive(Clone, Copy)]
 enum Drift {
-    /// As it stands, Ṁ v from M v along q̇ = v.
+    /// Directly: Ṁ v is the derivative of M v along q̇ = v.
     Momenta,
-    /// ∂T/∂q − gravity
+    /// As ∂T/∂q − gravity.
     Energy,
 }
 
@@ -49,7 +49,7 @@ impl MomentumFunction {
         }
     }
 
-    /// Momenta of the joints.
+    /// Returns the momenta of the joints.
     fn of_joints<'g>(self, system: &SceneEquations, sums: &EffortSums<'g, '_>) -> Vec<Expr<'g>> {
         let n = system.graph.coordinates.len();
         match self {
@@ -73,7 +73,7 @@ impl MomentumFunction {
         }
     }
 
-    /// Momenta of all coordinates.
+    /// Returns the momenta of all coordinates.
     fn of_all<'g>(self, system: &SceneEquations, sums: &EffortSums<'g, '_>) -> Vec<Expr<'g>> {
         let mut all = self.of_joints(system, sums);
         for j in all.len()..system.scene.layout.nv() {
@@ -83,7 +83,7 @@ impl MomentumFunction {
     }
 }
 
-/// The same graph without weights and velocity products: P = M q̈.
+/// Returns the graph without weights and velocity products: P = M q̈.
 fn weightless(graph: &BondGraph) -> BondGraph {
     let mut graph = graph.clone();
     for source in &mut graph.sources {
@@ -94,7 +94,7 @@ fn weightless(graph: &BondGraph) -> BondGraph {
     graph
 }
 
-/// The ways to the momenta of a state.
+/// Returns the alternatives for the momenta of a state.
 pub(super) fn momenta(system: &SceneEquations) -> Vec<Function> {
     let ways = MomentumFunction::ALL.into_iter();
     let with = |way: MomentumFunction| {
@@ -108,7 +108,7 @@ pub(super) fn momenta(system: &SceneEquations) -> Vec<Function> {
     ways.map(with).collect()
 }
 
-/// The ways to the velocities of momenta, which stand in their place among the leaves.
+/// Returns the alternatives for the velocities from momenta, which replace velocities among the leaves.
 pub(super) fn velocities(system: &SceneEquations) -> Vec<Function> {
     let choice = Choice::new(&system.graph, None);
     let ways = choice.forward_dynamics();
@@ -124,7 +124,7 @@ pub(super) fn velocities(system: &SceneEquations) -> Vec<Function> {
     ways.map(with).collect()
 }
 
-/// v = M⁻¹ p by a way to forward dynamics.
+/// Returns v = M⁻¹ p by a function for forward dynamics.
 fn solved<'g>(system: &SceneEquations, b: &'g Builder, forward: &Function) -> Vec<Expr<'g>> {
     let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
     let sums = system.laws_under_driven_inputs(b);
@@ -136,9 +136,9 @@ fn solved<'g>(system: &SceneEquations, b: &'g Builder, forward: &Function) -> Ve
     all
 }
 
-/// The ways to the rates at momenta: q̇, ṗ, ẋ.
+/// Returns the alternatives for the rates from momenta: q̇, ṗ, ẋ.
 pub(super) fn rates(system: &SceneEquations) -> Vec<Function> {
-    // Without velocity products the bias lacks what Lagrange's equations have.
+    // Without velocity products the bias lacks terms of Lagrange's equations.
     let drifts: &[Drift] = match system.graph.velocity_products {
         true => &[Drift::Momenta, Drift::Energy],
         false => &[Drift::Momenta],
@@ -167,7 +167,7 @@ pub(super) fn rates(system: &SceneEquations) -> Vec<Function> {
     drifts.iter().map(with).collect()
 }
 
-/// q̇, ṗ and ẋ, with velocities among the leaves.
+/// Returns q̇, ṗ and ẋ, with velocities among the leaves.
 fn at_velocities(system: &SceneEquations, drift: Drift) -> (Graph, Vec<Signed>) {
     let b = Builder::new();
     let (nq, n) = (system.scene.layout.nq(), system.graph.coordinates.len());
@@ -206,7 +206,7 @@ impl Drift {
         }
     }
 
-    /// Ṁ v − bias at the joints.
+    /// Returns Ṁ v − bias at the joints.
     fn of_joints<'g>(
         self,
         system: &SceneEquations,

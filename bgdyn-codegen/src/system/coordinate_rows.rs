@@ -5,7 +5,7 @@ use crate::effort_sums::EffortSums;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
 use crate::function::Function;
 
-/// Forward dynamics under the efforts of the laws.
+/// Returns the accelerations by forward dynamics under the efforts of the laws.
 pub(super) fn link_accelerations<'g>(
     b: &'g Builder,
     forward: &Function,
@@ -24,7 +24,7 @@ pub(super) fn link_accelerations<'g>(
     copies.into_iter().map(|e| b.expr(e)).collect()
 }
 
-/// Inertia of a coordinate that stores its own momentum.
+/// Returns the inertia of a coordinate with a store of its own.
 pub(super) fn own_inertia<'g>(sums: &EffortSums<'g, '_>, j: usize) -> Expr<'g> {
     sums.inertia_of(j).unwrap_or(sums.b.number(1.0))
 }

@@ -1,4 +1,4 @@
-//! Accelerations and rates, and the efforts behind given accelerations.
+//! Accelerations and rates of a scene, and the drives for given accelerations.
 
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::holds::{Holding, held, own_accelerations};
@@ -11,7 +11,7 @@ use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
 
-/// The ways to v̇ and ẋ.
+/// Returns the alternatives for v̇ and ẋ.
 pub(super) fn derivatives(system: &SceneEquations) -> Vec<Function> {
     if system.may_hold_joints() {
         return vec![with_modes(system, None)];
@@ -21,7 +21,7 @@ pub(super) fn derivatives(system: &SceneEquations) -> Vec<Function> {
     ways.map(|forward| without_modes(system, forward)).collect()
 }
 
-/// The way to v̇ and ẋ on this formulation; `None` where it does not know what that takes.
+/// Returns v̇ and ẋ with this formulation; `None` if it does not support a required method.
 pub(super) fn derivative_by(
     system: &SceneEquations,
     formulation: &'static dyn Formulation,
@@ -35,7 +35,7 @@ pub(super) fn derivative_by(
     (known == [true, true]).then(|| with_modes(system, Some(formulation)))
 }
 
-/// v̇ and ẋ where joints may be held.
+/// Returns v̇ and ẋ if joints may be held.
 fn with_modes(system: &SceneEquations, asked: Option<&'static dyn Formulation>) -> Function {
     system.one(SceneFunction::Derivative, |system, b| {
         let mut sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
@@ -44,7 +44,7 @@ fn with_modes(system: &SceneEquations, asked: Option<&'static dyn Formulation>) 
     })
 }
 
-/// v̇ and ẋ on a way to forward dynamics.
+/// Returns v̇ and ẋ with a function for forward dynamics.
 fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
     let b = Builder::new();
     let outputs: Vec<Signed> = {
@@ -65,7 +65,7 @@ fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
     }
 }
 
-/// The joints' accelerations with those of the other coordinates, and ẋ.
+/// Returns the joints' accelerations with those of the other coordinates, and ẋ.
 pub(super) fn joined<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,
@@ -77,7 +77,7 @@ pub(super) fn joined<'g>(
     all
 }
 
-/// v̇ and ẋ, whatever the modes are.
+/// Returns v̇ and ẋ, for any modes.
 pub(super) fn rates<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,
@@ -88,7 +88,7 @@ pub(super) fn rates<'g>(
     all
 }
 
-/// The own effort of each coordinate behind given accelerations.
+/// Returns the drive of each coordinate for given accelerations.
 pub(super) fn inverse<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
     let nv = system.scene.layout.nv();
@@ -96,8 +96,8 @@ pub(super) fn inverse<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'
     efforts(system, &sums, &given)
 }
 
-/// The own effort of each coordinate at these accelerations: everything the laws do but the
-/// coordinates' own efforts is taken off.
+/// Returns the drive of each coordinate at these accelerations: all other efforts of the laws are
+/// subtracted.
 pub(super) fn efforts<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,

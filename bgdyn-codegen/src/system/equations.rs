@@ -13,11 +13,11 @@ use crate::scene::{Initial, Scene};
 pub struct SceneEquations {
     /// The scene.
     pub scene: Scene,
-    /// The bond graph of its mechanism, with what its effects change in it.
+    /// The bond graph of its mechanism, with the changes by its effects.
     pub graph: BondGraph,
     /// The nodes and bonds of the mechanism and of its effects.
     pub network: BondNetwork,
-    /// Its initial state, of fluid volumes too.
+    /// Its initial state, including fluid volumes.
     pub initial: Initial,
     /// The parts of its outputs.
     pub outputs: Vec<Named>,
@@ -30,14 +30,14 @@ pub struct SceneEquations {
 pub struct Named {
     /// Its name.
     pub name: String,
-    /// Its SI unit; nothing for an entry of the balance of power, whose numbers have several.
+    /// Its SI unit; empty for an entry of the balance of power, whose numbers have several.
     pub unit: &'static str,
     /// Unit and meaning.
     pub about: String,
 }
 
 impl SceneEquations {
-    /// The coordinate that each mode may hold.
+    /// Returns the coordinate that each mode can hold.
     pub fn mode_coordinates(&self) -> Vec<usize> {
         let b = Builder::silent();
         let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
@@ -48,7 +48,7 @@ impl SceneEquations {
         found
     }
 
-    /// The function of a role in one block, with what `made` gives as its outputs.
+    /// Returns a scene function in one block, with the outputs of `made`.
     pub(super) fn one(
         &self,
         role: SceneFunction,
@@ -59,7 +59,7 @@ impl SceneEquations {
         self.flat(role, "scene".into(), b, outputs)
     }
 
-    /// The function of a role in one block, with these outputs.
+    /// Returns a scene function in one block, with these outputs.
     pub(super) fn flat(
         &self,
         role: SceneFunction,

@@ -1,4 +1,4 @@
-//! Coordinates that are held: by dry friction, or at the limit of their rate.
+//! Equations of coordinates that are held: by dry friction, or at the limit of their rate.
 
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::summed::summed;
@@ -9,7 +9,7 @@ use crate::formulation;
 use crate::method::Method;
 
 impl SceneEquations {
-    /// Whether anything may hold a joint of the links, whose row of M q̈ = f then falls out.
+    /// Returns whether a joint of the links can be held, whose row of M q̈ = f is then replaced.
     pub(super) fn may_hold_joints(&self) -> bool {
         let joints = self.graph.coordinates.len();
         let modes = !self.scene.layout.modes.is_empty();
@@ -17,16 +17,16 @@ impl SceneEquations {
     }
 }
 
-/// What holding joints adds to the equations.
+/// The additional results if joints are held.
 pub(super) struct Held<'g> {
-    /// Of every coordinate.
+    /// Accelerations of all coordinates.
     pub accelerations: Vec<Expr<'g>>,
-    /// For each contact the effort that it holds its joint with; what is left over of the
-    /// equation where it slips is nothing.
+    /// For each contact the effort with which it holds its joint; the residual of the equation, which is
+    /// zero if it slips.
     pub holding: Vec<Expr<'g>>,
 }
 
-/// Accelerations where some coordinates are held.
+/// Returns the accelerations if some coordinates are held.
 pub(super) fn held<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,
@@ -65,7 +65,7 @@ pub(super) fn held<'g>(
     }
 }
 
-/// Accelerations of the coordinates that store their own momentum: I v̇ = E, or held.
+/// Returns accelerations of the coordinates with a store of their own: I v̇ = E, or held.
 pub(super) fn own_accelerations<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,
@@ -77,12 +77,12 @@ pub(super) fn own_accelerations<'g>(
         .collect()
 }
 
-/// Which coordinates may be held, and how they move then.
+/// The coordinates that can be held, and their motion if they are.
 pub(super) struct Holding<'g> {
     half: Expr<'g>,
-    /// Of each coordinate, r̈ of what may hold it.
+    /// For each coordinate, r̈ of its possible contacts.
     pub counterparts: Vec<Vec<Expr<'g>>>,
-    /// The modes of these.
+    /// The modes of these contacts.
     modes: Vec<Vec<Expr<'g>>>,
 }
 
@@ -101,13 +101,14 @@ impl<'g> Holding<'g> {
         holding
     }
 
-    /// `yes` where coordinate `j` is held, else `no`.
+    /// Returns `yes` if coordinate `j` is held, else `no`.
     pub(super) fn choose(&self, j: usize, yes: Expr<'g>, no: Expr<'g>) -> Expr<'g> {
         let modes = self.modes[j].iter();
         modes.fold(no, |no, mode| mode.abs().if_less(self.half, yes, no))
     }
 
-    /// What holds the coordinate has of these where it is held, else `free`.
+    /// Returns the entry of `counterparts` for the contact that holds the coordinate, or `free` if none
+    /// does.
     pub(super) fn known(&self, j: usize, free: Expr<'g>, counterparts: &[Expr<'g>]) -> Expr<'g> {
         let all = self.modes[j].iter().zip(counterparts);
         all.fold(free, |free, (mode, &reference)| {
@@ -116,15 +117,15 @@ impl<'g> Holding<'g> {
     }
 }
 
-/// The equations of the links where joints may be held: the rows of these in M q̈ = f are replaced by
-/// q̈_j = r̈_j, and what is known goes over to the other rows. A coordinate that stores its own
-/// momentum has a row of its own, I_j q̈_j = f_j.
+/// The equations of the links if joints can be held: the rows of held joints in M q̈ = f are replaced by
+/// q̈_j = r̈_j, and known terms move to the right-hand side of the other rows. A coordinate with a store
+/// of its own has a row of its own, I_j q̈_j = f_j.
 pub(super) struct Holds<'g> {
-    /// Which may be held.
+    /// The coordinates that can be held.
     pub at: Holding<'g>,
     /// Lower triangle of M.
     triangle: Vec<Expr<'g>>,
-    /// Number of coordinates that M is about.
+    /// Number of coordinates in M.
     n: usize,
 }
 
@@ -139,13 +140,13 @@ impl<'g> Holds<'g> {
         }
     }
 
-    /// M_ij
+    /// Returns M_ij.
     pub(super) fn entry(&self, i: usize, j: usize) -> Expr<'g> {
         self.triangle[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)]
     }
 
-    /// The accelerations of the links' coordinates under these forces, where the counterparts of
-    /// held ones accelerate so.
+    /// Returns the accelerations of the links' coordinates under these forces, with these accelerations of
+    /// the counterparts of held coordinates.
     pub(super) fn solve(
         &self,
         b: &'g Builder,
@@ -174,8 +175,8 @@ impl<'g> Holds<'g> {
     }
 }
 
-/// Values whose fall through zero is an event. A contact's: its slip in the direction it slips in,
-/// or how much more it would hold.
+/// Returns the event functions; an event occurs where one falls through zero. For a contact it is the slip
+/// in its direction, or the margin until it breaks away.
 pub(super) fn events<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
     let of_contacts = if sums.contacts().is_empty() {
@@ -206,8 +207,8 @@ pub(super) fn events<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
     system.scene.layout.events.iter().map(value).collect()
 }
 
-/// For each mode: its slip, the acceleration of its slip, the effort it holds or would have to hold
-/// to keep its present acceleration, and what is left until it gives way.
+/// Returns for each mode its slip, the acceleration of its slip, the effort it holds or would have to hold
+/// for its present acceleration, and the margin until it breaks away.
 pub(super) fn contacts<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
     contacts_under(system, &sums)
@@ -216,7 +217,7 @@ pub(super) fn contacts<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<
         .collect()
 }
 
-/// The same for each mode, under these laws.
+/// Returns the same for each mode, under these laws.
 pub(super) fn contacts_under<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,

@@ -1,4 +1,4 @@
-//! Elements that do nothing: no joint moves the place where they act in a direction in which they act.
+//! Finds elements without influence: no joint moves their site in a direction in which they act.
 
 use super::SceneEquations;
 use super::summed::summed;
@@ -8,8 +8,9 @@ use crate::effort_sums::ActuatorEfforts;
 use crate::expr::Builder;
 
 impl SceneEquations {
-    /// Elements that act at a place of a link, but take and give no power in any state: the Jacobian of the
-    /// place is zero in the directions in which they act. Those whose numbers are all zero are left out.
+    /// Returns the elements that act at a site of a link, but exchange no power in any state: the Jacobian
+    /// of the site is zero in the directions in which they act. Elements whose numbers are all zero are
+    /// omitted.
     pub fn idle(&self) -> Vec<&Element> {
         let b = Builder::silent();
         let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
@@ -23,7 +24,7 @@ impl SceneEquations {
         idle.map(|(_, (element, _))| element).collect()
     }
 
-    /// Whether the element with this number has a node on the flow of a place of a link.
+    /// Returns whether the element with this index has a node on the flow of a site of a link.
     fn acts_at_site(&self, element: usize) -> bool {
         let network = &self.network;
         let mut sites = network.ports.iter();

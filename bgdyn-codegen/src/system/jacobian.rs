@@ -1,8 +1,8 @@
-//! ∂ẏ/∂y and ∂ẏ/∂t of a scene, along the inputs that it drives itself.
+//! ∂ẏ/∂y and ∂ẏ/∂t of a scene, including the inputs that it drives.
 //!
-//! Two ways. The graph of ẏ differentiated; or, as P(q, v, v̇) = E holds wherever the motion goes,
-//! M ∂v̇ = ∂E − ∂P at fixed v̇, with ∂P as the recursion makes it. Held joints have ∂v̇ = ∂r̈ in place
-//! of their row. The cheaper way is taken.
+//! There are two methods. One differentiates the graph of ẏ. The other uses that P(q, v, v̇) = E is
+//! satisfied along every motion: M ∂v̇ = ∂E − ∂P at fixed v̇, with ∂P from the recursion. Held joints have
+//! ∂v̇ = ∂r̈ in place of their row. The cheaper method is chosen.
 
 use super::summed::summed_under;
 use bgdyn_runtime::Dd;
@@ -17,11 +17,12 @@ use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
 
-/// Coordinates up to which ẏ's own graph is differentiated to see whether that costs less: beyond
-/// them it costs more, and its factoring takes long.
+/// Largest number of coordinates for which the graph of ẏ is differentiated for comparison: for more
+/// coordinates it costs more, and its factoring takes long.
 const SMALL: usize = 4;
 
-/// The ways to the Jacobian: column by column, y's parts and then t, the rates v̇ and ẋ of each.
+/// Returns the alternatives for the Jacobian: column by column, first y's parts and then t, the rates v̇
+/// and ẋ of each.
 pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
     let mut ways = implicit(system);
     if system.graph.coordinates.len() <= SMALL {
@@ -30,7 +31,7 @@ pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
     ways
 }
 
-/// What the columns are slopes along.
+/// Returns the leaves of the columns.
 fn leaves(system: &SceneEquations) -> impl Iterator<Item = Leaf> + use<> {
     let layout = &system.scene.layout;
     let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
@@ -40,7 +41,7 @@ fn leaves(system: &SceneEquations) -> impl Iterator<Item = Leaf> + use<> {
     y.chain((0..nx).map(Leaf::State)).chain([Leaf::Time])
 }
 
-/// ∂/∂leaf of expressions.
+/// Returns ∂/∂leaf of expressions.
 fn slopes<'g>(b: &'g Builder, leaf: Leaf, of: impl Iterator<Item = Expr<'g>>) -> Vec<Expr<'g>> {
     let seed = |g: &mut Graph, l| (l == leaf).then(|| g.constant(Dd::ONE));
     let mut tangent = Tangent::new(seed);
@@ -49,12 +50,12 @@ fn slopes<'g>(b: &'g Builder, leaf: Leaf, of: impl Iterator<Item = Expr<'g>>) ->
         .collect()
 }
 
-/// The expressions without their graph.
+/// Returns the expressions without their graph.
 pub(super) fn expressions(all: &[Expr<'_>]) -> Vec<Signed> {
     all.iter().map(|x| x.signed()).collect()
 }
 
-/// The graph of ẏ differentiated.
+/// Differentiates the graph of ẏ.
 fn differentiated(system: &SceneEquations) -> Function {
     let b = Builder::new();
     let derivative = system.chosen(SceneFunction::Derivative);
@@ -77,7 +78,7 @@ fn differentiated(system: &SceneEquations) -> Function {
     }
 }
 
-/// M ∂v̇ = ∂E − ∂P, with each way to M⁻¹.
+/// Solves M ∂v̇ = ∂E − ∂P, with each alternative for M⁻¹.
 fn implicit(system: &SceneEquations) -> Vec<Function> {
     if system.may_hold_joints() {
         let b = Builder::new();
@@ -111,7 +112,7 @@ fn implicit(system: &SceneEquations) -> Vec<Function> {
     ways.map(with).collect()
 }
 
-/// The columns of the Jacobian. M⁻¹ f is that of `response`, or of the joints held or free.
+/// Returns the columns of the Jacobian. M⁻¹ f is that of `response`, or that of the joints held or free.
 fn columns<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,
@@ -153,10 +154,11 @@ fn columns<'g>(
     expressions(&all)
 }
 
-/// M⁻¹ f by a way to forward dynamics, which is linear in the efforts: its derivative along f.
+/// Computes M⁻¹ f by a function for forward dynamics, which is linear in the efforts: its derivative along
+/// f.
 pub(super) struct Response {
     graph: Graph,
-    /// Of the efforts that stand for the accelerations among the leaves.
+    /// Accelerations of the efforts that replace the accelerations among the leaves.
     outputs: Vec<Signed>,
 }
 
@@ -175,7 +177,7 @@ impl Response {
         }
     }
 
-    /// M⁻¹ f
+    /// Returns M⁻¹ f.
     pub(super) fn solve<'g>(&self, b: &'g Builder, force: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let force = expressions(force);
         let placed = |_: &mut Graph, leaf| match leaf {
@@ -188,7 +190,7 @@ impl Response {
 }
 
 impl SceneEquations {
-    /// The inputs: what the scene drives itself, and the rest as given.
+    /// Returns the inputs: those that the scene drives, and the given ones.
     pub(super) fn driven_inputs<'g>(&self, b: &'g Builder) -> Vec<Expr<'g>> {
         match self.scene.layout.inputs.is_empty() {
             true => vec![],
@@ -196,7 +198,7 @@ impl SceneEquations {
         }
     }
 
-    /// The laws under those inputs.
+    /// Returns the laws under those inputs.
     pub(super) fn laws_under_driven_inputs<'g, 'a>(&'a self, b: &'g Builder) -> EffortSums<'g, 'a> {
         let inputs = || self.driven_inputs(b);
         summed_under(

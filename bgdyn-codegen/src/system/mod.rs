@@ -1,8 +1,8 @@
-//! The equations of a scene: the effects' laws joined with the mechanism's own.
+//! Builds the equations of a scene: the effects' laws together with the mechanism's equations.
 //!
-//! With P of equation (6) for the links and E for the sum of the laws on a coordinate's junction,
-//! P(q, q̇, q̈) = E(q, q̇, x, modes, u, t) gives the accelerations, I q̈ = E those of coordinates that
-//! store their own momentum, and the laws give ẋ.
+//! With P of equation (6) for the links and E for the sum of the laws on a coordinate's junction, P(q, q̇,
+//! q̈) = E(q, q̇, x, modes, u, t) gives the accelerations, I q̈ = E those of coordinates with a store of
+//! their own, and the laws give ẋ.
 
 mod balance;
 mod canonical;
@@ -38,11 +38,11 @@ use crate::scene::{Override, Scene};
 pub use equations::{Named, SceneEquations};
 
 impl SceneEquations {
-    /// The equations of a scene.
+    /// Builds the equations of a scene.
     ///
     /// # Errors
-    /// Outputs that the scene does not have; values that do not stay positive over the limits of
-    /// the joints; stated modes that contradict the state.
+    /// Outputs that the scene does not have; values that do not stay positive over the limits of the
+    /// joints; given modes that contradict the state.
     pub fn new(scene: Scene) -> Result<Self, Faults> {
         let mut graph = bond_graph::build(&scene.mechanism).without_loads();
         for element in &scene.elements {
@@ -73,12 +73,12 @@ impl SceneEquations {
         system.started(faults)
     }
 
-    /// The same equations with these values, SI units, at the start and for run-time parameters. The
-    /// functions stay as they are, but for what they read.
+    /// Returns the equations with these values, SI units, at the start and for run-time parameters. The
+    /// functions do not change, only their arguments.
     ///
     /// # Errors
-    /// Values that a state cannot have, or with which something is not positive that must be; modes
-    /// that contradict the state.
+    /// Invalid values of a state, or values for which a quantity that must be positive is not; modes that
+    /// contradict the state.
     pub fn with_overrides(&self, values: &[(Override, Dd)]) -> Result<Self, Faults> {
         let scene = self.scene.with_overrides(values)?;
         let mut system = SceneEquations {
@@ -99,14 +99,14 @@ impl SceneEquations {
         system.started(faults)
     }
 
-    /// Joints that nothing in the scene gives inertia, in any position.
+    /// Returns the joints to which nothing in the scene gives inertia, in any position.
     pub fn without_inertia(&self) -> Vec<&str> {
         let b = Builder::silent();
         let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
         let mass = sums.method(Method::MassMatrix);
         let coordinates = self.graph.coordinates.iter().enumerate();
         let diagonal = |j: usize| mass[j * (j + 1) / 2 + j];
-        // Positions without any symmetry; a diagonal entry of M is a sum of squares.
+        // Positions without symmetry; a diagonal entry of M is a sum of squares.
         let positions: Vec<Dd> = (0..self.graph.coordinates.len())
             .map(|j| Dd::from_f64(0.37 + 0.71 * j as f64))
             .collect();
@@ -120,12 +120,12 @@ impl SceneEquations {
             .collect()
     }
 
-    /// The roles this scene has functions for, with those that its method of integration needs.
+    /// Returns the functions of this scene, including those that its integrator needs.
     pub fn roles(&self) -> Vec<SceneFunction> {
         self.roles_with(false, false)
     }
 
-    /// The same, where the Jacobian and the canonical form may be asked for besides.
+    /// Returns the same, with the Jacobian and the canonical form if selected.
     pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<SceneFunction> {
         let layout = &self.scene.layout;
         let method = self.scene.integration.method;
@@ -146,12 +146,12 @@ impl SceneEquations {
         SceneFunction::ALL.into_iter().filter(has).collect()
     }
 
-    /// The function of a role.
+    /// Returns a scene function.
     pub fn function(&self, role: SceneFunction) -> Function {
         finish(self.chosen(role))
     }
 
-    /// The same in one block.
+    /// Returns the same in one block.
     fn chosen(&self, role: SceneFunction) -> Function {
         let factored = self.ways(role).into_iter().map(factor);
         let best = match role {
@@ -164,7 +164,7 @@ impl SceneEquations {
         best.expect("every role has a function")
     }
 
-    /// The ways to the function of a role, before factoring. All give the same.
+    /// Returns the alternatives for a scene function, before factoring. All have the same results.
     pub fn ways(&self, role: SceneFunction) -> Vec<Function> {
         match role {
             SceneFunction::Derivative => dynamics::derivatives(self),
@@ -186,15 +186,15 @@ impl SceneEquations {
         }
     }
 
-    /// The derivative on this formulation instead of the cheapest: to compare them. `None` where the
-    /// formulation does not know what the derivative rests on.
+    /// Returns the derivative with this formulation instead of the cheapest, for comparison. `None` if the
+    /// formulation does not support a required method.
     pub fn derivative_by(&self, formulation: &'static dyn Formulation) -> Option<Function> {
         let way = dynamics::derivative_by(self, formulation)?;
         Some(finish(factor(way)))
     }
 
-    /// The derivative with one effort of its own at every coordinate, in place of the accelerations
-    /// among the leaves: undoes [`SceneFunction::Inverse`].
+    /// Returns the derivative with one drive at every coordinate, in place of the accelerations among the
+    /// leaves: the inverse of [`SceneFunction::Inverse`].
     pub fn driven(&self) -> Function {
         self.one(SceneFunction::Derivative, |system, b| {
             let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Each);
@@ -203,7 +203,7 @@ impl SceneEquations {
     }
 }
 
-/// The bond graph of the mechanism and of the scene's effects.
+/// Returns the bond graph of the mechanism and of the scene's effects.
 fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
     let layout = &scene.layout;
     let driven = layout.inputs.iter().filter_map(|input| input.drives);
@@ -216,7 +216,7 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
     network
 }
 
-/// The outputs asked for, with their expressions.
+/// Returns the outputs of the scene, with their expressions.
 fn outputs<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,

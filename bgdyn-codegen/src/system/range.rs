@@ -1,6 +1,6 @@
-//! Values that must stay positive: the volume of a cylinder's side. Each is tried at the start, then
-//! with one joint after the other moved from its lower to its upper limit. What is found is wrong;
-//! what is not found may still go wrong between the points, or where several joints move.
+//! Checks values that must stay positive, such as the volume of a cylinder's side. Each is evaluated at
+//! the start, then with one joint after the other moved from its lower to its upper limit. A violation
+//! found is an error; other violations are possible between the points, or if several joints move.
 
 use bgdyn_runtime::Dd;
 
@@ -9,10 +9,10 @@ use crate::effort_sums::Condition;
 use crate::fault::{Faults, wording};
 use crate::scene::{Initial, MomentumStore, Scene};
 
-/// Points between a joint's limits.
+/// Number of points between a joint's limits.
 const POINTS: u32 = 64;
 
-/// Notes the values that do not stay positive.
+/// Reports the values that do not stay positive.
 pub(super) fn check(scene: &Scene, sums: &EffortSums<'_, '_>, faults: &mut Faults) {
     for condition in sums.conditions() {
         if let Some((value, when)) = violated(condition, scene, sums) {
@@ -28,7 +28,7 @@ pub(super) fn check(scene: &Scene, sums: &EffortSums<'_, '_>, faults: &mut Fault
     }
 }
 
-/// The value where it is not positive, and where that is.
+/// Returns a value that is not positive, and its position.
 fn violated<'g>(
     condition: &Condition<'g>,
     scene: &Scene,

@@ -1,5 +1,4 @@
-//! A scene's equations with P by the literal sum of equation (6): what its functions are compared
-//! with.
+//! A scene's equations with P by the literal sum of equation (6), the reference for its functions.
 
 use super::coordinate_rows::own_inertia;
 use super::dynamics::efforts;
@@ -12,9 +11,9 @@ use crate::function::Function;
 use crate::method::{Method, SceneFunction};
 
 impl SceneEquations {
-    /// The two sides of the equations of motion at given accelerations, and the rates of the
-    /// first-order states: P_j of each coordinate, then E_j of each, then ẋ. P is the literal sum,
-    /// or I_j q̈_j for a coordinate that stores its own momentum. Efforts in N·m or N.
+    /// Returns the two sides of the equations of motion at given accelerations, and the rates of the
+    /// first-order states: P_j of each coordinate, then E_j of each, then ẋ. P is the literal sum, or I_j
+    /// q̈_j for a coordinate with a store of its own. Efforts in N·m or N.
     pub fn both_sides(&self) -> Function {
         self.one(SceneFunction::Inverse, |system, b| {
             let sums = literal_laws(system, b, ActuatorEfforts::FromInputs);
@@ -31,7 +30,7 @@ impl SceneEquations {
         })
     }
 
-    /// [`SceneFunction::Inverse`] with P by the literal sum.
+    /// Returns [`SceneFunction::Inverse`] with P by the literal sum.
     pub fn literal_inverse(&self) -> Function {
         self.one(SceneFunction::Inverse, |system, b| {
             let sums = literal_laws(system, b, ActuatorEfforts::Unknown);

@@ -1,4 +1,4 @@
-//! What drives the inputs: courses in time and controllers, as expressions.
+//! The sources of the inputs, as expressions: signals in time and controllers.
 
 use super::summed::summed;
 use bgdyn_runtime::Dd;
@@ -8,7 +8,7 @@ use super::{ActuatorEfforts, EffortSums, SceneEquations};
 use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
 use crate::scene::{InputSource, Waveform};
 
-/// Every input: built in, or as the caller gives it.
+/// Returns every input: by its source in the scene, or as given by the caller.
 pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let layout = &system.scene.layout;
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
@@ -38,7 +38,7 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
     values
 }
 
-/// The inverse dynamics of the whole scene at the accelerations that the controllers want.
+/// Returns the inverse dynamics of the whole scene at the accelerations that the controllers demand.
 fn computed_torques<'g>(
     system: &SceneEquations,
     b: &'g Builder,
@@ -70,7 +70,7 @@ fn computed_torques<'g>(
     efforts(system, sums, &at)
 }
 
-/// The rate of the input that this one is the rate of, or the rate of its rate.
+/// Returns the value of an input that is the rate of another one, or the rate of its rate.
 fn rate_of<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
     match &system.scene.drives[i] {
         InputSource::RateOf(base) => rate(b, rate_of(system, b, *base)),
@@ -79,7 +79,7 @@ fn rate_of<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
     }
 }
 
-/// d/dt
+/// Returns the derivative by time.
 fn rate<'g>(b: &'g Builder, x: Expr<'g>) -> Expr<'g> {
     let seed = |g: &mut Graph, leaf| (leaf == Leaf::Time).then(|| g.constant(Dd::ONE));
     let x = x.signed();
@@ -87,7 +87,7 @@ fn rate<'g>(b: &'g Builder, x: Expr<'g>) -> Expr<'g> {
     b.expr(rate)
 }
 
-/// A course in time.
+/// Returns a signal in time.
 fn course<'g>(b: &'g Builder, signal: &Waveform) -> Expr<'g> {
     let t = b.leaf(Leaf::Time);
     match signal {
@@ -107,7 +107,7 @@ fn course<'g>(b: &'g Builder, signal: &Waveform) -> Expr<'g> {
     }
 }
 
-/// Straight lines between points, held before the first and after the last.
+/// Interpolates linearly between points; constant before the first and after the last.
 fn table<'g>(b: &'g Builder, t: Expr<'g>, points: &[[Dd; 2]]) -> Expr<'g> {
     let number = |x: Dd| b.constant(x);
     let last = points[points.len() - 1];

@@ -1,4 +1,4 @@
-//! The slope of a scene's rates at an instant: its fastest time constants.
+//! The slope of a scene's rates at an instant, for its fastest time constants.
 
 use super::SceneEquations;
 use crate::expr::{Builder, Graph, Inputs, Leaf, Signed, Tangent};
@@ -7,8 +7,8 @@ use crate::method::SceneFunction;
 use bgdyn_runtime::Dd;
 
 impl SceneEquations {
-    /// The scene's start as the evaluator takes it, with the inputs that the scene drives itself
-    /// at t = 0 and 0 for those that are given.
+    /// Returns the scene's start for the evaluator, with the inputs that the scene drives at t = 0 and 0
+    /// for given inputs.
     pub fn start(&self) -> Inputs<f64> {
         let numbers = |x: &[Dd]| x.iter().map(|x| x.to_f64()).collect::<Vec<f64>>();
         let parameters = self.scene.parameters.iter();
@@ -31,8 +31,8 @@ impl SceneEquations {
         start
     }
 
-    /// ∂ẏ/∂y at an instant, row by row, for y = positions, velocities, first-order states; `None`
-    /// where the mass matrix is singular. `derivative` is this scene's.
+    /// Returns ∂ẏ/∂y at an instant, row by row, for y = positions, velocities, first-order states; `None`
+    /// if the mass matrix is singular. `derivative` is that of this scene.
     pub fn slope(&self, derivative: &Function, at: &Inputs<f64>) -> Option<Vec<Vec<f64>>> {
         let layout = &self.scene.layout;
         let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());

@@ -1,5 +1,5 @@
-//! Where a scene begins: first-order states as its effects store them, and modes that agree with the
-//! rest of the state.
+//! The start of a scene: first-order states in the quantities of their effects, and modes that are
+//! consistent with the rest of the state.
 
 use super::summed::summed;
 use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, resolve_stiction_by};
@@ -14,14 +14,14 @@ use crate::fault::wording::{self, WhyWrong, WrongMode};
 use crate::fault::{Fault, Faults, Location};
 use crate::scene::{Scene, mode_name};
 
-/// A slip that counts as none: what the rounding of two rates leaves, rad/s, m/s or A.
+/// Largest slip that counts as zero, the rounding error of two rates: rad/s, m/s or A.
 const NO_SLIP: f64 = 64.0 * f64::EPSILON;
 
 impl SceneEquations {
-    /// The same with its first-order states and modes at the start.
+    /// Returns the equations with first-order states and modes at the start.
     ///
     /// # Errors
-    /// The `faults` so far, and stated modes that contradict the rest of the state.
+    /// The `faults` so far, and given modes that contradict the rest of the state.
     pub(super) fn started(mut self, mut faults: Faults) -> Result<SceneEquations, Faults> {
         let b = Builder::silent();
         let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
@@ -38,7 +38,7 @@ impl SceneEquations {
     }
 }
 
-/// First-order states at the start: what the scene gives, as its effects store it.
+/// Returns the first-order states at the start, converted by their effects from the values in the scene.
 fn states(scene: &Scene, sums: &EffortSums<'_, '_>) -> Vec<Dd> {
     let given = &scene.initial;
     let parts = scene.layout.states.iter().zip(&given.x);
@@ -49,7 +49,7 @@ fn states(scene: &Scene, sums: &EffortSums<'_, '_>) -> Vec<Dd> {
     parts.map(value).collect()
 }
 
-/// What a first-order state stores where the scene gives `x` for it.
+/// Returns the value of a first-order state for which the scene gives `x`.
 fn stored<'g>(scene: &Scene, sums: &EffortSums<'g, '_>, state: &str, x: Dd) -> Expr<'g> {
     let given = sums.b.constant(x);
     let owner = |e: &&Element| e.effect.owns_state(e, state);
@@ -59,9 +59,9 @@ fn stored<'g>(scene: &Scene, sums: &EffortSums<'g, '_>, state: &str, x: Dd) -> E
     }
 }
 
-/// The modes at the start: what moves slips the way it moves, what is at rest holds where it can. A
-/// mode that is stated and is another one is a fault, unless inputs decide that only the caller knows;
-/// these are 0 here.
+/// Returns the modes at the start: moving contacts slip in their direction of motion, contacts at rest
+/// hold if they can. A given mode with another value is a fault, unless it depends on inputs that only the
+/// caller knows; these are 0 here.
 fn modes(system: &SceneEquations, faults: &mut Faults) -> Vec<Dd> {
     let start = Start::of(system);
     let stated = DVector::from_vec(system.initial.modes.clone());
@@ -93,7 +93,7 @@ struct Start<'a> {
     graph: crate::expr::Graph,
     /// Four numbers for each mode.
     rows: Vec<Signed>,
-    /// For each mode, whether an input that the caller gives decides.
+    /// For each mode, whether it depends on an input from the caller.
     by_caller: Vec<bool>,
     /// For each mode, whether it belongs to the limit of a rate, not to friction.
     of_limit: Vec<bool>,
@@ -151,7 +151,7 @@ impl<'a> Start<'a> {
         values.chunks_exact(4).map(one).collect()
     }
 
-    /// The fault of the mode `k` that the scene states among `modes`; `right` is the one it has.
+    /// Returns the fault of the given mode `k` among `modes`; `right` is the consistent one.
     fn contradiction(
         &self,
         location: &Location,

@@ -1,4 +1,4 @@
-//! The laws of a scene's effects, summed on its junctions.
+//! Sums the laws of a scene's effects on its junctions.
 
 use crate::bond_graph::BondGraph;
 use crate::effect;
@@ -8,7 +8,7 @@ use crate::formulation::Formulation;
 use crate::layout::Variable;
 use crate::scene::Scene;
 
-/// Every law of the scene, summed.
+/// Returns the sum of all laws of the scene.
 pub(super) fn summed<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
@@ -18,7 +18,7 @@ pub(super) fn summed<'g, 'a>(
     summed_by(b, scene, graph, own, None)
 }
 
-/// The same, with the mechanism's own methods by this formulation.
+/// Returns the same, with the mechanism's own methods by this formulation.
 pub(super) fn summed_by<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
@@ -34,7 +34,7 @@ pub(super) fn summed_by<'g, 'a>(
     summed_under(b, scene, (graph, asked), own, inputs)
 }
 
-/// The same under these inputs.
+/// Returns the same under these inputs.
 pub(super) fn summed_under<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
@@ -75,7 +75,7 @@ mod tests {
         ..DECLARED
     };
 
-    /// An effect whose law reads what its tests say.
+    /// An effect whose law is defined by a test.
     struct Probe(fn(&Element, &mut EffortSums<'_, '_>));
 
     impl EffectKind for Probe {
@@ -104,7 +104,7 @@ mod tests {
         }
     }
 
-    /// What the law of a probe called `needle` panics with, if it does.
+    /// Returns the text of the panic in the law of a probe called `needle`, if it panics.
     fn panic_of(law: fn(&Element, &mut EffortSums<'_, '_>)) -> Option<String> {
         let read = crate::read_scene(SCENE, "swing", |_| Ok(MECHANISM.to_owned()));
         let (system, _) = read.expect("a sound scene");

@@ -1,4 +1,4 @@
-//! Compares results and describes where they differ.
+//! Compares results and describes their differences.
 
 use bgdyn_runtime::Dd;
 
@@ -6,23 +6,23 @@ use super::Difference;
 use crate::expr::Inputs;
 use crate::function::Function;
 
-/// Allowed for values that both sides compute in double-double.
+/// Permitted relative error of values that both sides compute in double-double.
 pub(super) const EXACT: f64 = 1e-18;
 
-/// Allowed for accelerations and their derivatives put back into the equations of motion: the
-/// solution loses digits with the condition number of the mass matrix.
+/// Permitted relative error of accelerations and their derivatives substituted into the equations of
+/// motion: the solution loses digits with the condition number of the mass matrix.
 pub(super) const SOLVED: f64 = 1e-12;
 
-/// What a result must obey, and how closely.
+/// A law for a result, and the permitted error.
 pub(super) struct Law {
-    /// In words or as a formula.
+    /// The law in words or as a formula.
     pub text: &'static str,
-    /// Error allowed, relative to the largest number on either side.
+    /// Permitted error, relative to the largest number on either side.
     pub allowed: f64,
 }
 
-/// Compares what a function gives with what it must give. `size` is the size of the terms that may
-/// cancel in them.
+/// Compares a function's result with the expected one. `size` is the size of the terms that may cancel in
+/// them.
 pub(super) fn differs(
     (subject, function): (&str, &Function),
     law: &Law,
@@ -39,7 +39,7 @@ pub(super) fn differs(
     );
     let size = largest(found).max(largest(expected)).max(size);
     let off = |i: usize| (found[i] - expected[i]).to_f64().abs();
-    // A NaN is the worst of all.
+    // A NaN is the largest error.
     let key = |i: &usize| {
         if off(*i).is_nan() {
             f64::INFINITY
@@ -63,7 +63,7 @@ pub(super) fn differs(
     })
 }
 
-/// The largest magnitude; infinity where there is a NaN.
+/// Returns the largest magnitude; infinity for a NaN.
 pub(super) fn largest(x: &[Dd]) -> f64 {
     x.iter().fold(0.0, |most: f64, x| {
         let size = x.to_f64().abs();
@@ -75,7 +75,8 @@ pub(super) fn largest(x: &[Dd]) -> f64 {
     })
 }
 
-/// A vector with other signs of its components: what cancels in a product with it does not in these.
+/// Returns a vector with other signs of its components: terms that cancel in a product with it do not
+/// cancel in a product with these.
 pub(super) fn turned(x: &[Dd]) -> [Vec<Dd>; 3] {
     [1, 2, 3].map(|period| {
         let signed = x.iter().enumerate().map(|(j, x)| {
@@ -86,23 +87,23 @@ pub(super) fn turned(x: &[Dd]) -> [Vec<Dd>; 3] {
     })
 }
 
-/// x − y
+/// Returns x − y.
 pub(super) fn minus(x: &[Dd], y: &[Dd]) -> Vec<Dd> {
     x.iter().zip(y).map(|(&x, &y)| x - y).collect()
 }
 
-/// x + y
+/// Returns x + y.
 pub(super) fn plus(x: &[Dd], y: &[Dd]) -> Vec<Dd> {
     x.iter().zip(y).map(|(&x, &y)| x + y).collect()
 }
 
-/// Σ x_i y_i
+/// Returns Σ x_i y_i.
 pub(super) fn dot(x: &[Dd], y: &[Dd]) -> Dd {
     let products = x.iter().zip(y).map(|(&x, &y)| x * y);
     products.fold(Dd::ZERO, |sum, p| sum + p)
 }
 
-/// A matrix, given row by row, times a vector of `columns` numbers.
+/// Returns a matrix, given row by row, times a vector of `columns` numbers.
 pub(super) fn times(matrix: &[Dd], x: &[Dd]) -> Vec<Dd> {
     matrix
         .chunks(x.len().max(1))
@@ -110,7 +111,7 @@ pub(super) fn times(matrix: &[Dd], x: &[Dd]) -> Vec<Dd> {
         .collect()
 }
 
-/// A state as a reader can type it again.
+/// Prints a state in a form that a reader can copy.
 fn state(at: &Inputs<Dd>) -> String {
     let parts = [
         ("q", &at.q),

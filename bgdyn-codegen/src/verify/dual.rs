@@ -22,8 +22,8 @@ pub(super) struct Direction {
     pub t: Dd,
 }
 
-/// The state with its rates along the direction. Accelerations, inputs, modes and parameters have
-/// the rate zero.
+/// Returns the state with its rates along the direction. Accelerations, inputs, modes and parameters have
+/// zero rates.
 pub(super) fn along(at: &Inputs<Dd>, direction: &Direction) -> Inputs<Dual> {
     Inputs {
         q: with_rates(&at.q, &direction.q),
@@ -38,19 +38,19 @@ pub(super) fn along(at: &Inputs<Dd>, direction: &Direction) -> Inputs<Dual> {
     }
 }
 
-/// Values and their rates.
+/// Combines values and their rates.
 pub(super) fn with_rates(values: &[Dd], rates: &[Dd]) -> Vec<Dual> {
     assert_eq!(values.len(), rates.len());
     let pairs = values.iter().zip(rates);
     pairs.map(|(&x, &dx)| Dual::new(x, dx)).collect()
 }
 
-/// The values of results.
+/// Returns the values of results.
 pub(super) fn values(results: &[Dual]) -> Vec<Dd> {
     results.iter().map(|x| x.value).collect()
 }
 
-/// The rates of results.
+/// Returns the rates of results.
 pub(super) fn rates(results: &[Dual]) -> Vec<Dd> {
     results.iter().map(|x| x.rate).collect()
 }
@@ -107,7 +107,7 @@ impl Neg for Dual {
     }
 }
 
-/// Where a function has a kink, the rate is that of the branch which the value takes.
+/// At a kink of a function, the rate is that of the branch of the value.
 impl Scalar for Dual {
     type Mask = bool;
     type Refused = Option<usize>;

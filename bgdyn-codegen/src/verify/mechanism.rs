@@ -15,8 +15,8 @@ use crate::function::{Function, in_triangle};
 use crate::method::Method;
 use crate::random::Random;
 
-/// Compares functions of a mechanism with the literal sum for its bond graph: at three states, or
-/// at one beyond ten coordinates. At most one difference for each function.
+/// Compares functions of a mechanism with the literal sum for its bond graph: at three states, or at one
+/// for more than ten coordinates. Returns at most one difference per function.
 pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) -> Vec<Difference> {
     let literal = LiteralValues::new(graph);
     let states = of_mechanism(graph).into_iter();
@@ -50,12 +50,12 @@ impl<'a> LiteralValues<'a> {
         }
     }
 
-    /// The method as the literal sum writes it.
+    /// Returns the method by the literal sum.
     fn form(&self, method: Method) -> Option<Function> {
         specification().function(&self.prepared, method)
     }
 
-    /// P(q, v, a), the rest as in `at`.
+    /// Returns P(q, v, a), with all other arguments as in `at`.
     fn efforts(&self, at: &Inputs<Dd>, v: &[Dd], a: &[Dd]) -> Vec<Dd> {
         let inputs = Inputs {
             v: v.to_vec(),
@@ -65,7 +65,7 @@ impl<'a> LiteralValues<'a> {
         self.inverse.evaluate(inputs).0
     }
 
-    /// dP for q + ε dq, v + ε dv, a + ε da.
+    /// Returns dP for q + ε dq, v + ε dv, a + ε da.
     fn effort_rates(&self, at: &Inputs<Dd>, dq: &[Dd], dv: &[Dd], a: (&[Dd], &[Dd])) -> Vec<Dd> {
         let direction = Direction {
             q: dq.to_vec(),
@@ -79,7 +79,7 @@ impl<'a> LiteralValues<'a> {
     }
 }
 
-/// A state, and what several laws read in it.
+/// A state, with quantities that several laws use.
 struct State {
     at: Inputs<Dd>,
     /// P(q, 0, 0)
@@ -87,7 +87,7 @@ struct State {
     /// P(q, v, a)
     efforts: Vec<Dd>,
     /// The size of the terms that add up to efforts: of P(q, v, a), and of M times the squares of the
-    /// velocities, which is what centrifugal terms are like before they cancel.
+    /// velocities, the size of centrifugal terms before they cancel.
     size: f64,
 }
 
@@ -110,13 +110,13 @@ impl State {
         vec![Dd::ZERO; self.at.q.len()]
     }
 
-    /// M(q) x = P(q, 0, x) − P(q, 0, 0)
+    /// Returns M(q) x = P(q, 0, x) − P(q, 0, 0).
     fn inertial(&self, literal: &LiteralValues<'_>, x: &[Dd]) -> Vec<Dd> {
         let moved = literal.efforts(&self.at, &self.zero(), x);
         minus(&moved, &self.at_rest)
     }
 
-    /// The size of the terms of M(q) x, which cancel where x is large and M nearly singular: the
+    /// Returns the size of the terms of M(q) x, which cancel if x is large and M almost singular: the
     /// largest product with other signs of the components of x.
     fn size_of_product(&self, literal: &LiteralValues<'_>, x: &[Dd]) -> f64 {
         let products = turned(x).map(|x| largest(&self.inertial(literal, &x)));
@@ -129,11 +129,11 @@ struct Subject<'a> {
     name: &'a str,
     function: &'a Function,
     literal: &'a LiteralValues<'a>,
-    /// The function as the literal sum writes it, once a law has asked for it.
+    /// The function by the literal sum, created on demand.
     form: OnceCell<Option<Function>>,
 }
 
-/// What a law compares: what is found, what is expected, the size of the terms in them.
+/// The two sides of a law: the actual value, the expected value, the size of their terms.
 struct Sides {
     law: Law,
     found: Vec<Dd>,
@@ -158,8 +158,8 @@ impl Sides {
 }
 
 impl Subject<'_> {
-    /// The first law that the function does not obey at this state. A state in which it refuses a
-    /// pivot has nothing to compare.
+    /// Returns the first law that the function violates at this state. A state in which it refuses a pivot
+    /// is skipped.
     fn check(&self, state: &State) -> Option<Difference> {
         let at = &state.at;
         let (found, refused) = self.function.evaluate(at.clone());
@@ -182,7 +182,7 @@ impl Subject<'_> {
         .next()
     }
 
-    /// A function that refuses every state though the literal sum refuses none of them.
+    /// Returns a difference if the function refuses every state and the literal sum refuses none of them.
     fn refuses_all(&self, states: &[State]) -> Option<Difference> {
         let refuses = |function: &Function| {
             let refused = |state: &State| function.evaluate(state.at.clone()).1.is_some();
@@ -263,7 +263,7 @@ impl Subject<'_> {
         vec![first.sized(size), second.sized(size)]
     }
 
-    /// ∂τ/∂q d + ∂τ/∂v e along random directions.
+    /// Returns ∂τ/∂q d + ∂τ/∂v e along random directions.
     fn inverse_slopes(&self, state: &State, matrices: &[Dd]) -> Sides {
         let at = &state.at;
         let n = at.q.len();
@@ -278,7 +278,8 @@ impl Subject<'_> {
         Sides::new("dτ = ∂P/∂q dq + ∂P/∂v dv", EXACT, found, expected).sized(size)
     }
 
-    /// Moved along random directions, the accelerations still solve the equations of motion.
+    /// Checks that after small displacements along random directions the accelerations still solve the
+    /// equations of motion.
     fn forward_slopes(&self, state: &State, result: &[Dd]) -> Vec<Sides> {
         let at = &state.at;
         let n = at.q.len();
@@ -299,13 +300,13 @@ impl Subject<'_> {
     }
 }
 
-/// Directions of position, velocity and effort.
+/// Returns directions of position, velocity and effort.
 fn directions(n: usize) -> [Vec<Dd>; 3] {
     let mut random = Random(11);
     std::array::from_fn(|_| direction(&mut random, n))
 }
 
-/// A symmetric matrix row by row, from its lower triangle.
+/// Returns a symmetric matrix row by row, from its lower triangle.
 fn whole(triangle: &[Dd], n: usize) -> Vec<Dd> {
     let entry = |k: usize| {
         let (row, column) = (k / n, k % n);

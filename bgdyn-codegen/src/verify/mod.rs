@@ -2,9 +2,9 @@
 //!
 //! Functions are compared at a few states, before they are written.
 //!
-//! The literal inverse dynamics P(q, v, a) is enough for almost every method, since the others
+//! The literal inverse dynamics P(q, v, a) is sufficient for almost every method, because the others
 //! follow from it: M x = P(q, 0, x) − P(q, 0, 0), P(q, v, q̈) = τ for the accelerations of forward
-//! dynamics, derivatives from P in dual numbers. States are the same in every run.
+//! dynamics, derivatives from P in dual numbers. The states are the same in every run.
 
 mod compare;
 mod dual;
@@ -17,24 +17,24 @@ use std::fmt;
 pub use mechanism::check_functions;
 pub use scene::check_scene;
 
-/// A function that does not give what the literal sum gives: a fault of the generator.
+/// A difference between a function and the literal sum: an error of the generator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// Name of the mechanism or the scene.
     pub subject: String,
     /// Name of the function.
     pub function: String,
-    /// The formulation it is made by.
+    /// Its formulation.
     pub formulation: String,
-    /// What it must obey.
+    /// The violated law.
     pub law: &'static str,
-    /// The component of the law that is worst.
+    /// The component with the largest error.
     pub component: usize,
-    /// Its value, SI units.
+    /// Its actual value, SI units.
     pub found: f64,
-    /// What it must be, SI units.
+    /// Its expected value, SI units.
     pub expected: f64,
-    /// The state in which it was found, SI units.
+    /// The state, SI units.
     pub state: String,
 }
 
@@ -58,7 +58,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// What a user reads where functions differ: every difference, and the way out.
+/// Returns the message for the user: every difference, and advice.
 pub fn explain(differences: &[Difference]) -> String {
     let mut text = String::from("error[verify]: the generated code does not equal equation (6)\n");
     for difference in differences {

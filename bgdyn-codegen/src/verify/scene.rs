@@ -12,10 +12,10 @@ use crate::method::{Method, SceneFunction};
 use crate::random::Random;
 use crate::system::SceneEquations;
 
-/// Compares functions of a scene at two or three states, or at one beyond ten coordinates: the
+/// Compares functions of a scene at two or three states, or at one for more than ten coordinates: the
 /// derivative and the inverse with the literal sum under the scene's laws, the power with zero, the
-/// Jacobian and the canonical form with the derivative in dual numbers. At most one difference for each
-/// function. Energies, events, inputs and outputs are read by the others or stand for themselves.
+/// Jacobian and the canonical form with the derivative in dual numbers. Returns at most one difference per
+/// function. Energies, events, inputs and outputs are used by the others or define themselves.
 pub fn check_scene(system: &SceneEquations, functions: &[Function]) -> Vec<Difference> {
     let held = system.mode_coordinates();
     let scene = CheckedScene {
@@ -35,7 +35,7 @@ pub fn check_scene(system: &SceneEquations, functions: &[Function]) -> Vec<Diffe
     found.collect()
 }
 
-/// Rates of first-order states below this, times what is allowed, are zero: SI units.
+/// Rates of first-order states below this, times the permitted error, count as zero: SI units.
 const LEAST_RATE: f64 = 1e-12;
 
 struct CheckedScene<'a> {
@@ -43,9 +43,9 @@ struct CheckedScene<'a> {
     functions: &'a [Function],
     /// P, E and ẋ at given accelerations.
     sides: Function,
-    /// The own efforts behind given accelerations.
+    /// The drives for given accelerations.
     inverse: Function,
-    /// The coordinate that each mode may hold.
+    /// The coordinate that each mode can hold.
     held: Vec<usize>,
 }
 
@@ -102,12 +102,12 @@ impl CheckedScene<'_> {
         self.functions.iter().find(|f| f.method == wanted)
     }
 
-    /// P = E on every coordinate that is free, and the rates ẋ.
+    /// Checks P = E on every coordinate that is free, and the rates ẋ.
     fn derivative(&self, function: &Function, at: &Inputs<Dd>, rates: &[Dd]) -> Option<Difference> {
         let nv = self.system.scene.layout.nv();
         let (accelerations, first_order) = rates.split_at(nv);
         let sides = self.sides_at(accelerations, at);
-        // What the accelerations cancel counts as well.
+        // The scale includes the terms that the accelerations cancel.
         let still = self.sides_at(&vec![Dd::ZERO; nv], at);
         let (inertial, rest) = sides.split_at(nv);
         let (efforts, expected) = rest.split_at(nv);
@@ -126,13 +126,13 @@ impl CheckedScene<'_> {
             })
     }
 
-    /// P, E and ẋ at these accelerations.
+    /// Returns P, E and ẋ at these accelerations.
     fn sides_at(&self, accelerations: &[Dd], at: &Inputs<Dd>) -> Vec<Dd> {
         let a = accelerations.to_vec();
         self.sides.evaluate(Inputs { a, ..at.clone() }).0
     }
 
-    /// Whether a mode holds the coordinate in this state.
+    /// Returns whether a mode holds the coordinate in this state.
     fn holds(&self, coordinate: usize, at: &Inputs<Dd>) -> bool {
         let modes = self.held.iter().zip(&at.modes);
         modes
@@ -140,8 +140,8 @@ impl CheckedScene<'_> {
             .any(|(_, mode)| mode.to_f64().abs() < 0.5)
     }
 
-    /// Σ supplied = Σ d(stored)/dt + Σ dissipated. Only where no joint is held: a held joint's rate
-    /// is its counterpart's, which a state at random does not know.
+    /// Checks Σ supplied = Σ d(stored)/dt + Σ dissipated, only if no joint is held: a held joint has the
+    /// rate of its counterpart, which a random state does not have.
     fn power(&self, function: &Function, at: &Inputs<Dd>, entries: &[Dd]) -> Option<Difference> {
         if at.modes.contains(&Dd::ZERO) {
             return None;
@@ -156,15 +156,15 @@ impl CheckedScene<'_> {
         self.compare(function, (text, SOLVED), (&supplied, &used), size, at)
     }
 
-    /// The Jacobian along a random direction of (q, v, x, t): the rate of the derivative in dual
-    /// numbers, under the inputs that the scene drives.
+    /// Checks the Jacobian along a random direction of (q, v, x, t) against the rate of the derivative in
+    /// dual numbers, under the inputs that the scene drives.
     fn jacobian(&self, function: &Function, at: &Inputs<Dd>, columns: &[Dd]) -> Option<Difference> {
         let mut random = Random(13);
         let (nq, nv, nx) = (at.q.len(), at.v.len(), at.x.len());
         let moved = Direction {
             q: direction(&mut random, nq),
             v: direction(&mut random, nv),
-            // Volumes of fluid and deflections of bristles are small: steps as large as they are.
+            // Volumes of fluid and deflections of bristles are small: use steps of the same size.
             x: at.x.iter().map(|&x| x * signed(&mut random)).collect(),
             t: signed(&mut random),
         };
@@ -181,7 +181,7 @@ impl CheckedScene<'_> {
         self.compare(function, law, pair, largest(&values(&derivative)), at)
     }
 
-    /// v̇ and ẋ under the inputs that the scene drives.
+    /// Returns v̇ and ẋ under the inputs that the scene drives.
     fn rates(&self, at: &Inputs<Dual>) -> Option<Vec<Dual>> {
         let derivative = self.function(SceneFunction::Derivative)?;
         let mut driven = at.clone();
@@ -192,7 +192,7 @@ impl CheckedScene<'_> {
         refused.is_none().then_some(rates)
     }
 
-    /// p = M v
+    /// Checks p = M v.
     fn momenta(&self, function: &Function, at: &Inputs<Dd>, found: &[Dd]) -> Option<Difference> {
         let nv = at.v.len();
         let moved = self.sides_at(&at.v, at);
@@ -203,7 +203,7 @@ impl CheckedScene<'_> {
         self.compare(function, (text, EXACT), (found, &expected), size, at)
     }
 
-    /// The same state with momenta in place of velocities.
+    /// Returns the state with momenta in place of velocities.
     fn canonical(&self, at: &Inputs<Dd>) -> Option<Inputs<Dd>> {
         let momenta = self
             .function(SceneFunction::ToCanonical)?
@@ -215,7 +215,7 @@ impl CheckedScene<'_> {
         })
     }
 
-    /// q̇, ṗ and ẋ: ṗ from the momenta in dual numbers along the motion.
+    /// Checks q̇, ṗ and ẋ, with ṗ from the momenta in dual numbers along the motion.
     fn canonical_rates(&self, function: &Function, at: &Inputs<Dd>) -> Option<Difference> {
         let (found, refused) = function.evaluate(self.canonical(at)?);
         let still = Direction {

@@ -1,4 +1,4 @@
-//! The states at which functions are compared.
+//! Samples the states at which functions are compared.
 
 use bgdyn_runtime::Dd;
 
@@ -9,30 +9,30 @@ use crate::expr::Inputs;
 use crate::random::Random;
 use crate::system::SceneEquations;
 
-/// Coordinates up to which every state is tried.
+/// Largest number of coordinates for which all states are used.
 const SMALL: usize = 10;
 
-/// Which of the generic states are tried: slow, fast, under large efforts.
+/// Indices of the generic states that are used: slow, fast, under large efforts.
 const GENERIC: [usize; 3] = [0, 2, 3];
 
-/// A number in −1 … 1.
+/// Returns a number in −1 … 1.
 pub(super) fn signed(random: &mut Random) -> Dd {
     Dd::from_f64(random.signed())
 }
 
-/// A direction: numbers in −1 … 1.
+/// Returns a direction: numbers in −1 … 1.
 pub(super) fn direction(random: &mut Random, n: usize) -> Vec<Dd> {
     (0..n).map(|_| signed(random)).collect()
 }
 
-/// Numbers within `size` of these.
+/// Returns numbers within `size` of these.
 fn around(random: &mut Random, start: &[Dd], size: f64) -> Vec<Dd> {
     let size = Dd::from_f64(size);
     start.iter().map(|&x| x + size * signed(random)).collect()
 }
 
-/// States of a mechanism: three, or one beyond ten coordinates. The first one has run-time
-/// parameters as the spec has them, the others have positive ones beside them.
+/// Returns states of a mechanism: three, or one for more than ten coordinates. In the first one run-time
+/// parameters have the values of the spec, in the others positive ones close to these.
 pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
     let count = match graph.coordinates.len() {
         0..=SMALL => GENERIC.len(),
@@ -50,8 +50,8 @@ pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
     chosen.collect()
 }
 
-/// Run-time parameters beside those given: larger by up to a half, and by up to a tenth of a unit,
-/// so that one that is zero in the file is tried as well.
+/// Changes run-time parameters: increases them by up to a half, plus up to a tenth of a unit, so that one
+/// that is zero in the file changes as well.
 fn vary(parameters: &mut [Dd], random: &mut Random) {
     for p in parameters {
         let (part, more) = (signed(random), signed(random));
@@ -59,7 +59,7 @@ fn vary(parameters: &mut [Dd], random: &mut Random) {
     }
 }
 
-/// States of a scene near its start: all modes slipping, or some of them held.
+/// Returns states of a scene near its start: with all modes slipping, or some of them held.
 pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
     let layout = &system.scene.layout;
     let initial = &system.initial;

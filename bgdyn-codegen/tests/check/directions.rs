@@ -1,4 +1,4 @@
-//! Rotations and axes: what becomes exact, what is kept, what is warned of.
+//! Tests rotations and axes: which become exact, which are unchanged, which cause warnings.
 
 use bgdyn_codegen::fault::{Fault, Severity};
 use bgdyn_codegen::math::{Mat3, Vec3};
@@ -69,7 +69,7 @@ fn turns_about_fixed_axes_x_then_y_then_z() {
 
 #[test]
 fn turns_that_undo_each_other_leave_exact_zeros() {
-    // At pitch 90° roll and yaw turn about one axis; 0.4 rad there and back is no turn.
+    // At pitch 90° roll and yaw rotate about one axis; 0.4 rad and −0.4 rad cancel.
     let r = rotation("0.4, 90 deg, 0.4");
     assert_eq!(
         r,
@@ -166,14 +166,14 @@ fn what_snapping_changes_is_told_with_how_far() {
         found.map(|s| (s.count, format!("{:.1e}", s.most), s.location.path))
     };
     let (plain, slanted) = ("[0, 0, 0]", "[1, 0.5, 0]");
-    // The rounding of an f64 is none.
+    // The rounding of an f64 is not reported.
     assert_eq!(
         told("", "[1.5707963267948966, 3.141592653589793, 0]", "z"),
         None
     );
     assert_eq!(told("", "[90 deg, 0.3, -180 deg]", slanted), None);
     assert_eq!(told("", plain, "[1, 1e-16, 0]"), None);
-    // What is farther off is.
+    // Larger deviations are.
     let at = |count, most: &str, path: &str| Some((count, most.to_owned(), path.to_owned()));
     let (rpy, axis) = ("links[0].joint.origin.rpy", "links[0].joint.axis");
     assert_eq!(
@@ -185,10 +185,10 @@ fn what_snapping_changes_is_told_with_how_far() {
         told("", "[1.57079632679, 0, 0]", "[2, 4e-12, 0]"),
         at(2, "4.9e-12", rpy)
     );
-    // Angles that almost undo each other about a turned axis.
+    // Angles that almost cancel about a rotated axis.
     let undone = told("", "[0.4, 90 deg, 0.400000000005]", "z");
     assert_eq!(undone, at(1, "5.0e-12", rpy));
-    // Kept as written; asked for.
+    // Unchanged, because the spec says so.
     assert_eq!(
         told("snap: 0\n", "[1.57079632679, 0, 0]", "[2, 4e-12, 0]"),
         None

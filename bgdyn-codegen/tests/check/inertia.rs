@@ -1,11 +1,11 @@
-//! The ways to write a tensor: entries, products, about the origin, a solid.
+//! Tests the notations of a tensor: entries, products, about the origin, a solid.
 
 use bgdyn_codegen::mechanism::Value;
 use bgdyn_runtime::Dd;
 
 use super::{dd, link, rules, sound};
 
-/// The tensor of a link with a mass of 3 kg and these keys: xx, yy, zz, xy, xz, yz.
+/// Returns the tensor of a link with a mass of 3 kg and these keys: xx, yy, zz, xy, xz, yz.
 fn of(keys: &str) -> [Dd; 6] {
     let mechanism = sound(&link(&format!("mass: 3, {keys}")));
     let entries = mechanism.links()[0].inertial.inertia.entries;
@@ -56,7 +56,7 @@ fn solids_have_the_tensors_of_the_handbook() {
     );
 }
 
-/// A hollow solid is the full one less the hole, each with its share of the mass.
+/// A hollow solid is the full one minus the hole, each with its part of the mass.
 #[test]
 fn hollow_solids_are_what_the_hole_leaves() {
     let share = |inner: &str, power: i32| {
@@ -82,7 +82,7 @@ fn hollow_solids_are_what_the_hole_leaves() {
     }
 }
 
-/// A slanted axis is the axis x turned by the same angle.
+/// An inclined axis is the axis x rotated by the same angle.
 #[test]
 fn a_slanted_axis_is_a_turned_one() {
     let slanted = solid("solid: cylinder, radius: 0.2, length: 0.6, axis: [3, 4, 0]");
@@ -126,7 +126,7 @@ fn a_tensor_about_the_origin_is_shifted() {
         of(&format!("inertia: {{ {plain}, about: origin }}")),
         of(&format!("inertia: {{ {plain}, about: com }}"))
     );
-    // Turned first, then shifted: a box beside the origin, on end.
+    // First rotated, then shifted: an upright box beside the origin.
     let turned =
         of("com: [1, 0, 0], inertia: { xx: 1, yy: 5, zz: 6, rpy: [90 deg, 0, 0], about: origin }");
     close(turned, diagonal(["1", "3", "2"]));

@@ -1,4 +1,4 @@
-//! The check: what a sound spec becomes, and which rule a slip breaks.
+//! Tests the check: the mechanism of a valid spec, and the rule that an error violates.
 
 mod directions;
 mod inertia;
@@ -10,7 +10,7 @@ use bgdyn_codegen::mechanism::{CoordinateId, Link, LinkId, Mechanism, Motion, Va
 use bgdyn_codegen::read;
 use bgdyn_runtime::Dd;
 
-/// What is found, but for joints without inertia: these specs are of no use but for what they test.
+/// Returns the findings, except joints without inertia, which these specs have for brevity.
 fn checked(text: &str) -> (Option<Mechanism>, Faults) {
     let (mechanism, mut faults) = read(text, Some("arm"));
     faults
@@ -25,7 +25,7 @@ fn sound(text: &str) -> Mechanism {
     mechanism.expect("a mechanism without faults")
 }
 
-/// The rules broken by a spec.
+/// Returns the rules violated by a spec.
 fn rules(text: &str) -> Vec<&'static str> {
     let (mechanism, faults) = checked(text);
     assert_eq!(mechanism.is_none(), faults.any_fault());
@@ -345,7 +345,7 @@ fn a_merge_key_is_the_only_fault_of_its_mapping() {
     assert_eq!(rules(text), ["merge-key"]);
 }
 
-/// A joint that moves nothing with inertia is named, whatever kind of nothing it is.
+/// A joint that moves no inertia is named, in all cases.
 #[test]
 fn joints_without_inertia_are_named() {
     let tip = |tip: &str| {
@@ -411,7 +411,7 @@ fn a_mechanism_that_cannot_move_is_told_of() {
     let still = vec![("no-coordinates", "links".to_owned())];
     assert_eq!(told(&link("fixed")), (true, still));
     assert_eq!(told(&link("revolute")), (true, vec![]));
-    // Other findings come first: what they hide may move.
+    // Other findings come first: they may concern the missing inertia.
     let (_, rules) = told(&link("fixed").replace("mass: 1", "mass: -1"));
     assert_eq!(rules.len(), 1, "{rules:?}");
 }

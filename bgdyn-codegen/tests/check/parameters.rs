@@ -1,4 +1,4 @@
-//! Run-time parameters: where they may stand, what they become, what is refused.
+//! Tests run-time parameters: their valid positions, their results, and refused ones.
 
 use bgdyn_codegen::mechanism::{ParameterId, Pose, Value};
 use bgdyn_runtime::Dd;
@@ -63,7 +63,7 @@ fn values_refer_to_their_parameter() {
         tensor.entries[..3],
         [parameter(3), parameter(3), Value::Fixed(dd("1e-7"))]
     );
-    // Entries with a parameter cannot be turned before the code runs.
+    // Entries with a parameter cannot be rotated at generation time.
     assert_ne!(tensor.axes, Pose::IDENTITY.rotation);
     assert_eq!(left.inertial.inertia.axes, Pose::IDENTITY.rotation);
 }

@@ -1,5 +1,5 @@
-//! Bars for what is generated, in one state of a mechanism, through the evaluator: errors of a scalar
-//! against double-double at the same arguments, beside what they may be.
+//! Error bars for generated functions, in one state of a mechanism, with the evaluator: errors of a scalar
+//! against double-double at the same arguments, compared with their limits.
 
 use std::f64::consts::FRAC_PI_2;
 use std::marker::PhantomData;
@@ -21,7 +21,7 @@ pub use measure::{
     Digits, Found, Hard, Reference, SINGULAR, Subject, apart, norm, off, part, rounded,
 };
 
-/// The methods of a mechanism as they are generated.
+/// The generated methods of a mechanism.
 pub struct Generated {
     pub inverse: Function,
     pub mass: Function,
@@ -42,7 +42,7 @@ impl Generated {
     }
 }
 
-/// The same in a scalar, under test.
+/// The same in a scalar under test.
 pub struct In<'a, T>(&'a Generated, PhantomData<T>);
 
 impl Generated {
@@ -110,7 +110,7 @@ impl Reference for Generated {
     }
 }
 
-/// Bars 1 to 5 of what is generated.
+/// Checks bars 1 to 5 of generated functions.
 pub fn all<T: Digits>(what: &str, generated: &Generated, state: &State, cond: Option<f64>) {
     let hard = Hard::new::<T>(generated, state, cond);
     for found in hard.all::<T>(&generated.within::<T>(), generated, SINGULAR) {
@@ -128,8 +128,8 @@ pub fn all<T: Digits>(what: &str, generated: &Generated, state: &State, cond: Op
     }
 }
 
-/// A state anywhere, with efforts of some twenty units or those of its own accelerations; in half
-/// of them every joint is a quarter turn, or a hair more, from zero or from another.
+/// Returns a random state, with efforts of some twenty units or those of its own accelerations; in half of
+/// them every joint is almost a quarter turn from zero or from another position.
 pub fn near_aligned(rng: &mut Rng, robot: &Robot) -> State {
     let motions = robot.motions();
     let mut state = State::random(rng, &motions);
@@ -147,7 +147,7 @@ pub fn near_aligned(rng: &mut Rng, robot: &Robot) -> State {
     state
 }
 
-/// The state with the efforts that its accelerations take.
+/// Returns the state with the efforts of its accelerations.
 pub fn driven(state: &State, generated: &Generated) -> State {
     let efforts: Vec<Dd> = state.value(&generated.inverse);
     State {

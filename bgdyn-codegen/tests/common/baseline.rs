@@ -1,16 +1,16 @@
-//! Newton and Euler's recursion in link axes with base parameters, and nothing else: what a
-//! generator of customised symbolic models makes (Khalil and Kleinfinger 1987). Numbers are folded,
-//! products with 0 and 1 left out, equal expressions shared. No origin slides, no axes are grouped,
-//! no inertia is turned, nothing is factored, lengths are in metres.
+//! The Newton–Euler recursion in link axes with base parameters only, as a generator of customised
+//! symbolic models makes it (Khalil and Kleinfinger 1987). Numbers are folded, products with 0 and 1 are
+//! omitted, equal expressions are shared. No origin slides, no axes are grouped, no inertia is rotated,
+//! nothing is factored, lengths are in metres.
 //!
-//! The links' own frames are taken as they are written; each joint's axis must be z there.
+//! The frames are those of the links in the spec; each joint's axis must be z.
 
 use bgdyn_codegen::expr::{Builder, Expr, Graph, Leaf, Operations, Signed, count};
 use bgdyn_codegen::math::{Mat3, Vec3};
 use bgdyn_codegen::mechanism::{Link, Mechanism, Motion, Value};
 use bgdyn_runtime::Dd;
 
-/// How the moment of a link is written.
+/// The formula for the moment of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Moment {
     /// J ω̇ + ω × J ω
@@ -19,7 +19,7 @@ pub enum Moment {
     PseudoInertia,
 }
 
-/// The tensor entry that base parameters make zero: what is moved along the axis is free.
+/// The tensor entry that base parameters set to zero: the position along the axis is free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Zero {
     Jxx,
@@ -35,7 +35,7 @@ struct Body {
     pseudo: Mat3<Dd>,
 }
 
-/// What rounding left of a zero is zero.
+/// Sets a rounding error to zero.
 fn clean(x: Dd) -> Dd {
     if x.hi().abs() < 1e-24 { Dd::ZERO } else { x }
 }
@@ -93,7 +93,7 @@ impl Body {
         }
     }
 
-    /// In the parent's axes and about its origin.
+    /// Returns it in the parent's axes and about its origin.
     fn placed(&self, link: &Link) -> Body {
         let (r, p) = (link.joint.origin.rotation, link.joint.origin.translation);
         let h = r * self.first;
@@ -108,7 +108,7 @@ impl Body {
         }
     }
 
-    /// The part that the parent can carry as well.
+    /// Returns the part that can be moved to the parent.
     fn movable(&self, motion: Motion, zero: Zero) -> Body {
         let mut part = Body::zero();
         let d = |i: usize| self.pseudo.0[i][i];
@@ -137,7 +137,7 @@ impl Body {
     }
 }
 
-/// Base parameters of every link, tips first.
+/// Returns the base parameters of every link, tips first.
 fn regrouped(mechanism: &Mechanism, zero: Zero) -> Vec<Body> {
     let links = mechanism.links();
     let mut bodies: Vec<Body> = links.iter().map(Body::new).collect();
@@ -152,7 +152,7 @@ fn regrouped(mechanism: &Mechanism, zero: Zero) -> Vec<Body> {
     bodies
 }
 
-/// ω, ω̇ and the acceleration of the origin less gravity, in the link's axes.
+/// ω, ω̇ and the acceleration of the origin minus gravity, in the link's axes.
 #[derive(Clone, Copy)]
 struct Moving<'g> {
     omega: Vec3<Expr<'g>>,
@@ -181,7 +181,7 @@ pub fn inverse_dynamics(mechanism: &Mechanism, moment: Moment, zero: Zero) -> (G
     (b.into_graph(), outputs)
 }
 
-/// Operations of the cheapest of the usual choices of base parameters.
+/// Returns the operations of the cheapest of the usual choices of base parameters.
 pub fn operations(mechanism: &Mechanism, moment: Moment) -> Operations {
     let choices = [Zero::Jxx, Zero::Jyy, Zero::Dzz].into_iter();
     let counts = choices.map(|zero| {
@@ -231,7 +231,7 @@ fn efforts<'g>(
     efforts
 }
 
-/// Force and moment about the origin that a link's motion takes.
+/// Returns the force and moment about the origin that a link's motion requires.
 fn load<'g>(
     b: &'g Builder,
     motion: &Moving<'g>,
@@ -348,7 +348,7 @@ impl<'g> Joint<'g> {
         }
     }
 
-    /// Force and moment about the parent's origin, in its axes.
+    /// Returns force and moment about the parent's origin, in its axes.
     fn inwards(
         &self,
         force: Vec3<Expr<'g>>,

@@ -1,4 +1,4 @@
-//! The golden robots: specs and what they do in random states.
+//! The golden robots: specs and their reference values in random states.
 
 use std::fs;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ pub fn robots_up_to(n: usize) -> Vec<(String, Robot)> {
     all.filter(|(_, robot)| robot.nv() <= n).collect()
 }
 
-/// What a golden robot does.
+/// Returns the reference values of a golden robot.
 pub fn values(name: &str) -> Value {
     let path = folder("values").join(format!("{name}.json"));
     let text = fs::read_to_string(path).expect("golden values");

@@ -1,6 +1,6 @@
-//! Where the links are: fixed axes, any kind of dual number, straight from the checked mechanism.
+//! Link poses in fixed axes, in any kind of dual number, computed directly from the checked mechanism.
 //!
-//! Shares nothing with the generator's own geometry.
+//! Independent of the generator's own geometry.
 
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Motion};
 use bgdyn_runtime::Dd;
@@ -68,7 +68,7 @@ fn known<D: Number>(x: Dd) -> D {
     D::from(x.to_f64())
 }
 
-/// Every link's place, in the order of the mechanism.
+/// Returns every link's pose, in the order of the mechanism.
 pub fn places<D: Number>(mechanism: &Mechanism, q: &[D]) -> Vec<Place<D>> {
     let mut places: Vec<Place<D>> = Vec::new();
     for link in mechanism.links() {

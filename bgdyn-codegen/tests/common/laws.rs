@@ -1,9 +1,8 @@
 //! The laws of mechanics, and the equality of the formulations, for one mechanism in one state.
 //!
-//! In double-double the regrouped recursion must equal the literal sum to 1e-28 of the natural
-//! size of the result (see [`super::natural_size`]), so every regrouping is shown to be exact.
-//! Rounding is 1e-32, but folded constants are known to 2⁻⁹⁸ = 3e-30 of the terms that they were
-//! summed from.
+//! In double-double the regrouped recursion must equal the literal sum to 1e-28 of the natural size of the
+//! result (see [`super::natural_size`]), so every regrouping is shown to be exact. Rounding is 1e-32, but
+//! folded constants are accurate to 2⁻⁹⁸ = 3e-30 of the terms of their sums.
 
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
@@ -20,12 +19,12 @@ use super::{
 
 const FORWARD: Method = Method::ForwardDynamics;
 
-/// Of double-double results, relative to their natural size.
+/// Tolerance of double-double results, relative to their natural size.
 pub const EXACT: f64 = 1e-28;
-/// The same with axes taken as they are: the generator takes a component of a direction below 1e-26 for
-/// rounding, and two angles of 1e-13 have such a product.
+/// The same without snapping: the generator treats a component of a direction below 1e-26 as rounding, and
+/// two angles of 1e-13 have such a product.
 pub const NOISY: f64 = 1e-26;
-/// Of `f64` results, relative to their natural size.
+/// Tolerance of `f64` results, relative to their natural size.
 pub const ROUNDED: f64 = 1e-15;
 
 /// A random mechanism with its formulations and a state.
@@ -39,16 +38,16 @@ pub struct Case {
     pub own: Methods,
     /// The mass matrix in common axes.
     pub common: Function,
-    /// Forward dynamics by articulated bodies, and what is generated.
+    /// Forward dynamics by articulated bodies, and the generated function.
     pub bodies: [Function; 3],
     pub state: State,
-    /// Natural size of an effort, of an entry of M.
+    /// Natural size of an effort, and of an entry of M.
     pub effort: f64,
     pub inertia: f64,
 }
 
 impl Case {
-    /// The case of a seed, with up to `most` moving joints; with run-time parameters or without.
+    /// Returns the case of a seed, with up to `most` moving joints; with run-time parameters or without.
     pub fn of_seed(seed: u64, most: usize, parameters: bool) -> Self {
         let mut rng = Rng::new(seed);
         let mut draft = Draft::random(&mut rng, most);
@@ -62,7 +61,7 @@ impl Case {
         })
     }
 
-    /// A mechanism in the state that is chosen for it.
+    /// Returns a mechanism in the chosen state.
     pub fn new(name: &str, draft: Draft, state: impl FnOnce(&Robot) -> State) -> Self {
         let text = draft.yaml();
         let robot = Robot::read(&text, None);
@@ -91,7 +90,7 @@ impl Case {
         move || text.clone()
     }
 
-    /// How far every centre of mass may be from the world's origin, m.
+    /// Returns an upper bound of the distance of every centre of mass from the world's origin, m.
     pub fn reach(&self) -> f64 {
         reach(&self.robot, &self.state)
     }
@@ -101,7 +100,7 @@ impl Case {
         natural_size(&self.robot, &self.state, method)
     }
 
-    /// How far double-double results may differ, relative to their natural size.
+    /// Returns the tolerance of double-double results, relative to their natural size.
     fn exact(&self) -> f64 {
         match self.draft.exact {
             true => NOISY,
@@ -109,8 +108,9 @@ impl Case {
         }
     }
 
-    /// recursion = literal, with base parameters and without, for every method but the solved one; the
-    /// mass matrix in common axes too. Gives the worst difference, relative to natural size.
+    /// Checks that recursion = literal, with base parameters and without, for every method except forward
+    /// dynamics, and for the mass matrix in common axes. Returns the largest difference, relative to
+    /// natural size.
     pub fn formulations_agree(&self) -> f64 {
         let mut worst = 0.0_f64;
         for method in Method::OF_TRAIT {
@@ -132,7 +132,7 @@ impl Case {
         worst
     }
 
-    /// M is symmetric (one triangle is all there is), positive semidefinite, = ∂τ/∂a, and gives T
+    /// Checks that M is symmetric (only one triangle exists), positive semidefinite, = ∂τ/∂a, and gives T
     /// and the linear part of the inverse dynamics.
     pub fn mass_matrix(&self) {
         let n = self.state.q.len();
@@ -194,7 +194,7 @@ impl Case {
         }
     }
 
-    /// gravity = ∂V/∂q, and v·τ = d/dt (T + V), which is Ṁ − 2C skew.
+    /// Checks gravity = ∂V/∂q, and v·τ = d/dt (T + V), which means that Ṁ − 2C is skew.
     pub fn energy(&self) {
         let n = self.state.q.len();
         for methods in [&self.literal, &self.recursion] {
@@ -226,7 +226,7 @@ impl Case {
         }
     }
 
-    /// In `f64` every method is the double-double one, rounded.
+    /// Checks that in `f64` every method is the double-double one, rounded.
     pub fn rounding(&self) {
         for methods in [&self.literal, &self.recursion] {
             for method in Method::OF_TRAIT {
@@ -242,8 +242,8 @@ impl Case {
         }
     }
 
-    /// Forward undoes inverse; a mass matrix that is singular is refused, never a wild number.
-    /// Gives the regular case's error in units of the bar.
+    /// Checks that forward dynamics is the inverse of inverse dynamics; a singular mass matrix is refused,
+    /// and never gives huge numbers. Returns the error of the regular case in units of the bar.
     pub fn forward(&self) -> Option<f64> {
         let n = self.state.q.len();
         let efforts: Vec<f64> = self.literal.value(Method::InverseDynamics, &self.state);
@@ -259,8 +259,8 @@ impl Case {
         let pivot = least_pivot(self.literal.mass(&self.state));
         let mut worst = 0.0_f64;
         let a = DVector::from_row_slice(&self.state.a);
-        // The literal M does not fold enough to be sure of a singular one, and an elimination may
-        // miss massless links in a row; they are not generated where that may be.
+        // The literal M does not fold enough to detect every singular one, and an elimination may miss
+        // consecutive massless links; they are not generated in such cases.
         let factors = [&self.literal, &self.recursion].map(|m| m.function(FORWARD));
         let ways = factors.map(|f| (f, false)).into_iter();
         for (function, sure) in ways.chain(self.bodies.iter().map(|f| (f, true))) {
@@ -269,9 +269,10 @@ impl Case {
             let finite = found.iter().all(|x| x.is_finite());
             assert!(finite || refused.is_some(), "{}: {found:?}", place());
             if pivot < 1e-25 {
-                // Singular at this q, whatever the digits; or regular by a small pivot, of axes that are
-                // almost parallel: then a solution, never a wild number. Axes taken as they are may
-                // differ by 1e-15; their pivot of 1e-30 is below the digits of the literal M.
+                // Either singular at this q, at any precision; or regular with a small pivot, for axes
+                // that are almost parallel: then there is a solution, without huge numbers. Without
+                // snapping, axes may differ by 1e-15; their pivot of 1e-30 is below the digits of the
+                // literal M.
                 let regular = pivot > 0.0 || self.draft.exact;
                 let solved = regular && self.solves(&state, &found);
                 assert!(
@@ -285,15 +286,15 @@ impl Case {
                 continue; // regular, but beyond the digits of `f64`: may be refused or solved
             }
             assert_eq!(refused, None, "{}: eigenvalues {moments}", place());
-            // ‖FD(ID(a)) − a‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖), and where terms of h cancel to less
-            // than their rounding, that.
+            // ‖FD(ID(a)) − a‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖a‖ + ‖h‖); if terms of h cancel, the bound uses their
+            // size.
             let h = DVector::from_row_slice(&bias);
             let size = 8.0 * n as f64 * (most * a.norm() + h.norm()) + self.effort;
             let bar = f64::EPSILON * size / least;
             let off = (DVector::from_vec(found) - &a).norm();
             assert!(off <= bar, "{}: off by {off:e}, bar {bar:e}", place());
             worst = worst.max(off / bar.max(f64::MIN_POSITIVE));
-            // In double-double it undoes the literal sum, for which the efforts keep their tails.
+            // In double-double it is the inverse of the literal sum, with efforts in full precision.
             let mut inputs = state.inputs::<Dd>();
             inputs.u = self.literal.value(Method::InverseDynamics, &self.state);
             let (found, _) = function.evaluate(inputs);
@@ -306,7 +307,7 @@ impl Case {
         (least > 1e-13 * most).then_some(worst)
     }
 
-    /// Whether accelerations lead to the efforts of a state, to within what rounding them takes.
+    /// Returns whether accelerations give the efforts of a state, within the effect of rounding.
     fn solves(&self, state: &State, accelerations: &[f64]) -> bool {
         let with = |a: &[f64]| State {
             a: a.to_vec(),
@@ -327,7 +328,8 @@ impl Case {
         })
     }
 
-    /// The base's place enters nothing: efforts are the same to the last bit, and so is the plan.
+    /// Checks that the base's position has no influence: efforts are the same to the last bit, and so is
+    /// the plan.
     pub fn moved_base(&self) {
         let moved = self.draft.moved([1e6, -1e9, 3.0]);
         let moved = Robot::read(&moved.yaml(), None);
@@ -344,7 +346,7 @@ impl Case {
         }
     }
 
-    /// The order of the links in the file names the coordinates, and changes nothing else.
+    /// Checks that the order of the links in the file affects only the order of the coordinates.
     pub fn other_order(&self, rng: &mut Rng) {
         let other = Robot::read(&self.draft.shuffled(rng).yaml(), None);
         let (joints, theirs) = (self.robot.joints(), other.joints());
@@ -372,20 +374,20 @@ impl Case {
     }
 }
 
-/// Place of the run-time parameter of this name.
+/// Returns the index of the run-time parameter of this name.
 fn place_of(robot: &Robot, name: &str) -> usize {
     let mut names = robot.mechanism.parameters().iter().map(|p| p.name.as_str());
     names.position(|n| n == name).expect("the same parameters")
 }
 
-/// A number for each run-time parameter, by its name.
+/// Returns a number for each run-time parameter, by its name.
 fn of_names(robot: &Robot, number: impl Fn(&str) -> f64) -> Vec<f64> {
     let parameters = robot.mechanism.parameters().iter();
     parameters.map(|p| number(&p.name)).collect()
 }
 
-/// The least pivot of M = LᵀDL in double-double, beside the diagonal entry it came from; 0 where it has
-/// no digit there either.
+/// Returns the least pivot of M = LᵀDL in double-double, with the diagonal entry it was computed from; 0
+/// if it has no correct digit in double-double either.
 fn least_pivot(mut mass: Vec<Vec<Dd>>) -> f64 {
     let diagonal: Vec<Dd> = (0..mass.len()).map(|k| mass[k][k]).collect();
     let mut least = f64::INFINITY;
@@ -405,7 +407,7 @@ fn least_pivot(mut mass: Vec<Vec<Dd>>) -> f64 {
     least
 }
 
-/// All laws; what was seen of [`Case::formulations_agree`] and [`Case::forward`].
+/// Checks all laws; returns the results of [`Case::formulations_agree`] and [`Case::forward`].
 pub fn all(case: &Case, rng: &mut Rng) -> (f64, Option<f64>) {
     let worst = case.formulations_agree();
     case.mass_matrix();

@@ -1,4 +1,4 @@
-//! Shared by the tests: deterministic states, robots under test, tolerances.
+//! Common code of the tests: deterministic states, robots under test, tolerances.
 //!
 //! Tests go through the public interface only: text → mechanism → functions → evaluator.
 #![allow(dead_code)] // each test file uses a part
@@ -37,7 +37,7 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// From a spec's text, which must be without faults.
+    /// Reads a spec's text, which must be without faults.
     pub fn read(text: &str, stem: Option<&str>) -> Self {
         let (mechanism, faults) = bgdyn_codegen::read(text, stem);
         let Some(mechanism) = mechanism else {
@@ -59,7 +59,7 @@ impl Robot {
             .collect()
     }
 
-    /// What each coordinate moves.
+    /// Returns the motion of each coordinate.
     pub fn motions(&self) -> Vec<Motion> {
         self.graph.coordinates.iter().map(|c| c.motion).collect()
     }
@@ -75,13 +75,13 @@ impl Robot {
         made.expect("every formulation knows every method")
     }
 
-    /// The function of a method that is generated when nothing is asked for, in one piece.
+    /// Returns the default function of a method, in one block.
     pub fn chosen(&self, method: Method) -> Function {
         let found = Choice::new(&self.graph, None).function(method);
         found.expect("every method is known").as_ref().clone()
     }
 
-    /// The same before long functions are cut into blocks: one graph, to be differentiated.
+    /// Returns the same before long functions are cut into blocks: one graph, for differentiation.
     pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
         let made = formulation.function(&Prepared::new(&self.graph), method);
@@ -89,7 +89,7 @@ impl Robot {
     }
 }
 
-/// Positions, velocities, accelerations, efforts, and what the run-time parameters are set to.
+/// Positions, velocities, accelerations, efforts, and values of the run-time parameters.
 #[derive(Clone, Debug)]
 pub struct State {
     pub q: Vec<f64>,
@@ -100,7 +100,7 @@ pub struct State {
 }
 
 impl State {
-    /// A random one: angles over a whole turn, displacements within 1 m; now and then an exact 0.
+    /// Returns a random state: angles over a whole turn, displacements within 1 m; sometimes an exact 0.
     pub fn random(rng: &mut Rng, motions: &[Motion]) -> Self {
         let mut some = |size: f64| {
             if rng.chance(0.05) {
@@ -160,7 +160,7 @@ pub fn sum_abs(x: &[f64]) -> f64 {
     x.iter().map(|x| x.abs()).sum()
 }
 
-/// Asserts |x − y| ≤ `tolerance` entry by entry; `what` tells the place of a failure.
+/// Asserts |x − y| ≤ `tolerance` entry by entry; `what` describes the location of a failure.
 pub fn assert_close<T: Into<Dd> + Copy>(
     x: &[T],
     y: &[T],
@@ -181,7 +181,7 @@ pub fn assert_close<T: Into<Dd> + Copy>(
     }
 }
 
-/// A number of the spec, or what its run-time parameter is set to.
+/// Returns a number of the spec, or the value of its run-time parameter.
 pub fn fixed(value: Value, parameters: &[f64]) -> f64 {
     match value {
         Value::Fixed(x) => x.to_f64(),
@@ -189,7 +189,7 @@ pub fn fixed(value: Value, parameters: &[f64]) -> f64 {
     }
 }
 
-/// An effort that no single term of equation (6) exceeds in this state: with L the sum of all
+/// Returns an effort that no single term of equation (6) exceeds in this state: with L the sum of all
 /// lengths and W = Σ m_i L² + |J_i| (L at least 1 m), W (Σ|a| + (Σ|v|)²) + Σ m_i |g| L.
 pub fn natural_effort(robot: &Robot, s: &State) -> f64 {
     let (weight, inertia) = natural_inertia(robot, s);
@@ -223,7 +223,7 @@ pub fn natural_inertia(robot: &Robot, s: &State) -> (f64, f64) {
     (mass * gravity * length, inertia)
 }
 
-/// A size that no single term of the method's result exceeds in this state.
+/// Returns a size that no single term of the method's result exceeds in this state.
 pub fn natural_size(robot: &Robot, s: &State, method: Method) -> f64 {
     let speed = sum_abs(&s.v);
     let (_, inertia) = natural_inertia(robot, s);
@@ -239,7 +239,8 @@ pub fn natural_size(robot: &Robot, s: &State, method: Method) -> f64 {
     }
 }
 
-/// How far any centre of mass and any frame may be from the world's origin, m; at least 1.
+/// Returns an upper bound of the distance of any centre of mass and any frame from the world's origin, m;
+/// at least 1.
 pub fn reach(robot: &Robot, s: &State) -> f64 {
     let links = robot.mechanism.links().iter();
     let coms = links.clone().flat_map(|l| l.inertial.com.0);

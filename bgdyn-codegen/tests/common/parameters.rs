@@ -19,7 +19,7 @@ pub fn parametrised(draft: &Draft, rng: &mut Rng) -> Draft {
         let number = link.name.trim_start_matches("link_");
         link.body = body(&link.body, number, rng);
     }
-    // One name in two places.
+    // The same name in two places.
     if draft.links.len() > 2 && rng.chance(0.3) {
         for link in draft.links.iter_mut().take(2) {
             let other = |line: &&str| !line.starts_with("    mass:");
@@ -31,7 +31,7 @@ pub fn parametrised(draft: &Draft, rng: &mut Rng) -> Draft {
     draft
 }
 
-/// Values that some body has: another mass, another centre of mass, another tensor.
+/// Returns values of a possible body: another mass, another centre of mass, another tensor.
 pub fn values(mechanism: &Mechanism, rng: &mut Rng) -> Vec<f64> {
     let factor = 0.25 + rng.unit();
     let mut values: Vec<f64> = (mechanism.parameters().iter())
@@ -51,8 +51,8 @@ pub fn values(mechanism: &Mechanism, rng: &mut Rng) -> Vec<f64> {
     values
 }
 
-/// Moves the entries of a tensor that are parameters beside others that are not, as far as it stays
-/// a body's: by up to a third of its trace, or half of that, and so on.
+/// Changes the entries of a tensor that are parameters, while it remains that of a possible body: by up to
+/// a third of its trace, or half of that, and so on.
 fn vary_entries(tensor: &Tensor, mechanism: &Mechanism, values: &mut [f64], rng: &mut Rng) {
     let place = |k: usize| match tensor.entries[k] {
         Value::Parameter(id) if mechanism.parameters()[id.0].name.starts_with("part") => Some(id.0),
@@ -84,7 +84,7 @@ fn vary_entries(tensor: &Tensor, mechanism: &Mechanism, values: &mut [f64], rng:
     }
 }
 
-/// Whether ½ tr(J) − J, the body's second moments of mass, is positive definite with room to spare.
+/// Returns whether ½ tr(J) − J, the body's second moments of mass, is positive definite with a margin.
 fn is_of_a_body([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> bool {
     let half = (xx + yy + zz) / 2.0;
     let (a, b, c) = (half - xx, half - yy, half - zz);
@@ -98,7 +98,7 @@ fn body(body: &str, link: &str, rng: &mut Rng) -> String {
     let mut text = String::new();
     let mut lines: Vec<String> = body.lines().map(str::to_owned).collect();
     let has = |lines: &[String], key: &str| lines.iter().any(|l| l.trim().starts_with(key));
-    // Nothing by default, something at run time.
+    // Zero by default, nonzero at run time.
     if !has(&lines, "mass") {
         lines.push("    mass: 0".into());
     }
@@ -130,7 +130,7 @@ fn body(body: &str, link: &str, rng: &mut Rng) -> String {
 fn tensor(rng: &mut Rng, link: &str, text: &str) -> String {
     let share = *rng.pick(&[0.0, 0.5, 1.0]);
     let word = if share == 1.0 { "whole" } else { "part" };
-    // The rotation stays as it is.
+    // The rotation does not change.
     let (entries, rest) = text.split_once(", rpy").unwrap_or((text, " }"));
     let entries = entries
         .trim_matches(['{', '}', ' '])

@@ -1,15 +1,15 @@
-//! Printed equations, read back and evaluated: knows what is on the paper and nothing else.
+//! Parses and evaluates printed equations, independently of the generator.
 
 use std::collections::BTreeMap;
 use std::iter::Peekable;
 use std::str::Chars;
 
-/// The equations of `bgdyn equations` as they are read from its text.
+/// The equations parsed from the text of `bgdyn equations`.
 #[derive(Debug, Default)]
 pub struct Printed {
     /// Right sides of P₁, P₂, …
     pub efforts: Vec<String>,
-    /// Names with the sum that they stand for, and the value printed beside it.
+    /// Names with their sums, and the printed values.
     pub constants: Vec<(String, String, f64)>,
     /// Letters with their values.
     pub letters: BTreeMap<String, f64>,
@@ -19,7 +19,7 @@ impl Printed {
     /// Reads a text.
     pub fn read(text: &str) -> Self {
         let mut printed = Printed::default();
-        // A line that begins with a space goes on with the one before.
+        // A line that begins with a space continues the previous one.
         let mut lines: Vec<String> = Vec::new();
         for line in text.lines() {
             match lines.last_mut() {
@@ -44,7 +44,7 @@ impl Printed {
         printed
     }
 
-    /// P for a state, by the letters' values, some of which may be set to others.
+    /// Returns P for a state, with the letters' values, some of which may be overridden.
     pub fn efforts(&self, state: &super::State, set: &BTreeMap<String, f64>) -> Vec<f64> {
         let mut names = self.letters.clone();
         names.extend(set.clone());

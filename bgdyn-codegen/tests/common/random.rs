@@ -1,12 +1,11 @@
-//! Random mechanisms, written as specs: trees with everything that makes structure (exact,
-//! parallel, opposite, coaxial, skew and noisy axes, quarter turns, massless and fixed links, several
-//! roots) and everything that has none.
+//! Random mechanisms, written as specs: trees with all structural features (exact, parallel, opposite,
+//! coaxial, skew and noisy axes, quarter turns, massless and fixed links, several roots) and with none.
 
 use std::fmt::Write;
 
 use super::rng::Rng;
 
-/// A link as text, so that its spec can be written in any order and place.
+/// A link as text, so that its spec can be written in any order and position.
 #[derive(Clone, Debug)]
 pub struct Link {
     pub name: String,
@@ -28,7 +27,7 @@ pub struct Joint {
 /// A mechanism as text.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// `snap: 0`: axes are what they are.
+    /// `snap: 0`: axes are not snapped.
     pub exact: bool,
     pub gravity: Option<[f64; 3]>,
     pub links: Vec<Link>,
@@ -80,7 +79,7 @@ impl Draft {
             links,
             frames,
         };
-        // From a stream of its own, so that the rest does not depend on it.
+        // From a separate sequence, so that the rest does not depend on it.
         let mut noise = Rng::new(rng.clone().next());
         if noise.chance(0.4) {
             draft.roughen(&mut noise);
@@ -88,9 +87,8 @@ impl Draft {
         draft
     }
 
-    /// Axes as they come out of a computation: off their exact directions by 1e-17 to 1e-7, taken
-    /// as they are in most cases. Those parallel or opposite to the parent's have its noise or
-    /// another one.
+    /// Adds rounding noise to axes: deviations from their exact directions by 1e-17 to 1e-7, mostly
+    /// without snapping. Axes parallel or opposite to the parent's have its noise or another one.
     fn roughen(&mut self, noise: &mut Rng) {
         self.exact = noise.chance(0.75);
         let smooth: Vec<[f64; 3]> = self.links.iter().map(|l| l.joint.axis).collect();
@@ -160,7 +158,7 @@ impl Draft {
         text
     }
 
-    /// The same machine with its base elsewhere.
+    /// Returns the same mechanism with its base elsewhere.
     pub fn moved(&self, by: [f64; 3]) -> Self {
         let mut moved = self.clone();
         for link in moved.links.iter_mut().filter(|l| l.parent.is_none()) {
@@ -171,7 +169,7 @@ impl Draft {
         moved
     }
 
-    /// The same machine with its links written in another order.
+    /// Returns the same mechanism with its links in another order.
     pub fn shuffled(&self, rng: &mut Rng) -> Self {
         let mut shuffled = self.clone();
         for i in (1..shuffled.links.len()).rev() {
@@ -181,7 +179,7 @@ impl Draft {
     }
 }
 
-/// Letters for the exact axes, so that both ways to write them are read.
+/// Returns letters for the exact axes, so that both notations are tested.
 fn axis_text(axis: &[f64; 3]) -> String {
     let place = |k: usize| axis[k].abs() == 1.0 && (0..3).all(|i| i == k || axis[i] == 0.0);
     match (0..3).find(|&k| place(k)) {
@@ -194,7 +192,7 @@ fn axis_text(axis: &[f64; 3]) -> String {
     }
 }
 
-/// Mostly the newest link; now and then an older one or the world.
+/// Mostly the newest link; sometimes an older one or the world.
 fn parent(rng: &mut Rng, links: &[Link]) -> Option<usize> {
     if links.is_empty() || rng.chance(0.08) {
         None
@@ -220,7 +218,7 @@ fn joint(rng: &mut Rng, parent: Option<&Joint>, fixed: bool) -> Joint {
     };
     let level = || [(); 3].map(|()| "0".to_owned());
     match (rng.below(8), parent) {
-        // Parallel, opposite, on one line.
+        // Parallel, opposite, collinear.
         (0 | 1, Some(parent)) => (joint.axis, joint.rpy) = (parent.axis, level()),
         (2, Some(parent)) => (joint.axis, joint.rpy) = (parent.axis.map(|x| -x), level()),
         (3, Some(parent)) => {
@@ -267,7 +265,7 @@ fn angle(rng: &mut Rng) -> String {
         4 => (*rng.pick(&["90 deg", "-90 deg", "180 deg", "270 deg"])).into(),
         5 => (*rng.pick(&["1.5707963267948966", "3.141592653589793"])).into(),
         6 => (*rng.pick(&["30 deg", "45 deg", "-60 deg"])).into(),
-        // Quarter turns as files round them: axes that are nearly parallel.
+        // Quarter turns rounded as in files: axes that are nearly parallel.
         7 => (*rng.pick(&["1.5708", "-1.5708", "3.1416", "1e-9", "-0.00001"])).into(),
         _ => format!("{}", thousandths(rng, 3.0)),
     }
@@ -304,7 +302,7 @@ fn body(rng: &mut Rng, last: bool) -> String {
     text + &tensor(rng)
 }
 
-/// A tensor that some body has: tr(D)·1 − D with D = Σ s sᵀ over a few points s.
+/// Returns the tensor of a possible body: tr(D)·1 − D with D = Σ s sᵀ over a few points s.
 fn tensor(rng: &mut Rng) -> String {
     let mut d = [[0.0; 3]; 3];
     let kind = rng.below(6);

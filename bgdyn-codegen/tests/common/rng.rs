@@ -1,4 +1,4 @@
-//! The random numbers of the tests: the same on every machine.
+//! The random numbers of the tests, the same on every machine.
 
 use bgdyn_codegen::random::Random;
 
@@ -7,7 +7,7 @@ use bgdyn_codegen::random::Random;
 pub struct Rng(Random);
 
 impl Rng {
-    /// A sequence of its own for every seed.
+    /// Returns the sequence of a seed.
     pub fn new(seed: u64) -> Self {
         Rng(Random(
             seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d,

@@ -45,7 +45,7 @@ fn draft(genes: Vec<(Index, Joint, String)>, gravity: Option<[f64; 3]>) -> Draft
         if number == 0 && joint.kind == "fixed" {
             joint.kind = "revolute";
         }
-        // The world, or a link that is there already.
+        // The world, or an earlier link.
         let parent = parent.index(number + 1).checked_sub(1);
         links.push(Link {
             name: format!("link_{number}"),
@@ -97,7 +97,7 @@ fn angle() -> impl Strategy<Value = String> {
     ]
 }
 
-/// Mass, centre of mass, and a tensor that some body has: tr(D)·1 − D with D = diag(a, b, c).
+/// Returns mass, centre of mass, and the tensor of a possible body: tr(D)·1 − D with D = diag(a, b, c).
 fn body() -> impl Strategy<Value = String> {
     let second = [0..200, 0..200, 0..200].map(|range| range.prop_map(|x| f64::from(x) / 1000.0));
     let massive = (1..5000, [300, 300, 300].map(thousandths), second, angle());

@@ -1,4 +1,4 @@
-//! Every method of a robot by both formulations, ready to be evaluated and differentiated.
+//! Every method of a robot by both formulations, to be evaluated and differentiated.
 
 use bgdyn_codegen::expr::{Graph, Leaf, Signed, Tangent, evaluate};
 use bgdyn_codegen::function::Function;
@@ -25,7 +25,7 @@ impl Methods {
         found.next().expect("every method")
     }
 
-    /// A method's value; pivots must stand.
+    /// Returns a method's value; no pivot may be refused.
     pub fn value<T: Scalar<Refused = Option<usize>>>(&self, method: Method, s: &State) -> Vec<T> {
         s.value(self.function(method))
     }
@@ -63,7 +63,7 @@ pub fn derivative(function: &Function, s: &State, along: &Direction<'_>) -> Vec<
     evaluate(&graph, &outputs, &s.inputs(), &mut None)
 }
 
-/// Rates of q, v and a; what is not given stands still.
+/// Rates of q, v and a; missing ones are zero.
 #[derive(Default)]
 pub struct Direction<'a> {
     pub q: Option<&'a [f64]>,

@@ -1,4 +1,4 @@
-//! The oracle beside what is generated: derivative, energy, power, Jacobian.
+//! Compares the oracle with generated functions: derivative, energy, power, Jacobian.
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::by_name;
@@ -15,24 +15,24 @@ use super::scene::Scene;
 use super::state::{Named, State};
 use super::vector::dd;
 
-/// Formulations asked for by name, beside those that the generator chooses among.
+/// Formulations selected by name, besides those that the generator chooses from.
 const WAYS: [&str; 4] = [
     "recursion",
     "recursion_own",
     "articulated",
     "articulated_base",
 ];
-/// States per scene.
+/// Number of states per scene.
 const STATES: usize = 3;
-/// Of derivatives and energies in double-double, relative to the largest of them. A pressure is
+/// Tolerance of derivatives and energies in double-double, relative to the largest of them. A pressure is
 /// β ln(W/V): flows between almost equal ones lose ten digits and more.
 const EXACT: f64 = 1e-20;
-/// Of the Jacobian against differences of the oracle's derivative, likewise.
+/// Tolerance of the Jacobian against differences of the oracle's derivative, in the same unit.
 const SLOPE: f64 = 1e-11;
 /// Step of those differences.
 const STEP: f64 = 1e-10;
 
-/// A scene twice: by the oracle, and by the generator.
+/// A scene in two forms: that of the oracle, and that of the generator.
 pub struct Pair {
     pub written: Written,
     pub oracle: Scene,
@@ -40,21 +40,21 @@ pub struct Pair {
     derivatives: Vec<Function>,
     energy: Function,
     power: Function,
-    /// Every way to it.
+    /// All alternatives for the Jacobian.
     jacobians: Vec<Function>,
 }
 
-/// How much is generated of a scene.
+/// The extent of the comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Depth {
-    /// The derivative as it is emitted and by one more formulation, the rest before it is factored; the
+    /// The derivative as emitted and by one more formulation, other functions before factoring; the
     /// Jacobian of some scenes.
     Part(u64),
-    /// All of it, as it is emitted.
+    /// Everything, as emitted.
     Whole,
 }
 
-/// The worst differences seen, relative to what they are of.
+/// The largest differences, relative to their scale.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Worst {
     pub derivative: f64,
@@ -99,7 +99,7 @@ impl Pair {
         }
     }
 
-    /// What the generator's own check says of functions that it would write.
+    /// Returns the message of the generator's own check of the functions.
     pub fn refused(&self) -> Option<String> {
         let made = self.derivatives[..1].iter().chain(&self.jacobians);
         let functions: Vec<Function> = made.cloned().collect();
@@ -107,7 +107,7 @@ impl Pair {
         (!differences.is_empty()).then(|| explain(&differences))
     }
 
-    /// Compares all in random states; the first difference, with the scene, is the error.
+    /// Compares everything in random states; the first difference, with the scene, is the error.
     pub fn compare(&self, rng: &mut Rng, worst: &mut Worst) -> Result<(), String> {
         for _ in 0..STATES {
             let state = self.state(rng);
@@ -124,7 +124,7 @@ impl Pair {
         Ok(())
     }
 
-    /// A random state with modes that fit it.
+    /// Returns a random state with consistent modes.
     fn state(&self, rng: &mut Rng) -> State {
         let layout = &self.system.scene.layout;
         let mut state = State::default();
@@ -176,7 +176,7 @@ impl Pair {
         state
     }
 
-    /// Joints with gears move or rest, with modes of the gears that say so.
+    /// Sets joints with gears to move or rest, with consistent modes of the gears.
     fn gears(&self, state: &mut State, rng: &mut Rng) {
         let mut chosen: Vec<&str> = Vec::new();
         for e in &self.oracle.effects {
@@ -193,7 +193,7 @@ impl Pair {
         }
     }
 
-    /// A direction in the state, along which held joints do not slip.
+    /// Returns a direction in the state, along which held joints do not slip.
     fn direction(&self, rng: &mut Rng) -> State {
         let layout = &self.system.scene.layout;
         let held = |name: &str| {
@@ -283,8 +283,8 @@ impl Pair {
         Ok(())
     }
 
-    /// Entry by entry, accelerations relative to the largest of them, first-order states each on its
-    /// own scale.
+    /// Compares entry by entry, accelerations relative to the largest of them, first-order states each on
+    /// its own scale.
     fn equal(&self, what: &str, found: &[Dd], wanted: &[Dd], allowed: f64) -> Result<f64, String> {
         let names = self.names();
         assert_eq!((found.len(), wanted.len()), (names.len(), names.len()));
@@ -313,7 +313,7 @@ impl Pair {
         Ok(worst)
     }
 
-    /// The sum of what is stored is the oracle's; the balance of power closes.
+    /// Checks that the stored energy is the oracle's, and the balance of power is satisfied.
     fn energy(&self, state: &State, worst: &mut Worst) -> Result<(), String> {
         let stored = self.value(&self.energy, state)?;
         let size = stored.iter().fold(1.0, |m: f64, x| m.max(x.to_f64().abs()));
@@ -340,7 +340,7 @@ impl Pair {
         Ok(())
     }
 
-    /// The Jacobian times a direction is the slope of the oracle's derivative.
+    /// Checks that the Jacobian times a direction is the slope of the oracle's derivative.
     fn slope(&self, state: &State, along: &State, worst: &mut Worst) -> Result<(), String> {
         let moved = |by: f64| {
             let shift = |x: &Named, d: &Named| -> Named {
@@ -390,7 +390,7 @@ impl Pair {
     }
 }
 
-/// Whether it is a motor whose current is a part of the state and limited.
+/// Returns whether it is a motor with a limited current that is part of the state.
 fn limits_a_winding(e: &Effect) -> bool {
     e.kind() == "dc_motor" && e.has("inductance") && e.has("current_limit")
 }

@@ -13,16 +13,16 @@ pub struct Written {
     pub scene: String,
 }
 
-/// What effects are drawn from.
+/// The parts from which effects are drawn.
 struct Drawn<'a> {
     rng: &'a mut Rng,
-    /// Coordinates that effects may act on: joints first, then those of elastic drives.
+    /// Coordinates on which effects can act: joints first, then those of elastic drives.
     coordinates: Vec<String>,
     joints: Vec<String>,
     /// Links and frames that move, each with the link whose joint moves it.
     moving: Vec<(String, String)>,
     links: Vec<String>,
-    /// Coordinates that have friction that holds, or a gear.
+    /// Coordinates with friction that can hold, or with a gear.
     held: Vec<String>,
     geared: Vec<String>,
     /// Lines of the scene's `effects`.
@@ -34,7 +34,7 @@ pub fn written(rng: &mut Rng) -> Written {
     let joints = 3 + rng.below(5);
     let mut draft = Draft::moving(rng, joints);
     draft.exact = true;
-    // One half has structure, the other none at all.
+    // Half of them have structure, the others none.
     let generic = rng.chance(0.5);
     for link in &mut draft.links {
         link.body = if generic {
@@ -116,7 +116,7 @@ fn drawn<'a>(rng: &'a mut Rng, draft: &Draft, locked: &[String]) -> Drawn<'a> {
 const KINDS: usize = 20;
 
 impl Drawn<'_> {
-    /// Gravity, tensors, efforts of velocities; rotors where M might be singular without.
+    /// Adds gravity, tensors, velocity products; and rotors if M might be singular without them.
     fn ground(&mut self, tensors: bool, regular: bool) {
         if self.rng.chance(0.85) {
             let other = self.rng.chance(0.2);
@@ -170,7 +170,7 @@ impl Drawn<'_> {
         }
     }
 
-    /// A joint, or two places whose distance changes.
+    /// Returns a joint, or two sites whose distance changes.
     fn along(&mut self) -> String {
         if self.rng.chance(0.4) {
             return format!("joint: {}", self.joint());
@@ -305,7 +305,7 @@ impl Drawn<'_> {
         }
     }
 
-    /// A rotor on any link, before its joint, at it, beyond it or on another branch.
+    /// Adds a rotor on any link: inboard of its joint, at it, outboard or on another branch.
     fn rotor(&mut self, i: usize) {
         let (joint, on) = (self.joint(), self.rng.pick(&self.links).clone());
         let (ratio, axis) = (
@@ -343,7 +343,7 @@ impl Drawn<'_> {
         }
     }
 
-    /// A cylinder with what feeds it; once in a scene.
+    /// Adds a cylinder with its supply; once in a scene.
     fn hydraulics(&mut self, i: usize) {
         if self.lines.iter().any(|l| l.starts_with("oil:")) {
             return;

@@ -1,4 +1,5 @@
-//! Hydraulic laws: pressures of nodes, flows between them, what they do to volumes and joints.
+//! Hydraulic laws of the oracle: pressures of nodes, flows between them, their effects on volumes and
+//! joints.
 
 use bgdyn_runtime::Dd;
 
@@ -7,14 +8,14 @@ use super::state::{At, Named, Sums};
 use super::vector::dd;
 use super::yaml::text;
 
-/// A volume of fluid: its size now, and the size it has without pressure.
+/// A volume of fluid: its current size, and its size without pressure.
 struct Volume {
     node: String,
     size: Dd,
     unpressed: Dd,
 }
 
-/// The bulk modulus, named by nobody else: the oracle's scenes have one fluid.
+/// Returns the bulk modulus: the oracle's scenes have only one fluid.
 fn bulk_modulus(all: &[Effect]) -> Option<Dd> {
     let fluid = all.iter().find(|e| e.kind() == "fluid")?;
     Some(fluid.number("bulk_modulus"))
@@ -42,7 +43,7 @@ pub fn sizes(all: &[Effect], at: &At<'_>) -> Vec<(String, Dd)> {
     found
 }
 
-/// Pressures first: flows go by them.
+/// Computes the pressures first, because flows depend on them.
 pub fn pressures(all: &[Effect], at: &At<'_>, sums: &mut Sums) {
     for e in all.iter().filter(|e| matches!(e.kind(), "supply" | "tank")) {
         sums.pressures.insert(e.name.clone(), e.or("pressure", 0.0));
@@ -56,7 +57,7 @@ pub fn pressures(all: &[Effect], at: &At<'_>, sums: &mut Sums) {
     }
 }
 
-/// Resistors and cylinders; the rest has no law of its own.
+/// Adds the laws of resistors and cylinders; the others have no law of their own.
 pub fn law(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     match e.kind() {
         "fluid" | "supply" | "tank" | "line" | "junction" => {}
@@ -70,7 +71,7 @@ pub fn law(e: &Effect, at: &At<'_>, sums: &mut Sums) {
         }
         "orifice" | "leakage" => {
             let ends = [e.text("from"), e.text("to")];
-            // In series with another one: that one is seen from the scene as a whole.
+            // A resistor in series is handled with the whole scene.
             if ends.iter().all(|n| sums.pressures.contains_key(*n)) {
                 let opening = text(&e.keys, "opening").map_or(Dd::ONE, |u| at.input(u));
                 let opening = opening.max(Dd::ZERO).min(Dd::ONE);
@@ -98,7 +99,7 @@ fn resistances(e: &Effect) -> [Dd; 2] {
     [e.or("resistance", 0.0), Dd::ONE / (flow * flow)]
 }
 
-/// Two resistors that meet in a junction have one flow.
+/// Solves for the flow of two resistors that meet in a junction.
 pub fn in_series(all: &[Effect], sums: &mut Sums) {
     for junction in all.iter().filter(|e| e.kind() == "junction") {
         let meets = |e: &&Effect, key: &str| text(&e.keys, key) == Some(&junction.name);
@@ -123,7 +124,7 @@ fn pass(sums: &mut Sums, [from, to]: [&str; 2], opening: Dd, [r, s]: [Dd; 2]) {
     sums.flow(to, flow);
 }
 
-/// What the flows do to the volumes: Ẇ = q W/V. They store β (W − V) − p V.
+/// Adds the effect of the flows on the volumes: Ẇ = q W/V. They store β (W − V) − p V.
 pub fn volumes(all: &[Effect], at: &At<'_>, sums: &mut Sums) {
     let Some(bulk) = bulk_modulus(all) else {
         return;
@@ -148,7 +149,7 @@ pub fn volumes(all: &[Effect], at: &At<'_>, sums: &mut Sums) {
     }
 }
 
-/// States of the volumes at these pressures.
+/// Returns the states of the volumes at these pressures.
 pub fn filled(all: &[Effect], at: &At<'_>, mut pressure: impl FnMut() -> Dd) -> Named {
     let Some(bulk) = bulk_modulus(all) else {
         return Named::new();

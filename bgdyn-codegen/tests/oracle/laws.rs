@@ -1,4 +1,4 @@
-//! The law of each effect, as its page says it: one small function each.
+//! The law of each effect, as on its page: one small function each.
 
 use bgdyn_runtime::Dd;
 use serde_yaml::Value;
@@ -37,7 +37,7 @@ impl Effect {
         number_or(&self.keys, key, otherwise)
     }
 
-    /// The name of the mode of its gear, where it has one with losses.
+    /// Returns the name of the mode of its gear, if it has one with losses.
     pub fn gear_mode(&self) -> Option<String> {
         match self.kind() {
             "gear" => Some(self.name.clone()),
@@ -60,7 +60,7 @@ impl Effect {
     }
 }
 
-/// What an effect does in a state. Rotors and payloads belong to the mechanism, gears to the inputs.
+/// Adds the law of an effect. Rotors and payloads belong to the mechanism, gears to the inputs.
 pub fn law(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     match e.kind() {
         "viscous" => sums.push(e.joint(), -(e.number("damping") * e.slip(at))),
@@ -130,7 +130,7 @@ fn lugre(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     sums.stored += stiffness * z * z * dd(0.5);
 }
 
-/// An effort along a joint's coordinate, or a pull between two places: positive pushes them apart.
+/// Adds an effort along a joint's coordinate, or between two sites, where positive pushes them apart.
 pub fn act(e: &Effect, at: &At<'_>, sums: &mut Sums, effort: Dd) {
     match e.keys.get("between") {
         None => sums.push(e.joint(), effort),
@@ -143,7 +143,7 @@ pub fn act(e: &Effect, at: &At<'_>, sums: &mut Sums, effort: Dd) {
     }
 }
 
-/// The coordinate that an effect acts along, and its rate.
+/// Returns the coordinate that an effect acts along, and its rate.
 pub fn stretch(e: &Effect, at: &At<'_>) -> (Dd, Dd) {
     match e.keys.get("between") {
         None => (at.q(e.joint()), at.v(e.joint())),
@@ -185,13 +185,13 @@ fn stop(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     }
 }
 
-/// y of (1 + e) y = ln((1 + y)/(1 − e y)), not 0, by halving intervals in y of 0 … 1/e and then by
-/// Newton's steps.
+/// Returns the nonzero y of (1 + e) y = ln((1 + y)/(1 − e y)), by bisection of 0 … 1/e and then by Newton
+/// steps.
 fn loss(e: Dd) -> Dd {
     if e == Dd::ONE {
         return Dd::ZERO;
     }
-    // Below 0 between the root at 0 and the one wanted.
+    // Negative between the root at 0 and the nonzero one.
     let off = |y: Dd| ((Dd::ONE + y) / (Dd::ONE - e * y)).ln() - (Dd::ONE + e) * y;
     let (mut low, mut high) = (dd(1e-6), Dd::ONE / e);
     for _ in 0..80 {
@@ -224,7 +224,7 @@ fn series_elastic(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     sums.stored += e.number("stiffness") * twist * twist * dd(0.5);
 }
 
-/// What arrives behind a gear: η τ where the effort drives, τ/η where the joint drives it, τ at rest.
+/// Returns the effort behind a gear: η τ if the effort drives, τ/η if the joint drives it, τ at rest.
 pub fn geared(e: &Effect, effort: Dd, at: &At<'_>, sums: &mut Sums) -> Dd {
     let Some(mode) = e.gear_mode().map(|name| at.state.modes[&name]) else {
         return effort;
@@ -240,7 +240,7 @@ pub fn geared(e: &Effect, effort: Dd, at: &At<'_>, sums: &mut Sums) -> Dd {
     }
 }
 
-/// Held within ± a limit, where there is one.
+/// Limits the size, if there is a limit.
 fn within(x: Dd, e: &Effect, key: &str) -> Dd {
     if e.has(key) {
         x.max(-e.number(key)).min(e.number(key))
@@ -263,7 +263,7 @@ fn dc_motor(e: &Effect, at: &At<'_>, sums: &mut Sums) {
         if e.has("current_limit") {
             let (limit, outwards) = (e.number("current_limit"), sign(current));
             let drop = resistance * limit * outwards;
-            // Held at its limit, brought back from beyond.
+            // Held at its limit, or returned from beyond it.
             if current.abs() == limit {
                 net = Dd::ZERO;
             } else if current.abs() > limit && (left - drop) * outwards > Dd::ZERO {
@@ -280,7 +280,7 @@ fn dc_motor(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     sums.push(e.joint(), arrives);
 }
 
-/// A moment and a force at a place, in its axes or the world's.
+/// Adds a moment and a force at a site, in its axes or the world's.
 fn wrench(e: &Effect, at: &At<'_>, sums: &mut Sums) {
     let place = at.place(e.text("at"));
     let input = |part: &str| {

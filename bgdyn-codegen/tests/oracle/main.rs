@@ -1,6 +1,6 @@
-//! Spatial scenes with several effects against an oracle of the tests' own: a plain Newton–Euler in
-//! world axes, M from unit accelerations, and each effect's law as its page says it. It reads the
-//! files itself and shares nothing with the generator but the double-double numbers.
+//! Compares spatial scenes with several effects with an independent oracle: a plain Newton–Euler algorithm
+//! in world axes, M from unit accelerations, and each effect's law as on its page. The oracle parses the
+//! files itself and shares only the double-double numbers with the generator.
 
 #[allow(dead_code)] // written for more than this
 #[path = "../scenes/common.rs"]
@@ -28,7 +28,7 @@ use common::{told, try_scene};
 use compare::{Depth, Pair, Worst};
 use rng::Rng;
 
-/// Scenes tried in every run of the tests, and in a long one.
+/// Number of scenes in every run of the tests, and in a long one.
 const FEW: u64 = 24;
 const MANY: u64 = 1000;
 
@@ -54,13 +54,13 @@ fn agree(seeds: std::ops::Range<u64>, depth: impl Fn(u64) -> Depth) {
         if let Err(difference) = pair.compare(&mut rng, &mut worst) {
             panic!("seed {seed}: {difference}");
         }
-        // What is right is not refused.
+        // Correct functions are not refused.
         if let Some(refused) = pair.refused() {
             panic!("seed {seed}: {refused}\n{}", pair.written.scene);
         }
     }
     println!("{worst:?}\n{kinds:?}");
-    // Every effect that the oracle knows was among them.
+    // Every effect that the oracle knows occurred.
     for kind in KINDS {
         assert!(kinds.contains_key(*kind), "no {kind} was tried");
     }

@@ -1,4 +1,4 @@
-//! The oracle's own mechanism: bodies of a tree, read from the file's text.
+//! The oracle's own mechanism: bodies of a tree, parsed from the file's text.
 
 use std::collections::BTreeMap;
 
@@ -35,11 +35,11 @@ pub struct Body {
     pub kind: Kind,
     pub axis: V3,
     pub origin: Origin,
-    /// The link's own, and what it carries.
+    /// The link's own mass, and its payloads.
     pub masses: Vec<Mass>,
 }
 
-/// A place on a body, or in the world.
+/// A site on a body, or in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     pub body: Option<usize>,
@@ -126,7 +126,7 @@ fn body(link: &Value, read: &Mechanism) -> Body {
     }
 }
 
-/// What is carried: `place` seen from its body.
+/// Returns the mass of a payload; `place` is its pose on the body.
 pub fn carried(effect: &Value, place: Place) -> Mass {
     let Origin {
         rotation,
@@ -146,7 +146,7 @@ pub struct Motion {
     /// Columns are the body's axes.
     pub rotation: M3,
     pub place: V3,
-    /// Of its joint.
+    /// The axis of its joint.
     pub axis: V3,
     pub turning: V3,
     pub velocity: V3,
@@ -166,7 +166,7 @@ pub const REST: fn() -> Motion = || Motion {
 };
 
 impl Motion {
-    /// Velocity of a point that moves with the body, given from its origin in world axes.
+    /// Returns the velocity of a point fixed to the body, given relative to its origin in world axes.
     pub fn velocity_at(&self, arm: V3) -> V3 {
         add(self.velocity, cross(self.turning, arm))
     }
@@ -219,14 +219,14 @@ pub fn motions(mechanism: &Mechanism, joint: impl Fn(usize) -> [Dd; 3]) -> Vec<M
     all
 }
 
-/// A place's origin from its body's, its axes, its motion: all in world axes.
+/// Returns a site's origin relative to its body's, its axes, its motion: all in world axes.
 pub fn seen(place: Place, motions: &[Motion]) -> (V3, M3, Motion) {
     let carrier = place.body.map_or_else(REST, |b| motions[b]);
     let arm = apply(carrier.rotation, place.origin.place);
     (arm, times(carrier.rotation, place.origin.rotation), carrier)
 }
 
-/// The unit vector from one place to another, their distance, and its rate.
+/// Returns the unit vector from one site to another, their distance, and its rate.
 pub fn line(a: Place, b: Place, motions: &[Motion]) -> (V3, Dd, Dd) {
     let [(from, start), (to, end)] = [a, b].map(|p| {
         let (arm, _, m) = seen(p, motions);
@@ -248,7 +248,7 @@ pub struct Wrench {
     pub moment: V3,
 }
 
-/// Newton and Euler: the effort at each body's joint behind the motion, under wrenches from outside.
+/// Newton–Euler: returns the effort at each body's joint for the motion, under external wrenches.
 pub fn efforts(
     mechanism: &Mechanism,
     motions: &[Motion],
@@ -257,7 +257,7 @@ pub fn efforts(
     wrenches: &[Wrench],
 ) -> Vec<Dd> {
     let zero = [Dd::ZERO; 3];
-    // Force that each joint hands on, and its moment about the world's origin.
+    // Force transmitted by each joint, and its moment about the world's origin.
     let mut handed = vec![(zero, zero); motions.len()];
     let mut give = |body: usize, at: V3, force: V3, moment: V3| {
         let (f, m) = &mut handed[body];

@@ -1,4 +1,4 @@
-//! A scene as the oracle reads it, and how it moves: M(q) a = E − h.
+//! A scene parsed by the oracle, and its motion: M(q) a = E − h.
 
 use bgdyn_runtime::Dd;
 use serde_yaml::Value;
@@ -14,14 +14,14 @@ pub struct Scene {
     pub mechanism: Mechanism,
     pub effects: Vec<Effect>,
     gravity: V3,
-    /// Links have tensors.
+    /// Whether links have tensors.
     extended: bool,
-    /// Efforts of velocities count.
+    /// Whether velocity products are included.
     products: bool,
     locked: Named,
 }
 
-/// A rotor: N² J on its joint, and where it is said what it sits on, N J about an axis there.
+/// A rotor: N² J on its joint, and, with a given carrier, N J about an axis on the carrier.
 struct Rotor {
     joint: usize,
     ratio: Dd,
@@ -30,7 +30,7 @@ struct Rotor {
     on: Option<(usize, V3)>,
 }
 
-/// What a scene does in a state.
+/// The results of a scene in a state.
 pub struct Answer {
     /// Accelerations, by the coordinates' names.
     pub accelerations: Named,
@@ -95,7 +95,7 @@ impl Scene {
         (0..self.mechanism.bodies.len()).filter(moves).collect()
     }
 
-    /// Where a body's joint is.
+    /// Returns the coordinate of a body's joint.
     fn coordinate(&self, state: &State, body: usize) -> Dd {
         let joint = &self.mechanism.bodies[body].joint;
         let found = self.locked.get(joint).or_else(|| state.q.get(joint));
@@ -117,7 +117,7 @@ impl Scene {
         rotors.map(read).collect()
     }
 
-    /// Efforts at the joints behind rates and accelerations by body, under wrenches.
+    /// Returns the efforts at the joints for rates and accelerations by body, under wrenches.
     fn inverse(
         &self,
         state: &State,
@@ -143,8 +143,8 @@ impl Scene {
             let Some((body, axis)) = on else { continue };
             let carrier = moved[body];
             let axis = apply(carrier.rotation, axis);
-            // The spin's momentum J N q̇ e turns with the body, which feels the reaction to its change;
-            // the joint's drive also speeds the rotor up with its carrier.
+            // The rotor's momentum J N q̇ e rotates with the body, which receives the reaction to its
+            // change; the joint's drive also accelerates the rotor with its carrier.
             let turned = scale(cross(carrier.turning, axis), spin);
             let moment = scale(add(scale(axis, change), turned), -inertia);
             wrenches.push(Wrench {
@@ -167,7 +167,7 @@ impl Scene {
         }
     }
 
-    /// What the laws of all effects give.
+    /// Returns the sums of the laws of all effects.
     fn sums(&self, state: &State, rate: &[Dd]) -> Sums {
         let moved = motions(&self.mechanism, |i| {
             [self.coordinate(state, i), rate[i], Dd::ZERO]
@@ -202,7 +202,7 @@ impl Scene {
         sums
     }
 
-    /// Fills the volumes of a state: pressures come one after another.
+    /// Sets the volumes of a state from consecutive pressures.
     pub fn fill(&self, state: &mut State, pressure: impl FnMut() -> Dd) {
         let rest = vec![Dd::ZERO; self.mechanism.bodies.len()];
         let moved = motions(&self.mechanism, |i| {
@@ -263,7 +263,7 @@ impl Scene {
         }
     }
 
-    /// −Σ m g·r, with the loads.
+    /// Returns −Σ m g·r, including payloads.
     fn potential(&self, state: &State) -> Dd {
         let moved = motions(&self.mechanism, |i| {
             [self.coordinate(state, i), Dd::ZERO, Dd::ZERO]
@@ -290,7 +290,7 @@ fn form(mass: &[Vec<Dd>], v: &[Dd]) -> Dd {
     sum
 }
 
-/// Gauss's elimination with the largest pivot of each column. `columns` of the matrix.
+/// Gaussian elimination with the largest pivot of each column. `columns` of the matrix.
 fn solved(columns: Vec<Vec<Dd>>, right: Vec<Dd>) -> Vec<Dd> {
     let n = right.len();
     let row = |i: usize| {

@@ -1,4 +1,4 @@
-//! A state of a scene by the names of its parts, and what the laws of effects make of it.
+//! A state of a scene by the names of its parts, and the sums of the effects' laws.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,7 +11,7 @@ use super::vector::{V3, add};
 /// Numbers by name.
 pub type Named = BTreeMap<String, Dd>;
 
-/// Coordinates and velocities go by the name of the joint, or of the effect that adds them.
+/// Coordinates and velocities have the name of the joint, or of the effect that adds them.
 #[derive(Clone, Debug, Default)]
 pub struct State {
     pub q: Named,
@@ -23,7 +23,7 @@ pub struct State {
     pub modes: Named,
 }
 
-/// To be read where a test fails: the leading words of the numbers.
+/// For messages of failed tests: the leading words of the numbers.
 impl fmt::Display for State {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let State { q, v, x, u, modes } = self;
@@ -41,7 +41,7 @@ impl fmt::Display for State {
     }
 }
 
-/// What a law reads.
+/// The arguments of a law.
 pub struct At<'a> {
     pub mechanism: &'a Mechanism,
     pub motions: &'a [Motion],
@@ -73,13 +73,13 @@ impl At<'_> {
     }
 }
 
-/// What the laws give.
+/// The sums of the laws.
 #[derive(Clone, Debug, Default)]
 pub struct Sums {
-    /// On joints and on coordinates of effects.
+    /// Efforts on joints and on coordinates of effects.
     pub efforts: Named,
     pub wrenches: Vec<Wrench>,
-    /// Of first-order states.
+    /// Rates of first-order states.
     pub rates: Named,
     /// Inertia of coordinates that effects add.
     pub inertia: Named,
@@ -104,7 +104,7 @@ impl Sums {
         *sum += flow;
     }
 
-    /// A force at a place's origin and a moment; in the world they do nothing.
+    /// Adds a force at a site's origin and a moment; in the world they have no effect.
     pub fn wrench(&mut self, at: &At<'_>, place: Place, force: V3, moment: V3) {
         let (arm, _, carrier) = seen(place, at.motions);
         if let Some(body) = place.body {

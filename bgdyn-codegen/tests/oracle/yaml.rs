@@ -1,4 +1,4 @@
-//! What the oracle reads of a file: numbers with the units that the drafts use, places, tensors.
+//! Parses the values of a file for the oracle: numbers with the units of the drafts, sites, tensors.
 
 use bgdyn_runtime::Dd;
 use serde_yaml::Value;
@@ -8,7 +8,7 @@ use super::vector::{M3, V3, ZERO, dd, m3, rpy, times, transposed, v3};
 /// A number, or text with a unit.
 pub fn number(value: &Value) -> Dd {
     match value {
-        // The shortest decimal that rounds to the number is what was written.
+        // The shortest decimal that rounds to the number is the text in the file.
         Value::Number(n) => decimal(&n.as_f64().expect("a number").to_string()),
         Value::String(text) => {
             let (digits, unit) = text.split_once(' ').unwrap_or((text, ""));
@@ -23,12 +23,12 @@ pub fn number(value: &Value) -> Dd {
     }
 }
 
-/// What the digits say, not rounded to binary.
+/// Returns the exact decimal, not rounded to binary.
 pub fn decimal(digits: &str) -> Dd {
     digits.parse().unwrap_or_else(|e| panic!("{digits}: {e:?}"))
 }
 
-/// The number of a key, or what it is without it.
+/// Returns the number of a key, or a default.
 pub fn number_or(value: &Value, key: &str, otherwise: f64) -> Dd {
     value.get(key).map_or(dd(otherwise), number)
 }

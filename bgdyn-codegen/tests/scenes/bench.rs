@@ -1,4 +1,4 @@
-//! A scene on the bench: its state set by name, its functions called through the evaluator.
+//! A scene for tests: its state is set by name, its functions are called by the evaluator.
 
 use std::collections::BTreeMap;
 
@@ -66,7 +66,7 @@ impl Bench {
             Dd::from_f64(value);
     }
 
-    /// The value of a role's function here.
+    /// Returns the value of a scene function in this state.
     pub fn value(&mut self, role: SceneFunction) -> Vec<Dd> {
         let system = &self.system;
         let function = self.functions.entry(role);
@@ -109,7 +109,7 @@ pub fn dd(text: &str) -> Dd {
     text.parse().expect("a decimal")
 }
 
-/// Asserts that two numbers agree to `digits` of the larger of `size` and the second one.
+/// Asserts that two numbers agree to `digits` relative to the larger of `size` and the second one.
 pub fn agree(what: &str, got: Dd, wanted: Dd, size: f64, digits: f64) {
     let off = (got - wanted).to_f64().abs();
     let size = wanted.to_f64().abs().max(size);

@@ -1,4 +1,4 @@
-//! Wrenches, drag and payloads: what acts on a link as a whole, and what it carries.
+//! Tests wrenches, drag and payloads: effects on a whole link.
 
 use bgdyn_codegen::random::Random;
 use std::path::Path;
@@ -31,7 +31,7 @@ fn arm(effects: &str) -> SceneEquations {
     scene(&text, &ur5())
 }
 
-/// Puts two benches into the same random state.
+/// Sets two benches to the same random state.
 fn anywhere(random: &mut Random, one: &mut Bench, other: &mut Bench) {
     for j in 0..6 {
         let mut next = || Dd::from_f64(2.0 * random.signed());
@@ -107,7 +107,7 @@ fn a_wrench_acts_through_the_jacobian() {
     }
 }
 
-/// Only the components asked for are inputs, in their usual order; the others are nothing.
+/// Only the selected components are inputs, in the usual order; the others are zero.
 #[test]
 fn a_wrench_has_the_components_asked_for() {
     let mut some = Bench::new(arm(
@@ -166,7 +166,7 @@ fn drag_opposes_the_motion_of_its_place() {
         assert!(lost.to_f64() >= 0.0);
         assert_eq!((supplied, stored), (Dd::ZERO, Dd::ZERO));
     }
-    // Nothing moves, nothing resists.
+    // Without motion there is no drag.
     wet.at.v.fill(Dd::ZERO);
     dry.at.v.fill(Dd::ZERO);
     let [with, without] = [
@@ -221,7 +221,7 @@ fn a_payload_is_a_link() {
     }
 }
 
-/// With the mass at 0 a point mass is let go: the arm moves as it does without.
+/// With the mass at 0 a point mass is detached: the arm moves as without it.
 #[test]
 fn a_payload_is_let_go() {
     let part = "  - part: { type: payload, at: grip, mass: { parameter: m, value: 2 kg }, com: [0, { parameter: y, value: 30 mm }, 0] }\n";

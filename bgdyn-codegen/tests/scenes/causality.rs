@@ -1,4 +1,4 @@
-//! Elements without a store between them: those in series, solved; those that are not, named.
+//! Tests elements without a store between them: those in series are solved, others are reported.
 
 use bgdyn_codegen::random::Random;
 use std::collections::BTreeSet;
@@ -38,8 +38,8 @@ struct Member {
     square: Dd,
 }
 
-/// Holds a chain against its members: one flow whose drops add up to the whole, the pressures between
-/// them, and dissipation that is the flow times the drop of enthalpy, member by member.
+/// Checks a chain against its members: the same flow, drops that add up to the total, the pressures
+/// between them, and dissipation that is the flow times the drop of enthalpy, member by member.
 fn hold(effects: &str, members: &[(&str, f64, Member)], junctions: &[&str]) {
     let mut text = text(effects);
     let names = junctions.iter().map(|j| format!("{j}_pressure"));
@@ -107,7 +107,7 @@ fn orifices_in_series_are_one() {
     );
 }
 
-/// The flow's sign is that of each element's own direction, whichever way it was written.
+/// The flow's sign follows each element's own direction, for both orders of its nodes.
 #[test]
 fn elements_may_point_either_way() {
     hold(
@@ -173,7 +173,7 @@ fn what_was_solved_is_listed() {
     assert_eq!(names, ["elbow_motor"], "the motor without inductance");
 }
 
-/// A scene without one of its effects has none of those that need it.
+/// If one effect is removed from a scene, those that need it are removed too.
 #[test]
 fn what_needs_a_missing_effect_falls_away() {
     let text = text(
@@ -196,7 +196,7 @@ fn what_needs_a_missing_effect_falls_away() {
     assert_eq!((all.elements.len(), all.chains.len()), (6, 1));
 }
 
-/// The rule, the line and the words of the only fault of a scene.
+/// Checks the rule, the line and the words of the only fault of a scene.
 fn refused(effects: &str, rule: &str, line_has: &str, words: &[&str]) {
     let text = text(effects);
     let refusal = try_scene(&text, BLOCK).expect_err("a fault");
@@ -278,7 +278,7 @@ fn a_dead_end_is_named() {
     );
 }
 
-/// A motor with neither resistance nor inductance has no current that could be found.
+/// For a motor with neither resistance nor inductance the current is undetermined.
 #[test]
 fn a_motor_without_both_is_named() {
     refused(
@@ -289,7 +289,7 @@ fn a_motor_without_both_is_named() {
     );
 }
 
-/// The names of elements that nodes of the bond graph belong to, and of hydraulic junctions.
+/// Returns the names of elements with these nodes of the bond graph, and of hydraulic junctions.
 fn names_of(system: &SceneEquations, nodes: &[GraphNodeId]) -> BTreeSet<String> {
     let element = |id: &GraphNodeId| {
         let at = system.network.nodes[id.0].element?;
@@ -298,7 +298,7 @@ fn names_of(system: &SceneEquations, nodes: &[GraphNodeId]) -> BTreeSet<String> 
     nodes.iter().filter_map(element).collect()
 }
 
-/// The pass over the bond graph finds the loops that the check solves, and no others.
+/// The causality of the bond graph has the loops that the check solves, and no others.
 #[test]
 fn loops_of_the_bond_graph_are_the_chains_that_are_solved() {
     let chains = text(
@@ -340,7 +340,7 @@ fn loops_of_the_bond_graph_are_the_chains_that_are_solved() {
     assert!(with_chains > 0);
 }
 
-/// A motor without inductance is solved by its resistance, which gives the current.
+/// The current of a motor without inductance follows from its resistance.
 #[test]
 fn the_resistance_gives_the_current_where_there_is_no_inductance() {
     let path = specs()
@@ -361,8 +361,8 @@ fn the_resistance_gives_the_current_where_there_is_no_inductance() {
     assert_eq!(giving, solved.collect());
 }
 
-/// Every effect that a file declares has nodes of its symbol in the bond graph, joined without
-/// contradiction; but for those that are part of links or volumes.
+/// Every effect that a file declares has nodes of its symbol in the bond graph, without causal conflicts;
+/// except those that are part of links or volumes.
 #[test]
 fn effects_are_on_the_bond_graph_what_their_symbols_say() {
     for (keyword, written) in WRITTEN {

@@ -1,4 +1,4 @@
-//! The laws hold whatever effects are called for together.
+//! Tests that the laws are satisfied for any combination of effects.
 
 use super::common::scene;
 use super::{forms, laws};
@@ -24,7 +24,7 @@ frames:
   - { name: hook, link: slide, origin: { xyz: [0.2, 0, 0.05] } }
 ";
 
-/// Effects, each with what it needs before it.
+/// Effects, each after the effects that it needs.
 const EFFECTS: [&[&str]; 14] = [
     &["gravity"],
     &["velocity_products"],
@@ -50,7 +50,7 @@ const EFFECTS: [&[&str]; 14] = [
     ],
 ];
 
-/// Combinations tried.
+/// Number of combinations.
 const TRIED: u64 = 8;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Effects in random combinations: the laws hold whatever stands beside what.
+//! Tests effects in random combinations: the laws are satisfied for every combination.
 
 use bgdyn_codegen::random::Random;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use super::common::scene;
 use super::laws;
 
-/// What a crane may have, each with what it needs.
+/// Possible effects of a crane, each with the effects that it needs.
 const CHOICES: [&str; 12] = [
     "gravity",
     "inertia",

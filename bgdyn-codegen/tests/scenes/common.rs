@@ -1,4 +1,4 @@
-//! Scenes from files and from text, states to try them in.
+//! Scenes from files and from text, and states for their tests.
 
 use bgdyn_codegen::random::Random;
 use std::path::{Path, PathBuf};
@@ -41,7 +41,7 @@ pub fn scene(text: &str, mechanism: &str) -> SceneEquations {
     }
 }
 
-/// The same, or why not.
+/// Returns the scene, or the reason of its refusal.
 pub fn try_scene(
     text: &str,
     mechanism: &str,
@@ -49,7 +49,7 @@ pub fn try_scene(
     read_scene(text, "scene", |_| Ok(mechanism.to_owned()))
 }
 
-/// A refusal as its reader sees it.
+/// Returns the text of a refusal.
 pub fn told(refusal: &Refusal, text: &str) -> String {
     match refusal {
         Refusal::Spec(faults) => faults.render("scene.yaml", text),
@@ -64,14 +64,14 @@ pub fn told(refusal: &Refusal, text: &str) -> String {
     }
 }
 
-/// So many numbers within `size` of 0.
+/// Returns numbers within `size` of 0.
 fn many(random: &mut Random, n: usize, size: f64) -> Vec<Dd> {
     (0..n)
         .map(|_| Dd::from_f64(random.signed() * size))
         .collect()
 }
 
-/// The winding, the sign and the size of the limit whose mode has this name.
+/// Returns the winding, the sign and the size of the limit whose mode has this name.
 fn current_limit(system: &SceneEquations, mode: &str) -> Option<(usize, f64, Dd)> {
     let sides = [("_upper_limit", 1.0), ("_lower_limit", -1.0)];
     let (name, side) = sides
@@ -92,7 +92,7 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
     };
     let q = around(&system.initial.q, 0.3);
     let mut v = around(&system.initial.v, 1.0);
-    // States of their own size: bristles, fluid volumes.
+    // States with scales of their own: bristles, fluid volumes.
     let x: Vec<Dd> = system
         .initial
         .x
@@ -128,7 +128,7 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
         }
         let j = coordinates[k];
         if seen.contains(&j) {
-            // Another friction or gear has said how this joint moves.
+            // Another friction or gear has set the motion of this joint.
             let moves = if v[j] < Dd::ZERO { -1.0 } else { 1.0 };
             let mode = if v[j] == Dd::ZERO { 0.0 } else { moves };
             modes.push(Dd::from_f64(mode));
@@ -136,7 +136,7 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
         }
         seen.push(j);
         modes.push(Dd::from_f64(if slipping { sign } else { 0.0 }));
-        // A held joint moves as its counterpart does.
+        // A held joint moves with its counterpart.
         let element = system.scene.elements.iter().find(|e| e.name == part.name);
         let reference = element.and_then(|e| e.name("reference"));
         let rate = reference.map(|r| format!("{r}_rate"));

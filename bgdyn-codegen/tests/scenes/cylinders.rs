@@ -1,4 +1,4 @@
-//! Cylinders: the reference solution of a stiff one, the geometry of those between lugs.
+//! Tests cylinders: the reference solution of a stiff one, the geometry of those between lugs.
 
 use bgdyn_codegen::random::Random;
 use std::path::Path;
@@ -181,7 +181,7 @@ fn cylinders_between_lugs_have_their_length_and_rate() {
                 EXACT,
             );
             let force = bench.output(&format!("{joint}_ram_force"));
-            // The joint's own effort is less by what the cylinder does: f ∂l/∂q.
+            // The effort of the cylinder reduces that of the joint: f ∂l/∂q.
             agree(joint, without[j] - with[j], force * slope, 1e4, 1e-22);
             powers += force * slope * bench.at.v[j];
         }
@@ -198,7 +198,7 @@ fn cylinders_between_lugs_have_their_length_and_rate() {
         agree("reach", without[j] - with[j], force, 1e4, 1e-22);
         agree("slew", without[0] - with[0], Dd::ZERO, 1e4, 1e-22);
         powers += force * bench.at.v[j];
-        // What the cylinders deliver: less of it is stored, nothing is made. The valves are shut.
+        // The cylinders deliver energy that they had stored; none is created. The valves are closed.
         let rams = ["luff", "fold", "reach"].map(|n| format!("{n}_ram"));
         let stored = rams.map(|n| bench.power(&n)[1]);
         let fed = ["luff", "fold", "reach"].map(|n| bench.power(&format!("{n}_leak"))[2]);

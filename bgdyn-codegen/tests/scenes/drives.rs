@@ -1,4 +1,4 @@
-//! Gears and series elasticity: their laws, and that other effects act on a drive.
+//! Tests gears and series elasticity: their laws, and other effects on a drive.
 
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::random::Random;
@@ -29,7 +29,7 @@ fn a_gear_loses_on_both_ways() {
         let mut at = tried.at(&[0.0], &[v], &[], &[u]);
         at.modes[0] = v;
         close(MASS * tried.rates(at.clone())[0], wanted);
-        // What is lost: (u − τ) v, which is never less than nothing.
+        // The losses (u − τ) v are never negative.
         let power = tried.system.function(SceneFunction::Power);
         let (values, _) = power.evaluate(at);
         close(values[2], (u - wanted) * v);
@@ -38,8 +38,7 @@ fn a_gear_loses_on_both_ways() {
     laws::hold(&tried.system);
 }
 
-/// At rest a gear holds as long as neither η τ nor τ/η would move the joint: with the friction of its
-/// joint, where there is some.
+/// At rest a gear holds if neither η τ nor τ/η would move the joint; friction of its joint is added.
 #[test]
 fn a_gear_holds_its_joint_against_less_than_its_losses() {
     let gear = "it: { type: gear, joint: slide, efficiency: 0.8 }";
@@ -90,7 +89,7 @@ fn a_drive_turns_its_joint_through_a_spring() {
     laws::hold(&tried.system);
 }
 
-/// A drive begins unstretched, unless the scene says where it begins.
+/// A drive starts without deflection, unless the scene gives its position.
 #[test]
 fn a_drive_starts_where_its_joint_starts() {
     let system = with(
@@ -146,7 +145,7 @@ fn dry_friction_holds_a_drive() {
     }
 }
 
-/// Computed torque on a drive: N²J a + τ at the acceleration that the controller wants.
+/// Computed torque on a drive: N²J a + τ at the acceleration that the controller demands.
 #[test]
 fn a_controller_follows_a_drive() {
     let controller =
@@ -212,7 +211,7 @@ fn what_gears_and_drives_refuse() {
     ]);
 }
 
-/// What would change nothing, or not know what it changes.
+/// Effects without influence, or with an undefined one.
 #[test]
 fn second_gears_and_rotors_of_drives_are_refused() {
     let gears = [
@@ -232,7 +231,7 @@ fn second_gears_and_rotors_of_drives_are_refused() {
     }
 }
 
-/// Inertia and ratio of a rotor learnt later give what they give where they are known.
+/// Inertia and ratio of a rotor as run-time parameters give the same results as constants.
 #[test]
 fn a_rotors_numbers_may_be_run_time_parameters() {
     const ARM: &str = "\

@@ -1,5 +1,5 @@
-//! Dual numbers over double-double: exact derivatives of what is evaluated, by other code than the
-//! generator's own differentiation.
+//! Dual numbers over double-double: exact derivatives of evaluated functions, independent of the
+//! generator's differentiation.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

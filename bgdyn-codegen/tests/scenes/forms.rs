@@ -1,5 +1,5 @@
-//! The Jacobian and the canonical form of scenes, by every way to them, against dual numbers over
-//! double-double through the plain functions; the derivative by every formulation.
+//! Compares the Jacobian and the canonical form of scenes, by every alternative, with dual numbers over
+//! double-double in the plain functions; and the derivative by every formulation.
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::FORMULATIONS;
@@ -16,11 +16,11 @@ use super::dual::{Dual, dual};
 /// States per scene, and for each kind of modes.
 const STATES: u64 = 2;
 
-/// What is compared.
+/// The compared functions.
 struct Tried<'a> {
     system: &'a SceneEquations,
     derivative: Function,
-    /// The derivative by each formulation that knows what it rests on.
+    /// The derivative by each formulation that supports it.
     formulations: Vec<Function>,
     inputs: Option<Function>,
     jacobians: Vec<Function>,

@@ -1,4 +1,4 @@
-//! Friction: its laws, what they refuse, and that they never drive.
+//! Tests friction: its laws, their refusals, and that they never supply power.
 
 use bgdyn_codegen::method::SceneFunction;
 
@@ -59,7 +59,7 @@ fn a_flat_stribeck_curve_is_coulombs() {
     assert_eq!(count(&flat), count(&smooth), "the curve costs nothing");
 }
 
-/// Against a counterpart at rest no law of this family ever drives, in any state.
+/// Against a counterpart at rest no law of this family supplies power, in any state.
 #[test]
 fn memoryless_friction_never_drives() {
     let effects = [
@@ -165,7 +165,7 @@ fn bristles(viscous: f64) -> String {
     )
 }
 
-/// The warning stands on the side of the limit where it belongs.
+/// The warning appears on the correct side of the limit.
 #[test]
 fn lugre_friction_warns_where_it_is_not_passive() {
     for (viscous, warned) in [
@@ -181,9 +181,9 @@ fn lugre_friction_warns_where_it_is_not_passive() {
     }
 }
 
-/// Energy taken by the friction, J, while the block creeps until the bristles carry F_s and is then
-/// pulled at once at `fast`, m/s, until they carry F_c, again and again: z comes back to where it
-/// was, so no energy is left in the bristles.
+/// Returns the energy dissipated by friction, J, while the block creeps until the bristles carry F_s and
+/// is then pulled at `fast`, m/s, until they carry F_c, repeatedly: z returns to its start, so no energy
+/// remains in the bristles.
 fn cycle(viscous: f64, fast: f64) -> f64 {
     let tried = block(&bristles(viscous));
     let rates = |v: f64, z: f64| tried.rates(tried.at(&[0.0], &[v], &[z], &[]));
@@ -221,8 +221,8 @@ fn cycle(viscous: f64, fast: f64) -> f64 {
     slow + quick
 }
 
-/// Where the condition holds the cycle takes energy; without viscous friction it gives some, the
-/// more the faster the pull: the warning is not an empty one.
+/// If the condition is satisfied the cycle dissipates energy; without viscous friction it supplies some,
+/// and more for a faster pull: the warning is justified.
 #[test]
 fn lugre_friction_gives_energy_only_where_it_warns() {
     for fast in [0.01, 0.1, 1.0, 10.0] {
@@ -230,12 +230,12 @@ fn lugre_friction_gives_energy_only_where_it_warns() {
     }
     for fast in [1.0, 10.0] {
         let given = -cycle(0.0, fast);
-        // σ₁ v ∮ (1 − σ₀ z/g) ds = σ₁ v (F_s − F_c)/σ₀ is what a pull gives, less what slipping takes.
+        // A pull supplies σ₁ v ∮ (1 − σ₀ z/g) ds = σ₁ v (F_s − F_c)/σ₀, minus the loss by slipping.
         assert!(given > 300.0 * fast * 0.5e-5 * 0.5, "{given} at {fast} m/s");
     }
 }
 
-/// In every state with |z| ≤ F_s/σ₀ passive bristles lose power.
+/// In every state with |z| ≤ F_s/σ₀ passive bristles dissipate power.
 #[test]
 fn passive_bristles_never_lose_less_than_nothing() {
     let dissipated = |viscous: f64, v: f64, z: f64| {

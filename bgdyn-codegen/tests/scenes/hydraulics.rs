@@ -1,4 +1,4 @@
-//! Hydraulic elements: their laws against the equations written out here.
+//! Tests hydraulic elements: their laws against equations written in this file.
 
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::{Dd, Scalar};
@@ -127,7 +127,7 @@ fn an_orifice_obeys_its_law() {
         let again = dd("3e8") * q + q * q.abs() / (dd("2e-7") * dd("2e-7"));
         agree("Δp", again, drop, 1e3, EXACT);
     }
-    // At rest nothing runs, and the smooth law has the slope 1/R.
+    // At rest the flow is zero, and the smooth law has the slope 1/R.
     let p = dd("5e6");
     for bench in [&mut plain, &mut opened, &mut smooth] {
         agree("at rest", flow(bench, p, p), Dd::ZERO, 1e-7, 1e-10);
@@ -180,7 +180,7 @@ fn a_four_way_valve_obeys_its_law() {
                 let q = bench.rate(name) / (p / bulk).exp();
                 agree(name, q, open * into, 1e-6, EXACT);
             }
-            // What the pump gives is what it pumps times its enthalpy, and nothing makes power.
+            // The pump supplies its flow times its enthalpy, and no element creates power.
             let given = bench.power("pump")[0];
             let enthalpy = bulk * ((supply / bulk).exp() - dd("1"));
             let pumped = open * if spool > 0.0 { into_left } else { into_right };
@@ -190,8 +190,8 @@ fn a_four_way_valve_obeys_its_law() {
     }
 }
 
-/// Restrictions let no energy in: what they dissipate is never negative, and the power of a supply
-/// is that of its flow.
+/// Restrictions supply no energy: their dissipation is never negative, and the power of a supply is that
+/// of its flow.
 #[test]
 fn restrictions_dissipate() {
     let elements = [

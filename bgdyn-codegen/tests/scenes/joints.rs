@@ -1,4 +1,4 @@
-//! One declaration for several joints.
+//! Tests one declaration for several joints.
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::method::SceneFunction;
@@ -48,7 +48,7 @@ fn names(system: &SceneEquations) -> Vec<&str> {
         .collect()
 }
 
-/// Both scenes have the same accelerations, whatever their effects are called.
+/// Both scenes have the same accelerations, for any names of their effects.
 fn same(one: &SceneEquations, other: &SceneEquations) {
     let [a, b] = [one, other].map(|s| s.function(SceneFunction::Derivative));
     for seed in 0..4 {
@@ -90,7 +90,7 @@ fn a_list_says_which() {
     same(&some, &scene(&called(&alone.concat()), ARM));
 }
 
-/// States, modes and inputs go by the names of the effects; a parameter is one for all.
+/// States, modes and inputs have the names of the effects; a parameter is common to all.
 #[test]
 fn each_effect_has_a_state_of_its_own_and_one_parameter() {
     let text = called(
@@ -113,7 +113,7 @@ fn each_effect_has_a_state_of_its_own_and_one_parameter() {
     assert_eq!(system.initial.v[5].to_f64(), 2.0);
 }
 
-/// A scene may give the mechanism's effect other joints, and lock some: `all` are those that move.
+/// A scene may give the mechanism's effect other joints, and lock some: `all` are the moving ones.
 #[test]
 fn scenes_vary_the_joints() {
     let mechanism = arm("  bearing: { type: viscous, joints: all, damping: 0.3 }\n");

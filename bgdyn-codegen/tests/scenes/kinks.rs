@@ -1,5 +1,5 @@
-//! Wherever the derivative of a scene has a kink, an event says so: a run that did not stop there would
-//! lose the order of its method in silence.
+//! Checks that every kink of a scene's derivative has an event: a run that did not stop at it would lose
+//! the order of its integrator without notice.
 
 use bgdyn_codegen::expr::{Graph, Inputs, Node, NodeId, Signed, evaluate, reachable};
 use bgdyn_codegen::function::Function;
@@ -12,11 +12,11 @@ use super::common::{read, scene, specs, state};
 use super::one::{BLOCK, text};
 use super::written::CIRCUIT;
 
-/// Segments between two states that are searched in each scene.
+/// Number of segments between two states that are searched in each scene.
 const SEGMENTS: u64 = 60;
-/// Half the distance between the sides of a kink, as a part of a segment.
+/// Half the distance between the sides of a kink, as a fraction of a segment.
 const NEAR: f64 = 1e-13;
-/// Slopes that differ by less than this part of them are equal; their error is of the size of NEAR².
+/// Slopes with a smaller relative difference are equal; their error is of the size of NEAR².
 const NO_KINK: f64 = 1e-9;
 
 fn expr(node: NodeId) -> Signed {
@@ -24,8 +24,8 @@ fn expr(node: NodeId) -> Signed {
     Signed { node, negative }
 }
 
-/// What is compared on the way to these outputs: a branch changes where the two are equal, or where
-/// the first passes through zero.
+/// Returns the comparisons on which these outputs depend: a branch changes where the two operands are
+/// equal, or where the first passes through zero.
 fn compared(graph: &Graph, outputs: &[Signed]) -> Vec<(Signed, Option<Signed>)> {
     let needed = reachable(graph, outputs);
     let nodes = (0..graph.len()).filter(|&i| needed[i]);
@@ -37,7 +37,7 @@ fn compared(graph: &Graph, outputs: &[Signed]) -> Vec<(Signed, Option<Signed>)> 
     nodes.filter_map(switch).collect()
 }
 
-/// States from one to another, modes as in the first.
+/// States from one to another, with the modes of the first.
 struct Segment<'a> {
     derivative: &'a Function,
     events: Option<&'a Function>,
@@ -66,7 +66,7 @@ impl Segment<'_> {
         evaluate(graph, of, &self.at(part), &mut Dd::none_refused())
     }
 
-    /// Which side of a comparison a state is on.
+    /// Returns the side of a comparison in a state.
     fn side(&self, (a, b): (Signed, Option<Signed>), part: Dd) -> bool {
         match b {
             None => self.values(&[a], part)[0] < Dd::ZERO,
@@ -77,7 +77,7 @@ impl Segment<'_> {
         }
     }
 
-    /// Where the side changes, between 0 and 1.
+    /// Returns the position of a change of side, between 0 and 1.
     fn change(&self, of: (Signed, Option<Signed>)) -> Option<Dd> {
         let (mut low, mut high) = (Dd::ZERO, Dd::ONE);
         let first = self.side(of, low);
@@ -95,12 +95,13 @@ impl Segment<'_> {
         Some(high)
     }
 
-    /// Whether the derivative's slope along the segment jumps here; or the derivative itself.
+    /// Returns whether the derivative's slope along the segment jumps at a position, or the derivative
+    /// itself.
     fn is_kink(&self, at: Dd) -> bool {
         let outputs = &self.derivative.blocks[0].outputs;
         let value = |k: f64| self.values(outputs, at + Dd::from_f64(k * NEAR));
         let [a, b, c, d, e, f] = [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0].map(value);
-        // Both sides continued to the middle, and their slopes there.
+        // Both sides are extrapolated to the middle, with their slopes.
         let slope = |near: Dd, next: Dd, far: Dd| {
             near * Dd::from_f64(-5.0) + next * Dd::from_f64(8.0) - far * Dd::from_f64(3.0)
         };
@@ -113,7 +114,7 @@ impl Segment<'_> {
         })
     }
 
-    /// Whether an event changes its sign here.
+    /// Returns whether an event changes its sign at a position.
     fn has_event(&self, at: Dd) -> bool {
         let Some(events) = self.events else {
             return false;
@@ -128,7 +129,8 @@ impl Segment<'_> {
     }
 }
 
-/// A state far from the start: beyond stops and ends. No current is beyond its limit: no run gets there.
+/// Returns a state far from the start: beyond stops and ends. No current is beyond its limit, because no
+/// run has this.
 fn far(system: &SceneEquations, random: &mut Random) -> Inputs<Dd> {
     let mut at = state(system, random, true);
     for (mode, part) in at.modes.iter_mut().zip(&system.scene.layout.modes) {

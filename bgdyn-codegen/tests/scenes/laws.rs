@@ -1,4 +1,5 @@
-//! What every scene obeys: the balance of power, and that the inverse undoes the derivative.
+//! Checks the laws of every scene: the balance of power, and that the inverse is the inverse of the
+//! derivative.
 
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
@@ -11,7 +12,7 @@ use super::common::state;
 /// States per scene.
 const STATES: u64 = 20;
 
-/// The functions that the laws are about.
+/// The functions in the laws.
 pub struct Tried<'a> {
     system: &'a SceneEquations,
     power: Function,
@@ -20,7 +21,7 @@ pub struct Tried<'a> {
     contacts: Option<Function>,
 }
 
-/// Holds the laws in random states.
+/// Checks the laws in random states.
 pub fn hold(system: &SceneEquations) {
     let modes = !system.scene.layout.modes.is_empty();
     let tried = Tried {
@@ -64,7 +65,7 @@ impl Tried<'_> {
         );
     }
 
-    /// The derivative under the efforts that the inverse gives has the accelerations asked for.
+    /// The derivative under the efforts of the inverse has the given accelerations.
     fn undone(&self, seed: u64) {
         let system = self.system;
         let inputs = state(system, &mut Random(seed), true);
@@ -84,7 +85,7 @@ impl Tried<'_> {
         }
     }
 
-    /// A held joint accelerates as its counterpart does.
+    /// A held joint has the acceleration of its counterpart.
     fn held_joints_stay(&self, contacts: &Function, seed: u64) {
         let system = self.system;
         let inputs = state(system, &mut Random(seed), false);

@@ -1,4 +1,4 @@
-//! Effects along a line need a line whose length can change.
+//! Checks that effects along a line need a line whose length can change.
 
 use bgdyn_codegen::refusal::Refusal;
 
@@ -80,7 +80,7 @@ fn a_line_that_keeps_its_length_is_refused() {
         ["foot", "rail"],
         ["lug", "ear"],
         ["upper", "lug"],
-        // Through joints: on the axis, at the point about which it turns.
+        // Through joints: on the axis, at the centre of rotation.
         ["stand", "upper"],
         ["stand", "bolt"],
         ["anchor", "bolt"],

@@ -1,4 +1,4 @@
-//! Scenes through the evaluator: laws of every scene file and of scenes written here.
+//! Tests scenes with the evaluator: laws of every scene file and of scenes in the tests.
 
 mod bench;
 mod bodies;
@@ -40,7 +40,7 @@ mod zero;
 
 use common::{read, specs};
 
-/// Every scene of the repository holds the laws.
+/// Every scene of the repository satisfies the laws.
 #[test]
 fn the_scenes_of_the_repository_are_sound() {
     let mut count = 0;

@@ -1,11 +1,11 @@
-//! What motors report beside their torque.
+//! Tests the outputs of motors other than their torque.
 
 use bgdyn_codegen::method::SceneFunction;
 
 use super::common::scene;
 use super::one::{BLOCK, Tried, close, text};
 
-/// The voltage at the motor for what is asked, at this speed of the joint and this current.
+/// Returns the voltage at the motor for a required voltage, at this speed of the joint and this current.
 fn applied(motor: &str, asked: f64, speed: f64, current: Option<f64>) -> f64 {
     let more = "inputs: { it: given }\noutputs: [it_voltage]\n";
     let tried = Tried::new(scene(&text(&[motor], more), BLOCK));
@@ -23,14 +23,14 @@ fn the_voltage_is_the_one_that_is_left_by_the_limits() {
         "it: { type: dc_motor, joint: slide, resistance: 2, torque_constant: 0.5, ratio: 6 }";
     let with = |more: &str| plain.replace(" }", &format!(", {more} }}"));
     for asked in [-100.0, -7.3, 0.0, 11.1, 100.0] {
-        // Without a limit what is asked for, to the last bit.
+        // Without a limit the required voltage, to the last bit.
         assert_eq!(applied(plain, asked, 1.7, None), asked);
         let supply = asked.clamp(-24.0, 24.0);
         assert_eq!(
             applied(&with("voltage_limit: 24"), asked, 1.7, None),
             supply
         );
-        // No more than drives 4 A: 8 V more than is induced, 8 V less on the other side.
+        // At most the voltage for 4 A: 8 V more than the induced voltage, or 8 V less.
         let both = with("voltage_limit: 24, current_limit: 4");
         for speed in [-2.0, 0.5, 1.7] {
             let wanted = supply.clamp(3.0 * speed - 8.0, 3.0 * speed + 8.0);
@@ -39,7 +39,7 @@ fn the_voltage_is_the_one_that_is_left_by_the_limits() {
     }
 }
 
-/// With inductance the current is a state; where it is below its limit, only the supply limits.
+/// With inductance the current is a state; below its limit, only the supply limits.
 #[test]
 fn the_voltage_of_a_winding() {
     let winding = "it: { type: dc_motor, joint: slide, resistance: 2, inductance: 1 mH, torque_constant: 0.5, ratio: 6, voltage_limit: 24 }";

@@ -8,7 +8,7 @@ use bgdyn_runtime::Scalar;
 
 use super::common::{scene, told, try_scene};
 
-/// A block of 2 kg that slides along x, at first 0.4 m from an anchor beside its way.
+/// A block of 2 kg that slides along x, 0.4 m from an anchor beside its path at first.
 pub const BLOCK: &str = "\
 format: 1
 links:
@@ -29,7 +29,7 @@ pub struct Tried {
     derivative: Function,
 }
 
-/// The text of a scene with these effects and whatever else.
+/// Returns the text of a scene with these effects and other keys.
 pub fn text(effects: &[&str], more: &str) -> String {
     let list: Vec<String> = effects.iter().map(|e| format!("  - {e}\n")).collect();
     format!(
@@ -84,7 +84,7 @@ pub fn close(got: f64, wanted: f64) {
     assert!(off < 1e-13, "{got:e}, not {wanted:e}");
 }
 
-/// Wrong effects: each with what it is called for in its text, the rule and a part of the message.
+/// Checks wrong effects: each with its text, the rule and a part of the message.
 pub fn refused(effects: &[(&str, &str, &str, &str)]) {
     for (effect, at, rule, message) in effects {
         let text = text(&[effect], "");

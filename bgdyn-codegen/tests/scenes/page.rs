@@ -1,5 +1,6 @@
-//! `docs/effects.md`: every effect with its equation, its keys, its element on the graph, what it
-//! costs and what it does. The page is written with `BGDYN_WRITE=1`; without, it must be up to date.
+//! Writes `docs/effects.md`: every effect with its equation, its keys, its element on the graph, its cost
+//! and its influence. The page is written with `BGDYN_WRITE=1`; otherwise the test checks that it is up to
+//! date.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -61,7 +62,7 @@ fn run(system: &SceneEquations) -> Vec<[f64; 2]> {
     let layout = &system.scene.layout;
     let contacts = (!layout.modes.is_empty()).then(|| system.function(SceneFunction::Contacts));
     let mut at = system.start();
-    // What a caller would give: 4 V, 4 N, a valve open by half.
+    // Typical inputs of a caller: 4 V, 4 N, a half open valve.
     for (value, part) in at.u.iter_mut().zip(&layout.inputs) {
         *value = if part.name.ends_with("fx") || part.drives.is_some() {
             4.0
@@ -109,7 +110,7 @@ fn stepped(derivative: &Function, nq: usize, at: &Inputs<f64>, h: f64) -> Inputs
     moved(&middle, &second, h)
 }
 
-/// The one contact of these scenes: held where it comes to rest, slipping where it breaks away.
+/// Determines the mode of the only contact of these scenes: held at rest, slipping after breaking away.
 fn hold_or_slip(contacts: &Function, at: &mut Inputs<f64>) {
     let found = contacts.evaluate(at.clone()).0;
     let (slip, holding, limit) = (found[0], found[2], found[3]);
@@ -203,7 +204,7 @@ fn graph(svg: &mut String, effect: &dyn Effect) {
     .unwrap();
 }
 
-/// What may stand behind a key.
+/// Describes the values of a key.
 fn reads(key: &Key) -> String {
     match key.reads {
         Reads::Number(fit) => {

@@ -1,4 +1,4 @@
-//! Right-hand sides of textbook systems, written out here, against those of their scenes.
+//! Compares right-hand sides of textbook systems with those of their scenes.
 
 use bgdyn_codegen::random::Random;
 use std::path::Path;
@@ -39,7 +39,7 @@ fn equals(name: &str, rates: impl Fn(&[Dd], &[Dd], &[Dd], &[Dd], &[Dd]) -> Vec<D
 #[test]
 fn a_motor_alone() {
     let [r, l, k, j, b] = ["1", "1e-5", "0.05", "0.0025", "1e-4"].map(number);
-    // The inputs of a scene are drawn at random too, whatever the scene drives them with.
+    // The inputs of a scene are random too, for any source of the inputs in the scene.
     equals("motor_linear_stiff", |_, v, _, u, _| {
         let (speed, current) = (v[0], v[1]);
         vec![

@@ -1,4 +1,4 @@
-//! Mistakes in scenes: all of them at once, each with its place and a way out.
+//! Tests errors in scenes: all of them are reported at once, each with its location and advice.
 
 use bgdyn_codegen::refusal::Refusal;
 
@@ -26,7 +26,7 @@ effects:
   brake: { type: coulomb, joint: wrist, kinetic: 0.2 }
 ";
 
-/// What is said of a scene.
+/// Returns the messages about a scene.
 fn said(text: &str) -> String {
     match try_scene(text, MECHANISM) {
         Err(refusal) => told(&refusal, text),
@@ -122,7 +122,7 @@ fn a_locked_joint_takes_no_effect() {
     insta::assert_snapshot!(said(text));
 }
 
-/// The hand is a point on its axis: with point masses nothing moves about it.
+/// The hand is a point on its axis: with point masses it has no inertia about it.
 #[test]
 fn a_joint_without_inertia_is_named() {
     let text = "scene: 1\nmechanism: arm.yaml\neffects: [gravity]\n";
@@ -151,8 +151,8 @@ fn a_scene_is_told_by_its_first_key() {
     assert!(!is_scene(""));
 }
 
-/// Whatever line of a scene or of its mechanism is missing or cut short: there is a module to stand
-/// in, with each name once.
+/// If any line of a scene or of its mechanism is missing or truncated, a replacement module exists, with
+/// each name once.
 #[test]
 fn every_refused_scene_has_a_stand_in() {
     use bgdyn_codegen::files::{beside, mechanism_of, stem};

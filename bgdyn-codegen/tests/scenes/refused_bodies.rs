@@ -1,4 +1,4 @@
-//! What hydraulics, wrenches, drag and payloads refuse: the rule, the place, the words.
+//! Tests the refusals of hydraulics, wrenches, drag and payloads: the rule, the location, the words.
 
 use super::common::{told, try_scene};
 
@@ -13,7 +13,7 @@ frames:
   - { name: jack_b, link: arm }
 ";
 
-/// A supply and a line of oil, and what a test adds.
+/// A supply and a line of oil, with additions by a test.
 const OIL: &str = "
 oil: { type: fluid, bulk_modulus: 1 GPa }
 pump: { type: supply, pressure: 10 MPa }
@@ -35,7 +35,7 @@ fn oil(effects: &str) -> Case {
     plain(&format!("{OIL}\n{effects}"))
 }
 
-/// The scene has this fault alone, on the line that holds `line_has`.
+/// Checks that the scene has only this fault, on the line that contains `line_has`.
 fn refused(case: &Case, rule: &str, line_has: &str, words: &[&str]) {
     let lines = case
         .effects
@@ -390,7 +390,7 @@ fn fluids_that_are_missing_or_mixed() {
 }
 
 impl Case {
-    /// Every node but the tested one names its fluid.
+    /// Every node except the tested one names its fluid.
     fn named(mut self) -> Self {
         self.effects = self
             .effects
@@ -424,7 +424,7 @@ fn cylinders_that_run_out_of_volume() {
     );
 }
 
-/// What a family brings along stands where the scene calls for it, not in the mechanism's file.
+/// The parts of a family are located at the scene's entry, not in the mechanism's file.
 #[test]
 fn faults_of_a_family_stand_in_the_scene() {
     let mechanism = format!("{ARM}effects:\n  hose: {{ type: line, volume: 1 cm^3 }}\n");
@@ -437,7 +437,7 @@ fn faults_of_a_family_stand_in_the_scene() {
     assert!(told.contains("[no-fluid]"), "{told}");
 }
 
-/// What acts at a place that no joint moves in its directions does nothing: a warning names it.
+/// An effect at a site that no joint moves in its directions has no influence: a warning names it.
 #[test]
 fn what_no_joint_moves_is_warned_of() {
     let mechanism = ARM.replace(

@@ -1,5 +1,5 @@
-//! Mistakes of every phase of a scene's check come out in one run, each once, and nothing that only follows
-//! from another.
+//! Checks that errors of every phase of a scene's check are reported in one run, each once, without their
+//! consequences.
 
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::read_scene;
@@ -27,7 +27,7 @@ effects:
   motor: { type: dc_motor, joint: elbow, resistance: 2, inductance: 1 mH, torque_constant: 0.1 }
 ";
 
-/// One mistake of each phase: a replacement in the sound scene.
+/// One error of each phase: a replacement in the valid scene.
 const MISTAKES: [(&str, &str); 12] = [
     ("scene: 1", "scene: 3"),
     ("description: sound", "descripton: sound"),
@@ -69,7 +69,7 @@ fn refused(text: &str, mechanism: &str) -> Faults {
     }
 }
 
-/// Where each finding stands and what it says, but for the names that there are.
+/// Returns the location and message of each finding, without the lists of names.
 fn lines(faults: &Faults) -> Vec<(usize, &'static str)> {
     let of = |f: &bgdyn_codegen::fault::Fault| (f.position.line, f.rule);
     faults.0.iter().map(of).collect()
@@ -80,7 +80,7 @@ fn the_scene_is_sound_without_the_mistakes() {
     assert!(try_scene(SOUND, MECHANISM).is_ok());
 }
 
-/// Any two mistakes are found together, whatever phases they belong to, and nothing besides.
+/// Any two errors are reported together, from any phases, and nothing else.
 #[test]
 fn no_mistake_hides_another() {
     let spoil = |text: &str, i: usize| {
@@ -113,7 +113,7 @@ fn no_mistake_hides_another() {
     assert_eq!(found, wanted);
 }
 
-/// What a refused effect would have brought is not missed on top of it.
+/// Parts that a refused effect would have added are not reported as missing.
 #[test]
 fn what_follows_from_a_refused_effect_is_not_told() {
     let text = "\
@@ -152,7 +152,7 @@ outputs: [motor_current, valve_flow, elbow, elboww]
     }
 }
 
-/// A mechanism that cannot be used hides nothing that the scene says by itself.
+/// An invalid mechanism does not hide errors of the scene itself.
 #[test]
 fn a_scene_is_checked_beside_its_mechanism() {
     let text = "\
@@ -177,7 +177,7 @@ integration: { method: rk5 }
     assert_eq!(refused(&nameless, MECHANISM).0.len(), wanted.len() + 1);
 }
 
-/// A mechanism's effects are checked although its links are broken.
+/// A mechanism's effects are checked although its links are invalid.
 #[test]
 fn broken_links_hide_no_effects() {
     let broken = MECHANISM

@@ -1,5 +1,5 @@
-//! Full rotors anywhere: on a link before their own joint, on the one that it moves, beyond it, on
-//! another branch; alone and beside other effects.
+//! Tests full rotors anywhere: on a link inboard of their own joint, on the one that it moves, outboard,
+//! on another branch; alone and with other effects.
 
 use bgdyn_codegen::random::Random;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ use bgdyn_codegen::method::Method;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
-/// Three joints in a row and a branch from the first link, one of them a slide.
+/// A chain of three joints and a branch from the first link, one of them prismatic.
 const TREE: &str = "\
 format: 1
 links:
@@ -99,7 +99,7 @@ fn equals_the_literal_sum(system: &SceneEquations) {
     }
 }
 
-/// Every joint's rotor on every link: before its joint, at it, beyond it, on the other branch.
+/// Every joint's rotor on every link: inboard of its joint, at it, outboard, on the other branch.
 #[test]
 fn a_rotor_on_any_link_is_as_in_the_literal_sum() {
     for joint in JOINTS {
@@ -147,11 +147,11 @@ fn a_rotor_on_any_link_keeps_the_laws_and_the_jacobian() {
     }
 }
 
-/// Random scenes tried.
+/// Number of random scenes.
 const TRIED: u64 = 10;
 
-/// Effects of a random scene: full rotors on random links and about random axes, and some of all
-/// that does not ask for particular joints.
+/// Effects of a random scene: full rotors on random links and about random axes, and some of all effects
+/// that need no particular joints.
 fn effects(rng: &mut Rng, draft: &Draft) -> String {
     let moving: Vec<&str> = (draft.links.iter())
         .filter(|l| l.joint.kind != "fixed")
@@ -159,7 +159,7 @@ fn effects(rng: &mut Rng, draft: &Draft) -> String {
         .collect();
     let link = |rng: &mut Rng| rng.pick(&draft.links).name.clone();
     let mut list: Vec<String> = Vec::new();
-    // Enough inertia on each joint that M is positive definite, whatever the links are.
+    // Enough inertia on each joint that M is positive definite for any links.
     for k in &moving {
         list.push(format!(
             "held_{k}: {{ type: rotor, joint: joint_{k}, inertia: 2e-3, ratio: 40 }}"
@@ -249,8 +249,8 @@ fn moves_as_the_literal_sum(system: &SceneEquations) {
     }
 }
 
-/// A rotor behind a gear keeps its joint from giving way whole, so that the joints before it feel more
-/// of what is beyond: one at a time on a tree, on every joint of random mechanisms.
+/// A rotor behind a gear makes the projection along its joint incomplete, so that the inboard joints move
+/// more of the outboard inertia: tested one at a time on a tree, and on every joint of random mechanisms.
 #[test]
 fn rotors_behind_gears_are_felt_by_the_joints_before() {
     let scene_of = |joints: &[&str], mechanism: &str| {

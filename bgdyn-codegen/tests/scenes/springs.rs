@@ -1,4 +1,4 @@
-//! Springs, dampers, stops: their laws and what they refuse.
+//! Tests springs, dampers, stops: their laws and their refusals.
 
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_runtime::{Dd, Scalar};
@@ -68,7 +68,7 @@ fn a_stop_pushes_back_as_hunt_and_crossley_say() {
     laws::hold(&tried.system);
 }
 
-/// A stop's place is the joint's limit where the file says nothing else.
+/// A stop's default position is the joint's limit.
 #[test]
 fn stops_stand_at_the_limits() {
     let whole =
@@ -90,7 +90,7 @@ fn stops_stand_at_the_limits() {
     );
 }
 
-/// From nearly plastic to nearly elastic; of the latter the equation itself loses the digits.
+/// From nearly plastic to nearly elastic; for the latter the equation itself loses the digits.
 #[test]
 fn the_damping_solves_the_equation_of_the_restitution() {
     for e in ["0.01", "0.1", "0.5", "0.9", "0.999", "0.999999"] {
@@ -136,7 +136,7 @@ fn rebound(mass: f64, stiffness: f64, restitution: f64, speed: f64, upper: bool)
     for _ in 0..20_000 {
         let next = step(y, h);
         if (next[0] - wall) * outwards < 0.0 {
-            // The step that leaves: cut where the depth is 0.
+            // The last step of the contact: shortened to the instant at which the depth is 0.
             let (mut short, mut long) = (0.0, h);
             for _ in 0..60 {
                 let middle = 0.5 * (short + long);
@@ -170,7 +170,7 @@ fn a_block_leaves_the_stop_with_the_stated_restitution() {
             );
         }
     }
-    // At another speed the restitution is another one: less at a harder impact.
+    // At another speed the restitution differs: less for a harder impact.
     let ratio = |speed| rebound(2.0, 1e6, 0.6, speed, true) / speed;
     assert!(
         ratio(3.0) < 0.55 && ratio(0.1) > 0.9,
@@ -202,10 +202,10 @@ fn contact_begins_and_ends_at_events() {
             (values[0] - gap).abs() < 1e-15 && values[1] == -values[0],
             "{values:?}"
         );
-        // At this speed the stops push wherever they are met.
+        // At this speed the stops push at every depth.
         assert_eq!(values[2] > 0.0, gap < 0.0);
     }
-    // Out of the upper stop the law without its limit would pull from 1/μ on.
+    // Leaving the upper stop, the law without its limit would pull at speeds above 1/μ.
     let pulled = |speed: f64| {
         let at = tried.at(&[0.21], &[speed], &[], &[]);
         events.evaluate(at).0[2]

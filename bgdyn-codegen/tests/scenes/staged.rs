@@ -1,6 +1,6 @@
-//! `docs/staged.md`: the two stages of a study (Kuzmin 2007), point masses and then distributed
-//! masses, on the SCARA and the PUMA 560: what the second stage costs, and what it changes. The
-//! page is written with `BGDYN_WRITE=1`; without, its numbers must be up to date.
+//! Writes `docs/staged.md`: the two stages of a study (Kuzmin 2007), point masses and then distributed
+//! masses, on the SCARA and the PUMA 560: the cost of the second stage, and its influence. The page is
+//! written with `BGDYN_WRITE=1`; otherwise the test checks that its numbers are up to date.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -23,7 +23,7 @@ struct Study {
     title: &'static str,
     /// Its scenes: `NAME_lumped`, `NAME_distributed`.
     scenes: &'static str,
-    /// How far each joint moves on the path, rad or m, and how long that takes, s.
+    /// Travel of each joint on the path, rad or m, and its duration, s.
     path: &'static [f64],
     period: f64,
 }
@@ -45,7 +45,7 @@ const STUDIES: [Study; 2] = [
     },
 ];
 
-/// What to draw: a curve of each stage.
+/// A panel of the drawing: a curve of each stage.
 struct Panel {
     title: String,
     stages: [Vec<f64>; 2],
@@ -55,7 +55,7 @@ fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// Lumped and distributed, every joint free.
+/// Returns lumped and distributed scenes, every joint free.
 fn free(study: &Study) -> [SceneEquations; 2] {
     let file = root().join(format!("specs/{}.yaml", study.name));
     let mechanism = std::fs::read_to_string(file).expect("a mechanism");
@@ -75,7 +75,7 @@ fn moving(study: &Study) -> [SceneEquations; 2] {
     })
 }
 
-/// Efforts along the path: there and back, at rest at both ends.
+/// Returns the efforts along the path: forward and back, at rest at both ends.
 fn efforts(study: &Study, system: &SceneEquations) -> Vec<Vec<f64>> {
     let inverse = system.function(SceneFunction::Inverse);
     let mut at = system.start();

@@ -1,4 +1,4 @@
-//! Modes at the start of a scene: settled where they are left out, refused where they contradict.
+//! Tests modes at the start of a scene: determined if missing, refused if contradictory.
 
 use super::common::{scene, told, try_scene};
 use super::one::text;
@@ -29,14 +29,14 @@ fn modes_that_are_left_out_agree_with_the_state() {
         modes(&text(&[FRICTION], "initial: { slide_rate: -1e-3 }\n")),
         [-1.0]
     );
-    // What the scene drives counts, what the caller gives is taken as 0.
+    // Inputs that the scene drives are used, inputs of the caller are taken as 0.
     let driven = "inputs: { slide: { constant: 6 N } }\n";
     assert_eq!(modes(&text(&[FRICTION], driven)), [1.0]);
     assert_eq!(
         modes(&text(&[FRICTION], "inputs: { slide: given }\n")),
         [0.0]
     );
-    // A current below its limits, at the upper one under a voltage that holds it there, beyond it.
+    // A current below its limits, at the upper one under a voltage that holds it, beyond it.
     let current = |at: f64, volts: f64| {
         let more = format!(
             "inputs: {{ it: {{ constant: {volts} V }} }}\ninitial: {{ it_current: {at} A }}\n"
@@ -54,7 +54,7 @@ fn modes_that_are_left_out_agree_with_the_state() {
 fn a_mode_that_agrees_may_be_stated() {
     assert_eq!(modes(&falling("initial: { grip_mode: -1 }\n")), [-1.0]);
     let pushed = "inputs: { slide: given }\ninitial: { grip_mode: 1 }\n";
-    // Whether it slips, only the caller knows.
+    // Whether it slips depends on the caller.
     assert_eq!(modes(&text(&[FRICTION], pushed)).len(), 1);
 }
 

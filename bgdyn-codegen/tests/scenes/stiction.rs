@@ -1,4 +1,4 @@
-//! Which of the joints at rest hold: `resolve_stiction` on scenes.
+//! Tests which of the joints at rest hold: `resolve_stiction` on scenes.
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
@@ -10,7 +10,7 @@ use bgdyn_runtime::{Balance, Contact, HybridSystem, resolve_stiction};
 
 use super::common::{read, scene};
 
-/// A scene by the evaluator, as what generated code implements.
+/// A scene in the evaluator, with the traits of generated code.
 struct Evaluated<const N: usize, const NM: usize, const NU: usize, const NE: usize> {
     nq: usize,
     nv: usize,
@@ -184,7 +184,7 @@ impl<const N: usize, const NM: usize, const NU: usize, const NE: usize> HybridSy
     }
 }
 
-/// One step of the classical Runge-Kutta method with the modes as they are.
+/// Takes one step of the classical Runge-Kutta method with constant modes.
 fn step<S: HybridSystem<f64, State = SVector<f64, N>, Singular = ()>, const N: usize>(
     system: &S,
     y: &S::State,
@@ -237,7 +237,7 @@ fn arm(kinetic: [f64; 3], limit: [f64; 3]) -> Arm {
 
 type Arm = Evaluated<6, 3, 3, 3>;
 
-/// Whether every joint holds within its limit or slips on from rest.
+/// Returns whether every joint holds within its limit or continues to slip from rest.
 fn consistent(contacts: &[Contact<f64>; 3], modes: &SVector<f64, 3>) -> bool {
     contacts
         .iter()
@@ -271,7 +271,7 @@ fn at_rest(random: &mut Random) -> (SVector<f64, 6>, SVector<f64, 3>) {
     (y, SVector::from([0; 3].map(|_| 12.0 * random.signed())))
 }
 
-/// Where friction is the same at rest and in motion there is one answer, and `resolve_stiction` finds it.
+/// If static and sliding friction are equal the solution is unique, and `resolve_stiction` finds it.
 #[test]
 fn an_arm_at_rest_settles_in_the_only_way() {
     let arm = arm([16.0, 8.0, 3.0], [16.0, 8.0, 3.0]);
@@ -287,7 +287,7 @@ fn an_arm_at_rest_settles_in_the_only_way() {
     assert!(seen.iter().all(|n| *n > 10), "joints that slip: {seen:?}");
 }
 
-/// Where rest holds more the answer is consistent, and all hold where they can.
+/// If static friction is larger the result is consistent, and all joints hold if they can.
 #[test]
 fn an_arm_at_rest_settles_consistently() {
     let arm = arm([10.0, 5.0, 2.0], [16.0, 8.0, 3.0]);
@@ -332,7 +332,7 @@ fn moving_joints_keep_their_modes() {
     }
 }
 
-/// What is held does not creep, not by the last digit.
+/// A held joint does not creep, not even by the last digit.
 #[test]
 fn a_held_arm_does_not_creep() {
     let arm = arm([60.0, 60.0, 60.0], [60.0, 60.0, 60.0]);
@@ -347,7 +347,7 @@ fn a_held_arm_does_not_creep() {
     assert_eq!(now, y);
 }
 
-/// A joint breaks away at its static limit, in the direction of the load, against the kinetic effort.
+/// A joint breaks away at its static limit, in the direction of the load, against sliding friction.
 #[test]
 fn a_joint_breaks_away_at_the_static_limit() {
     let arm = arm([40.0, 2.0, 40.0], [60.0, 3.0, 60.0]);
@@ -359,7 +359,7 @@ fn a_joint_breaks_away_at_the_static_limit() {
             .expect("not singular");
         (u, contacts[1].holding)
     };
-    // Without a load the joint carries the weight alone: friction takes the rest.
+    // Without a load the joint carries only the weight: friction takes the rest.
     let weight = held(0.0).1;
     for sign in [-1.0, 1.0] {
         for (part, mode) in [(1.0 - 1e-9, 0.0), (1.0 + 1e-9, sign)] {

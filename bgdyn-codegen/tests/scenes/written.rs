@@ -1,6 +1,6 @@
-//! An arm with a sled, and every effect as a file writes it.
+//! An arm with a prismatic sled, and every effect in the notation of files.
 
-/// A turning and a sliding joint; `inertia` and `gravity` may be left out, `effects` follow.
+/// Returns a revolute and a prismatic joint; `inertia` and `gravity` may be empty, `effects` follow.
 pub fn mechanism(gravity: &str, inertia: &str, effects: &str) -> String {
     format!(
         "format: 1\nname: m\n{gravity}\nlinks:\n\
@@ -17,7 +17,7 @@ pub const TENSOR: &str = "    inertia: { xx: 0.1, yy: 0.12, zz: 0.05, xy: 0.01 }
 
 pub const ALL: &str = "scene: 1\nmechanism: m.yaml\neffects: [gravity, inertia, velocity_products]\ninputs: { turn: given, slide: given }\n";
 
-/// How each effect that a file declares is written.
+/// The notation of each effect that a file declares.
 pub const WRITTEN: &[(&str, &str)] = &[
     ("viscous", "{ type: viscous, joint: turn, damping: 0.4 }"),
     (
@@ -72,7 +72,7 @@ pub const WRITTEN: &[(&str, &str)] = &[
     ("four_way_valve", CIRCUIT),
 ];
 
-/// Hydraulics act together: a cylinder between a valve and a pump, with everything there is.
+/// Hydraulics act together: a cylinder between a valve and a pump, with all hydraulic elements.
 pub const CIRCUIT: &str = "{ type: fluid, bulk_modulus: 1 GPa }
   pump: { type: supply, pressure: 16 MPa }
   sump: { type: tank }
@@ -84,7 +84,7 @@ pub const CIRCUIT: &str = "{ type: fluid, bulk_modulus: 1 GPa }
   gap: { type: leakage, from: ram_a, to: ram_b, conductance: 4e-12 }
   ram: { type: cylinder, joint: slide, area_a: 8 cm^2, area_b: 8 cm^2, dead_a: 300 cm^3, dead_b: 300 cm^3, stroke: 0.4 m, offset: -0.2 m }";
 
-/// The names of what `written` declares.
+/// Returns the names of the declarations in `written`.
 pub fn names(written: &str) -> String {
     let others = written.lines().skip(1).filter_map(|l| l.split(':').next());
     let names: Vec<&str> = others.map(str::trim).collect();

@@ -1,4 +1,4 @@
-//! What a scene leaves out costs nothing: its module is that of a mechanism that never had it.
+//! Checks that omitted effects cost nothing: the module is that of a mechanism that never had them.
 
 use bgdyn_codegen::effect::EFFECTS;
 use bgdyn_codegen::emit::{OutputOptions, scene_module};
@@ -30,7 +30,7 @@ fn an_effect_that_is_not_called_for_leaves_no_trace() {
             text(&scene(ALL, &without)),
             "{keyword}"
         );
-        // Called for, it is there.
+        // If included, it exists.
         let all = format!("velocity_products, {}]", names(written));
         let called = text(&scene(&ALL.replace("velocity_products]", &all), &with));
         assert_ne!(called, text(&scene(ALL, &without)), "{keyword}");
@@ -51,7 +51,7 @@ fn what_every_mechanism_has_leaves_no_trace_either() {
         text(&scene(&weightless, &with)),
         text(&scene(&weightless, &none))
     );
-    // Without velocity products no velocity is read but to say how the positions change.
+    // Without velocity products velocities are read only for the rates of the positions.
     let quasi_static = scene(&ALL.replace(", velocity_products", ""), &with);
     let body = quasi_static.function(SceneFunction::Derivative);
     let reads = bgdyn_codegen::expr::reachable(&body.graph, &body.blocks[0].outputs);
@@ -63,8 +63,8 @@ fn what_every_mechanism_has_leaves_no_trace_either() {
     assert_eq!(velocities.count(), 0);
 }
 
-/// Effects that only add an effort, with a constant zero in them, are not there; with a run-time
-/// parameter at zero they change nothing but the last digits.
+/// Effects that only add an effort with a constant factor of zero are removed; with a run-time parameter
+/// at zero they change only the last digits.
 #[test]
 fn a_strength_of_zero_changes_nothing() {
     let plain = scene(ALL, &mechanism("", TENSOR, ""));
@@ -124,8 +124,8 @@ fn a_strength_of_zero_changes_nothing() {
     }
 }
 
-/// The Jacobian and the canonical form are there where a method of integration needs them, or where
-/// they are asked for, and leave no trace otherwise.
+/// The Jacobian and the canonical form exist if an integrator needs them, or if they are selected;
+/// otherwise they leave no trace.
 #[test]
 fn what_no_method_needs_is_not_there() {
     let mechanism = mechanism("", TENSOR, "");

@@ -1,30 +1,31 @@
 //! Sine and cosine of double-double angles and of exact sums of angles.
 //!
-//! An angle is turned into a fraction of a turn in fixed point, by multiplying each of its words by
-//! as many digits of 1/2π as matter (Payne and Hanek 1983). In that form angles of any size add
-//! without rounding, and the whole turns drop out by themselves.
+//! An angle is converted to a fraction of a turn in fixed point: each of its words is multiplied by the
+//! digits of 1/2π that affect the result (Payne and Hanek 1983). In this form angles of any size add
+//! without rounding, and whole turns overflow and are dropped.
 
 use super::constants::{INVERSE_FACTORIAL, INVERSE_TAU, TAU};
 use super::number::Dd;
 
-/// Words of a fraction of a turn.
+/// Number of words of a fraction of a turn.
 const WORDS: usize = 5;
 /// An eighth and a quarter of a turn, in the highest word.
 const EIGHTH: u64 = 1 << 61;
 const QUARTER: u64 = 1 << 62;
-/// Below this the series need no reduction: just under π/4, in radians.
+/// Below this angle (radians, just under π/4) the series need no reduction.
 const REDUCED: f64 = 0.785;
-/// Below this, in radians, fixed point would lose relative accuracy.
+/// Below this angle (radians) fixed point would lose relative accuracy.
 const TINY: f64 = 1.0 / (1_u64 << 63) as f64;
 
-/// A fraction of a turn in [0, 1), of 320 binary digits, the highest word first.
+/// A fraction of a turn in [0, 1), with 320 binary digits, the highest word first.
 #[derive(Clone, Copy)]
 pub(crate) struct Turn([u64; WORDS]);
 
 impl Turn {
     const ZERO: Self = Self([0; WORDS]);
 
-    /// The finite angle `x` in radians, less its whole turns; short by less than 2⁻²⁶⁷ turns.
+    /// Returns the finite angle `x` in radians without its whole turns; the error is less than 2⁻²⁶⁷
+    /// turns, downwards.
     pub(crate) fn of_word(x: f64) -> Self {
         let bits = x.to_bits();
         let biased = (bits >> 52) & 0x7ff;
@@ -35,7 +36,8 @@ impl Turn {
             fraction | 1 << 52
         };
         let exponent = biased.max(1) as i32 - 1075;
-        // |x| = mantissa · 2^exponent: the digits of 2^exponent/2π after the point, times mantissa.
+        // |x| = mantissa · 2^exponent: multiply the digits of 2^exponent/2π after the point by the
+        // mantissa.
         let mut words = [0; WORDS];
         let mut carry = 0_u128;
         for (i, word) in words.iter_mut().enumerate().rev() {
@@ -72,7 +74,8 @@ impl Turn {
         Self(self.0.map(|word| !word)).plus(one)
     }
 
-    /// The quarter turn nearest to the angle, modulo 4, and the radians from there, in ±π/4.
+    /// Returns the quarter turn nearest to the angle, modulo 4, and the remaining angle in radians, in
+    /// ±π/4.
     pub(crate) fn split(self) -> (u64, Dd) {
         let mut rest = self;
         rest.0[0] = rest.0[0].wrapping_add(EIGHTH);
@@ -86,14 +89,14 @@ impl Turn {
         (quarter, if negative { -radians } else { radians })
     }
 
-    /// The fraction, to 106 significant digits or more.
+    /// Returns the fraction, to 106 significant digits or more.
     fn to_dd(self) -> Dd {
         let Some(first) = self.0.iter().position(|&word| word != 0) else {
             return Dd::ZERO;
         };
         let word = |i: usize| self.0.get(first + i).copied().unwrap_or(0);
         let shift = word(0).leading_zeros();
-        // 128 digits without leading zeros, then 53 and 75 of them.
+        // Take 128 digits without leading zeros and divide them into 53 and 75.
         let digits = (u128::from(word(0)) << 64 | u128::from(word(1))) << shift
             | (u128::from(word(2)) << shift) >> 64;
         let (hi, lo) = (digits >> 75, digits & ((1 << 75) - 1));
@@ -113,7 +116,8 @@ impl Turn {
     }
 }
 
-/// 64 digits of 1/2π, from behind the `start`-th after the point; zeros in front of the point.
+/// Returns 64 binary digits of 1/2π, starting after the `start`-th digit after the point; digits before
+/// the point are zero.
 pub(crate) fn inverse_tau_digits(start: i32) -> u64 {
     let word = |i: i32| {
         usize::try_from(i)
@@ -127,10 +131,10 @@ pub(crate) fn inverse_tau_digits(start: i32) -> u64 {
     ((pair << shift) >> 64) as u64
 }
 
-/// Sine and cosine by their Taylor series, for |x| ≤ π/4.
+/// Returns sine and cosine by their Taylor series, for |x| ≤ π/4.
 fn reduced_sin_cos(x: Dd) -> (Dd, Dd) {
     let square = x * x;
-    // 1/first! − x²/(first + 2)! + …, 13 terms.
+    // Sums 1/first! − x²/(first + 2)! + …, 13 terms.
     let series = |first: usize| {
         (0..13).rev().fold(Dd::ZERO, |sum, i| {
             INVERSE_FACTORIAL[first + 2 * i] - square * sum
@@ -142,7 +146,7 @@ fn reduced_sin_cos(x: Dd) -> (Dd, Dd) {
 }
 
 impl Dd {
-    /// Sine and cosine of an angle in radians, of any size: errors of a few 2⁻¹⁰⁶.
+    /// Returns sine and cosine of an angle in radians, of any size, with errors of a few 2⁻¹⁰⁶.
     pub fn sin_cos(self) -> (Self, Self) {
         if !self.is_finite() {
             return (Self::NAN, Self::NAN);
@@ -156,7 +160,8 @@ impl Dd {
         Turn::of(self).sin_cos()
     }
 
-    /// Sine and cosine of the exact sum of angles in radians, of any size: errors of a few 2⁻¹⁰⁶.
+    /// Returns sine and cosine of the exact sum of angles in radians, of any size, with errors of a few
+    /// 2⁻¹⁰⁶.
     pub(super) fn sin_cos_of_sum(angles: &[Self], offset: Self) -> (Self, Self) {
         if let ([angle], true) = (angles, offset == Self::ZERO) {
             return angle.sin_cos();

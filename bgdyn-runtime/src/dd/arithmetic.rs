@@ -8,27 +8,27 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use super::number::Dd;
 
-/// 2^`n`, for −1022 ≤ `n` ≤ 1023.
+/// Returns 2^`n`, for −1022 ≤ `n` ≤ 1023.
 const fn power_of_two(n: i64) -> f64 {
     f64::from_bits(((n + 1023) as u64) << 52)
 }
 
-/// Above this a sum or a product is formed at a smaller scale.
+/// Sums and products of numbers above this size are computed at a smaller scale.
 const HUGE: f64 = power_of_two(1020);
-/// Below this the low word of a product does not fit the exponents.
+/// Below this size the low word of a product is outside of the exponent range.
 const PRODUCT_MIN: f64 = power_of_two(-960);
-/// Between these a factor can be split, and a quotient or a square root needs no scaling.
+/// Between these sizes a factor can be split, and a quotient or a square root needs no scaling.
 const LARGE: f64 = power_of_two(990);
 const SMALL: f64 = power_of_two(-900);
 
 impl Dd {
-    /// The sum `hi + lo`, of any two `f64`, exactly (where `lo` fits the exponents).
+    /// Returns the exact sum `hi + lo` of any two `f64` (if `lo` is within the exponent range).
     pub const fn new(hi: f64, lo: f64) -> Self {
         two_sum(hi, lo)
     }
 }
 
-/// `a + b` exactly, whichever is larger (Knuth's two-sum).
+/// Returns `a + b` exactly, for any order of their sizes (Knuth's two-sum).
 pub(super) const fn two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
     if !hi.is_finite() {
@@ -36,7 +36,7 @@ pub(super) const fn two_sum(a: f64, b: f64) -> Dd {
     }
     let back = hi - a;
     let lo = (a - (hi - back)) + (b - back);
-    // Only next to f64::MAX can the way back overflow; half the size then does.
+    // The subtraction can overflow only near f64::MAX; then compute at half the size.
     if lo.is_finite() {
         return Dd { hi, lo };
     }
@@ -49,7 +49,7 @@ pub(super) const fn two_sum(a: f64, b: f64) -> Dd {
     }
 }
 
-/// `hi + lo` exactly, where |`hi`| ≥ |`lo`|, or `hi` is 0 (Dekker's fast two-sum).
+/// Returns `a + b` exactly, where |`a`| ≥ |`b`|, or `a` is 0 (Dekker's fast two-sum).
 const fn quick_two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
     if !hi.is_finite() {
@@ -61,14 +61,14 @@ const fn quick_two_sum(a: f64, b: f64) -> Dd {
     }
 }
 
-/// The upper 26 bits of `a` and the rest (Veltkamp).
+/// Returns the upper 26 bits of `a` and the rest (Veltkamp).
 fn split(a: f64) -> (f64, f64) {
     let t = 134_217_729.0 * a; // 2²⁷ + 1
     let hi = t - (t - a);
     (hi, a - hi)
 }
 
-/// The rounding error of the product `p` of `a` and `b`, neither larger than [`LARGE`] (Dekker).
+/// Returns the rounding error of the product `p` of `a` and `b`, neither larger than [`LARGE`] (Dekker).
 fn product_error(a: f64, b: f64, p: f64) -> f64 {
     let (a_hi, a_lo) = split(a);
     let (b_hi, b_lo) = split(b);
@@ -76,7 +76,7 @@ fn product_error(a: f64, b: f64, p: f64) -> f64 {
 }
 
 impl Dd {
-    /// `self · 2ⁿ`, exactly but for overflow and underflow.
+    /// Returns `self · 2ⁿ`, exact except for overflow and underflow.
     pub(super) fn scale(self, n: i32) -> Self {
         let hi = libm::scalbn(self.hi, n);
         let lo = if hi.is_finite() {
@@ -87,7 +87,7 @@ impl Dd {
         quick_two_sum(hi, lo)
     }
 
-    /// `self · 0.5`, exactly but for underflow.
+    /// Returns `self · 0.5`, exact except for underflow.
     pub(super) fn half(self) -> Self {
         Self {
             hi: self.hi * 0.5,
@@ -95,13 +95,13 @@ impl Dd {
         }
     }
 
-    /// `self · b`, for one word; neither these nor the product beyond [`LARGE`].
+    /// Returns `self · b`, for one word `b`; the factors and the product must not exceed [`LARGE`].
     fn times(self, b: f64) -> Self {
         let p = self.hi * b;
         quick_two_sum(p, product_error(self.hi, b, p) + self.lo * b)
     }
 
-    /// Square root; NaN for negative numbers.
+    /// Returns the square root; NaN for negative numbers.
     pub fn sqrt(self) -> Self {
         let hi = libm::sqrt(self.hi);
         if !hi.is_finite() || hi == 0.0 {
@@ -157,7 +157,7 @@ impl Mul for Dd {
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
         let p = a.hi * b.hi;
-        // Zeros, infinities and NaN in, and their like out.
+        // Zeros, infinities and NaN give the result of `f64`.
         if a.hi == 0.0 || b.hi == 0.0 || !a.hi.is_finite() || !b.hi.is_finite() {
             return Self { hi: p, lo: 0.0 };
         }
@@ -178,7 +178,7 @@ impl Div for Dd {
     fn div(self, other: Self) -> Self {
         let (a, b) = (self, other);
         let q1 = a.hi / b.hi;
-        // Zeros, infinities and NaN in, and their like out.
+        // Zeros, infinities and NaN give the result of `f64`.
         if a.hi == 0.0 || b.hi == 0.0 || !a.hi.is_finite() || !b.hi.is_finite() {
             return Self { hi: q1, lo: 0.0 };
         }

@@ -1,5 +1,5 @@
 //! Constants as double-doubles, rounded from 2000 bits.
-// The words are written as the shortest text that reads back as them.
+// Each word is written as the shortest decimal that parses to it.
 #![allow(clippy::approx_constant)]
 
 use super::number::Dd;
@@ -29,9 +29,10 @@ pub(super) const TAU: Dd = Dd {
 
 /// 1/ln 2.
 pub(super) const LOG2_E: f64 = 1.4426950408889634;
-/// ln 2 is the sum of these two, of 40 bits each so that small multiples are exact, and [`LN_2_REST`].
+/// ln 2 is the sum of these two parts and [`LN_2_REST`]. The parts have 40 bits each, so that their small
+/// multiples are exact.
 pub(super) const LN_2_PARTS: [f64; 2] = [0.6931471805592082, 7.371002565161996e-13];
-/// The rest of ln 2.
+/// The remaining part of ln 2.
 pub(super) const LN_2_REST: Dd = Dd {
     hi: 5.8029889835956905e-25,
     lo: 1.0908259040173159e-41,
@@ -148,7 +149,7 @@ pub(super) const INVERSE_FACTORIAL: [Dd; 29] = [
     },
 ];
 
-/// The binary digits of 1/2π after the point, 64 to a word, the highest first: enough for 320 digits
+/// The binary digits of 1/2π after the point, 64 per word, the highest first. They suffice for 320 digits
 /// of the fraction of any `f64` times 1/2π.
 pub(super) const INVERSE_TAU: [u64; 21] = [
     0x28be_60db_9391_054a,

@@ -1,12 +1,11 @@
-//! Prints numbers rounded to significant digits, as people write them.
+//! Prints numbers rounded to significant decimal digits.
 
 use core::fmt::{self, Write};
 use core::ops::Range;
 
 use super::text::Buffer;
 
-/// A number as people write it: rounded to significant digits, with an exponent where it is very large
-/// or very small.
+/// Displays a number rounded to significant digits, with an exponent if it is very large or very small.
 ///
 /// ```
 /// use bgdyn_runtime::Digits;
@@ -15,24 +14,24 @@ use super::text::Buffer;
 /// assert_eq!(Digits::new(1.5e-7, 3).with_zeros().to_string(), "1.50e-7");
 /// ```
 ///
-/// Width and precision of a format are ignored.
+/// Width and precision of the formatter are ignored.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Digits {
     value: f64,
-    /// How many; `None` for as many as it takes to read the number back.
+    /// Number of significant digits; `None`: the fewest digits that parse to the same number.
     count: Option<usize>,
     plain: Range<i32>,
     zeros: bool,
 }
 
-/// More digits than these no `f64` needs.
+/// The largest number of digits that an `f64` needs.
 const MOST: usize = 17;
-/// Powers of ten up to which a number may be written without an exponent.
+/// Numbers below this power of ten may be written without an exponent.
 const LONGEST: i32 = 30;
 
 impl Digits {
-    /// The number with `count` significant digits, 1 to 17, without the zeros that end its decimals;
-    /// without an exponent from 0.0001 up to 999999.
+    /// Displays the number with `count` significant digits, 1 to 17, without trailing zeros after the
+    /// decimal point, and without an exponent from 0.0001 up to 999999.
     pub const fn new(value: f64, count: usize) -> Self {
         let count = match count {
             0 => 1,
@@ -47,7 +46,7 @@ impl Digits {
         }
     }
 
-    /// The number with as few digits as give the same `f64` again.
+    /// Displays the number with the fewest digits that parse to the same `f64`.
     pub const fn shortest(value: f64) -> Self {
         Digits {
             count: None,
@@ -55,7 +54,7 @@ impl Digits {
         }
     }
 
-    /// The same, without an exponent where the number's power of ten is one of these: below 10³⁰.
+    /// Writes no exponent if the number's power of ten is in this range (at most 10³⁰).
     #[must_use]
     pub const fn plain(self, powers: Range<i32>) -> Self {
         Digits {
@@ -64,7 +63,7 @@ impl Digits {
         }
     }
 
-    /// The same with all digits, zeros at the end too.
+    /// Writes all digits, including trailing zeros.
     #[must_use]
     pub const fn with_zeros(self) -> Self {
         Digits {
@@ -78,7 +77,7 @@ impl fmt::Display for Digits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let x = self.value;
         if x == 0.0 || !x.is_finite() {
-            // Without the sign of a zero.
+            // Drops the sign of a zero.
             return write!(f, "{}", if x == 0.0 { 0.0 } else { x });
         }
         // Both texts fit: 17 digits, or 30 places.
@@ -87,7 +86,7 @@ impl fmt::Display for Digits {
             Some(count) => write!(text, "{x:.*e}", count - 1)?,
             None => write!(text, "{x:e}")?,
         }
-        // Of the rounded number, which may have a digit more in front than the number itself.
+        // The exponent of the rounded number can be one larger than that of the number.
         let (mantissa, exponent) = text.as_str().split_once('e').ok_or(fmt::Error)?;
         let power: i32 = exponent.parse().map_err(|_| fmt::Error)?;
         if !self.plain.contains(&power) || power.abs() > LONGEST {

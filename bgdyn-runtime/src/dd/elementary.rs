@@ -3,15 +3,15 @@
 use super::constants::{INVERSE_FACTORIAL, LN_2_PARTS, LN_2_REST, LOG2_E};
 use super::number::Dd;
 
-/// Beyond these the exponential is infinite, or smaller than any `f64`.
+/// Above `EXP_MAX` the exponential is infinite; below `EXP_MIN` it is smaller than any `f64`.
 const EXP_MAX: f64 = 710.0;
 const EXP_MIN: f64 = -746.0;
-/// The series of the exponential holds up to here: half of ln 2, and a little.
+/// The series of the exponential is used up to this size: slightly more than half of ln 2.
 const REDUCED: f64 = 0.35;
-/// From here on a hyperbolic tangent is 1 to 2⁻¹¹⁵.
+/// From this size on, a hyperbolic tangent is 1 to 2⁻¹¹⁵.
 const TANH_ONE: f64 = 40.0;
 
-/// eˣ − 1 by its Taylor series, for |x| ≤ 0.35, with a small *relative* error.
+/// Returns eˣ − 1 by its Taylor series, for |x| ≤ 0.35, with a small *relative* error.
 fn reduced_exp_m1(x: Dd) -> Dd {
     let series = (2..25)
         .rev()
@@ -20,7 +20,7 @@ fn reduced_exp_m1(x: Dd) -> Dd {
 }
 
 impl Dd {
-    /// e to the power of `self`: a relative error of about 2⁻¹⁰⁴.
+    /// Returns e to the power of `self`, with a relative error of about 2⁻¹⁰⁴.
     pub fn exp(self) -> Self {
         if self.is_nan() {
             return self;
@@ -37,7 +37,8 @@ impl Dd {
         (Self::ONE + reduced_exp_m1(rest)).scale(twos as i32)
     }
 
-    /// Natural logarithm, to a relative error of about 2⁻¹⁰⁴; −∞ for 0, NaN for negative numbers.
+    /// Returns the natural logarithm with a relative error of about 2⁻¹⁰⁴; −∞ for 0, NaN for negative
+    /// numbers.
     pub fn ln(self) -> Self {
         if self.hi.is_nan() || self.hi <= 0.0 || self.hi == f64::INFINITY {
             return Self::from_f64(libm::log(self.hi));
@@ -60,7 +61,7 @@ impl Dd {
         first + (second + (LN_2_REST * Self::from_f64(twos) + log))
     }
 
-    /// Hyperbolic tangent, to a relative error of about 2⁻¹⁰⁴.
+    /// Returns the hyperbolic tangent with a relative error of about 2⁻¹⁰⁴.
     pub fn tanh(self) -> Self {
         let size = self.abs();
         let two = Self::from_f64(2.0);

@@ -1,4 +1,4 @@
-//! Double-double numbers: the scalar with which generated code is checked.
+//! Double-double numbers: the scalar that checks the accuracy of generated code.
 
 mod angle;
 mod arithmetic;

@@ -2,12 +2,12 @@
 
 use core::cmp::Ordering;
 
-/// A number of about 32 decimal digits: the unevaluated sum `hi + lo` of two `f64`, `hi` being the
+/// A number of about 32 decimal digits: the unevaluated sum `hi + lo` of two `f64`, where `hi` is the
 /// `f64` nearest to the sum (Dekker 1971).
 ///
-/// Addition, multiplication, division and the square root have relative errors of a few 2⁻¹⁰⁶ as
-/// long as the result is 0 or larger than 2⁻⁹⁶⁸; below that the low word runs out of exponents, and
-/// the error is one smallest `f64` or so. An infinity or a NaN never turns into a finite number.
+/// Addition, multiplication, division and the square root have relative errors of a few 2⁻¹⁰⁶ if the
+/// result is 0 or larger than 2⁻⁹⁶⁸. Below that, the low word underflows, and the error is about one
+/// smallest `f64`. An infinity or a NaN never becomes a finite number.
 ///
 /// Text is read by [`FromStr`](core::str::FromStr) and written by [`Display`](core::fmt::Display)
 /// in decimal:
@@ -25,7 +25,7 @@ use core::cmp::Ordering;
 pub struct Dd {
     /// The nearest `f64`.
     pub(super) hi: f64,
-    /// The rest, no more than half a unit in the last place of `hi`; 0 where `hi` is not finite.
+    /// The remainder, at most half a unit in the last place of `hi`; 0 where `hi` is not finite.
     pub(super) lo: f64,
 }
 
@@ -44,44 +44,44 @@ impl Dd {
         hi: f64::INFINITY,
         lo: 0.0,
     };
-    /// 2⁻¹⁰⁴, a bound on the relative rounding error of one operation with a margin: what
-    /// [`Scalar::checked_pivot`](crate::Scalar::checked_pivot) compares a pivot with.
+    /// 2⁻¹⁰⁴, a bound with a margin on the relative rounding error of one operation.
+    /// [`Scalar::checked_pivot`](crate::Scalar::checked_pivot) compares pivots with it.
     pub const EPSILON: Self = Self {
         hi: f64::EPSILON * f64::EPSILON,
         lo: 0.0,
     };
 
-    /// `x`, exactly.
+    /// Returns `x`, exactly.
     pub const fn from_f64(x: f64) -> Self {
         Self { hi: x, lo: 0.0 }
     }
 
-    /// The high word: the `f64` nearest to the number.
+    /// Returns the high word: the `f64` nearest to the number.
     pub const fn hi(self) -> f64 {
         self.hi
     }
 
-    /// The low word: what [`Dd::hi`] lacks.
+    /// Returns the low word: the number minus [`Dd::hi`].
     pub const fn lo(self) -> f64 {
         self.lo
     }
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     pub const fn to_f64(self) -> f64 {
         self.hi
     }
 
-    /// Whether the number is neither infinite nor NaN.
+    /// Returns whether the number is neither infinite nor NaN.
     pub const fn is_finite(self) -> bool {
         self.hi.is_finite()
     }
 
-    /// Whether this is not a number.
+    /// Returns whether the value is NaN.
     pub const fn is_nan(self) -> bool {
         self.hi.is_nan()
     }
 
-    /// Absolute value.
+    /// Returns the absolute value.
     pub const fn abs(self) -> Self {
         if self.hi.is_sign_negative() {
             Self {
@@ -93,7 +93,7 @@ impl Dd {
         }
     }
 
-    /// The smaller one; NaN where either is NaN.
+    /// Returns the smaller number; NaN where either is NaN.
     pub fn min(self, other: Self) -> Self {
         if self < other || self.is_nan() {
             self
@@ -102,7 +102,7 @@ impl Dd {
         }
     }
 
-    /// The larger one; NaN where either is NaN.
+    /// Returns the larger number; NaN where either is NaN.
     pub fn max(self, other: Self) -> Self {
         if self > other || self.is_nan() {
             self

@@ -76,7 +76,7 @@ impl Scalar for Dd {
     }
 
     fn checked_pivot(self, magnitude: Self, joint: usize, refused: &mut Option<usize>) -> Self {
-        // Written so that a NaN on either side is refused.
+        // These comparisons also refuse a NaN on either side.
         let ok = self > Self::ZERO && self > magnitude * Self::EPSILON && self < Self::INFINITY;
         note_refused(ok, joint, refused);
         self

@@ -1,19 +1,19 @@
 //! Parses and prints double-doubles as decimals.
 //!
-//! `core` reads and writes `f64` correctly rounded, to any number of digits. What is left is to add
-//! or subtract two strings of digits: text − hi gives lo, and hi + lo gives text.
+//! `core` parses and prints `f64` correctly rounded, to any number of digits. This file only adds and
+//! subtracts strings of digits: text − hi gives lo, and hi + lo gives the text.
 
 use core::fmt::{self, Write};
 use core::str::FromStr;
 
 use super::number::Dd;
 
-/// Significant digits read, and taken of each word.
+/// Number of significant digits that are parsed, and that are taken of each word.
 const DIGITS: usize = 100;
-/// Significant digits written.
+/// Number of significant digits that are printed.
 const WRITTEN: usize = 32;
 
-/// Why a text is not a [`Dd`].
+/// The reason why a text is not a [`Dd`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParseDdError {
     /// Not a decimal number.
@@ -33,7 +33,7 @@ impl fmt::Display for ParseDdError {
 
 impl core::error::Error for ParseDdError {}
 
-/// Text on the stack; what does not fit is an error of formatting.
+/// A text buffer on the stack; a write that does not fit is a formatting error.
 pub(super) struct Buffer {
     bytes: [u8; DIGITS + 32],
     len: usize,
@@ -65,14 +65,14 @@ impl Write for Buffer {
     }
 }
 
-/// A decimal number in the making: the digit at index `i` counts 10^(`top` − `i`).
+/// A decimal number: the digit at index `i` has the weight 10^(`top` − `i`).
 struct Decimal {
     digits: [i32; DIGITS + 4],
     top: i64,
 }
 
 impl Decimal {
-    /// Zero, with room for numbers below 10^`top`·10 in size.
+    /// Returns zero, with room for numbers smaller than 10^`top`·10.
     fn zero(top: i64) -> Self {
         Self {
             digits: [0; DIGITS + 4],
@@ -80,7 +80,7 @@ impl Decimal {
         }
     }
 
-    /// Adds `sign` times the unsigned decimal number `text`; digits below the last place are cut.
+    /// Adds `sign` times the unsigned decimal number `text`; digits below the last place are dropped.
     fn add(&mut self, text: &str, sign: i32) {
         let mut place = self.top.saturating_sub(leading_place(text));
         for digit in significant_digits(text) {
@@ -94,7 +94,7 @@ impl Decimal {
         }
     }
 
-    /// Brings every digit to 0..=9; gives whether the number was negative, and drops its sign.
+    /// Brings every digit to 0..=9 and removes the sign. Returns whether the number was negative.
     fn normalise(&mut self) -> bool {
         let negative = self.carry();
         if negative {
@@ -105,8 +105,8 @@ impl Decimal {
         negative
     }
 
-    /// Carries into higher digits, and gives whether the number is negative: then its digits are
-    /// those of the number plus ten of the first place.
+    /// Carries into higher digits. Returns whether the number is negative; then its digits are those of
+    /// the number plus ten units of the first place.
     fn carry(&mut self) -> bool {
         let mut carry = 0;
         for digit in self.digits.iter_mut().rev() {
@@ -117,7 +117,7 @@ impl Decimal {
         carry < 0
     }
 
-    /// Rounds the normalised number to `count` digits from the first nonzero one on (half up).
+    /// Rounds the normalised number to `count` significant digits (half up).
     fn round(&mut self, count: usize) {
         let first = self
             .digits
@@ -128,14 +128,14 @@ impl Decimal {
             *half += 5;
             self.carry();
         }
-        // A carry that makes a new first digit leaves a zero behind, which does not show.
+        // After a carry into a new first digit, one more digit is left: a zero, which is not printed.
         if let Some(rest) = self.digits.get_mut(first + count..) {
             rest.fill(0);
         }
     }
 }
 
-/// The part of an unsigned decimal number in front of its exponent, and the exponent.
+/// Splits an unsigned decimal number into mantissa and exponent.
 fn mantissa_and_exponent(text: &str) -> (&str, i64) {
     let Some((mantissa, exponent)) = text.split_once(['e', 'E']) else {
         return (text, 0);
@@ -148,7 +148,7 @@ fn mantissa_and_exponent(text: &str) -> (&str, i64) {
     (mantissa, exponent.parse().unwrap_or(huge))
 }
 
-/// The digits of an unsigned decimal number from the first nonzero one on.
+/// Returns the digits of an unsigned decimal number from the first nonzero one on.
 fn significant_digits(text: &str) -> impl Iterator<Item = i32> {
     let (mantissa, _) = mantissa_and_exponent(text);
     mantissa
@@ -158,7 +158,7 @@ fn significant_digits(text: &str) -> impl Iterator<Item = i32> {
         .skip_while(|&digit| digit == 0)
 }
 
-/// The power of ten that the first nonzero digit of an unsigned decimal number counts.
+/// Returns the power of ten of the first nonzero digit of an unsigned decimal number.
 fn leading_place(text: &str) -> i64 {
     let (mantissa, exponent) = mantissa_and_exponent(text);
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
@@ -172,19 +172,18 @@ fn leading_place(text: &str) -> i64 {
     exponent.saturating_add(place)
 }
 
-/// |`x`| in decimal, to [`DIGITS`] digits.
+/// Returns |`x`| in decimal, to [`DIGITS`] digits.
 fn digits_of(x: f64) -> Buffer {
     let mut text = Buffer::EMPTY;
-    // Fits: a digit, a point, 99 digits and an exponent of five characters at most.
+    // The text fits: a digit, a point, 99 digits and an exponent of at most five characters.
     let _ = write!(text, "{:.*e}", DIGITS - 1, x.abs());
     text
 }
 
-/// Reads decimal text: an optional sign, digits with or without a point, an optional exponent.
+/// Parses decimal text: an optional sign, digits with or without a point, an optional exponent.
 ///
-/// `hi` is what `f64` reads, and `hi + lo` is within 2⁻¹⁰⁷ of the number that the text denotes (its
-/// first 100 digits), relatively, as far as the exponents of an `f64` reach. Infinities and NaN
-/// are errors.
+/// `hi` is the `f64` of the text, and `hi + lo` is within a relative error of 2⁻¹⁰⁷ of the number (of its
+/// first 100 digits) unless `lo` underflows. Infinities and NaN are errors.
 impl FromStr for Dd {
     type Err = ParseDdError;
 
@@ -209,7 +208,7 @@ impl FromStr for Dd {
         let negative = rest.normalise() != (hi < 0.0);
 
         let mut lo_text = Buffer::EMPTY;
-        // Fits: 104 digits, a sign and an exponent of five characters at most.
+        // The text fits: 104 digits, a sign and an exponent of at most five characters.
         let _ = lo_text.write_str(if negative { "-" } else { "" });
         for digit in rest.digits {
             let _ = write!(lo_text, "{digit}");
@@ -221,8 +220,8 @@ impl FromStr for Dd {
     }
 }
 
-/// Writes up to 32 significant digits, without the zeros that end them; with an exponent
-/// (`1.5e-30`) where the number is 10²¹ or more, or less than 10⁻⁵. Width and precision are ignored.
+/// Prints up to 32 significant digits, without trailing zeros, and an exponent (`1.5e-30`) if the number
+/// is 10²¹ or more, or less than 10⁻⁵. Width and precision are ignored.
 impl fmt::Display for Dd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.is_finite() || self.hi == 0.0 {
@@ -248,7 +247,7 @@ impl fmt::Display for Dd {
         }
         let digit = |i: usize| sum.digits.get(i).copied().unwrap_or(0);
         let plain = (-5..=20).contains(&place);
-        // The digits in front of the point.
+        // The digits before the point.
         let whole = if plain {
             usize::try_from(place + 1).unwrap_or(0)
         } else {

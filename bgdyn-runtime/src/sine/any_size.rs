@@ -1,17 +1,17 @@
-//! Sine and cosine of angles of any size: the branch-free kernel, or exact reduction for large ones.
+//! Sine and cosine of angles of any size: the branch-free kernel, or exact reduction for large angles.
 
 use super::kernel::sin_cos_in_range;
 use super::lanes::SineLanes;
 use super::large;
 
-/// Numbers whose sines are known for angles of any size.
+/// Numbers with a sine of angles of any size.
 pub(crate) trait AnySize: SineLanes {
-    /// Sine and cosine of `self` + `tail` where not all angles are within the limit: reduced exactly,
-    /// each by itself.
+    /// Returns sine and cosine of `self` + `tail` if not all angles are within the limit: each angle is
+    /// reduced exactly and separately.
     fn sin_cos_large(self, tail: Self) -> (Self, Self);
 }
 
-/// Sine and cosine of a + tail; `tail` is what the rounding of a sum a has left.
+/// Returns sine and cosine of angle + tail; `tail` is the rounding error of a sum of angles.
 #[inline(always)]
 pub(crate) fn sin_cos<T: AnySize>(angle: T, tail: Option<T>) -> (T, T) {
     if angle.within() {

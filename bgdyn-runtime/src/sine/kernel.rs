@@ -2,8 +2,8 @@
 
 use super::lanes::{Coefficients, Polynomial, SineLanes};
 
-/// Sine and cosine of `angle` + `tail`, for an angle within [`SineLanes::LIMIT`] and a tail of half a
-/// unit in its last place at most.
+/// Returns sine and cosine of `angle` + `tail`, for an angle within [`SineLanes::LIMIT`] and a tail of at
+/// most half a unit in the angle's last place.
 #[inline(always)]
 pub(crate) fn sin_cos_in_range<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P) {
     let (quarters, r, low) = reduced(angle, tail);
@@ -11,7 +11,8 @@ pub(crate) fn sin_cos_in_range<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P
     P::turned(quarters, s, c)
 }
 
-/// n, with its last two digits at the end of the significand, and angle + tail − n π/2 as r + low.
+/// Returns n, with its last two binary digits at the end of the significand, and angle + tail − n π/2 as r
+/// + low.
 #[inline(always)]
 fn reduced<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P, P) {
     let Coefficients {
@@ -24,26 +25,26 @@ fn reduced<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P, P) {
     let magic = P::splat(P::MAGIC);
     let quarters = angle.fused(P::splat(core::f64::consts::FRAC_2_PI), magic);
     let n = quarters - magic;
-    // n times these parts is exact, and so are the differences: at most as many digits are left as
-    // a number has.
+    // n times these parts is exact, and so are the differences: the result has at most as many digits as a
+    // number can have.
     let mut rest = n.minus_product(P::splat(exact.0), angle);
     if let Some(part) = exact.1 {
         rest = n.minus_product(P::splat(part), rest);
     }
     let part = P::splat(middle);
     let Some(tail) = tail else {
-        // n times the middle part is exact, and there by the time the rest is: nothing is won by fusing.
-        // The difference is exact where the rest is smaller; where it is not, this is Dekker's sum, and
-        // `error` is what was rounded off.
+        // n times the middle part is exact, and it is available as early as the rest: a fused operation
+        // saves no time. The difference is exact if the rest is smaller; otherwise this is Dekker's sum,
+        // and `error` is its rounding error.
         let taken = n * part;
         let difference = rest - taken;
         let error = (rest - difference) - taken;
         let low = n.minus_product(P::splat(last), error);
         return (quarters, difference, low);
     };
-    // What is taken off is n times the middle part less the tail: the tail is there by the time n is, and
-    // the rest does not wait for it. It may be far larger than the rest, so `left` keeps what is rounded
-    // off `taken`, and `error` what is rounded off the difference.
+    // Subtract n times the middle part minus the tail: the tail is available as early as n, and the rest
+    // does not wait for it. It can be far larger than the rest, so `left` is the rounding error of
+    // `taken`, and `error` that of the difference.
     let taken = n.fused(part, -tail);
     let difference = rest - taken;
     let left = n.fused(part, -taken) - tail;
@@ -52,10 +53,10 @@ fn reduced<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P, P) {
     (quarters, difference, low)
 }
 
-/// Sine and cosine of r + low, |r| ≤ π/4.
+/// Returns sine and cosine of r + low, |r| ≤ π/4.
 ///
-/// sin r = r + r³ S(r²), cos r = 1 − r²/2 + r⁴ C(r²). The large terms are added last, so that theirs
-/// are the only roundings that count; 1 − r²/2 keeps what its rounding leaves.
+/// sin r = r + r³ S(r²), cos r = 1 − r²/2 + r⁴ C(r²). The large terms are added last, so that only their
+/// roundings matter; the rounding error of 1 − r²/2 is added separately.
 #[inline(always)]
 pub(super) fn of_rest<P: SineLanes>(r: P, low: P) -> (P, P) {
     let Coefficients { sine, cosine, .. } = P::COEFFICIENTS;
@@ -66,12 +67,12 @@ pub(super) fn of_rest<P: SineLanes>(r: P, low: P) -> (P, P) {
     let small = (r * square).fused(s, halved.minus_product(low, low));
     let rounded = one - halved;
     let rest = (one - rounded) - halved;
-    // Not fused: `low` is late, and a difference is there sooner.
+    // Not fused: `low` is available late, and a difference takes less time.
     let tiny = (square * square).fused(c, rest - r * low);
     (r + small, rounded + tiny)
 }
 
-/// By pairs, so that half of the steps wait for each other.
+/// Evaluates the polynomial in pairs of terms, which halves the number of dependent steps.
 #[inline(always)]
 fn polynomial<P: SineLanes>(x: P, coefficients: Polynomial) -> P {
     let square = x * x;

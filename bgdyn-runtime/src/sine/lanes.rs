@@ -1,9 +1,10 @@
-//! The numbers that the kernel computes with: one float, or the lanes of a register.
+//! The number types of the sine kernel: one float, or the lanes of a register.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-/// k₀ + k₁x + k₂x² + …, of either length that there is: read in a loop, the numbers are no constants
-/// to a compiler that saves space, and `f32` would be converted from `f64` when running.
+/// A polynomial k₀ + k₁x + k₂x² + … of one of the two lengths in use. In a loop over a slice, a compiler
+/// that optimises for size would not treat the coefficients as constants, and `f32` would be converted
+/// from `f64` at run time.
 #[derive(Clone, Copy)]
 pub(crate) enum Polynomial {
     /// Up to x².
@@ -12,26 +13,26 @@ pub(crate) enum Polynomial {
     Six([f64; 6]),
 }
 
-/// The numbers that the kernel of a scalar type works with.
+/// Constants of the kernel for a scalar type.
 #[derive(Clone, Copy)]
 pub(crate) struct Coefficients {
-    /// The first part of π/2, and the second where four are taken.
+    /// The first part of π/2, and the second if there are four parts.
     pub exact: (f64, Option<f64>),
-    /// The next one.
+    /// The part after these.
     pub middle: f64,
-    /// The rest of π/2, rounded.
+    /// The remaining part of π/2, rounded.
     pub last: f64,
-    /// S of sin r = r + r³ S(r²).
+    /// S in sin r = r + r³ S(r²).
     pub sine: Polynomial,
-    /// C of cos r = 1 − r²/2 + r⁴ C(r²).
+    /// C in cos r = 1 − r²/2 + r⁴ C(r²).
     pub cosine: Polynomial,
 }
 
-/// `f64`: parts of 37, 36 and 53 digits, for n up to 2¹⁶. π/2 is met to 2⁻¹³⁰; no angle but 0 comes
-/// closer to a multiple of it than 2⁻⁶⁰ (at 29 quarter turns).
+/// `f64`: parts of 37, 36 and 53 digits, for n up to 2¹⁶. Their sum is π/2 to 2⁻¹³⁰; no angle except 0 is
+/// closer to a multiple of π/2 than 2⁻⁶⁰ (at 29 quarter turns).
 ///
-/// The polynomials leave the least relative error that any of their degree does in |r| ≤ π/4 + 2⁻²⁰
-/// (found by Remez's exchange in 200 digits): 2⁻⁵⁷·⁹ of the sine, 2⁻⁶³·⁹ of the cosine.
+/// The polynomials have the least relative error of their degree in |r| ≤ π/4 + 2⁻²⁰ (found by Remez's
+/// exchange in 200 digits): 2⁻⁵⁷·⁹ for the sine, 2⁻⁶³·⁹ for the cosine.
 const DOUBLE: Coefficients = Coefficients {
     exact: (1.570_796_326_792_333_3, None),
     middle: 2.563_344_151_583_955_8e-12,
@@ -54,11 +55,11 @@ const DOUBLE: Coefficients = Coefficients {
     ]),
 };
 
-/// `f32`: parts of 11, 11, 11 and 24 digits, for n up to 2¹³. π/2 is met to 2⁻⁶³; no angle but 0
-/// comes closer to a multiple of it than 2⁻²⁷ (at 161 quarter turns). A sum of angles may: of a sine that
-/// small (one in a million of sums made to be so) the n 2⁻⁶³ that are missing are more than a unit.
+/// `f32`: parts of 11, 11, 11 and 24 digits, for n up to 2¹³. Their sum is π/2 to 2⁻⁶³; no angle except 0
+/// is closer to a multiple of π/2 than 2⁻²⁷ (at 161 quarter turns). A sum of angles can be closer: for
+/// such a small sine (one in a million of sums constructed for it) the missing n 2⁻⁶³ is more than a unit.
 ///
-/// The polynomials as for `f64`, in |r| ≤ π/4 + 2⁻¹⁰: 2⁻²⁸·⁰ of the sine, 2⁻³³·⁰ of the cosine.
+/// The polynomials as for `f64`, in |r| ≤ π/4 + 2⁻¹⁰: 2⁻²⁸·⁰ for the sine, 2⁻³³·⁰ for the cosine.
 const SINGLE: Coefficients = Coefficients {
     exact: (1.570_312_5, Some(0.000_483_751_296_997_070_3)),
     middle: 7.549_533_620_476_723e-8,
@@ -75,34 +76,34 @@ const SINGLE: Coefficients = Coefficients {
     ]),
 };
 
-/// A number, or several of them.
+/// One number, or the lanes of a register.
 pub(crate) trait SineLanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
-    /// Angles up to here, in radians, take the branch-free path.
+    /// Angles up to this size, in radians, take the branch-free path.
     const LIMIT: f64;
-    /// 1.5·2^(digits − 1): the numbers around it are whole.
+    /// 1.5·2^(digits − 1): numbers of this size are integers.
     const MAGIC: f64;
-    /// What the kernel works with.
+    /// Constants of the kernel.
     const COEFFICIENTS: Coefficients;
 
-    /// The nearest value to `x`, in all lanes.
+    /// Returns the value nearest to `x`, in all lanes.
     fn splat(x: f64) -> Self;
-    /// self · b + c, rounded once where the target has an instruction for it.
+    /// Returns self · b + c, rounded once if the target has an instruction for it.
     fn fused(self, b: Self, c: Self) -> Self;
-    /// c − self · b, as [`SineLanes::fused`].
+    /// Returns c − self · b, rounded as [`SineLanes::fused`].
     #[inline(always)]
     fn minus_product(self, b: Self, c: Self) -> Self {
         (-self).fused(b, c)
     }
-    /// Whether all angles are within the limit; NaN is not.
+    /// Returns whether all angles are within the limit; NaN is not.
     fn within(self) -> bool;
-    /// Sine and cosine of r + n π/2 from those of r; the last two binary digits of n are the last two
-    /// of `quarters`.
+    /// Returns sine and cosine of r + n π/2 from those of r; the last two binary digits of n are the last
+    /// two of `quarters`.
     fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self);
 }
 
-/// a · b + c with the fused instruction where the target has one, never by a call.
+/// Returns a · b + c with the fused instruction if the target has one; never by a call.
 #[inline(always)]
 fn fused_f64(a: f64, b: f64, c: f64) -> f64 {
     #[cfg(all(target_arch = "x86_64", target_feature = "fma"))]
@@ -132,8 +133,8 @@ fn fused_f32(a: f32, b: f32, c: f32) -> f32 {
     }
 }
 
-/// All ones where the last digit of n is set: sine and cosine change places. The digit before the
-/// last, of n and of n + 1, is the sign of the sine and of the cosine.
+/// If the last digit of n is set (mask of ones), sine and cosine are swapped. The second last digit of n
+/// is the sign of the sine, that of n + 1 the sign of the cosine.
 macro_rules! quarter_turns {
     ($n:ident, $s:ident, $c:ident, $zero:expr, $one:expr, $two:expr, $to_sign:literal) => {{
         let swapped = $zero - ($n & $one);

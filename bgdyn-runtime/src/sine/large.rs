@@ -1,7 +1,7 @@
 //! Exact reduction of large angles (Payne and Hanek 1983).
 //!
-//! A number is a whole number times a power of two. Multiplied by the digits of 1/2π that matter it
-//! is a fraction of a turn in fixed point, from which whole turns drop out by themselves.
+//! A number is an integer times a power of two. Its product with the digits of 1/2π that affect the result
+//! is a fraction of a turn in fixed point; whole turns overflow and are dropped.
 
 use super::kernel::of_rest;
 use super::lanes::SineLanes;
@@ -9,16 +9,16 @@ use crate::dd::{Turn, inverse_tau_digits};
 
 /// Scalars with an exact reduction.
 pub(crate) trait ExactReduction: SineLanes {
-    /// The quarter turn nearest to the finite angle `self` + `tail`, modulo 4, and the radians from
-    /// there in two words.
+    /// Returns the quarter turn nearest to the finite angle `self` + `tail`, modulo 4, and the remaining
+    /// angle in radians in two words.
     fn reduce_exactly(self, tail: Self) -> (u32, Self, Self);
-    /// n as [`SineLanes::turned`] takes it.
+    /// Returns n in the form of the argument of [`SineLanes::turned`].
     fn quarters(n: u32) -> Self;
-    /// Whether it is a number.
+    /// Returns whether the number is finite.
     fn finite(self) -> bool;
 }
 
-/// Sine and cosine of `angle` + `tail`, of any size; NaN where the angle is none.
+/// Returns sine and cosine of `angle` + `tail`, of any size; NaN if the angle is not finite.
 #[cold]
 #[inline(never)]
 pub(super) fn sin_cos_reduced<T: ExactReduction>(angle: T, tail: T) -> (T, T) {
@@ -50,12 +50,12 @@ const TAU: u64 = 0xc90f_daa2_2168_c234;
 const EIGHTH: u64 = 1 << 61;
 const QUARTER: u64 = 1 << 62;
 
-/// The finite angle x, less its whole turns, in units of 2⁻⁶⁴ turns. No `f32` comes closer than
+/// Returns the finite angle x without its whole turns, in units of 2⁻⁶⁴ turns. No `f32` is closer than
 /// 2⁻³⁴ turns to a quarter turn, so that 64 digits leave 30.
 fn turn_of(x: f32) -> u64 {
     let bits = x.to_bits();
     let mantissa = u64::from(bits & 0x7f_ffff | 0x80_0000);
-    // |x| = mantissa · 2^exponent; what is smaller than a normal number is less than a unit here.
+    // |x| = mantissa · 2^exponent; subnormal numbers are less than one unit here.
     let exponent = ((bits >> 23) & 0xff) as i32 - 150;
     let high = inverse_tau_digits(exponent).wrapping_mul(mantissa);
     let low = (u128::from(inverse_tau_digits(exponent + 64)) * u128::from(mantissa)) >> 64;
@@ -63,7 +63,7 @@ fn turn_of(x: f32) -> u64 {
     if x < 0.0 { turn.wrapping_neg() } else { turn }
 }
 
-/// In whole numbers and `f32` only: a controller without double precision has nothing else.
+/// Uses integers and `f32` only, for controllers without double precision.
 impl ExactReduction for f32 {
     fn reduce_exactly(self, tail: f32) -> (u32, f32, f32) {
         let turn = turn_of(self).wrapping_add(turn_of(tail));

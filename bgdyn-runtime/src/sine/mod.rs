@@ -1,21 +1,22 @@
-//! Sine and cosine in `f64` and `f32`: of one angle, of SIMD lanes, of all angles of a call, bit for bit alike.
+//! Sine and cosine in `f64` and `f32`: of one angle, of SIMD lanes, of all angles of a call, with equal
+//! bits.
 //!
-//! An angle x within [`SineLanes::LIMIT`] is taken as n quarter turns and a rest r in ±π/4, in two words
-//! (Cody and Waite 1980): π/2 is cut into parts that are so short that n times them is exact. Then
-//! sin r and cos r are polynomials, and n says which is which and with what sign. There is no branch
-//! on the way, so that several angles go through in lanes and every angle takes the same time.
-//! Larger angles are reduced exactly, one by one (`large.rs`).
+//! An angle x within [`SineLanes::LIMIT`] is reduced to n quarter turns and a rest r in ±π/4, in two words
+//! (Cody and Waite 1980): π/2 is divided into parts so short that n times each is exact. Then sin r and
+//! cos r are polynomials, and n selects which of them is the sine and their signs. The computation has no
+//! branch, so that lanes compute several angles together and every angle takes the same time. Larger
+//! angles are reduced exactly, one by one (`large.rs`).
 //!
-//! Errors stay below one unit in the last place for an angle of any size, and for a sum of two that does not overflow. A sum
-//! of three or more terms is carried in two words: it is off by up to |q|·eps² more, where q is the
-//! largest of its partial sums and eps the spacing of the numbers above 1. That shows only where the sine
+//! Errors are below one unit in the last place for an angle of any size, and for a sum of two that does not overflow. A sum of
+//! three or more terms is computed in two words: its error is larger by up to |q|·eps², where q is the
+//! largest of its partial sums and eps the spacing of the numbers above 1. This matters only if the sine
 //! is smaller than |q|·eps. `tests/sine.rs` measures both.
 
-/// Angles of a call that are taken at once: the lanes of the widest register.
+/// Number of angles of a call that are computed together: the lanes of the widest register.
 const MAX_BATCH: usize = 8;
 
-/// The step with k = 0, 1, … below `count`, which is [`MAX_BATCH`] at most, each a constant to the
-/// compiler: so arrays of numbers stay in registers.
+/// Repeats the step with k = 0, 1, … below `count` (at most [`MAX_BATCH`]), where k is a constant for the
+/// compiler, so that arrays of numbers stay in registers.
 macro_rules! unrolled {
     ($count:expr, |$k:ident| $step:expr) => {
         unrolled!($count, $k, $step; 0 1 2 3 4 5 6 7);
@@ -28,10 +29,10 @@ macro_rules! unrolled {
     )*};
 }
 
-/// The methods of [`Scalar`](crate::Scalar) that this module stands behind.
+/// Implements methods of [`Scalar`](crate::Scalar) by this module.
 ///
-/// They become part of the caller: handed over in memory, lanes would be stored in halves and waited
-/// for, and a constant offset would be no constant.
+/// They are inlined: if lanes were passed in memory, they would be stored in halves and the load would
+/// wait, and a constant offset would not be a constant in the callee.
 macro_rules! methods {
     () => {
         #[inline(always)]
@@ -66,7 +67,8 @@ pub(crate) use any_size::{AnySize, sin_cos};
 use kernel::sin_cos_in_range;
 pub(crate) use lanes::SineLanes;
 
-/// Sines and cosines of all angles of a call: each of the exact sum of its `angles` and its offset.
+/// Returns sines and cosines of all angles of a call: each of the exact sum of its `angles` and its
+/// offset.
 #[inline(always)]
 pub(crate) fn sin_cos_batch<T: Batch, const K: usize>(
     angles: [&[T]; K],
@@ -98,32 +100,32 @@ pub(crate) fn sin_cos_batch<T: Batch, const K: usize>(
     found
 }
 
-/// Angles of a call. Arrays of numbers, one for each part: of an array of pairs compilers load wide
-/// registers from what was just stored in halves, and wait for it.
+/// Angles of a call, with one array for each part. With an array of pairs, compilers load wide registers
+/// from values that were just stored in halves, and the load waits.
 pub(crate) struct AngleSums<T, const K: usize> {
     /// The sums, rounded.
     angles: [T; K],
-    /// What rounding has left.
+    /// Rounding errors of the sums.
     tails: [T; K],
-    /// Which ones are sums at all.
+    /// Which angles are sums of more than one term.
     are_sums: [bool; K],
 }
 
-/// [`sin_cos`], out of the way of calls whose angles are all within the limit: handed over as an array,
-/// they would be stored in each of those.
+/// Calls [`sin_cos`] out of line for calls with large angles: passed as an array, the angles would be
+/// stored in every call.
 #[cold]
 #[inline(never)]
 fn out_of_line<T: AnySize>(angle: T, tail: T) -> (T, T) {
     sin_cos(angle, Some(tail))
 }
 
-/// Numbers whose sines can be taken several at once.
+/// Numbers whose sines can be computed several at once.
 pub(crate) trait Batch: AnySize + TwoWord {
-    /// Sines and cosines of the sums; nothing where not all of them are within the limit.
+    /// Returns sines and cosines of the sums; `None` if not all of them are within the limit.
     fn sin_cos_in_lanes<const K: usize>(sums: &AngleSums<Self, K>) -> Option<[(Self, Self); K]>;
 }
 
-/// Fills lanes with one angle after the other, several at a time; what is left over goes in fewer.
+/// Fills lanes with consecutive angles, several at once; the remaining angles use fewer lanes.
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 macro_rules! batch_in_lanes {
     ($float:ident: $($lanes:ident $n:literal from $least:literal),+) => {
@@ -152,7 +154,7 @@ macro_rules! batch_in_lanes {
                     });
                     done = K.min(done + $n);
                 })+
-                // One at the most is left.
+                // At most one angle remains.
                 if done < K {
                     let (angle, tail) = (sums.angles[K - 1], sums.tails[K - 1]);
                     if !angle.within() {
@@ -166,7 +168,7 @@ macro_rules! batch_in_lanes {
     };
 }
 
-/// Lanes of states are full as they are: one angle after the other.
+/// Lanes of states are already full: the angles are computed one after the other.
 #[cfg(any(
     feature = "wide",
     not(any(target_arch = "x86_64", target_arch = "aarch64"))

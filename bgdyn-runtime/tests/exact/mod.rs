@@ -1,4 +1,4 @@
-//! Arbitrary-precision numbers for the tests to compare with, and random operands.
+//! Arbitrary-precision numbers as references for the tests, and random operands.
 #![allow(dead_code)] // every test file uses its part of it
 
 use bgdyn_runtime::Dd;
@@ -7,10 +7,10 @@ use dashu_float::round::mode::HalfEven;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// A binary number with [`BITS`] bits, or more where that is said.
+/// A binary number with [`BITS`] bits, or more if stated.
 pub(crate) type Exact = FBig<HalfEven, 2>;
 
-/// Precision of what the tests compare with.
+/// Precision of the references.
 pub(crate) const BITS: usize = 400;
 
 pub(crate) fn word(x: f64) -> Exact {
@@ -57,8 +57,8 @@ pub(crate) fn cases(cases: u32) -> ProptestConfig {
     }
 }
 
-/// Double-doubles with a `hi` of 2^`exponents` or twice that, and a `lo` of any smaller size, mostly
-/// as large as it may be.
+/// Returns double-doubles with a `hi` of 2^`exponents` or twice that, and a `lo` of any smaller size,
+/// mostly of the largest possible size.
 pub(crate) fn operand(exponents: core::ops::Range<i32>) -> impl Strategy<Value = Dd> {
     let lo = prop_oneof![
         6 => (-1.0..1.0).boxed(),

@@ -124,7 +124,7 @@ pub(super) const STAGES: [Stage; 12] = [
             decimal("0.643392746015763530355970484046"),
         ],
     },
-    // The end of the step: its rates are the first ones of the next.
+    // The end of the step: its rates are the first rates of the next step.
     Stage {
         c: ratio(1.0, 1.0),
         a: &WEIGHTS,
@@ -147,7 +147,7 @@ pub(super) const WEIGHTS: [Words; 12] = [
     decimal("0.0447106157277725905176885569043"),
 ];
 
-/// Weights of order 8 less those of order 5.
+/// Weights of order 8 minus those of order 5.
 pub(super) const FIFTH: [Words; 12] = [
     decimal("0.01312004499419488073250102996"),
     ZERO,
@@ -163,7 +163,7 @@ pub(super) const FIFTH: [Words; 12] = [
     decimal("-0.02235530786388629525884427845"),
 ];
 
-/// The weights of order 3; those of order 8 less these are the second estimate.
+/// The weights of order 3; the weights of order 8 minus these give the second error estimate.
 pub(super) const THIRD: [Words; 12] = [
     decimal("0.244094488188976377952755905512"),
     ZERO,

@@ -15,8 +15,8 @@ use crate::tableau::{all, combined, fill};
 /// DOP853: order 8 with estimates of orders 5 and 3, dense output of order 7 (Hairer, Nørsett,
 /// Wanner, Solving Ordinary Differential Equations I, 1993, II.5, II.6 and II.10).
 ///
-/// For scenes that are smooth and not stiff at tolerances from 1e-7 down. The printed coefficients
-/// have 28 to 30 digits; in double-double an error of some 1e-30 per second remains.
+/// For smooth, nonstiff scenes at tolerances of 1e-7 or smaller. The printed coefficients have 28 to 30
+/// digits; in double-double an error of some 1e-30 per second remains.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dop853;
 
@@ -54,7 +54,7 @@ where
         })
     }
 
-    /// h e₅²/√(e₅² + 0.01 e₃²), which falls with the eighth power of the step.
+    /// Returns h e₅²/√(e₅² + 0.01 e₃²), which is proportional to the eighth power of the step.
     fn error(&self, step: &Step<Y, Rates<Y>>, scale: &Y) -> Option<Of<Y>> {
         let [zero, one, small] = [0.0, 1.0, 0.01].map(Of::<Y>::from_f64);
         let fifth = combined(&FIFTH, &step.stages);

@@ -2,8 +2,7 @@
 //!
 //! With the shifted Legendre polynomials P̄ₖ(x) = √(2k+1) Pₖ(2x − 1), Wᵢₖ = P̄ₖ(cᵢ) and the weights B,
 //! A = W X Wᵀ B, where X is ½ in its corner and ±1/(2√(4k² − 1)) beside its diagonal (Hairer, Wanner,
-//! Solving Ordinary Differential Equations II, IV.5). All of it is computed in double-double and
-//! rounded once.
+//! Solving Ordinary Differential Equations II, IV.5). All are computed in double-double and rounded once.
 
 use bgdyn_runtime::Dd;
 
@@ -19,11 +18,11 @@ pub(super) struct Coefficients<T, const S: usize> {
     pub(super) d: [T; S],
 }
 
-/// A coefficient in two parts: a multiple of 2⁻¹⁰, and the rest.
+/// A coefficient in two parts: a multiple of 2⁻¹⁰, and the remainder.
 ///
-/// A rounded coefficient is wrong by the same amount in every step, and the energy drifts. The first
-/// part is exact, and the rounding of the second is a thousand times smaller (Hairer, McLachlan,
-/// Razakarivony, Achieving Brouwer's law with implicit Runge–Kutta methods, 2008).
+/// A rounded coefficient has the same error in every step, so the energy drifts. The first part is exact,
+/// and the rounding of the second is a thousand times smaller (Hairer, McLachlan, Razakarivony, Achieving
+/// Brouwer's law with implicit Runge–Kutta methods, 2008).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Split<T> {
     pub(super) short: T,
@@ -40,18 +39,18 @@ impl<T: Real> Split<T> {
         }
     }
 
-    /// Both parts, rounded.
+    /// Returns the sum of both parts, rounded.
     pub(super) fn whole(self) -> T {
         self.short + self.rest
     }
 }
 
 fn number(k: usize) -> Dd {
-    // Numbers of stages are small.
+    // Exact, because the numbers of stages are small.
     Dd::from_f64(k as f64)
 }
 
-/// The Legendre polynomials P₀ … P_{S−1} at x, P_S, and the slope of P_S.
+/// Returns the Legendre polynomials P₀ … P_{S−1} at x, P_S, and the derivative of P_S.
 fn legendre<const S: usize>(x: Dd) -> ([Dd; S], Dd, Dd) {
     let mut lower = [Dd::ONE; S];
     let (mut last, mut now) = (Dd::ZERO, Dd::ONE);
@@ -72,7 +71,7 @@ impl<T: Real, const S: usize> Coefficients<T, S> {
         let mut b = [Dd::ZERO; S];
         let mut w = [[Dd::ZERO; S]; S];
         for i in 0..S {
-            // The zeros of P_S, by Newton's method.
+            // The zeros of P_S by Newton's method.
             let angle = Dd::PI * (number(S - i) - Dd::from_f64(0.25)) / (number(S) + half);
             let mut x = angle.sin_cos().1;
             for _ in 0..8 {
@@ -98,7 +97,7 @@ impl<T: Real, const S: usize> Coefficients<T, S> {
     }
 }
 
-/// A = W X Wᵀ B
+/// Returns A = W X Wᵀ B.
 fn stage_weights<const S: usize>(w: &[[Dd; S]; S], b: &[Dd; S]) -> [[Dd; S]; S] {
     let half = Dd::from_f64(0.5);
     let mut a = [[Dd::ZERO; S]; S];
@@ -115,9 +114,9 @@ fn stage_weights<const S: usize>(w: &[[Dd; S]; S], b: &[Dd; S]) -> [[Dd; S]; S] 
     a
 }
 
-/// d of Aᵀ d = b: what the step takes of the stages' displacements.
+/// Solves Aᵀ d = b: d are the weights of the stages' displacements in the step.
 fn step_weights<const S: usize>(a: &[[Dd; S]; S], b: [Dd; S]) -> [Dd; S] {
-    // A's rows, as the columns of Aᵀ. A is regular, so that there always are factors.
+    // The rows of A are the columns of Aᵀ. A is regular, so the factors always exist.
     let mut transposed = *a;
     let mut pivots = [0; S];
     let mut d = b;
@@ -130,7 +129,7 @@ fn step_weights<const S: usize>(a: &[[Dd; S]; S], b: [Dd; S]) -> [Dd; S] {
 mod tests {
     use super::*;
 
-    /// ∫₀^cᵢ of a polynomial, and over the whole step: C(S) and B(2S).
+    /// Checks the integrals of polynomials from 0 to cᵢ and over the whole step: C(S) and B(2S).
     fn conditions<const S: usize>() {
         let k = Coefficients::<Dd, S>::new();
         let power = |x: Dd, n: usize| (0..n).fold(Dd::ONE, |p, _| p * x);

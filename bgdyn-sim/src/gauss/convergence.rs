@@ -1,30 +1,30 @@
-//! Convergence test of an iteration, down to the level of rounding.
+//! Convergence test of an iteration, down to the level of rounding errors.
 
 use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::failure::Reason;
 use crate::real::{Of, Real, finite};
 
-/// Iterations at the most.
+/// Largest number of iterations.
 const MAX_ITERATIONS: usize = 100;
-/// What the next change may be, in units of rounding. It has the same sign step after step: what it
-/// leaves of the energy adds up, which rounding does not.
+/// Largest permitted next change, in units of rounding. The neglected change has the same sign in every
+/// step, so its effect on the energy accumulates, unlike that of rounding.
 const NEGLIGIBLE_CHANGE: f64 = 1e-5;
-/// Times in a row that the changes may fail to become smaller.
+/// Number of consecutive changes that may fail to decrease.
 const STALLS: usize = 2;
 
-/// Monitors an iteration for the displacements of a step's stages.
+/// Tests the convergence of an iteration for the displacements of a step's stages.
 ///
-/// Changes are measured in units of rounding, of each component by itself and of all by the largest
-/// one: a component at rest may hold nothing but the rounding of others, and stiff rates multiply the
-/// rounding of what they come from. The iteration ends where the
-/// next change would be no part of a unit to speak of, or where neither measure becomes smaller
-/// any more and what changes is no more than rounding.
+/// Changes are measured in units of rounding, relative to each component's own size and to the largest
+/// component: the value of a component at rest can consist of rounding errors of other components, and
+/// stiff rates multiply the rounding errors of their arguments. The iteration ends if the predicted next
+/// change is a negligible part of a unit, or if neither measure decreases any more and the changes are not
+/// larger than rounding.
 pub(super) struct ConvergenceMonitor<Y> {
-    /// What the rounding of the rates is a part of: h |J| |y|, as far as the slopes are known.
+    /// h |J| |y|, the size that the rounding error of the rates is relative to; zero for unknown slopes.
     rates: Y,
     iterations: usize,
-    /// The smallest changes so far.
+    /// The smallest changes so far, in both measures.
     own: f64,
     overall: f64,
     stalls: usize,
@@ -44,7 +44,7 @@ where
         }
     }
 
-    /// Whether the displacements `z` from `y`, just changed by `changes`, are the solution.
+    /// Returns whether the displacements `z` from `y`, after the last changes `changes`, are the solution.
     pub(super) fn ends<E, const S: usize>(
         &mut self,
         y: &Y,
@@ -56,7 +56,7 @@ where
         }
         self.iterations += 1;
         let (own, overall, of_rates) = self.sizes(y, z, changes);
-        // The next change, going by the last two.
+        // Predicts the next change from the last two.
         let falls = if self.own.is_finite() {
             own / self.own
         } else {
@@ -72,7 +72,7 @@ where
         }
         self.own = self.own.min(own);
         self.overall = self.overall.min(overall);
-        // A third of the digits is what rates may lose whose slopes are not known.
+        // Rates whose slopes are unknown may lose a third of their digits.
         let third = Of::<Y>::from_f64(-1.0 / 3.0);
         let digits = (Of::<Y>::EPSILON.ln() * third).exp().to_f64();
         let rounding = self.overall.min(of_rates) < 64.0 || self.own < digits;
@@ -90,8 +90,8 @@ where
         Ok(false)
     }
 
-    /// The largest change in units of rounding: of its own component's size, of the largest one's, and
-    /// of what the rates come from.
+    /// Returns the largest change in units of rounding, relative to the size of its own component, to the
+    /// largest size, and to the size of the rates' arguments.
     fn sizes<const S: usize>(&self, y: &Y, z: &[Y; S], changes: &[Y; S]) -> (f64, f64, f64) {
         let part = |x: &Y, c: usize| x.entries()[c].abs().to_f64();
         let largest = |of: &[Y; S], c| of.iter().fold(0.0_f64, |most, x| most.max(part(x, c)));

@@ -17,11 +17,11 @@ use crate::real::{Of, Real};
 /// The Gauss–Legendre method with `S` stages, of order 2S with fixed steps (Butcher 1964; Hairer,
 /// Lubich, Wanner, Geometric Numerical Integration, II.1 and VIII.6).
 ///
-/// Symmetric, and on equations in canonical form symplectic: their energy keeps within bounds. Stable
-/// with steps of any length, though not damping what is faster than the step.
+/// Symmetric, and symplectic for equations in canonical form: the energy error remains bounded. Stable for
+/// steps of any length, but motions faster than the step are not damped.
 ///
-/// The stages' equations are solved to rounding: by simplified Newton steps where the slopes of the
-/// rates are known, by substitution elsewhere. The guess continues the step before.
+/// The equations of the stages are solved to rounding: by simplified Newton steps if the slopes of the
+/// rates are available, else by fixed-point iteration. The initial guess extrapolates the previous step.
 #[derive(Clone, Debug)]
 pub struct Gauss<T, const S: usize> {
     of: Coefficients<T, S>,
@@ -47,19 +47,19 @@ impl<T: Real, const S: usize> Default for Gauss<T, S> {
 }
 
 impl<T: Real, const S: usize> Gauss<T, S> {
-    /// The method, its coefficients rounded from double-double.
+    /// Returns the integrator, with coefficients rounded from double-double.
     pub fn new() -> Self {
         const { assert!(0 < S && S < 7, "one to six stages") }
         let of = Coefficients::new();
         Gauss { of }
     }
 
-    /// zᵢ = h Σ aᵢⱼ fⱼ, the stages' displacements.
+    /// Returns zᵢ = h Σ aᵢⱼ fⱼ, the displacements of the stages.
     fn displacements<Y: StateVector<Scalar = T>>(&self, rates: &[Y; S], h: T) -> [Y; S] {
         core::array::from_fn(|i| weighed_exactly(&self.of.a[i], rates).times(h))
     }
 
-    /// Rates at the stages, as the polynomial of the step before has them.
+    /// Returns rates at the stages, extrapolated by the polynomial of the previous step.
     fn continued<Y: StateVector<Scalar = T>>(&self, before: &Step<Y, [Y; S]>, h: T) -> [Y; S] {
         let (one, c) = (T::from_f64(1.0), &self.of.c);
         core::array::from_fn(|i| {
@@ -72,7 +72,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         })
     }
 
-    /// The rates at the displaced stages.
+    /// Evaluates the rates at the displaced stages.
     fn rates<O: Ode>(
         &self,
         ode: &O,
@@ -91,7 +91,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         Ok(rates)
     }
 
-    /// Substitution: zᵢ ← h Σ aᵢⱼ f(y + zⱼ).
+    /// Fixed-point iteration: zᵢ ← h Σ aᵢⱼ f(y + zⱼ).
     fn substitute<O: Ode>(
         &self,
         ode: &O,
@@ -110,7 +110,8 @@ impl<T: Real, const S: usize> Gauss<T, S> {
             let changes = core::array::from_fn(|i| next[i].plus(-T::from_f64(1.0), &z[i]));
             z = next;
             if monitor.ends(at.1, &z, &changes)? {
-                // Those of the solution: the last ones were a change behind, in every step alike.
+                // Evaluate the rates of the solution: the last rates are one change behind, in every step
+                // with the same sign.
                 let rates = self.rates(ode, at, h, &z)?;
                 let change = weighed_exactly(&self.of.b, &rates).times(h);
                 return Ok((rates, change));
@@ -118,8 +119,8 @@ impl<T: Real, const S: usize> Gauss<T, S> {
         }
     }
 
-    /// Newton's method with the slopes at the start: (I − h A ⊗ J) δ = h A f(y + z) − z. The change
-    /// of the state is taken from the displacements, which stiff rates leave accurate.
+    /// Newton's method with the slopes at the start: (I − h A ⊗ J) δ = h A f(y + z) − z. The change of the
+    /// state is computed from the displacements, which are accurate also for stiff rates.
     fn newton<O: Ode>(
         &self,
         ode: &O,
@@ -157,7 +158,7 @@ impl<T: Real, const S: usize> Gauss<T, S> {
     }
 }
 
-/// |J| |y|, component by component.
+/// Returns |J| |y|, component by component.
 fn sizes<Y: StateVector>(jacobian: &Y::Matrix, y: &Y) -> Y {
     let mut matrix = jacobian.clone();
     for m in Y::columns_mut(&mut matrix) {
@@ -170,7 +171,7 @@ fn sizes<Y: StateVector>(jacobian: &Y::Matrix, y: &Y) -> Y {
     size.mapped(&matrix)
 }
 
-/// Σ wⱼ xⱼ, the weights in two parts each.
+/// Returns Σ wⱼ xⱼ with weights in two parts.
 fn weighed_exactly<Y: StateVector, const S: usize>(weights: &[Split<Of<Y>>; S], x: &[Y; S]) -> Y
 where
     Of<Y>: Real,
@@ -179,7 +180,7 @@ where
     weighed(&weights.map(|w| w.short), x).plus(Of::<Y>::from_f64(1.0), &rest)
 }
 
-/// Σ wⱼ xⱼ
+/// Returns Σ wⱼ xⱼ.
 fn weighed<Y: StateVector, const S: usize>(weights: &[Of<Y>; S], x: &[Y; S]) -> Y {
     let mut sum = x[0].times(weights[0]);
     for (&w, x) in weights.iter().zip(x).skip(1) {

@@ -1,15 +1,15 @@
-//! Linear equations of a simplified Newton step.
+//! Solves the linear equations of a simplified Newton step.
 
 use bgdyn_runtime::{Scalar, StateVector};
 
 use crate::lu::Lu;
 use crate::real::{Of, Real};
 
-/// I − h A ⊗ J, factored block by block: a lower factor with the blocks `lower` beside the diagonal
-/// and those of `diagonal`, and an upper one with the identity there and the blocks `upper`.
+/// I − h A ⊗ J, factored by blocks: a lower factor with the blocks `lower` beside the diagonal and those
+/// of `diagonal`, and an upper one with the identity on the diagonal and the blocks `upper`.
 pub(super) struct Blocks<Y: StateVector, const S: usize> {
     diagonal: [Option<Lu<Y>>; S],
-    /// Beside the diagonal: below it of the lower factor, above it of the upper one.
+    /// Blocks beside the diagonal: those of the lower factor below it, those of the upper factor above it.
     beside: [[Y::Matrix; S]; S],
 }
 
@@ -17,7 +17,7 @@ impl<Y: StateVector, const S: usize> Blocks<Y, S>
 where
     Of<Y>: Real,
 {
-    /// `None` where a block on the diagonal is singular.
+    /// Factors the matrix; `None` if a block on the diagonal is singular.
     pub(super) fn new(
         a: &[[Of<Y>; S]; S],
         h: Of<Y>,
@@ -67,7 +67,7 @@ where
     }
 }
 
-/// 1 or 0 on the diagonal, less k·J.
+/// Returns 1 or 0 on the diagonal, minus k·J.
 fn shifted<Y: StateVector>(identity: bool, k: Of<Y>, jacobian: &Y::Matrix, like: &Y) -> Y::Matrix {
     let mut matrix = like.matrix();
     for (m, &j) in Y::columns_mut(&mut matrix)
@@ -85,7 +85,7 @@ fn shifted<Y: StateVector>(identity: bool, k: Of<Y>, jacobian: &Y::Matrix, like:
     matrix
 }
 
-/// m ← m − left·right
+/// Computes m ← m − left·right.
 fn take_product<Y: StateVector>(m: &mut Y::Matrix, left: &Y::Matrix, right: &Y::Matrix, like: &Y) {
     let n = like.entries().len();
     let (left, right) = (Y::columns(left), Y::columns(right));

@@ -1,4 +1,4 @@
-//! Step control: errors follow the tolerance, in `f64` and in double-double.
+//! Tests step control: errors are proportional to the tolerance, in `f64` and in double-double.
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Dop853, Dopri5, Extrapolation12, Integrator, Real, Rodas4, Solver, Tolerance};
@@ -51,7 +51,7 @@ fn errors_and_steps_follow_the_tolerance() {
     check(Extrapolation12::default, [1e-5, 1e-8, 1e-11]);
 }
 
-/// References: two methods of different kinds agree with the solution to 28 digits.
+/// References: two integrators of different kinds agree with the solution to 28 digits.
 #[test]
 fn references_in_double_double() {
     let (error, steps) = run::<Dd, _>(Dop853, 1e-26);
@@ -65,7 +65,7 @@ fn references_in_double_double() {
     assert!(error < 1e-14, "{error:e}");
 }
 
-/// Dense output over controlled steps: as good as the steps, at any time.
+/// Dense output over controlled steps is as accurate as the steps, at any time.
 #[test]
 fn dense_output_over_a_run() {
     let problem = Known { slopes: false };
@@ -89,7 +89,7 @@ fn dense_output_over_a_run() {
     assert!(worst < 1e-9, "{worst:e}");
 }
 
-/// A first step is found whatever the scale of time is, and steps are refused where they must be.
+/// A first step is found for any time scale, and steps are refused if necessary.
 #[test]
 fn scales_of_time() {
     use crate::problems::Equation;

@@ -1,4 +1,4 @@
-//! Events: at their times, in their order, and without loss of order.
+//! Tests events: at their times, in their order, and without loss of order.
 
 use std::f64::consts::PI;
 
@@ -14,8 +14,8 @@ use crate::problems::{distance, slope};
 
 type Y = SVector<f64, 2>;
 
-/// The wall at ½ is met from q = 1 at t = π/3, where q̇ = −sin(π/3); thrown back at the same speed,
-/// q returns to 1 and the wall after another 2π/3.
+/// The wall at ½ is reached from q = 1 at t = π/3, with q̇ = −sin(π/3); reflected at the same speed, q
+/// returns to 1 and the wall after another 2π/3.
 struct Met {
     h: f64,
     tolerance: Option<f64>,
@@ -53,7 +53,7 @@ impl WithIntegrator<Y> for Met {
     }
 }
 
-/// To 1e-10 s by every method that is that exact itself, the others to their own error.
+/// To 1e-10 s by every integrator of that accuracy, by the others to their own error.
 #[test]
 fn every_method_meets_the_wall_in_time() {
     for name in INTEGRATORS {
@@ -82,8 +82,8 @@ fn every_method_meets_the_wall_in_time() {
     }
 }
 
-/// A mode changes where instants are just told apart: each moment longer in the old mode is an error of
-/// first order, which shows in `f32`.
+/// A mode changes as early as the resolution of time permits: a delay is an error of first order, which is
+/// visible in `f32`.
 #[test]
 fn modes_change_at_once() {
     let law = Law::Walls {
@@ -101,7 +101,7 @@ fn modes_change_at_once() {
     assert!((0.0..8.0).contains(&late), "{late} roundings late");
 }
 
-/// Long steps over a wall that is passed and left again within one: the ends show nothing.
+/// Long steps during which a wall is crossed and recrossed: the end states do not show it.
 #[test]
 fn events_inside_a_long_step_are_seen() {
     let law = Law::Walls {
@@ -119,7 +119,7 @@ fn events_inside_a_long_step_are_seen() {
     assert!((run.t() - 3.8).abs() < 1e-14);
 }
 
-/// Of two events in one step the first one comes first, whatever their numbers are, and each of them
+/// Of two events in one step the earlier one comes first, for any order of their indices, and each of them
 /// once.
 #[test]
 fn the_first_of_several_events_comes_first() {
@@ -135,14 +135,14 @@ fn the_first_of_several_events_comes_first() {
                 met.push(run.last_event);
             }
         }
-        // Walls that let through: the velocity is multiplied by 1.
+        // Walls without effect: the velocity is multiplied by 1.
         assert_eq!(met.len(), 2, "{met:?}");
         assert!((met[0] - 0.5_f64.acos()).abs() < 1e-7, "{met:?}");
         assert!((met[1] - 0.4_f64.acos()).abs() < 1e-7, "{met:?}");
     }
 }
 
-/// A spring of 8 N/m begins at q = ½: there it swings at 3 rad/s about 4/9.
+/// A spring of 8 N/m begins at q = ½: below it q oscillates at 3 rad/s about 4/9.
 fn sprung(t: f64) -> Y {
     let met = PI / 3.0;
     let speed = met.sin();
@@ -153,7 +153,7 @@ fn sprung(t: f64) -> Y {
     ])
 }
 
-/// At a kink a step ends, so that the order is kept; and the energy balances.
+/// A step ends at a kink, so that the order is preserved; and the energy balances.
 #[test]
 fn kinks_do_not_cost_order() {
     fn errors<M: Integrator<Y> + Clone>(method: &M) -> [f64; 4] {
@@ -181,12 +181,12 @@ fn kinks_do_not_cost_order() {
         println!("{stated}: {:.2} {found:?}", slope(&found));
         assert!(slope(&found) >= stated - 0.2, "{stated}: {found:?}");
     }
-    // What happens without it: the same law, its kink unknown to the run.
+    // Without events: the same law, with its kink unknown to the run.
     let unaware = [10, 20, 40, 80].map(|n| distance(&blind(n), &sprung(1.7)));
     assert!(slope(&unaware) < 3.0, "{unaware:?}");
 }
 
-/// [`sprung`] by steps that do not end at the kink.
+/// [`sprung`] with steps that do not end at the kink.
 fn blind(n: u32) -> Y {
     let law = Law::Spring {
         below: 0.5,
@@ -207,7 +207,7 @@ fn blind(n: u32) -> Y {
     *solver.y()
 }
 
-/// A relay that slides: the events have no end, the run does, and says where.
+/// A relay in a sliding mode: the events do not end, but the run does, with the time in its error.
 #[test]
 fn chattering_is_an_error() {
     let relay = Oscillator { law: Law::Relay };
@@ -224,7 +224,7 @@ fn chattering_is_an_error() {
     assert!(failure.to_string().contains("64 events"), "{failure}");
 }
 
-/// The account of the energy: the wall takes what the velocity loses.
+/// The energy account: the wall dissipates the loss of kinetic energy.
 #[test]
 fn energy_and_modes_after_events() {
     let law = Law::Walls {

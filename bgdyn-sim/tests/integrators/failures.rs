@@ -1,4 +1,4 @@
-//! Failures: which, when and where, and what is kept.
+//! Tests failures: the reason, the time, and the state afterwards.
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
@@ -9,17 +9,17 @@ use nalgebra::SVector;
 
 type Y = SVector<f64, 1>;
 
-/// What goes wrong.
+/// The causes of failures.
 enum Trouble {
     /// ẏ = y² blows up at t = 1 from y = 1.
     BlowsUp,
-    /// ẏ = 1, but there are no rates beyond this y.
+    /// ẏ = 1, but the rates do not exist beyond this y.
     EndsAt(f64),
     /// ẏ = k y, with its slope.
     Grows(f64),
     /// ẏ = −k y, without its slope.
     Stiff(f64),
-    /// No number.
+    /// The rates are NaN.
     NoNumber,
 }
 
@@ -49,8 +49,8 @@ impl Ode for Trouble {
     }
 }
 
-/// How it fails from y = 1 with steps of `h`, controlled if a tolerance is given, and that the solver
-/// stays at the last good state.
+/// Checks the failure from y = 1 with steps of `h`, with step control if a tolerance is given, and that
+/// the solver remains at the last good state.
 fn fails<M: Integrator<Y>>(
     method: M,
     trouble: &Trouble,
@@ -85,7 +85,7 @@ fn rates_that_do_not_exist() {
     assert_eq!(failure.reason, Reason::Singular("no rates here"));
     assert!((failure.t - 0.9).abs() < 1e-12 && (failure.y[0] - 1.9).abs() < 1e-12);
     assert!(failure.to_string().contains("no rates here"));
-    // Controlled steps come as near as time can tell.
+    // Controlled steps approach the end to the resolution of time.
     let failure = fails(Dop853, &Trouble::EndsAt(2.0), 0.3, Some(1e-8));
     assert_eq!(failure.reason, Reason::Singular("no rates here"));
     assert!((failure.t - 1.0).abs() < 1e-13, "{failure}");
@@ -123,7 +123,7 @@ fn steps_too_small_for_time() {
 
 #[test]
 fn iterations_that_do_not_converge() {
-    // h k = 50: substitution is no contraction.
+    // h k = 50: fixed-point iteration is no contraction.
     let failure = fails(Gauss2::new(), &Trouble::Stiff(500.0), 0.1, None);
     let diverges = matches!(
         failure.reason,
@@ -131,7 +131,7 @@ fn iterations_that_do_not_converge() {
     );
     assert!(diverges && failure.t == 0.0, "{failure}");
     assert!(failure.to_string().contains("iterations"));
-    // h k/2 = 0.99: it is one, but no iteration can wait for it.
+    // h k/2 = 0.99: it is a contraction, but too slow.
     let failure = fails(Midpoint::new(), &Trouble::Stiff(1.98), 1.0, None);
     assert!(
         matches!(

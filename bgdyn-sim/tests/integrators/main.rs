@@ -1,4 +1,4 @@
-//! Integrators: orders, stability, energy, step control, events, failures.
+//! Tests integrators: orders, stability, energy, step control, events, failures.
 
 mod controlled;
 mod events;

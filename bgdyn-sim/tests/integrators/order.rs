@@ -1,4 +1,4 @@
-//! Errors of a method by halvings of its step. Shared with the hard cases' package.
+//! Errors of an integrator for repeatedly halved steps. Also used by the package of hard cases.
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Integrator, IntegratorInfo, Ode, Start, WithIntegrator};
@@ -6,12 +6,12 @@ use nalgebra::SVector;
 
 use crate::problems::{Known, dd, distance, known, ode};
 
-/// States of the known problem.
+/// States of the problem with a known solution.
 pub type Y = SVector<Dd, 4>;
 
 /// Errors at t = 2 for 12 steps and three halvings.
 pub struct Errors {
-    /// Whether the problem tells its slopes.
+    /// Whether the problem provides its slopes.
     pub slopes: bool,
 }
 

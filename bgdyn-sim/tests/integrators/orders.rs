@@ -1,4 +1,5 @@
-//! Every method of the list has the order it states: of its steps, its estimate, its dense output.
+//! Checks that every integrator of the list has its stated order: of its steps, its estimate, its dense
+//! output.
 
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{
@@ -9,7 +10,7 @@ use bgdyn_sim::{
 use crate::order::{Errors, Y, known_run};
 use crate::problems::{Known, dd, distance, fixed, known, ode, slope};
 
-/// Bar: fitted over three halvings, no less than the order by more than 0.2.
+/// Bar: the order fitted over three halvings is less than the stated one by at most 0.2.
 #[test]
 fn every_method_has_its_order() {
     for name in INTEGRATORS {
@@ -29,7 +30,7 @@ fn every_method_has_its_order() {
     }
 }
 
-/// More stages and rows than the list names.
+/// More stages and rows than in the list.
 #[test]
 fn families_have_their_orders() {
     fn order<M: Integrator<Y> + Clone>(method: &M) -> f64 {
@@ -52,7 +53,7 @@ fn families_have_their_orders() {
     }
 }
 
-/// Of one step from t = 0.3: its estimated error, and the largest error of its dense output.
+/// Returns, for one step from t = 0.3, its estimated error and the largest error of its dense output.
 fn local<M: Integrator<Y>>(method: &M, h: Dd) -> (Option<f64>, f64) {
     let problem = Known { slopes: true };
     let ode = ode::<Dd, _, 4>(&problem);
@@ -90,7 +91,7 @@ fn estimates_and_dense_outputs_fall_with_their_powers() {
         let found = hs.map(|h| local(method, dd(h)));
         let info = method.info();
         let dense = slope(&found.map(|f| f.1));
-        // The error within a step falls with one power more than the order.
+        // The error within a step is proportional to the step to the power of the order plus one.
         assert!(dense >= dense_order + 0.8, "{}: dense {dense}", info.name);
         assert!(dense <= dense_order + 1.7, "{}: dense {dense}", info.name);
         let Some(stated) = info.estimate else { return };
@@ -110,7 +111,7 @@ fn estimates_and_dense_outputs_fall_with_their_powers() {
     check(&Extrapolation::<4>, 3.0);
 }
 
-/// In `f64` and `f32` the methods are the same, to rounding.
+/// In `f64` and `f32` the integrators are the same, within rounding.
 #[test]
 fn orders_hold_in_single_and_double_precision() {
     let problem = Known { slopes: false };

@@ -11,23 +11,23 @@ pub struct Oscillator {
     pub law: Law,
 }
 
-/// What stands in its way.
+/// The obstacle.
 pub enum Law {
     /// Walls: at each of these positions, reached from above, the velocity is multiplied by minus
-    /// this; one that is −1 lets through.
+    /// `returns`; −1 has no effect.
     Walls { at: [f64; 2], returns: f64 },
     /// A second spring below a position, of this stiffness: the law has a kink there.
     Spring { below: f64, stiffness: f64 },
-    /// A relay that drives it back, q̈ = −sign(q), with the sign as the mode: it slides.
+    /// A relay that drives it back, q̈ = −sign(q), with the sign as the mode: a sliding mode occurs.
     Relay,
 }
 
 impl Oscillator {
-    /// From q = 1 at rest at t = 0.
+    /// Returns the start, q = 1 at rest at t = 0.
     pub fn start(&self) -> HybridState<Y, f64> {
         let modes = 1.0;
         let y = match self.law {
-            // On the sliding surface soon, as q̇ = −mode.
+            // Soon on the sliding surface, because q̇ = −mode.
             Law::Relay => vector([0.25, 0.0]),
             _ => vector([1.0, 0.0]),
         };
@@ -71,7 +71,7 @@ impl Plant for Oscillator {
 
     fn events(&self, _: f64, y: &Y, modes: &f64) -> Result<SVector<f64, 2>, ()> {
         Ok(match self.law {
-            // Only what moves towards a wall can fall through it.
+            // Only a mass that moves towards a wall can cross it.
             Law::Walls { at, .. } => vector(at.map(|at| y[0] - at)),
             Law::Spring { below, .. } => vector([y[0] - below, 1.0]),
             Law::Relay => vector([modes * y[0], 1.0]),
@@ -92,7 +92,8 @@ impl Plant for Oscillator {
         Ok(match self.law {
             Law::Walls { at, returns } => {
                 let wall = (0..2).find(|&e| fell(e)).ok_or(())?;
-                // Thrown back, it is put onto the wall, from where it does not fall again at once.
+                // After a reflection it is placed on the wall, so that the event does not occur again at
+                // once.
                 let place = if returns < 0.0 { y[0] } else { at[wall] };
                 (vector([place, -returns * y[1]]), *modes)
             }

@@ -1,4 +1,4 @@
-//! Equations with known solutions, and helpers.
+//! Equations with known solutions, and helper functions.
 
 use bgdyn_runtime::{Dd, Scalar, matrix, vector};
 use bgdyn_sim::{Integrator, Jacobian, Ode, Real, Solver, StateVector};
@@ -8,7 +8,7 @@ use nalgebra::SVector;
 /// q̇ = v, v̇ = −q w (1 + t²), ẋ = x v, ẇ = −2 t w² from (1, 0, 1, 1), whose solution is
 /// cos t, −sin t, exp(cos t − 1), 1/(1 + t²).
 pub struct Known {
-    /// Whether it tells its slopes.
+    /// Whether it provides its slopes.
     pub slopes: bool,
 }
 
@@ -83,7 +83,7 @@ impl<T: Real, E: Equation<T, N>, const N: usize> Ode for As<'_, E, T, N> {
     }
 }
 
-/// y' = −k (y − cos t), whatever y is at first: it comes to (k² cos t + k sin t)/(1 + k²).
+/// y' = −k (y − cos t), which converges from any start to (k² cos t + k sin t)/(1 + k²).
 pub struct Driven {
     pub k: f64,
 }
@@ -108,7 +108,7 @@ impl Equation<f64, 1> for Driven {
     }
 }
 
-/// The state after `n` equal steps from t = 0 to `end`.
+/// Returns the state after `n` equal steps from t = 0 to `end`.
 pub fn fixed<O: Ode, M: Integrator<O::State>>(
     method: M,
     ode: &O,
@@ -129,7 +129,7 @@ where
     solver.y().clone()
 }
 
-/// The largest distance between two states.
+/// Returns the largest distance between two states.
 pub fn distance<Y: StateVector>(a: &Y, b: &Y) -> f64
 where
     Y::Scalar: Real,
@@ -140,7 +140,7 @@ where
         .fold(0.0, f64::max)
 }
 
-/// The slope of log₂ error over successive halvings of the step, fitted by least squares.
+/// Returns the slope of log₂ error over successive halvings of the step, fitted by least squares.
 pub fn slope(errors: &[f64]) -> f64 {
     let n = errors.len() as f64;
     let mean = errors.iter().map(|e| e.log2()).sum::<f64>() / n;
@@ -154,7 +154,7 @@ pub fn slope(errors: &[f64]) -> f64 {
     above / below
 }
 
-/// A whole number of double-doubles.
+/// Converts to double-double.
 pub fn dd(x: f64) -> Dd {
     Dd::from_f64(x)
 }

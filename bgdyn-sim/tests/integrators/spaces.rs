@@ -1,4 +1,4 @@
-//! The same numbers whatever space the state is of; projections.
+//! Checks that results do not depend on the vector type of the state; tests projections.
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
@@ -97,7 +97,7 @@ fn vectors_of_run_time_size_give_the_same_numbers() {
     }
 }
 
-/// A body that turns at the rate (0, 0, 2 cos t), as a unit quaternion of four components.
+/// A body that rotates at the rate (0, 0, 2 cos t), as a unit quaternion of four components.
 struct Turning {
     projects: bool,
 }
@@ -124,7 +124,7 @@ impl Ode for Turning {
     }
 }
 
-/// Its solution: half the angle sin t about z.
+/// Returns its solution: half the angle sin t about z.
 fn turned(t: f64) -> SVector<f64, 4> {
     let (sin, cos) = t.sin().sin_cos();
     vector([cos, 0.0, 0.0, sin])
@@ -147,7 +147,7 @@ fn projection_keeps_order_and_length() {
     assert!(slope(&errors) >= 3.8, "{errors:?}");
     assert!(after(true, 10).1 < 4e-16);
     assert!(after(false, 10).1 > 1e-7, "without it the length drifts");
-    // Controlled steps and rates carried over from step to step.
+    // Controlled steps, with rates reused from step to step.
     let tolerance = Tolerance {
         absolute: 1e-12,
         relative: 1e-12,

@@ -1,4 +1,4 @@
-//! Stiff equations: what is fast and settled must neither be followed nor grow.
+//! Tests stiff equations: a settled fast part must neither be resolved nor grow.
 
 use bgdyn_runtime::vector;
 use bgdyn_sim::{
@@ -11,7 +11,7 @@ use crate::problems::{Driven, Equation, distance, fixed, ode, slope};
 
 type Y = SVector<f64, 1>;
 
-/// y after one step of y' = z y from 1, with h = 1.
+/// Returns y after one step of y' = z y from 1, with h = 1.
 fn stability<M: Integrator<Y>>(method: &M, z: f64) -> f64 {
     struct Decay(f64);
     impl Equation<f64, 1> for Decay {
@@ -62,7 +62,7 @@ fn rodas4_damps_whatever_is_fast_and_gauss_at_least_does_not_amplify() {
     assert!((stability(&Midpoint::<f64>::new(), far) + 1.0).abs() < 1e-5);
     assert!((stability(&Gauss2::<f64>::new(), far) - 1.0).abs() < 1e-4);
     assert!((stability(&Gauss3::<f64>::new(), far) + 1.0).abs() < 1e-4);
-    // What an explicit method makes of it.
+    // An explicit integrator is unstable.
     assert!(stability(&Rk4, -10.0) > 100.0);
 }
 
@@ -75,7 +75,7 @@ fn rodas4_follows_a_stiff_equation_with_long_steps() {
         (found[0] - problem.settled(1.0)).abs()
     });
     assert!(errors[2] < 1e-9, "{errors:?}");
-    // From the settled state, where rounding is not yet all.
+    // From the settled state, at steps whose error is not only rounding.
     let errors = [2, 4, 8].map(|n| {
         let start = vector([problem.settled(0.0)]);
         let found = fixed(Rodas4, &ode::<f64, _, 1>(&problem), start, 2.0, n);
@@ -93,7 +93,7 @@ fn rodas4_follows_a_stiff_equation_with_long_steps() {
     assert!((gauss[0] - problem.settled(1.0)).abs() < 1e-5, "{gauss}");
 }
 
-/// Where the fast part is nearly as fast as the step: the order is that of the smooth case.
+/// If the fast time constant is close to the step, the order is that of the smooth case.
 #[test]
 fn rodas4_keeps_its_order_at_moderate_stiffness() {
     let problem = Driven { k: 300.0 };
@@ -130,7 +130,7 @@ impl Equation<f64, 3> for Robertson {
     }
 }
 
-/// The stiff method needs some hundred steps where explicit ones need ten thousands, and they agree.
+/// The stiff integrator needs some hundred steps, explicit ones ten thousands, and they agree.
 #[test]
 fn controlled_steps_on_robertsons_reactions() {
     fn run<M: Integrator<SVector<f64, 3>>>(method: M, tolerance: f64) -> (SVector<f64, 3>, usize) {
@@ -161,7 +161,7 @@ fn controlled_steps_on_robertsons_reactions() {
     assert!(distance(&extrapolated, &reference) < 1e-9);
 }
 
-/// Slopes from differences serve a Rosenbrock method as well as its own do.
+/// For a Rosenbrock method finite-difference slopes are as good as exact ones.
 #[test]
 fn slopes_from_differences() {
     let plain = ode::<f64, _, 3>(&Robertson);
@@ -170,7 +170,7 @@ fn slopes_from_differences() {
     let taken = fixed(Rodas4, &FiniteDifferences(plain), start, 0.1, 400);
     assert!(distance(&own, &taken) < 1e-8, "{own} {taken}");
     assert!(own != taken, "the slopes are not the same numbers");
-    // Without any the method refuses.
+    // Without slopes the integrator refuses.
     struct Plain;
     impl Equation<f64, 1> for Plain {
         fn rates(&self, _: f64, y: &Y) -> Y {
@@ -184,7 +184,7 @@ fn slopes_from_differences() {
     assert_eq!(refused.reason, Reason::NoJacobian);
 }
 
-/// Masses of 1 and 2 kg, 100 N/m from the first to a wall and 1e8 N/m between them: place, stretch and
+/// Masses of 1 and 2 kg, 100 N/m from the first to a wall and 1e8 N/m between them: position, stretch and
 /// their rates.
 struct TwoMasses;
 
@@ -206,13 +206,14 @@ impl Equation<f64, 4> for TwoMasses {
     }
 }
 
-/// Where rows change places more than once in the factors, the method still solves its equations: the
-/// masses shake at 1.2e4 rad/s in steps of some milliseconds, and swing together with order 4.
+/// If rows are exchanged more than once in the factors, the integrator still solves its equations: the
+/// masses oscillate at 1.2e4 rad/s with steps of some milliseconds, and the common oscillation has order
+/// 4.
 #[test]
 fn rodas4_keeps_its_order_beside_a_stiff_spring() {
     let start = vector([0.1, 1e-5, 0.0, 0.0]);
-    // Squares of the two angular frequencies, by their sum and product. In the slow mode the masses
-    // are displaced as 1 to `second`; its share in a motion is taken M-orthogonally to the fast one.
+    // Squares of the two angular frequencies, by their sum and product. In the slow mode the displacements
+    // of the masses are 1 and `second`; the slow component of a motion is M-orthogonal to the fast mode.
     let (sum, product) = (1.5e8_f64 + 100.0, 0.5e10);
     let square = 2.0 * product / (sum + (sum * sum - 4.0 * product).sqrt());
     let second = 1.0 + (100.0 - square) / 1e8;

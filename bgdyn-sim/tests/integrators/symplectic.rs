@@ -1,4 +1,4 @@
-//! The double pendulum in canonical momenta: what symplectic methods do to its energy.
+//! Tests the energy error of symplectic integrators on the double pendulum in canonical momenta.
 
 use bgdyn_runtime::{Dd, vector};
 use bgdyn_sim::{Gauss2, Gauss3, Integrator, Midpoint, Real, Rk4, Solver, Start};
@@ -11,7 +11,7 @@ use crate::problems::{As, Equation, dd, distance, fixed, ode};
 struct Pendulum;
 
 const GRAVITY: f64 = 9.81;
-/// Energy between hanging down and standing up, halved: the unit of the bars, J.
+/// Half the energy between hanging down and standing up: the unit of the bars, J.
 const UNIT: f64 = 29.43;
 
 /// Velocities, by the determinant of M = [[3 + 2c, 1 + c], [1 + c, 1]].
@@ -74,7 +74,7 @@ fn energy(y: &SVector<Dd, 4>) -> Dd {
     kinetic - g * (dd(2.0) * cos(y[0]) + cos(y[0] + y[1]))
 }
 
-/// The energy's largest error, in [`UNIT`]s: in the first tenth of the run, and in its last.
+/// Returns the largest energy error, in [`UNIT`]s: in the first tenth of the run, and in its last.
 fn drift<M: Integrator<SVector<f64, 4>>>(
     method: M,
     h: f64,
@@ -103,8 +103,8 @@ fn drift<M: Integrator<SVector<f64, 4>>>(
     [tenths[0], tenths[9], most]
 }
 
-/// The bars of 1e6 steps, on fewer: what grows does so at least linearly. The example `hard_cases` runs
-/// all of them, and 1e7, through compiled code.
+/// The bars of 1e6 steps, with fewer steps: a growing error grows at least linearly. The example
+/// `hard_cases` runs all of them, and 1e7, with compiled code.
 #[test]
 fn energy_keeps_within_its_bars() {
     let [_, _, rk4] = drift(Rk4, 1e-3, 20_000, false);
@@ -122,7 +122,7 @@ fn energy_keeps_within_its_bars() {
     );
 }
 
-/// In rates and in momenta it is the same pendulum.
+/// Velocities and momenta describe the same pendulum.
 #[test]
 fn both_forms_move_alike() {
     let start = vector([2.0, 0.5, 0.3, -0.7]);
@@ -139,7 +139,7 @@ fn both_forms_move_alike() {
     assert!(off < 1e-11, "{off:e}");
 }
 
-/// ΨᵀJΨ − J of one step's derivative Ψ, from central differences in double-double.
+/// Returns ΨᵀJΨ − J of one step's derivative Ψ, from central differences in double-double.
 fn defect<M: Integrator<SVector<Dd, 4>>>(method: &M) -> f64 {
     let pendulum: As<'_, _, Dd, 4> = ode(&Pendulum);
     let stepped = |y: SVector<Dd, 4>| {

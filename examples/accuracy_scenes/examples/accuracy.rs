@@ -1,8 +1,8 @@
-//! What accuracy costs in time, on scenes of the repository: error and time of compiled code by
-//! method, step, scalar, formulation and set of effects.
+//! Measures the cost of accuracy on scenes of the repository: error and time of compiled code by
+//! integrator, step, scalar, formulation and set of effects.
 //!
-//! Writes `accuracy.csv`, `costs.csv`, the figures, `README.md` and `report.html`, which needs nothing but a
-//! browser. Exit 1 where a method that should converge does not.
+//! Writes `accuracy.csv`, `costs.csv`, the figures, `README.md` and `report.html`, which needs only a
+//! browser. Exits with 1 if an integrator that should converge does not.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -25,7 +25,7 @@ Options:
 /// The command that writes the figures of the documentation.
 const AGAIN: &str = "cargo run --release --example accuracy -- --out docs/accuracy";
 
-/// What the user asked for.
+/// The user's options.
 struct Options {
     effort: Effort,
     out: PathBuf,
@@ -33,7 +33,7 @@ struct Options {
 }
 
 impl Options {
-    /// Reads the arguments; `None` where help was asked for, and printed.
+    /// Parses the arguments; `None` if help was requested and printed.
     fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Option<Self>, String> {
         let mut options = Options {
             effort: Effort::FULL,
@@ -84,7 +84,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Studies the scenes and writes what came of it: whether every method converges that should.
+/// Studies the scenes and writes the results; returns whether every integrator converges that should.
 fn run(options: &Options) -> Result<bool, Box<dyn std::error::Error>> {
     let mut studies: Vec<Study> = Vec::new();
     for (name, test_case) in TEST_CASES {
@@ -99,7 +99,7 @@ fn run(options: &Options) -> Result<bool, Box<dyn std::error::Error>> {
     Ok(sound)
 }
 
-/// Prints the cheapest ways and what does not converge; whether all does.
+/// Prints the cheapest configurations and those that do not converge; returns whether all do.
 fn print_summary(study: &Study) -> bool {
     let facts = &study.facts;
     println!("{}", facts.scene);

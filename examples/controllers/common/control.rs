@@ -1,4 +1,4 @@
-//! The control laws: computed torque, and what it is compared with.
+//! The control laws: computed torque, and PD control with gravity compensation for comparison.
 
 use bgdyn::Dynamics;
 
@@ -15,7 +15,7 @@ pub struct Gains {
 }
 
 impl Gains {
-    /// Critically damped at the frequency `hertz`: Kp = ω², Kd = 2ω.
+    /// Returns gains for critical damping at the frequency `hertz`: Kp = ω², Kd = 2ω.
     pub fn critical(hertz: f64) -> Self {
         let omega = std::f64::consts::TAU * hertz;
         Gains {
@@ -25,18 +25,18 @@ impl Gains {
     }
 }
 
-/// How joint efforts follow from the error e = q_wanted − q.
+/// The joint efforts as a function of the error e = q_desired − q.
 pub enum Law<const N: usize> {
-    /// tau = ID(q, v, a_wanted + Kd ė + Kp e): inverse dynamics cancels what couples the joints, so
-    /// that each error decays by itself, as if the arm were N separate unit masses.
+    /// tau = ID(q, v, a_desired + Kd ė + Kp e): inverse dynamics cancels the coupling of the joints, so
+    /// that each error decays independently, as if the arm were N separate unit masses.
     ComputedTorque,
-    /// tau = g(q) + D (Kd ė + Kp e) with the same gains: every joint by itself, the mass matrix
-    /// replaced by its diagonal D in the start pose, nothing known of the wanted acceleration.
+    /// tau = g(q) + D (Kd ė + Kp e) with the same gains: each joint independently, with the mass matrix
+    /// replaced by its diagonal D in the start pose, and without the desired acceleration.
     PdGravity(Joints<N>),
 }
 
 impl<const N: usize> Law<N> {
-    /// The joint efforts in the measured state.
+    /// Returns the joint efforts in the measured state.
     pub fn effort<M: Dynamics<f64, N, N>>(
         &self,
         model: &M,

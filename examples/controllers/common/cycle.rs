@@ -1,36 +1,36 @@
 //! The path: poses joined by quintic legs.
 //!
-//! A leg from a to b in the time T follows a + (b − a)·s(t/T) with s(x) = 10x³ − 15x⁴ + 6x⁵: the one
-//! quintic that starts and ends at rest, without acceleration. So the whole path has continuous
-//! accelerations, and the torques it asks for have no steps.
+//! A leg from a to b in the time T is a + (b − a)·s(t/T) with s(x) = 10x³ − 15x⁴ + 6x⁵: the only quintic
+//! that starts and ends at rest, without acceleration. So the whole path has continuous accelerations, and
+//! the required torques have no steps.
 
 use super::Joints;
 
-/// What the gripper does when a leg has ended.
+/// The action of the gripper at the end of a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gripper {
-    /// Stays as it is.
+    /// No action.
     Keeps,
-    /// Takes the part.
+    /// Grips the part.
     Takes,
-    /// Lets the part go.
+    /// Releases the part.
     Releases,
 }
 
 /// One leg of the path.
 pub struct Leg<const N: usize> {
-    /// What it is for.
+    /// Its purpose.
     pub name: &'static str,
-    /// Where it ends.
+    /// Its end.
     pub to: Joints<N>,
-    /// How long it takes, s.
+    /// Its duration, s.
     pub seconds: f64,
-    /// What happens at its end.
+    /// The action at its end.
     pub gripper: Gripper,
 }
 
 impl<const N: usize> Leg<N> {
-    /// A leg to `to` that leaves the gripper alone.
+    /// Returns a leg to `to` without a gripper action.
     pub fn new(name: &'static str, to: Joints<N>, seconds: f64) -> Self {
         Leg {
             name,
@@ -40,13 +40,13 @@ impl<const N: usize> Leg<N> {
         }
     }
 
-    /// The same leg with the gripper acting at its end.
+    /// Adds a gripper action at the end of the leg.
     pub fn then(self, gripper: Gripper) -> Self {
         Leg { gripper, ..self }
     }
 }
 
-/// The wanted motion at one time.
+/// The desired motion at one time.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted<const N: usize> {
     /// Positions.
@@ -59,32 +59,32 @@ pub struct Wanted<const N: usize> {
 
 /// Legs one after the other.
 pub struct Cycle<const N: usize> {
-    /// Where the first leg starts.
+    /// The start of the first leg.
     pub start: Joints<N>,
     /// The legs.
     pub legs: Vec<Leg<N>>,
 }
 
 impl<const N: usize> Cycle<N> {
-    /// How long all legs take, s.
+    /// Returns the duration of all legs, s.
     pub fn seconds(&self) -> f64 {
         self.legs.iter().map(|leg| leg.seconds).sum()
     }
 
-    /// When the leg ends after which the gripper acts so, s.
+    /// Returns the time of this gripper action, s.
     pub fn time_of(&self, gripper: Gripper) -> Option<f64> {
         let index = self.legs.iter().position(|leg| leg.gripper == gripper)?;
         Some(self.legs[..=index].iter().map(|leg| leg.seconds).sum())
     }
 
-    /// The time in which the part is carried, s.
+    /// Returns the time interval in which the part is carried, s.
     pub fn carried(&self) -> (f64, f64) {
         let end = self.seconds();
         let taken = self.time_of(Gripper::Takes).unwrap_or(end);
         (taken, self.time_of(Gripper::Releases).unwrap_or(end))
     }
 
-    /// The wanted motion at time `t`; at rest in the last pose after the end.
+    /// Returns the desired motion at time `t`; at rest in the last pose after the end.
     pub fn at(&self, t: f64) -> Wanted<N> {
         let (mut from, mut begin) = (self.start, 0.0);
         for leg in &self.legs {

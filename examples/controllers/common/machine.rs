@@ -1,11 +1,11 @@
-//! The arm as its generated module says: what the report and the plot need beside the methods.
+//! The data of the arm in its generated module that the report and the plot need besides the methods.
 
 use bgdyn::nalgebra::Point3;
 use bgdyn::runtime::{Limits, Motion, Operations};
 
 use super::Joints;
 
-/// What a generated module says of the arm.
+/// The data of the arm in a generated module.
 pub struct Machine<const N: usize> {
     /// `JOINT_NAMES`
     pub names: [&'static str; N],
@@ -15,7 +15,7 @@ pub struct Machine<const N: usize> {
     pub limits: [Limits; N],
     /// `OPERATIONS`
     pub operations: &'static [(&'static str, Operations)],
-    /// Where the frame `tool` is, in world axes, m: `pose_tool`.
+    /// Position of the frame `tool`, in world axes, m: from `pose_tool`.
     pub tool: fn(&Joints<N>) -> Point3<f64>,
 }
 
@@ -23,14 +23,14 @@ pub struct Machine<const N: usize> {
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// Whether it turns; otherwise it slides.
+    /// Whether it is a rotation; otherwise it is a translation.
     pub turns: bool,
     /// Its limits.
     pub limits: Limits,
 }
 
 impl Joint {
-    /// The factor and the unit in which people read positions.
+    /// Returns the factor and the unit for printing positions.
     pub fn position_unit(&self) -> (f64, &'static str) {
         if self.turns {
             (1f64.to_degrees(), "°")
@@ -39,7 +39,7 @@ impl Joint {
         }
     }
 
-    /// The factor and the unit in which people read errors.
+    /// Returns the factor and the unit for printing errors.
     pub fn error_unit(&self) -> (f64, &'static str) {
         if self.turns {
             (1e3, "mrad")
@@ -48,14 +48,14 @@ impl Joint {
         }
     }
 
-    /// The unit of efforts.
+    /// Returns the unit of efforts.
     pub fn effort_unit(&self) -> &'static str {
         if self.turns { "N·m" } else { "N" }
     }
 }
 
 impl<const N: usize> Machine<N> {
-    /// The joint of coordinate `i`.
+    /// Returns the joint of coordinate `i`.
     pub fn joint(&self, i: usize) -> Joint {
         Joint {
             name: self.names[i].replace('_', " "),
@@ -64,7 +64,7 @@ impl<const N: usize> Machine<N> {
         }
     }
 
-    /// Operations of one call of the generated method.
+    /// Returns the operations of one call of the generated method.
     pub fn operations(&self, method: &str) -> Option<&Operations> {
         let found = self.operations.iter().find(|(name, _)| *name == method);
         found.map(|(_, operations)| operations)

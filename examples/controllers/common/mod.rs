@@ -1,5 +1,5 @@
-//! What both examples share: a pick-and-place cycle under computed torque, simulated against an
-//! arm that carries a part its controller knows nothing of, reported in numbers and in a plot.
+//! Common code of both examples: a pick-and-place cycle under computed torque, simulated with an arm that
+//! carries a part unknown to the controller, with a report and a plot.
 
 pub mod control;
 pub mod cycle;
@@ -20,15 +20,15 @@ use cycle::Cycle;
 use machine::Machine;
 use options::Options;
 
-/// Everything that tells one example from the other.
+/// The data of one example.
 pub struct Cell<G, C, E, L, const N: usize> {
     /// Name of the example, and of its folder of results.
     pub name: &'static str,
-    /// What the plot is headed with.
+    /// Title of the plot.
     pub title: &'static str,
     /// One sentence about the plant, for the report.
     pub plant: &'static str,
-    /// The arm as its spec says: limits, lengths, operation counts.
+    /// Data of the arm from its spec: limits, lengths, operation counts.
     pub machine: Machine<N>,
     /// The generated model, whose calls are timed.
     pub generated: G,
@@ -38,13 +38,13 @@ pub struct Cell<G, C, E, L, const N: usize> {
     pub empty: E,
     /// The simulated arm with the part.
     pub loaded: L,
-    /// Where to go, and when.
+    /// The desired path over time.
     pub cycle: Cycle<N>,
-    /// How hard to pull the arm there.
+    /// The gains of the controller.
     pub gains: Gains,
 }
 
-/// Runs the cell that `build` makes, prints its report and writes its plot.
+/// Runs the cell that `build` creates, prints its report and writes its plot.
 pub fn run<G, C, E, L, const N: usize>(
     name: &'static str,
     build: impl FnOnce() -> Result<Cell<G, C, E, L, N>, String>,

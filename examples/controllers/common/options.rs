@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-/// What the user asked for.
+/// The user's options.
 pub struct Options {
     /// Folder of the plot.
     pub out: PathBuf,
 }
 
-/// How to call the example.
+/// Returns the usage text of the example.
 pub fn usage(name: &str) -> String {
     format!(
         "Pick and place under computed torque with a generated model
@@ -22,7 +22,7 @@ Options:
 }
 
 impl Options {
-    /// Reads the arguments; `None` where help was asked for, and printed.
+    /// Parses the arguments; `None` if help was requested and printed.
     pub fn parse(
         name: &str,
         mut arguments: impl Iterator<Item = String>,

@@ -1,4 +1,4 @@
-//! The plot: for each joint its position, its error and its effort over time; below, the tool's way.
+//! The plot: position, error and effort of each joint over time; below, the path of the tool.
 
 mod panel;
 
@@ -18,7 +18,7 @@ use panel::{Line, Panel};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-// Okabe and Ito's palette, which colour-blind readers tell apart.
+// The palette of Okabe and Ito, which is distinguishable for colour-blind readers.
 const BLUE: RGBColor = RGBColor(0, 114, 178);
 const VERMILION: RGBColor = RGBColor(213, 94, 0);
 const GREY: RGBColor = RGBColor(190, 190, 190);
@@ -31,12 +31,12 @@ const ROW: u32 = 185;
 const TOOL_ROW: u32 = 400;
 const FONT: &str = "sans-serif";
 
-/// Whole pixels in the drawing's units.
+/// Converts whole pixels to the drawing's units.
 const fn px(pixels: u32) -> u32 {
     FINE * pixels
 }
 
-/// A place in whole pixels, in the drawing's units.
+/// Converts a position in whole pixels to the drawing's units.
 const fn at(x: i32, y: i32) -> (i32, i32) {
     (FINE as i32 * x, FINE as i32 * y)
 }
@@ -47,7 +47,7 @@ struct Runs<'a, const N: usize> {
     baseline: &'a [Sample<N>],
 }
 
-/// Draws `NAME.svg` into the folder `out` and gives its path.
+/// Draws `NAME.svg` into the folder `out` and returns its path.
 pub fn draw<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     computed: &[Sample<N>],
@@ -161,7 +161,7 @@ fn draw_joint<G, C, E, L, const N: usize>(
     let unit = joint.effort_unit();
     let lines = two_lines(runs, |s| s.tau[i]);
     let peak = lines.iter().map(Line::peak).fold(0.0, f64::max);
-    // A limit far off would flatten the curves: it is then told, not drawn.
+    // A distant limit would flatten the curves: it is printed, not drawn.
     let near = peak > 0.3 * joint.limits.effort;
     let place = if near { "" } else { ", off the scale" };
     let title = format!(
@@ -175,7 +175,7 @@ fn draw_joint<G, C, E, L, const N: usize>(
     effort.draw(&panels[2], &lines)
 }
 
-/// The tool's way seen from above.
+/// Draws the path of the tool, seen from above.
 fn draw_plan<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     runs: &Runs<'_, N>,
@@ -204,7 +204,7 @@ fn draw_plan<G, C, E, L, const N: usize>(
     panel::draw_plan(area, "tool from above", &lines, &marks)
 }
 
-/// The tool's height and its distance from where it should be, over time.
+/// Draws the tool's height and its distance from the desired position, over time.
 fn draw_tool<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     runs: &Runs<'_, N>,
@@ -236,7 +236,7 @@ fn two_lines<const N: usize>(runs: &Runs<'_, N>, value: impl Fn(&Sample<N>) -> f
     ]
 }
 
-/// What was wanted, and what both runs made of it.
+/// Draws the desired quantity, and that of both runs.
 fn three_lines<const N: usize>(
     runs: &Runs<'_, N>,
     wanted: impl Fn(&Sample<N>) -> f64,
@@ -247,7 +247,7 @@ fn three_lines<const N: usize>(
     lines
 }
 
-/// At most some 700 points, which is more than a panel's pixels.
+/// Returns at most some 700 points, more than a panel's pixels.
 fn over_time<const N: usize>(
     samples: &[Sample<N>],
     value: &impl Fn(&Sample<N>) -> f64,

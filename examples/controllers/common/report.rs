@@ -1,4 +1,4 @@
-//! The report: what the run shows, in numbers.
+//! Prints the results of the run.
 
 use super::cycle::Gripper;
 use super::machine::Machine;
@@ -17,13 +17,13 @@ fn peak_and_rms(values: impl Iterator<Item = f64>) -> (f64, f64) {
     (peak, (squares / count.max(1) as f64).sqrt())
 }
 
-/// Distance of the tool from where it should be, mm.
+/// Returns the distance of the tool from its desired position, mm.
 pub fn tool_error<const N: usize>(machine: &Machine<N>, sample: &Sample<N>) -> f64 {
     let at = |q: &Joints<N>| (machine.tool)(q);
     (at(&sample.q) - at(&sample.wanted.q)).norm() * 1e3
 }
 
-/// Tracking errors, efforts, and where the part was taken and put down.
+/// Prints tracking errors, efforts, and the positions where the part was gripped and released.
 pub fn tracking<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     computed: &[Sample<N>],

@@ -1,4 +1,4 @@
-//! The run: a controller of 1 kHz, and an arm that moves in between.
+//! The simulation: a controller at 1 kHz, and an arm that moves between its calls.
 
 use bgdyn::Dynamics;
 use bgdyn_sim::{State, rk4_step};
@@ -9,35 +9,35 @@ use super::{Cell, Joints};
 
 /// Time between two calls of the controller, s.
 pub const PERIOD: f64 = 1e-3;
-/// Runge–Kutta steps of the plant in that time.
+/// Number of Runge–Kutta steps of the plant in that time.
 const SUBSTEPS: u32 = 4;
 
-/// What was seen when the controller was called.
+/// The state at a call of the controller.
 pub struct Sample<const N: usize> {
     /// Time, s.
     pub t: f64,
-    /// Where the arm should have been.
+    /// Desired motion.
     pub wanted: Wanted<N>,
-    /// Where it was.
+    /// Actual positions.
     pub q: Joints<N>,
-    /// What the drives gave.
+    /// Efforts of the drives.
     pub tau: Joints<N>,
-    /// Whether a drive gave less than it was asked for.
+    /// Whether a drive was limited.
     pub saturated: bool,
 }
 
 impl<const N: usize> Sample<N> {
-    /// How far joint `i` was behind.
+    /// Returns the error of joint `i`.
     pub fn error(&self, i: usize) -> f64 {
         self.wanted.q[i] - self.q[i]
     }
 }
 
-/// One cycle under `law`, a sample for each call of the controller and one at the end.
+/// Simulates one cycle under `law`, with a sample for each call of the controller and one at the end.
 ///
-/// The drives hold their efforts between two calls and give no more than the spec's limits. Sensors
-/// are exact and there is no friction: what differs from the model is the part alone. It comes and
-/// goes without a jolt: the state stays continuous, only the equations change.
+/// The drives hold their efforts constant between two calls, within the spec's limits. Sensors are exact
+/// and there is no friction: the plant differs from the model by the part only. It is attached and
+/// released without an impact: the state is continuous, only the equations change.
 pub fn simulate<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     law: &Law<N>,

@@ -1,4 +1,4 @@
-//! How long a call takes: 1024 states, the median of several passes over all of them.
+//! Measures the time of a call: 1024 states, the median of several passes over all of them.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -12,7 +12,8 @@ use super::machine::Machine;
 pub const STATES: usize = 1024;
 /// Number of timed passes; odd, so that there is a median.
 pub const PASSES: usize = 15;
-/// Times each pass goes through the states, so that a pass is long against the clock's ticks.
+/// Number of times each pass visits all states, so that a pass is long compared with the clock's
+/// resolution.
 const ROUNDS: usize = 8;
 
 /// A method's name and its nanoseconds per call.
@@ -42,8 +43,8 @@ pub fn time<M: Dynamics<f64, N, N>, const N: usize>(model: &M, machine: &Machine
     ]
 }
 
-/// Median over the passes of the time per call, ns. Neither the inputs nor the results can be seen
-/// through by the compiler, so that every call is made in full.
+/// Returns the median over the passes of the time per call, ns. Inputs and results are opaque to the
+/// compiler, so that every call is executed completely.
 fn median<R, const N: usize>(states: &[Inputs<N>], call: impl Fn(&Inputs<N>) -> R) -> f64 {
     let pass = || {
         let start = Instant::now();
@@ -60,7 +61,7 @@ fn median<R, const N: usize>(states: &[Inputs<N>], call: impl Fn(&Inputs<N>) -> 
     times[PASSES / 2]
 }
 
-/// Positions within the joints' ranges, speeds within their limits, the rest within ±10.
+/// Returns positions within the joints' ranges, speeds within their limits, the rest within ±10.
 fn spread_states<const N: usize>(machine: &Machine<N>) -> Vec<Inputs<N>> {
     let mut share = evenly_spread();
     let mut within = move |low: f64, high: f64| low + (high - low) * share();
@@ -83,7 +84,7 @@ fn spread_states<const N: usize>(machine: &Machine<N>) -> Vec<Inputs<N>> {
         .collect()
 }
 
-/// Numbers that fill [0, 1) evenly, the same ones in every run: multiples of the golden ratio.
+/// Returns numbers that fill [0, 1) uniformly, the same ones in every run: multiples of the golden ratio.
 fn evenly_spread() -> impl FnMut() -> f64 {
     let mut k = 0.0_f64;
     move || {

@@ -1,7 +1,8 @@
-//! An arm with the drives' rotors: what the spec leaves out is added around the generated model.
+//! An arm with the drives' rotors, which are added to the generated model because the spec does not have
+//! them.
 //!
-//! A rotor of inertia J that turns r times as fast as its joint is felt there as r²·J. Seen from
-//! the joints that is a constant diagonal: M(q) + diag(r²J), with bias and gravity as they were.
+//! A rotor of inertia J that rotates r times as fast as its joint adds the reflected inertia r²·J. In
+//! joint coordinates this is a constant diagonal: M(q) + diag(r²J), with unchanged bias and gravity.
 
 use bgdyn::nalgebra::{Cholesky, SMatrix, SVector};
 use bgdyn::{Dynamics, Singular};
@@ -40,7 +41,7 @@ impl<M: Dynamics<f64, N, N>, const N: usize> Dynamics<f64, N, N> for Geared<M, N
         self.arm.gravity(q)
     }
 
-    /// (M + diag(r²J))⁻¹ (tau − bias): the generated forward dynamics knows no rotors.
+    /// Returns (M + diag(r²J))⁻¹ (tau − bias): the generated forward dynamics has no rotors.
     fn forward_dynamics(
         &self,
         q: &SVector<f64, N>,

@@ -1,6 +1,5 @@
-//! A PUMA 560 puts a part from one place to another: computed torque at 1 kHz with a model
-//! generated from `specs/puma560.yaml`, against a simulated arm that carries 2 kg the model knows
-//! nothing of.
+//! A PUMA 560 moves a part from one place to another: computed torque at 1 kHz with a model generated from
+//! `specs/puma560.yaml`, simulated with an arm that carries 2 kg unknown to the model.
 //!
 //! `cargo run --release -p controllers --example puma560` prints a report and draws `target/puma560/puma560.svg`.
 
@@ -24,8 +23,9 @@ bgdyn::bgdyn!("../plants/puma560_loaded.yaml");
 use puma560::Puma560;
 use puma560_loaded::Puma560Loaded;
 
-/// Inertia of motor and drive, felt at the joint, kg·m² (after Armstrong, Khatib, Burdick 1986). It
-/// is most of what the wrist's motors move; the controller's model and the plant have it alike.
+/// Reflected inertia of motor and drive at the joint, kg·m² (after Armstrong, Khatib, Burdick 1986). It is
+/// most of the inertia that the wrist's motors move; the controller's model and the plant have the same
+/// values.
 const ROTORS: [f64; 6] = [1.14, 4.71, 0.83, 0.200, 0.179, 0.193];
 
 fn main() -> ExitCode {
@@ -73,11 +73,11 @@ fn geared<M>(arm: M) -> Geared<M, 6> {
     }
 }
 
-/// A pose with the tool pointing down, all angles in degrees: where the waist looks, how far upper
-/// arm and forearm rise above the horizontal, and the turn of the hand.
+/// Returns a pose with the tool pointing down, all angles in degrees: the direction of the waist, the
+/// elevation of upper arm and forearm above the horizontal, and the rotation of the hand.
 ///
-/// Joint angles count from the link before: the elbow's zero is the forearm at a right angle to
-/// the upper arm, the bend's zero is the hand in line with the forearm.
+/// Joint angles are relative to the previous link: at the elbow's zero the forearm is perpendicular to the
+/// upper arm, at the bend's zero the hand is in line with the forearm.
 fn pose(waist: f64, upper_arm: f64, forearm: f64, hand: f64) -> Joints<6> {
     let elbow = forearm - 90.0 - upper_arm;
     let bend = -90.0 - forearm;

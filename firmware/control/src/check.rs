@@ -1,4 +1,4 @@
-//! Each effort of a motion beside the host's.
+//! Compares each effort of a motion with that of the host.
 
 use core::fmt::{Arguments, Display, LowerExp};
 
@@ -6,13 +6,13 @@ use bgdyn::{Dynamics, Scalar};
 
 use crate::{ComputedTorque, Record};
 
-/// The numbers of a controller: `f32` or `f64`.
+/// The scalar of a controller: `f32` or `f64`.
 pub trait Real: Scalar + Display + LowerExp + PartialOrd {
     /// 0
     const ZERO: Self;
     /// The spacing of the numbers above 1.
     const EPSILON: Self;
-    /// Largest difference allowed, in units of ε times the joint's largest effort of the motion.
+    /// Largest permitted difference, in units of ε times the joint's largest effort of the motion.
     const ALLOWED: Self;
 }
 
@@ -29,7 +29,7 @@ impl Real for f64 {
 }
 
 /// Runs the motion under computed torque and prints some of its efforts and each joint's largest
-/// difference from the host's. Says whether all are within [`Real::ALLOWED`].
+/// difference from those of the host. Returns whether all are within [`Real::ALLOWED`].
 pub fn motion<T: Real, M: Dynamics<T, N, N>, const N: usize>(
     name: &str,
     arm: &M,
@@ -45,7 +45,7 @@ pub fn motion<T: Real, M: Dynamics<T, N, N>, const N: usize>(
         }
         for i in 0..N {
             largest[i] = largest[i].max(record.tau[i].abs());
-            // A NaN is a miss.
+            // A NaN is not within the limit.
             let error = (tau[i] + -record.tau[i]).abs();
             off[i] = if error <= off[i] { off[i] } else { error };
         }

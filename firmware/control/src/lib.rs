@@ -7,27 +7,27 @@ pub mod check;
 use bgdyn::nalgebra::SVector;
 use bgdyn::{Dynamics, Scalar};
 
-/// What is wanted and what is measured at one instant, and the efforts that the host found for it.
+/// Desired and measured motion at one instant, and the efforts computed by the host.
 ///
 /// SI units and radians, joint by joint.
 #[derive(Clone, Copy, Debug)]
 pub struct Record<T, const N: usize> {
-    /// Wanted positions.
+    /// Desired positions.
     pub wanted_q: [T; N],
-    /// Wanted velocities.
+    /// Desired velocities.
     pub wanted_v: [T; N],
-    /// Wanted accelerations.
+    /// Desired accelerations.
     pub wanted_a: [T; N],
     /// Measured positions.
     pub q: [T; N],
     /// Measured velocities.
     pub v: [T; N],
-    /// Efforts, by the host in `f64`.
+    /// Efforts, computed by the host in `f64`.
     pub tau: [T; N],
 }
 
-/// tau = ID(q, v, a_wanted + Kd ė + Kp e), within the limits: every error decays by itself with
-/// ë + Kd ė + Kp e = 0.
+/// tau = ID(q, v, a_desired + Kd ė + Kp e), within the limits: every error decays independently with ë +
+/// Kd ė + Kp e = 0.
 #[derive(Clone, Copy, Debug)]
 pub struct ComputedTorque<T, const N: usize> {
     /// Kp, 1/s².
@@ -39,13 +39,13 @@ pub struct ComputedTorque<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> ComputedTorque<T, N> {
-    /// One step of control: joint efforts, N·m and N.
+    /// Computes one control step: joint efforts, N·m and N.
     #[inline(always)]
     pub fn effort<M: Dynamics<T, N, N>>(&self, model: &M, record: &Record<T, N>) -> SVector<T, N> {
         self.effort_by(record, |q, v, a| model.inverse_dynamics(q, v, a))
     }
 
-    /// The same by any inverse dynamics (q, v, a).
+    /// Computes the same by any inverse dynamics (q, v, a).
     #[inline(always)]
     pub fn effort_by(
         &self,

@@ -1,9 +1,9 @@
 //! Motions of the controlled arms and the efforts for them, by the same generated models in `f64`.
 //!
-//! Each arm is simulated under computed torque along a quintic from rest to rest. It carries what its
-//! controller does not know of: its efforts are scaled by a few per cent, so that there are errors to
-//! correct. Every input of the controller is rounded to `f32` before the host uses it: what differs
-//! on the microcontroller is arithmetic alone.
+//! Each arm is simulated under computed torque along a quintic from rest to rest. Its efforts are scaled
+//! by a few per cent, a disturbance unknown to the controller, so that there are errors to correct. Every
+//! input of the controller is rounded to `f32` before the host uses it, so that only the arithmetic of the
+//! microcontroller differs.
 #![forbid(unsafe_code)]
 
 use std::fmt::Write;
@@ -17,7 +17,7 @@ include!(concat!(env!("OUT_DIR"), "/scara.rs"));
 include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
 include!(concat!(env!("OUT_DIR"), "/scara_payload.rs"));
 
-/// Steps of control a second.
+/// Control steps per second.
 pub const RATE: u32 = 1000;
 /// Steps of each motion.
 pub const STEPS: usize = 500;
@@ -28,10 +28,10 @@ pub const DAMPING: f64 = 32.0;
 /// Mass of the part that the SCARA carries, kg, in place of its spec's.
 pub const PAYLOAD: f64 = 2.25;
 
-/// How much of its effort a joint's drive delivers.
+/// The fraction of its effort that a joint's drive delivers.
 const DELIVERED: f64 = 0.97;
 
-/// Rust source, for programs in which `Real` is a scalar: the motions as `SCARA`, `PUMA560` and
+/// Returns Rust source, for programs in which `Real` is a scalar: the motions as `SCARA`, `PUMA560` and
 /// `SCARA_PAYLOAD`, each with its arm's largest efforts, `SCARA_EFFORTS`, and the constants above.
 pub fn motions() -> String {
     let mut text = String::new();
@@ -111,7 +111,7 @@ fn motion<M: Dynamics<f64, N, N>, const N: usize>(
     (0..STEPS).map(step).collect()
 }
 
-/// One period, by Heun's steps.
+/// Advances by one period, with Heun's steps.
 fn advance<M: Dynamics<f64, N, N>, const N: usize>(
     model: &M,
     q: &mut SVector<f64, N>,
@@ -133,7 +133,8 @@ fn advance<M: Dynamics<f64, N, N>, const N: usize>(
     }
 }
 
-/// The quintic s(x) = 10x³ − 15x⁴ + 6x⁵ from `from` to `to`, at the part x of the motion's time.
+/// Returns the quintic s(x) = 10x³ − 15x⁴ + 6x⁵ from `from` to `to`, at the fraction x of the motion's
+/// time.
 fn wanted<const N: usize>(from: [f64; N], to: [f64; N], x: f64) -> Record<f64, N> {
     let seconds = STEPS as f64 / f64::from(RATE);
     let s = x * x * x * (10.0 + x * (6.0 * x - 15.0));
@@ -151,7 +152,7 @@ fn wanted<const N: usize>(from: [f64; N], to: [f64; N], x: f64) -> Record<f64, N
     }
 }
 
-/// Rounded to `f32`.
+/// Rounds to `f32`.
 fn single<const N: usize>(x: [f64; N]) -> [f64; N] {
     x.map(|x| f64::from(x as f32))
 }

@@ -1,4 +1,5 @@
-//! The motions of the firmware on a RISC-V with single precision only (RV32IMAFC), beside the host's.
+//! Runs the motions of the firmware on a RISC-V with single precision only (RV32IMAFC), compared with the
+//! host.
 #![no_std]
 #![no_main]
 
@@ -7,7 +8,7 @@ mod linux;
 use bgdyn::nalgebra::SVector;
 use control::{ComputedTorque, Record, check};
 
-/// What the controllers compute with.
+/// The scalar of the controllers.
 type Real = f32;
 
 include!(concat!(env!("OUT_DIR"), "/motions.rs"));
@@ -15,7 +16,7 @@ include!(concat!(env!("OUT_DIR"), "/scara.rs"));
 include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
 include!(concat!(env!("OUT_DIR"), "/scara_payload.rs"));
 
-/// Runs the motions; whether every effort is the host's.
+/// Runs the motions; returns whether every effort agrees with that of the host.
 fn run() -> bool {
     let mut well = true;
     macro_rules! arm {

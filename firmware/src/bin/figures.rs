@@ -1,6 +1,6 @@
-//! Instructions and stack of every function of three arms, generated and by the textbook, in `f32`
-//! and `f64`: one line each, which `figures.py` reads. Fails where the count of a generated function
-//! depends on the state, or where its results are not the textbook's.
+//! Measures instructions and stack of every function of three arms, generated and by the textbook, in
+//! `f32` and `f64`: one line each, for `figures.py`. Fails if the count of a generated function depends on
+//! the state, or if its results are not those of the textbook.
 #![no_std]
 #![no_main]
 
@@ -17,17 +17,17 @@ use firmware::measure::{Counter, double_precision, stack};
 use firmware::subject::{Function, Generated, Out, Plain, Subject, functions};
 use textbook::{Body, Textbook};
 
-/// Most instructions of generated functions in `f32`.
+/// Largest number of instructions of generated functions in `f32`.
 const BARS: [(&str, &str, u32); 2] = [
     ("scara", "inverse dynamics", 350),
     ("panda", "inverse dynamics", 1600),
 ];
-/// Most instructions of a square root in `f32`: one of the FPU's, and the call.
+/// Largest number of instructions of a square root in `f32`: one of the FPU, and the call.
 const ROOT: u32 = 16;
-/// Most bytes of stack of any generated function.
+/// Largest stack size of a generated function, bytes.
 const STACK: usize = 2048;
 
-/// Random states.
+/// Number of random states.
 const STATES: usize = 128;
 
 #[entry]
@@ -62,7 +62,7 @@ fn main() -> ! {
     board::exit(well);
 }
 
-/// What is measured of an arm, and with what.
+/// An arm with the models and states for its measurement.
 struct Arm<'a, const N: usize> {
     name: &'a str,
     efforts: [f64; N],
@@ -73,7 +73,7 @@ struct Arm<'a, const N: usize> {
 }
 
 impl<const N: usize> Arm<'_, N> {
-    /// All functions in one scalar; `constant`: whether the counts of the generated ones must not
+    /// Measures all functions in one scalar; `constant`: whether the counts of the generated ones must not
     /// depend on the state.
     fn measure<M: Dynamics<T, N, N>, T>(&self, scalar: &str, model: M, constant: bool) -> bool
     where
@@ -145,7 +145,7 @@ impl<const N: usize> Arm<'_, N> {
         well
     }
 
-    /// Least and most instructions over random states, most bytes of stack.
+    /// Measures least and most instructions over random states, and the largest stack size in bytes.
     fn function<S, T: Scalar>(
         &self,
         subject: &mut S,
@@ -163,7 +163,7 @@ impl<const N: usize> Arm<'_, N> {
         (least, most, bytes)
     }
 
-    /// The exception: an angle beyond the sine's branch-free path.
+    /// Measures the exception: an angle beyond the sine's branch-free path.
     fn beyond<M: Dynamics<T, N, N>, T: Scalar>(
         &self,
         scalar: &str,
@@ -179,7 +179,7 @@ impl<const N: usize> Arm<'_, N> {
         hprintln!("beyond;{};{};{};{}", self.name, scalar, count, bytes);
     }
 
-    /// Whether generated and textbook's results are the same, but for rounding.
+    /// Returns whether the generated results and those of the textbook are equal within rounding.
     fn agree<A, B, T>(&self, generated: &mut A, plain: &mut B) -> bool
     where
         A: Subject<T, N>,
@@ -208,7 +208,7 @@ impl<const N: usize> Arm<'_, N> {
         well
     }
 
-    /// A random state: any angle, ±0.3 m; rates and accelerations within ±2, efforts within ±10.
+    /// Returns a random state: any angle, ±0.3 m; rates and accelerations within ±2, efforts within ±10.
     fn record<T: Scalar>(&self, random: &mut Random) -> Record<T, N> {
         let mut joints = |size: f64| [(); N].map(|()| size * random.next());
         let mut q = joints(core::f64::consts::PI);
@@ -227,11 +227,11 @@ impl<const N: usize> Arm<'_, N> {
     }
 }
 
-/// Equally distributed numbers: xorshift (Marsaglia 2003).
+/// Uniformly distributed numbers: xorshift (Marsaglia 2003).
 struct Random(u32);
 
 impl Random {
-    /// In [−1, 1).
+    /// Returns a number in [−1, 1).
     fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 17;

@@ -1,6 +1,6 @@
-//! One function and nothing else, for the size of it: the environment variable `PROBE` names it while
-//! compiling, as `scara/f32/generated/inverse dynamics`, with `all` for all but the control step and
-//! `none` for what a program has without any. `size.sh` builds it; it is not run.
+//! Contains one function only, to measure its size: the environment variable `PROBE` names it at compile
+//! time, as `scara/f32/generated/inverse dynamics`, with `all` for all except the control step and `none`
+//! for a program without any. `size.sh` builds it; it is not run.
 #![no_std]
 #![no_main]
 
@@ -36,7 +36,7 @@ const fn parts(mut text: &str) -> [&str; 4] {
     parts
 }
 
-/// Whether a part of the probe has this name.
+/// Returns whether a part of the probe has this name.
 const fn is(part: usize, name: &str) -> bool {
     let (a, b) = (PROBE[part].as_bytes(), name.as_bytes());
     let (mut at, mut same) = (0, a.len() == b.len());
@@ -47,7 +47,7 @@ const fn is(part: usize, name: &str) -> bool {
     same
 }
 
-/// Calls what is wanted of the subject.
+/// Calls the selected functions of the subject.
 #[inline(always)]
 fn call<S: Subject<T, N>, T: Scalar, const N: usize>(mut subject: S) {
     let subject = black_box(&mut subject);

@@ -1,5 +1,5 @@
-//! The bars of one state of a mechanism: errors of what is under test, in a scalar, against a reference
-//! in double-double at the same arguments, beside what they may be.
+//! The bars of one state of a mechanism: errors of a subject, in a scalar, against a reference in
+//! double-double at the same arguments, compared with their limits.
 
 use bgdyn_runtime::{Dd, Scalar};
 use nalgebra::DMatrix;
@@ -10,9 +10,9 @@ use super::State;
 pub trait Digits: Scalar<Refused = Option<usize>> {
     /// The distance from 1 to the next number.
     const EPS: f64;
-    /// What stands behind a case's name.
+    /// Suffix of a case's name.
     const MARK: &'static str;
-    /// The same number.
+    /// Converts the number exactly.
     fn to_f64(self) -> f64;
 }
 
@@ -32,14 +32,13 @@ impl Digits for f32 {
     }
 }
 
-/// A mechanism's methods in the scalar T: what is under test. Results are given as `f64`, matrices row
-/// by row.
+/// The methods under test of a mechanism, in the scalar T. Results are `f64`, matrices row by row.
 pub trait Subject<T> {
     /// Joint efforts.
     fn inverse(&self, s: &State) -> Vec<f64>;
     /// The mass matrix.
     fn mass(&self, s: &State) -> Vec<f64>;
-    /// Accelerations; none where they are refused.
+    /// Returns the accelerations; `None` if they are refused.
     fn forward(&self, s: &State) -> Option<Vec<f64>>;
 }
 
@@ -53,8 +52,8 @@ pub trait Reference {
     fn bias(&self, s: &State) -> Vec<Dd>;
     /// Efforts at rest.
     fn gravity(&self, s: &State) -> Vec<Dd>;
-    /// Accelerations where one joint's position, velocity or effort (argument 0, 1, 2) is multiplied by
-    /// a factor.
+    /// Returns the accelerations if one joint's position, velocity or effort (argument 0, 1, 2) is
+    /// multiplied by a factor.
     fn forward_off(&self, s: &State, argument: usize, joint: usize, factor: Dd) -> Vec<Dd>;
     /// Accelerations.
     fn forward(&self, s: &State) -> Vec<Dd> {
@@ -73,7 +72,7 @@ pub fn apart(x: &[f64], y: &[f64]) -> f64 {
     norm(&off)
 }
 
-/// x − y, rounded.
+/// Returns x − y, rounded.
 pub fn off(x: &[f64], y: &[Dd]) -> Vec<f64> {
     x.iter()
         .zip(y)
@@ -81,28 +80,29 @@ pub fn off(x: &[f64], y: &[Dd]) -> Vec<f64> {
         .collect()
 }
 
-/// The nearest `f64`s.
+/// Returns the nearest `f64`s.
 pub fn rounded(x: &[Dd]) -> Vec<f64> {
     x.iter().map(|x| x.to_f64()).collect()
 }
 
-/// An error, beside what it may be.
+/// An error, with its limit.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The bar.
     pub bar: &'static str,
-    /// What is measured.
+    /// The measured quantity.
     pub what: &'static str,
     /// The error.
     pub measured: f64,
-    /// What it may be, as the bar is read.
+    /// Its limit, by the applied reading of the bar.
     pub allowed: f64,
-    /// How much of the bar as asked is used: of `allowed`, where it is read as asked.
+    /// The ratio of the error to the bar by its original reading; the ratio to `allowed` if both readings
+    /// are equal.
     pub asked: f64,
 }
 
 impl Found {
-    /// An error and the bar, which is read as asked.
+    /// Returns an error and its bar, with equal readings.
     pub fn new(bar: &'static str, what: &'static str, measured: f64, allowed: f64) -> Self {
         Found {
             bar,
@@ -114,24 +114,24 @@ impl Found {
     }
 }
 
-/// 1/(cond M · eps) up to which forward dynamics may refuse: what is singular but for its rounding.
+/// Forward dynamics may refuse if 1/(cond M · eps) is at most this: M is singular within its rounding.
 pub const SINGULAR: f64 = 1.0;
 
-/// How much of what is allowed an error uses; nothing where there is none.
+/// Returns the ratio of an error to its limit; 0 without an error.
 pub fn part(measured: f64, allowed: f64) -> f64 {
     match measured {
-        // Where nothing acts on a joint at all, nothing is to be met.
+        // If nothing acts on a joint, there is no error to compare.
         0.0 => 0.0,
         _ => (measured / allowed).abs(),
     }
 }
 
-/// One state of a mechanism and its sizes.
+/// One state of a mechanism with its norms.
 #[derive(Debug)]
 pub struct Hard {
     /// Number of joints.
     pub n: usize,
-    /// Arguments as the scalar has them.
+    /// Arguments rounded to the scalar.
     pub state: State,
     /// M, row by row.
     pub mass: Vec<f64>,
@@ -144,8 +144,8 @@ pub struct Hard {
 }
 
 impl Hard {
-    /// The state with its arguments rounded to T. `cond` is the condition number of M, where M in
-    /// `f64` is not to tell it.
+    /// Returns the state with its arguments rounded to T. `cond` is the condition number of M, if it
+    /// cannot be computed from M in `f64`.
     pub fn new<T: Digits>(reference: &impl Reference, state: &State, cond: Option<f64>) -> Self {
         let round = |x: &[f64]| x.iter().map(|&x| T::from_f64(x).to_f64()).collect();
         let state = State {
@@ -169,13 +169,13 @@ impl Hard {
         }
     }
 
-    /// Σ_j |M_ij||x_j| for each i.
+    /// Returns Σ_j |M_ij||x_j| for each i.
     fn weighed(&self, x: &[f64]) -> Vec<f64> {
         let row = |row: &[f64]| row.iter().zip(x).map(|(m, x)| (m * x).abs()).sum();
         self.mass.chunks(self.n).map(row).collect()
     }
 
-    /// Inverse dynamics: ‖τ − τ_ref‖ ≤ 32 eps (‖M q̈‖ + ‖c‖ + ‖g‖).
+    /// Checks inverse dynamics: ‖τ − τ_ref‖ ≤ 32 eps (‖M q̈‖ + ‖c‖ + ‖g‖).
     pub fn inverse_dynamics<T: Digits>(
         &self,
         subject: &impl Subject<T>,
@@ -190,8 +190,8 @@ impl Hard {
         Found::new("1", "inverse dynamics", measured, 32.0 * T::EPS * size)
     }
 
-    /// How far inverse dynamics moves where each acceleration is rounded, by half an eps of itself: the
-    /// sum of the columns of M times that.
+    /// Returns the change of inverse dynamics if each acceleration is rounded, by half an eps of itself:
+    /// the sum of the columns of M times that.
     pub fn rounded_accelerations<T: Digits>(&self) -> f64 {
         let columns = self.state.a.iter().enumerate().map(|(j, a)| {
             let column: Vec<f64> = self.mass.iter().skip(j).step_by(self.n).copied().collect();
@@ -200,7 +200,7 @@ impl Hard {
         columns.sum()
     }
 
-    /// ‖M − M_ref‖ ≤ 8 n eps ‖M‖, and M = Mᵀ.
+    /// Checks ‖M − M_ref‖ ≤ 8 n eps ‖M‖, and M = Mᵀ.
     pub fn mass_matrix<T: Digits>(
         &self,
         subject: &impl Subject<T>,
@@ -214,16 +214,17 @@ impl Hard {
         Found::new("4", "mass matrix", measured, allowed)
     }
 
-    /// Backward error of accelerations, joint by joint, the one where most of what is allowed is used.
+    /// Checks the backward error of accelerations, joint by joint; returns that with the largest ratio to
+    /// its limit.
     ///
-    /// As asked, a joint's effort is met to 8 n eps of its terms. As read, it is met to what it changes
-    /// by where each position and velocity is rounded, where that is more: the accelerations are the
-    /// exact ones of arguments that round to the same numbers.
+    /// By the original reading, a joint's effort agrees to 8 n eps of its terms. By the applied reading,
+    /// it agrees to its change due to rounding of each position and velocity, if that is larger: the
+    /// accelerations are the exact ones of arguments that round to the same numbers.
     pub fn backward<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
         let unmet = self.unmet::<T>(found, reference);
         let asked = unmet.iter().map(|&(error, bar)| part(error, bar));
         let asked = asked.fold(0.0, f64::max);
-        // The reading can only allow more: it is worked out where that decides.
+        // The applied reading only increases the limit: it is computed only if that decides.
         let changed = match asked > 1.0 {
             true => self.rounded_arguments::<T>(found, reference),
             false => vec![0.0; self.n],
@@ -238,7 +239,7 @@ impl Hard {
         }
     }
 
-    /// What is left of each joint's effort, and 8 n eps of its terms.
+    /// Returns the residual of each joint's effort, and 8 n eps of its terms.
     fn unmet<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<(f64, f64)> {
         let s = &self.state;
         let moved = State {
@@ -254,10 +255,10 @@ impl Hard {
         (0..self.n).map(joint).collect()
     }
 
-    /// How far each effort of these accelerations moves where each position and velocity is rounded,
+    /// Returns the change of each effort of these accelerations if each position and velocity is rounded,
     /// by half an eps of itself: the sum over all of them.
     fn rounded_arguments<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<f64> {
-        // Far above the reference's digits, far below the curvature.
+        // Much larger than the reference's rounding, much smaller than the curvature.
         const PART: f64 = 1.0 / (1u64 << 30) as f64;
         let at = State {
             a: found.to_vec(),
@@ -270,7 +271,7 @@ impl Hard {
             let of = if velocity { &mut moved.v } else { &mut moved.q };
             let from = of[joint];
             of[joint] += from * PART;
-            // What it moved by, which is rounded too.
+            // The actual step, which is rounded too.
             let by = of[joint] - from;
             if by == 0.0 {
                 continue;
@@ -283,8 +284,9 @@ impl Hard {
         changed
     }
 
-    /// Error of accelerations: as asked at most (16 + cond M) eps ‖q̈‖. As read, at most four times
-    /// what rounding the arguments changes, where that is more: where efforts and bias all but balance.
+    /// Checks the error of accelerations: by the original reading at most (16 + cond M) eps ‖q̈‖. By the
+    /// applied reading, at most four times the change due to rounding the arguments, if that is larger: if
+    /// efforts and bias almost balance.
     pub fn forward<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Found {
         let exact = reference.forward(&self.state);
         let (measured, bar) = (norm(&off(found, &exact)), self.forward_bar::<T>(&exact));
@@ -298,13 +300,13 @@ impl Hard {
         }
     }
 
-    /// (16 + cond M) eps ‖q̈‖
+    /// Returns (16 + cond M) eps ‖q̈‖.
     pub fn forward_bar<T: Digits>(&self, exact: &[Dd]) -> f64 {
         (16.0 + self.most * self.inverse) * T::EPS * norm(&rounded(exact))
     }
 
-    /// How far forward dynamics moves where each argument is rounded, by half an eps of itself:
-    /// the sum over all of them.
+    /// Returns the change of forward dynamics if each argument is rounded, by half an eps of itself: the
+    /// sum over all of them.
     pub fn rounding<T: Digits>(&self, reference: &impl Reference) -> f64 {
         let exact = reference.forward(&self.state);
         let slightly = Dd::ONE + Dd::from_f64(T::EPS / 2.0);
@@ -317,7 +319,7 @@ impl Hard {
         sum
     }
 
-    /// ‖FD(ID(q̈)) − q̈‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖q̈‖ + ‖h‖)
+    /// Checks ‖FD(ID(q̈)) − q̈‖ ≤ 8 n eps ‖M⁻¹‖ (‖M‖‖q̈‖ + ‖h‖).
     pub fn back_and_forth<T: Digits>(&self, subject: &impl Subject<T>) -> Option<Found> {
         let state = State {
             tau: subject.inverse(&self.state),
@@ -331,7 +333,7 @@ impl Hard {
         Some(Found::new("5", what, measured, allowed))
     }
 
-    /// Bars 1 to 5; forward dynamics may be refused where 1/(cond M · eps) is at most `singular`.
+    /// Checks bars 1 to 5; forward dynamics may be refused if 1/(cond M · eps) is at most `singular`.
     pub fn all<T: Digits>(
         &self,
         subject: &impl Subject<T>,

@@ -1,5 +1,5 @@
-//! Bar 7: the energy of the double pendulum over 1e6 and 1e7 steps, through the compiled scene in
-//! momenta and in velocities.
+//! Bar 7: the energy of the double pendulum over 1e6 and 1e7 steps, by the compiled scene in momenta and
+//! in velocities.
 
 use bgdyn_runtime::{Dd, vector};
 use bgdyn_sim::{
@@ -12,10 +12,10 @@ use crate::outcome::Outcome;
 use crate::scenes::double_pendulum_chaotic::DoublePendulumChaotic;
 use crate::{Curve, Extent, Measured, Panel};
 
-/// Energy between hanging down and standing up, halved: the unit of the bars, J.
+/// Half the energy between hanging down and standing up: the unit of the bars, J.
 const UNIT: f64 = 29.43;
 const GRAVITY: f64 = 9.81;
-/// Steps for which the bars hold.
+/// Number of steps for which the bars are defined.
 const MILLION: u32 = 1_000_000;
 /// Points per decade of a curve.
 const PER_DECADE: f64 = 12.0;
@@ -50,7 +50,7 @@ fn energy<T: Real>(y: &Y<T>) -> T {
     half * (y[2] * v1 + y[3] * v2) - g * (two * cos(y[0]) + cos(y[0] + y[1]))
 }
 
-/// What a run makes of the energy, in [`UNIT`]s.
+/// The energy error of a run, in [`UNIT`]s.
 struct Kept {
     /// Largest errors in the tenths of the first 1e6 steps.
     tenths: [f64; 10],
@@ -58,7 +58,7 @@ struct Kept {
     means: [f64; 10],
     /// The largest error of all steps.
     most: f64,
-    /// Step numbers, and the largest error since the point before.
+    /// Step numbers, and the largest error since the previous point.
     points: Vec<(f64, f64)>,
 }
 
@@ -67,7 +67,7 @@ impl Kept {
         self.tenths.iter().fold(0.0, |most, &x| most.max(x))
     }
 
-    /// How far the means of the tenths spread.
+    /// Returns the spread of the means of the tenths.
     fn spread(&self) -> f64 {
         let most = self.means.iter().fold(f64::NEG_INFINITY, |m, &x| m.max(x));
         self.means
@@ -76,7 +76,7 @@ impl Kept {
     }
 }
 
-/// Follows the energy error of each step, told by `next`.
+/// Records the energy error of each step, returned by `next`.
 fn follow(steps: u32, mut next: impl FnMut() -> f64) -> Kept {
     let barred = steps.min(MILLION);
     let mut kept = Kept {
@@ -104,7 +104,7 @@ fn follow(steps: u32, mut next: impl FnMut() -> f64) -> Kept {
     kept
 }
 
-/// From rest at (0.5, 0), in momenta, in one or two words.
+/// Runs from rest at (0.5, 0), in momenta, in one or two words.
 fn swing<M: Integrator<Y<f64>>>(method: M, h: f64, steps: u32, compensated: bool) -> Kept {
     let scene = DoublePendulumChaotic::<f64>::default();
     let (plant, begin) = (CanonicalPlant::new(&scene), Run::begin(&scene));
@@ -129,7 +129,7 @@ fn swing<M: Integrator<Y<f64>>>(method: M, h: f64, steps: u32, compensated: bool
     })
 }
 
-/// From rest at (120°, 30°), which is chaotic, by steps of 1e-2 s.
+/// Runs from rest at (120°, 30°), a chaotic motion, with steps of 1e-2 s.
 fn tumble<P, M>(
     plant: &P,
     modes: &P::Modes,
@@ -169,14 +169,14 @@ fn one(name: &'static str, kept: &Kept, outcomes: Vec<Outcome>) -> Measured {
     }
 }
 
-/// Runge and Kutta's classical method: its error grows with each step.
+/// The classical Runge–Kutta method: its error grows with each step.
 pub(crate) fn rk4(extent: Extent) -> Measured {
     let kept = swing(Rk4, 1e-3, extent.steps(20_000), false);
     let outcome = Outcome::new(CASE, "7", "rk4, 1 ms, in 29.43 J", kept.within(), 5e-12);
     one("rk4, 1 ms", &kept, vec![outcome])
 }
 
-/// Two stages in momenta: bounded.
+/// Gauss–Legendre with two stages in momenta: the error is bounded.
 pub(crate) fn gauss2(extent: Extent) -> Measured {
     let kept = swing(Gauss2::new(), 1e-2, extent.steps(20_000), false);
     let grown = kept.tenths[9] / kept.tenths[0];
@@ -193,14 +193,14 @@ pub(crate) fn gauss2(extent: Extent) -> Measured {
     one("gauss2, 10 ms", &kept, outcomes)
 }
 
-/// Three stages in momenta: next to rounding.
+/// Gauss–Legendre with three stages in momenta: almost rounding.
 pub(crate) fn gauss3(extent: Extent) -> Measured {
     let kept = swing(Gauss3::new(), 1e-3, extent.steps(10_000), false);
     let outcome = Outcome::new(CASE, "7", "gauss3, 1 ms, in 29.43 J", kept.within(), 3e-14);
     one("gauss3, 1 ms", &kept, vec![outcome])
 }
 
-/// The same with sums in two words.
+/// The same with compensated sums.
 pub(crate) fn compensated(extent: Extent) -> Measured {
     let kept = swing(Gauss3::new(), 1e-3, extent.steps(10_000), true);
     let what = "gauss3, 1 ms, compensated, in 29.43 J";
@@ -208,7 +208,7 @@ pub(crate) fn compensated(extent: Extent) -> Measured {
     one("gauss3, 1 ms, compensated", &kept, vec![outcome])
 }
 
-/// In velocities and in momenta, by the same method.
+/// Runs in velocities and in momenta, by the same integrator.
 fn forms<M: Integrator<Y<f64>>>(
     new: fn() -> M,
     names: [&'static str; 2],
@@ -236,8 +236,8 @@ fn forms<M: Integrator<Y<f64>>>(
     }
 }
 
-/// Gauss's methods are symplectic in momenta and only symmetric in velocities: on chaotic motion the mean
-/// of the energy wanders.
+/// Gauss–Legendre methods are symplectic in momenta and only symmetric in velocities: for chaotic motion
+/// the mean of the energy drifts randomly.
 pub(crate) fn chaotic_gauss2(extent: Extent) -> Measured {
     let names = ["gauss2, 10 ms, (q, v)", "gauss2, 10 ms, (q, p)"];
     let what = "gauss2, 10 ms: wander of the mean, (q, p) over (q, v)";

@@ -1,11 +1,11 @@
-//! Plants from sample to sample.
+//! Integrates plants from sample to sample.
 
 use bgdyn_sim::{FixedModes, HybridState, Integrator, Plant, Solver, StateVector, Tolerance};
 
-/// The states of a plant without events at some times, s, by controlled steps.
+/// Returns the states of a plant without events at some times, s, with step control.
 ///
 /// # Panics
-/// Where the run fails.
+/// If the run fails.
 pub(crate) fn controlled<P, M>(
     method: M,
     tolerance: Tolerance<f64>,
@@ -28,11 +28,11 @@ where
     times.iter().map(to).collect()
 }
 
-/// The states of a plant without events at some times, s, by fixed steps of `h`, s, of which the times
-/// are multiples.
+/// Returns the states of a plant without events at some times, s, with fixed steps of `h`, s, of which the
+/// times are multiples.
 ///
 /// # Panics
-/// Where the run fails.
+/// If the run fails.
 pub(crate) fn fixed<P, M>(
     method: M,
     h: f64,
@@ -58,7 +58,7 @@ where
     times.iter().map(to).collect()
 }
 
-/// The same tolerance for all, absolute and relative.
+/// Returns the same tolerance for all components, absolute and relative.
 pub(crate) fn alike(tolerance: f64) -> Tolerance<f64> {
     Tolerance {
         absolute: tolerance,
@@ -66,7 +66,7 @@ pub(crate) fn alike(tolerance: f64) -> Tolerance<f64> {
     }
 }
 
-/// A relative tolerance, with a small absolute one: some parts of a state are small.
+/// Returns a relative tolerance, with a small absolute one, because some components are small.
 pub(crate) fn relative(tolerance: f64) -> Tolerance<f64> {
     Tolerance {
         absolute: 1e-4 * tolerance,
@@ -74,7 +74,7 @@ pub(crate) fn relative(tolerance: f64) -> Tolerance<f64> {
     }
 }
 
-/// Some quantities of each state.
+/// Returns some quantities of each state.
 pub(crate) fn of<Y>(states: &[Y], quantities: impl Fn(&Y) -> Vec<f64>) -> Vec<Vec<f64>> {
     states.iter().map(quantities).collect()
 }

@@ -1,6 +1,7 @@
-//! Bodies on two massless rings, close to where the outer and the inner axis are parallel: forward
-//! dynamics against Euler's equations. M's condition number grows with 1/angle², but its inverse is a
-//! product in which nothing cancels: bar 12's 16 eps, or what rounding the arguments does.
+//! Tests bodies on two massless rings, near states with parallel outer and inner axes: forward dynamics
+//! against Euler's equations. M's condition number is proportional to 1/angle², but its inverse is a
+//! product in which nothing cancels. The limit is bar 12's 16 eps, or the effect of rounding the
+//! arguments.
 
 use bgdyn_runtime::Dd;
 
@@ -29,7 +30,7 @@ fn times(m: &[[Dd; 3]; 3], x: Vector) -> Vector {
     m.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
 }
 
-/// m⁻¹ x of a symmetric matrix, by Cramer's rule.
+/// Returns m⁻¹ x of a symmetric matrix, by Cramer's rule.
 fn divided(m: &[[Dd; 3]; 3], x: Vector) -> Vector {
     let minors = [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])];
     let determinant = times(&minors, m[0])[0];
@@ -37,7 +38,7 @@ fn divided(m: &[[Dd; 3]; 3], x: Vector) -> Vector {
 }
 
 impl Euler {
-    /// Of the spec of this name: mass 2, centre of mass and tensor about it as given.
+    /// Reads the spec of this name: mass 2, centre of mass and tensor about it as given.
     fn new(name: &str, com: [f64; 3], tensor: [[f64; 3]; 3]) -> Euler {
         let com = com.map(dd);
         let mut inertia = tensor.map(|row| row.map(dd));
@@ -54,7 +55,8 @@ impl Euler {
         }
     }
 
-    /// I ω̇ + ω × I ω = N, where the efforts are N along the joints' axes and ω̇ is that of the angles.
+    /// Solves I ω̇ + ω × I ω = N, where the efforts are N along the joints' axes and ω̇ is that of the
+    /// angles.
     fn accelerations(&self, q: Vector, v: Vector, tau: Vector) -> Vec<Dd> {
         let (sin, cos) = q[1].sin_cos();
         let (s, c) = q[2].sin_cos();
@@ -68,7 +70,7 @@ impl Euler {
         let gyro = cross(omega, times(&self.inertia, omega));
         let rest = [0, 1, 2].map(|i| moment[i] - gyro[i]);
         let turned = divided(&self.inertia, rest);
-        // What of ω̇ is there without accelerations of the angles.
+        // The part of ω̇ without accelerations of the angles.
         let drift = [
             v[0] * (cos * v[1] * s + sin * c * v[2]) - v[1] * s * v[2],
             v[0] * (cos * v[1] * c - sin * s * v[2]) - v[1] * c * v[2],
@@ -80,7 +82,7 @@ impl Euler {
     }
 }
 
-/// The decimal that is written.
+/// Returns the exact decimal of the spec.
 fn dd(x: f64) -> Dd {
     format!("{x}").parse().expect("a decimal")
 }
@@ -111,8 +113,8 @@ impl Reference for Euler {
     }
 }
 
-/// Bar 1; but where rounding the accelerations alone changes τ by more, which is where their efforts
-/// all but cancel in M q̈, what it changes: near lock two rings turn about almost one axis.
+/// Checks bar 1; if rounding the accelerations alone changes τ by more, because their efforts almost
+/// cancel in M q̈, the limit is that change: near gimbal lock two rings rotate about almost one axis.
 fn inverse_dynamics<T: Digits>(hard: &Hard, subject: &impl Subject<T>, reference: &Euler) -> Found {
     let found = hard.inverse_dynamics::<T>(subject, reference);
     let rounding = hard.rounded_accelerations::<T>();
@@ -147,7 +149,7 @@ fn close<T: Digits + Compiled>(
     worst.add(case, T::MARK, &at, found);
 }
 
-/// Tilts of 1e-2 to 1e-12 rad, to either side of parallel and of opposite axes.
+/// Tilts of 1e-2 to 1e-12 rad, to both sides of parallel and of opposite axes.
 pub(crate) fn near_lock(extent: Extent) -> Vec<Outcome> {
     let round = Euler::new(
         "gimbal_round",
@@ -160,8 +162,8 @@ pub(crate) fn near_lock(extent: Extent) -> Vec<Outcome> {
         [[1.0, 0.1, -0.05], [0.1, 1.1, 0.0], [-0.05, 0.0, 1.2]],
     );
     let mut outcomes = vec![];
-    // No condition number is known where M is singular but for its rounding: 16 eps for the round body,
-    // whose inertia has no part in what is small; as much as of inverse dynamics, 32 eps, for any other.
+    // No condition number is known if M is singular within its rounding: 16 eps for the round body, whose
+    // inertia does not affect the small terms; 32 eps, as for inverse dynamics, for any other.
     for (name, case, reference, condition) in [
         ("gimbal_round", "gimbal near lock, round body", &round, 0.0),
         ("gimbal_skew", "gimbal near lock, any body", &skew, 16.0),

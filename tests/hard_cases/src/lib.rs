@@ -1,6 +1,6 @@
-//! Hard cases, compiled: what is measured of them, beside what is allowed. Single states that are hard
-//! to compute, motions against reference solutions, energy over long runs, numbers of any size.
-//! `README.md` says where the references come from, `docs/hard_cases.md` lists the bars.
+//! Hard cases in compiled code: measured errors compared with their limits. Single states that are hard to
+//! compute, motions against reference solutions, energy over long runs, numbers of any size. `README.md`
+//! describes the references, `docs/hard_cases.md` lists the bars.
 #![forbid(unsafe_code)]
 
 mod bars;
@@ -41,17 +41,17 @@ pub use outcome::Outcome;
 pub use single::{Single, single_precision_of_long_chains};
 pub use state::State;
 
-/// How much is run.
+/// The extent of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// All of it.
+    /// Everything.
     Full,
     /// Every case and every bar, with shorter horizons and fewer samples.
     Quick,
 }
 
 impl Extent {
-    /// One number for the whole run, another for the quick one.
+    /// Selects a number for the full run, or one for the quick run.
     fn of<T>(self, full: T, quick: T) -> T {
         match self {
             Extent::Full => full,
@@ -59,13 +59,13 @@ impl Extent {
         }
     }
 
-    /// Steps of a run of the energy: 1e7, of which the first 1e6 have bars.
+    /// Returns the steps of a run of the energy: 1e7, of which the first 1e6 have bars.
     fn steps(self, quick: u32) -> u32 {
         self.of(10_000_000, quick)
     }
 }
 
-/// Where a curve is drawn.
+/// The panel of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Panel {
     /// A regular motion.
@@ -77,17 +77,17 @@ pub enum Panel {
 /// The error of the energy along a run.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// Where it is drawn.
+    /// Its panel.
     pub panel: Panel,
-    /// The method.
+    /// The integrator.
     pub name: &'static str,
-    /// Number of steps, and the largest error since the point before, in units of 29.43 J.
+    /// Number of steps, and the largest error since the previous point, in units of 29.43 J.
     pub points: Vec<(f64, f64)>,
     /// The largest error of the run.
     pub most: f64,
 }
 
-/// What comes of a topic.
+/// The results of a topic.
 #[derive(Clone, Debug, Default)]
 pub struct Measured {
     /// Rows of the table.
@@ -108,7 +108,7 @@ impl From<Vec<Outcome>> for Measured {
 pub struct Topic {
     /// Its name.
     pub name: &'static str,
-    /// What the quick run shortens, if anything.
+    /// The part that the quick run shortens, if any.
     pub shortened: Option<&'static str>,
     /// Runs them.
     pub run: fn(Extent) -> Measured,

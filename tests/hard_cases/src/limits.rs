@@ -1,4 +1,4 @@
-//! Bar 13: numbers of any size give numbers or the typed error, and what is no number never becomes one.
+//! Bar 13: numbers of any size give numbers or the typed error, and a NaN never gives a number.
 
 use bgdyn_runtime::{FixedVector, HybridSystem, StateVector};
 
@@ -29,15 +29,15 @@ pub(crate) const MECHANISMS: [&str; 17] = [
     "ur5",
 ];
 
-/// How large arguments may be.
+/// The largest arguments.
 trait Range: Digits + Compiled {
-    /// Of positions, and of states of first order.
+    /// Largest position, and largest first-order state.
     const POSITION: f64;
-    /// Of everything else.
+    /// Largest value of all other arguments.
     const RATE: f64;
     /// The smallest positive number.
     const LEAST: f64;
-    /// A number that is larger than any, and whose square is one.
+    /// A large number whose square is finite.
     const LARGE: f64;
 }
 
@@ -55,8 +55,8 @@ impl Range for f32 {
     const LARGE: f64 = 1e18;
 }
 
-/// A number of any size up to `most`: in one of eight ±0, in one of eight a denormal, in one of eight the
-/// largest, else of any power of ten.
+/// Returns a number of any size up to `most`: one in eight is ±0, one in eight a denormal, one in eight
+/// the largest, the others any power of ten.
 fn wild<T: Range>(rng: &mut Rng, most: f64) -> T {
     let sign = if rng.chance(0.5) { 1.0 } else { -1.0 };
     T::from_f64(match rng.below(8) {
@@ -68,37 +68,37 @@ fn wild<T: Range>(rng: &mut Rng, most: f64) -> T {
     })
 }
 
-/// A compiled function: its results, or why there are none.
+/// A compiled function: its results, or the error.
 type Run<'a, T> = dyn Fn(&[Vec<T>; 4]) -> Result<Vec<T>, String> + 'a;
 
 /// A function of a list of arguments, its results, and the mask of each result.
 struct Tried<'a, T> {
     /// Its name, with that of the mechanism or the scene.
     name: String,
-    /// How many arguments of each kind, by the place of the kind in a mask.
+    /// Number of arguments of each kind, by the index of the kind in a mask.
     kinds: [usize; 4],
-    /// Whether the third kind are states of first order: bristles, volumes, currents.
+    /// Whether the third kind are first-order states: bristles, volumes, currents.
     first_order: bool,
-    /// Arguments to stay near to where one of them is spoiled.
+    /// Ordinary arguments for tests with one NaN or infinite argument.
     around: [Vec<f64>; 4],
     run: Box<Run<'a, T>>,
     masks: Vec<u128>,
 }
 
-/// What went wrong, and how often.
+/// The kinds of faults.
 #[derive(Clone, Copy)]
 enum Fault {
-    /// A result is neither a number nor the error.
+    /// A result is neither a finite number nor the error.
     Infinite,
-    /// A component is finite beside an argument that is not a number, and changes with that argument.
+    /// A component is finite with an argument that is NaN, although it depends on that argument.
     Swallowed,
-    /// A component is finite beside an infinite argument, and not what it comes to for large ones.
+    /// A component is finite with an infinite argument, and differs from its limit for large arguments.
     Cut,
-    /// A component is finite beside an infinite argument: its law saturates. No fault.
+    /// A component is finite with an infinite argument, because its law saturates; no fault.
     Saturated,
 }
 
-/// Counts by [`Fault`], and the first of each.
+/// Counts by [`Fault`], and the first occurrence of each.
 #[derive(Default)]
 struct Count {
     counts: [usize; 4],
@@ -139,7 +139,8 @@ impl<T: Range> Tried<'_, T> {
         std::array::from_fn(|kind| all(rng, self.kinds[kind], most(kind)))
     }
 
-    /// In wild states, and with each argument in turn not a number or infinite beside ordinary ones.
+    /// Counts faults for arguments of any size, and with each argument in turn NaN or infinite and the
+    /// others ordinary.
     fn count(&self, rng: &mut Rng, states: usize, spoiled: usize) -> Count {
         let mut count = Count::default();
         for _ in 0..states {
@@ -164,13 +165,13 @@ impl<T: Range> Tried<'_, T> {
         count
     }
 
-    /// A number near this one, or of usual size.
+    /// Returns a number near this one, or of ordinary size.
     fn near(&self, rng: &mut Rng, x: f64) -> T {
         let size = if x == 0.0 { 0.3 } else { 0.02 * x };
         T::from_f64(x + rng.within(size))
     }
 
-    /// Whether another value of an argument changes a result.
+    /// Returns whether another value of an argument changes a result.
     fn moves(&self, usual: &[Vec<T>; 4], (kind, i): (usize, usize), k: usize) -> bool {
         let at = |x: T| {
             let mut arguments = usual.clone();
@@ -181,7 +182,7 @@ impl<T: Range> Tried<'_, T> {
         OTHERS.iter().any(|&x| at(T::from_f64(x)) != here)
     }
 
-    /// Each argument in turn not a number, or infinite.
+    /// Sets each argument in turn to NaN, or infinity.
     fn spoil(&self, usual: &[Vec<T>; 4], count: &mut Count) {
         let places = self.kinds.iter().enumerate();
         for (kind, i) in places.flat_map(|(kind, &n)| (0..n).map(move |i| (kind, i))) {
@@ -198,7 +199,7 @@ impl<T: Range> Tried<'_, T> {
                         continue;
                     }
                     let limit = large.as_ref().ok().map(|large| large[k].to_f64());
-                    // A branch that is not taken here is no dependence: friction that holds.
+                    // A branch that is not taken in this state is no dependence: friction that holds.
                     if bad.is_nan() && !self.moves(usual, (kind, i), k) {
                         continue;
                     }
@@ -223,12 +224,12 @@ impl<T: Range> Tried<'_, T> {
 /// Other values for an argument.
 const OTHERS: [f64; 8] = [0.0, 0.5, -0.5, 3.0, -3.0, 1e3, -1e3, 1e8];
 
-/// Equal to within rounding, in units of 1 or of their size.
+/// Returns whether the numbers are equal within rounding, in units of 1 or of their size.
 fn alike<T: Digits>(x: f64, y: f64) -> bool {
     (x - y).abs() <= 16.0 * T::EPS * x.abs().max(1.0)
 }
 
-/// The five methods of a mechanism.
+/// Returns the five methods of a mechanism.
 fn of_mechanism<T: Range>(name: &str) -> Vec<Tried<'static, T>> {
     let (_, masks) = DEPENDS.iter().find(|(own, _)| *own == name).expect(name);
     let n = model::<T>(name).nv();
@@ -269,7 +270,7 @@ fn triangle<T: Copy>(full: Vec<T>) -> Vec<T> {
     places.map(|k| full[k]).collect()
 }
 
-/// The derivative of a scene where it begins to move: modes as at the start.
+/// Returns the derivative of a scene when it begins to move: modes as at the start.
 fn of_scene<T: Range, S: HybridSystem<T> + 'static>(
     name: &'static str,
     scene: S,
@@ -316,7 +317,7 @@ fn all_scenes<T: Range>() -> Vec<Tried<'static, T>> {
     all
 }
 
-/// Random arguments altogether.
+/// Total number of random arguments.
 const STATES: usize = 10_000_000;
 const STATES_QUICK: usize = 100_000;
 

@@ -1,5 +1,4 @@
-//! References in double-double: equation (6) through the generator's evaluator, without the code under
-//! test.
+//! References in double-double: equation (6) by the generator's evaluator, without the code under test.
 
 use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::expr::Inputs;
@@ -12,8 +11,8 @@ use bgdyn_runtime::Dd;
 use crate::State;
 use crate::bars::Reference;
 
-/// Joints up to which the literal sum is the reference; beyond, where it would take too long, the
-/// recursion with each body's own inertia, which tests hold equal to it.
+/// Largest number of joints for which the literal sum is the reference; for more it would take too long,
+/// and the recursion with each body's own inertia is used, which other tests compare with it.
 const SHORT: usize = 6;
 
 /// A mechanism's methods, to be evaluated.
@@ -27,10 +26,10 @@ pub(crate) struct Literal {
 }
 
 impl Literal {
-    /// Of a spec.
+    /// Reads a spec.
     ///
     /// # Panics
-    /// Where the spec is refused.
+    /// If the spec is refused.
     pub fn new(text: &str) -> Literal {
         let named = (!text.contains("\nname:")).then_some("reference");
         let (mechanism, faults) = bgdyn_codegen::read(text, named);

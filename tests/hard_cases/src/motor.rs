@@ -14,7 +14,7 @@ type Y = SVector<Dd, 3>;
 /// J θ̈ = k i − b θ̇ − m g l sin θ, L i̇ = U − R i − k θ̇: the state is θ, θ̇, i.
 struct Equations;
 
-/// What a scene and its mechanism say, in SI units.
+/// The numbers of the scene and its mechanism, in SI units.
 const VOLTAGE: f64 = 1.2;
 const RESISTANCE: f64 = 1.0;
 const INDUCTANCE: f64 = 1e-6;
@@ -25,7 +25,7 @@ const MASS: f64 = 0.01;
 const LENGTH: f64 = 0.05;
 const GRAVITY: f64 = 9.81;
 
-/// The moment of inertia about the shaft, and what gravity pulls with.
+/// Returns the moment of inertia about the shaft, and the moment of gravity.
 fn sizes() -> [Dd; 2] {
     let [rotor, mass, length, g] = [ROTOR, MASS, LENGTH, GRAVITY].map(Dd::from_f64);
     [rotor + mass * length * length, mass * g * length]
@@ -61,7 +61,7 @@ impl Ode for Equations {
     }
 }
 
-/// When nothing is left of the current's first rise, s.
+/// Time at which the initial transient of the current has decayed, s.
 const SETTLED: f64 = 1e-4;
 
 fn advanced<M: Integrator<Y>>(solver: &mut Solver<Y, M>, to: f64, steps: u32) {
@@ -71,8 +71,8 @@ fn advanced<M: Integrator<Y>>(solver: &mut Solver<Y, M>, to: f64, steps: u32) {
     }
 }
 
-/// The solution at some times: 100 time constants of the current by steps of a tenth of one, then by
-/// steps of 1 ms and 12th order, or of 2 ms.
+/// Returns the solution at some times: 100 time constants of the current with steps of a tenth of one,
+/// then with steps of 1 ms and order 12, or of 2 ms.
 fn solution(times: &[f64], per_sample: u32) -> Vec<Y> {
     let mut first = Solver::new(Extrapolation::<6>, Dd::ZERO, Y::repeat(Dd::ZERO));
     advanced(&mut first, SETTLED, 1000);
@@ -84,7 +84,7 @@ fn solution(times: &[f64], per_sample: u32) -> Vec<Y> {
     times.iter().map(to).collect()
 }
 
-/// The motor by long steps of an L-stable method, and by controlled ones.
+/// The motor with long steps of an L-stable integrator, and with step control.
 pub(crate) fn motor_pendulum(_: Extent) -> Vec<Outcome> {
     let case = "motor_pendulum";
     let times: Vec<f64> = (1..=30).map(|k| f64::from(k) / 10.0).collect();
@@ -94,7 +94,7 @@ pub(crate) fn motor_pendulum(_: Extent) -> Vec<Outcome> {
     let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let long = fixed(Rodas4, 1e-2, &plant, &begin, &times);
     let short = controlled(Rodas4, relative(1e-10), &plant, &begin, &times);
-    // Each of angle and rate in units of its largest value.
+    // Angle and rate are each in units of their largest value.
     let sizes = [0, 1].map(|i| {
         exact
             .iter()

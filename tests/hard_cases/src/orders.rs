@@ -1,4 +1,4 @@
-//! Bar 8: every integrator has its order.
+//! Bar 8: every integrator reaches its order.
 
 use bgdyn_sim::{INTEGRATORS, with_integrator};
 
@@ -7,7 +7,7 @@ use crate::order::Errors;
 use crate::outcome::Outcome;
 use crate::problems::slope;
 
-/// How far the order fitted over three halvings falls short of the stated one.
+/// Returns by how much the order fitted over three halvings is less than the stated one.
 pub(crate) fn orders(_: Extent) -> Vec<Outcome> {
     let all = INTEGRATORS
         .iter()

@@ -1,26 +1,26 @@
-//! What comes of a case.
+//! The result of a case.
 
 use std::fmt;
 
 use crate::bars::{Found, part};
 
-/// What was measured of a case, beside what is allowed.
+/// A measured error, with its limit.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The case: the name of a file in this folder, or what it is.
+    /// The case: the name of a file in this folder, or a description.
     pub case: String,
-    /// The number of the bar, as `docs/hard_cases.md` lists them.
+    /// The number of the bar in `docs/hard_cases.md`.
     pub bar: &'static str,
-    /// What is measured, and how.
+    /// The measured quantity, and the integrator or scalar.
     pub quantity: String,
-    /// The measured value, where it is the largest part of what is allowed.
+    /// The measured value with the largest ratio to its limit.
     pub measured: f64,
-    /// What is allowed, as the bar is read.
+    /// Its limit, by the applied reading of the bar.
     pub allowed: f64,
-    /// The most of the bar as asked that is used anywhere. Where the bar is read as asked, that is the
-    /// measured part of what is allowed.
+    /// The largest ratio to the bar by its original reading. If both readings are equal, that is the
+    /// measured value over its limit.
     pub asked: f64,
-    /// Where that was: a time, a state. May be empty.
+    /// The time or state. May be empty.
     pub at: String,
 }
 
@@ -29,14 +29,14 @@ pub struct Outcome {
 pub(crate) struct Deviation {
     /// Time, s.
     pub t: f64,
-    /// How far apart the two are.
+    /// The distance of the two values.
     pub measured: f64,
-    /// How far they may be.
+    /// Its limit.
     pub allowed: f64,
 }
 
 impl Outcome {
-    /// A value and what it may be at most.
+    /// Returns a value and its limit.
     pub(crate) fn new(
         case: impl Into<String>,
         bar: &'static str,
@@ -55,16 +55,16 @@ impl Outcome {
         }
     }
 
-    /// The same with where it was.
+    /// Adds the time or state.
     pub(crate) fn at(self, at: impl Into<String>) -> Outcome {
         let at = at.into();
         Outcome { at, ..self }
     }
 
-    /// The worst of the deviations, one that is no number before all others.
+    /// Returns the worst of the deviations; a NaN is worse than all others.
     ///
     /// # Panics
-    /// Where there is no deviation: nothing was compared.
+    /// If there is no deviation: nothing was compared.
     pub(crate) fn worst(
         case: &str,
         bar: &'static str,
@@ -80,12 +80,12 @@ impl Outcome {
         worst.expect("something to compare")
     }
 
-    /// What is measured in units of what is allowed; what is no number is more than anything.
+    /// Returns the ratio of the measured value to its limit; a NaN is larger than all others.
     fn part(&self) -> f64 {
         part(self.measured, self.allowed)
     }
 
-    /// Whether what is measured is within what is allowed.
+    /// Returns whether the measured value is within its limit.
     pub fn met(&self) -> bool {
         self.measured <= self.allowed
     }
@@ -98,7 +98,7 @@ pub(crate) struct Worst {
 }
 
 impl Worst {
-    /// Takes what was found in a state; `mark` stands behind what is measured.
+    /// Adds the results of a state; `mark` is a suffix of the quantity.
     pub fn add(&mut self, case: &str, mark: &str, at: &str, found: Vec<Found>) {
         for found in found {
             let quantity = format!("{}{mark}", found.what);
@@ -119,7 +119,7 @@ impl Worst {
         }
     }
 
-    /// By bar.
+    /// Returns the outcomes by bar.
     pub fn finish(mut self) -> Vec<Outcome> {
         self.outcomes
             .sort_by_key(|o| (o.quantity.contains("f32"), o.bar));

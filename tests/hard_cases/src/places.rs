@@ -1,4 +1,4 @@
-//! Bar 11: large angles, and a base far away.
+//! Bar 11: large angles, and a distant base.
 
 use bgdyn_sim::{Ode, Rk4, Solver};
 use nalgebra::DVector;
@@ -11,7 +11,7 @@ use crate::written::{cases, list};
 use crate::{Extent, State};
 use hard_cases_compiled::{Compiled, Model, model, spec};
 
-/// Inverse dynamics at the angles of a case, to 16 eps.
+/// Checks inverse dynamics at the angles of a case, to 16 eps.
 fn turned<T: Digits + Compiled>(name: &str, reference: &Literal, s: &State) -> Found {
     let exact = reference.inverse(s);
     let found = Subject::<T>::inverse(&model::<T>(name), s);
@@ -20,8 +20,8 @@ fn turned<T: Digits + Compiled>(name: &str, reference: &Literal, s: &State) -> F
     Found::new("11", "inverse dynamics", measured, allowed)
 }
 
-/// Angles to 1e12 rad, with skew and with parallel axes. The arguments are numbers of `f32` too; there
-/// the sine of a sum is good up to 8e6 rad.
+/// Angles to 1e12 rad, with skew and with parallel axes. The arguments are `f32` numbers too; in `f32` the
+/// sine of a sum is accurate up to 8e6 rad.
 pub(crate) fn large_angles(_: Extent) -> Vec<Outcome> {
     let mut outcomes = vec![];
     for (case, name) in [
@@ -106,7 +106,7 @@ fn differ<T: Digits + Compiled>(here: &str, there: &str, states: usize) -> Diffe
     found
 }
 
-/// Components of the state that differ after steps of 1 ms from a seeded state.
+/// Returns the components of the state that differ after steps of 1 ms from a seeded state.
 fn moved(here: &str, there: &str, steps: usize) -> usize {
     let end = |name: &str| {
         let free = model::<f64>(name);
@@ -123,7 +123,7 @@ fn moved(here: &str, there: &str, steps: usize) -> usize {
     pairs.filter(|(x, y)| x.to_bits() != y.to_bits()).count()
 }
 
-/// The base up to 1e9 m away: the same results bit for bit, and the same motion.
+/// The base up to 1e9 m away: the results are equal bit for bit, and so is the motion.
 pub(crate) fn moved_base(extent: Extent) -> Vec<Outcome> {
     let (states, steps) = (extent.of(10_000, 200), extent.of(10_000, 1000));
     let mut outcomes = vec![];

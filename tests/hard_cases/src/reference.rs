@@ -1,4 +1,4 @@
-//! Reference solutions: samples of motions.
+//! Reference solutions: samples of motions, and the comparison with them.
 
 use serde_json::Value;
 
@@ -7,7 +7,7 @@ use crate::outcome::Deviation;
 /// Samples of a motion.
 pub(crate) struct Reference {
     file: Value,
-    /// Names of the columns behind the time.
+    /// Names of the columns after the time.
     columns: Vec<String>,
     /// Times, s.
     pub times: Vec<f64>,
@@ -28,10 +28,10 @@ macro_rules! reference {
 pub(crate) use reference;
 
 impl Reference {
-    /// From the text of a file.
+    /// Parses the text of a file.
     ///
     /// # Panics
-    /// Where it is no reference solution.
+    /// If it is no reference solution.
     pub fn read(text: &str) -> Reference {
         let file: Value = serde_json::from_str(text).expect("a reference solution");
         let names = list(&file["columns"]).iter();
@@ -47,7 +47,7 @@ impl Reference {
         }
     }
 
-    /// The samples for which this holds, by number and time.
+    /// Returns the samples that satisfy a condition on index and time.
     pub fn only(mut self, holds: impl Fn(usize, f64) -> bool) -> Reference {
         let numbered = self.times.into_iter().zip(self.rows).enumerate();
         let held = numbered.filter(|(k, (t, _))| holds(*k, *t));
@@ -55,18 +55,18 @@ impl Reference {
         self
     }
 
-    /// For each sample of the file the deviation that rounding excuses.
+    /// Returns, for each sample of the file, the deviation that rounding explains.
     ///
     /// # Panics
-    /// Where the file has none.
+    /// If the file has none.
     pub fn tolerances(&self) -> Vec<f64> {
         numbers(&self.file["tolerance_f64_per_sample"])
     }
 
-    /// A list among the invariants.
+    /// Returns a list of the invariants.
     ///
     /// # Panics
-    /// Where the file has no such list.
+    /// If the file has no such list.
     pub fn invariants(&self, name: &str) -> Vec<f64> {
         numbers(&self.file["invariants"][name])
     }
@@ -82,22 +82,22 @@ impl Reference {
         self.rows.iter().map(of).collect()
     }
 
-    /// What was found for all columns against the samples; `allowed` by number.
+    /// Compares all columns with the samples; `allowed` by index.
     pub fn all(&self, found: &[Vec<f64>], allowed: impl Fn(usize) -> f64) -> Vec<Deviation> {
         self.compare(found, &self.rows, |_| 1.0, allowed)
     }
 
-    /// What was found for some columns against the samples.
+    /// Compares some columns with the samples.
     pub fn some(&self, columns: &[&str], found: &[Vec<f64>], allowed: f64) -> Vec<Deviation> {
         self.compare(found, &self.values(columns), |_| 1.0, |_| allowed)
     }
 
-    /// [`Reference::some`] relative to what is wanted.
+    /// [`Reference::some`] relative to the expected values.
     pub fn relative(&self, columns: &[&str], found: &[Vec<f64>], allowed: f64) -> Vec<Deviation> {
         self.compare(found, &self.values(columns), f64::abs, |_| allowed)
     }
 
-    /// Quantities that some columns make up.
+    /// Compares quantities that are computed from some columns.
     pub fn parts(
         &self,
         columns: &[&str],
@@ -110,7 +110,7 @@ impl Reference {
         self.compare(&of(found), &wanted, |_| 1.0, |_| allowed)
     }
 
-    /// The largest deviation of each sample, in units of a size.
+    /// Returns the largest deviation of each sample, in units of a size.
     fn compare(
         &self,
         found: &[Vec<f64>],
@@ -134,7 +134,7 @@ impl Reference {
     }
 }
 
-/// The larger one; what is no number is larger than any.
+/// Returns the larger number; NaN is larger than all others.
 fn larger(a: f64, b: f64) -> f64 {
     if a.total_cmp(&b).is_lt() { b } else { a }
 }

@@ -11,15 +11,16 @@ use crate::written::{cases, list};
 use crate::{Extent, State};
 use hard_cases_compiled::{Compiled, model, spec};
 
-/// Seeded states of a mechanism in the full run: each twice, with efforts of its own accelerations and
-/// with others, which makes 30,000.
+/// Number of seeded states of a mechanism in the full run: each twice, with efforts of its own
+/// accelerations and with others, which makes 30,000.
 const STATES: usize = 15_000;
 
-/// Joints up to which `f32` has digits for every bar.
+/// Largest number of joints for which `f32` has enough digits for every bar.
 const SHORT: usize = 8;
 
-/// 1/(cond M · eps) up to which forward dynamics may refuse the most uneven masses. There the pivots'
-/// own floor is met first: a pivot is refused within 64 units of rounding of what it is the rest of.
+/// Forward dynamics may refuse the most uneven masses if 1/(cond M · eps) is at most this. For them the
+/// check of the pivots is stricter: a pivot is refused within 64 units of rounding of the subtracted
+/// terms.
 const UNEVEN: f64 = 64.0;
 
 /// The state of a case of a file.
@@ -33,7 +34,7 @@ fn state_of(case: &Value) -> State {
     }
 }
 
-/// That the reference is the file's: biases and accelerations to the digits that `f64` has.
+/// Checks that the reference is that of the file: biases and accelerations to the digits of `f64`.
 fn agrees(reference: &Literal, state: &State, case: &Value) -> Vec<Found> {
     let compare = |what, found: Vec<Dd>, wanted: Vec<f64>, eps: f64| {
         let measured = apart(&rounded(&found), &wanted);
@@ -51,7 +52,7 @@ fn agrees(reference: &Literal, state: &State, case: &Value) -> Vec<Found> {
     ]
 }
 
-/// Bars 1 to 5 in one state in the scalar T.
+/// Checks bars 1 to 5 in one state in the scalar T.
 fn bars<T: Digits + Compiled>(
     worst: &mut Worst,
     name: &str,
@@ -148,7 +149,7 @@ fn seeded(case: &str, names: &[String], states: usize, singular: f64) -> Vec<Out
     worst.finish()
 }
 
-/// The repository's mechanisms in seeded states, near aligned axes as well.
+/// The repository's mechanisms in seeded states, also near aligned axes.
 pub(crate) fn robots(extent: Extent) -> Vec<Outcome> {
     let states = extent.of(STATES, 3);
     let named = crate::limits::MECHANISMS.iter();
@@ -157,8 +158,8 @@ pub(crate) fn robots(extent: Extent) -> Vec<Outcome> {
         .collect()
 }
 
-/// Four links, the first or the last one heavier than the others by up to 1e12, or masses that grow or
-/// fall by 1e4 from link to link.
+/// Four links, the first or the last one heavier than the others by up to 1e12, or masses that increase or
+/// decrease by 1e4 from link to link.
 pub(crate) fn uneven(extent: Extent) -> Vec<Outcome> {
     let states = extent.of(STATES, 10);
     let family = |kind: &str| [3, 6, 9, 12].map(|e| format!("{kind}_{e}"));
@@ -174,7 +175,7 @@ pub(crate) fn uneven(extent: Extent) -> Vec<Outcome> {
     outcomes
 }
 
-/// What `f32` comes to where no bar holds.
+/// The errors in `f32` without a bar.
 #[derive(Clone, Debug)]
 pub struct Single {
     /// The chain and its shape.
@@ -183,7 +184,7 @@ pub struct Single {
     pub cond: f64,
     /// Error of inverse dynamics in units of eps (‖M q̈‖ + ‖c‖ + ‖g‖).
     pub inverse: f64,
-    /// Relative error of forward dynamics; none where it is refused.
+    /// Relative error of forward dynamics; `None` if it is refused.
     pub forward: Option<f64>,
 }
 

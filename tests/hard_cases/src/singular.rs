@@ -1,5 +1,5 @@
-//! Bar 12: singular mass matrices are refused by the name of a joint; massless links that can be moved
-//! are solved to the last digits.
+//! Bar 12: singular mass matrices are refused with the name of a joint; solvable massless links are solved
+//! to the last digits.
 
 use crate::bars::Digits;
 use crate::outcome::Outcome;
@@ -9,7 +9,7 @@ use crate::written::{cases, list};
 use crate::{Extent, State};
 use hard_cases_compiled::{Compiled, model};
 
-/// Refused in every state, by the name of this joint.
+/// Checks that it is refused in every state, with the name of this joint.
 fn refused<T: Digits + Compiled>(case: &str, name: &str, joint: &str, states: usize) -> Outcome {
     let subject = model::<T>(name);
     let mut rng = Rng::new(7);
@@ -24,7 +24,7 @@ fn refused<T: Digits + Compiled>(case: &str, name: &str, joint: &str, states: us
     Outcome::new(case, "12", quantity, wrong as f64, 0.0)
 }
 
-/// Solved to 16 eps, component by component.
+/// Checks that it is solved to 16 eps, component by component.
 fn solved<T: Digits + Compiled>(case: &str, name: &str, s: &State, wanted: &[f64]) -> Outcome {
     let subject = model::<T>(name);
     let found = subject.forward_dynamics(&narrow(&s.q), &narrow(&s.v), &narrow(&s.tau));
@@ -43,7 +43,7 @@ fn solved<T: Digits + Compiled>(case: &str, name: &str, s: &State, wanted: &[f64
     Outcome::new(case, "12", quantity, error, 16.0 * T::EPS)
 }
 
-/// Exact answers: which joint is to be named, or the accelerations.
+/// Exact results: the joint in the error, or the accelerations.
 pub(crate) fn exact_answers(extent: Extent) -> Vec<Outcome> {
     let mut outcomes = vec![];
     let all = cases(include_str!("../singular_mass_matrix.json"));

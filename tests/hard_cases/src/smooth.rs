@@ -1,5 +1,5 @@
-//! Smooth motions by the method of order 8 with a tolerance of 1e-13: chaotic ones for as long as
-//! rounding errors have grown to less than 1e-3.
+//! Smooth motions by the integrator of order 8 with a tolerance of 1e-13; chaotic ones as long as rounding
+//! errors have grown to less than 1e-3.
 
 use bgdyn_sim::{Dop853, HybridState, Plant, Run, ScenePlant, StateVector};
 
@@ -8,10 +8,10 @@ use crate::outcome::Outcome;
 use crate::reference::{Reference, reference};
 use crate::{Extent, scenes};
 
-/// A sample of which rounding excuses a deviation as large as this says nothing.
+/// Samples with a larger permitted deviation due to rounding are not compared.
 const LARGEST: f64 = 1e-3;
 
-/// A motion against its reference, as far as rounding errors allow.
+/// Compares a motion with its reference, as far as rounding errors permit.
 fn within<P>(
     case: &'static str,
     plant: &P,
@@ -52,7 +52,7 @@ macro_rules! smooth {
 }
 
 smooth!(
-    /// A double pendulum let go above its pivot.
+    /// A double pendulum released above its pivot.
     double_pendulum_chaotic,
     "double_pendulum_chaotic",
     DoublePendulumChaotic

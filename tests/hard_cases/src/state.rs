@@ -1,4 +1,4 @@
-//! A state of a mechanism, and seeded ones.
+//! A state of a mechanism, and seeded states.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,8 +20,8 @@ pub struct State {
 }
 
 impl State {
-    /// A seeded one of n joints. In half of them every joint is a quarter turn, or a hair more, from
-    /// zero or from another.
+    /// Returns a seeded state of n joints. In half of them every joint is almost a quarter turn from zero
+    /// or from another position.
     pub(crate) fn seeded(rng: &mut Rng, n: usize) -> State {
         let mut some = |size: f64| -> Vec<f64> { (0..n).map(|_| rng.within(size)).collect() };
         let mut state = State {

@@ -1,4 +1,4 @@
-//! Friction that sticks and slips, with located events.
+//! Friction with sticking and slipping, with located events.
 
 use bgdyn_sim::{Dop853, Rodas4, Run, ScenePlant};
 
@@ -7,10 +7,10 @@ use crate::outcome::{Deviation, Outcome};
 use crate::reference::reference;
 use crate::{Extent, scenes};
 
-/// A block on bristles, pulled by a spring: its law has a kink where the velocity is 0.
+/// A block with bristles, pulled by a spring: its law has a kink at zero velocity.
 ///
 /// # Panics
-/// Where the run fails.
+/// If the run fails.
 pub(crate) fn lugre_stick_slip(_: Extent) -> Vec<Outcome> {
     let reference = reference!("lugre_stick_slip");
     let scene = scenes::lugre_stick_slip::LugreStickSlip::<f64>::default();
@@ -32,10 +32,10 @@ pub(crate) fn lugre_stick_slip(_: Extent) -> Vec<Outcome> {
     )]
 }
 
-/// A block on a moving belt, held by a spring: when it breaks away and when it sticks again.
+/// A block on a moving belt, held by a spring: the times at which it breaks away and sticks again.
 ///
 /// # Panics
-/// Where the run fails, or meets another number of events than it should.
+/// If the run fails, or has a wrong number of events.
 pub(crate) fn coulomb_stick_slip_belt(_: Extent) -> Vec<Outcome> {
     let wanted = reference!("coulomb_stick_slip_belt").invariants("event_times");
     let scene = scenes::stick_slip::StickSlip::<f64>::default();

@@ -1,5 +1,5 @@
-//! Stiff motions: by methods whose steps are much longer than what settles or shakes first, and where
-//! it is to be seen by the method of order 8.
+//! Stiff motions: by integrators with steps much longer than the fastest time constant, and by the
+//! integrator of order 8 where that is resolved.
 
 use bgdyn_sim::{Dop853, Gauss3, HybridState, Rodas4, Run, ScenePlant};
 use nalgebra::SVector;
@@ -9,10 +9,10 @@ use crate::outcome::Outcome;
 use crate::reference::reference;
 use crate::{Extent, scenes};
 
-/// When the cylinder's pressures have settled, s.
+/// Time at which the cylinder's pressures have settled, s.
 const SETTLED: f64 = 0.02;
 
-/// A motor whose current settles within 1e-5 s, by steps of 1e-2 s.
+/// A motor whose current settles within 1e-5 s, with steps of 1e-2 s.
 pub(crate) fn motor_linear_stiff(_: Extent) -> Vec<Outcome> {
     let case = "motor_linear_stiff";
     let reference = reference!("motor_linear_stiff").only(|_, t| t >= 0.1);
@@ -26,9 +26,9 @@ pub(crate) fn motor_linear_stiff(_: Extent) -> Vec<Outcome> {
     vec![Outcome::worst(case, "9", quantity, deviations)]
 }
 
-/// A load on a hydraulic cylinder: pressures that settle within 1e-5 s … 1e-3 s, a load that swings on
-/// the oil at 200 rad/s. By controlled steps; and, from 20 ms on, by steps 50 times longer than what
-/// settles first.
+/// A load on a hydraulic cylinder: pressures that settle within 1e-5 s … 1e-3 s, a load that oscillates on
+/// the oil at 200 rad/s. With step control; and, from 20 ms on, with steps 50 times longer than the
+/// fastest time constant.
 pub(crate) fn hydraulic_cylinder(_: Extent) -> Vec<Outcome> {
     let case = "hydraulic_cylinder";
     let reference = reference!("hydraulic_cylinder").only(|_, t| t >= SETTLED);
@@ -71,8 +71,8 @@ pub(crate) fn hydraulic_cylinder(_: Extent) -> Vec<Outcome> {
     outcomes
 }
 
-/// A mass that swings on a stiff spring and shakes on it 1600 times as often. Its length is 1 m and the
-/// stretch.
+/// A mass that swings on a stiff spring and oscillates along it at 1600 times the frequency. Its length is
+/// 1 m plus the stretch.
 pub(crate) fn stiff_spring_pendulum(_: Extent) -> Vec<Outcome> {
     let case = "stiff_spring_pendulum";
     let reference = reference!("stiff_spring_pendulum");
@@ -102,15 +102,15 @@ pub(crate) fn stiff_spring_pendulum(_: Extent) -> Vec<Outcome> {
     ]
 }
 
-/// Two masses that swing together on a soft spring, and 2100 times as fast against each other: all of
-/// it, and the slow part by steps 120 times longer than a radian of the fast one.
+/// Two masses that oscillate together on a soft spring, and 2100 times as fast against each other: the
+/// whole motion, and its slow part with steps 120 times longer than a radian of the fast one.
 pub(crate) fn stiff_spring_two_mass(_: Extent) -> Vec<Outcome> {
     let case = "stiff_spring_two_mass";
     let reference = reference!("stiff_spring_two_mass");
     let scene = scenes::stiff_spring_two_mass::StiffSpringTwoMass::<f64>::default();
     let (plant, begin) = (ScenePlant::with_slope(&scene), Run::begin(&scene));
     let times = &reference.times;
-    // State: place of the first, distance of the second from it, their rates.
+    // State: position of the first, distance of the second from it, their rates.
     let apart = |y: &SVector<f64, 4>| vec![y[0], y[0] + y[1], y[2], y[2] + y[3]];
     let resolved = controlled(Dop853, alike(1e-14), &plant, &begin, times);
     let resolved = reference.all(&of(&resolved, apart), |_| 1e-9);
@@ -123,7 +123,7 @@ pub(crate) fn stiff_spring_two_mass(_: Extent) -> Vec<Outcome> {
     ]
 }
 
-/// The share of the two masses' slow mode in places and rates. In it the second mass moves
+/// Returns the component of the two masses' slow mode in positions and rates. In it the second mass moves
 /// 1 + (k₁/m₁ − ω²)/(k/m₁) times as far as the first, with ω² = 33.3 s⁻².
 fn slow_mode(x: &[f64]) -> Vec<f64> {
     let (first, second) = (1.0, 2.0);

@@ -1,4 +1,4 @@
-//! Compiled mechanisms as what is under test.
+//! Compiled mechanisms as test subjects.
 
 use hard_cases_compiled::Model;
 
@@ -20,12 +20,12 @@ impl<T: Digits> Subject<T> for Box<dyn Model<T>> {
     }
 }
 
-/// Numbers in the scalar under test.
+/// Converts numbers to the scalar under test.
 pub(crate) fn narrow<T: Digits>(x: &[f64]) -> Vec<T> {
     x.iter().map(|&x| T::from_f64(x)).collect()
 }
 
-/// The same numbers as `f64`.
+/// Converts the numbers to `f64`.
 pub(crate) fn wide<T: Digits>(x: Vec<T>) -> Vec<f64> {
     x.into_iter().map(T::to_f64).collect()
 }

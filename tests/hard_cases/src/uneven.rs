@@ -1,5 +1,5 @@
-//! Bar 6 beyond the files: double pendulums whose masses are 1e12 to 1, heavy first and heavy last,
-//! against their equation in closed form.
+//! Bar 6 beyond the files: double pendulums with mass ratios of 1e12, heavy first and heavy last, against
+//! their equation in closed form.
 
 use bgdyn_runtime::{Dd, vector};
 use bgdyn_sim::{
@@ -13,8 +13,8 @@ use crate::{Extent, scenes};
 
 type Y<T> = SVector<T, 4>;
 
-/// Point masses on massless rods of 1 m in double-double: q₁, q₂ from the first rod, their rates. Written
-/// in the rods' own angles (any textbook of mechanics).
+/// Point masses on massless rods of 1 m in double-double: q₁, q₂ relative to the first rod, their rates.
+/// Computed in the absolute angles of the rods (any textbook of mechanics).
 struct Equation {
     masses: [f64; 2],
 }
@@ -45,7 +45,7 @@ impl Ode for Equation {
     }
 }
 
-/// The equation's states at some times, by steps of order 12.
+/// Returns the equation's states at some times, with steps of order 12.
 fn solution(equation: &Equation, start: Y<Dd>, times: &[f64], h: f64) -> Vec<Y<Dd>> {
     let mut solver = Solver::new(Extrapolation::<6>, Dd::ZERO, start);
     let mut states = vec![];
@@ -66,8 +66,8 @@ fn largest(y: &Y<Dd>) -> f64 {
     y.iter().fold(0.0, |most, x| most.max(x.to_f64().abs()))
 }
 
-/// A compiled plant against the equation. Allowed is what rounding excuses: 1e4 eps times how much a
-/// change of the initial state has grown.
+/// Compares a compiled plant with the equation. The limit is the effect of rounding: 1e4 eps times the
+/// growth of a change of the initial state.
 fn against<P>(
     case: &str,
     plant: &P,
@@ -126,7 +126,7 @@ pub(crate) fn heavy_first(_: Extent) -> Vec<Outcome> {
     against("mass_ratio_1e12_1", &plant, &begin, [1e12, 1.0], 2.0)
 }
 
-/// A pendulum on one that is 1e12 times lighter: it falls freely until the rods are nearly straight.
+/// A pendulum on one that is 1e12 times lighter: it falls freely until the rods are almost in line.
 pub(crate) fn heavy_last(_: Extent) -> Vec<Outcome> {
     let scene = scenes::mass_ratio_1_1e12::MassRatio11e12::<f64>::default();
     let (plant, begin) = (ScenePlant::new(&scene), Run::begin(&scene));

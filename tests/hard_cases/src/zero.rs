@@ -1,4 +1,4 @@
-//! Bar 14: effects of no strength leave nothing behind.
+//! Bar 14: effects of zero strength have no influence.
 
 use bgdyn_runtime::{FixedVector, HybridSystem, StateVector};
 use nalgebra::SVector;
@@ -10,7 +10,7 @@ use crate::{Extent, scenes};
 /// Rates of the arm and sled in a state: turn, slide, their rates, then their efforts.
 type Rates = Box<dyn Fn(&SVector<f64, 4>, &[f64; 2]) -> SVector<f64, 4>>;
 
-/// The rates of a scene, with all inputs but the two efforts at 0.
+/// Returns the rates of a scene, with all inputs except the two efforts at 0.
 fn rates<S: HybridSystem<f64, State = SVector<f64, 4>> + 'static>(scene: S) -> Rates {
     let (_, modes) = scene.start();
     let places = ["turn", "slide"].map(|name| {
@@ -30,9 +30,9 @@ fn rates<S: HybridSystem<f64, State = SVector<f64, 4>> + 'static>(scene: S) -> R
     })
 }
 
-/// Constant strengths at 0 against the scene without the effect, bit for bit; run-time ones to 4 eps of
-/// the rates that the efforts and everything else make, each by itself: what they cancel of each other
-/// is no error.
+/// Constant strengths at 0 must give the scene without the effect, bit for bit; run-time ones must agree
+/// to 4 eps of the rates due to the efforts and to everything else, each separately: their cancellation is
+/// no error.
 pub(crate) fn no_strength(extent: Extent) -> Vec<Outcome> {
     macro_rules! of {
         ($module:ident, $scene:ident) => {

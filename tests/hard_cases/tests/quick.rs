@@ -1,4 +1,5 @@
-//! Every topic of the quick run within its bars. `--nocapture` shows the measured numbers beside them.
+//! Checks that every topic of the quick run is within its bars. `--nocapture` prints the measured numbers
+//! and their limits.
 
 use hard_cases::{Extent, TOPICS};
 

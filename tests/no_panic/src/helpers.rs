@@ -1,10 +1,10 @@
-//! What generated code calls of the run-time crate, for each scalar.
+//! The functions of the run-time crate that generated code calls, for each scalar.
 
 use bgdyn::Scalar;
 use bgdyn::nalgebra::{Matrix3, Matrix4, SMatrix, SVector, Vector3};
 use bgdyn::runtime::{Argument, Dd, Pose, inertia, inner_products, matrix, mirror, rotation, vector};
 
-/// Functions that must not panic, and `all`, which keeps them in the program and gives their number.
+/// Functions that must not panic, and `all`, which keeps them in the program and returns their number.
 macro_rules! proved {
     ($($name:ident($($argument:ident: $type:ty),*) -> $output:ty = $value:expr;)*) => {
         $(
@@ -21,7 +21,7 @@ macro_rules! proved {
     };
 }
 
-/// Joint names of a model that is none.
+/// Joint names without a model.
 const NAMES: &[&str; 4] = &["a", "b", "c", "d"];
 
 macro_rules! scalar {
@@ -87,7 +87,7 @@ scalar!(single, f32);
 scalar!(double, f64);
 scalar!(double_double, Dd);
 
-/// Keeps every function in the program; gives their number.
+/// Keeps every function in the program; returns their number.
 pub fn all() -> usize {
     single::all() + double::all() + double_double::all()
 }

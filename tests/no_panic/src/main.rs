@@ -1,5 +1,5 @@
-//! Links only where no function that bgdyn generates and no helper that it calls can panic: each stands
-//! in a function of `no-panic`, whose unwinding would need a symbol that does not exist.
+//! Links only if no generated function and no helper that it calls can panic: each is called in a function
+//! of `no-panic`, whose unwinding would need a symbol that does not exist.
 #![forbid(unsafe_code)]
 
 mod helpers;

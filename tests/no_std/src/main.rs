@@ -1,5 +1,5 @@
-//! A program without std, alloc or a C library that calls every method of a generated model, and runs
-//! a generated scene by every method of integration.
+//! A program without std, alloc or a C library that calls every method of a generated model, and runs a
+//! generated scene with every integrator.
 #![no_std]
 #![no_main]
 
@@ -16,7 +16,7 @@ type Block = stick_slip::StickSlip<f64>;
 type State = SVector<f64, { stick_slip::N }>;
 type Modes = SVector<f64, { stick_slip::NM }>;
 
-/// Ten steps of the scene, controlled where the method estimates its error.
+/// Ten steps of the scene, with step control if the integrator estimates its error.
 struct Steps<'a>(&'a Block, HybridState<State, Modes>);
 
 impl WithIntegrator<State> for Steps<'_> {
@@ -41,7 +41,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {}
 }
 
-/// Where a static program starts.
+/// The entry point of a static program.
 #[unsafe(no_mangle)]
 pub extern "C" fn _start() -> ! {
     let arm = core::hint::black_box(panda7::Panda7::<f64>::default());

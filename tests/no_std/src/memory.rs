@@ -1,7 +1,7 @@
-//! What a bare-metal target's compiler brings along and a hosted one takes from its C library:
-//! compiled code copies, fills and compares memory through these four functions.
+//! Functions that the compiler provides for a bare-metal target and takes from the C library for a hosted
+//! one: compiled code copies, fills and compares memory by these four functions.
 //!
-//! Volatile, or the compiler would recognise the loops and call the functions from themselves.
+//! Volatile accesses, otherwise the compiler would recognise the loops and call the functions recursively.
 
 /// Copies `n` bytes forwards.
 #[unsafe(no_mangle)]

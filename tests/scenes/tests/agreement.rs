@@ -1,4 +1,4 @@
-//! Compiled scenes give what the evaluator gives, word by word: the same operations on the same
+//! Checks that compiled scenes give the evaluator's results, word by word: the same operations on the same
 //! constants.
 
 use std::path::Path;
@@ -10,11 +10,11 @@ use bgdyn_codegen::random::Random;
 use bgdyn_codegen::read_scene;
 use bgdyn_runtime::{Canonical, FixedVector, HybridSystem, Slope, StateVector};
 
-/// States per scene.
+/// Number of states per scene.
 const STATES: usize = 200;
 
-/// Numbers of about `size` away from these; those of their own size, such as volumes of fluid,
-/// stay near it.
+/// Returns numbers within about `size` of these; numbers with a scale of their own, such as volumes of
+/// fluid, change by a fraction of it.
 fn around<V: FixedVector<Scalar = f64>>(random: &mut Random, start: &V, size: f64) -> V {
     V::from_entries(|i| {
         let x = start.entries()[i];
@@ -22,7 +22,7 @@ fn around<V: FixedVector<Scalar = f64>>(random: &mut Random, start: &V, size: f6
     })
 }
 
-/// The generator's own system of a scene.
+/// Returns the generator's own equations of a scene.
 fn generated(path: &Path) -> bgdyn_codegen::system::SceneEquations {
     let text = std::fs::read_to_string(path).expect("a scene");
     let load = |mechanism: &str| {
@@ -32,7 +32,7 @@ fn generated(path: &Path) -> bgdyn_codegen::system::SceneEquations {
     system
 }
 
-/// What the evaluator is given.
+/// Returns the arguments of the evaluator.
 fn inputs(
     system: &bgdyn_codegen::system::SceneEquations,
     [y, modes, u]: [&[f64]; 3],
@@ -136,7 +136,7 @@ fn compiled_scenes_equal_the_evaluator() {
     scenes::each_scene!(agree);
 }
 
-/// The Jacobian and the canonical form, by the traits.
+/// Compares the Jacobian and the canonical form, through the traits.
 fn forms_agree<S: Slope<f64> + Canonical<f64>>(compiled: &S, path: &Path) {
     let system = generated(path);
     let layout = &system.scene.layout;

@@ -1,4 +1,4 @@
-//! Runs through the evaluator are those of the compiled scenes, digit by digit.
+//! Checks that runs with the evaluator equal those of the compiled scenes, digit by digit.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ fn read(name: &str) -> SceneEquations {
     system
 }
 
-/// Runs both by steps of `h` and compares state, modes, events and the energy's account.
+/// Runs both with steps of `h` and compares state, modes, events and the energy account.
 macro_rules! alike {
     ($compiled:expr, $evaluated:expr, $h:expr, $steps:expr) => {
         let (mut compiled, mut evaluated) = ($compiled, $evaluated);

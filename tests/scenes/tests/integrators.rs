@@ -1,4 +1,4 @@
-//! Compiled scenes by stiff, controlled and symplectic methods, against known solutions.
+//! Runs compiled scenes with stiff, step-controlled and symplectic integrators, against known solutions.
 
 use bgdyn_runtime::HybridSystem;
 use bgdyn_sim::{CanonicalPlant, Dop853, Gauss3, HybridState, Rodas4, Run, ScenePlant, Tolerance};
@@ -7,7 +7,7 @@ use scenes::{
     hydraulic_cylinder, lugre_stick_slip, motor_linear_stiff, stick_slip, stiff_spring_pendulum,
 };
 
-/// Some parts of a state are small: volumes, deflections.
+/// Returns a tolerance for states with small components: volumes, deflections.
 fn tolerance(relative: f64) -> Tolerance<f64> {
     Tolerance {
         absolute: 1e-4 * relative,
@@ -97,8 +97,8 @@ fn stiff_hydraulics_with_fixed_and_controlled_steps() {
     }
 }
 
-/// A block that sticks on bristles and slips, by a stiff method that ends its steps where the law has
-/// a kink: its place at 25 s, and the last time its velocity is 0.
+/// A block that sticks with bristles and slips, by a stiff integrator whose steps end at the kinks of the
+/// law: its position at 25 s, and the last time its velocity is 0.
 #[test]
 fn bristles_stick_and_slip() {
     let scene = lugre_stick_slip::LugreStickSlip::<f64>::default();
@@ -119,7 +119,7 @@ fn bristles_stick_and_slip() {
     assert!((zero - 23.026399357676176).abs() < 1e-6, "{zero}");
 }
 
-/// The times of a block on a belt, by a method of order 8 with controlled steps.
+/// The times of a block on a belt, by an integrator of order 8 with step control.
 #[test]
 fn the_block_on_the_belt_with_long_steps() {
     let scene = stick_slip::StickSlip::<f64>::default();
@@ -144,8 +144,8 @@ fn the_block_on_the_belt_with_long_steps() {
     assert!(run.audit().drift().abs() < 1e-9, "{}", run.audit().drift());
 }
 
-/// A mass on a stiff spring that swings, in canonical form and not: the same motion; where the slopes
-/// are known with long steps too.
+/// A mass that swings on a stiff spring, in canonical form and in velocities: the same motion; with known
+/// slopes also for long steps.
 #[test]
 fn canonical_form_and_velocities_agree() {
     let scene = stiff_spring_pendulum::StiffSpringPendulum::<f64>::default();
@@ -178,7 +178,7 @@ fn canonical_form_and_velocities_agree() {
         momenta.audit().drift()
     );
 
-    // Steps six times longer than the spring's period, which is at rest.
+    // Steps six times longer than the period of the spring, which is at rest.
     let mut long = Run::by(Gauss3::new(), ScenePlant::with_slope(&scene), begin);
     for _ in 0..250 {
         long.step(4e-3).expect("it swings");

@@ -1,17 +1,17 @@
-//! What is outside of what a scene can be in: an error that names a coordinate or a state, never a
+//! Checks that states outside of a scene's domain give an error with a coordinate or a state, never a
 //! number.
 
 use bgdyn_runtime::{Canonical, FixedVector, Slope, StateVector};
 use nalgebra::SVector;
 
-/// The results at a state; none where it is refused.
+/// The results at a state; `None` if it is refused.
 type Function<'a, Y> = &'a dyn Fn(&Y) -> Option<Vec<f64>>;
 
-/// A NaN in a part of the state leaves nothing that depends on the part finite.
+/// No result that depends on a NaN component of the state is finite.
 fn nan_is_told<S: Slope<f64> + Canonical<f64>>(scene: &S) {
     let (start, modes) = scene.start();
     let given = S::Inputs::from_entries(|_| 0.1);
-    // Nothing is at a kink, nothing at rest.
+    // No component is at a kink or at rest.
     let start = S::State::from_entries(|i| start.entries()[i] * 1.01 + 1e-3 * (i + 1) as f64);
     let rates = |y: &S::State| {
         let input = scene.input(y, &modes, &given, 0.3);
@@ -96,7 +96,7 @@ fn nan_never_becomes_a_number() {
     scenes::each_formed!(nan);
 }
 
-/// Beyond its end the piston leaves no room for the fluid: the chamber is named.
+/// Beyond its end the piston leaves no volume for the fluid: the error names the chamber.
 #[test]
 fn a_chamber_without_volume_is_an_error() {
     use scenes::hydraulic_cylinder::{HydraulicCylinder, Input, State};

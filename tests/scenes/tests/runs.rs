@@ -1,4 +1,4 @@
-//! Scenes run: known motions, and where their energy goes.
+//! Runs scenes: known motions, and their energy accounts.
 
 use bgdyn_sim::Run;
 use scenes::{scara_everything, scara_lumped, stick_slip};
@@ -29,7 +29,7 @@ fn the_block_on_the_belt_sticks_and_slips_when_it_should() {
     assert_eq!(seen, 14);
     let audit = run.audit();
     assert!(audit.drift().abs() < 1e-9, "{}", audit.drift());
-    // FixedModes, it moves with the belt, not by a digit otherwise.
+    // While it is held, it moves exactly with the belt.
     assert!(audit.dissipated[1] > 0.0);
 }
 

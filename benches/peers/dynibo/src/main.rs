@@ -1,5 +1,5 @@
-//! The crate dynibo: `dynibo-peer DESCRIPTION OPERATION`, with the URDF beside the description. Prints the
-//! time of a call and the sum of all outputs over all states.
+//! Times the crate dynibo: `dynibo-peer DESCRIPTION OPERATION`, with the URDF beside the description.
+//! Prints the time of a call and the sum of all outputs over all states.
 #![forbid(unsafe_code)]
 
 #[path = "../../../src/clock.rs"]
@@ -14,8 +14,8 @@ use std::process::ExitCode;
 use dynibo::Robot;
 use states::{State, states};
 
-/// Its gravity is 9.80665 m/s², that of the specs 9.81 m/s². The same motion in a slower time has the same
-/// ratio of all accelerations to gravity, so the states are scaled, and the results scaled back.
+/// Its gravity is 9.80665 m/s², that of the specs 9.81 m/s². The same motion at a slower time scale has
+/// the same ratio of all accelerations to gravity, so the states are scaled, and the results scaled back.
 const SLOWER: f64 = 9.80665 / 9.81;
 
 fn main() -> ExitCode {
@@ -49,7 +49,7 @@ fn joints(text: &str) -> Result<Vec<(&str, bool)>, String> {
     Ok(lines.skip(1).map(joint).collect())
 }
 
-/// A robot, its states, and room for the results.
+/// A robot, its states, and memory for the results.
 struct Peer {
     robot: Robot,
     states: Vec<State>,
@@ -63,7 +63,7 @@ impl Peer {
         let joints = joints(&text)?;
         let robot = Robot::from_urdf(description.with_extension("urdf"));
         let robot = robot.map_err(|e| e.to_string())?;
-        // It has its own order of the joints.
+        // It orders the joints differently.
         let place = |i| {
             let name = robot.joint_name(i).ok()?;
             joints.iter().position(|joint| joint.0 == name)

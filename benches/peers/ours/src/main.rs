@@ -12,13 +12,13 @@ use benches::states::{State, states};
 use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::runtime::wide::{f64x4, f64x8};
 
-/// Time of a state and sum of the outputs; nothing where the model has no such operation.
+/// Time of a state and sum of the outputs; `None` if the model does not have the operation.
 type Outcome = Option<(f64, f64)>;
 
-/// What a robot's function times: an operation in as many lanes.
+/// Times an operation of a robot in a number of lanes.
 type Timed = fn(&str, usize) -> Outcome;
 
-/// Times `call`, and adds up what `sum` makes of its results.
+/// Times `call`, and adds up the values of `sum` for its results.
 fn measure<T: Lanes, R, const N: usize>(
     states: &[State],
     call: impl Fn(&Input<T, N>) -> R,
@@ -40,13 +40,13 @@ fn total<T: Lanes, const R: usize, const C: usize>(m: &SMatrix<T, R, C>) -> T {
     m.iter().fold(T::from_f64(0.0), |sum, &x| sum + x)
 }
 
-/// Sum of the upper triangle: some peers fill only that one.
+/// Returns the sum of the upper triangle, because some peers compute only that.
 fn upper<T: Lanes, const N: usize>(m: &SMatrix<T, N, N>) -> T {
     let columns = (0..N).flat_map(|j| (0..=j).map(move |i| (i, j)));
     columns.fold(T::from_f64(0.0), |sum, place| sum + m[place])
 }
 
-/// The operations of a model, `derivatives` among them where it is small.
+/// The operations of a model, including `derivatives` if it is small.
 macro_rules! time {
     ($model:expr, $scalar:ty, $n:expr, $states:expr, $operation:expr; $size:ident) => {{
         let model = $model;

@@ -31,14 +31,14 @@ pub(crate) struct Eval {
     pub(super) parameters: Vec<String>,
 }
 
-/// What is printed.
+/// The printed report.
 #[derive(Serialize)]
 struct EvalReport<'a> {
     function: &'a str,
-    /// What the parts of a scene's results are called.
+    /// Names of the parts of a scene's results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     names: Vec<String>,
-    /// One value per state; null where it failed.
+    /// One value per state; null if it failed.
     results: Vec<Value>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<NoClosedForm>,

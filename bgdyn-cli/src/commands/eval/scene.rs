@@ -1,7 +1,7 @@
 //! `bgdyn eval` on scenes: evaluates their functions at given states.
 //!
-//! A state's vectors are arrays in the order of the generated names, or objects by name; what is
-//! left out is as the scene begins, and 0 where the scene says nothing.
+//! A state's vectors are arrays in the order of the generated names, or objects by name; missing values
+//! are those of the scene's start, or 0 without one.
 
 use anyhow::Result;
 use bgdyn_codegen::expr::Inputs;
@@ -17,7 +17,7 @@ use super::states::{Failure, finite, parameters, plain, singular, states};
 use crate::usage::Usage;
 
 impl Eval {
-    /// The same of a scene.
+    /// Evaluates a function of a scene.
     pub(super) fn scene(&self, system: &SceneEquations, options: &Options) -> Result<()> {
         if options.formulation.is_some() || options.prefer != Preference::Operations {
             let message = "`--formulation` and `--prefer` are of mechanisms: a scene has one way to each of its functions";
@@ -76,19 +76,19 @@ impl SceneNames {
     }
 }
 
-/// A function of a scene, and what its arguments are called.
+/// A function of a scene, and the names of its arguments.
 struct SceneCall<'a> {
     system: &'a SceneEquations,
     role: SceneFunction,
     parameters: Vec<f64>,
     function: Function,
-    /// What the scene drives itself, where it has inputs.
+    /// The inputs that the scene drives, if it has inputs.
     inputs: Option<Function>,
     names: SceneNames,
 }
 
 impl SceneCall<'_> {
-    /// What the results' parts are called.
+    /// Returns the names of the result's parts.
     fn result_names(&self) -> Vec<String> {
         let (layout, names) = (&self.system.scene.layout, &self.names);
         let parts = |parts: &[bgdyn_codegen::scene::Variable]| {
@@ -160,7 +160,7 @@ impl SceneCall<'_> {
         };
         let none = vec![0.0; layout.inputs.len()];
         at.u = vector(state, "given", &self.names.inputs, none)?;
-        // These drive the inputs themselves.
+        // These functions compute the driven inputs themselves.
         let driving = matches!(
             self.role,
             SceneFunction::Inputs | SceneFunction::Jacobian | SceneFunction::CanonicalRates
@@ -177,7 +177,7 @@ impl SceneCall<'_> {
         Ok(at)
     }
 
-    /// The result as it is printed.
+    /// Returns the result in printed form.
     fn shaped(&self, at: &Inputs<f64>, values: &[f64]) -> Value {
         let rows = |n: usize| json!(values.chunks(n).collect::<Vec<_>>());
         let nq = at.q.len();
@@ -193,7 +193,7 @@ impl SceneCall<'_> {
         }
     }
 
-    /// ∂ẏ/∂y row by row, and ∂ẏ/∂t.
+    /// Returns ∂ẏ/∂y row by row, and ∂ẏ/∂t.
     fn jacobian(&self, nq: usize, values: &[f64]) -> Value {
         let n = self.names.state.len();
         let entry = |i: usize, k: usize| match i.checked_sub(nq) {
@@ -208,7 +208,7 @@ impl SceneCall<'_> {
     }
 }
 
-/// The numbers of an array, or of an object by name; `usual` where nothing is said.
+/// Returns the numbers of an array, or of an object by name; `usual` are the defaults.
 fn vector(
     state: &Value,
     key: &str,

@@ -1,4 +1,4 @@
-//! Reads states from a file and parameters from the command line, and explains states without a result.
+//! Reads states from a file and parameters from the command line, and describes states without a result.
 
 use anyhow::{Result, anyhow, bail};
 use bgdyn_codegen::mechanism::Parameter;
@@ -9,7 +9,7 @@ use crate::quantity::value_in;
 use crate::spec_file::{read_text, shown};
 use crate::usage::Usage;
 
-/// The spec's values of the run-time parameters, but for those set as `NAME=VALUE`.
+/// Returns the spec's values of the run-time parameters, except those set as `NAME=VALUE`.
 pub(super) fn parameters(all: &[Parameter], set: &[String]) -> Result<Vec<f64>, Usage> {
     let mut values: Vec<f64> = all.iter().map(|p| p.default.to_f64()).collect();
     let mut done: Vec<&str> = Vec::new();
@@ -50,7 +50,7 @@ pub(super) fn states(path: &std::path::Path) -> Result<Vec<Value>> {
     }
 }
 
-/// `NaN` and `Infinity`, as some programs write them, become `null`: no number either, but JSON.
+/// Replaces `NaN` and `Infinity`, which some programs write, by `null`, so that the text is JSON.
 fn without_bare_words(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
@@ -77,8 +77,7 @@ fn without_bare_words(text: &str) -> String {
     out
 }
 
-/// The field of a state that holds an argument.
-/// A failure that no joint is to blame for.
+/// Returns a failure without a joint as its cause.
 pub(super) fn plain(message: String) -> Failure {
     Failure {
         joint: None,
@@ -86,13 +85,13 @@ pub(super) fn plain(message: String) -> Failure {
     }
 }
 
-/// A finite number; one beyond the range of f64 reads as infinite.
+/// Returns a finite number; one beyond the range of f64 is read as infinite.
 pub(super) fn finite(value: &Value) -> Option<f64> {
     let number = value.as_number()?.to_string().parse().ok();
     number.filter(|x: &f64| x.is_finite())
 }
 
-/// Joint `name` has no inertia left.
+/// Returns the failure that joint `name` has no inertia left.
 pub(super) fn singular(name: &str) -> Failure {
     Failure {
         joint: Some(name.to_owned()),
@@ -100,7 +99,7 @@ pub(super) fn singular(name: &str) -> Failure {
     }
 }
 
-/// Why a state has no result.
+/// The reason why a state has no result.
 #[derive(Serialize)]
 pub(super) struct Failure {
     pub(super) joint: Option<String>,

@@ -16,7 +16,7 @@ use crate::simulate::{Column, Evaluated, Way, batch, batch_plot};
 use crate::spec_file::read_text;
 use crate::usage::Usage;
 
-/// Failed runs that are told one by one.
+/// Number of failed runs that are reported one by one.
 const FAILURES: usize = 10;
 
 /// Many runs in place of one.
@@ -56,7 +56,7 @@ pub(super) struct Many {
     threads: Option<NonZeroUsize>,
 }
 
-/// What a batch is made of.
+/// The parts of a batch.
 pub(super) struct Batch<'a> {
     pub(super) name: &'a str,
     pub(super) out: &'a Path,
@@ -67,7 +67,7 @@ pub(super) struct Batch<'a> {
 }
 
 impl Many {
-    /// The runs asked for; `None` where it is one run only.
+    /// Returns the values of the selected runs; `None` for a single run.
     pub(super) fn varied(&self, scene: &Scene) -> Result<Option<BatchValues>> {
         if let Some(path) = &self.batch {
             let text = read_text(path)?;
@@ -83,7 +83,7 @@ impl Many {
         Ok(None)
     }
 
-    /// Makes the runs, writes table and plot.
+    /// Runs the batch, writes table and plot.
     pub(super) fn run(&self, of: &Batch<'_>, given: &[Given], varied: &BatchValues) -> Result<()> {
         let twice = varied.quantities.iter();
         if let Some(s) = twice.clone().find(|&s| given.iter().any(|(g, _)| g == s)) {

@@ -1,4 +1,4 @@
-//! The legend below a drawing.
+//! Draws the legend below a drawing.
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
 
@@ -7,7 +7,7 @@ use super::super::layout::{MARGIN, text_width};
 use super::style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
 use super::symbols::{Bond, Point, bar, bond, junction};
 
-/// Where the words begin.
+/// Left edge of the text.
 const WORDS: f64 = 88.0;
 const SPACE: f64 = 9.0;
 const SIZE: u32 = 12;
@@ -52,7 +52,7 @@ const COMPLIANCE: &str =
     "compliance: a spring, a stop, a soft drive, fluid under pressure; stores by displacement";
 const GYRATOR: &str = "gyrator, a DC motor: effort on the joint = k N · current, induced voltage = k N · velocity; u is the voltage fed to it, V";
 
-/// The entries for a drawing, in lines of this width.
+/// Returns the entries for a drawing, in lines of this width.
 pub(super) fn lines(chart: &Chart, width: f64) -> Vec<LegendEntry> {
     let entry = |(sign, words): (Sign, String)| {
         let room = match sign {
@@ -68,7 +68,7 @@ pub(super) fn lines(chart: &Chart, width: f64) -> Vec<LegendEntry> {
     all.into_iter().map(entry).collect()
 }
 
-/// What the drawing has of junctions and bonds.
+/// Returns the entries for the junctions and bonds in the drawing.
 fn junctions_and_bonds(chart: &Chart) -> Vec<(Sign, String)> {
     let mut entries = vec![(Sign::None, EQUATION.into()), (Sign::One, ONE.into())];
     if chart.flows().any(|flow| flow.sums()) || chart.has(|port| port.symbol == "0") {
@@ -81,7 +81,7 @@ fn junctions_and_bonds(chart: &Chart) -> Vec<(Sign, String)> {
     entries
 }
 
-/// What it has of transformers, stores and the rest.
+/// Returns the entries for transformers, stores and other elements.
 fn elements(chart: &Chart) -> Vec<(Sign, String)> {
     let of_symbol = |symbol| chart.transformers().any(|t| t.symbol() == symbol);
     let mut components = chart.transformers().flat_map(|t| &t.modulus);
@@ -115,7 +115,7 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
         .collect()
 }
 
-/// How high the entries are, with the margin below.
+/// Returns the height of the entries, with the margin below.
 pub(super) fn height(entries: &[LegendEntry]) -> f64 {
     entries.iter().map(entry_height).sum::<f64>() + 24.0 + MARGIN
 }
@@ -124,7 +124,7 @@ fn entry_height(entry: &LegendEntry) -> f64 {
     LINE * entry.lines.len() as f64 + SPACE
 }
 
-/// Writes the entries below `top`.
+/// Draws the entries below `top`.
 pub(super) fn draw(d: &mut Drawing, entries: &[LegendEntry], top: f64) {
     let mut y = top + 28.0;
     d.line(
@@ -164,7 +164,7 @@ fn sign(d: &mut Drawing, sign: Sign, (x, y): Point) {
     }
 }
 
-/// A text in lines of this width.
+/// Breaks a text into lines of this width.
 pub(super) fn wrapped(text: &str, size: u32, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

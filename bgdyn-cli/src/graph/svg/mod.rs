@@ -14,17 +14,17 @@ use super::layout::{
 use style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
 use symbols::{Bond, Point, bar, bond, clearing, junction};
 
-/// Colour behind a link.
+/// Background colour of a link.
 const BAND: &str = "#f5f6f7";
-/// Said of a link without flows.
+/// Text for a link without flows.
 const NOTHING: &str = "moves, but has no store and no source";
-/// No drawing is narrower than this.
+/// The least width of a drawing.
 const NARROWEST: f64 = 860.0;
-/// No lines of the legend are wider.
+/// The largest width of the lines of the legend.
 const WIDEST: f64 = 1100.0;
 
 impl Chart {
-    /// The drawing as the text of an SVG file.
+    /// Returns the drawing as the text of an SVG file.
     pub(crate) fn svg(&self) -> String {
         let top = header_height(self);
         let layout = layout(self, top);
@@ -40,7 +40,7 @@ impl Chart {
         d.finish()
     }
 
-    /// Bars across first, so that the velocities' bars pass over them.
+    /// Draws horizontal bars first, so that the velocities' bars pass over them.
     fn draw(&self, d: &mut Drawing, layout: &Layout) {
         for (link, band) in self.bands().zip(&layout.bands) {
             let size = (band.right - band.left, band.bottom - band.top);
@@ -78,8 +78,8 @@ impl Chart {
         }
     }
 
-    /// A transformer at the height of its row, with its bonds from the velocity's bar and to the
-    /// bar across, or, where there is no such bar, to the 1-junction.
+    /// Draws a transformer at the height of its row, with its bonds from the velocity's bar and to the
+    /// horizontal bar, or, without such a bar, to the 1-junction.
     fn transformer(
         &self,
         d: &mut Drawing,
@@ -122,7 +122,7 @@ impl Chart {
     }
 }
 
-/// The bar across of a flow, up to its 0-junction.
+/// Draws the horizontal bar of a flow, up to its 0-junction.
 fn sum(d: &mut Drawing, flow: &Flow, (layout, band): (&Layout, &Band), row: f64) {
     if !flow.sums() {
         return;
@@ -140,7 +140,7 @@ fn sum(d: &mut Drawing, flow: &Flow, (layout, band): (&Layout, &Band), row: f64)
     );
 }
 
-/// The 1-junction of a velocity, its bar, and what stands on it.
+/// Draws the 1-junction of a velocity, its bar, and its ports.
 fn head(d: &mut Drawing, chart: &Chart, j: usize, column: &VelocityColumn) {
     let velocity = &chart.velocities[j];
     let (x, y) = (column.x, column.head);
@@ -156,7 +156,7 @@ fn head(d: &mut Drawing, chart: &Chart, j: usize, column: &VelocityColumn) {
     ports(d, &velocity.ports, (x, y));
 }
 
-/// From the 0-junction of a flow to the stores and sources on its 1-junction.
+/// Draws the part from the 0-junction of a flow to the stores and sources on its 1-junction.
 fn stores(d: &mut Drawing, flow: &Flow, (x, y): Point) {
     let one = (x + BOND, y);
     if flow.sums() {
@@ -183,7 +183,8 @@ fn stores(d: &mut Drawing, flow: &Flow, (x, y): Point) {
     d.bold(at, 12, VELOCITY, Anchor::Middle, &flow.symbol);
 }
 
-/// A link's store and sources, one above the other: what is below belongs to the next flow.
+/// Draws a link's store and sources, one above the other, because the space below belongs to the next
+/// flow.
 fn upwards(d: &mut Drawing, all: &[Port], (x, y): Point) {
     if all.len() > 1 {
         let up = y - 30.0 * (all.len() - 1) as f64;
@@ -194,7 +195,7 @@ fn upwards(d: &mut Drawing, all: &[Port], (x, y): Point) {
     }
 }
 
-/// The bar of a junction, down to the last that stands on it.
+/// Draws the bar of a junction, down to its last port.
 fn ports_bar(d: &mut Drawing, all: &[Port], (x, y): Point, colour: &str) {
     if let [before @ .., _] = all
         && !before.is_empty()
@@ -204,7 +205,7 @@ fn ports_bar(d: &mut Drawing, all: &[Port], (x, y): Point, colour: &str) {
     }
 }
 
-/// Colours of a junction and of its bar.
+/// Returns the colours of a junction and of its bar.
 fn colours(sign: &str) -> (&'static str, &'static str) {
     match sign {
         "0" => (SUM, SUM_BAR),
@@ -212,7 +213,7 @@ fn colours(sign: &str) -> (&'static str, &'static str) {
     }
 }
 
-/// What stands on a junction, right of it and one below the other, and what stands behind that.
+/// Draws the ports of a junction, right of it and one below the other, and the nodes behind them.
 fn ports(d: &mut Drawing, all: &[Port], (x, mut y): Point) {
     for (k, port) in all.iter().enumerate() {
         one_port(d, port, (x, y), (k == 0, false));
@@ -230,7 +231,7 @@ fn ports(d: &mut Drawing, all: &[Port], (x, mut y): Point) {
     }
 }
 
-/// What stands on a junction, right of it: at its sign, or at its bar.
+/// Draws a port of a junction, right of it: at its symbol, or at its bar.
 fn one_port(d: &mut Drawing, port: &Port, (x, y): Point, (at_sign, triple): (bool, bool)) {
     let near = (x + if at_sign { 9.0 } else { 4.0 }, y);
     let far = (x + BOND - if port.is_junction() { 8.0 } else { 5.0 }, y);
@@ -257,7 +258,7 @@ fn one_port(d: &mut Drawing, port: &Port, (x, y): Point, (at_sign, triple): (boo
     }
 }
 
-/// The modulus as a column between brackets, and below what it varies with.
+/// Draws the modulus as a column in brackets, and below it the coordinates that it varies with.
 fn modulus(d: &mut Drawing, transformer: &Transformer, (x, y): Point) {
     let (width, half) = (vector_width(transformer), 18.0);
     for (edge, inwards) in [(x, 3.0), (x + width, -3.0)] {
@@ -280,18 +281,18 @@ fn modulus(d: &mut Drawing, transformer: &Transformer, (x, y): Point) {
     below(d, transformer, (x, y));
 }
 
-/// What a modulus varies with, below it.
+/// Draws the coordinates that a modulus varies with, below it.
 fn below(d: &mut Drawing, transformer: &Transformer, (x, y): Point) {
     let at = (x - VECTOR + SYMBOL + 10.0, y + 29.0);
     d.text(at, 10, FAINT, Anchor::Start, &transformer.varies);
 }
 
-/// Height of what stands above the drawing.
+/// Returns the height of the header.
 fn header_height(chart: &Chart) -> f64 {
     54.0 + LINE * words(chart).count() as f64
 }
 
-/// Description, how much of the graph is there, and what has to be said beside.
+/// Returns the description, the size of the graph, and the notes.
 fn words(chart: &Chart) -> impl Iterator<Item = (String, &'static str)> {
     let plain = chart.description.iter().map(|text| (text.clone(), INK));
     let census = std::iter::once((chart.census(), FAINT));
@@ -303,7 +304,7 @@ fn words(chart: &Chart) -> impl Iterator<Item = (String, &'static str)> {
     plain.chain(census).chain(notes).flat_map(lines)
 }
 
-/// The name, and words about it.
+/// Draws the name, the description and the notes.
 fn header(d: &mut Drawing, chart: &Chart) {
     let title = format!("{}: bond graph", chart.title);
     d.bold((MARGIN, 34.0), 18, INK, Anchor::Start, &title);

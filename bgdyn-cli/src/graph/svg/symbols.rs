@@ -1,4 +1,4 @@
-//! SVG symbols of junctions and bonds.
+//! Draws SVG symbols of junctions and bonds.
 
 use bgdyn_accuracy::svg::{Anchor, Drawing, INK};
 
@@ -8,14 +8,14 @@ pub(super) type Point = (f64, f64);
 /// A bond: a line with a half arrow at its end.
 pub(super) struct Bond {
     path: Vec<Point>,
-    /// Whether it is one of three components.
+    /// Whether it has three components.
     pub triple: bool,
-    /// At which of its ends the causal stroke is.
+    /// The end with the causal stroke.
     pub stroke: Option<Point>,
 }
 
 impl Bond {
-    /// A bond of one component.
+    /// Returns a bond of one component.
     pub fn single(path: &[Point]) -> Self {
         Bond {
             path: path.to_vec(),
@@ -24,7 +24,7 @@ impl Bond {
         }
     }
 
-    /// A bond of three components.
+    /// Returns a bond of three components.
     pub fn triple(path: &[Point]) -> Self {
         Bond {
             triple: true,
@@ -32,7 +32,7 @@ impl Bond {
         }
     }
 
-    /// A bond of three components, or of one.
+    /// Returns a bond of three components, or of one.
     pub fn of(path: &[Point], triple: bool) -> Self {
         Bond {
             triple,
@@ -40,7 +40,7 @@ impl Bond {
         }
     }
 
-    /// The same with the causal stroke where it starts.
+    /// Puts the causal stroke at the start.
     pub fn stroke_at_start(mut self) -> Self {
         self.stroke = self.path.first().copied();
         self
@@ -64,7 +64,7 @@ pub(super) fn bond(d: &mut Drawing, bond: &Bond) {
         d.stroke(&shifted(&bond.path, aside), INK, 1.1);
     }
     let along = direction(before, end);
-    // The half arrow is below a bond across, and right of one that goes up or down.
+    // The half arrow is below a horizontal bond, and right of a vertical one.
     let aside = (along.1.abs(), along.0.abs());
     let start = if bond.triple { APART } else { 0.0 };
     let tip = (end.0 + start * aside.0, end.1 + start * aside.1);
@@ -83,14 +83,14 @@ pub(super) fn bond(d: &mut Drawing, bond: &Bond) {
     }
 }
 
-/// Unit vector from a to b.
+/// Returns the unit vector from a to b.
 fn direction(a: Point, b: Point) -> Point {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let length = dx.hypot(dy).max(f64::MIN_POSITIVE);
     (dx / length, dy / length)
 }
 
-/// A path of lines across and down, moved to its right by so much.
+/// Returns a path of horizontal and vertical lines, displaced to its right.
 fn shifted(path: &[Point], by: f64) -> Vec<Point> {
     let last = path.len() - 1;
     let shift = |(k, &(x, y)): (usize, &Point)| {
@@ -106,17 +106,17 @@ fn shifted(path: &[Point], by: f64) -> Vec<Point> {
     path.iter().enumerate().map(shift).collect()
 }
 
-/// A junction, stretched from one point to another.
+/// Draws a junction, extended from one point to another.
 pub(super) fn bar(d: &mut Drawing, from: Point, to: Point, colour: &str) {
     d.stroke(&[from, to], colour, 5.0);
 }
 
-/// Interrupts what a bar passes over.
+/// Clears the background of a bar.
 pub(super) fn clearing(d: &mut Drawing, from: Point, to: Point, colour: &str) {
     d.stroke(&[from, to], colour, 11.0);
 }
 
-/// The sign of a junction.
+/// Draws the symbol of a junction.
 pub(super) fn junction(d: &mut Drawing, (x, y): Point, sign: &str, colour: &str) {
     d.rectangle((x - 7.0, y - 9.0), (14.0, 18.0), "#ffffff");
     let corners = [

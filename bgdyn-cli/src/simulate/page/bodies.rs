@@ -7,14 +7,14 @@ use bgdyn_codegen::scene::Scene;
 use super::body::{Body, BodyJoint, BodyPoint, End, Placed};
 use super::stops::stops;
 
-/// The bodies of a scene, and where its links stand on them.
+/// The bodies of a scene, and the poses of its links on them.
 pub(super) struct Bodies {
     pub(super) all: Vec<Body>,
     on: Vec<(usize, Placed)>,
 }
 
 impl Bodies {
-    /// With the joints' travel by coordinate.
+    /// Returns the bodies, with the joints' travel by coordinate.
     pub(super) fn new(scene: &Scene, travel: &[(f64, f64)]) -> Self {
         let mechanism = &scene.mechanism;
         let mut bodies = Bodies {
@@ -128,7 +128,7 @@ impl Bodies {
         }
     }
 
-    /// Of a body that carries no other the outermost frame leaves a trail; without one its own, or
+    /// For a body without children, the outermost frame leaves a trail; without a frame its own origin, or
     /// its centre of mass.
     fn tips(&mut self, mechanism: &Mechanism) {
         let carries = |body: usize, all: &[Body]| {
@@ -158,7 +158,7 @@ impl Bodies {
         }
     }
 
-    /// A link's or a frame's origin.
+    /// Returns the origin of a link or a frame.
     pub(super) fn end(&self, mechanism: &Mechanism, name: &str) -> Option<End> {
         if let Some(frame) = mechanism.frames().iter().find(|f| f.name == name) {
             let (body, place) = self.carrier(frame.link);

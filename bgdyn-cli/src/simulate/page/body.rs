@@ -1,20 +1,20 @@
-//! A moving body as the page draws it: its joint, the joint's stops, its points.
+//! The drawing of a moving body: its joint, the joint's stops, its points.
 
 use bgdyn_codegen::math::{Mat3, Vec3};
 use serde::Serialize;
 
-/// The world, or a link with all that is welded to it, in that link's axes.
+/// The world, or a link with all links welded to it, in that link's axes.
 #[derive(Serialize)]
 pub(super) struct Body {
     pub(super) name: String,
-    /// How it moves; the world does not.
+    /// Its joint; `None` for the world.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) joint: Option<BodyJoint>,
     pub(super) points: Vec<BodyPoint>,
-    /// Origins at all rows, three whole numbers each; nothing for the world.
+    /// Origins at all rows, three integers each; empty for the world.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) place: Option<Vec<i64>>,
-    /// Attitudes at all rows: quaternions w, x, y, z as whole numbers.
+    /// Orientations at all rows: quaternions w, x, y, z as integers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) turn: Option<Vec<i64>>,
     /// The link whose pose it has.
@@ -22,7 +22,7 @@ pub(super) struct Body {
     pub(super) link: Option<usize>,
 }
 
-/// The joint that carries a body.
+/// The joint of a body.
 #[derive(Serialize)]
 pub(super) struct BodyJoint {
     pub(super) name: String,
@@ -30,39 +30,39 @@ pub(super) struct BodyJoint {
     pub(super) kind: &'static str,
     /// In the body's own axes.
     pub(super) axis: [f64; 3],
-    /// The body that carries it.
+    /// The parent body.
     pub(super) on: usize,
-    /// In the axes of that body: the axis, and the joint's place at the ends of its travel.
+    /// In the axes of that body: the axis, and the joint's position at the ends of its travel.
     pub(super) along: [f64; 3],
     pub(super) from: [f64; 3],
     pub(super) to: [f64; 3],
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) stops: Vec<Stop>,
-    /// Where it is on that body.
+    /// Its pose on that body.
     #[serde(skip)]
     pub(super) placed: Placed,
 }
 
-/// An end of a joint's travel, in the axes of the body that carries the joint.
+/// An end of a joint's travel, in the axes of the parent body.
 #[derive(Serialize)]
 pub(super) struct Stop {
     pub(super) name: String,
-    /// A slide: where the joint is when it meets the stop. Else the joint's place, m.
+    /// Prismatic joint: the joint's position at the stop. Else the joint's position, m.
     pub(super) at: [f64; 3],
-    /// A slide: the unit vector of its travel. Else the unit vector from the axis to that point of the
-    /// body which meets the stop, when it does.
+    /// Prismatic joint: the unit vector of its travel. Else the unit vector from the axis to the point of
+    /// the body that touches the stop, at contact.
     pub(super) way: [f64; 3],
-    /// From which side the body comes: −1 at the lower end, +1 at the upper one.
+    /// The side of the body at contact: −1 at the lower end, +1 at the upper one.
     pub(super) side: f64,
 }
 
-/// A place on a body.
+/// A point on a body.
 #[derive(Serialize)]
 pub(super) struct BodyPoint {
     pub(super) at: [f64; 3],
     #[serde(skip_serializing_if = "String::is_empty")]
     pub(super) name: String,
-    /// Whether a beam leads to it, from here.
+    /// The start of the beam to it, if it has one.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub(super) beam: bool,
     pub(super) from: [f64; 3],
@@ -80,14 +80,14 @@ pub(super) struct BodyPoint {
     pub(super) load: bool,
 }
 
-/// A place on a body, for what hangs between two of them.
+/// A point on a body, for an element between two points.
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct End {
     pub(super) body: usize,
     pub(super) at: [f64; 3],
 }
 
-/// A frame in another: x ↦ R x + o.
+/// The pose of a frame in another: x ↦ R x + o.
 #[derive(Clone, Copy)]
 pub(super) struct Placed {
     pub(super) r: Mat3<f64>,
@@ -140,12 +140,12 @@ impl Body {
         }
     }
 
-    /// The axis of its joint, in its own axes.
+    /// Returns the axis of its joint, in its own axes.
     pub(super) fn axis(&self) -> [f64; 3] {
         self.joint.as_ref().map_or([0.0, 0.0, 1.0], |j| j.axis)
     }
 
-    /// All places on it.
+    /// Returns all points on it.
     pub(super) fn places(&self) -> impl Iterator<Item = [f64; 3]> {
         self.points.iter().map(|p| p.at)
     }
@@ -160,7 +160,7 @@ impl Body {
         }
     }
 
-    /// The point of its beams that is nearest to a place: where a bracket to it begins.
+    /// Returns the point of its beams that is nearest to a point: the start of a bracket to it.
     pub(super) fn nearest(&self, place: [f64; 3]) -> [f64; 3] {
         let sub = |a: [f64; 3], b: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| a[k] - b[k]);
         let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();

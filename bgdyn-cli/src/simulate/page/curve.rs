@@ -1,17 +1,17 @@
-//! Compact text of a quantity over time.
+//! Encodes a quantity over time as compact text.
 
 use serde::Serialize;
 
 use super::super::difference::range;
 use super::super::run_table::Column;
 
-/// Counts that a curve's range is divided into.
+/// Number of levels in a curve's range.
 pub(super) const LEVELS: f64 = 1e5;
-/// What is larger is not shown.
+/// Larger values are not shown.
 const LARGEST: f64 = 1e250;
 
-/// Values over time: whole numbers from 0 to [`LEVELS`] over their range, none where there is no
-/// number.
+/// Values over time: integers from 0 to [`LEVELS`] over their range, `None` for values that are not
+/// finite.
 #[derive(Serialize)]
 pub(super) struct Curve {
     name: String,

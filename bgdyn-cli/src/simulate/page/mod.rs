@@ -1,4 +1,4 @@
-//! The page that replays a run: one self-contained HTML file.
+//! Writes the page that replays a run: one self-contained HTML file.
 
 mod bodies;
 mod body;
@@ -19,13 +19,13 @@ use super::difference::range;
 use super::report::{changes, short};
 use super::run_table::{Column, Record, Row};
 
-/// Poses that a page holds: more rows than this allows are thinned out.
+/// Largest number of poses in a page: for more, rows are omitted.
 const POSES: usize = 36_000;
-/// Rows that a page holds.
+/// Largest number of rows in a page.
 const ROWS: usize = 4_000;
-/// Counts of a quaternion's components.
+/// Scale of a quaternion's components.
 const TURN: f64 = 1e5;
-/// Digits of an instant.
+/// Digits of a time.
 const DIGITS: usize = 9;
 
 const PARTS: [&str; 5] = [
@@ -36,7 +36,7 @@ const PARTS: [&str; 5] = [
     include_str!("player.js"),
 ];
 
-/// What is shown of a run beside its numbers.
+/// The texts about a run.
 pub(crate) struct Words {
     pub(crate) name: String,
     pub(crate) method: String,
@@ -51,7 +51,7 @@ struct Data<'a> {
     report: &'a str,
     failure: Option<String>,
     levels: f64,
-    /// What a count of a place is, m.
+    /// The unit of positions, m.
     grain: f64,
     t: Vec<f64>,
     bodies: Vec<Body>,
@@ -63,7 +63,7 @@ struct Data<'a> {
     energy: Energy,
 }
 
-/// What hangs between two places.
+/// An element between two points.
 #[derive(Serialize)]
 struct Between {
     name: String,
@@ -91,7 +91,7 @@ struct Energy {
     curves: Vec<Curve>,
 }
 
-/// A run as a page.
+/// Returns the page of a run.
 pub(crate) fn page(
     system: &SceneEquations,
     columns: &[Column],
@@ -99,7 +99,7 @@ pub(crate) fn page(
     words: &Words,
 ) -> String {
     let data = serde_json::to_string(&data(system, columns, run, words));
-    // In a page `<` could end the data.
+    // `<` could end the data in a page.
     let data = data.unwrap_or_default().replace('<', "\\u003c");
     let mut page = String::new();
     let mut rest = include_str!("page.html");
@@ -155,7 +155,7 @@ fn data<'a>(
     }
 }
 
-/// The rows that a page has room for: all of them, or evenly chosen ones with the last.
+/// Returns the rows of the page: all of them, or evenly spaced ones with the last.
 fn shown<'r>(system: &SceneEquations, run: &'r Record) -> Vec<&'r Row> {
     let bodies = system.scene.mechanism.nv().max(1);
     let room = (POSES / bodies).clamp(100, ROWS);
@@ -166,12 +166,12 @@ fn shown<'r>(system: &SceneEquations, run: &'r Record) -> Vec<&'r Row> {
     rows.map(|(_, row)| row).collect()
 }
 
-/// A time with so many digits as a page needs.
+/// Returns a time rounded to the digits of the page.
 fn instant(t: f64) -> f64 {
     format!("{t:.DIGITS$e}").parse().unwrap_or(t)
 }
 
-/// The bodies with their poses by the mechanism's own functions, and what a count of a place is, m.
+/// Returns the bodies with their poses by the mechanism's own functions, and the unit of positions, m.
 fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
     let mechanism = &system.scene.mechanism;
     let joints = mechanism.nv();
@@ -206,7 +206,8 @@ fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
     (bodies, grain)
 }
 
-/// Poses of a link at all rows: its axes row by row, its origin. Where there is none, the one before.
+/// Returns the poses of a link at all rows: its axes row by row, its origin. An undefined pose is replaced
+/// by the previous one.
 fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
     let mechanism = &system.scene.mechanism;
     let pose = function(mechanism, Method::Pose(SiteId(link)), &Options::default());
@@ -226,7 +227,7 @@ fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> 
     rows.iter().map(at).collect()
 }
 
-/// Quaternions of rotation matrices, each on the side of the one before.
+/// Returns quaternions of rotation matrices, each with the sign nearest to the previous one.
 fn turns(poses: &[[f64; 12]]) -> Vec<i64> {
     let mut before = [1.0, 0.0, 0.0, 0.0];
     let mut counts = Vec::with_capacity(4 * poses.len());
@@ -241,7 +242,8 @@ fn turns(poses: &[[f64; 12]]) -> Vec<i64> {
     counts
 }
 
-/// The unit quaternion w, x, y, z of a rotation matrix, from its largest component (Shepperd 1978).
+/// Returns the unit quaternion w, x, y, z of a rotation matrix, from its largest component (Shepperd
+/// 1978).
 fn quaternion(r: &[f64; 12]) -> [f64; 4] {
     let r = |i: usize, j: usize| r[3 * i + j];
     let trace = r(0, 0) + r(1, 1) + r(2, 2);
@@ -270,7 +272,7 @@ fn quaternion(r: &[f64; 12]) -> [f64; 4] {
     q
 }
 
-/// Springs, dampers and cylinders between two places.
+/// Returns springs, dampers and cylinders between two points.
 fn between(system: &SceneEquations, bodies: &Bodies, grain: f64, rows: usize) -> Vec<Between> {
     let mechanism = &system.scene.mechanism;
     let found = system.scene.elements.iter().filter_map(|element| {
@@ -290,7 +292,7 @@ fn between(system: &SceneEquations, bodies: &Bodies, grain: f64, rows: usize) ->
     found.collect()
 }
 
-/// A place on a body in the world at a row, as the page unpacks it.
+/// Returns a point of a body in the world at a row, as the page decodes it.
 fn in_world(body: &Body, at: [f64; 3], grain: f64, row: usize) -> [f64; 3] {
     let (Some(place), Some(turn)) = (&body.place, &body.turn) else {
         return at;
@@ -311,7 +313,7 @@ fn in_world(body: &Body, at: [f64; 3], grain: f64, row: usize) -> [f64; 3] {
     std::array::from_fn(|k| place[3 * row + k] as f64 * grain + at[k] + 2.0 * twice[k])
 }
 
-/// Inputs, coordinates beside the joints and first-order states.
+/// Returns inputs, coordinates other than joints and first-order states.
 fn states(system: &SceneEquations, rows: &[&Row]) -> Vec<Curve> {
     let layout = &system.scene.layout;
     let joints = system.scene.mechanism.nv();

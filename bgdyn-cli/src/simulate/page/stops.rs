@@ -1,4 +1,4 @@
-//! Positions of the stops of joints.
+//! Computes positions of the stops of joints.
 
 use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::math::Vec3;
@@ -6,7 +6,7 @@ use bgdyn_codegen::scene::Scene;
 
 use super::body::{Body, Placed, Stop};
 
-/// The stops of a joint: `on` is its place on the body that carries it, `body` what it moves.
+/// Returns the stops of a joint: `on` is its pose on the parent body, `body` the body that it moves.
 pub(super) fn stops(
     scene: &Scene,
     joint: &str,
@@ -35,7 +35,7 @@ pub(super) fn stops(
     ends.filter_map(stop).collect()
 }
 
-/// A number of an element: the default of its run-time parameter, where it has one.
+/// Returns a number of an element, or the default of its run-time parameter.
 fn value(scene: &Scene, element: &Element, key: &str) -> Option<f64> {
     let quantity = element.quantity(key)?;
     let named = |name: &String| scene.parameters.iter().find(|p| p.name == *name);
@@ -44,8 +44,8 @@ fn value(scene: &Scene, element: &Element, key: &str) -> Option<f64> {
     Some(value.to_f64()).filter(|x| x.is_finite())
 }
 
-/// The unit vector from the axis to the point of the body that is farthest from it; any across the
-/// axis where there is none.
+/// Returns the unit vector from the axis to the point of the body that is farthest from it; without one,
+/// any vector perpendicular to the axis.
 fn outwards(body: &Body, axis: [f64; 3]) -> [f64; 3] {
     let axis = Vec3(axis);
     let across = |p: [f64; 3]| {
@@ -63,7 +63,7 @@ fn outwards(body: &Body, axis: [f64; 3]) -> [f64; 3] {
     found.map(|x| x / size(&found))
 }
 
-/// A vector across a unit axis, turned about it by an angle.
+/// Returns a vector perpendicular to a unit axis, rotated about it by an angle.
 fn turned(x: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let across = [
         axis[1] * x[2] - axis[2] * x[1],

@@ -1,4 +1,4 @@
-//! Flows between nodes: through one resistor, or through several in series.
+//! Computes flows between nodes: through one resistor, or through several in series.
 
 use super::keys::{CONDUCTANCE, FROM, LAMINAR, ORIFICE, TO};
 use super::volume::{DENSITY, ENTHALPY, FLOW, PRESSURE, SOURCE, enthalpy, pressure};
@@ -6,8 +6,7 @@ use crate::declaration::{Chain, Element};
 use crate::effort_sums::EffortSums;
 use crate::expr::{Builder, Expr};
 
-/// Lets the flow q run from one node to another: what each of them and what the resistor makes of
-/// it.
+/// Adds the flow q from one node to another, with the power terms of the nodes and of the resistor.
 pub(super) fn run<'g>(from: &str, to: &str, q: Expr<'g>, sums: &mut EffortSums<'g, '_>) {
     let zero = sums.b.zero();
     let [before, after] = [from, to].map(|node| sums.shared(node, ENTHALPY).unwrap_or(zero));
@@ -24,14 +23,14 @@ pub(super) fn run<'g>(from: &str, to: &str, q: Expr<'g>, sums: &mut EffortSums<'
 /// The pressure drop of a resistor, Δp = R q + q|q|/k².
 #[derive(Clone, Copy)]
 pub(super) struct Drop<'g> {
-    /// R, Pa·s/m³
+    /// R, Pa·s/m³.
     laminar: Expr<'g>,
-    /// k, m³/(s·√Pa); none where the law is linear.
+    /// k, m³/(s·√Pa); `None` if the law is linear.
     orifice: Option<Expr<'g>>,
 }
 
 impl<'g> Drop<'g> {
-    /// Of an orifice or a leakage.
+    /// Returns the law of an orifice or a leakage.
     pub(super) fn of(element: &Element, sums: &EffortSums<'g, '_>) -> Self {
         let keys = element.effect.keys();
         match keys.contains(&CONDUCTANCE) {
@@ -46,7 +45,7 @@ impl<'g> Drop<'g> {
         }
     }
 
-    /// Of several in series: R = Σ R_i, 1/k² = Σ 1/k_i².
+    /// Returns the law of several resistors in series: R = Σ R_i, 1/k² = Σ 1/k_i².
     pub(super) fn in_series(all: &[Self], b: &'g Builder) -> Self {
         let one = b.number(1.0);
         let laminar = all.iter().fold(b.zero(), |sum, d| sum + d.laminar);
@@ -56,7 +55,7 @@ impl<'g> Drop<'g> {
         Drop { laminar, orifice }
     }
 
-    /// Δp of a flow.
+    /// Returns Δp of a flow.
     pub(super) fn of_flow(self, q: Expr<'g>) -> Expr<'g> {
         let laminar = self.laminar * q;
         match self.orifice {
@@ -65,7 +64,7 @@ impl<'g> Drop<'g> {
         }
     }
 
-    /// The flow of a pressure drop: q = 2 Δp / (R + √(R² + 4|Δp|/k²)).
+    /// Returns the flow of a pressure drop: q = 2 Δp / (R + √(R² + 4|Δp|/k²)).
     pub(super) fn flow(self, drop: Expr<'g>, b: &'g Builder) -> Expr<'g> {
         let r = self.laminar;
         match self.orifice {
@@ -79,8 +78,8 @@ impl<'g> Drop<'g> {
     }
 }
 
-/// Solves the chain through a junction, if no other junction of it has: one flow, from the pressures
-/// at its two ends, and the pressures between.
+/// Solves the chain through a junction, unless another junction of it did: the flow from the pressures at
+/// the two ends, and the pressures between them.
 pub(super) fn solve(junction: &Element, sums: &mut EffortSums<'_, '_>) {
     let through = |c: &&Chain| c.through.contains(&junction.name);
     let Some(chain) = sums.chains().iter().find(through) else {
@@ -108,7 +107,7 @@ pub(super) fn solve(junction: &Element, sums: &mut EffortSums<'_, '_>) {
     }
 }
 
-/// The law of a resistor between two nodes; `own` is its flow where no chain has told it.
+/// Adds the law of a resistor between two nodes; `own` is its flow if no chain has computed it.
 pub(super) fn resist<'g>(
     element: &Element,
     sums: &mut EffortSums<'g, '_>,

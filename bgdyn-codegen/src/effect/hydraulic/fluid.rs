@@ -37,6 +37,6 @@ impl EffectKind for Fluid {
 
 impl Effect for Fluid {
     fn elements(&self, _: &Element, _: &[Element], _: &mut BondNetwork) {
-        // It is in the volumes, which have its compliance.
+        // The volumes contain its compliance.
     }
 }

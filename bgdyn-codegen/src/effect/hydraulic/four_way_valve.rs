@@ -1,4 +1,4 @@
-//! A four-way valve, critically centred (Merritt 1967, chapter 5): a spool shifted by x joins the
+//! A four-way valve, critically centred (Merritt 1967, chapter 5): a spool shifted by x connects the
 //! supply to one side and the other side to the tank, through orifices that open with |x|.
 
 use super::flow::{Drop, run};
@@ -108,7 +108,7 @@ impl Effect for FourWayValve {
         sums.event(&format!("{}_limit", element.name), one - shift.abs());
         let x = shift.max(-one).min(one);
         let (back, opening) = (|yes, no| x.if_less(zero, yes, no), x.abs());
-        // Two orifices are open at a time: to the side that is fed, from the side that returns.
+        // Two orifices are open at a time: to the side that is supplied, and from the side that returns.
         let (fed, returning) = (back(p_b, p_a), back(p_a, p_b));
         let drop = Drop::of(element, sums);
         let feed = opening * drop.flow(p_supply - fed, sums.b);

@@ -1,4 +1,5 @@
-//! A node without a volume between two resistors: its pressure is solved for at generation time.
+//! A node without a volume between two resistors: its pressure is solved for symbolically at generation
+//! time.
 
 use super::flow::solve;
 use super::keys::{FAMILY, FLUID};
@@ -41,7 +42,7 @@ impl EffectKind for JunctionEffect {
         true
     }
 
-    // After the nodes of known pressure, before the resistors.
+    // After the nodes with known pressures, before the resistors.
 
     fn order(&self) -> u8 {
         1

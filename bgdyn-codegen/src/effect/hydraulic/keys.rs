@@ -1,4 +1,4 @@
-//! Keys that hydraulic elements share, and rules about their values.
+//! Keys of several hydraulic elements, and rules for their values.
 
 use bgdyn_runtime::Dd;
 
@@ -6,7 +6,7 @@ use crate::declaration::ValueCheck;
 use crate::fault::wording;
 use crate::format::{Dimension, Key, Reads};
 
-/// The word by which a scene calls for all of it.
+/// The word by which a scene includes all hydraulic effects.
 pub(super) const FAMILY: &str = "hydraulics";
 
 /// The fluid of a node.
@@ -57,10 +57,10 @@ pub(super) const LAMINAR: Key = number(
     "R, pressure drop per flow where the flow is small; 0 without it, and then dq/dΔp is infinite at Δp = 0",
 );
 
-/// The least pressure there is, against the surroundings: no fluid, Pa.
+/// The least possible gauge pressure, Pa: vacuum.
 pub(super) const VACUUM: f64 = -101_325.0;
 
-/// Refuses what is called a pressure but less than a vacuum.
+/// Refuses a pressure below vacuum.
 pub(super) fn no_less_than_vacuum(check: &mut ValueCheck<'_>, key: &str) {
     let too_small = check
         .number(key)

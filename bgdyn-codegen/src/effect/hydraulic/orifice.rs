@@ -1,6 +1,6 @@
-//! An orifice, fixed or opened by an input: turbulent flow q = k √Δp (Merritt 1967, chapter 3),
-//! with a laminar part where it is given, Δp = R q + q|q|/k². That law is smooth at Δp = 0, solved
-//! for the flow it is q = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
+//! An orifice, fixed or opened by an input: turbulent flow q = k √Δp (Merritt 1967, chapter 3), with an
+//! optional laminar part, Δp = R q + q|q|/k². This law is smooth at Δp = 0; its solution for the flow is q
+//! = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
 
 use super::flow::{Drop, resist};
 use super::keys::{FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two};
@@ -99,7 +99,7 @@ impl Effect for Orifice {
     }
 }
 
-/// The name of the event at the ends of the opening, which are kinks of the law.
+/// Returns the name of the event at the ends of the opening, which are kinks of the law.
 fn limit(element: &Element) -> String {
     format!("{}_limit", element.name)
 }

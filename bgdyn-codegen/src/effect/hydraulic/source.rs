@@ -9,10 +9,10 @@ use crate::effort_sums::EffortSums;
 use crate::fault::Faults;
 use crate::format::{Dimension, Key};
 
-/// Holds its pressure whatever runs.
+/// A supply: imposes its pressure for any flow.
 pub(in crate::effect) struct Supply;
 
-/// Takes what returns, at the pressure of the surroundings unless it says otherwise.
+/// A tank: receives the return flow, at ambient pressure unless the file gives another.
 pub(in crate::effect) struct Tank;
 
 const fn held(needed: bool, about: &'static str) -> Key {
@@ -25,7 +25,7 @@ const TANK_PRESSURE: Key = held(false, "p, against the surroundings; 0 without i
 static SUPPLY: [Key; 2] = [SUPPLY_PRESSURE, FLUID];
 static TANK: [Key; 2] = [TANK_PRESSURE, FLUID];
 
-/// A node that holds its pressure.
+/// Imposes the pressure of a node.
 fn hold(element: &Element, key: &Key, sums: &mut EffortSums<'_, '_>) {
     let (node, one) = (&element.name, sums.b.number(1.0));
     let pressure = sums.number(element, key);

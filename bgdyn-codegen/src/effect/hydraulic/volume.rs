@@ -1,4 +1,4 @@
-//! The fluid of nodes: which one it is, its pressure, and the law of a volume that it fills.
+//! The fluid of hydraulic nodes, their pressure, and the law of a volume of fluid.
 
 use bgdyn_runtime::Dd;
 
@@ -11,7 +11,7 @@ use crate::fault::{Faults, wording};
 use crate::format::Dimension;
 use crate::layout::{InitialValueAs, StateLayout};
 
-// What nodes and elements share
+// Names of the values that nodes and elements share
 
 /// Of a node: p, Pa.
 pub(super) const PRESSURE: &str = "pressure";
@@ -21,14 +21,14 @@ pub(super) const ENTHALPY: &str = "enthalpy";
 pub(super) const DENSITY: &str = "density";
 /// Of a volume: V, m³.
 pub(super) const VOLUME: &str = "volume";
-/// Of a supply or a tank: that it gives and takes what runs.
+/// Of a supply or a tank: marks a source.
 pub(super) const SOURCE: &str = "source";
 /// Of an element in a chain: its flow, m³/s.
 pub(super) const FLOW: &str = "flow";
 
 // Fluids
 
-/// The fluid of a node: the one it names, or the only one.
+/// Returns the fluid of a node: the one it names, or the only one.
 pub(super) fn fluid_of<'a>(node: &Element, elements: &'a [Element]) -> Option<&'a Element> {
     let mut fluids = elements
         .iter()
@@ -70,13 +70,13 @@ pub(super) fn one_fluid(element: &Element, beside: &SceneContext<'_>, faults: &m
     }
 }
 
-/// β of a node's fluid.
+/// Returns β of a node's fluid.
 pub(super) fn bulk_modulus<'g>(node: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
     let fluid = fluid_of(node, sums.elements());
     fluid.map_or(sums.b.number(1.0), |f| sums.number(f, &BULK_MODULUS))
 }
 
-/// The 0-junction of a volume's pressure with the compliance of its fluid; `volume` is its text.
+/// Adds the 0-junction of a volume's pressure with the compliance of its fluid; `volume` is its text.
 pub(super) fn add_volume(
     element: &Element,
     node: &str,
@@ -95,7 +95,7 @@ pub(super) fn add_volume(
     pressure
 }
 
-/// The state of a volume of fluid.
+/// Declares the state of a volume of fluid.
 pub(super) fn declare_volume(node: &str, layout: &mut StateLayout) {
     let about = format!("volume at reference density of the fluid in `{node}`");
     let entered = InitialValueAs {
@@ -106,7 +106,7 @@ pub(super) fn declare_volume(node: &str, layout: &mut StateLayout) {
     layout.state_entered(node.to_owned(), Dimension::Volume, about, entered);
 }
 
-/// The law of a volume V of fluid; its pressure.
+/// Adds the law of a volume V of fluid, and returns its pressure.
 pub(super) fn fill<'g>(
     element: &Element,
     node: &str,
@@ -127,7 +127,7 @@ pub(super) fn fill<'g>(
     pressure
 }
 
-/// W = V e^{p/β}
+/// Returns W = V e^{p/β}.
 pub(super) fn filled<'g>(
     element: &Element,
     sums: &EffortSums<'g, '_>,
@@ -138,7 +138,7 @@ pub(super) fn filled<'g>(
     volume * (pressure / bulk_modulus(element, sums)).exp()
 }
 
-/// h = β (e^{p/β} − 1)
+/// Returns h = β (e^{p/β} − 1).
 pub(super) fn enthalpy<'g>(
     element: &Element,
     pressure: Expr<'g>,
@@ -153,7 +153,7 @@ pub(super) fn read_pressure<'g>(node: &str, pressure: Expr<'g>, sums: &mut Effor
     sums.reading(format!("{node}_pressure"), pressure, "Pa", about);
 }
 
-/// The pressure of a node.
+/// Returns the pressure of a node.
 pub(super) fn pressure<'g>(node: &str, sums: &EffortSums<'g, '_>) -> Expr<'g> {
     sums.shared(node, PRESSURE).unwrap_or(sums.b.zero())
 }

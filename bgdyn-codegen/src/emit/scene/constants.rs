@@ -1,4 +1,4 @@
-//! The constants of a scene's module: sizes and names.
+//! Emits the constants of a scene's module: sizes and names.
 
 use proc_macro2::TokenStream;
 use quote::quote;

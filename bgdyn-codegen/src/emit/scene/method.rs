@@ -1,4 +1,4 @@
-//! The functions of a scene as methods of its struct.
+//! Emits the functions of a scene as methods of its struct.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -15,7 +15,7 @@ use crate::interface::SceneInterface;
 use crate::method::{Method, SceneFunction};
 use crate::scene::StateLayout;
 
-/// The type that a role's function returns, and its parts.
+/// Returns the result type of a scene function, and its parts.
 fn result_of(role: SceneFunction, scene: &SceneInterface) -> (&'static str, Vec<StructField>) {
     let layout = &scene.layout;
     match role {
@@ -34,7 +34,7 @@ fn result_of(role: SceneFunction, scene: &SceneInterface) -> (&'static str, Vec<
     }
 }
 
-/// A role's function as a method.
+/// Returns a scene function as a method.
 pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -> TokenStream {
     let Method::Scene(role) = function.method else {
         unreachable!("a scene has functions of its own only")
@@ -72,7 +72,7 @@ pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -
     }
 }
 
-/// What stands before the body of a role's method.
+/// Returns the signature of a scene function's method.
 pub(super) fn signature(role: SceneFunction, scene: &SceneInterface) -> TokenStream {
     let method = Method::Scene(role);
     let name = ident(role.name());
@@ -100,7 +100,7 @@ pub(super) fn signature(role: SceneFunction, scene: &SceneInterface) -> TokenStr
     quote! { pub fn #name(&self, #(#names: #types),*) -> #result }
 }
 
-/// The result of a role from its components.
+/// Returns the result of a scene function from its components.
 fn finish(
     role: SceneFunction,
     layout: &StateLayout,
@@ -172,8 +172,8 @@ fn finish(
     }
 }
 
-/// Results that pass the check for singular matrices and for what is not finite, under names that
-/// begin with `prefix`; where fewer than all rates are given, zeros stand for the rest.
+/// Checks results for singular matrices and values that are not finite, with variable names that begin
+/// with `prefix`; if fewer than all rates are given, the rest is set to zero.
 fn passed(
     role: SceneFunction,
     layout: &StateLayout,
@@ -203,7 +203,7 @@ fn passed(
     (statement, names[..values.len()].to_vec())
 }
 
-/// Columns of v̇ and ẋ become those of ẏ: q̇ follows the velocities.
+/// Converts columns of v̇ and ẋ to columns of ẏ, with q̇ from the velocities.
 fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
     let (nq, rates) = (layout.nq(), layout.nv() + layout.nx());
     let columns = values.chunks(rates.max(1)).enumerate();
@@ -235,7 +235,7 @@ fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
     }
 }
 
-/// A state with momenta from its parts.
+/// Returns the code for a state with momenta from its parts.
 fn to_canonical(layout: &StateLayout, momenta: &[TokenStream]) -> TokenStream {
     let places = layout.coordinates.iter().filter(|c| c.stored);
     let places = places.map(|c| &c.name);
@@ -248,7 +248,7 @@ fn to_canonical(layout: &StateLayout, momenta: &[TokenStream]) -> TokenStream {
     vector(&all.chain(states.map(field)).collect::<Vec<_>>())
 }
 
-/// A state from one with momenta.
+/// Returns the code for a state from one with momenta.
 fn from_canonical(layout: &StateLayout, velocities: &[TokenStream]) -> TokenStream {
     let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
     let (statement, names) = passed(SceneFunction::FromCanonical, layout, "velocity", velocities);
@@ -266,7 +266,7 @@ fn from_canonical(layout: &StateLayout, velocities: &[TokenStream]) -> TokenStre
     }
 }
 
-/// q̇, ṗ, ẋ
+/// Returns the code for q̇, ṗ, ẋ.
 fn canonical_rates(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
     let role = SceneFunction::CanonicalRates;
     let (velocities, rates) = values.split_at(layout.nq());

@@ -1,4 +1,4 @@
-//! The module of a scene: types with named parts, the scene's functions, the trait `HybridSystem`.
+//! Emits the module of a scene: types with named parts, the scene's functions, the trait `HybridSystem`.
 
 mod constants;
 mod method;
@@ -22,7 +22,7 @@ use crate::interface::SceneInterface;
 use crate::method::{Method, SceneFunction};
 use crate::system::SceneEquations;
 
-/// The module of a scene with its functions.
+/// Returns the module of a scene with its functions.
 pub fn scene_module(
     system: &SceneEquations,
     functions: &[Function],

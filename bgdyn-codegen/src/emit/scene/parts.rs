@@ -20,7 +20,7 @@ pub(super) fn field(name: impl Into<String>, about: impl Into<String>) -> Struct
     }
 }
 
-/// Positions, velocities, first-order states: the parts that have rates.
+/// Returns positions, velocities and first-order states: the parts that have rates.
 pub(super) fn moving_parts(layout: &StateLayout) -> Vec<StructField> {
     let stored = layout.coordinates.iter().filter(|c| c.stored);
     let positions = stored.map(|c| {
@@ -49,7 +49,7 @@ pub(super) fn of_named(parts: &[Named]) -> Vec<StructField> {
     parts.iter().map(|n| field(&n.name, &n.about)).collect()
 }
 
-/// A type with public parts of the same type.
+/// Returns a type with public parts of the same type.
 pub(super) fn named_type(
     name: &str,
     about: &str,

@@ -1,4 +1,4 @@
-//! The module that stands in for a refused scene: its types with the parts that the file tells of,
+//! Emits the module that replaces a refused scene: its types with the parts known from the file, and
 //! methods that never run.
 
 use proc_macro2::TokenStream;
@@ -12,7 +12,7 @@ use crate::expr::Operations;
 use crate::interface::SceneInterface;
 use crate::method::SceneFunction;
 
-/// The module with bodies that never run.
+/// Returns the module with bodies that never run.
 pub fn scene_stub(scene: &SceneInterface, output: &OutputOptions) -> TokenStream {
     let name = output.module_ident(&scene.name);
     let model = ident(&struct_ident(&scene.name));
@@ -21,7 +21,7 @@ pub fn scene_stub(scene: &SceneInterface, output: &OutputOptions) -> TokenStream
     let doc = format!(" The scene {} was refused: see the error.", output.source);
     let structure = structure(&model, &doc, &scene.parameters);
     let (constants, types) = (constants::constants(scene), types::types(scene));
-    // Contacts have a type where there are modes only.
+    // The type of contacts exists only if there are modes.
     let roles = SceneFunction::ALL.into_iter();
     let roles = roles.filter(|r| *r != SceneFunction::Contacts || !scene.layout.modes.is_empty());
     let methods = roles.clone().map(|role| {

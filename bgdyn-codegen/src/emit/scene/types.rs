@@ -1,4 +1,4 @@
-//! The types of a scene's module, and the ways between them and vectors.
+//! Emits the types of a scene's module, and their conversions from and to vectors.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -51,7 +51,7 @@ pub(super) fn types(scene: &SceneInterface) -> TokenStream {
     quote! { #state #rates #coordinates #input #output #energy #power #contacts #conversions #(#serde)* }
 }
 
-/// Between named parts and vectors, and where the scene begins.
+/// Returns the conversions between named parts and vectors, and the start of the scene.
 fn conversions(
     scene: &SceneInterface,
     moving: &[StructField],

@@ -1,21 +1,21 @@
-//! Common divisors of sums, and the arithmetic of products and numbers that finds them.
+//! Common divisors of sums, and the arithmetic of products and numbers with which they are found.
 
 use bgdyn_runtime::Dd;
 
 use super::network::{Var, is_unit};
 use crate::expr::index::mix;
 
-/// What may be taken out: a · b of two factors (or a number and a factor), or a + r b of two
-/// products without a common factor.
+/// A divisor: a · b of two factors (or a number and a factor), or a + r b of two products without a common
+/// factor.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum DivisorKey {
     Product(FactorOrNumber, FactorOrNumber),
-    /// a, b, r as they are interned.
+    /// The ids of a, b, r.
     Sum(u32, u32, u32),
 }
 
 impl DivisorKey {
-    /// Its hash.
+    /// Returns its hash.
     pub fn quick_hash(self) -> u64 {
         match self {
             DivisorKey::Product(a, b) => mix(mix(1, a.word()), b.word()),
@@ -27,7 +27,7 @@ impl DivisorKey {
     }
 }
 
-/// A factor, or the size of a term's number.
+/// A factor, or the absolute value of a term's number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum FactorOrNumber {
     Number(u32),
@@ -43,7 +43,7 @@ impl FactorOrNumber {
     }
 }
 
-/// A number as a key: the last ten bits of a double-double are rounding errors.
+/// A number as a key, without the last ten bits of a double-double, which are rounding errors.
 pub(super) type NumberKey = (u64, i64);
 
 pub(super) fn number_key(x: Dd) -> NumberKey {
@@ -60,7 +60,7 @@ pub(super) fn near(x: Dd, y: Dd) -> bool {
     number_key(x) == number_key(y)
 }
 
-/// Where k (a + r b) · rest stands in a sum: its two terms, and k.
+/// An occurrence of k (a + r b) · rest in a sum: its two terms, and k.
 pub(super) struct Occurrence {
     pub var: Var,
     pub terms: [usize; 2],
@@ -68,8 +68,8 @@ pub(super) struct Occurrence {
     pub rest: Vec<Var>,
 }
 
-/// Numbers by which a + r b may be multiplied: so that one of its own is 1, or one of those where
-/// it stands.
+/// Returns numbers by which a + r b may be multiplied: so that one of its own factors is 1, or one of its
+/// occurrences has the factor 1.
 pub(super) fn scales(found: &[Occurrence], r: Dd) -> Vec<Dd> {
     let mut scales = vec![Dd::ONE, Dd::ONE / r];
     for place in found {
@@ -80,7 +80,7 @@ pub(super) fn scales(found: &[Occurrence], r: Dd) -> Vec<Dd> {
     scales
 }
 
-/// x / y, ± 1 where they are equal.
+/// Returns x / y, ± 1 if they are equal.
 pub(super) fn quotient_of(x: Dd, y: Dd) -> Dd {
     if is_unit(y) {
         if y == Dd::ONE { x } else { -x }
@@ -98,7 +98,7 @@ pub(super) fn insert(factors: &mut Vec<Var>, f: Var) {
     factors.insert(at, f);
 }
 
-/// The factors of x and of y that they do not share, and how many they share.
+/// Returns the factors of x and of y without the common ones, and the number of common ones.
 pub(super) fn divide(x: &[Var], y: &[Var], a: &mut Vec<Var>, b: &mut Vec<Var>) -> usize {
     a.clear();
     b.clear();
@@ -121,7 +121,7 @@ pub(super) fn divide(x: &[Var], y: &[Var], a: &mut Vec<Var>, b: &mut Vec<Var>) -
     x.len() - a.len()
 }
 
-/// x / a, where a divides x.
+/// Returns x / a, if a divides x.
 pub(super) fn quotient(x: &[Var], a: &[Var]) -> Option<Vec<Var>> {
     if a.len() > x.len() || a.iter().any(|f| x.binary_search(f).is_err()) {
         return None;

@@ -1,4 +1,4 @@
-//! The products and two-term sums that may be taken out, by what that saves at the most.
+//! A priority queue of common products and two-term sums, ordered by an upper bound of the saving.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -9,19 +9,19 @@ use super::divisor::{DivisorKey, number_key};
 use super::network::Var;
 use crate::expr::index::{Index, mix};
 
-/// Something that may be taken out, with the variables whose sums may hold it.
+/// A divisor, with the variables whose sums may contain it.
 struct Divisor {
     key: DivisorKey,
     places: Vec<Var>,
-    /// What taking it out saves at the most.
+    /// Upper bound of the saving.
     bound: isize,
 }
 
-/// All that may be taken out. Products of variables and numbers in keys go by their ids here.
+/// All divisors. In keys, products of variables and numbers are replaced by their ids.
 #[derive(Default)]
 pub(super) struct Divisors {
     all: Vec<Divisor>,
-    /// Those by their key.
+    /// The divisors by their key.
     by_key: Index,
     queue: BinaryHeap<(isize, Reverse<usize>)>,
     products: Vec<Vec<Var>>,
@@ -31,7 +31,7 @@ pub(super) struct Divisors {
 }
 
 impl Divisors {
-    /// The one that saves most by its bound, with its id and that bound.
+    /// Removes the divisor with the largest bound, and returns it with its id and bound.
     pub fn pop(&mut self) -> Option<(usize, DivisorKey, isize)> {
         while let Some((bound, Reverse(id))) = self.queue.pop() {
             if bound == self.all[id].bound {
@@ -41,7 +41,7 @@ impl Divisors {
         None
     }
 
-    /// Notes what one saves after it was tried.
+    /// Reinserts a divisor with its actual saving.
     pub fn put_back(&mut self, id: usize, saved: isize) {
         self.all[id].bound = saved;
         if saved > 0 {
@@ -49,7 +49,7 @@ impl Divisors {
         }
     }
 
-    /// Notes that a variable's sum may hold it, what that saves, and what defining it costs.
+    /// Records that a variable's sum may contain it, the saving, and the cost of defining it.
     pub fn note(&mut self, key: DivisorKey, var: Var, saved: isize, cost: isize) {
         let hash = key.quick_hash();
         let is_it = |id: u32| self.all[id as usize].key == key;
@@ -79,7 +79,7 @@ impl Divisors {
         }
     }
 
-    /// The variables whose sums may hold it, each once, in order.
+    /// Returns the variables whose sums may contain it, each once, in order.
     pub fn places(&mut self, id: usize) -> Vec<Var> {
         let places = &mut self.all[id].places;
         places.sort_unstable();
@@ -87,7 +87,7 @@ impl Divisors {
         places.clone()
     }
 
-    /// The id of a number.
+    /// Returns the id of a number.
     pub fn number_id(&mut self, k: Dd) -> u32 {
         let key = number_key(k);
         let hash = mix(mix(0, key.0), key.1 as u64);
@@ -101,12 +101,12 @@ impl Divisors {
         id
     }
 
-    /// The number with this id.
+    /// Returns the number with this id.
     pub fn number(&self, id: u32) -> Dd {
         self.numbers[id as usize]
     }
 
-    /// The id of a product of variables.
+    /// Returns the id of a product of variables.
     pub fn product_id(&mut self, factors: &[Var]) -> u32 {
         let hash = factors.iter().fold(1, |h, &f| mix(h, u64::from(f)));
         let is_it = |id: u32| self.products[id as usize] == factors;
@@ -119,7 +119,7 @@ impl Divisors {
         id
     }
 
-    /// The factors of the product with this id.
+    /// Returns the factors of the product with this id.
     pub fn product(&self, id: u32) -> &[Var] {
         &self.products[id as usize]
     }

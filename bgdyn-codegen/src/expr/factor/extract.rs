@@ -8,19 +8,19 @@ use super::divisor::{
 use super::divisors::Divisors;
 use super::network::{Network, NetworkTerm, Var, is_unit, product_cost};
 
-/// How far apart two terms of a sum may stand to be taken out together: time grows with it.
+/// Largest distance of two terms of a sum that are extracted together; the run time grows with it.
 const WINDOW: usize = 32;
 
 /// The greedy search.
 pub(super) struct Extraction<'a, 'g> {
     network: &'a mut Network<'g>,
     divisors: Divisors,
-    /// Two products, their memory used again and again.
+    /// Two products, as reusable memory.
     scratch: (Vec<Var>, Vec<Var>),
 }
 
 impl<'a, 'g> Extraction<'a, 'g> {
-    /// Finds all that may be taken out of the network's sums.
+    /// Finds all divisors of the network's sums.
     pub fn new(network: &'a mut Network<'g>) -> Self {
         let mut extraction = Extraction {
             network,
@@ -38,7 +38,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         extraction
     }
 
-    /// Takes out what saves most until nothing saves anything.
+    /// Extracts the divisor with the largest saving until none saves an operation.
     pub fn run(&mut self) {
         while let Some((id, key, bound)) = self.divisors.pop() {
             let saved = match key {
@@ -53,7 +53,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         self.network.sums[var as usize].as_deref().unwrap_or(&[])
     }
 
-    /// Notes the pairs of factors in a term, and its pairs with terms shortly before it.
+    /// Records the pairs of factors in a term, and its pairs with the terms shortly before it.
     fn register(&mut self, var: Var, t: usize) {
         self.register_products(var, t);
         for other in t.saturating_sub(WINDOW)..t {
@@ -107,7 +107,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         self.scratch = (a, b);
     }
 
-    /// A variable for the sum of `terms`.
+    /// Returns a new variable for the sum of `terms`.
     fn define(&mut self, terms: Vec<NetworkTerm>) -> Var {
         let var = self.network.sums.len() as Var;
         let n = terms.len();
@@ -118,7 +118,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         var
     }
 
-    /// Takes a · b out where that saves `bound`; else says what it would save.
+    /// Extracts a · b if that saves `bound`; otherwise returns the actual saving.
     fn try_product(
         &mut self,
         id: usize,
@@ -175,7 +175,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         0
     }
 
-    /// The term divided by a · b.
+    /// Returns the term divided by a · b.
     fn without(
         &self,
         term: &NetworkTerm,
@@ -205,7 +205,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         Some(made)
     }
 
-    /// Puts one term in place of those of each find; finds in one sum stand together.
+    /// Replaces the terms of each occurrence by one term; occurrences in one sum are consecutive.
     fn substitute<F>(
         &mut self,
         found: Vec<F>,
@@ -232,7 +232,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         }
     }
 
-    /// Takes a + r b out where that saves `bound`; else says what it would save.
+    /// Extracts a + r b if that saves `bound`; otherwise returns the actual saving.
     fn try_sum(&mut self, id: usize, a: u32, b: u32, r: u32, bound: isize) -> isize {
         let (a, b) = (
             self.divisors.product(a).to_vec(),
@@ -282,7 +282,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         0
     }
 
-    /// Adds the places of a + r b in a sum to `found`, no term twice.
+    /// Adds the occurrences of a + r b in a sum to `found`, no term twice.
     fn find(&self, var: Var, a: &[Var], b: &[Var], r: Dd, found: &mut Vec<Occurrence>) {
         let terms = self.terms(var);
         let mut taken = vec![false; terms.len()];
@@ -312,7 +312,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         }
     }
 
-    /// What it saves to take out scale · (a + r b).
+    /// Returns the saving of extracting scale · (a + r b).
     fn saved(&self, found: &[Occurrence], (a, b, r): (&[Var], &[Var], Dd), scale: Dd) -> isize {
         let cost = 1 + product_cost(scale, a.len()) + product_cost(scale * r, b.len());
         let mut saved = -(cost as isize);

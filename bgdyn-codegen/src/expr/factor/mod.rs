@@ -1,21 +1,20 @@
 //! Algebraic factoring: computes the same function with fewer operations.
 //!
 //! 1. [`network`] reads the graph as sums of products, Σ k·Π factors. Values with a single user are
-//!    written out, so that constants and equal terms meet across nesting, and cancel. A sum with several
-//!    users is written out where the cancellation pays for it.
-//! 2. [`extract`] takes out common products and common two-term sums, the largest saving first (the
-//!    two-cube divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
-//!    Kastner 2006). A last round writes every product out again, so that the first choices do not block
-//!    better ones.
-//! 3. [`rebuild`] makes the graph again, in the old order, with the old names and sections.
-//! 4. In small functions, shared values are then written out one by one wherever another round becomes
-//!    cheaper.
+//! expanded, so that constants and equal terms of nested expressions are combined, and cancel. A sum with
+//! several users is expanded if the cancellation saves more than it costs.
+//! 2. [`extract`] extracts common products and common two-term sums, the largest saving first (the
+//! two-cube divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
+//! Kastner 2006). A last round expands every product again, so that the first choices do not block better
+//! ones.
+//! 3. [`rebuild`] rebuilds the graph in the old order, with the old names and sections.
+//! 4. In small functions, shared values are then expanded one by one if another round becomes cheaper.
 //!
-//! The cheaper function of before and after is kept, so a count never rises. A sum is multiplied by
-//! numbers only, never by another sum: no term grows, and rounding errors keep their size. A pivot's
-//! magnitude stays a value of its own, and so does a product with a quotient. Functions with a fixed order
-//! of operations (`Function::ordered`: the literal sum, articulated bodies with own inertia) are not
-//! factored. At the end `quotient.rs` divides directly where a reciprocal has a single user.
+//! The result is the cheaper one of the functions before and after, so a count never increases. A sum is
+//! multiplied by numbers only, never by another sum: no term grows, and rounding errors do not grow. A
+//! pivot's magnitude remains a separate value, and so does a product with a quotient. Functions with a
+//! fixed order of operations (`Function::ordered`: the literal sum, articulated bodies with own inertia)
+//! are not factored. At the end `quotient.rs` divides directly if a reciprocal has a single user.
 
 mod divisor;
 mod divisors;
@@ -27,21 +26,19 @@ use super::{Cost, Graph, Node, NodeId, Signed, cost, reachable};
 use extract::Extraction;
 use network::{Network, Spread};
 
-/// Rounds at the most; each one reads what the one before has made.
+/// Largest number of rounds; each one starts from the result of the previous one.
 const ROUNDS: usize = 2;
 
-/// Operations beyond which a function stays as it is: the pass takes time that grows a little
-/// faster than their number.
+/// Functions with more operations are not factored: the run time grows slightly faster than their number.
 const LIMIT: usize = 8_000;
 
-/// Operations up to which products are written out once more: beyond, one in a thousand is saved.
+/// Largest number of operations for expanding products once more; beyond, this saves one in a thousand.
 const SPREAD: usize = 2_500;
 
-/// Operations up to which shared values are tried to be written out, one by one: each try is a
-/// round.
+/// Largest number of operations for expanding shared values one by one; each attempt is a round.
 const POLISHED: usize = 100;
 
-/// A function's graph and results, and what they cost.
+/// A function's graph and results, and their cost.
 struct Best {
     graph: Graph,
     outputs: Vec<Signed>,
@@ -49,7 +46,7 @@ struct Best {
 }
 
 impl Best {
-    /// A round; `spread` is written out where it is read. Kept where it is cheaper.
+    /// Runs a round in which `spread` is expanded, and uses its result if it is cheaper.
     fn improve(&mut self, spread: Spread) -> bool {
         let mut network = Network::new(&self.graph, &self.outputs, spread);
         Extraction::new(&mut network).run();
@@ -66,8 +63,7 @@ impl Best {
         better
     }
 
-    /// Writes out sums and products that few others read, one by one, as long as a whole turn
-    /// changes something.
+    /// Expands sums and products with few readers, one by one, until a whole pass changes nothing.
     fn polish(&mut self) {
         let mut readers = readers(&self.graph, &self.outputs);
         let (mut i, mut unchanged) = (0, 0);
@@ -86,7 +82,7 @@ impl Best {
     }
 }
 
-/// For each sum and product how many nodes read it.
+/// Returns the number of readers of each sum and product.
 fn readers(graph: &Graph, outputs: &[Signed]) -> Vec<usize> {
     let needed = reachable(graph, outputs);
     let ids = || (0..graph.len()).map(|i| NodeId(i as u32));
@@ -101,13 +97,13 @@ fn readers(graph: &Graph, outputs: &[Signed]) -> Vec<usize> {
     readers
 }
 
-/// The same values with fewer operations, where the pass finds a way.
+/// Returns the same values with fewer operations, if the pass finds them.
 pub fn factor(graph: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed>) {
     let best = rounds(graph, outputs, ROUNDS);
     (best.graph, best.outputs)
 }
 
-/// About what [`factor`] makes of a function costs: of long ones, after a single round.
+/// Estimates the cost of the function that [`factor`] returns; for long functions, after a single round.
 pub fn factored_cost(graph: Graph, outputs: Vec<Signed>) -> Cost {
     let best = rounds(graph, outputs, 1);
     cost(&best.graph, &best.outputs)
@@ -125,7 +121,7 @@ fn rounds(graph: Graph, outputs: Vec<Signed>, most: usize) -> Best {
             break;
         }
     }
-    // Products that were taken out first may stand in the way of better ones.
+    // Products that were extracted first may block better ones.
     if most > 1 && cost.operations.total() <= SPREAD {
         best.improve(Spread::Products);
     }
@@ -135,7 +131,7 @@ fn rounds(graph: Graph, outputs: Vec<Signed>, most: usize) -> Best {
     best
 }
 
-/// Cheaper, and no more operations of any kind.
+/// Returns whether `a` is cheaper, with no more operations of any kind.
 fn cheaper(a: &Cost, b: &Cost) -> bool {
     let counts = |c: &Cost| {
         let o = &c.operations;

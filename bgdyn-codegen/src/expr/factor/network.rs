@@ -5,22 +5,22 @@ use bgdyn_runtime::Dd;
 use crate::expr::fold::cancelling_sum;
 use crate::expr::{Graph, Node, NodeId, Signed, reachable};
 
-/// A value that terms refer to: a node of the graph, or a sum made by the pass, counted on from
-/// the last node.
+/// A value that terms refer to: a node of the graph, or a sum created by the pass, numbered after the last
+/// node.
 pub(super) type Var = u32;
 
-/// What is written out in the terms that read it, though others read it too.
+/// The values that are expanded in the terms that read them, although they have other readers.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Spread {
     /// Nothing.
     Nothing,
     /// A sum or product.
     One(NodeId),
-    /// Every product: which factors belong together is found anew.
+    /// Every product, so that products are regrouped.
     Products,
 }
 
-/// k · Π factors, the factors sorted; without factors a number.
+/// k · Π factors, with sorted factors; without factors a number.
 #[derive(Clone, Debug)]
 pub(super) struct NetworkTerm {
     pub k: Dd,
@@ -35,7 +35,7 @@ impl NetworkTerm {
         }
     }
 
-    /// Multiplications that it takes.
+    /// Returns the number of multiplications of the term.
     pub fn cost(&self) -> usize {
         product_cost(self.k, self.factors.len())
     }
@@ -51,7 +51,7 @@ impl NetworkTerm {
     }
 }
 
-/// Multiplications of a product of so many factors with a number.
+/// Returns the number of multiplications of a product of a number and this number of factors.
 pub(super) fn product_cost(k: Dd, factors: usize) -> usize {
     match factors {
         0 => 0,
@@ -63,7 +63,7 @@ pub(super) fn is_unit(k: Dd) -> bool {
     k == Dd::ONE || k == -Dd::ONE
 }
 
-/// Terms with equal factors become one, those that cancel none.
+/// Merges terms with equal factors; drops terms that cancel.
 pub(super) fn merged(mut terms: Vec<NetworkTerm>) -> Vec<NetworkTerm> {
     terms.sort_by(|a, b| a.factors.cmp(&b.factors));
     let mut merged: Vec<NetworkTerm> = Vec::with_capacity(terms.len());
@@ -77,7 +77,7 @@ pub(super) fn merged(mut terms: Vec<NetworkTerm>) -> Vec<NetworkTerm> {
     merged
 }
 
-/// Multiplications and additions of a sum.
+/// Returns the multiplications and additions of a sum.
 pub(super) fn sum_cost(terms: &[NetworkTerm]) -> usize {
     terms.len().saturating_sub(1) + terms.iter().map(NetworkTerm::cost).sum::<usize>()
 }
@@ -85,21 +85,21 @@ pub(super) fn sum_cost(terms: &[NetworkTerm]) -> usize {
 /// The sums of a function.
 pub(super) struct Network<'a> {
     pub graph: &'a Graph,
-    /// Which nodes the results need.
+    /// Whether the results need a node.
     pub needed: Vec<bool>,
-    /// What each variable is; `None` for what is no sum or product.
+    /// The sum of each variable; `None` if it is no sum or product.
     pub sums: Vec<Option<Vec<NetworkTerm>>>,
-    /// Nodes that stay as they are: magnitudes of pivots, which bound what is subtracted, and
-    /// products with a quotient, which could overflow in another order.
+    /// Nodes that are not changed: magnitudes of pivots, which bound the subtracted terms, and products
+    /// with a quotient, which could overflow in another order.
     kept: Vec<bool>,
-    /// What is written out though others read it too.
+    /// The values that are expanded although they have other readers.
     spread: Spread,
-    /// How many terms, other nodes and results read each variable; never too low.
+    /// The number of terms, other nodes and results that read each variable; never too low.
     uses: Vec<usize>,
 }
 
 impl<'a> Network<'a> {
-    /// Reads the graph: single uses are written out where that costs nothing, equal terms meet.
+    /// Reads the graph: single uses are expanded if that costs nothing, and equal terms are merged.
     pub fn new(graph: &'a Graph, outputs: &[Signed], spread: Spread) -> Self {
         let needed = reachable(graph, outputs);
         let mut network = Network {
@@ -121,7 +121,7 @@ impl<'a> Network<'a> {
         network
     }
 
-    /// The nodes that the results need, operands first.
+    /// Returns the nodes that the results need, operands first.
     fn nodes(&self) -> Vec<Var> {
         let all = 0..self.graph.len() as Var;
         all.filter(|&i| self.needed[i as usize]).collect()
@@ -156,7 +156,7 @@ impl<'a> Network<'a> {
         };
     }
 
-    /// The term with numbers and multiples by a number in place of the factors that are such.
+    /// Returns the term with its factors replaced that are numbers or multiples by a number.
     fn scaled(&self, term: &NetworkTerm) -> NetworkTerm {
         let mut made = NetworkTerm {
             k: term.k,
@@ -178,7 +178,7 @@ impl<'a> Network<'a> {
         for e in outputs {
             uses[e.node.0 as usize] += 1;
         }
-        // What nobody reads, reads nothing: readers stand behind what they read.
+        // Values without readers read nothing; readers come after their operands.
         for i in (0..self.sums.len()).rev() {
             if uses[i] == 0 {
                 continue;
@@ -201,19 +201,19 @@ impl<'a> Network<'a> {
         self.uses = uses;
     }
 
-    /// Whether it is to be written out: nothing but one term reads it.
+    /// Returns whether it is to be expanded: only one term reads it.
     fn read_once(&self, var: Var) -> bool {
         let wanted = self.uses[var as usize] == 1 || self.spread == Spread::One(NodeId(var));
         wanted && !self.kept[var as usize]
     }
 
-    /// The same for a product.
+    /// Returns whether a product is to be expanded.
     fn opens(&self, var: Var) -> bool {
         let products = self.spread == Spread::Products && !self.kept[var as usize];
         products || self.read_once(var)
     }
 
-    /// Writes products and sums that are read once, and multiples by numbers, out in their place.
+    /// Expands products and sums that are read once, and multiples by numbers.
     fn write_out(&mut self, i: Var) {
         let Some(terms) = self.sums[i as usize].take() else {
             return;
@@ -255,8 +255,8 @@ impl<'a> Network<'a> {
         self.sums[i as usize] = Some(whole);
     }
 
-    /// The sum with sums that others read too written out in it, where enough of their terms meet
-    /// terms of this one that it gets cheaper.
+    /// Returns the sum with shared sums expanded in it, if enough of their terms merge with terms of this
+    /// one to make it cheaper.
     fn cancelled(&mut self, mut whole: Vec<NetworkTerm>) -> Vec<NetworkTerm> {
         while let Some(cheaper) = (0..whole.len()).find_map(|t| self.opened(&whole, t)) {
             whole = cheaper;
@@ -267,13 +267,13 @@ impl<'a> Network<'a> {
         whole
     }
 
-    /// The sum with its term t written out; `None` where that is not cheaper.
+    /// Returns the sum with its term t expanded; `None` if that is not cheaper.
     fn opened(&self, whole: &[NetworkTerm], t: usize) -> Option<Vec<NetworkTerm>> {
         let [f] = whole[t].factors[..] else {
             return None;
         };
         let inner = self.sums[f as usize].as_deref()?;
-        // Without a term that meets another one it cannot get cheaper.
+        // It cannot become cheaper unless a term merges with another one.
         let meets = |term: &NetworkTerm| {
             let at = whole.binary_search_by(|other| other.factors.cmp(&term.factors));
             at.is_ok_and(|other| other != t)
@@ -296,7 +296,7 @@ impl<'a> Network<'a> {
         terms.iter().flat_map(|t| t.factors.clone()).collect()
     }
 
-    /// The term with products that are read once written out.
+    /// Returns the term with products that are read once expanded.
     fn flat(&mut self, term: &NetworkTerm) -> NetworkTerm {
         let mut made = NetworkTerm {
             k: term.k,
@@ -309,7 +309,7 @@ impl<'a> Network<'a> {
                     for &inner in &only.factors {
                         self.uses[inner as usize] += 1;
                     }
-                    // Its own use of them ends with it where it was the only reader.
+                    // If it was the only reader, its own uses of the operands end.
                     if self.uses[f as usize] == 1 {
                         for &inner in &only.factors {
                             self.uses[inner as usize] -= 1;

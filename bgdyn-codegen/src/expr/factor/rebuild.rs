@@ -5,8 +5,8 @@ use bgdyn_runtime::Dd;
 use super::network::{Network, NetworkTerm, Var};
 use crate::expr::{Graph, NodeId, Signed};
 
-/// The graph of the network's sums. Nodes come in the order of the graph that was read; what the
-/// pass made stands before its first user.
+/// Returns the graph of the network's sums. Nodes are in the order of the original graph; new sums precede
+/// their first user.
 pub(super) fn rebuild(network: &Network<'_>, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
     let mut rebuild = Rebuild {
         network,
@@ -24,7 +24,7 @@ pub(super) fn rebuild(network: &Network<'_>, outputs: &[Signed]) -> (Graph, Vec<
     (rebuild.graph, outputs)
 }
 
-/// Which variables the results need.
+/// Returns, for each variable, whether the results need it.
 fn reachable(network: &Network<'_>, outputs: &[Signed]) -> Vec<bool> {
     let mut read = vec![false; network.sums.len()];
     let mut stack: Vec<Var> = outputs.iter().map(|e| e.node.0).collect();
@@ -55,7 +55,7 @@ impl Rebuild<'_> {
         made.flipped(e.negative)
     }
 
-    /// Makes a variable, and before it what it reads.
+    /// Creates a variable, after the variables that it reads.
     fn make(&mut self, i: Var) {
         let mut stack = vec![i];
         while let Some(&i) = stack.last() {
@@ -67,7 +67,7 @@ impl Rebuild<'_> {
                     }
                 });
                 if stack.len() > before {
-                    // The operand that the reader names first comes first.
+                    // The first operand of the reader is created first.
                     stack[before..].reverse();
                     continue;
                 }
@@ -97,7 +97,7 @@ impl Rebuild<'_> {
         self.made[i as usize] = Some(made);
     }
 
-    /// The terms in the order in which their factors are made.
+    /// Returns the sum of the terms in the order in which their factors are created.
     fn sum(&mut self, terms: &[NetworkTerm]) -> Signed {
         let mut sorted: Vec<(Vec<Signed>, Dd)> = terms
             .iter()
@@ -112,7 +112,7 @@ impl Rebuild<'_> {
             let last = factors.last().copied();
             (last.is_none(), last, factors.len())
         });
-        // A term that is added comes first, so that nothing starts with a sign.
+        // A positive term comes first, so that the code does not begin with a sign.
         let added = |(factors, k): &(Vec<Signed>, Dd)| {
             factors
                 .iter()

@@ -333,7 +333,7 @@ pub(crate) fn constant_distance(
     )
 }
 
-/// A warning of an effect at a place where it does nothing.
+/// Returns a warning about an effect at a site where it has no influence.
 pub(crate) fn no_motion_there(location: &Location, effect: &str, at: &str) -> Fault {
     let (effect, at) = (quote(effect), quote(at));
     let message =

@@ -1,4 +1,4 @@
-//! Messages about the rules of single kinds of effects, and of hydraulic nodes.
+//! Messages about the rules of individual kinds of effects, and of hydraulic nodes.
 
 use super::figure;
 use crate::fault::{Fault, Location};
@@ -86,7 +86,7 @@ pub(crate) fn joins_a_node_to_itself(location: &Location, keys: [&str; 2], node:
     Fault::new(location, "joined-to-nothing", message).with_help("join two nodes")
 }
 
-/// `asked` is the fluid that the node names, `known` are the fluids of the scene.
+/// `asked` is the name of the fluid in the node, `known` are the fluids of the scene.
 pub(crate) fn no_fluid(
     location: &Location,
     name: &str,
@@ -141,7 +141,7 @@ pub(crate) fn circle_without_volume(location: &Location, name: &str) -> Fault {
     algebraic_loop(location, message, way_out)
 }
 
-/// `joined` are the elements at the junction; `varies` is one of two whose opening varies.
+/// `joined` are the elements at the junction; `varies` is one of two with a varying opening.
 pub(crate) fn junction_without_volume(
     location: &Location,
     name: &str,
@@ -175,27 +175,27 @@ pub(crate) fn not_positive(
     Fault::new(location, "effect-range", message).with_help(way_out)
 }
 
-/// A mode that a scene states against the rest of its state, SI units.
+/// A given mode that contradicts the rest of the state, SI units.
 pub(crate) struct WrongMode<'a> {
     /// Its name.
     pub name: &'a str,
-    /// The mode as stated, and the one that agrees with the state.
+    /// The given mode, and the one that is consistent with the state.
     pub modes: [f64; 2],
     /// Name of the rate that the mode may hold.
     pub rate: &'a str,
     /// Units of the rate and of the effort.
     pub units: [&'static str; 2],
-    /// Why it does not agree.
+    /// The reason of the contradiction.
     pub why: WhyWrong,
 }
 
-/// Why a stated mode does not agree with the state.
+/// The reason why a given mode contradicts the state.
 pub(crate) enum WhyWrong {
-    /// The rate against the counterpart is not zero.
+    /// The rate relative to the counterpart is not zero.
     Slips(f64),
-    /// At rest, this effort can hold it.
+    /// At rest, this effort is within the limit.
     IsHeld(f64),
-    /// Holding takes an effort that is too large, and by how much.
+    /// The effort for holding is too large: the effort, and the excess.
     CannotHold(f64, f64),
     /// The rate, and the limit that it is not at.
     OffLimit(f64, f64),

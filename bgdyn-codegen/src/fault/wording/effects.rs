@@ -1,4 +1,4 @@
-//! Messages about effects: their types, their keys, the names that they refer to and take.
+//! Messages about effects: their types, their keys, the names that they refer to and define.
 
 use super::unknown_name;
 use crate::fault::{Fault, Location};
@@ -27,7 +27,7 @@ pub(crate) fn type_of_mechanism_differs(
         .with_help("leave `type` out, or give the new effect another name")
 }
 
-// What a scene's list names
+// Names in a scene's list
 
 pub(crate) fn unknown_effect(location: &Location, name: &str, known: &[&str]) -> Fault {
     let message = unknown_name("effect", name, known, &known.join(", "));
@@ -52,7 +52,7 @@ pub(crate) fn two_of_type_at_joint(
         .with_help("a joint can have one effect of this type: leave the other out")
 }
 
-// Keys and the names behind them
+// Keys and the names in their values
 
 pub(crate) fn effect_key_missing(
     location: &Location,
@@ -75,7 +75,7 @@ pub(crate) fn joint_is_locked(location: &Location, joint: &str) -> Fault {
         .with_help("leave this effect out of the scene, or do not lock the joint")
 }
 
-/// `what` is the kind of name that belongs behind `key`: a moving joint, a hydraulic node.
+/// `what` is the kind of name that `key` requires: a moving joint, a hydraulic node.
 pub(crate) fn unknown_reference(
     location: &Location,
     (what, word): (&str, &str),
@@ -106,7 +106,7 @@ pub(crate) fn joints_of_wrong_kind(location: &Location) -> Fault {
         .with_help("write `joints: all`, `joints: [shoulder, elbow]` or `joint: shoulder`")
 }
 
-// Names that effects take
+// Names that effects define
 
 pub(crate) fn effect_has_name_of_body(location: &Location, name: &str) -> Fault {
     let message = format!("`{name}` is already the name of a joint, a link or a frame");

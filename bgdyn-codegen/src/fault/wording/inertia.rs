@@ -33,7 +33,7 @@ pub(crate) fn nonphysical_word(location: &Location, word: &str) -> Fault {
     .with_help("write `nonphysical: allow`, or leave it out")
 }
 
-// Solids, and what a tensor is about
+// Solids, and reference points of tensors
 
 pub(crate) fn unknown_solid(location: &Location, word: &str, known: &[&str]) -> Fault {
     let help = meant(

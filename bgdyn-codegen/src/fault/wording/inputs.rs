@@ -9,7 +9,7 @@ pub(crate) fn unknown_input(location: &Location, name: &str, known: &[&str]) -> 
         .with_help("an input is the effort of a joint, or an input that an effect declares")
 }
 
-/// `known` lists what an input can be driven by.
+/// `known` lists the possible sources of an input.
 pub(crate) fn not_one_source(location: &Location, known: &str) -> Fault {
     Fault::new(location, "drive", "an input has exactly one source")
         .with_help(format!("write one of {known}"))

@@ -125,7 +125,7 @@ pub(crate) fn missing_key(location: &Location, key: &str, what: &str) -> Fault {
     .with_help(format!("add {what}"))
 }
 
-/// What belongs somewhere, and how it is written.
+/// The description of an expected value, and its syntax.
 pub(crate) type Wanted<'a> = (&'a str, &'a str);
 
 pub(crate) fn wrong_type(location: &Location, (what, example): Wanted<'_>, found: &str) -> Fault {
@@ -227,7 +227,7 @@ pub(crate) fn unit_misfit(
     Fault::new(location, "unit-misfit", message).with_help(format!("write {}", wanted(fit)))
 }
 
-/// "a number, bare (m) or with one of `m`, `cm`, `mm`".
+/// Returns "a number, bare (m) or with one of `m`, `cm`, `mm`".
 fn wanted(fit: &[Dimension]) -> String {
     let units: Vec<&str> = fit.iter().flat_map(|d| d.units()).collect();
     if units.is_empty() {

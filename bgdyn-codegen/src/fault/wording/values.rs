@@ -1,8 +1,8 @@
-//! Messages about the numbers of an effect: their signs, their order, which of them go together.
+//! Messages about the numbers of an effect: their signs, their order, valid combinations.
 
 use crate::fault::{Fault, Location};
 
-/// `why` says which physical rule a negative number breaks; the same below.
+/// `why` is the physical rule that a negative number violates; also in the functions below.
 pub(crate) fn negative_value(location: &Location, key: &str, text: &str, why: &str) -> Fault {
     let message = format!("`{key}` is {text}: it must not be negative");
     Fault::new(location, "effect-sign", message).with_help(why)
@@ -23,7 +23,7 @@ pub(crate) fn value_cannot_be_parameter(location: &Location, key: &str, keyword:
     Fault::new(location, "misplaced-parameter", message).with_help("write a plain number")
 }
 
-/// The keys and the texts of their numbers: first the one that must not be greater.
+/// The keys and the texts of their numbers: first the number that must not be greater.
 pub(crate) fn values_out_of_order(
     location: &Location,
     (small, small_text): (&str, &str),
@@ -34,7 +34,7 @@ pub(crate) fn values_out_of_order(
     Fault::new(location, "effect-order", message).with_help(why)
 }
 
-/// `given` are the keys written, of which there must be exactly one of `keys`.
+/// `given` are the keys in the file; exactly one of `keys` is required.
 pub(crate) fn not_one_port(
     location: &Location,
     effect: &str,

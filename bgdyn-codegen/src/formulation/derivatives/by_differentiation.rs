@@ -11,7 +11,7 @@ use crate::function::Function;
 use crate::method::Method;
 use crate::passes::cheapest;
 
-/// Velocities up to which differentiated expressions may cost less than composite bodies.
+/// Largest number of velocities for which differentiated expressions may cost less than composite bodies.
 const SMALL: usize = 4;
 
 /// Derivatives of inverse dynamics, by differentiating its expressions.
@@ -51,7 +51,7 @@ impl Formulation for Differentiated {
         let from = prepared.function(*self.reads(method).first()?)?;
         let (b, x) = reopened(&from);
         let outputs = if method == Method::CoriolisMatrix {
-            // The bias is quadratic in v with Christoffel's symbols: C = ½ ∂bias/∂v.
+            // The bias is quadratic in v with Christoffel symbols: C = ½ ∂bias/∂v.
             let half = |e: Expr<'_>| (e * Dd::from_f64(0.5)).signed();
             let columns = derivatives(&b, &x, n, Leaf::Velocity);
             rows(&columns)
@@ -109,8 +109,8 @@ impl Formulation for ForwardDynamicsDerivatives {
     }
 }
 
-/// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by whichever formulation it is
-/// stable and cheap. Columns that are alike run in a loop, where that takes no operation more.
+/// Forward dynamics is linear in τ: its derivative along dτ is M⁻¹ dτ, by any formulation that is accurate
+/// and cheap. Similar columns run in a loop if that needs no additional operation.
 fn forward_derivatives(
     graph: &Multibody,
     method: Method,
@@ -130,7 +130,7 @@ fn forward_derivatives(
     }
 }
 
-/// Columns as one matrix, row by row.
+/// Returns columns as one matrix, row by row.
 fn rows(columns: &[Vec<Signed>]) -> Vec<Signed> {
     (0..columns.len())
         .flat_map(|i| columns.iter().map(move |c| c[i]))

@@ -1,4 +1,4 @@
-//! Derivatives of a function's results by the leaves of its graph.
+//! Differentiates a function's results by the leaves of its graph.
 
 use bgdyn_runtime::Dd;
 
@@ -7,7 +7,7 @@ use crate::expr::{Builder, Graph, Leaf, Signed, Tangent};
 use crate::function::Function;
 use crate::method::Method;
 
-/// A function's graph, open for more, and its results.
+/// Returns a function's graph, for adding nodes, and its results.
 pub(super) fn reopened(function: &Function) -> (Builder, Vec<Signed>) {
     (
         Builder::from(function.graph.clone()),
@@ -15,7 +15,7 @@ pub(super) fn reopened(function: &Function) -> (Builder, Vec<Signed>) {
     )
 }
 
-/// ∂x/∂leaf_j: a column per coordinate j.
+/// Returns ∂x/∂leaf_j: a column per coordinate j.
 pub(super) fn derivatives(
     b: &Builder,
     x: &[Signed],
@@ -32,7 +32,8 @@ pub(super) fn derivatives(
     (0..n).map(column).collect()
 }
 
-/// A function of the differentiated graph; it keeps the order of operations where its origin does.
+/// Returns a function of the differentiated graph; its operations are in a fixed order if those of the
+/// original function are.
 pub(super) fn finish(
     graph: &Multibody,
     method: Method,

@@ -1,7 +1,8 @@
 //! The derivatives of forward dynamics, column by column: dq̈ = M⁻¹ dτ.
 //!
 //! Forward dynamics is differentiated along efforts dτ that are leaves of the graph, once for each pattern
-//! of zeros in the columns. Columns with one pattern go into a loop ([`crate::column_loop`]) where that pays.
+//! of zeros in the columns. Columns with the same pattern form a loop ([`crate::column_loop`]) if that
+//! saves time.
 
 use std::collections::BTreeMap;
 
@@ -14,25 +15,26 @@ use crate::expr::{Builder, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
 use crate::method::{Method, Shape};
 
-/// Columns from which on a loop is worth its arrays.
+/// Smallest number of columns for a loop.
 const COLUMNS: usize = 4;
 
-/// Operations from which on it is: shorter ones stay in registers and in the instruction cache.
+/// Smallest number of operations for a loop: shorter columns fit in registers and in the instruction
+/// cache.
 const OPERATIONS: usize = 800;
 
-/// Forward dynamics, and the efforts −∂τ/∂x that drive the columns of its derivatives.
+/// Forward dynamics, and the efforts −∂τ/∂x of the columns of its derivatives.
 #[derive(Clone)]
 pub(super) struct ForwardDerivatives {
     builder: Builder,
     accelerations: Vec<Signed>,
-    /// By position, then by velocity; an effort for each coordinate.
+    /// By position, then by velocity; one effort per coordinate.
     columns: Vec<Vec<Signed>>,
 }
 
 impl ForwardDerivatives {
     pub(super) fn new(graph: &Multibody, slopes: &Function, forward: &Function) -> Self {
         let n = graph.coordinates.len();
-        // The copy takes over the accelerations in place of their leaves.
+        // In the copy, the accelerations replace their leaves.
         let (builder, accelerations) = reopened(forward);
         let placed = |_: &mut Graph, leaf: Leaf| match leaf {
             Leaf::Acceleration(j) => Some(accelerations[j]),
@@ -52,7 +54,7 @@ impl ForwardDerivatives {
         }
     }
 
-    /// Columns with zeros in the same rows, as many as are worth a loop.
+    /// Returns groups of columns with zeros in the same rows that are large enough for a loop.
     pub(super) fn alike(&self) -> Vec<Vec<usize>> {
         let mut groups: BTreeMap<Vec<bool>, Vec<usize>> = BTreeMap::new();
         for (c, column) in self.columns.iter().enumerate() {
@@ -65,7 +67,7 @@ impl ForwardDerivatives {
         groups.map(|(_, all)| all).collect()
     }
 
-    /// The function, with a loop for each of these groups of columns.
+    /// Returns the function, with a loop for each of these groups of columns.
     pub(super) fn function(
         self,
         graph: &Multibody,
@@ -76,7 +78,7 @@ impl ForwardDerivatives {
         let n = self.accelerations.len();
         let mut stage = Stage::default();
         let mut parts = vec![ResultSource::Stage(0); Shape::CheckedSquares.len(n)];
-        // Row i of a column; the columns of both squares are counted through.
+        // The index of row i of a column; columns of both square matrices are numbered consecutively.
         let place = |c: usize, i: usize| n + (c / n) * n * n + i * n + c % n;
         let mut loops = Vec::new();
         let mut looped = vec![false; self.columns.len()];
@@ -101,7 +103,7 @@ impl ForwardDerivatives {
                 parts[place(c, i)] = ResultSource::Stage(stage.add(e));
             }
         }
-        // Of two equal entries of M⁻¹ the one nearer to the base takes less.
+        // Of two symmetric entries of M⁻¹ use the one nearer to the base, which needs fewer operations.
         let inverse = derivatives(&self.builder, &self.accelerations, n, Leaf::Input);
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
             let entry = stage.add(inverse[i.max(j)][i.min(j)]);
@@ -122,7 +124,7 @@ impl ForwardDerivatives {
         }
     }
 
-    /// The loop over some columns, what it reads in `stage`; nothing where it is too short.
+    /// Returns the loop over some columns, with its arguments in `stage`; `None` if it is too short.
     fn group(&self, stage: &mut Stage, all: &[usize]) -> Option<ColumnLoop> {
         let first = &self.columns[all[0]];
         let rows: Vec<usize> = (0..first.len())
@@ -139,7 +141,7 @@ impl ForwardDerivatives {
         let (graph, outputs, shared) = self.builder.with_graph(column);
         let operations = crate::expr::count(&graph, &outputs).total();
         (all.len() * operations >= OPERATIONS).then_some(())?;
-        // Row by row, so that the loop finds its columns side by side.
+        // Row by row, so that the values of the columns are adjacent.
         let mut own = vec![Vec::new(); all.len()];
         for &row in &rows {
             for (own, &c) in own.iter_mut().zip(all) {
@@ -154,7 +156,7 @@ impl ForwardDerivatives {
         })
     }
 
-    /// The accelerations that efforts drive.
+    /// Returns the accelerations due to given efforts.
     fn along(&self, drive: &[Signed]) -> Vec<Signed> {
         let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
             Leaf::Input(j) => Some(drive[j]),
@@ -170,7 +172,7 @@ impl ForwardDerivatives {
     }
 }
 
-/// The results of the straight line.
+/// The results of the straight-line code.
 #[derive(Default)]
 struct Stage {
     results: Vec<Signed>,
@@ -178,7 +180,7 @@ struct Stage {
 }
 
 impl Stage {
-    /// Where the expression stands among the results.
+    /// Returns the index of the expression among the results; adds it if it is new.
     fn add(&mut self, e: Signed) -> usize {
         match self.known.get(&e) {
             Some(&place) => place,
@@ -186,7 +188,7 @@ impl Stage {
         }
     }
 
-    /// The same, in a place of its own.
+    /// Adds the expression as a separate result.
     fn add_anew(&mut self, e: Signed) -> usize {
         let place = self.results.len();
         self.results.push(e);

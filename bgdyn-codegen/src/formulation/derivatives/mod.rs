@@ -1,4 +1,4 @@
-//! Methods that are derivatives of others, by differentiating expressions.
+//! Formulations of methods that are derivatives of others, by differentiation of expressions.
 //!
 //! | file | computes |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | `forward_dynamics.rs` | derivatives of forward dynamics from those of inverse dynamics |
 //! | `by_differentiation.rs` | the formulations |
 //!
-//! Those of inverse dynamics by composite bodies are in `recursion/derivatives/`.
+//! Composite-body derivatives of inverse dynamics are in `recursion/derivatives/`.
 
 mod by_differentiation;
 mod differentiate;

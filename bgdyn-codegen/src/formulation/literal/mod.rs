@@ -1,9 +1,9 @@
-//! Equation (6) as it stands: every term of the double sum, fixed axes.
+//! Equation (6), literally: every term of the double sum, in fixed axes.
 //!
 //! P_j = Σ_i [ ∂r_i/∂q_j · (m_i r̈_i − R_i) + ρ_j^i · (K̇_i − M_i) ]
 //!
-//! The specification that every other formulation is proved against. It follows the transformers
-//! of the bond graph one by one and leaves out only what their structure says is zero.
+//! All other formulations are verified against it. It follows the transformers of the bond graph one by
+//! one and omits only structural zeros.
 
 mod sites;
 mod sum;
@@ -29,7 +29,7 @@ impl Formulation for Literal {
         "equation (6) term by term, in fixed axes"
     }
 
-    /// Its graph grows with the cube of the number of links.
+    /// The graph grows with the cube of the number of links.
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
         Offer::Never
     }

@@ -1,4 +1,4 @@
-//! Poses, velocities and Jacobians of sites from the placement of the links, fixed axes.
+//! Poses, velocities and Jacobians of sites from the poses of the links, in fixed axes.
 
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
@@ -9,7 +9,7 @@ use crate::math::Vec3;
 use crate::mechanism::Motion;
 use crate::method::Method;
 
-/// The expressions of a method of a site; `None` for any other method.
+/// Returns the expressions of a method of a site; `None` for any other method.
 pub(super) fn outputs<'g>(
     b: &'g Builder,
     graph: &Multibody,

@@ -1,4 +1,4 @@
-//! The double sum.
+//! The double sum of equation (6).
 
 use bgdyn_runtime::Dd;
 
@@ -17,11 +17,11 @@ struct Moduli<'g> {
     angular: Vec<(usize, Vec3<Expr<'g>>)>,
 }
 
-/// What the double sum is made of, per link.
+/// The quantities of the double sum, per link.
 pub(super) struct LiteralSum<'a, 'g> {
     b: &'g Builder,
     graph: &'a BondGraph,
-    /// A_i, and the joints' places.
+    /// A_i, and the poses of the joints.
     placement: Placement<'g>,
     /// r_i: centres of mass.
     positions: Vec<Vec3<Expr<'g>>>,
@@ -48,7 +48,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         sum
     }
 
-    /// The moduli of link i, with the structural zeros and constants of the graph.
+    /// Returns the moduli of link i, with the structural zeros and constants of the graph.
     fn moduli_of(&self, i: LinkId) -> Moduli<'g> {
         let Placement { origins, axes, .. } = &self.placement;
         let read = |to: JunctionId, linear: bool| {
@@ -86,14 +86,14 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         Vec3([self.b.zero(); 3])
     }
 
-    /// Σ_k modulus_k · x_k
+    /// Returns Σ_k modulus_k · x_k.
     fn combine(&self, moduli: &[(usize, Vec3<Expr<'g>>)], x: &[Expr<'g>]) -> Vec3<Expr<'g>> {
         moduli
             .iter()
             .fold(self.zero(), |sum, (k, m)| sum + m.scale(x[*k]))
     }
 
-    /// J_i = A_i J_i⁰ A_iᵀ in fixed axes.
+    /// Returns J_i = A_i J_i⁰ A_iᵀ in fixed axes.
     fn tensor(&self, i: usize) -> Mat3<Expr<'g>> {
         let Tensor { entries, axes } = self.graph.inertial(LinkId(i)).inertia;
         let [xx, yy, zz, xy, xz, yz] = entries.map(|x| value(self.b, x));
@@ -106,7 +106,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         value(self.b, self.graph.inertial(LinkId(i)).mass)
     }
 
-    /// R_i: the sum of the active efforts on ṙ_i.
+    /// Returns R_i: the sum of the active efforts on ṙ_i.
     fn active_force(&self, i: usize) -> Vec3<Expr<'g>> {
         let junction = self.graph.translation(LinkId(i));
         let sources = self.graph.sources.iter().filter(|s| s.junction == junction);
@@ -119,7 +119,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             })
     }
 
-    /// P_j for the given velocities and accelerations.
+    /// Returns P_j for the given velocities and accelerations.
     pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
         let velocities: Vec<_> = x.v.iter().map(|v| v.signed()).collect();
         let seed = |_: &mut Graph, leaf| match leaf {
@@ -136,7 +136,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         let mut efforts = vec![self.b.zero(); self.graph.coordinates.len()];
         for i in 0..self.graph.frames.len() {
             let moduli = &self.moduli[i];
-            // r̈_i = Σ ∂r_i/∂q_k q̈_k + Σ d/dt(∂r_i/∂q_k) q̇_k, and ω̇_i likewise with ρ_k.
+            // r̈_i = Σ ∂r_i/∂q_k q̈_k + Σ d/dt(∂r_i/∂q_k) q̇_k, and ω̇_i similarly with ρ_k.
             let mut second = |moduli: &[(usize, Vec3<Expr<'g>>)]| {
                 let rates: Vec<_> = moduli.iter().map(|(k, m)| (*k, rate_of(m))).collect();
                 self.combine(moduli, &x.a) + self.combine(&rates, &x.v)
@@ -149,7 +149,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             let (omega, tensor) = (self.combine(&moduli.angular, &x.v), self.tensor(i));
             let omega_dot = second(&moduli.angular);
             let mut moment = tensor * omega_dot + omega.cross(tensor * omega);
-            // … and of the rotors on the link, whose momentum is h_i = N J q̇_j e.
+            // Adds K̇ of the rotors on the link, whose momentum is h_i = N J q̇_j e.
             for (j, h) in self.spinning(i) {
                 moment = moment + h.scale(x.a[j]) + omega.cross(h).scale(x.v[j]);
                 efforts[j] = efforts[j] + h.dot(omega_dot);
@@ -168,7 +168,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         efforts
     }
 
-    /// The joints that turn rotors on link i, with N J e in fixed axes.
+    /// Returns the joints that drive rotors on link i, with N J e in fixed axes.
     fn spinning(&self, i: usize) -> Vec<(usize, Vec3<Expr<'g>>)> {
         let rotors = self.graph.rotors.iter();
         let on = rotors.filter_map(|r| Some((r, r.carrier.as_ref()?)));
@@ -180,7 +180,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             .collect()
     }
 
-    /// Lower triangle of M_jk = Σ_i [ ∂r_i/∂q_j · m_i ∂r_i/∂q_k + ρ_j · J_i ρ_k ].
+    /// Returns the lower triangle of M_jk = Σ_i [ ∂r_i/∂q_j · m_i ∂r_i/∂q_k + ρ_j · J_i ρ_k ].
     pub(super) fn mass_matrix(&self) -> Vec<Vec<Expr<'g>>> {
         let n = self.graph.coordinates.len();
         let mut mass: Vec<Vec<Expr<'g>>> = (0..n).map(|j| vec![self.b.zero(); j + 1]).collect();
@@ -213,7 +213,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         mass
     }
 
-    /// T = ½ Σ_i [ m_i ṙ_i · ṙ_i + ω_i · J_i ω_i ]
+    /// Returns T = ½ Σ_i [ m_i ṙ_i · ṙ_i + ω_i · J_i ω_i ].
     pub(super) fn kinetic_energy(&self, v: &[Expr<'g>]) -> Expr<'g> {
         let twice = (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
             let velocity = self.combine(&self.moduli[i].linear, v);
@@ -236,7 +236,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         twice * Dd::from_f64(0.5)
     }
 
-    /// V = −Σ_i R_i · r_i for the weights R_i.
+    /// Returns V = −Σ_i R_i · r_i for the weights R_i.
     pub(super) fn potential_energy(&self) -> Expr<'g> {
         (0..self.graph.frames.len()).fold(self.b.zero(), |sum, i| {
             sum - self.active_force(i).dot(self.positions[i])
@@ -244,5 +244,5 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
     }
 }
 
-// A coordinate's place among the junctions is its number: `Transformer::from` relies on it.
+// A coordinate's index is that of its junction: `Transformer::from` relies on it.
 const _: fn(&BondGraph, CoordinateId) -> JunctionId = BondGraph::velocity;

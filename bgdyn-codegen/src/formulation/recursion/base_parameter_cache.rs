@@ -1,4 +1,4 @@
-//! Inertia regrouped before. Without run-time parameters it is numbers, and the same for every
+//! A cache of regrouped inertia. Without run-time parameters it is numerical, and the same for every
 //! method and for all plans with the same origins.
 
 use std::cell::RefCell;
@@ -6,15 +6,15 @@ use std::rc::Rc;
 
 use bgdyn_runtime::Dd;
 
-/// What is known so far.
+/// The cached results.
 #[derive(Default)]
 pub(super) struct BaseParameterCache(RefCell<Vec<Rc<Numbers>>>);
 
-/// The bodies' inertia for one choice of origins.
+/// The inertia of the bodies for one choice of origins.
 pub(super) struct Numbers {
-    /// How far each body's origin slides along its joint's axis, m.
+    /// Displacement of each body's origin along its joint's axis, m.
     pub slides: Vec<Dd>,
-    /// Whether inertia is regrouped at all.
+    /// Whether inertia is regrouped.
     pub base_parameters: bool,
     /// Mass, axial mass, first moment and pseudo-inertia of each body about its origin.
     pub bodies: Vec<[Dd; 11]>,
@@ -23,7 +23,7 @@ pub(super) struct Numbers {
 }
 
 impl BaseParameterCache {
-    /// For these origins, if it is known.
+    /// Returns the result for these origins, if it is cached.
     pub fn find(&self, slides: &[Dd], base_parameters: bool) -> Option<Rc<Numbers>> {
         let all = self.0.borrow();
         let mut all = all.iter();
@@ -31,7 +31,7 @@ impl BaseParameterCache {
             .cloned()
     }
 
-    /// Remembers it.
+    /// Stores a result.
     pub fn keep(&self, numbers: Numbers) {
         self.0.borrow_mut().push(Rc::new(numbers));
     }

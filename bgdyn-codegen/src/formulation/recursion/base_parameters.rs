@@ -1,9 +1,8 @@
-//! Base parameters: inertia moved to where it costs least, and run-time parameters on its way.
+//! Computes base parameters: moves inertia between bodies to where it costs least.
 //!
-//! Inertia is linear: that of a body is a sum of parts, and every part may move from body to body
-//! by itself. What is known at generation time moves as far as it can and costs nothing. A part
-//! with a run-time parameter costs operations wherever it is added to something; how far it moves
-//! is a choice of the plan.
+//! Inertia is linear: that of a body is a sum of parts, and every part can move from body to body
+//! independently. Parts that are known at generation time move as far as possible and cost nothing. A part
+//! with a run-time parameter costs operations at each addition; the plan chooses how far it moves.
 
 use bgdyn_runtime::Dd;
 
@@ -19,11 +18,11 @@ use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
 
 /// Inertia of a body about its origin, in its axes.
 pub(super) struct Parts<'g> {
-    /// What is known at generation time.
+    /// The part that is known at generation time.
     pub known: BodyInertia<'g>,
-    /// Parts with run-time parameters, each with the number of joints by which it may still move.
+    /// Parts with run-time parameters, each with the remaining number of joints by which it may move.
     varying: Vec<(BodyInertia<'g>, usize)>,
-    /// Point masses with run-time parameters that are to be kept apart.
+    /// Point masses with run-time parameters that remain separate.
     pub points: Vec<Point<'g>>,
 }
 
@@ -33,7 +32,7 @@ impl<'g> Parts<'g> {
         self.varying.extend(varying.map(|part| (part, joints)));
     }
 
-    /// In units of `length`: every part by itself, where factors fold.
+    /// Converts to units of `length`: every part separately, where factors fold.
     pub fn in_units_of(&self, length: Dd) -> Self {
         let varying = self.varying.iter();
         Parts {
@@ -45,15 +44,15 @@ impl<'g> Parts<'g> {
         }
     }
 
-    /// The sum without the points.
+    /// Returns the sum without the points.
     pub fn sum(&self) -> BodyInertia<'g> {
         let parts = self.varying.iter();
         parts.fold(self.known, |sum, (part, _)| sum.plus(part))
     }
 }
 
-/// Inertia of every body after the regrouping, and the potential energy that no longer depends on
-/// q.
+/// Returns the inertia of every body after the regrouping, and the potential energy that does not depend
+/// on q.
 pub(super) fn regrouped<'g>(
     b: &'g Builder,
     graph: &Multibody,
@@ -85,7 +84,7 @@ pub(super) fn regrouped<'g>(
     (bodies, energy)
 }
 
-/// The regrouping itself.
+/// Regroups the inertia.
 fn regroup<'g>(
     b: &'g Builder,
     graph: &Multibody,
@@ -102,7 +101,7 @@ fn regroup<'g>(
         let body = &geometry.bodies[j];
         let offset = b.vector(origin_offset(geometry, plan, j));
         let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
-        // What moved is the same in twisted as in own axes, about the same origin.
+        // The moved part is the same in twisted axes as in own axes, about the same origin.
         let mut take = |own: &mut BodyInertia<'g>| {
             let moved = match body.motion {
                 Motion::Rotation => take_from_rotation(b, own),
@@ -129,8 +128,8 @@ fn regroup<'g>(
     (bodies, energy)
 }
 
-/// The parts of body j as the spec has them. A tensor is taken apart into its parameters:
-/// multiples of one parameter stay that wherever they move, and their factors fold.
+/// Returns the parts of body j in the spec. A tensor is divided by its parameters: multiples of one
+/// parameter remain multiples when they move, and their factors fold.
 fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usize) -> Parts<'g> {
     let mut parts = Parts {
         known: BodyInertia::zero(b),
@@ -172,7 +171,7 @@ fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usi
     parts
 }
 
-/// The distinct run-time parameters of a tensor.
+/// Returns the distinct run-time parameters of a tensor.
 fn parameters(tensor: &Tensor) -> Vec<ParameterId> {
     let mut found = Vec::new();
     for entry in tensor.entries {
@@ -185,7 +184,7 @@ fn parameters(tensor: &Tensor) -> Vec<ParameterId> {
     found
 }
 
-/// A link's mass at its centre, in the axes in which the link is placed.
+/// Returns a link's mass at its centre, in the axes in which the link's pose is given.
 fn point<'g>(b: &'g Builder, inertial: &Inertial, place: &Pose) -> Point<'g> {
     let com = inertial.com.map(|x| value(b, x));
     Point {
@@ -194,7 +193,7 @@ fn point<'g>(b: &'g Builder, inertial: &Inertial, place: &Pose) -> Point<'g> {
     }
 }
 
-/// −g·r of what hangs on the base at its origin, and of the links that never move.
+/// Returns −g·r of the mass on the base at its origin, and of the links that never move.
 fn constant_energy<'g>(
     b: &'g Builder,
     graph: &Multibody,
@@ -223,7 +222,7 @@ fn constant_energy<'g>(
     energy
 }
 
-/// What lies on the axis of a rotation: mass, axial first moment, D_zz.
+/// Takes from a rotation the inertia on its axis: mass, axial first moment, D_zz.
 fn take_from_rotation<'g>(b: &'g Builder, own: &mut BodyInertia<'g>) -> BodyInertia<'g> {
     let mut moved = BodyInertia::zero(b);
     (moved.mass, moved.axial) = (own.mass, own.axial);
@@ -235,8 +234,8 @@ fn take_from_rotation<'g>(b: &'g Builder, own: &mut BodyInertia<'g>) -> BodyIner
     moved
 }
 
-/// What a translation shares with its parent: D, as both turn alike. A planar body also moves
-/// like its parent across the axis, so that only its mass along the axis is its own.
+/// Takes from a translation the inertia shared with its parent: D, because both rotate equally. A planar
+/// body also moves like its parent across the axis, so that only its mass along the axis remains.
 fn take_from_translation<'g>(
     b: &'g Builder,
     own: &mut BodyInertia<'g>,

@@ -1,19 +1,19 @@
-//! Mass matrix with all momenta and all joint axes in the axes of the body next to the base.
+//! Mass matrix with all momenta and all joint axes expressed in the axes of the first body.
 //!
-//! As in [`super::mass_matrix`] a unit rate of joint k gives the composite body beyond it a linear and an
-//! angular momentum (l_k, L_k). There they are carried to the base joint by joint, a turn and a
-//! shift for every entry of M. Here every joint's axis is placed once, as the axis z_j and the
-//! velocity w_j = o_j × z_j that it gives to the common origin, every momentum is brought there
-//! once, and an entry is what is left:
+//! As in [`super::mass_matrix`] a unit rate of joint k gives its composite body a linear and an angular
+//! momentum (l_k, L_k). In that file they are transformed to the base joint by joint, with a rotation and
+//! a shift for every entry of M. Here every joint's axis is computed once, as the axis z_j and the
+//! velocity w_j = o_j × z_j that it gives to the common origin, every momentum is transformed to the
+//! origin once, and an entry is a sum of two products:
 //!
-//! M_kj = z_j · L_k + w_j · l_k  (a joint that slides: w_j = z_j, and no angular part)
+//! M_kj = z_j · L_k + w_j · l_k  (prismatic joint: w_j = z_j, and no angular part)
 //!
-//! The entries of a long chain then cost 11 operations each instead of about 32, for some 90 more a
-//! body. In an arm with axes parallel or across the joint-by-joint way is the cheaper one.
+//! The entries of a long chain then cost 11 operations each instead of about 32, for some 90 more per
+//! body. In an arm with parallel or perpendicular axes the joint-by-joint method is cheaper.
 //!
-//! The axes are those of the first body and not the world's, so that its joint's axis is (0, 0, 1)
-//! and its angle is not read. Both ways are counted before factoring and the cheaper one is made: this one
-//! from about 13 links in general position on.
+//! The axes are those of the first body and not of the world, so that its joint's axis is (0, 0, 1) and
+//! its angle is not read. Both methods are counted before factoring and the cheaper one is created: this
+//! one for about 13 or more links in general position.
 
 use super::frames::{BodyFrame, Frames};
 use super::geometry::Geometry;
@@ -49,7 +49,7 @@ impl Formulation for CommonAxes {
         method == METHOD
     }
 
-    /// In place of the joint-by-joint way where it costs less than that before factoring.
+    /// In place of the joint-by-joint method if it costs less before factoring.
     fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
         let Some(best) = plans(prepared, method) else {
             return Offer::Never;
@@ -71,9 +71,9 @@ impl Formulation for CommonAxes {
     }
 }
 
-/// The plans that suit the joint-by-joint way, as the composite bodies are the same; the cheapest one
-/// for this way first. `None` where there is a rotor that turns with a body: it gives momentum to
-/// some of the bodies inwards, not to all.
+/// Returns the best plans of the joint-by-joint method, which has the same composite bodies; the cheapest
+/// one for this method first. `None` with a rotor that rotates with a body: it gives momentum to some of
+/// the inboard bodies, not to all.
 fn plans(prepared: &Prepared<'_>, method: Method) -> Option<BestPlan> {
     let graph = prepared.graph;
     let coupled = graph.rotors.iter().any(|r| r.carrier.is_some());
@@ -89,7 +89,7 @@ fn plans(prepared: &Prepared<'_>, method: Method) -> Option<BestPlan> {
     Some(best)
 }
 
-/// Entries of the lower triangle under a plan, row by row.
+/// Returns the entries of the lower triangle under a plan, row by row.
 fn outputs(
     b: Builder,
     graph: &Multibody,
@@ -105,7 +105,7 @@ fn outputs(
     (b.into_graph(), entries)
 }
 
-/// Lower triangle of M.
+/// Returns the lower triangle of M.
 fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
     let placed = placed(b, frames);
     let axes: Vec<Axis<'g>> = (frames.bodies.iter().zip(&placed))
@@ -141,14 +141,14 @@ fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
     .collect()
 }
 
-/// A body in common axes: those of its basis, and its origin.
+/// A body in common axes: the axes of its basis, and its origin.
 struct PlacedAxis<'g> {
     basis: Mat3<Expr<'g>>,
     own: Mat3<Expr<'g>>,
     origin: Vec3<Expr<'g>>,
 }
 
-/// All bodies in the axes of the first one of their tree, from its origin.
+/// Returns all bodies in the axes of the first one of their tree, from its origin.
 fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<PlacedAxis<'g>> {
     let unit = Mat3::from_fn(|i, j| if i == j { b.number(1.0) } else { b.zero() });
     let mut placed: Vec<PlacedAxis<'g>> = Vec::new();
@@ -181,14 +181,14 @@ fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<PlacedAxis<'g>> {
     placed
 }
 
-/// What a unit rate of a joint does to all beyond it: angular velocity, and the velocity of what
-/// is at the common origin.
+/// The velocities of everything outboard of a joint at a unit rate: the angular velocity, and the velocity
+/// at the common origin.
 struct Axis<'g> {
     angular: Vec3<Expr<'g>>,
     linear: Vec3<Expr<'g>>,
 }
 
-/// Of a joint whose body is placed so; forces along it count as efforts.
+/// Returns the axis of a joint from the pose of its body; forces along it count as efforts.
 fn axis<'g>(b: &'g Builder, frame: &BodyFrame<'g>, place: &PlacedAxis<'g>) -> Axis<'g> {
     b.section(|| format!("`{}`: its axis", frame.joint));
     let z = place.basis.column(2).map(|x| x * frame.effort);
@@ -205,7 +205,7 @@ fn axis<'g>(b: &'g Builder, frame: &BodyFrame<'g>, place: &PlacedAxis<'g>) -> Ax
 }
 
 impl<'g> Axis<'g> {
-    /// z · L + w · l, one product after the other.
+    /// Returns z · L + w · l, one product after the other.
     fn along(&self, momentum: &Momentum<'g>) -> Expr<'g> {
         let pairs = self.linear.0.into_iter().zip(momentum.linear.0);
         let start = self.angular.dot(momentum.angular);

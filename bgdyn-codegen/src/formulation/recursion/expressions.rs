@@ -1,4 +1,4 @@
-//! The recursion's expressions for a method, under one plan.
+//! Creates the recursion's expressions for a method, under one plan.
 
 use super::frames::Frames;
 use super::geometry::Geometry;
@@ -10,7 +10,7 @@ use crate::formulation::arguments::Arguments;
 use crate::formulation::solve;
 use crate::method::Method;
 
-/// The method's expressions under a plan.
+/// Returns the method's expressions under a plan.
 pub(super) fn outputs(
     b: Builder,
     graph: &Multibody,
@@ -59,7 +59,7 @@ pub(super) fn outputs(
     (b.into_graph(), outputs)
 }
 
-/// The lower triangle of M, row by row, and h, in one graph.
+/// Returns the lower triangle of M, row by row, and h, in one graph.
 pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, Vec<Signed>) {
     let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
     let outputs: Vec<Signed> = {

@@ -1,4 +1,4 @@
-//! The recursion with base parameters as a formulation.
+//! The formulation `recursion`: the recursion with base parameters.
 
 use super::expressions::outputs;
 use super::geometry::Geometry;
@@ -38,7 +38,7 @@ impl Formulation for Recursion {
     }
 }
 
-/// The function under the plan that is taken.
+/// Returns the function under the chosen plan.
 pub(super) fn with_plan(
     graph: &Multibody,
     geometry: &Geometry,

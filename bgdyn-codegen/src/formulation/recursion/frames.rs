@@ -15,41 +15,41 @@ use crate::formulation::arguments::Arguments;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
-/// A body as the recursion sees it. Lengths are in units of the plan.
+/// A body of the recursion. Lengths are in units of the plan.
 pub(super) struct BodyFrame<'g> {
     /// Name of its link.
     pub name: String,
     /// Name of its joint.
     pub joint: String,
-    /// The body that carries it.
+    /// The parent body.
     pub parent: Option<usize>,
     /// Rotation or translation.
     pub motion: Motion,
-    /// Whether the basis of the parent goes on: parallel axes, grouped.
+    /// Whether it continues the basis of the parent: parallel axes, grouped.
     pub continues: bool,
     /// Columns: twisted axes in the parent's axes.
     pub twist: Mat3<Dd>,
-    /// From the parent's origin to this one: in twisted axes, or in the basis that continues.
+    /// From the parent's origin to this one: in twisted axes, or in the continued basis.
     pub position: Vec3<Expr<'g>>,
     /// The same in the parent's own axes.
     pub position_in_parent: Vec3<Expr<'g>>,
     /// Cosine and sine of the angle from the basis to the body's axes.
     pub turn: (Expr<'g>, Expr<'g>),
-    /// Coordinate's rate and second rate, along z.
+    /// Rate of the coordinate, along z.
     pub rate: Expr<'g>,
-    /// See `rate`.
+    /// Second rate of the coordinate, along z.
     pub acceleration: Expr<'g>,
     /// Base parameters about the origin, in own axes.
     pub inertia: BodyInertia<'g>,
-    /// The same without the point masses that are kept apart.
+    /// The same without the separate point masses.
     pub rest: BodyInertia<'g>,
-    /// Those.
+    /// The separate point masses.
     pub points: Vec<Point<'g>>,
     /// Factor from a moment or force along z to the joint's effort.
     pub effort: Dd,
 }
 
-/// All bodies, and what the base keeps.
+/// All bodies, and the constant terms of the base.
 pub(super) struct Frames<'g> {
     /// In the order of the coordinates.
     pub bodies: Vec<BodyFrame<'g>>,
@@ -62,7 +62,7 @@ pub(super) struct Frames<'g> {
 }
 
 impl<'g> Frames<'g> {
-    /// Lays the bodies out for a plan.
+    /// Creates the frames for a plan.
     pub fn new(
         b: &'g Builder,
         graph: &Multibody,
@@ -74,7 +74,7 @@ impl<'g> Frames<'g> {
         let (parts, energy) = regrouped(b, graph, geometry, plan);
         let mut angles: Vec<(Vec<Expr<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<BodyFrame<'g>> = Vec::new();
-        // Cosine and sine of the angle by which each body's axes are turned about z.
+        // Cosine and sine of the angle by which each body's axes are rotated about z.
         let mut aims: Vec<(Dd, Dd)> = Vec::new();
         for (j, body) in geometry.bodies.iter().enumerate() {
             b.section(|| format!("{}: place and inertia", body.name));
@@ -141,7 +141,7 @@ impl<'g> Frames<'g> {
     }
 }
 
-/// Inertia of a body: all of it, and what is left of it without the points.
+/// Inertia of a body: in total, and without the points.
 struct Weight<'g> {
     inertia: BodyInertia<'g>,
     rest: BodyInertia<'g>,
@@ -159,8 +159,8 @@ impl<'g> Weight<'g> {
     }
 }
 
-/// Turns the axes of a tip about z so that x points at its centre of mass; gives its inertia in
-/// the new axes, and cosine and sine of the turn.
+/// Rotates the axes of a tip about z so that x points to its centre of mass. Returns its inertia in the
+/// new axes, and cosine and sine of the angle.
 fn aim<'g>(b: &'g Builder, aimed: bool, parts: &Parts<'g>) -> (Weight<'g>, (Dd, Dd)) {
     let rest = parts.sum();
     let straight = || {
@@ -183,7 +183,7 @@ fn aim<'g>(b: &'g Builder, aimed: bool, parts: &Parts<'g>) -> (Weight<'g>, (Dd, 
     (Weight::new(b, turned, points), (c, s))
 }
 
-/// Cosine and sine of the sum of two angles.
+/// Returns cosine and sine of the sum of two angles.
 fn after(first: (Dd, Dd), second: (Dd, Dd)) -> (Dd, Dd) {
     (
         first.0 * second.0 - first.1 * second.1,
@@ -191,7 +191,7 @@ fn after(first: (Dd, Dd), second: (Dd, Dd)) -> (Dd, Dd) {
     )
 }
 
-/// Cosine and sine of Σ terms + phase; quarter turns cost nothing.
+/// Returns cosine and sine of Σ terms + phase; quarter turns need no operations.
 fn cos_sin<'g>(b: &'g Builder, terms: &[Expr<'g>], phase: (Dd, Dd)) -> (Expr<'g>, Expr<'g>) {
     let quarter = |x: Dd| x == Dd::ZERO || x == Dd::ONE || x == -Dd::ONE;
     if terms.is_empty() {
@@ -204,7 +204,7 @@ fn cos_sin<'g>(b: &'g Builder, terms: &[Expr<'g>], phase: (Dd, Dd)) -> (Expr<'g>
     b.cos_sin(terms, angle_of(phase))
 }
 
-/// Names what a mechanism gives: gravity, positions, inertias.
+/// Names the numbers of a mechanism: gravity, positions, inertias.
 fn name_data(frames: &Frames<'_>) {
     for (frame, gravity) in frames.bodies.iter().zip(&frames.gravity) {
         if frame.parent.is_none() {

@@ -1,9 +1,9 @@
-//! Body frames for the recursion: z along the joint's axis, x along the common normal with the
-//! next joint's axis, origins free to slide along z.
+//! Body frames for the recursion: z along the joint's axis, x along the common normal with the next
+//! joint's axis, origins that can slide along z.
 //!
-//! Links welded together are one body; body j is what coordinate j moves. Between a body and its
-//! parent stand the *twisted axes* T: the parent's axes turned by a constant rotation whose third
-//! column is the joint's axis. From T the body's own axes follow by Rz(φ), φ = ±q + a constant.
+//! Welded links are one body; body j is moved by coordinate j. Between a body and its parent are the
+//! *twisted axes* T: the parent's axes rotated by a constant rotation whose third column is the joint's
+//! axis. The body's own axes are T rotated by Rz(φ), φ = ±q + a constant.
 
 use bgdyn_runtime::Dd;
 
@@ -12,27 +12,27 @@ use crate::bond_graph::Multibody;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
 
-/// Below this, a component of a rotation is what rounding in double-double left of a zero.
+/// A component of a rotation below this size is the rounding error of a zero in double-double.
 const NOISE: f64 = 1e-26;
 
-/// How many times farther than the distance of two origins their axes' common normal may be.
+/// Largest ratio of the distance to two axes' common normal to the distance of their origins.
 const FAR: f64 = 4.0;
 
 /// A rigid body: the links that one coordinate moves, and their frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
-    /// Name of the link that the joint carries.
+    /// Name of the link outboard of the joint.
     pub name: String,
     /// Name of the joint.
     pub joint: String,
-    /// The body that carries it; `None` for the fixed base.
+    /// The parent body; `None` for the fixed base.
     pub parent: Option<usize>,
     /// Rotation or translation.
     pub motion: Motion,
-    /// Whether z is opposite to the joint's axis, so that parallel joints share one direction.
+    /// Whether z is opposite to the joint's axis, so that parallel joints have one direction.
     pub opposite: bool,
-    /// Whether every joint from the base to this one has the same axis: the body moves in a plane,
-    /// and along the axis.
+    /// Whether every joint from the base to this one has the same axis: the body moves in a plane, and
+    /// along the axis.
     pub planar: bool,
     /// Columns: twisted axes in the parent's body axes (in world axes for the base).
     pub twist: Mat3<Dd>,
@@ -40,26 +40,26 @@ pub(crate) struct Body {
     pub offset: Vec3<Dd>,
     /// Cosine and sine of the constant part of φ.
     pub phase: (Dd, Dd),
-    /// Columns: body axes in the axes of the link that the joint carries.
+    /// Columns: body axes in the axes of the link outboard of the joint.
     pub axes: Mat3<Dd>,
-    /// Whether no other joint wants the direction of x.
+    /// Whether the direction of x is not determined by another joint.
     pub free_x: bool,
-    /// Links of the body with their place in the carrying link's axes.
+    /// Links of the body with their poses in the first link's axes.
     pub links: Vec<(LinkId, Pose)>,
     /// Whether one of them has a run-time parameter.
     pub varying: bool,
 }
 
 impl Body {
-    /// Whether the axis is parallel to the parent body's.
+    /// Returns whether the axis is parallel to the parent body's.
     pub fn parallel(&self) -> bool {
         self.parent.is_some() && self.twist == identity()
     }
 
-    /// Where the common normal with the parent's axis meets the two axes: (from the parent's
-    /// origin along its z, from there to this origin along this z). Parallel axes have none; all
-    /// of the distance counts as this body's. Nearly parallel ones have it so far away that
-    /// inertia referred to it would lose its digits: they count as parallel.
+    /// Returns the feet of the common normal with the parent's axis: (distance from the parent's origin
+    /// along its z, distance from the foot to this origin along this z). Parallel axes have no unique
+    /// normal; then the whole distance counts as this body's. For almost parallel axes the normal is so
+    /// far away that inertia relative to it would lose its digits: they count as parallel.
     pub fn normal_feet(&self) -> (Dd, Dd) {
         let [_, sin, cos] = (self.twist.transpose() * unit(2)).0;
         let [_, y, z] = self.offset.0;
@@ -80,27 +80,27 @@ impl Body {
 pub(crate) struct Geometry {
     /// In the order of the coordinates.
     pub bodies: Vec<Body>,
-    /// Links that never move, with their place in the world.
+    /// Links that never move, with their poses in the world.
     pub fixed: Vec<(LinkId, Pose)>,
-    /// Inertia regrouped before.
+    /// Cache of regrouped inertia.
     pub(super) regrouped: BaseParameterCache,
 }
 
 impl Geometry {
-    /// Which body carries each body.
+    /// Returns the parent of each body.
     pub fn parents(&self) -> Vec<Option<usize>> {
         self.bodies.iter().map(|body| body.parent).collect()
     }
 }
 
-/// The bodies of a bond graph.
+/// Returns the bodies of a bond graph.
 pub(crate) fn geometry(graph: &Multibody) -> Geometry {
     let mut made = Geometry {
         bodies: Vec::new(),
         fixed: Vec::new(),
         regrouped: BaseParameterCache::default(),
     };
-    // Which body a link belongs to, and its place in the axes of the link that carries the body.
+    // The body of each link, and its pose in the axes of the body's first link.
     let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();
     let mut placed: Vec<Pose> = Vec::new();
     for (i, frame) in graph.frames.iter().enumerate() {
@@ -150,7 +150,7 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
     made
 }
 
-/// Turns z where the axis is opposite to the parent's, so that parallel means equal.
+/// Reverses z if the axis is opposite to the parent's, so that parallel axes are equal.
 fn align_parallel_axes(bodies: &mut [Body], placed: &[Pose]) {
     for j in 0..bodies.len() {
         let Some(p) = bodies[j].parent else { continue };
@@ -165,7 +165,7 @@ fn align_parallel_axes(bodies: &mut [Body], placed: &[Pose]) {
 /// Chooses x of body j, then its twist, offset and phase.
 fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
     let parent_axes = bodies[j].parent.map_or(identity(), |p| bodies[p].axes);
-    // The body's place in the parent's body axes, with x still as it came.
+    // The body's pose in the parent's body axes, with the original x.
     let rotation = clean_matrix(parent_axes.transpose() * placed[j].rotation * bodies[j].axes);
     let offset = parent_axes.transpose() * placed[j].translation;
     let twist = match bodies[j].parent {
@@ -174,7 +174,7 @@ fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
     };
     let x = normal_to_child(bodies, placed, j);
     bodies[j].free_x = x.is_none();
-    // Without a wish for x, the phase is zero.
+    // If the direction of x is free, the phase is zero.
     let x = x.unwrap_or_else(|| {
         let in_link = placed[j].rotation.transpose() * (parent_axes * twist.column(0));
         clean(in_link)
@@ -189,7 +189,7 @@ fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
             bodies[j].twist = twist;
             bodies[j].phase = (turned.0[0][0], turned.0[1][0]);
         }
-        // The base has no axes of its own: its twisted axes are the body's at zero.
+        // The base has no axes of its own: the twisted axes are the body's axes at zero.
         None => bodies[j].twist = clean_matrix(placed[j].rotation * bodies[j].axes),
     }
     bodies[j].offset = clean_length(bodies[j].twist.transpose() * offset);
@@ -199,8 +199,8 @@ fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
     };
 }
 
-/// The direction of the common normal with the axis of the first child that has one, in the axes
-/// of the link that carries body j.
+/// Returns the direction of the common normal with the axis of the first child that has one, in the axes
+/// of the first link of body j.
 fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd>> {
     let z = bodies[j].axes.column(2);
     let children = (0..bodies.len()).filter(|&c| bodies[c].parent == Some(j));
@@ -210,7 +210,7 @@ fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd
         if normal != Vec3([Dd::ZERO; 3]) {
             return Some(perpendicular(normal, z));
         }
-        // Parallel axes: from one to the other. What is left of a distance along z is none.
+        // Parallel axes: from one to the other. The remainder of a distance along z does not count.
         let p = placed[c].translation;
         let across = p - z.scale(z.dot(p));
         let apart = across.dot(across) > p.dot(p) * Dd::from_f64(NOISE * NOISE);
@@ -219,15 +219,14 @@ fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd
     children.into_iter().find_map(normal)
 }
 
-/// Whether a direction is along the third unit vector or opposite to it, but for rounding. What
-/// decides is what lies across: the third component is 1 to the last digit for axes 1e-16 rad
-/// apart already.
+/// Returns whether a direction is parallel to the third unit vector, within rounding. The perpendicular
+/// components decide: the third component is 1 to the last digit already for axes 1e-16 rad apart.
 fn along_z(z: Vec3<Dd>) -> bool {
     z.0[..2].iter().all(|x| x.hi().abs() < NOISE)
 }
 
-/// Axes with third column `z` and the first one along the common normal with the third unit
-/// vector; the identity where they are parallel.
+/// Returns axes with third column `z` and the first one along the common normal with the third unit
+/// vector; the identity if they are parallel.
 fn twisted_axes(z: Vec3<Dd>) -> Mat3<Dd> {
     if along_z(z) {
         return match z.0[2] < Dd::ZERO {
@@ -236,15 +235,15 @@ fn twisted_axes(z: Vec3<Dd>) -> Mat3<Dd> {
         };
     }
     let mut x = normalised(clean(unit(2).cross(z)));
-    // Of the two directions the one with a positive leading component: twist, not half a turn.
+    // Of the two directions, choose the one with a positive leading component, to avoid half a turn.
     if x.0[0] < Dd::ZERO || (x.0[0] == Dd::ZERO && x.0[1] < Dd::ZERO) {
         x = -x;
     }
     clean_matrix(columns(x, z.cross(x), z))
 }
 
-/// Right-handed axes with third column `z`, along the unit vectors where z is one: to the last
-/// digit in every component, as a component is 1 in double-double for axes that are 1e-16 rad off.
+/// Returns right-handed axes with third column `z`. If z is a unit vector to the last digit in every
+/// component, so are the axes; a component is 1 in double-double also for axes that are 1e-16 rad off.
 fn basis_with_z(z: Vec3<Dd>) -> Mat3<Dd> {
     let least = (0..3)
         .rev()
@@ -287,14 +286,15 @@ fn normalised(v: Vec3<Dd>) -> Vec3<Dd> {
     v.scale(Dd::ONE / v.dot(v).sqrt())
 }
 
-/// The direction of `v`, perpendicular to the unit vector `z` to the last digit: a short `v` that
-/// came out of a cancellation is so only roughly.
+/// Returns the direction of `v`, perpendicular to the unit vector `z` to the last digit: a short `v` from
+/// a cancellation is only roughly perpendicular.
 fn perpendicular(v: Vec3<Dd>, z: Vec3<Dd>) -> Vec3<Dd> {
     let v = normalised(v);
     normalised(v - z.scale(z.dot(v)))
 }
 
-/// A direction without what rounding left of its zeros, and of its one where nothing else is left.
+/// Returns a direction with rounding errors removed from its zeros, and from its one if all others are
+/// zero.
 fn clean(v: Vec3<Dd>) -> Vec3<Dd> {
     let small = |x: &Dd| x.hi().abs() < NOISE;
     let alone = v.0.iter().filter(|x| small(x)).count() == 2;
@@ -308,13 +308,13 @@ fn clean(v: Vec3<Dd>) -> Vec3<Dd> {
     })
 }
 
-/// The same for each column of a rotation.
+/// Applies [`clean`] to each column of a rotation.
 fn clean_matrix(m: Mat3<Dd>) -> Mat3<Dd> {
     let [x, y, z] = std::array::from_fn(|k| clean(m.column(k)));
     columns(x, y, z)
 }
 
-/// A place without what rounding left of its zeros.
+/// Returns a position with rounding errors removed from its zeros.
 fn clean_length(v: Vec3<Dd>) -> Vec3<Dd> {
     let size = v.0.iter().fold(0.0, |m: f64, x| m.max(x.hi().abs()));
     v.map(|x| {
@@ -326,7 +326,7 @@ fn clean_length(v: Vec3<Dd>) -> Vec3<Dd> {
     })
 }
 
-/// The place of `inner`, given in `outer`'s axes, where `outer` is.
+/// Returns the pose of `inner`, given in the axes of `outer`, in the axes in which `outer` is given.
 fn compose(outer: &Pose, inner: &Pose) -> Pose {
     Pose {
         rotation: clean_matrix(outer.rotation * inner.rotation),
@@ -334,7 +334,7 @@ fn compose(outer: &Pose, inner: &Pose) -> Pose {
     }
 }
 
-/// The angle with this cosine and sine, to double-double accuracy.
+/// Returns the angle with this cosine and sine, to double-double accuracy.
 pub(crate) fn angle_of((cos, sin): (Dd, Dd)) -> Dd {
     let near = Dd::from_f64(f64::atan2(sin.to_f64(), cos.to_f64()));
     let (s, c) = near.sin_cos();

@@ -1,7 +1,7 @@
 //! Inertia of a body as mass, first moment and pseudo-inertia D = ∫ s sᵀ dm about its origin.
 //!
-//! J = tr(D)·1 − D, D = ½ tr(J)·1 − J. Entries are expressions, so that constants fold and
-//! run-time parameters pass through the same equations.
+//! J = tr(D)·1 − D, D = ½ tr(J)·1 − J. Entries are expressions, so that constants fold and run-time
+//! parameters use the same equations.
 
 use bgdyn_runtime::Dd;
 
@@ -11,7 +11,7 @@ use crate::math::{Mat3, Vec3};
 /// A symmetric matrix: xx, yy, zz, xy, xz, yz.
 pub(super) type Symmetric<'g> = [Expr<'g>; 6];
 
-/// Where entry (i, j) stands in a [`Symmetric`].
+/// Index of entry (i, j) in a [`Symmetric`].
 const PLACE: [[usize; 3]; 3] = [[0, 3, 4], [3, 1, 5], [4, 5, 2]];
 
 /// Mass, first moment and pseudo-inertia about one point, in one set of axes.
@@ -19,8 +19,8 @@ const PLACE: [[usize; 3]; 3] = [[0, 3, 4], [3, 1, 5], [4, 5, 2]];
 pub(super) struct BodyInertia<'g> {
     /// m, kg
     pub mass: Expr<'g>,
-    /// The mass that counts along z, kg: the same, but where a planar body's mass was moved to its
-    /// parent and only its motion along the axes is its own.
+    /// The mass for motion along z, kg: equal to `mass`, except if a planar body's mass was moved to its
+    /// parent and only its mass along the axis remains.
     pub axial: Expr<'g>,
     /// ∫ s dm, kg·m
     pub first: Vec3<Expr<'g>>,
@@ -38,13 +38,13 @@ pub(super) struct Point<'g> {
 }
 
 impl<'g> Point<'g> {
-    /// Whether everything is known at generation time.
+    /// Returns whether everything is known at generation time.
     pub fn is_constant(&self) -> bool {
         let mut entries = self.place.0.iter().chain([&self.mass]);
         entries.all(|e| e.as_constant().is_some())
     }
 
-    /// Turned by Rz.
+    /// Returns it rotated by Rz.
     pub fn turned(&self, angle: (Expr<'g>, Expr<'g>)) -> Self {
         Point {
             place: turn(self.place, angle),
@@ -52,7 +52,7 @@ impl<'g> Point<'g> {
         }
     }
 
-    /// In units of `length`: moments keep their value.
+    /// Converts to units of `length`; moments do not change.
     pub fn in_units_of(&self, length: Dd) -> Self {
         Point {
             mass: self.mass * (length * length),
@@ -62,7 +62,7 @@ impl<'g> Point<'g> {
 }
 
 impl<'g> BodyInertia<'g> {
-    /// Of nothing.
+    /// Returns zero.
     pub fn zero(b: &'g Builder) -> Self {
         let zero = b.zero();
         BodyInertia {
@@ -73,7 +73,7 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Of a point mass.
+    /// Returns the inertia of a point mass.
     pub fn of_point(b: &'g Builder, point: &Point<'g>) -> Self {
         BodyInertia {
             mass: point.mass,
@@ -83,7 +83,7 @@ impl<'g> BodyInertia<'g> {
         .shifted(point.place)
     }
 
-    /// About the centre of mass, without the mass, from the tensor J there.
+    /// Returns the inertia about the centre of mass, without the mass, from the tensor J about it.
     pub fn of_tensor(b: &'g Builder, tensor: Symmetric<'g>) -> Self {
         let [xx, yy, zz, xy, xz, yz] = tensor;
         let half = Dd::from_f64(0.5);
@@ -102,13 +102,13 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Entry (i, j) of D.
+    /// Returns entry (i, j) of D.
     pub fn d(&self, i: usize, j: usize) -> Expr<'g> {
         self.pseudo[PLACE[i][j]]
     }
 
-    /// The same mass seen from a point from which it is displaced by p:
-    /// D + p hᵀ + h pᵀ + m p pᵀ.
+    /// Returns the inertia about a point from which the present origin is displaced by p: D + p hᵀ + h pᵀ
+    /// + m p pᵀ.
     pub fn shifted(&self, p: Vec3<Expr<'g>>) -> Self {
         let h = self.first;
         let pseudo = symmetric(|i, j| {
@@ -127,7 +127,7 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// In axes in which the present ones have the columns of the constant `r`: R D Rᵀ.
+    /// Returns it in axes in which the present axes have the columns of the constant `r`: R D Rᵀ.
     pub fn rotated(&self, b: &'g Builder, r: Mat3<Dd>) -> Self {
         let r = r.map(|x| b.constant(x));
         let half =
@@ -141,8 +141,8 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Turned by Rz: four multiplications for the 2 × 2 block, with
-    /// e = s (D_xx − D_yy) + 2 c D_xy.
+    /// Returns it rotated by Rz: four multiplications for the 2 × 2 block, with e = s (D_xx − D_yy) + 2 c
+    /// D_xy.
     pub fn turned(&self, (c, s): (Expr<'g>, Expr<'g>)) -> Self {
         let [xx, yy, zz, xy, xz, yz] = self.pseudo;
         let e = s * (xx - yy) + c * (xy * Dd::from_f64(2.0));
@@ -162,13 +162,13 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// m v, along z with the axial mass.
+    /// Returns m v, with the axial mass along z.
     pub fn weigh(&self, v: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         let [x, y, z] = v.0;
         Vec3([x * self.mass, y * self.mass, z * self.axial])
     }
 
-    /// Of both.
+    /// Returns the sum.
     pub fn plus(&self, other: &Self) -> Self {
         BodyInertia {
             mass: self.mass + other.mass,
@@ -178,7 +178,7 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Each entry through `f`.
+    /// Applies `f` to each entry.
     fn map(&self, f: impl Fn(Expr<'g>) -> Expr<'g>) -> Self {
         BodyInertia {
             mass: f(self.mass),
@@ -188,7 +188,7 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Mass, axial mass, first moment and D, where all are known at generation time.
+    /// Returns mass, axial mass, first moment and D, if all are known at generation time.
     pub fn numbers(&self) -> Option<[Dd; 11]> {
         let [hx, hy, hz] = self.first.0;
         let [xx, yy, zz, xy, xz, yz] = self.pseudo;
@@ -200,7 +200,7 @@ impl<'g> BodyInertia<'g> {
         Some(numbers)
     }
 
-    /// From [`BodyInertia::numbers`].
+    /// Inverse of [`BodyInertia::numbers`].
     pub fn of_numbers(b: &'g Builder, numbers: &[Dd; 11]) -> Self {
         let [mass, axial, hx, hy, hz, pseudo @ ..] = numbers.map(|x| b.constant(x));
         BodyInertia {
@@ -211,7 +211,8 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// The entries known at generation time, and the others if there are any; 0 in their stead.
+    /// Splits the entries into those known at generation time, and the others if there are any; missing
+    /// entries are 0.
     pub fn split(&self, b: &'g Builder) -> (Self, Option<Self>) {
         let known = |e: Expr<'g>| e.as_constant().is_some();
         let constant = self.map(|e| if known(e) { e } else { b.zero() });
@@ -219,28 +220,28 @@ impl<'g> BodyInertia<'g> {
         (constant, (!self.is_constant()).then_some(varying))
     }
 
-    /// Whether every entry is known at generation time.
+    /// Returns whether every entry is known at generation time.
     pub fn is_constant(&self) -> bool {
         let entries = self.first.0.iter().chain(&self.pseudo);
         let mut entries = entries.chain([&self.mass, &self.axial]);
         entries.all(|e| e.as_constant().is_some())
     }
 
-    /// Whether there is none.
+    /// Returns whether it is zero.
     pub fn is_zero(&self) -> bool {
         let entries = self.first.0.iter().chain(&self.pseudo);
         let mut entries = entries.chain([&self.mass, &self.axial]);
         entries.all(|e| e.is_zero())
     }
 
-    /// Whether turning it about z changes nothing.
+    /// Returns whether a rotation about z does not change it.
     pub fn round(&self) -> bool {
         let [xx, yy, _, xy, xz, yz] = self.pseudo;
         let zero = [xx - yy, xy, xz, yz, self.first.0[0], self.first.0[1]];
         zero.into_iter().all(Expr::is_zero)
     }
 
-    /// In units of `length`: moments keep their value.
+    /// Converts to units of `length`; moments do not change.
     pub fn in_units_of(&self, length: Dd) -> Self {
         BodyInertia {
             mass: self.mass * (length * length),
@@ -251,19 +252,19 @@ impl<'g> BodyInertia<'g> {
     }
 }
 
-/// Rz v
+/// Returns Rz v.
 pub(super) fn turn<'g>(v: Vec3<Expr<'g>>, (c, s): (Expr<'g>, Expr<'g>)) -> Vec3<Expr<'g>> {
     let [x, y, z] = v.0;
     Vec3([c * x - s * y, s * x + c * y, z])
 }
 
-/// Rzᵀ v
+/// Returns Rzᵀ v.
 pub(super) fn turn_back<'g>(v: Vec3<Expr<'g>>, (c, s): (Expr<'g>, Expr<'g>)) -> Vec3<Expr<'g>> {
     let [x, y, z] = v.0;
     Vec3([c * x + s * y, c * y - s * x, z])
 }
 
-/// The upper triangle from `f(i, j)`.
+/// Returns the upper triangle from `f(i, j)`.
 fn symmetric<'g>(f: impl Fn(usize, usize) -> Expr<'g>) -> Symmetric<'g> {
     [f(0, 0), f(1, 1), f(2, 2), f(0, 1), f(0, 2), f(1, 2)]
 }

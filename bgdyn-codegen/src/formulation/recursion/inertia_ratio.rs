@@ -1,23 +1,23 @@
-//! For each joint, the inertia of its own body over the inertia of all that it moves.
+//! Computes, for each joint, the inertia of its own body over the inertia of all that it moves.
 //!
-//! Where this ratio is next to zero, the joint's pivot in the forward dynamics is a small rest of
-//! large terms, or nothing but rounding error.
+//! If this ratio is almost zero, the joint's pivot in the forward dynamics is a small difference of large
+//! terms, or only rounding error.
 
 use super::geometry::{Body, Geometry};
 use crate::bond_graph::Multibody;
 use crate::mechanism::{LinkId, Motion, Pose, Value};
 
-/// The least ratio that is safe: with less, elimination could lose half the digits of `f64`, and all of
-/// those of `f32`, so that a pivot's check has to know how large its rounding error is. Chains of a
-/// hundred like links are above it, a load of a million times a link's mass below.
+/// The least safe ratio: below it, elimination could lose half the digits of `f64`, and all of those of
+/// `f32`, so that a pivot's check needs a bound of its rounding error. Chains of a hundred similar links
+/// are above it, a load of a million times a link's mass is below.
 pub(super) const MIN_INERTIA_RATIO: f64 = 1e-7;
 
-/// Travel of a prismatic joint that its spec leaves open, m.
+/// Assumed travel of a prismatic joint without limits, m.
 const TRAVEL: f64 = 1.0;
 
-/// For each joint, its own body's inertia about the axis (its mass along it) over a bound for that
-/// of everything beyond the joint, in any position. A pivot lies between the two. Run-time
-/// parameters count with their default.
+/// Returns, for each joint, its own body's inertia about the axis (its mass along it) over a bound for
+/// that of everything outboard of the joint, in any position. A pivot is between the two. Run-time
+/// parameters have their default values.
 pub(super) fn own_inertia_ratios(graph: &Multibody, geometry: &Geometry) -> Vec<f64> {
     let bodies = &geometry.bodies;
     let lumps: Vec<LumpedBody> = bodies
@@ -38,8 +38,8 @@ pub(super) fn own_inertia_ratios(graph: &Multibody, geometry: &Geometry) -> Vec<
         .collect()
 }
 
-/// How far the origin of body i can be from that of body j, which carries it; `None` where it does
-/// not.
+/// Returns the largest distance of the origin of body i from that of body j; `None` unless j is inboard of
+/// i.
 fn distance(bodies: &[Body], j: usize, i: usize) -> Option<f64> {
     let (mut at, mut sum) = (i, 0.0);
     while at != j {
@@ -53,7 +53,7 @@ fn distance(bodies: &[Body], j: usize, i: usize) -> Option<f64> {
     Some(sum)
 }
 
-/// A body's mass and its spread.
+/// A body's mass and moments.
 #[derive(Default)]
 struct LumpedBody {
     /// kg
@@ -97,7 +97,7 @@ impl LumpedBody {
         self.second += mass * square + (xx + yy + zz);
     }
 
-    /// What a joint feels of it at the most, from a distance.
+    /// Returns an upper bound of the inertia about or along the joint's axis, at a distance.
     fn at_most(&self, motion: Motion, distance: f64) -> f64 {
         match motion {
             Motion::Rotation => {

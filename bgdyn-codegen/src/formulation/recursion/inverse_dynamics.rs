@@ -1,4 +1,4 @@
-//! Inverse dynamics in link axes: accelerations outwards, forces and moments inwards.
+//! Inverse dynamics in link axes: accelerations outboard, forces and moments inboard.
 //!
 //! With a body's motion ω, a, U of [`super::motion`], its force is F = m a + U h and its moment
 //! about the origin N = h × a + the skew part of U·D, which is K̇ = J ω̇ + ω × J ω of equation (6),
@@ -23,7 +23,7 @@ pub(super) struct BodyWrench<'g> {
 }
 
 impl<'g> BodyWrench<'g> {
-    /// No force, no moment.
+    /// Returns zero force and moment.
     pub fn zero(b: &'g Builder) -> Self {
         BodyWrench {
             force: zero(b),
@@ -31,7 +31,7 @@ impl<'g> BodyWrench<'g> {
         }
     }
 
-    /// Of both.
+    /// Returns the sum.
     pub fn plus(self, b: Self) -> Self {
         BodyWrench {
             force: self.force + b.force,
@@ -39,7 +39,7 @@ impl<'g> BodyWrench<'g> {
         }
     }
 
-    /// In other axes.
+    /// Applies `f`, a change of axes.
     pub fn map(self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
         BodyWrench {
             force: f(self.force),
@@ -47,7 +47,7 @@ impl<'g> BodyWrench<'g> {
         }
     }
 
-    /// About a point from which this one's origin is displaced by p.
+    /// Returns the wrench about a point from which the present origin is displaced by p.
     pub fn carried(self, p: Vec3<Expr<'g>>) -> Self {
         BodyWrench {
             force: self.force,
@@ -55,7 +55,7 @@ impl<'g> BodyWrench<'g> {
         }
     }
 
-    /// Its share in the direction of a joint.
+    /// Returns the component in the direction of a joint.
     pub fn along(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
         match frame.motion {
             Motion::Rotation => self.moment.0[2],
@@ -64,16 +64,16 @@ impl<'g> BodyWrench<'g> {
     }
 }
 
-/// What a body's motion takes, by equation (6): computed in its own axes or in its basis's.
+/// The wrench that a body's motion requires, by equation (6), in its own axes or in those of its basis.
 #[derive(Clone, Copy)]
 pub(super) struct Load<'g> {
     /// In own axes.
     pub own: BodyWrench<'g>,
-    /// In the basis's axes.
+    /// In the axes of the basis.
     pub basis: BodyWrench<'g>,
 }
 
-/// Joint efforts for the rates and accelerations in `frames`.
+/// Returns joint efforts for the rates and accelerations in `frames`.
 pub(super) fn efforts<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
@@ -88,7 +88,7 @@ pub(super) fn efforts<'g>(
     efforts
 }
 
-/// Forces and moments that move each body with the rates and accelerations in `frames`.
+/// Returns forces and moments that move each body with the rates and accelerations in `frames`.
 pub(super) fn loads<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
@@ -125,7 +125,7 @@ fn load<'g>(
     short: bool,
 ) -> Load<'g> {
     b.section(|| format!("{}: F = m a + U h, N = h × a + skew(U D)", frame.name));
-    // Turning about z leaves J_zz as it is.
+    // A rotation about z does not change J_zz.
     let rest = &frame.rest;
     let j_zz = rest.d(0, 0) + rest.d(1, 1);
     let points = frame.points.iter();
@@ -153,7 +153,7 @@ fn load<'g>(
     }
 }
 
-/// F = m a + U h and N = skew(U D) + h × a of a body.
+/// Returns F = m a + U h and N = skew(U D) + h × a of a body.
 pub(super) fn dynamics<'g>(
     inertia: &BodyInertia<'g>,
     j_zz: Expr<'g>,
@@ -164,7 +164,7 @@ pub(super) fn dynamics<'g>(
     let (u, h) = (&spin.u.0, inertia.first);
     let d = |i, j| inertia.d(i, j);
     let [dzy, dxz, dyx] = spin.differences.0;
-    // k₁ x − k₂ y, merged where k₁ = ±k₂
+    // Returns k₁ x − k₂ y, merged if k₁ = ±k₂.
     let pair = |k1: Expr<'g>, x: Expr<'g>, k2: Expr<'g>, y: Expr<'g>| {
         if k1 == k2 {
             k1 * (x - y)
@@ -193,7 +193,7 @@ pub(super) fn dynamics<'g>(
     }
 }
 
-/// F = m (a + U s) and N = s × F of a point mass.
+/// Returns F = m (a + U s) and N = s × F of a point mass.
 fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Expr<'g>>) -> BodyWrench<'g> {
     let force = (a + spin.u * point.place).scale(point.mass);
     BodyWrench {
@@ -202,10 +202,10 @@ fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Expr<'g>>) 
     }
 }
 
-/// Forces and moments summed from the tips, and the joints' share of them.
+/// Sums forces and moments from the tips to the base, and returns the component along each joint.
 fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<Expr<'g>> {
     let n = frames.bodies.len();
-    // What the bodies beyond hand over: in own axes, and in the basis's.
+    // Contributions of the outboard bodies: in own axes, and in those of the basis.
     let mut own = vec![BodyWrench::zero(b); n];
     let mut basis = own.clone();
     let mut efforts = vec![b.zero(); n];
@@ -235,8 +235,7 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
     efforts
 }
 
-/// What the efforts of these motions are called: those at rest `gravity`, those without accelerations
-/// `bias`.
+/// Returns the name of the efforts of this motion: `gravity` at rest, `bias` without accelerations.
 fn effort_name(frames: &Frames<'_>) -> &'static str {
     let zero = |x: fn(&BodyFrame<'_>) -> bool| frames.bodies.iter().all(x);
     match (
@@ -249,8 +248,8 @@ fn effort_name(frames: &Frames<'_>) -> &'static str {
     }
 }
 
-/// Names force and moment on a body with all that it carries: inside of its joint in the body's axes,
-/// `inner`, if that is all of it; and at the joint, in the axes before that turns.
+/// Names force and moment on a composite body: outboard of its joint in the body's axes, `inner`, if that
+/// is the total; and at the joint, in the axes before its rotation.
 pub(super) fn name_wrenches(
     [force, moment]: [&str; 2],
     frame: &BodyFrame<'_>,

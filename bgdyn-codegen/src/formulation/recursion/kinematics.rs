@@ -1,5 +1,5 @@
-//! Poses, velocities and Jacobians of sites in the frames of the recursion: groups of parallel
-//! axes share a basis that turns with none of them.
+//! Poses, velocities and Jacobians of sites in the frames of the recursion: groups of parallel axes have a
+//! common basis that does not rotate with them.
 
 use bgdyn_runtime::Dd;
 
@@ -15,7 +15,7 @@ use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
 use crate::method::Method;
 
-/// The cheaper one of the method with and without groups.
+/// Returns the cheaper one of the functions with and without groups.
 pub(super) fn function(
     graph: &Multibody,
     geometry: &Geometry,
@@ -122,7 +122,7 @@ fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<P
         b.section(|| format!("{}: its axes and origin in the world", frame.name));
         let twist = frame.twist.map(|x| b.constant(x));
         let (basis, origin) = match frame.parent {
-            // The place of the base enters here, and nowhere in the dynamics.
+            // The pose of the base enters here, and not in the dynamics.
             None => (twist, twist * (b.vector(body.offset) + frame.position)),
             Some(p) => {
                 let parent = placed[p];
@@ -147,8 +147,8 @@ fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<P
     placed
 }
 
-/// The body that a site is fixed to, and its axes and origin in that body's; in the world's where
-/// no joint moves it.
+/// Returns the body of a site, and its axes and origin in those of the body; in those of the world if no
+/// joint moves it.
 fn home(
     geometry: &Geometry,
     link: Option<LinkId>,

@@ -1,9 +1,8 @@
 //! Mass matrix by composite bodies, and the energies, in the frames of the recursion.
 //!
-//! From the tips inwards each body is joined with what it carries. A unit rate of joint k gives
-//! the composite beyond it the momentum h = (−m y, m x, 0) and, about the joint's origin,
-//! L = (−D_xz, −D_yz, J_zz), numbers that the turned composite holds already; carried to the base
-//! they give the row of k.
+//! From the tips to the base, each body is combined with its outboard bodies. A unit rate of joint k gives
+//! the composite body the momentum h = (−m y, m x, 0) and, about the joint's origin, L = (−D_xz, −D_yz,
+//! J_zz), entries of the rotated composite; transformed to the base they give the row of k.
 
 use std::cmp::Ordering;
 
@@ -16,7 +15,7 @@ use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 
-/// Momentum that a unit rate of a joint gives to everything beyond it.
+/// Momentum of all outboard bodies per unit rate of a joint.
 #[derive(Clone, Copy)]
 pub(super) struct Momentum<'g> {
     pub joint: usize,
@@ -25,7 +24,7 @@ pub(super) struct Momentum<'g> {
 }
 
 impl<'g> Momentum<'g> {
-    /// In other axes.
+    /// Applies `f`, a change of axes.
     pub fn map(self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
         Momentum {
             linear: f(self.linear),
@@ -34,7 +33,7 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// About a point from which this one's origin is displaced by p.
+    /// Returns the momentum about a point from which the present origin is displaced by p.
     pub fn carried(self, p: Vec3<Expr<'g>>) -> Self {
         Momentum {
             angular: self.angular + p.cross(self.linear),
@@ -42,7 +41,7 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// Its share in the direction of a joint.
+    /// Returns the component in the direction of a joint.
     pub fn along(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
         match frame.motion {
             Motion::Rotation => self.angular.0[2],
@@ -56,8 +55,8 @@ impl<'g> Momentum<'g> {
 pub(super) struct BodyMomenta<'g>(Vec<Momentum<'g>>);
 
 impl<'g> BodyMomenta<'g> {
-    /// With another one, in the same axes and about the same point. What a unit rate gives to a
-    /// rotor elsewhere counts with what it gives to all beyond its joint.
+    /// Adds another one, in the same axes and about the same point. The momentum of a rotor elsewhere is
+    /// added to that of the bodies outboard of its joint.
     pub fn add(&mut self, more: Momentum<'g>) {
         match self.0.iter_mut().find(|m| m.joint == more.joint) {
             Some(m) => {
@@ -75,20 +74,21 @@ impl<'g> Extend<Momentum<'g>> for BodyMomenta<'g> {
     }
 }
 
-/// What a body has gathered from those beyond it.
+/// The sum of outboard bodies.
 struct Gathered<'g> {
     inertia: BodyInertia<'g>,
     momenta: BodyMomenta<'g>,
 }
 
-/// All that a joint moves as one body, in the axes of its basis, and what a unit rate gives it.
+/// The composite body of a joint, in the axes of its basis, and its momentum per unit rate.
 struct CompositeInertia<'g> {
     whole: BodyInertia<'g>,
     unit: Momentum<'g>,
 }
 
 impl<'g> CompositeInertia<'g> {
-    /// Of body j with `inner`, what it carries in its own axes, and `outer`, in those of its basis.
+    /// Combines body j with `inner`, its outboard bodies in its own axes, and `outer`, those in the axes
+    /// of its basis.
     fn new(
         b: &'g Builder,
         j: usize,
@@ -107,14 +107,14 @@ impl<'g> CompositeInertia<'g> {
         };
         let whole = turned.plus(outer);
         name_composite(&whole, &format!("at_{}", frame.joint));
-        // Turning about z leaves J_zz as it is.
+        // A rotation about z does not change J_zz.
         let j_zz = (composite.d(0, 0) + composite.d(1, 1)) + (outer.d(0, 0) + outer.d(1, 1));
         let unit = unit_momentum(b, j, frame, &whole, j_zz);
         CompositeInertia { whole, unit }
     }
 }
 
-/// Inertia about the carrier's origin, in the carrier's axes or in the basis that continues.
+/// Returns the inertia about the parent's origin, in the parent's axes or in the basis that continues.
 fn turned_on<'g>(
     b: &'g Builder,
     frame: &BodyFrame<'g>,
@@ -127,7 +127,7 @@ fn turned_on<'g>(
     }
 }
 
-/// The momentum that a unit rate of each joint gives to all it moves, in the axes of its basis.
+/// Returns the momentum of all bodies that each joint moves per unit rate, in the axes of its basis.
 pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentum<'g>> {
     let n = frames.bodies.len();
     let (mut own, mut basis) = (vec![BodyInertia::zero(b); n], vec![BodyInertia::zero(b); n]);
@@ -150,7 +150,7 @@ pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentu
     units
 }
 
-/// Lower triangle of M.
+/// Returns the lower triangle of M.
 pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
     let n = frames.bodies.len();
     let empty = || Gathered {
@@ -179,7 +179,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
                 .map(|m| m.map(|v| turn(v, frame.turn))),
         );
         momenta.extend(outer.momenta.0.iter().copied());
-        // The joint of a rotor may be anywhere: beyond the body, before it, or its own.
+        // The joint that drives a rotor can be anywhere: outboard of the body, inboard, or the body's own.
         for rotor in frames.rotors.on(j) {
             momenta.add(Momentum {
                 joint: rotor.joint,
@@ -212,7 +212,7 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
     mass
 }
 
-/// Adds to M what momenta at body j, in the axes of its basis, have in the direction of its joint.
+/// Adds to M the components of momenta at body j, in the axes of its basis, along its joint.
 fn enter<'g>(mass: &mut [Vec<Expr<'g>>], frames: &Frames<'g>, j: usize, momenta: &BodyMomenta<'g>) {
     let frame = &frames.bodies[j];
     for m in &momenta.0 {
@@ -223,15 +223,15 @@ fn enter<'g>(mass: &mut [Vec<Expr<'g>>], frames: &Frames<'g>, j: usize, momenta:
             Ordering::Greater => {
                 (*entry + share).named(|| format!("m_{}_{}", frame.joint, other.joint))
             }
-            // A rotor that its own joint carries: the momentum counts in row and column.
+            // A rotor on the body of its own joint: the momentum is added in row and column.
             Ordering::Equal => share + share,
-            // A rotor beyond its joint, or on another branch.
+            // A rotor outboard of its joint, or on another branch.
             Ordering::Less => *entry + share,
         };
     }
 }
 
-/// The momentum that a unit rate of `joint` gives to `whole`, in the axes of its basis.
+/// Returns the momentum of `whole` per unit rate of `joint`, in the axes of its basis.
 pub(super) fn unit_momentum<'g>(
     b: &'g Builder,
     joint: usize,
@@ -254,10 +254,10 @@ pub(super) fn unit_momentum<'g>(
     }
 }
 
-/// T = ½ Σ [ m u·u + 2 u·(ω × h) + ω·J ω ] with the velocity u of each body's origin, own axes.
+/// Returns T = ½ Σ [ m u·u + 2 u·(ω × h) + ω·J ω ] with the velocity u of each body's origin, own axes.
 pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<'g> {
     let zero = Vec3([b.zero(); 3]);
-    // (ω, u) in own axes, and in the basis's.
+    // (ω, u) in own axes, and in those of the basis.
     let mut own: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> = Vec::new();
     let mut basis: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> = Vec::new();
     let mut twice = b.zero();
@@ -314,7 +314,7 @@ fn twice_kinetic_energy<'g>(
     u.dot(inertia.weigh(u)) + u.dot(swept) * two + (squares - products)
 }
 
-/// V = −g · Σ m r, first moments summed from the tips.
+/// Returns V = −g · Σ m r, with first moments summed from the tips.
 pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<'g> {
     let n = frames.bodies.len();
     let mut own = vec![BodyInertia::zero(b); n];
@@ -323,7 +323,7 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
         b.section(|| format!("{}: first moment with all it carries", frame.name));
-        // Masses and first moments only: D has no weight.
+        // Masses and first moments only: the weight does not depend on D.
         let mut whole = frame.inertia.plus(&own[j]);
         whole.first = turn(whole.first, frame.turn);
         whole = whole.plus(&basis[j]);
@@ -340,7 +340,7 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<
     energy
 }
 
-/// Names the momentum that a unit rate of the joint `moved` gives, about the origin at `joint`.
+/// Names the momentum per unit rate of the joint `moved`, about the origin at `joint`.
 fn name_momentum(momentum: &Momentum<'_>, moved: &str, joint: &str) {
     let owner = format!("{moved}_at_{joint}");
     name_vector(&momentum.linear, "p", &owner);

@@ -1,14 +1,15 @@
-//! The recursion in link axes with base parameters, the common-axis trick, sliding origins and groups of
-//! parallel axes: equation (6) summed over the bodies beyond each joint.
+//! The recursion in link axes with base parameters, the common-axis method, sliding origins and groups of
+//! parallel axes: equation (6) summed over the bodies outboard of each joint.
 //!
 //! | file | computes |
 //! |---|---|
 //! | `geometry.rs` | a frame for every moving body: z along its joint's axis, x along the common normal with the next axis |
 //! | `frames.rs` | these frames as expressions, for one [`Plan`] (`plan.rs`) |
 //! | `inertia_ratio.rs` | each joint's own inertia over the inertia that it moves |
-//! | `base_parameters.rs` | base parameters: inertia moved inwards, known parts always, run-time parameters as the plan says |
-//! | `motion.rs` | velocities and accelerations, outwards |
-//! | `inverse_dynamics.rs` | forces, moments and efforts, inwards |
+//! | `base_parameters.rs` | base parameters: inertia moved inboard, known parts always, run-time
+//! parameters according to the plan |
+//! | `motion.rs` | velocities and accelerations, outboard |
+//! | `inverse_dynamics.rs` | forces, moments and efforts, inboard |
 //! | `mass_matrix.rs` | the mass matrix, from the momenta of composite bodies |
 //! | `derivatives/` | first derivatives and the Coriolis matrix, from composite bodies |
 //! | `kinematics.rs` | poses, velocities and Jacobians of sites |
@@ -20,10 +21,10 @@
 //! | `articulated/` | forward dynamics by articulated bodies |
 //! | `rotors.rs` | rotors behind gears |
 //!
-//! A plan says where origins slide, which length is the unit, which parallel joints share a basis, whose
-//! inertia is turned instead of the vectors, how far run-time parameters move inwards, and which point
-//! masses keep a force of their own. In small mechanisms the four cheapest plans are factored before one is
-//! chosen.
+//! A plan states how far origins slide, the unit of length, which parallel joints have a common basis, for
+//! which bodies the inertia is rotated instead of the vectors, how far run-time parameters move inboard,
+//! and which point masses have a separate force. In small mechanisms the four cheapest plans are factored
+//! before one is chosen.
 
 mod articulated;
 mod base_parameter_cache;

@@ -1,7 +1,7 @@
-//! How the bodies move: angular velocity and accelerations from the base outwards.
+//! Motion of the bodies: angular velocity and accelerations from the base to the tips.
 //!
-//! A body's motion is ω, the acceleration `a` of its origin less gravity, and
-//! U = [ω̇]× + [ω]×[ω]×: the point s of the body accelerates by a + U s.
+//! A body's motion is ω, the acceleration `a` of its origin minus gravity, and U = [ω̇]× + [ω]×[ω]×: the
+//! point s of the body has the acceleration a + U s.
 
 use bgdyn_runtime::Dd;
 
@@ -25,7 +25,7 @@ pub(super) struct Spin<'g> {
 }
 
 impl Spin<'_> {
-    /// Number of entries of ω and U that vanish.
+    /// Returns the number of zero entries of ω and U.
     pub fn zeros(&self) -> usize {
         let all = self.u.0.into_iter().flatten().chain(self.omega.0);
         all.filter(|e| e.is_zero()).count()
@@ -34,13 +34,13 @@ impl Spin<'_> {
 
 /// Motion of a body.
 pub(super) struct Moving<'g> {
-    /// Of the twisted axes in which the basis began, before any angle of the group.
+    /// Angular motion of the twisted axes at the start of the basis, before any angle of the group.
     pub basis: Spin<'g>,
     /// Ω, Ω̇: summed rates of the group's joints.
     rate: (Expr<'g>, Expr<'g>),
-    /// Angular motion of the body, in the basis's axes.
+    /// Angular motion of the body, in the axes of the basis.
     pub in_basis: Spin<'g>,
-    /// Acceleration of the origin in the basis's axes.
+    /// Acceleration of the origin, in the axes of the basis.
     pub a_basis: Vec3<Expr<'g>>,
     /// Angular motion of the body in its own axes.
     pub own: Spin<'g>,
@@ -48,8 +48,8 @@ pub(super) struct Moving<'g> {
     pub a_own: Vec3<Expr<'g>>,
 }
 
-/// Motion of every body with the rates and accelerations in `frames`; where `active`, against
-/// gravity.
+/// Returns the motion of every body with the rates and accelerations in `frames`; with gravity if
+/// `active`.
 pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Vec<Moving<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
@@ -80,7 +80,7 @@ fn name(frame: &BodyFrame<'_>, step: &Moving<'_>) {
     name_matrix(&spin.u, "u", name);
 }
 
-/// Motion of a body from its parent's.
+/// Returns the motion of a body from its parent's.
 fn outwards<'g>(
     b: &'g Builder,
     frame: &BodyFrame<'g>,
@@ -88,7 +88,7 @@ fn outwards<'g>(
     gravity: Vec3<Expr<'g>>,
 ) -> Moving<'g> {
     let (basis, mut rate, mut a_basis) = match parent {
-        // The base stands still; gravity acts as an acceleration of the base upwards.
+        // The base is at rest; gravity is an upward acceleration of the base.
         None => (still(b), (b.zero(), b.zero()), -gravity),
         Some(p) if frame.continues => (p.basis, p.rate, p.a_basis + p.in_basis.u * frame.position),
         Some(p) => {
@@ -131,12 +131,12 @@ fn still(b: &Builder) -> Spin<'_> {
     }
 }
 
-/// The parent's angular motion in twisted axes.
+/// Returns the parent's angular motion in twisted axes.
 fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
     let back = twist.transpose().map(|x| b.constant(x));
     let (omega, omega_dot) = (back * parent.omega, back * parent.omega_dot);
     let Some(places) = permutation(twist) else {
-        // In general directions U is cheaper made anew than turned.
+        // For a general rotation, computing U again costs less than rotating it.
         let u = u_of(omega, omega_dot);
         return Spin {
             omega,
@@ -146,7 +146,7 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
         };
     };
     let u = back * parent.u * back.transpose();
-    // Each difference is one of the parent's, with the sign of the permutation of its two axes.
+    // Each difference is a difference of the parent, with the sign of the permutation of its two axes.
     let difference = |k: usize| {
         let (upper, lower) = (places[(k + 2) % 3], places[(k + 1) % 3]);
         let kept = (lower + 1) % 3 == upper;
@@ -161,15 +161,15 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
     }
 }
 
-/// For a rotation by quarter turns: which of the parent's axes each new one lies along.
+/// Returns, for a rotation by quarter turns, the parent's axis parallel to each new one.
 fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
-    // A turn of 1e-17 from a quarter has ones, but no zeros.
+    // A rotation that differs by 1e-17 from a quarter turn has ones, but no zeros.
     let only = |k: usize, i: usize| (0..3).all(|l| l == i || twist.0[l][k] == Dd::ZERO);
     let place = |k: usize| (0..3).find(|&i| only(k, i));
     Some([place(0)?, place(1)?, place(2)?])
 }
 
-/// Acceleration of the new origin in twisted axes: the product U p where it costs less.
+/// Returns the acceleration of the new origin in twisted axes, by the product U p if that costs less.
 fn twisted_acceleration<'g>(
     b: &'g Builder,
     parent: &Moving<'g>,
@@ -184,7 +184,7 @@ fn twisted_acceleration<'g>(
     }
 }
 
-/// U = [ω̇]× + [ω]×[ω]×
+/// Returns U = [ω̇]× + [ω]×[ω]×.
 fn u_of<'g>(omega: Vec3<Expr<'g>>, omega_dot: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
     let ([x, y, z], [dx, dy, dz]) = (omega.0, omega_dot.0);
     let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
@@ -200,7 +200,7 @@ fn differences<'g>(u: &Mat3<Expr<'g>>) -> Vec3<Expr<'g>> {
     Vec3([zz - yy, xx - zz, yy - xx])
 }
 
-/// Angular motion after the group's rates Ω, Ω̇ about z, in axes that do not turn with them:
+/// Returns the angular motion after the group's rates Ω, Ω̇ about z, in axes that do not rotate with them:
 /// with σ = Ω (2 ω⁰_z + Ω), U = U⁰ + [[−σ, −Ω̇, 0], [Ω̇, −σ, 0], [2Ω ω⁰_x, 2Ω ω⁰_y, 0]].
 fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Expr<'g>, Expr<'g>)) -> Spin<'g> {
     let ([x, y, z], [dx, dy, dz]) = (basis.omega.0, basis.omega_dot.0);
@@ -209,7 +209,7 @@ fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Expr<'g>, Expr<'g>)) -> Spi
     let twice = rate * Dd::from_f64(2.0);
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = basis.u.0;
     let [dzy, dxz, dyx] = basis.differences.0;
-    // A body that turns about z only has U_xx = U_yy = −ω_z².
+    // A body that rotates about z only has U_xx = U_yy = −ω_z².
     let (xx, yy, dzy, dxz) = if x.is_zero() && y.is_zero() {
         let square = total * total;
         (-square, -square, zz + square, -square - zz)
@@ -221,7 +221,7 @@ fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Expr<'g>, Expr<'g>)) -> Spi
         [yx + acceleration, yy, yz],
         [zx + twice * x, zy + twice * y, zz],
     ]);
-    // ω̇_x and ω̇_y in axes that stay behind: ω̇⁰ + Ω (ω⁰_y, −ω⁰_x)
+    // ω̇_x and ω̇_y in axes that do not rotate: ω̇⁰ + Ω (ω⁰_y, −ω⁰_x)
     let omega_dot = Vec3([dx + rate * y, dy - rate * x, total_dot]);
     Spin {
         omega: Vec3([x, y, total]),
@@ -231,9 +231,9 @@ fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Expr<'g>, Expr<'g>)) -> Spi
     }
 }
 
-/// Angular motion in own axes by the common-axis trick: the points of the joint's axis have the
-/// same acceleration in both bodies, so the column of U along it is shared, and rotated where the
-/// usual recursion rotates ω̇ and forms U anew.
+/// Returns the angular motion in own axes by the common-axis method: the points of the joint's axis have
+/// the same acceleration in both bodies, so the column of U along it is common to both. It is rotated,
+/// where the usual recursion rotates ω̇ and computes U again.
 fn own_spin<'g>(
     basis: &Spin<'g>,
     (rate, acceleration): (Expr<'g>, Expr<'g>),

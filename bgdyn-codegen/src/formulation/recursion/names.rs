@@ -1,4 +1,4 @@
-//! Names of vectors, tensors and inertias for readers of the output; `legend.rs` says what they mean.
+//! Names vectors, tensors and inertias for readers of the output; `legend.rs` defines their meaning.
 
 use super::inertia::BodyInertia;
 use crate::expr::Expr;
@@ -23,7 +23,7 @@ pub(super) fn name_matrix(m: &Mat3<Expr<'_>>, quantity: &str, owner: &str) {
     }
 }
 
-/// Names what a mechanism gives of a body: masses, first moments, D.
+/// Names the given numbers of a body: masses, first moments, D.
 pub(super) fn name_body(inertia: &BodyInertia<'_>, body: &str) {
     inertia.mass.named_alone(|| format!("mass_{body}"));
     inertia.axial.named_alone(|| format!("mass_{body}"));
@@ -35,7 +35,7 @@ pub(super) fn name_body(inertia: &BodyInertia<'_>, body: &str) {
     j_zz.named(|| format!("j_zz_{body}"));
 }
 
-/// Names numbers that a mechanism gives, where no other quantity has the value.
+/// Names given numbers of a mechanism, unless another quantity has the value.
 pub(super) fn name_number(v: &Vec3<Expr<'_>>, quantity: &str, owner: &str) {
     for (x, axis) in v.0.iter().zip(AXES) {
         x.named_alone(|| format!("{quantity}_{axis}_{owner}"));

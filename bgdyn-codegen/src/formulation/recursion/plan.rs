@@ -5,62 +5,60 @@ use bgdyn_runtime::Dd;
 use super::geometry::Geometry;
 use crate::math::Vec3;
 
-/// The free choices of the recursion: none changes the result, all change the count.
+/// The free choices of the recursion; they change the operation count, but not the result.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Plan {
-    /// How far each body's origin slides along its joint's axis, m.
+    /// Displacement of each body's origin along its joint's axis, m.
     pub slides: Vec<Dd>,
     /// The unit of length, m.
     pub unit: Dd,
-    /// Whether joints with parallel axes share one basis that does not turn with them.
+    /// Whether joints with parallel axes have a common basis that does not rotate with them.
     pub grouped: bool,
-    /// Bodies whose own dynamics are computed in their basis: the inertia is turned, not the
-    /// vectors.
+    /// Bodies whose own dynamics are computed in their basis: the inertia is rotated, not the vectors.
     pub in_basis: Vec<bool>,
-    /// Bodies at the tips whose x axis points at their centre of mass.
+    /// Tips whose x axis points to their centre of mass.
     pub aimed: Vec<bool>,
-    /// By how many joints inwards the base parameters of a body's run-time parameters move.
+    /// By how many joints inboard the base parameters with run-time parameters move.
     pub carried: Vec<usize>,
-    /// Bodies whose point masses with run-time parameters have a force of their own each, where
-    /// the others' are merged with the body.
+    /// Bodies whose point masses with run-time parameters have separate forces; for other bodies they are
+    /// merged with the body.
     pub apart: Vec<bool>,
-    /// Whether inertia is regrouped into base parameters; otherwise every body keeps its own.
+    /// Whether inertia is regrouped into base parameters; otherwise every body retains its own.
     pub base_parameters: bool,
     /// N_z = J_zz ω̇_z + (D_xx − D_yy) ω_x ω_y + … instead of the skew part of U·D.
     pub short_moment: bool,
-    /// For derivatives: how each joint's share of them is put together.
+    /// For derivatives: how each joint's contribution is computed.
     pub views: Vec<PartialsPlan>,
 }
 
-/// How the derivatives by a joint's coordinate are put together.
+/// How the derivatives by a joint's coordinate are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct PartialsPlan {
-    /// Where all that it moves is seen from.
+    /// The reference of its composite body.
     pub seen_from: SeenFrom,
-    /// Whether what the next rotation of its group moves is taken over from that one.
+    /// Whether quantities of the next rotation of its group are reused.
     pub reuse_neighbour: bool,
-    /// Whether changes of forces on what its body carries stay in the body's axes for the rotations
-    /// before it in the group.
+    /// Whether derivatives of forces on the bodies outboard remain in the body's axes for the previous
+    /// rotations of the group.
     pub keep_body_axes: bool,
 }
 
-/// The body whose motion counts as that of the carrier, and the axes.
+/// The body whose motion is the reference, and the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum SeenFrom {
-    /// The body before the joint or the one after it, in the axes of the basis: the one with more
-    /// zeros.
+    /// The body before the joint or the one after it, in the axes of the basis: the one with more zeros.
     #[default]
     Sparser,
     /// The body before the joint.
     Before,
     /// The body after it.
     After,
-    /// The same in its own axes, but for what continues its basis.
+    /// The body after it in its own axes, except for the parts that continue its basis.
     Own,
 }
 
 impl Plan {
-    /// Metres, origins where the spec has them: for poses.
+    /// Returns a plan in metres, with the origins of the spec, for poses.
     pub(super) fn of_kinematics(geometry: &Geometry, grouped: bool) -> Self {
         let n = geometry.bodies.len();
         Plan {
@@ -77,7 +75,7 @@ impl Plan {
         }
     }
 
-    /// The same with the axes of the tips as they are.
+    /// Returns the plan with unrotated axes of the tips.
     pub(super) fn unturned(&self) -> Self {
         Plan {
             aimed: vec![false; self.aimed.len()],
@@ -86,8 +84,8 @@ impl Plan {
     }
 }
 
-/// Where the origin of body j is from its parent's, in twisted axes, after the slides, m. The
-/// base's place enters nothing but the potential energy.
+/// Returns the position of the origin of body j relative to its parent's, in twisted axes, after the
+/// slides, m. The base's position affects only the potential energy.
 pub(super) fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<Dd> {
     let body = &geometry.bodies[j];
     let Some(p) = body.parent else {
@@ -96,7 +94,7 @@ pub(super) fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<
     let parent_z = body.twist.transpose().column(2);
     let mut offset = body.offset - parent_z.scale(plan.slides[p]);
     offset.0[2] += plan.slides[j];
-    // What two equal lengths leave of their difference is no length.
+    // The rounding error of the difference of two equal lengths counts as zero.
     let size = body
         .offset
         .0

@@ -1,5 +1,5 @@
-//! Search for the cheapest plan, by weighted cost: one choice at a time, each tried and kept where it costs less,
-//! until a round changes nothing. Bounded, deterministic.
+//! Searches for the cheapest plan, by weighted cost: tries one choice at a time, accepts it if it costs
+//! less, and ends after a round without a change. The search is bounded and deterministic.
 
 use bgdyn_runtime::Dd;
 
@@ -8,29 +8,29 @@ use super::plan::{PartialsPlan, Plan};
 use crate::expr::Cost;
 use crate::function::Considered;
 
-/// Rounds over all choices at the most.
+/// Largest number of rounds over all choices.
 const ROUNDS: usize = 2;
 
-/// Bodies beyond which the choices are not tried one by one: the cost of a search grows with the
-/// square of their number.
+/// Largest number of bodies for which the choices are tried one by one: the cost of a search grows with
+/// the square of their number.
 pub(super) const SEARCHED: usize = 16;
 
-/// Plans kept of a search.
+/// Number of plans that a search returns.
 const KEPT: usize = 4;
 
-/// A plan, and what it costs before factoring.
+/// A plan, and its cost before factoring.
 #[derive(Clone)]
 pub(super) struct Tried {
     pub plan: Plan,
     pub cost: Cost,
 }
 
-/// What a search has seen.
+/// The results of a search.
 #[derive(Clone, Default)]
 pub(in crate::formulation) struct BestPlan {
-    /// The cheapest plans, the cheapest one first; many a choice changes no cost.
+    /// The cheapest plans, the cheapest one first; many choices do not change the cost.
     pub(super) plans: Vec<Tried>,
-    /// For each of the least costs the first plan that has it.
+    /// For each of the least costs, the first plan with it.
     steps: Vec<Tried>,
 }
 
@@ -55,24 +55,24 @@ impl BestPlan {
         }
     }
 
-    /// Takes this plan before all others.
+    /// Puts this plan before all others.
     pub(super) fn take(&mut self, plan: Plan, cost: Cost) {
         self.plans.retain(|t| t.plan != plan);
         self.plans.insert(0, Tried { plan, cost });
     }
 
-    /// What the plan that is taken costs, before factoring.
+    /// Returns the cost of the chosen plan, before factoring.
     pub(super) fn cost(&self) -> Cost {
         self.plans[0].cost
     }
 
-    /// The plan that is taken.
+    /// Returns the chosen plan.
     pub(super) fn taken(&self) -> &Plan {
         &self.plans[0].plan
     }
 
-    /// The plan that is taken, and the cheapest ones of other costs, for a function's reader: each
-    /// with all in which it differs from the one taken.
+    /// Returns the chosen plan, and the cheapest ones of other costs, for readers of the function: each
+    /// with all its differences from the chosen one.
     pub(super) fn considered(&self, geometry: &Geometry) -> Vec<Considered> {
         let taken = &self.plans[0];
         let weight = taken.cost.weighted();
@@ -85,7 +85,7 @@ impl BestPlan {
     }
 }
 
-/// The cheapest plans found.
+/// Returns the cheapest plans found.
 pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
     let n = geometry.bodies.len();
     let mut best = BestPlan::default();
@@ -99,7 +99,7 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestP
         let mut least = weigh(&plan);
         let rounds = if n <= SEARCHED { ROUNDS } else { 0 };
         let changes = changes(geometry);
-        // Once round without a gain, every choice was tried on the plan as it stands.
+        // After a whole round without a gain, every choice was tried on the current plan.
         let mut in_vain = 0;
         for change in std::iter::repeat_n(&changes, rounds).flatten() {
             in_vain += 1;
@@ -120,8 +120,7 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestP
     best
 }
 
-/// The cheapest of the plans that come of trying each place of an origin and each unit of length
-/// once.
+/// Returns the cheapest of the plans that differ in one position of an origin or in the unit of length.
 pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
     let mut plan = start.clone();
     let mut best = BestPlan::default();
@@ -151,7 +150,7 @@ pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) ->
     best
 }
 
-/// Plans to start from: with and without groups.
+/// Returns the initial plans: with and without groups.
 fn starts(geometry: &Geometry) -> Vec<Plan> {
     let n = geometry.bodies.len();
     let tip = |j: usize| geometry.bodies.iter().all(|b| b.parent != Some(j));
@@ -177,7 +176,7 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
 
 type PlanChange = Box<dyn Fn(&mut Plan)>;
 
-/// Every place for an origin and every unit of length, as a change of a plan.
+/// Returns every position of an origin and every unit of length, as a change of a plan.
 fn places(geometry: &Geometry) -> Vec<PlanChange> {
     let mut changes: Vec<PlanChange> = Vec::new();
     for j in 0..geometry.bodies.len() {
@@ -191,7 +190,7 @@ fn places(geometry: &Geometry) -> Vec<PlanChange> {
     changes
 }
 
-/// Every single choice, as a change of a plan.
+/// Returns every single choice, as a change of a plan.
 fn changes(geometry: &Geometry) -> Vec<PlanChange> {
     let n = geometry.bodies.len();
     let mut changes = places(geometry);
@@ -214,7 +213,7 @@ fn changes(geometry: &Geometry) -> Vec<PlanChange> {
     changes
 }
 
-/// How many joints are between the body and the base.
+/// Returns the number of joints between the body and the base.
 fn joints_to_base(geometry: &Geometry, mut j: usize) -> usize {
     let mut joints = 1;
     while let Some(p) = geometry.bodies[j].parent {
@@ -223,8 +222,8 @@ fn joints_to_base(geometry: &Geometry, mut j: usize) -> usize {
     joints
 }
 
-/// Where the origin of body j may go along its axis: the feet of the common normals with its
-/// children's axes, and with its parent's; where it was.
+/// Returns the possible positions of the origin of body j along its axis: the feet of the common normals
+/// with the axes of its children and of its parent; and the original position.
 fn slides(geometry: &Geometry, j: usize) -> Vec<Dd> {
     let body = &geometry.bodies[j];
     let mut slides: Vec<Dd> = Vec::new();
@@ -245,7 +244,7 @@ fn slides(geometry: &Geometry, j: usize) -> Vec<Dd> {
     distinct
 }
 
-/// Units of length: metres, and the distances between joints. Where the base stands is none.
+/// Returns the units of length: metres, and the distances between joints, without that of the base.
 fn units(geometry: &Geometry) -> Vec<Dd> {
     let mut units = vec![Dd::ONE];
     for body in geometry.bodies.iter().filter(|b| b.parent.is_some()) {
@@ -260,7 +259,7 @@ fn units(geometry: &Geometry) -> Vec<Dd> {
     units
 }
 
-/// Choices of `plan` that differ from those of another and that [`describe`] keeps to itself.
+/// Describes the choices of `plan` that differ from those of another and that [`describe`] omits.
 fn differences(geometry: &Geometry, other: &Plan, plan: &Plan) -> String {
     let mut words = String::new();
     for (j, body) in geometry.bodies.iter().enumerate() {
@@ -285,7 +284,7 @@ fn differences(geometry: &Geometry, other: &Plan, plan: &Plan) -> String {
     words
 }
 
-/// The plan in words.
+/// Describes the plan in words.
 pub(super) fn describe(geometry: &Geometry, plan: &Plan) -> String {
     let named = |flags: &[bool]| -> String {
         let names = geometry.bodies.iter().zip(flags).filter(|(_, on)| **on);

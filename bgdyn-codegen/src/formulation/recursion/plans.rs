@@ -1,4 +1,4 @@
-//! The cheapest plans of the recursion for each method, found once for a mechanism.
+//! Finds the cheapest plans of the recursion for each method, once per mechanism.
 
 use super::expressions::outputs;
 use super::geometry::Geometry;
@@ -10,12 +10,12 @@ use crate::expr::{self, Builder, Cost, factored_cost};
 use crate::formulation::Prepared;
 use crate::method::Method;
 
-/// Bodies up to which a mechanism is small: the plans that its search keeps are factored before
-/// one is taken. For larger ones it would take more time than it saves operations: on arms of six
-/// and seven axes 16 of 8,000, for twice the time of expansion.
+/// Largest number of bodies of a small mechanism, for which the best plans of the search are factored
+/// before one is chosen. For larger mechanisms this takes too much time for its savings: on arms of six
+/// and seven axes 16 of 8,000 operations, for twice the time of expansion.
 const SMALL: usize = 4;
 
-/// The cheapest plans found for a method of joints; nothing for what is derived from other methods.
+/// Returns the cheapest plans found for a method of joints; `None` for methods derived from others.
 pub(super) fn best_plans(prepared: &Prepared<'_>, method: Method) -> Option<BestPlan> {
     match method {
         Method::ForwardDynamicsDerivatives => None,
@@ -24,14 +24,14 @@ pub(super) fn best_plans(prepared: &Prepared<'_>, method: Method) -> Option<Best
     }
 }
 
-/// The cheapest plans found, the one to be taken first.
+/// Returns the cheapest plans found, the chosen one first.
 pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> BestPlan {
     if let Some(best) = prepared.plans.borrow().get(&method) {
         return best.clone();
     }
     let best = match method {
-        // Their graphs are too large for a whole search: it starts from the plan of a smaller
-        // method that they resemble.
+        // Their graphs are too large for a whole search: it starts from the plan of a similar smaller
+        // method.
         Method::CoriolisMatrix => plans_from(prepared, Method::MassMatrix, method),
         Method::InverseDynamicsDerivatives => plans_from(prepared, Method::CoriolisMatrix, method),
         _ => search_plans(prepared, method),
@@ -41,7 +41,7 @@ pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> BestPla
     best
 }
 
-/// The plans of a method with partial derivatives, which start from the cheapest plan of another one.
+/// Returns the plans of a method with partial derivatives, starting from the cheapest plan of another one.
 fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> BestPlan {
     let graph = prepared.graph;
     let geometry = prepared.geometry();
@@ -56,9 +56,9 @@ fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> BestPla
     best
 }
 
-/// The plans that a whole search finds; the first one costs least after factoring. Plans that cost
-/// about the same before it differ in what it makes of them. Whether a tip's axes are turned at its
-/// centre of mass shows only there: it saves operations and costs a sum of angles.
+/// Returns the plans of a whole search; the first one costs least after factoring. Plans with almost equal
+/// costs before factoring can differ after it. The rotation of a tip's axes to its centre of mass has an
+/// effect only there: it saves operations and costs a sum of angles.
 fn search_plans(prepared: &Prepared<'_>, method: Method) -> BestPlan {
     let graph = prepared.graph;
     let geometry = prepared.geometry();
@@ -82,13 +82,13 @@ fn search_plans(prepared: &Prepared<'_>, method: Method) -> BestPlan {
     best
 }
 
-/// What the method's expressions under a plan cost, before factoring.
+/// Returns the cost of the method's expressions under a plan, before factoring.
 pub(super) fn cost(graph: &Multibody, geometry: &Geometry, method: Method, plan: &Plan) -> Cost {
     let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, plan);
     expr::cost(&graph, &outputs).unfinished()
 }
 
-/// The same after factoring.
+/// Returns the same after factoring.
 fn cost_after_factoring(
     graph: &Multibody,
     geometry: &Geometry,

@@ -1,12 +1,12 @@
-//! Rotors behind gears: N² J on a joint's junction, and for a full rotor the momentum N J q̇_j e
-//! that it has in the body it sits on.
+//! Rotors behind gears: N² J on a joint's junction, and for a full rotor the momentum N J q̇_j e on its
+//! carrier.
 //!
-//! A rotor turns N times as fast as its joint about an axis e of its carrier, so the carrier holds
-//! the momentum h = N J q̇_j e beside its own. What moves it is ḣ = N J (q̈_j e + q̇_j ω × e) on the
-//! carrier, and N J e · ω̇ on the joint beside N² J q̈_j. In M it is N J e · z_k for every joint k
-//! that turns the carrier, and twice that where k is j itself.
+//! A rotor rotates N times as fast as its joint about an axis e of its carrier, so the carrier has the
+//! momentum h = N J q̇_j e besides its own. It requires the moment ḣ = N J (q̈_j e + q̇_j ω × e) on the
+//! carrier, and the effort N J e · ω̇ on the joint besides N² J q̈_j. Its entry in M is N J e · z_k for
+//! every joint k that moves the carrier, and twice that if k is j.
 //!
-//! The bodies' motion comes in as vectors, so that nothing here knows frames or recursions.
+//! The bodies' motion is given as vectors, so that this file does not depend on frames or recursions.
 
 use bgdyn_runtime::Dd;
 
@@ -18,17 +18,17 @@ use crate::math::Vec3;
 
 /// The rotors of a mechanism.
 pub(super) struct Rotors<'g> {
-    /// N² J of each joint, summed.
+    /// The sum of N² J for each joint.
     armature: Vec<Expr<'g>>,
     rate: Vec<Expr<'g>>,
     acceleration: Vec<Expr<'g>>,
     full: Vec<FullRotor<'g>>,
 }
 
-/// A full rotor on a body that moves.
+/// A full rotor on a moving body.
 pub(super) struct FullRotor<'g> {
     body: usize,
-    /// The joint that turns it.
+    /// The joint that drives it.
     pub joint: usize,
     /// Factor from a moment or force along z to that joint's effort.
     effort: Dd,
@@ -39,26 +39,26 @@ pub(super) struct FullRotor<'g> {
 }
 
 impl<'g> FullRotor<'g> {
-    /// Momentum that a unit rate along its joint's z gives it, in the body's own axes.
+    /// Returns its momentum per unit rate along its joint's z, in the body's own axes.
     pub fn unit_momentum(&self) -> Vec3<Expr<'g>> {
         let per_unit = Dd::ONE / self.effort;
         self.momentum.map(|x| x * per_unit)
     }
 
-    /// Its momentum N J q̇ e, in the body's own axes.
+    /// Returns its momentum N J q̇ e, in the body's own axes.
     pub fn momentum(&self) -> Vec3<Expr<'g>> {
         self.momentum.scale(self.rates.0)
     }
 
-    /// The rate N J q̈ e of that momentum in axes fixed to the body.
+    /// Returns the rate N J q̈ e of that momentum in axes fixed to the body.
     pub fn momentum_rate(&self) -> Vec3<Expr<'g>> {
         self.momentum.scale(self.rates.1)
     }
 }
 
 impl<'g> Rotors<'g> {
-    /// `aims` has cosine and sine of the angle about z by which a plan turns each body's axes,
-    /// `efforts` the factor from a moment or force along each joint's z to its effort.
+    /// `aims` are cosine and sine of the angle about z by which a plan rotates each body's axes, `efforts`
+    /// the factor from a moment or force along each joint's z to its effort.
     pub fn new(
         b: &'g Builder,
         graph: &Multibody,
@@ -96,12 +96,12 @@ impl<'g> Rotors<'g> {
         rotors
     }
 
-    /// The full rotors on a body.
+    /// Returns the full rotors on a body.
     pub fn on(&self, body: usize) -> impl Iterator<Item = &FullRotor<'g>> {
         self.full.iter().filter(move |rotor| rotor.body == body)
     }
 
-    /// ḣ of the rotors on a body with the angular velocity `omega`, in its own axes.
+    /// Returns ḣ of the rotors on a body with the angular velocity `omega`, in its own axes.
     pub fn moment(&self, body: usize, omega: Vec3<Expr<'g>>) -> Option<Vec3<Expr<'g>>> {
         let moment = self.on(body).map(|rotor| {
             let whirl = omega.cross(rotor.momentum);
@@ -110,8 +110,8 @@ impl<'g> Rotors<'g> {
         moment.reduce(|a, b| a + b)
     }
 
-    /// Adds to the joints' efforts what turns the rotors; `omega_dot` has the angular acceleration of
-    /// each body, in its own axes.
+    /// Adds to the joints' efforts those that accelerate the rotors; `omega_dot` is the angular
+    /// acceleration of each body, in its own axes.
     pub fn add_efforts(&self, omega_dot: &[Vec3<Expr<'g>>], efforts: &mut [Expr<'g>]) {
         for (j, effort) in efforts.iter_mut().enumerate() {
             *effort = *effort + self.armature[j] * self.acceleration[j];
@@ -122,13 +122,13 @@ impl<'g> Rotors<'g> {
         }
     }
 
-    /// N² J of a joint.
+    /// Returns N² J of a joint.
     pub fn armature(&self, joint: usize) -> Expr<'g> {
         self.armature[joint]
     }
 
-    /// Twice the kinetic energy that the rotors have beyond the links': N² J q̇² + 2 N J q̇ e · ω, with
-    /// the angular velocity of each body in its own axes.
+    /// Returns twice the kinetic energy of the rotors in addition to that of the links: N² J q̇² + 2 N J
+    /// q̇ e · ω, with the angular velocity of each body in its own axes.
     pub fn twice_kinetic_energy(&self, b: &'g Builder, omega: &[Vec3<Expr<'g>>]) -> Expr<'g> {
         let squares = self.armature.iter().zip(&self.rate);
         let own = squares.fold(b.zero(), |sum, (&i, &v)| sum + i * v * v);

@@ -1,8 +1,7 @@
-//! The recursion with each body's own inertia: for those who would rather have digits than save
-//! operations.
+//! The recursion with each body's own inertia, for users who prefer accuracy to fewer operations.
 //!
-//! Base parameters move inertia inwards and leave a rest behind; where the two meet again in an
-//! effort, they may be larger than what is left of them.
+//! Base parameters move inertia inboard and leave a remainder. Where both contribute to one effort, they
+//! can be larger than their sum, and digits are lost.
 
 use super::formulation::with_plan;
 use super::plan_search;

@@ -1,6 +1,6 @@
 //! Checks rotations and axes, and snaps them to exact quarter turns and axes.
 //!
-//! Exact means: sines and cosines that are 0 or ±1, components that are 0.
+//! Exact means: sines and cosines are 0 or ±1, components are 0.
 
 use std::cell::RefCell;
 
@@ -11,30 +11,30 @@ use crate::format::{Field, Located, Origin, Spec, Vector};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{Pose, Snapped};
 
-/// How far a direction may be off and still be taken as exact, if the spec says nothing.
+/// Default tolerance for rounding a direction to the exact one.
 const SNAP: f64 = 1e-11;
-/// The most that a spec may ask for.
+/// Largest tolerance in a spec.
 const MOST: f64 = 1e-3;
-/// Up to here a direction off by more than `snap` looks like a rounded quarter turn.
+/// Up to this size, a deviation larger than `snap` suggests a rounded quarter turn.
 const SUSPECT: f64 = 1e-4;
-/// Rounding of the double-double operations in a rotation, with room to spare.
+/// Bound, with a margin, for the rounding error of the double-double operations in a rotation.
 const NOISE: f64 = 1e-28;
-/// The largest angle of a rotation, rad: beyond it the digits after the point are few.
+/// The largest angle of a rotation, rad: larger angles have few digits after the point.
 const TURNS: f64 = 1e4;
 
-/// Numbers that snapping changes by more are told: what is less is the rounding of the file's `f64`.
+/// Larger changes by snapping are reported; smaller ones are rounding errors of the file's `f64`.
 const TOLD: f64 = 1e-15;
 
-/// How directions of this spec are read.
+/// The settings for directions of this spec.
 #[derive(Debug)]
 pub(super) struct Directions {
     snap: f64,
-    /// What snapping has changed so far.
+    /// The changes by snapping so far.
     snapped: RefCell<Option<Snapped>>,
 }
 
 impl Directions {
-    /// By the spec's `snap`.
+    /// Returns the settings for the spec's `snap`.
     pub(super) fn new(spec: &Spec, faults: &mut Faults) -> Self {
         let Some(given) = spec.snap.given() else {
             return Self::within(SNAP);
@@ -57,12 +57,12 @@ impl Directions {
         }
     }
 
-    /// What snapping changed, once everything is read.
+    /// Returns the changes by snapping, after all directions are read.
     pub(super) fn into_snapped(self) -> Option<Snapped> {
         self.snapped.into_inner()
     }
 
-    /// Notes how far snapping moved the direction at this place.
+    /// Records by how much snapping moved the direction at this location.
     fn note(&self, location: &Location, moved: f64) {
         if moved <= TOLD {
             return;
@@ -80,7 +80,7 @@ impl Directions {
         }
     }
 
-    /// The pose that changes nothing.
+    /// Returns the identity pose.
     pub(super) fn identity() -> Pose {
         Pose {
             rotation: identity(),
@@ -88,7 +88,7 @@ impl Directions {
         }
     }
 
-    /// The pose of an `origin`.
+    /// Returns the pose of an `origin`.
     pub(super) fn pose(&self, origin: &Field<Origin>, faults: &mut Faults) -> Option<Pose> {
         let origin = match origin {
             Field::Absent => return Some(Self::identity()),
@@ -103,7 +103,7 @@ impl Directions {
         })
     }
 
-    /// R = Rz(yaw)·Ry(pitch)·Rx(roll).
+    /// Returns R = Rz(yaw)·Ry(pitch)·Rx(roll).
     pub(super) fn rotation(&self, rpy: &Field<Vector>, faults: &mut Faults) -> Option<Mat3<Dd>> {
         let angles = match rpy {
             Field::Absent => return Some(identity()),
@@ -155,7 +155,7 @@ impl Directions {
         }
     }
 
-    /// The unit vector of an axis.
+    /// Returns the unit vector of an axis.
     pub(super) fn axis(&self, axis: &Located<Vector>, faults: &mut Faults) -> Option<Vec3<Dd>> {
         let given = fixed(&axis.value);
         let largest = given.0.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
@@ -186,7 +186,7 @@ impl Directions {
         Some(unit(Vec3([kept(0), kept(1), kept(2)])))
     }
 
-    /// What is taken for 0: `snap`, and the rounding of the arithmetic in any case.
+    /// Returns the largest size that counts as 0: `snap`, at least the rounding of the arithmetic.
     fn exact(&self) -> f64 {
         self.snap.max(NOISE)
     }
@@ -195,8 +195,8 @@ impl Directions {
         off > self.exact() && off <= SUSPECT
     }
 
-    /// Where one axis of `r` lies on an axis of the other frame, makes it exact and what is left
-    /// a turn about it. (Turns that undo each other leave rounding where a zero should be.)
+    /// If one axis of `r` is parallel to an axis of the other frame, makes it exact and the rest a
+    /// rotation about it. (Products of inverse rotations have rounding errors in place of zeros.)
     fn square(&self, r: Mat3<Dd>) -> Mat3<Dd> {
         let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
         let small = |x: Dd| x.to_f64().abs() <= self.exact();
@@ -232,7 +232,7 @@ fn identity() -> Mat3<Dd> {
     Mat3::from_fn(|i, j| if i == j { Dd::ONE } else { Dd::ZERO })
 }
 
-/// `v` at length 1; ±1 exactly where only one component is left.
+/// Returns `v` at length 1; exactly ±1 if only one component is nonzero.
 fn unit(v: Vec3<Dd>) -> Vec3<Dd> {
     let square = v.dot(v);
     if v.0.iter().filter(|x| **x != Dd::ZERO).count() == 1 {
@@ -280,7 +280,7 @@ impl Turn {
         Turn { sin, cos, off }
     }
 
-    /// The rotation about a coordinate axis.
+    /// Returns the rotation about a coordinate axis.
     fn about(self, axis: usize) -> Mat3<Dd> {
         let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
         let mut r = identity();
@@ -290,7 +290,7 @@ impl Turn {
     }
 }
 
-/// The vector of a field, or the default where the field is absent.
+/// Returns the vector of a field, or the default if the field is absent.
 pub(super) fn vector_or(field: &Field<Vector>, default: Vec3<Dd>) -> Option<Vec3<Dd>> {
     match field {
         Field::Absent => Some(default),
@@ -299,7 +299,7 @@ pub(super) fn vector_or(field: &Field<Vector>, default: Vec3<Dd>) -> Option<Vec3
     }
 }
 
-/// Three numbers where no run-time parameter can stand.
+/// Returns three numbers that cannot be run-time parameters.
 fn fixed(vector: &Vector) -> Vec3<Dd> {
     Vec3(vector.each_ref().map(|number| number.value.value))
 }

@@ -1,7 +1,7 @@
 //! Checks inertia tensors and converts them to the centre of mass and to link axes.
 //!
-//! A tensor is written as entries, products or a solid. It must be positive semidefinite and satisfy
-//! the triangle inequality.
+//! A tensor is given by entries, products or a solid. It must be positive semidefinite and satisfy the
+//! triangle inequality.
 
 use bgdyn_runtime::Dd;
 use bgdyn_runtime::nalgebra::Matrix3;
@@ -14,14 +14,15 @@ use crate::format::{Dimension, Field, InertiaSpec, LinkSpec};
 use crate::math::Mat3;
 use crate::mechanism::{Pose, Tensor, Value};
 
-/// How far, relative to the largest principal moment, a tensor may miss a rule.
+/// Largest violation of a rule, relative to the largest principal moment.
 const TOLERANCE: f64 = 1e-9;
-/// Rounding of the double-double operations in J = R·J'·Rᵀ, with room to spare.
+/// Bound, with a margin, for the rounding error of the double-double operations in J = R·J'·Rᵀ.
 const NOISE: f64 = 1e-28;
 /// Rows and columns of xx, yy, zz, xy, xz, yz.
 const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// The tensor of `link`: in its axes, or, where an entry is a run-time parameter, as written.
+/// Returns the tensor of `link`: in its axes, or, if an entry is a run-time parameter, in the axes of the
+/// file.
 pub(super) fn tensor(
     link: &LinkSpec,
     directions: &Directions,
@@ -75,7 +76,7 @@ pub(super) fn tensor(
 enum InertiaNotation {
     /// About the centre of mass.
     AboutCentre([Value; 6]),
-    /// About the link's origin, and what a mass in its place adds there, in link axes.
+    /// About the link's origin, with the parallel-axis term of the mass, in link axes.
     AboutOrigin([Dd; 6], [Dd; 6]),
 }
 
@@ -121,7 +122,7 @@ fn written(
     }
 }
 
-/// m (c·c 1 − c cᵀ) of the link's mass and centre of mass.
+/// Returns m (c·c 1 − c cᵀ) of the link's mass and centre of mass.
 fn parallel_axis(link: &LinkSpec, about: &Location, faults: &mut Faults) -> Option<[Dd; 6]> {
     let mass = link.mass.given().map(|m| &m.value);
     let com = link.com.given().map(|c| &c.value);
@@ -156,7 +157,7 @@ fn minus(a: [Dd; 6], b: [Dd; 6]) -> [Dd; 6] {
 fn allows_nonphysical(link: &LinkSpec, faults: &mut Faults) -> bool {
     match &link.nonphysical {
         Field::Absent => false,
-        // Unreadable, and said so: the tensor is not the point.
+        // Unreadable, and already reported: no further fault about the tensor.
         Field::Broken => true,
         Field::Given(word) => {
             if word.value != "allow" {
@@ -199,7 +200,7 @@ fn entries(
     whole.then_some(entries)
 }
 
-/// Refuses a tensor (xx, yy, zz, xy, xz, yz about the centre of mass) that no body has.
+/// Refuses a tensor (xx, yy, zz, xy, xz, yz about the centre of mass) that no body can have.
 pub(crate) fn check_tensor(location: &Location, entries: &[Dd; 6], faults: &mut Faults) {
     physical(location, entries, false, faults);
 }
@@ -215,7 +216,7 @@ fn physical(location: &Location, entries: &[Dd; 6], allowed: bool, faults: &mut 
     }
 }
 
-/// The principal moments, smallest first.
+/// Returns the principal moments, smallest first.
 fn principal_moments(entries: &[Dd; 6]) -> [f64; 3] {
     let [xx, yy, zz, xy, xz, yz] = entries.map(Dd::to_f64);
     let largest = [xx, yy, zz, xy, xz, yz]
@@ -231,7 +232,7 @@ fn principal_moments(entries: &[Dd; 6]) -> [f64; 3] {
     moments
 }
 
-/// J = R·J'·Rᵀ
+/// Returns J = R·J'·Rᵀ.
 fn turned(entries: [Dd; 6], r: Mat3<Dd>) -> [Dd; 6] {
     let mut own = Mat3([[Dd::ZERO; 3]; 3]);
     for (entry, (i, j)) in entries.into_iter().zip(PLACES) {
@@ -241,8 +242,8 @@ fn turned(entries: [Dd; 6], r: Mat3<Dd>) -> [Dd; 6] {
     without_noise(PLACES.map(|(i, j)| tensor.0[i][j]))
 }
 
-/// Entries that are rounding beside the largest one become 0, and moments that differ by no more
-/// become equal.
+/// Sets entries to 0 that are rounding errors relative to the largest one, and makes moments equal that
+/// differ only by rounding.
 fn without_noise(mut entries: [Dd; 6]) -> [Dd; 6] {
     let largest = entries.iter().fold(0.0_f64, |m, x| m.max(x.to_f64().abs()));
     let noise = |x: Dd| x.to_f64().abs() <= NOISE * largest;

@@ -10,7 +10,7 @@ use crate::math::Vec3;
 use crate::mechanism::joint::JOINT_TYPES;
 use crate::mechanism::{Joint, JointType, Limits, Motion};
 
-/// The joint that carries `link`; its coordinate is given later.
+/// Returns the joint of `link`; its coordinate is assigned later.
 pub(super) fn joint(
     link: &LinkSpec,
     directions: &Directions,
@@ -156,7 +156,7 @@ fn position_limits(limits: &format::LimitsSpec, kind: &JointType, faults: &mut F
     }
 }
 
-/// Units of the coordinate, its rate and its effort, for a motion.
+/// Checks the units of the coordinate, its rate and its effort, for a motion.
 fn units(limits: &format::LimitsSpec, motion: Motion, faults: &mut Faults) {
     let [position, speed, effort] = match motion {
         Motion::None => return,
@@ -194,7 +194,7 @@ fn signs(limits: &format::LimitsSpec, faults: &mut Faults) {
     }
 }
 
-/// Whether two numbers can be compared: not an angle with a length.
+/// Returns whether two numbers can be compared: not an angle with a length.
 fn same_dimension(a: &Located<Number>, b: &Located<Number>) -> bool {
     match (a.value.unit, b.value.unit) {
         (Some(a), Some(b)) => a.dimension == b.dimension,

@@ -1,4 +1,4 @@
-//! Checks names: they are unique identifiers, and the mechanism is named as its file.
+//! Checks names: they are unique identifiers, and the mechanism has the name of its file.
 
 use std::collections::BTreeMap;
 
@@ -6,10 +6,10 @@ use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Field, FrameSpec, JointSpec, LinkSpec, Located, Spec};
 use crate::name::{WORLD, is_identifier};
 
-/// The one name whose struct, `T`, would hide the type parameter of generated code.
+/// The only name whose struct, `T`, would hide the type parameter of generated code.
 const TYPE_PARAMETER: &str = "t";
 
-/// The mechanism's name: the file's stem up to its first dot, or the spec's `name`.
+/// Returns the mechanism's name: the file's stem up to its first dot, or the spec's `name`.
 pub(super) fn mechanism_name(
     spec: &Spec,
     stem: Option<&str>,
@@ -66,7 +66,7 @@ pub(super) fn check(links: &[LinkSpec], frames: &[FrameSpec], faults: &mut Fault
     }
 }
 
-/// The name of a fixed joint that has none of its own.
+/// Returns the name of a fixed joint without a name.
 pub(super) fn mount_name(link: &str) -> String {
     format!("{link}_mount")
 }
@@ -80,7 +80,7 @@ fn named_after_link(link: &LinkSpec) -> bool {
     }
 }
 
-/// Names that must be unique among `what`, each with the place of the first one.
+/// Names that must be unique among `what`, each with the location of the first one.
 struct SeenNames {
     what: &'static str,
     first: BTreeMap<String, Location>,
@@ -105,7 +105,7 @@ impl SeenNames {
 
     fn add_mount(&mut self, name: &str, location: &Location, faults: &mut Faults) {
         match self.first.get(name) {
-            // The link's own name is taken: that is said already.
+            // The link's own name is not unique, which is reported already.
             Some(first) if first.path.ends_with("].name") => {}
             Some(first) => faults.push(wording::repeated_mount(location, name, first)),
             None => self.add(name, location, faults),

@@ -7,23 +7,23 @@ use crate::format::{Field, FrameSpec, LinkSpec, Located};
 use crate::mechanism::LinkId;
 use crate::name::WORLD;
 
-/// What a link or frame is fixed to, by its place in the file.
+/// The parent of a link or frame, by its index in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Carrier {
     /// The fixed base.
     World,
-    /// The link at this place in the file.
+    /// The link with this index in the file.
     Link(usize),
-    /// Nothing known; a fault says so.
+    /// Unknown; a fault was reported.
     Unknown,
 }
 
 /// The links as a tree.
 #[derive(Debug)]
 pub(super) struct LinkTree<'s> {
-    /// Places in the file, parents before children, otherwise as in the file.
+    /// Indices in the file, parents before children, otherwise in the file's order.
     pub(super) sequence: Vec<usize>,
-    /// For each place in the file the one in the sequence.
+    /// For each index in the file the index in the sequence.
     rank: Vec<usize>,
     carriers: Vec<Carrier>,
     by_name: BTreeMap<&'s str, usize>,
@@ -32,7 +32,7 @@ pub(super) struct LinkTree<'s> {
 }
 
 impl<'s> LinkTree<'s> {
-    /// Finds every parent, reports unknown ones and circles, and orders the links.
+    /// Finds every parent, reports unknown parents and cycles, and sorts the links.
     pub(super) fn new(links: &'s [LinkSpec], frames: &'s [FrameSpec], faults: &mut Faults) -> Self {
         let mut tree = LinkTree {
             sequence: Vec::with_capacity(links.len()),
@@ -60,12 +60,12 @@ impl<'s> LinkTree<'s> {
         tree
     }
 
-    /// The parent of the link at place `index` of the file; `Some(None)` for the world.
+    /// Returns the parent of the link with this index in the file; `Some(None)` for the world.
     pub(super) fn parent_id(&self, index: usize) -> Option<Option<LinkId>> {
         self.id(*self.carriers.get(index)?)
     }
 
-    /// The link a frame is fixed to; `Some(None)` for the world.
+    /// Returns the link of a frame; `Some(None)` for the world.
     pub(super) fn frame_id(
         &self,
         frame: &FrameSpec,
@@ -145,7 +145,7 @@ impl<'s> LinkTree<'s> {
     }
 }
 
-/// Reports links that carry each other, once, at the one that stands first in the file.
+/// Reports a cycle of links, once, at the link that is first in the file.
 fn circle(members: &[usize], links: &[LinkSpec], faults: &mut Faults) {
     let Some(first) = members.iter().enumerate().min_by_key(|(_, index)| **index) else {
         return;

@@ -17,13 +17,13 @@ pub(super) struct Parameters<'a> {
 struct Found {
     parameter: Parameter,
     dimension: Dimension,
-    /// The value as it was written first, and where.
+    /// The first text of the value, and its location.
     text: String,
     first: Location,
 }
 
 impl<'a> Parameters<'a> {
-    /// None yet; none may be called like one of these `methods`.
+    /// Starts with no parameters; none may have the name of one of these `methods`.
     pub(super) fn new(methods: &'a [String]) -> Self {
         Parameters {
             found: Vec::new(),
@@ -31,8 +31,7 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// A number of the spec, or the parameter that it is the default of. `meaning` says what it
-    /// stands for.
+    /// Returns a number of the spec, or the parameter with this default. `meaning` describes the number.
     pub(super) fn value(
         &mut self,
         number: &Located<Number>,
@@ -54,8 +53,8 @@ impl<'a> Parameters<'a> {
                 &name.value,
             ));
         }
-        // A field may have a method's name in Rust, but `arm.gravity` and `arm.gravity(q)` would be
-        // two things.
+        // In Rust a field may have a method's name, but `arm.gravity` and `arm.gravity(q)` would be
+        // different things.
         if self.methods.contains(&name.value) {
             faults.push(wording::parameter_is_method(&name.location, &name.value));
         }
@@ -73,7 +72,7 @@ impl<'a> Parameters<'a> {
         Value::Parameter(ParameterId(self.found.len() - 1))
     }
 
-    /// The default behind a value.
+    /// Returns the default of a value.
     pub(super) fn default_of(&self, value: Value) -> Dd {
         match value {
             Value::Fixed(x) => x,
@@ -81,14 +80,14 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// All of them.
+    /// Returns all parameters.
     pub(super) fn into_all(self) -> Vec<Parameter> {
         self.found.into_iter().map(|f| f.parameter).collect()
     }
 }
 
 impl Found {
-    /// The same name once more: it must stand for the same number.
+    /// Checks a repeated name: it must have the same default.
     fn meet_again(
         &mut self,
         number: &Located<Number>,

@@ -1,4 +1,4 @@
-//! Inertia tensors of homogeneous solids about their centres, from dimensions and mass.
+//! Computes inertia tensors of homogeneous solids about their centres, from dimensions and mass.
 
 use bgdyn_runtime::Dd;
 
@@ -8,11 +8,11 @@ use crate::format::{Field, InertiaSpec, LENGTHS, LinkSpec, Located, Number, Vect
 
 /// A kind of solid.
 struct SolidKind {
-    /// The word after `solid`.
+    /// The word of the key `solid`.
     word: &'static str,
-    /// Keys that it must have.
+    /// Required keys.
     needs: &'static [&'static str],
-    /// Keys that it may have.
+    /// Optional keys.
     may: &'static [&'static str],
 }
 
@@ -33,7 +33,7 @@ const KINDS: [SolidKind; 4] = [
         needs: &["radius"],
         may: &["inner_radius"],
     },
-    // So thin that its radius does not count.
+    // So thin that its radius is neglected.
     SolidKind {
         word: "rod",
         needs: &["length"],
@@ -41,8 +41,8 @@ const KINDS: [SolidKind; 4] = [
     },
 ];
 
-/// What keys contradict each other: a solid has no entries, an off-diagonal entry is given once, and
-/// dimensions belong to a solid.
+/// Reports keys that contradict each other: a solid has no entries, an off-diagonal entry is given once,
+/// and dimensions belong to a solid.
 pub(super) fn conflicts(inertia: &InertiaSpec, faults: &mut Faults) -> bool {
     let before = faults.0.len();
     let names = ["xx", "yy", "zz", "xy", "xz", "yz"];
@@ -71,7 +71,7 @@ pub(super) fn conflicts(inertia: &InertiaSpec, faults: &mut Faults) -> bool {
     faults.0.len() > before
 }
 
-/// The tensor of the solid: xx, yy, zz, xy, xz, yz in its own axes.
+/// Returns the tensor of the solid: xx, yy, zz, xy, xz, yz in its own axes.
 pub(super) fn tensor(
     word: &Located<String>,
     link: &LinkSpec,
@@ -119,7 +119,7 @@ pub(super) fn tensor(
     })
 }
 
-/// Whether the keys are those of the kind.
+/// Returns whether the keys are those of the kind.
 fn keys_fit(
     kind: &SolidKind,
     word: &Located<String>,
@@ -144,7 +144,7 @@ fn keys_fit(
     faults.0.len() == before
 }
 
-/// The mass that is spread evenly: a number above 0.
+/// Returns the mass, which must be a number above 0.
 fn mass(word: &Located<String>, link: &LinkSpec, faults: &mut Faults) -> Option<Dd> {
     match &link.mass {
         Field::Broken => None,
@@ -160,7 +160,7 @@ fn mass(word: &Located<String>, link: &LinkSpec, faults: &mut Faults) -> Option<
     }
 }
 
-/// A length above 0, or, if not `strictly`, not below it.
+/// Returns a length above 0, or, if not `strictly`, at least 0.
 fn positive(field: &Field<Number>, strictly: bool, faults: &mut Faults) -> Option<Dd> {
     let length = field.given()?;
     let value = length.value.value;
@@ -179,13 +179,14 @@ fn edges(size: &Field<Vector>, faults: &mut Faults) -> Option<[Dd; 3]> {
     Some(edges)
 }
 
-/// m (b² + c²) / 12 about the edge a.
+/// Returns m (b² + c²) / 12 about the edge a.
 fn of_box(mass: Dd, size: [Dd; 3]) -> [Dd; 6] {
     let [x, y, z] = size.map(|s| mass * s * s / Dd::from_f64(12.0));
     [y + z, x + z, x + y, Dd::ZERO, Dd::ZERO, Dd::ZERO]
 }
 
-/// m (R² + r²) / 2 about the axis, m (3 (R² + r²) + l²) / 12 across it: across 1 + (about − across) a aᵀ.
+/// Returns m (R² + r²) / 2 about the axis, m (3 (R² + r²) + l²) / 12 across it: across 1 + (about −
+/// across) a aᵀ.
 fn of_cylinder(mass: Dd, outer: Dd, inner: Dd, length: Dd, a: [Dd; 3]) -> [Dd; 6] {
     let quarter = mass * (outer * outer + inner * inner) / Dd::from_f64(4.0);
     let across = quarter + mass * length * length / Dd::from_f64(12.0);
@@ -204,7 +205,7 @@ fn of_cylinder(mass: Dd, outer: Dd, inner: Dd, length: Dd, a: [Dd; 3]) -> [Dd; 6
     ]
 }
 
-/// 2/5 m (R⁵ − r⁵) / (R³ − r³).
+/// Returns 2/5 m (R⁵ − r⁵) / (R³ − r³).
 fn of_sphere(mass: Dd, outer: Dd, inner: Dd) -> [Dd; 6] {
     let power = |x: Dd, n: usize| (0..n).fold(Dd::ONE, |product, _| product * x);
     let share = (power(outer, 5) - power(inner, 5)) / (power(outer, 3) - power(inner, 3));

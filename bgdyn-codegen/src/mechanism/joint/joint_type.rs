@@ -1,6 +1,6 @@
-//! What a joint type is: its word in the spec, and the motion that it allows.
+//! The type of a joint: its word in the spec, and the motion that it allows.
 
-/// The motion a joint allows, as the equations see it.
+/// The motion that a joint allows in the equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// None: the link is welded to its parent.
@@ -12,7 +12,7 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// Unit of the coordinate.
+    /// Returns the unit of the coordinate.
     pub fn unit(self) -> &'static str {
         match self {
             Motion::None => "none",
@@ -22,13 +22,13 @@ impl Motion {
     }
 }
 
-/// What the spec can say in a joint's `type`, and what it means.
+/// A word for a joint's `type` in the spec, and its meaning.
 #[derive(Debug, PartialEq, Eq)]
 pub struct JointType {
     /// The word in the spec.
     pub keyword: &'static str,
     /// The motion it allows.
     pub motion: Motion,
-    /// Whether `lower` and `upper` limits have a meaning.
+    /// Whether it can have `lower` and `upper` limits.
     pub position_limits: bool,
 }

@@ -1,4 +1,4 @@
-//! Joint types: a file for each, and a line for each in [`JOINT_TYPES`].
+//! The list of joint types: a file for each, and a line for each in [`JOINT_TYPES`].
 
 mod continuous;
 mod fixed;
@@ -8,17 +8,17 @@ mod revolute;
 
 pub use joint_type::{JointType, Motion};
 
-/// The joint that lets nothing move.
+/// Returns the fixed joint.
 pub(crate) fn fixed() -> &'static JointType {
     &fixed::FIXED
 }
 
-/// The joint that lets slide along an axis.
+/// Returns the prismatic joint.
 pub(crate) fn prismatic() -> &'static JointType {
     &prismatic::PRISMATIC
 }
 
-/// Every joint type there is.
+/// All joint types.
 pub static JOINT_TYPES: [&JointType; 4] = [
     &revolute::REVOLUTE,
     &continuous::CONTINUOUS,

@@ -10,17 +10,17 @@ use crate::format::{Field, Raw, SceneSpec};
 use crate::machine::Machine;
 use crate::mechanism::Mechanism;
 
-/// The effects called for.
+/// The effects of a scene.
 pub(super) struct Called {
-    /// Checked, in the order in which their laws run.
+    /// Checked elements, in the order in which their laws run.
     pub(super) elements: Vec<Element>,
-    /// Those in series.
+    /// Elements in series.
     pub(super) chains: Vec<Chain>,
-    /// Those that are missing.
+    /// Names of refused effects.
     pub(super) refused: RejectedEffects,
 }
 
-/// The effects called for, checked.
+/// Returns the checked effects of a scene.
 pub(super) fn elements(
     spec: &SceneSpec,
     (whole, kinds): (&Machine, &EffectKinds),
@@ -52,7 +52,7 @@ pub(super) fn elements(
         elements: &elements,
         mechanism: reduced,
     };
-    // Where one is missing, others of its kind would seem to be joined to nothing.
+    // If one is missing, others of its kind would seem to have no connection.
     for element in &elements {
         if !refused.may_be(element.effect.family()) {
             element.effect.check_in_scene(element, &beside, faults);
@@ -71,7 +71,7 @@ pub(super) fn elements(
     }
 }
 
-/// What can be said of the effects that a scene gives with their types, without its mechanism.
+/// Checks the effects that a scene declares with their types, without its mechanism.
 pub(super) fn alone(spec: &SceneSpec, kinds: &EffectKinds, faults: &mut Faults) {
     let typed = |raw: &&Raw| raw.is_mapping() && raw.peek("type").is_some();
     for raw in given(&spec.effects).iter().filter(typed) {
@@ -79,8 +79,8 @@ pub(super) fn alone(spec: &SceneSpec, kinds: &EffectKinds, faults: &mut Faults) 
     }
 }
 
-/// The effects called for, each once, with the values that it has here; one for each joint where it is
-/// of several, of the `free` ones where it is of all.
+/// Returns the effects of a scene, each once, with their values in this scene. An effect on several joints
+/// is expanded to one per joint; the word "all" means the `free` joints.
 fn wanted(
     spec: &SceneSpec,
     (whole, kinds, free): (&Machine, &EffectKinds, &[&str]),
@@ -108,7 +108,7 @@ fn wanted(
     wanted
 }
 
-/// The mechanism with what the effects change in it.
+/// Returns the mechanism with the changes by the effects.
 pub(super) fn reduced(mut mechanism: Mechanism, elements: &[Element]) -> Mechanism {
     for element in elements {
         element.effect.modify_mechanism(element, &mut mechanism);
@@ -116,7 +116,7 @@ pub(super) fn reduced(mut mechanism: Mechanism, elements: &[Element]) -> Mechani
     mechanism
 }
 
-/// The entries of a list; none where it is missing or broken.
+/// Returns the entries of a list; empty if it is missing or unreadable.
 pub(super) fn given(field: &Field<Vec<Raw>>) -> &[Raw] {
     field.value().map_or(&[], Vec::as_slice)
 }

@@ -1,4 +1,4 @@
-//! Checks the inputs of a scene and what drives each of them.
+//! Checks the inputs of a scene and their sources.
 
 use super::super::signal::{self, InputSource};
 use crate::declaration::RejectedEffects;
@@ -6,7 +6,7 @@ use crate::fault::{Faults, wording};
 use crate::format::Raw;
 use crate::layout::{StateCoordinate, StateLayout};
 
-/// Efforts of coordinates are inputs where the scene names them.
+/// Adds as inputs the drives of coordinates that the scene names.
 pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
     for raw in inputs {
         let name = &raw.name.value;
@@ -19,7 +19,7 @@ pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
     }
 }
 
-/// What drives each input.
+/// Returns the source of each input.
 pub(super) fn drives(
     layout: &StateLayout,
     inputs: &[Raw],
@@ -50,7 +50,7 @@ pub(super) fn drives(
             drives[i] = drive;
         }
     }
-    // A reference's derivatives follow from its course: first its rate, then the rate's rate.
+    // A reference's derivatives follow from its signal: first its rate, then the rate of its rate.
     for (name, of) in [("_acceleration", "_rate"), ("_rate", "")] {
         for i in 0..drives.len() {
             let base = layout.inputs[i].name.strip_suffix(name);
@@ -61,7 +61,7 @@ pub(super) fn drives(
             }
         }
     }
-    // What follows from what the caller gives is given by the caller.
+    // The caller also provides the derivatives of inputs that the caller provides.
     for i in 0..drives.len() {
         let mut root = i;
         while let InputSource::RateOf(base) = drives[root] {

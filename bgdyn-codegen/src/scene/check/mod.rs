@@ -1,4 +1,4 @@
-//! The check of a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
+//! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod effects;
 mod inputs;
@@ -18,20 +18,21 @@ use crate::machine::Machine;
 use crate::mechanism::{LinkId, Mechanism, Pose};
 use crate::name::is_identifier;
 
-/// The only version of the format there is.
+/// The only version of the format.
 const VERSION: f64 = 1.0;
 
-/// What a check finds a scene to be.
+/// The result of the check of a scene.
 pub enum Verdict {
-    /// Nothing refuses it.
+    /// The scene is valid.
     Sound(Box<Scene>),
-    /// Something refuses it, but not its effects: its equations can be made, to check them as well.
+    /// The scene is refused, but its effects are valid: its equations can be built, and checked as well.
     Drawn(Box<Scene>),
-    /// No equations.
+    /// The scene is refused, and its equations cannot be built.
     Refused,
 }
 
-/// Checks a scene against every rule. `stem` is the file's stem, `machine` what it names, `kinds` the effects that there are.
+/// Checks a scene against every rule. `stem` is the file's stem, `machine` its mechanism with effects,
+/// `kinds` all effects.
 pub fn check(
     spec: &SceneSpec,
     stem: Option<&str>,
@@ -52,7 +53,7 @@ pub fn check(
     (verdict, faults)
 }
 
-/// What can be said of a scene without its mechanism.
+/// Checks a scene as far as possible without its mechanism.
 pub fn check_alone(spec: &SceneSpec, stem: Option<&str>, kinds: &EffectKinds) -> Faults {
     let mut faults = Faults::default();
     version(spec, &mut faults);
@@ -63,7 +64,7 @@ pub fn check_alone(spec: &SceneSpec, stem: Option<&str>, kinds: &EffectKinds) ->
     faults
 }
 
-/// The state and the outputs that a scene seems to have, whether it is sound or not.
+/// Returns the state and the outputs that a scene seems to have, whether it is valid or not.
 pub(crate) fn sketch(
     spec: &SceneSpec,
     machine: &Machine,
@@ -73,7 +74,7 @@ pub(crate) fn sketch(
     (scene.layout, scene.outputs)
 }
 
-/// The scene, and whether its equations can be made.
+/// Returns the scene, and whether its equations can be built.
 fn scene(
     spec: &SceneSpec,
     stem: Option<&str>,
@@ -121,14 +122,14 @@ fn scene(
         outputs::names(&scene, &refused, faults);
     }
     let scene = Scene {
-        // Where there is none a fault says so.
+        // A missing name was reported as a fault.
         name: name.unwrap_or_default(),
         ..scene
     };
     (scene, drawn)
 }
 
-/// The scene with its state laid out: what follows from its elements and what the file says.
+/// Returns the scene with the layout of its state, from its elements and its file.
 pub(in crate::scene) fn assembled(
     scene: Scene,
     refused: &RejectedEffects,
@@ -139,7 +140,7 @@ pub(in crate::scene) fn assembled(
     let mut layout = state::layout(&scene.mechanism, &scene.elements);
     let inputs = &scene.written.inputs;
     inputs::add_efforts(&mut layout, inputs);
-    // Names of effects that repeat were told already.
+    // Repeated names of effects were reported already.
     let told = faults.0.iter().any(|f| f.rule == "repeated-name");
     if let Some(name) = layout.repeated().filter(|_| !told) {
         faults.push(wording::repeated_state_or_input(&Location::file(), name));
@@ -189,7 +190,7 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
     }
 }
 
-/// The joints that stand still, with the pose in which they hold their links.
+/// Returns the locked joints, with the poses of their links.
 fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Pose)> {
     let mut locked = Vec::new();
     for raw in effects::given(&spec.lock) {

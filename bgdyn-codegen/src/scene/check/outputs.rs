@@ -4,7 +4,7 @@ use super::super::Scene;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};
 
-/// Notes the outputs that are no parts of the state, no places, and nothing that an effect may report.
+/// Reports outputs that are no parts of the state, no sites, and no outputs of a refused effect.
 pub(super) fn names(scene: &Scene, refused: &RejectedEffects, faults: &mut Faults) {
     let (layout, mechanism) = (&scene.layout, &scene.mechanism);
     let stored = layout.coordinates.iter().filter(|c| c.stored);

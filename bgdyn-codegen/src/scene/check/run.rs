@@ -1,4 +1,4 @@
-//! Checks a scene's settings of integration: method, step or tolerance, end.
+//! Checks a scene's settings of integration: integrator, step or tolerance, end.
 
 use bgdyn_runtime::Dd;
 
@@ -6,11 +6,11 @@ use super::super::{Integration, IntegratorName, StepControl};
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Dimension, Field, Fields, Key, Located, ParsedValue, Raw, Reads};
 
-/// Step and length of a run whose scene says nothing of them, s.
+/// Default step of a run, s.
 const STEP: f64 = 1e-3;
 const END: f64 = 1.0;
 
-/// Tolerance of a method that controls its error, where the scene gives neither step nor tolerance.
+/// Tolerance of an integrator with step control, if the scene gives neither step nor tolerance.
 const TOLERANCE: f64 = 1e-8;
 
 /// The keys of `integration`.
@@ -42,7 +42,7 @@ const fn key(name: &'static str, reads: Reads, about: &'static str) -> Key {
     }
 }
 
-/// The settings of a run; the usual ones where the scene gives none.
+/// Returns the settings of a run, with defaults for missing ones.
 pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integration {
     let given = field.value().and_then(|raw| settings(raw, faults));
     given.unwrap_or(Integration {
@@ -80,7 +80,7 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
     })
 }
 
-/// What is wrong with a tolerance at this place.
+/// Returns the fault of a tolerance at this location, if it is invalid.
 fn misplaced(method: IntegratorName, stepped: bool, location: &Location) -> Option<Fault> {
     let name = method.name();
     let choosing = IntegratorName::ALL.into_iter();
@@ -93,7 +93,7 @@ fn misplaced(method: IntegratorName, stepped: bool, location: &Location) -> Opti
     }
 }
 
-/// The number behind a key and its place; one that is not positive is a fault.
+/// Returns the number of a key and its location; reports a number that is not positive.
 fn positive<'a>(
     fields: &'a Fields,
     key: &str,
@@ -116,7 +116,7 @@ fn positive<'a>(
     Some((number.value.to_f64(), location))
 }
 
-/// The method asked for, RK4 where none is; nothing for a name that is none's.
+/// Returns the integrator, by default RK4; `None` for an unknown name.
 fn method(fields: &Fields, faults: &mut Faults) -> Option<IntegratorName> {
     let Some(Located {
         value: ParsedValue::Text(word),

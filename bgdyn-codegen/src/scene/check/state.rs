@@ -11,7 +11,7 @@ use crate::format::{Dimension, Raw};
 use crate::layout::{MomentumStore, StateCoordinate, StateLayout};
 use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
 
-/// What the state is made of: the joints, then what the effects add.
+/// Returns the layout of the state: the joints, then the parts that the effects add.
 pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout {
     let coordinate = |j: usize| {
         let joint = mechanism.joint(CoordinateId(j));
@@ -28,7 +28,7 @@ pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout
         coordinates: (0..mechanism.nv()).map(coordinate).collect(),
         ..StateLayout::default()
     };
-    // Coordinates first: others may act on them.
+    // Coordinates first: other effects may act on them.
     let (adding, rest): (Vec<&Element>, Vec<&Element>) =
         elements.iter().partition(|e| e.effect.adds_coordinate());
     for element in adding.into_iter().chain(rest) {
@@ -37,7 +37,7 @@ pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout
     layout
 }
 
-/// The mechanism's run-time parameters, then those of the effects called for.
+/// Returns the mechanism's run-time parameters, followed by those of the effects.
 pub(super) fn parameters(
     mechanism: &Mechanism,
     elements: &[Element],
@@ -57,7 +57,7 @@ pub(super) fn parameters(
                     let values = [first, (quantity.value.to_f64(), unit)];
                     faults.push(wording::parameter_twice(&quantity.location, name, values));
                 }
-                // A payload's is the mechanism's already.
+                // A payload's parameter belongs to the mechanism already.
                 Some(known) if known.meaning == meaning => {}
                 Some(known) => known.meaning += &format!(" and {meaning}"),
                 None => all.push(Parameter {
@@ -72,7 +72,7 @@ pub(super) fn parameters(
     all
 }
 
-/// Where the run begins.
+/// Returns the initial state.
 pub(super) fn initial(
     layout: &StateLayout,
     entries: &[Raw],
@@ -134,7 +134,7 @@ pub(super) fn initial(
             }
         }
     }
-    // A drive stands where its joint stands, and moves with it.
+    // The default initial position and velocity of a drive are those of its joint.
     for (j, c) in layout.coordinates.iter().enumerate() {
         let with = c
             .starts_with
@@ -151,7 +151,7 @@ pub(super) fn initial(
     initial
 }
 
-/// What position, velocity and effort of a joint measure.
+/// Returns the dimensions of position, velocity and effort of a joint.
 pub(super) fn dimensions(motion: Motion) -> [Dimension; 3] {
     match motion {
         Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],

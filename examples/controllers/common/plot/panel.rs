@@ -12,7 +12,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// What was wanted: broad and pale, so that the lines on it stay visible.
+    /// The desired curve: broad and pale, so that the lines on it remain visible.
     pub fn wanted(points: Vec<(f64, f64)>) -> Self {
         let style = GREY.stroke_width(px(5));
         Line { points, style }
@@ -24,7 +24,7 @@ impl Line {
         Line { points, style }
     }
 
-    /// The run it is compared with.
+    /// The run for comparison.
     pub fn baseline(points: Vec<(f64, f64)>) -> Self {
         let style = VERMILION.stroke_width(px(2));
         Line { points, style }
@@ -38,9 +38,9 @@ impl Line {
 
 /// A quantity over time.
 pub struct Panel {
-    /// What it shows.
+    /// Title of the panel.
     pub title: String,
-    /// The time axis's label; `None` where the panel below has it.
+    /// The time axis's label; `None` if the panel below has it.
     pub x_label: Option<&'static str>,
     /// The quantity with its unit.
     pub y_label: String,
@@ -50,9 +50,9 @@ pub struct Panel {
     pub carried: Option<(f64, f64)>,
     /// Magnitude to mark above and below zero.
     pub limit: Option<f64>,
-    /// Whether zero belongs into the picture.
+    /// Whether the range includes zero.
     pub zero: bool,
-    /// Least height of the picture, in the quantity's unit: what is flat shall look flat.
+    /// Least range, in the quantity's unit, so that a constant quantity is drawn as constant.
     pub least: f64,
 }
 
@@ -63,7 +63,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// A number of an axis: without a fraction, or with as much of it as it needs.
+/// Prints a number of an axis, with as few decimals as possible.
 fn axis_number(x: &f64) -> String {
     let rounded = (x * 1e6).round() / 1e6;
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded }).replace('-', "−")
@@ -132,7 +132,7 @@ impl Panel {
     }
 }
 
-/// A plane picture in metres, the same scale along both axes, with named places.
+/// Draws a plane figure in metres, with the same scale along both axes and named points.
 pub fn draw_plan(
     area: &Area<'_>,
     title: &str,

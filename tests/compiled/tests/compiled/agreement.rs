@@ -1,6 +1,6 @@
-//! Compiled code and the evaluator run the same operations on the same constants, and every
-//! arithmetic here rounds x and −x alike: their results are equal, word by word. Only the sign of a
-//! zero is free.
+//! Compiled code and the evaluator run the same operations on the same constants, and every arithmetic in
+//! these tests rounds x and −x equally: their results are equal, word by word. Only the sign of a zero may
+//! differ.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,10 +17,10 @@ use crate::common::rng::Rng;
 use crate::generate;
 use crate::tested::{Tested, draw, inputs};
 
-/// States per model and scalar; lanes hold several.
+/// Number of states per model and scalar; lanes contain several.
 const STATES: usize = 1000;
 
-/// The generator's model of what was compiled; made once for all tests.
+/// Returns the generator's model of the compiled code, created once for all tests.
 pub(crate) fn generated<T: Tested>(compiled: &dyn Compiled<T>) -> Arc<Model> {
     static MADE: Mutex<BTreeMap<&str, Arc<Model>>> = Mutex::new(BTreeMap::new());
     let origin = compiled.origin();
@@ -29,9 +29,9 @@ pub(crate) fn generated<T: Tested>(compiled: &dyn Compiled<T>) -> Arc<Model> {
     Arc::clone(made.entry(origin.name).or_insert_with(|| Arc::new(make())))
 }
 
-/// Every method of a model, compiled for `C`, equals what the evaluator gives in `E`: in `C`
-/// itself, or in a scalar of the same numbers that rounds constants as compiled code has them.
-/// Gives how many outcomes were errors.
+/// Checks that every method of a model, compiled for `C`, equals the result of the evaluator in `E`: in
+/// `C` itself, or in a scalar of the same numbers that rounds constants as compiled code does. Returns the
+/// number of outcomes that were errors.
 pub(crate) fn agrees<C, E>(compiled: &dyn Compiled<C>) -> usize
 where
     C: Tested,
@@ -57,13 +57,13 @@ where
     refused
 }
 
-/// What each coordinate moves.
+/// Returns the motion of each coordinate.
 pub(crate) fn motions(model: &Model) -> Vec<Motion> {
     let coordinates = model.bond_graph.coordinates.iter();
     coordinates.map(|c| c.motion).collect()
 }
 
-/// What the compiled method returns where the evaluator finds these values.
+/// Returns the outcome of the compiled method for these values of the evaluator.
 fn returned<C: Tested>(
     compiled: &dyn Compiled<C>,
     function: &Function,
@@ -89,11 +89,11 @@ fn compiled_code_equals_the_evaluator_in_every_model() {
     for model in compiled::all::<f64>() {
         refused += agrees::<f64, f64>(&*model);
     }
-    // Massless ends are singular everywhere; errors agree as well.
+    // Massless ends are singular in every state; errors agree as well.
     assert!(refused > STATES, "{refused}");
 }
 
-/// Rings without mass are carried by what they carry.
+/// Massless rings have the inertia of the bodies outboard of them.
 #[test]
 fn a_massless_link_in_between_is_no_fault() {
     let refused = agrees::<f64, f64>(&compiled::gimbal::Gimbal::default());

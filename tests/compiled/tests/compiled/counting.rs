@@ -1,4 +1,4 @@
-//! What a method executes is what its module says, and what the generator counts.
+//! Checks that a method executes the operations stated in its module, and counted by the generator.
 
 use compiled::State;
 

@@ -1,5 +1,5 @@
-//! Compiled code in `f64` is equation (6), evaluated term by term in double-double: to 1e-15 of a
-//! size that no term exceeds.
+//! Checks that compiled code in `f64` equals equation (6), evaluated term by term in double-double, to
+//! 1e-15 of a size that no term exceeds.
 
 use bgdyn_codegen::formulation::{self, Prepared};
 use bgdyn_codegen::method::Shape;
@@ -10,9 +10,9 @@ use crate::agreement::generated;
 use crate::common::rng::Rng;
 use crate::common::{Robot, State, assert_close, full, natural_size};
 
-/// Beyond this many joints the literal sum is too large a graph.
+/// Largest number of joints for which the graph of the literal sum is small enough.
 const JOINTS: usize = 8;
-/// Relative to natural size.
+/// Tolerance, relative to natural size.
 const ROUNDED: f64 = 1e-15;
 const STATES: usize = 20;
 

@@ -1,5 +1,5 @@
-//! Compiled code against the evaluator, against equation (6) as it stands, against its own counts
-//! and its own text: every spec of the repository and random trees.
+//! Compares compiled code with the evaluator, with equation (6), with its own counts and its own text:
+//! every spec of the repository and random trees.
 
 mod agreement;
 #[path = "../../../../bgdyn-codegen/tests/common/mod.rs"]

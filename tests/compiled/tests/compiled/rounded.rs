@@ -1,5 +1,5 @@
-//! Double-doubles with constants rounded to `f64`, as the emitted code has them: in this scalar
-//! evaluator and compiled code must agree to double-double's rounding error.
+//! Double-doubles with constants rounded to `f64`, as in the emitted code: in this scalar evaluator and
+//! compiled code must agree to double-double's rounding error.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -42,7 +42,7 @@ impl Scalar for Rounded {
     type Refused = Option<usize>;
     type Singular<const N: usize> = Singular;
 
-    // `from_parts` is the trait's own: it drops the low word.
+    // `from_parts` is the default of the trait: it drops the low word.
     fn from_f64(x: f64) -> Self {
         Rounded(Dd::from_f64(x))
     }

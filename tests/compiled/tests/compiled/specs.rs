@@ -1,4 +1,4 @@
-//! What was compiled: text that comes out equal again, and trees of every kind.
+//! Checks the compiled models: their text is reproducible, and trees of every kind occur.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use bgdyn_runtime::Dd;
 use crate::agreement::{generated, motions};
 use crate::generate;
 
-/// Longer texts take their time to be formatted.
+/// Longer texts take too long to be formatted.
 const LENGTH: usize = 100_000;
 
-/// The build script's process and this one write the same bytes.
+/// The build script's process and this process write the same bytes.
 #[test]
 fn equal_specs_give_equal_text() {
     for compiled in compiled::all::<f64>() {

@@ -1,4 +1,4 @@
-//! Scalars as lists of `f64`: to draw random ones and to compare two of them word by word.
+//! Scalars as lists of `f64`, to draw random ones and to compare two of them word by word.
 
 use bgdyn::Scalar;
 use bgdyn::runtime::Dd;
@@ -15,13 +15,13 @@ use crate::rounded::Rounded;
 /// A scalar made of `WIDTH` numbers.
 pub(crate) trait Tested: Scalar {
     const WIDTH: usize;
-    /// How many states it holds.
+    /// Number of states in the scalar.
     const LANES: usize = 1;
 
-    /// From its numbers; a double-double from two that need not be normalized.
+    /// Builds the scalar from its numbers; a double-double from two that need not be normalized.
     fn pack(numbers: &[f64]) -> Self;
 
-    /// Its numbers.
+    /// Returns its numbers.
     fn numbers(self) -> Vec<f64>;
 }
 
@@ -53,7 +53,7 @@ tested! {
     f32x8, 8, 8, |n| f32x8::new(std::array::from_fn(|k| n[k] as f32)), |x| x.to_array().map(f64::from);
 }
 
-/// A random state: each number of each scalar is that of a random state in `f64`.
+/// Returns a random state: each number of each scalar is that of a random state in `f64`.
 pub(crate) fn draw<T: Tested>(rng: &mut Rng, motions: &[Motion]) -> State<T> {
     let parts: Vec<_> = (0..T::WIDTH)
         .map(|_| common::State::random(rng, motions))
@@ -73,7 +73,7 @@ pub(crate) fn draw<T: Tested>(rng: &mut Rng, motions: &[Motion]) -> State<T> {
     }
 }
 
-/// A state as the evaluator takes it.
+/// Converts a state to the evaluator's inputs.
 pub(crate) fn inputs<T: Scalar>(state: State<T>) -> Inputs<T> {
     Inputs {
         q: state.q,

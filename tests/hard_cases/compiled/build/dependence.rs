@@ -1,15 +1,15 @@
-//! What the components of a function depend on, by its expression graph.
+//! Determines the inputs that the components of a function depend on, from its expression graph.
 
 use bgdyn_codegen::expr::{Leaf, Node};
 use bgdyn_codegen::function::Function;
 
-/// How many of each kind of input there may be.
+/// Largest number of inputs of each kind.
 const MOST: usize = 24;
 
-/// The bit of an input in a mask: positions from 0, velocities from 24, accelerations or a scene's
-/// first-order states from 48, inputs (efforts) from 72, 127 for all else. A mechanism has no states of
-/// first order, and a scene's derivative takes no accelerations. Components beyond 24 count to the
-/// last bit.
+/// Returns the bit of an input in a mask: positions from 0, velocities from 24, accelerations or a scene's
+/// first-order states from 48, inputs (efforts) from 72, 127 for all others. A mechanism has no
+/// first-order states, and a scene's derivative has no accelerations as arguments. Components beyond 24
+/// share the last bit.
 fn bit(leaf: Leaf) -> u128 {
     let place = |from: usize, i: usize| if i < MOST { 1 << (from + i) } else { 1 << 127 };
     match leaf {
@@ -21,7 +21,7 @@ fn bit(leaf: Leaf) -> u128 {
     }
 }
 
-/// For each result of a function without loops over columns the mask of its inputs.
+/// Returns, for each result of a function without loops over columns, the mask of its inputs.
 pub(crate) fn masks(function: &Function) -> Vec<u128> {
     assert!(
         function.loops.is_none(),
@@ -30,14 +30,14 @@ pub(crate) fn masks(function: &Function) -> Vec<u128> {
     );
     let mut passed: Vec<Vec<u128>> = vec![];
     for block in &function.blocks {
-        // Operands stand before their users.
+        // Operands precede their users.
         let mut of_nodes = vec![0_u128; function.graph.len()];
         for i in 0..of_nodes.len() {
             let id = bgdyn_codegen::expr::NodeId::at(i);
             let node = function.graph.node(id);
             let mut mask = match node {
                 Node::Leaf(Leaf::Passed { block, index }) => {
-                    // Of a later block it is not read here.
+                    // Results of a later block are not read here.
                     passed.get(*block).map_or(0, |results| results[*index])
                 }
                 Node::Leaf(leaf) => bit(*leaf),
@@ -52,7 +52,7 @@ pub(crate) fn masks(function: &Function) -> Vec<u128> {
     passed.pop().expect("at least one block")
 }
 
-/// The masks as a list in Rust.
+/// Returns the masks as a list in Rust.
 pub(crate) fn text(function: &Function) -> String {
     let masks = masks(function);
     let masks: Vec<String> = masks.iter().map(|mask| format!("{mask:#x}")).collect();

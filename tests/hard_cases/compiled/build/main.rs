@@ -1,5 +1,5 @@
-//! Generates the modules: mechanisms in single states, and scenes whose motions are known. Their specs
-//! stand in `OUT_DIR` beside them.
+//! Generates the modules: mechanisms in single states, and scenes with known motions. Their specs are
+//! written to `OUT_DIR` too.
 
 #[allow(dead_code)]
 #[path = "../../../../bgdyn-codegen/tests/scenes/written.rs"]

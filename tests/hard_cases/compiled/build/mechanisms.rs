@@ -1,5 +1,5 @@
-//! Mechanisms: chains, ratios of masses, singular mass matrices, moved bases, gimbals, and the specs of
-//! the repository.
+//! Generates mechanisms: chains, mass ratios, singular mass matrices, moved bases, gimbals, and the specs
+//! of the repository.
 
 use std::fmt::Write;
 use std::fs;
@@ -38,7 +38,7 @@ fn specs(root: &Path) -> Vec<(String, String)> {
     specs
 }
 
-/// Exact answers: what is refused, and what is solved.
+/// Returns cases with exact results: refused ones, and solved ones.
 fn singular(file: &str) -> Vec<(String, String)> {
     let whole =
         |links: &str| format!("format: 1\nname: singular\ngravity: [0, 0, 0]\nlinks:\n{links}");
@@ -56,7 +56,8 @@ fn singular(file: &str) -> Vec<(String, String)> {
     specs
 }
 
-/// Chains whose masses span up to 1e12: the first link heavy, masses that grow or fall from link to link.
+/// Returns chains whose masses span up to 1e12: the first link heavy, masses that increase or decrease
+/// from link to link.
 fn uneven() -> Vec<(String, String)> {
     let chain = |scales: Vec<f64>| Chain {
         planar: false,
@@ -80,8 +81,8 @@ fn uneven() -> Vec<(String, String)> {
     specs
 }
 
-/// Bodies on two massless rings, the outer and the inner axis all but parallel where the middle angle
-/// is small.
+/// Returns bodies on two massless rings, whose outer and inner axis are almost parallel if the middle
+/// angle is small.
 fn gimbals() -> Vec<(String, String)> {
     let rings = "format: 1
 name: gimbal
@@ -108,7 +109,7 @@ links:
     bodies.into_iter().map(spec).collect()
 }
 
-/// Two arms with their base at the origin and up to 1e9 m away.
+/// Returns two arms with their base at the origin and up to 1e9 m away.
 fn moved(scara: &str, puma560: &str) -> Vec<(String, String)> {
     let arms = [
         (
@@ -151,8 +152,8 @@ fn shared(folder: &Path) -> Vec<(String, String)> {
     paths.iter().map(spec).collect()
 }
 
-/// Writes all modules. The text that includes them and lists them by name: as models, with their specs,
-/// and with what their methods depend on.
+/// Writes all modules. Returns the text that includes them and lists them by name: as models, with their
+/// specs, and with the dependences of their methods.
 pub(crate) fn write(root: &Path, out: &Path) -> String {
     let [mut includes, mut models, mut texts, mut depends] = [const { String::new() }; 4];
     for (name, text) in specs(root) {

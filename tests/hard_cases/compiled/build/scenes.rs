@@ -1,5 +1,5 @@
-//! Scenes: those whose motions are known, the scenes of the repository, and what effects of no strength
-//! leave.
+//! Generates scenes: those with known motions, the scenes of the repository, and those with effects of
+//! zero strength.
 
 use std::fmt::Write;
 use std::fs;
@@ -17,7 +17,7 @@ use bgdyn_codegen::system::SceneEquations;
 use crate::arm::{ALL, TENSOR, mechanism};
 use crate::dependence;
 
-/// Scenes with the Jacobian that stiff methods use.
+/// Scenes with the Jacobian for stiff integrators.
 const STIFF: [&str; 6] = [
     "hydraulic_cylinder",
     "lugre_stick_slip",
@@ -30,7 +30,7 @@ const STIFF: [&str; 6] = [
 /// Scenes with a canonical form.
 const CANONICAL: [&str; 1] = ["double_pendulum_chaotic"];
 
-/// Every scene file of a folder.
+/// Returns every scene file of a folder.
 fn files(folder: PathBuf) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder of scenes");
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -38,8 +38,8 @@ fn files(folder: PathBuf) -> Vec<PathBuf> {
     paths
 }
 
-/// The arm and sled without an effect beyond the built-in ones, and with one whose strength is 0: the
-/// scene's name, its text, its mechanism's.
+/// Returns the arm and sled without an effect besides the built-in ones, and with one whose strength is 0:
+/// the scene's name, its text, its mechanism's.
 fn of_no_strength() -> Vec<(String, String, String)> {
     let mut all = vec![("without".into(), ALL.into(), mechanism("", TENSOR, ""))];
     let mut add = |name: String, written: String| {
@@ -64,7 +64,7 @@ fn of_no_strength() -> Vec<(String, String, String)> {
     all
 }
 
-/// Writes the module of a scene; the line that includes it.
+/// Writes the module of a scene; returns the line that includes it.
 fn module_of(out: &Path, name: &str, system: &SceneEquations, functions: &[Function]) -> String {
     let place = OutputOptions::source_text(format!("{name}.scene.yaml"));
     let place = place.with_module(name).expect("a name");
@@ -77,7 +77,7 @@ fn module_of(out: &Path, name: &str, system: &SceneEquations, functions: &[Funct
     format!("include!({source:?});\n")
 }
 
-/// Writes all modules; the text that includes them and lists those of the repository.
+/// Writes all modules; returns the text that includes them and lists those of the repository.
 pub(crate) fn write(root: &Path, out: &Path) -> String {
     let [mut includes, mut calls, mut depends] = [const { String::new() }; 3];
     for (name, text, mechanism) in of_no_strength() {

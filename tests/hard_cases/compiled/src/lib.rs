@@ -1,10 +1,10 @@
-//! The mechanisms of the hard cases by name, whatever their size, and the scenes.
+//! The mechanisms of the hard cases by name, for any size, and the scenes.
 #![forbid(unsafe_code)]
 
 use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::{Dynamics, Scalar};
 
-/// A compiled mechanism. Matrices are given row by row.
+/// A compiled mechanism. Matrices are stored row by row.
 pub trait Model<T> {
     /// Number of joints.
     fn nv(&self) -> usize;
@@ -16,14 +16,14 @@ pub trait Model<T> {
     fn bias(&self, q: &[T], v: &[T]) -> Vec<T>;
     /// Efforts at rest.
     fn gravity(&self, q: &[T]) -> Vec<T>;
-    /// Accelerations, or the error as text.
+    /// Returns accelerations, or the error as text.
     ///
     /// # Errors
-    /// Where the mass matrix is singular.
+    /// If the mass matrix is singular.
     fn forward_dynamics(&self, q: &[T], v: &[T], tau: &[T]) -> Result<Vec<T>, String>;
 }
 
-/// A generated struct whose number of joints is no longer seen.
+/// A generated struct with its number of joints erased.
 struct Erased<M, const N: usize>(M);
 
 fn vector<T: Scalar, const N: usize>(x: &[T]) -> SVector<T, N> {
@@ -66,9 +66,9 @@ impl<T: Scalar, M: Dynamics<T, N, N>, const N: usize> Model<T> for Erased<M, N> 
 
 include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
 
-/// Scalars in which all models are compiled, here and only once.
+/// Scalars in which all models are compiled, only once, in this crate.
 pub trait Compiled: Scalar {
-    /// The model of this name, if there is one.
+    /// Returns the model of this name, if it exists.
     fn named(name: &str) -> Option<Box<dyn Model<Self>>>;
 }
 
@@ -84,16 +84,17 @@ impl Compiled for f32 {
     }
 }
 
-/// The model of this name.
+/// Returns the model of this name.
 ///
 /// # Panics
-/// Where there is none.
+/// If it does not exist.
 pub fn model<T: Compiled>(name: &str) -> Box<dyn Model<T>> {
     T::named(name).unwrap_or_else(|| panic!("no model is called {name}"))
 }
 
-/// The bit of argument `i` of a kind in a mask of what a result depends on: positions (0), velocities
-/// (1), accelerations or states of first order (2), efforts or inputs (3). Bit 127 stands for all else.
+/// Returns the bit of argument `i` of a kind in a mask of a result's dependences: positions (0),
+/// velocities (1), accelerations or first-order states (2), efforts or inputs (3). Bit 127 is for all
+/// others.
 pub fn bit(kind: usize, i: usize) -> u128 {
     1 << (24 * kind + i)
 }
@@ -103,10 +104,10 @@ pub mod scenes {
     include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 }
 
-/// The spec of the model of this name.
+/// Returns the spec of the model of this name.
 ///
 /// # Panics
-/// Where there is none.
+/// If it does not exist.
 pub fn spec(name: &str) -> &'static str {
     let found = TEXTS.iter().find(|(own, _)| *own == name);
     found.expect(name).1

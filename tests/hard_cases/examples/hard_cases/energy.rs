@@ -1,4 +1,4 @@
-//! The figure: the error of the energy over the number of steps.
+//! Draws the error of the energy over the number of steps.
 
 use std::error::Error;
 use std::path::Path;
@@ -12,7 +12,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-// Okabe and Ito's palette, which colour-blind readers tell apart.
+// The palette of Okabe and Ito, which is distinguishable for colour-blind readers.
 const COLORS: [RGBColor; 4] = [
     RGBColor(213, 94, 0),
     RGBColor(0, 114, 178),
@@ -23,16 +23,16 @@ const INK: RGBColor = RGBColor(40, 40, 40);
 const FONT: &str = "sans-serif";
 const SIZE: (u32, u32) = (1400, 540);
 const HEADER: u32 = 64;
-/// Room for the names of the curves, and between two of them.
+/// Width for the names of the curves, and space between two of them.
 const NAMES: u32 = 176;
 const LINE: i32 = 17;
 
-/// Whole pixels in the drawing's units.
+/// Converts whole pixels to the drawing's units.
 const fn px(pixels: u32) -> u32 {
     FINE * pixels
 }
 
-/// A place in whole pixels, in the drawing's units.
+/// Converts a position in whole pixels to the drawing's units.
 const fn at(x: i32, y: i32) -> (i32, i32) {
     (FINE as i32 * x, FINE as i32 * y)
 }
@@ -76,7 +76,7 @@ fn draw_all(svg: &mut String, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One motion by several methods, on axes of powers of ten.
+/// Draws one motion by several integrators, on logarithmic axes.
 fn panel(
     area: &Area<'_>,
     of: Panel,
@@ -117,7 +117,7 @@ fn panel(
         }
         chart.draw_series(LineSeries::new(points, color.stroke_width(px(2))))?;
     }
-    // Beside the curves' ends, each on a line of its own.
+    // Beside the ends of the curves, each on a line of its own.
     names.sort_by_key(|((_, y), ..)| *y);
     let (left, top) = area.get_base_pixel();
     let mut free = i32::MIN;
@@ -131,7 +131,7 @@ fn panel(
     Ok(())
 }
 
-/// Ten to a whole power.
+/// Prints ten to an integer power.
 fn power(exponent: f64) -> String {
     let raised = |c: char| match c.to_digit(10) {
         Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],

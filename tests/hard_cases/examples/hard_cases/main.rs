@@ -1,4 +1,4 @@
-//! Every hard case through compiled code: what was measured, beside what is allowed.
+//! Runs every hard case in compiled code and compares the errors with their limits.
 //!
 //! `cargo run --release --example hard_cases` prints the table of `docs/hard_cases.md` and draws the
 //! energy of a double pendulum over 1e7 steps.
@@ -38,7 +38,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs everything, prints the table and writes the files. Whether every bar is met.
+/// Runs everything, prints the table and writes the files. Returns whether every bar is met.
 fn report(options: &Options) -> Result<bool, String> {
     let folder = &options.out;
     fs::create_dir_all(folder)
@@ -88,7 +88,7 @@ fn report(options: &Options) -> Result<bool, String> {
     Ok(failed == 0)
 }
 
-/// The topics, as many at a time as there are cores; the results in the order of the topics.
+/// Runs the topics, in parallel on all cores; the results are in the order of the topics.
 fn run_all(topics: &[&Topic], extent: Extent) -> Vec<Measured> {
     let next = AtomicUsize::new(0);
     let results: Vec<Mutex<Measured>> = topics.iter().map(|_| Mutex::default()).collect();
@@ -113,7 +113,7 @@ fn run_all(topics: &[&Topic], extent: Extent) -> Vec<Measured> {
     taken.map(|r| r.expect("no topic panicked")).collect()
 }
 
-/// Rows and curves of all topics.
+/// Returns rows and curves of all topics.
 fn sorted(measured: Vec<Measured>) -> (Vec<Outcome>, Vec<Curve>) {
     let (mut outcomes, mut curves) = (vec![], vec![]);
     for one in measured {

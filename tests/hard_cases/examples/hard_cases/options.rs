@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use hard_cases::Extent;
 
-/// What the user asked for.
+/// The user's options.
 pub struct Options {
-    /// How much is run.
+    /// The extent of the run.
     pub extent: Extent,
-    /// Only topics whose names hold this.
+    /// Only topics whose names contain this text.
     pub only: String,
     /// Folder of the tables and the figure.
     pub out: PathBuf,
@@ -29,7 +29,7 @@ Options:
 The last line says how many bars were met and missed; the exit code is 1 where one was missed.";
 
 impl Options {
-    /// Reads the arguments; `None` where help was asked for, and printed.
+    /// Parses the arguments; `None` if help was requested and printed.
     pub fn parse(mut arguments: impl Iterator<Item = String>) -> Result<Option<Self>, String> {
         let mut options = Options {
             extent: Extent::Full,

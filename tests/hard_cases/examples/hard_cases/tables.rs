@@ -1,14 +1,14 @@
-//! The tables as text.
+//! Prints the tables as text.
 
 use std::fmt::Write;
 
 use hard_cases::{Outcome, Single};
 
-/// What stands above the printed table.
+/// The header of the printed table.
 pub const HEADER: &str = "\
 case                         bar  what                                             measured  allowed of asked";
 
-/// The table in Markdown.
+/// Returns the table in Markdown.
 pub fn outcomes(outcomes: &[Outcome]) -> String {
     let mut text = String::from(
         "| case | bar | what | measured | allowed | of the bar as asked | |\n|---|---|---|---|---|---|---|\n",
@@ -33,7 +33,7 @@ pub fn outcomes(outcomes: &[Outcome]) -> String {
     text
 }
 
-/// Errors in `f32` where no bar holds, in Markdown.
+/// Returns errors in `f32` without a bar, in Markdown.
 pub fn single_precision(rows: &[Single]) -> String {
     let mut text = String::from(
         "| chain | cond M | inverse dynamics, eps (‖M q̈‖ + ‖c‖ + ‖g‖) | forward dynamics, relative |\n|---|---|---|---|\n",

@@ -1,5 +1,5 @@
-//! `describe SPEC FOLDER`: a mechanism as the peers read it, `NAME.flat` and `NAME.urdf`. Fixed links
-//! are part of the bodies they are fixed to; run-time parameters have the values of the spec.
+//! `describe SPEC FOLDER`: writes a mechanism in the formats of the peers, `NAME.flat` and `NAME.urdf`.
+//! Fixed links are part of the bodies they are fixed to; run-time parameters have the values of the spec.
 #![forbid(unsafe_code)]
 
 use std::fmt::{self, Display, Write};
@@ -39,7 +39,7 @@ fn describe(spec: &Path, folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Numbers in a row, in the shortest form that is read as the same number.
+/// Numbers in a row, in the shortest form that parses to the same number.
 struct Row<I>(I);
 
 impl<'a, I: Iterator<Item = &'a f64> + Clone> Display for Row<I> {
@@ -52,8 +52,8 @@ impl<'a, I: Iterator<Item = &'a f64> + Clone> Display for Row<I> {
     }
 }
 
-/// A line for each body: name, number of its carrier (−1: the world), joint; rotation (row by row)
-/// and origin in the carrier, axis, mass, centre of mass, inertia about it (xx xy xz yy yz zz).
+/// Writes a line for each body: name, index of its parent (−1: the world), joint; rotation (row by row)
+/// and origin in the parent, axis, mass, centre of mass, inertia about it (xx xy xz yy yz zz).
 fn flat(mechanism: &Mechanism, bodies: &[Body]) -> Result<String, fmt::Error> {
     let mut text = String::new();
     writeln!(text, "mechanism {}", mechanism.name())?;
@@ -115,8 +115,8 @@ fn tensor(body: &Body) -> [f64; 6] {
     [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|place| i[place])
 }
 
-/// Rotations about fixed x, y, z, one after the other. No arcsine: it would lose half the digits near
-/// a quarter turn.
+/// Returns rotations about fixed x, y, z, in this order. It uses no arcsine, which would lose half the
+/// digits near a quarter turn.
 fn roll_pitch_yaw(body: &Body) -> [f64; 3] {
     let r = &body.placement.rotation;
     let level = r[(0, 0)].hypot(r[(1, 0)]);
@@ -125,6 +125,6 @@ fn roll_pitch_yaw(body: &Body) -> [f64; 3] {
         let (roll, yaw) = (r[(2, 1)].atan2(r[(2, 2)]), r[(1, 0)].atan2(r[(0, 0)]));
         return [roll, pitch, yaw];
     }
-    // Upright, roll and yaw are about one axis: all of it is roll.
+    // At a pitch of a quarter turn, roll and yaw are about one axis: all of the angle is roll.
     [(-r[(1, 2)]).atan2(r[(1, 1)]), pitch, 0.0]
 }

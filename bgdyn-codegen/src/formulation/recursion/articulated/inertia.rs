@@ -1,8 +1,8 @@
-//! Articulated-body inertia: the symmetric 6 × 6 matrix that gives the wrench a body needs for an
-//! acceleration, with the joints beyond it free to move.
+//! Articulated-body inertia: the symmetric 6 × 6 matrix that maps the acceleration of a body to the
+//! required wrench, with the joints outboard of it free to move.
 //!
-//! About the body's origin: moment n = J α + H a, force F = Hᵀ α + M a for the angular
-//! acceleration α and the acceleration a of the origin.
+//! About the body's origin: moment n = J α + H a, force F = Hᵀ α + M a for the angular acceleration α and
+//! the acceleration a of the origin.
 
 use bgdyn_runtime::Dd;
 
@@ -24,22 +24,22 @@ pub(super) struct ArticulatedInertia<'g> {
     linear: Mat3<Expr<'g>>,
 }
 
-/// What a unit acceleration of the joint takes, and each part's share of the joint's own.
+/// The wrench of a unit acceleration of the joint, and its ratio to the pivot.
 #[derive(Clone, Copy)]
 pub(super) struct InertiaColumn<'g> {
     /// Wrench of a unit acceleration along the joint.
     pub wrench: BodyWrench<'g>,
-    /// The same over its part along the joint.
+    /// The same divided by the pivot.
     pub share: BodyWrench<'g>,
-    /// One over what the joint moves: the part along it, and the armature.
+    /// One over the pivot: the component along the joint, plus the armature.
     pub inverse: Expr<'g>,
-    /// What of the inertia along the joint is felt from outside: armature / (part along + armature),
-    /// nothing where the joint has no rotor and gives way whole.
+    /// The fraction of the inertia along the joint that acts on the parent: armature / (component along +
+    /// armature); zero for a joint without a rotor.
     kept: Expr<'g>,
 }
 
 impl<'g> InertiaColumn<'g> {
-    /// In other axes.
+    /// Applies `f`, a change of axes.
     pub fn map(&self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
         InertiaColumn {
             wrench: self.wrench.map(&f),
@@ -50,7 +50,7 @@ impl<'g> InertiaColumn<'g> {
 }
 
 impl<'g> ArticulatedInertia<'g> {
-    /// Of nothing.
+    /// Returns zero.
     pub fn zero(b: &'g Builder) -> Self {
         let zero = Mat3([[b.zero(); 3]; 3]);
         ArticulatedInertia {
@@ -60,7 +60,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Of a rigid body: J = tr(D)·1 − D, H = [h]×, M = m·1.
+    /// Returns the inertia of a rigid body: J = tr(D)·1 − D, H = [h]×, M = m·1.
     pub fn rigid(b: &'g Builder, inertia: &BodyInertia<'g>) -> Self {
         let [xx, yy, zz, xy, xz, yz] = inertia.pseudo;
         let ([x, y, z], o) = (inertia.first.0, b.zero());
@@ -79,7 +79,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Of both.
+    /// Returns the sum.
     pub fn plus(&self, other: &Self) -> Self {
         ArticulatedInertia {
             angular: self.angular + other.angular,
@@ -95,14 +95,14 @@ impl<'g> ArticulatedInertia<'g> {
         name_matrix(&self.linear, "ma", owner);
     }
 
-    /// Whether there is none.
+    /// Returns whether it is zero.
     pub fn is_zero(&self) -> bool {
         [self.angular, self.coupling, self.linear]
             .iter()
             .all(|m| m.0.iter().flatten().all(|e| e.is_zero()))
     }
 
-    /// What the joint feels of an acceleration along itself: S ᵀ I S.
+    /// Returns the component along the joint: Sᵀ I S.
     pub fn along(&self, motion: Motion) -> Expr<'g> {
         match motion {
             Motion::Rotation => self.angular.0[2][2],
@@ -110,8 +110,8 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// I S: the wrench of a unit acceleration along the joint, with I S / `pivot`. The pivot is the
-    /// part along the joint and the `armature`, the inertia that only the joint's own rate moves.
+    /// Returns I S, the wrench of a unit acceleration along the joint, and I S / `pivot`. The pivot is the
+    /// component along the joint plus the `armature`, the inertia that only the joint's own rate moves.
     pub fn column(
         &self,
         b: &'g Builder,
@@ -131,7 +131,7 @@ impl<'g> ArticulatedInertia<'g> {
         };
         let inverse = b.constant(Dd::ONE) / pivot;
         let along = self.along(motion);
-        // What equals the pivot has a share of one, exactly.
+        // An entry equal to the pivot has a ratio of exactly one.
         let free = armature.is_zero();
         let share = |x: Expr<'g>| {
             if !free {
@@ -152,9 +152,8 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Without what the joint gives way to: I − I S (SᵀI S + A)⁻¹ SᵀI with the armature A. The row
-    /// and the column along the joint are A/(SᵀI S + A) of what they were: zero without a rotor, and
-    /// said to be so.
+    /// Returns I − I S (SᵀI S + A)⁻¹ SᵀI with the armature A. The row and the column along the joint are
+    /// multiplied by A/(SᵀI S + A): without a rotor they are set to zero exactly.
     pub fn projected(&self, b: &'g Builder, motion: Motion, column: &InertiaColumn<'g>) -> Self {
         let InertiaColumn {
             wrench,
@@ -190,7 +189,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Turned by Rz.
+    /// Returns the inertia rotated by Rz.
     pub fn turned(&self, turn: (Expr<'g>, Expr<'g>), careful: bool) -> Self {
         ArticulatedInertia {
             angular: mirrored(turned(&self.angular, 2, turn, careful)),
@@ -199,15 +198,15 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// In axes in which the present ones have the columns of the constant `r`, which is a turn
-    /// about x and then one about z: a twist.
+    /// Returns the inertia in axes in which the present axes have the columns of the constant `r`, a
+    /// rotation about x followed by one about z: a twist.
     pub fn twisted(&self, b: &'g Builder, r: Mat3<Dd>, careful: bool) -> Self {
         let [about_x, about_z] = [(r.0[2][2], r.0[2][1]), (r.0[0][0], r.0[1][0])];
         self.turned_by(b, 0, about_x, careful)
             .turned_by(b, 2, about_z, careful)
     }
 
-    /// Turned about an axis by a constant angle; quarter turns cost nothing.
+    /// Rotates about an axis by a constant angle; quarter turns need no operations.
     fn turned_by(&self, b: &'g Builder, axis: usize, (c, s): (Dd, Dd), careful: bool) -> Self {
         let careful = careful || c == Dd::ZERO || s == Dd::ZERO;
         let turn = (b.constant(c), b.constant(s));
@@ -219,7 +218,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// About a point from which this one's origin is displaced by p:
+    /// Returns the inertia about a point from which the present origin is displaced by p:
     /// H' = H + [p]× M, J' = J − H [p]× + [p]× H'ᵀ.
     pub fn shifted(&self, b: &'g Builder, p: Vec3<Expr<'g>>) -> Self {
         let [x, y, z] = p.0;
@@ -235,14 +234,14 @@ impl<'g> ArticulatedInertia<'g> {
     }
 }
 
-/// The symmetric matrix with this upper triangle.
+/// Returns the symmetric matrix with this upper triangle.
 fn mirrored<'g>(m: Mat3<Expr<'g>>) -> Mat3<Expr<'g>> {
     Mat3::from_fn(|i, j| m.0[i.min(j)][i.max(j)])
 }
 
-/// R m Rᵀ for a turn about an axis k, with i and j the axes after it. By
-/// e = s (m_ii − m_jj) + c (m_ij + m_ji) for the 2 × 2 block, or as two products, which takes more
-/// operations and subtracts nothing large where one of the entries is zero.
+/// Returns R m Rᵀ for a rotation about an axis k, where i and j are the axes after it. The 2 × 2 block
+/// uses e = s (m_ii − m_jj) + c (m_ij + m_ji), or two products, which need more operations but subtract no
+/// large terms if one of the entries is zero.
 fn turned<'g>(
     m: &Mat3<Expr<'g>>,
     k: usize,

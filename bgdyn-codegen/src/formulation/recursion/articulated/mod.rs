@@ -1,17 +1,17 @@
 //! Forward dynamics by articulated bodies (Featherstone 2008, *Rigid Body Dynamics Algorithms*,
 //! ch. 7), over the frames and the bias of the recursion.
 //!
-//! The work grows with the number of bodies, not with its cube. And small pivots keep their
-//! digits: what a joint gives way to is taken away before the inertia of its carrier is added, so
-//! that large terms do not cancel in the carrier's pivot. That holds while each body keeps its own
-//! inertia. Over base parameters, which give part of it to the carrier beforehand, there are fewer
-//! operations and the digits of an elimination of M.
+//! The work is proportional to the number of bodies, not to its cube. Small pivots are accurate: the
+//! projection along a joint is subtracted before the inertia of its parent is added, so that large terms
+//! do not cancel in the parent's pivot. This is true if each body has its own inertia. With base
+//! parameters, which move part of the inertia to the parent beforehand, the function has fewer operations
+//! and the accuracy of an elimination of M.
 //!
-//! Accelerations are relative to the motion with q̈ = 0, whose wrenches the bias already gives, so that no
-//! velocity enters these sweeps. A rotor behind a gear adds N²J to its joint's pivot, and of the row and
-//! column along the joint the part N²J/pivot is passed on.
+//! Accelerations are relative to the motion with q̈ = 0, whose wrenches the bias already contains, so that
+//! no velocity enters these sweeps. A rotor behind a gear adds N²J to its joint's pivot, and the fraction
+//! N²J/pivot of the row and column along the joint acts on the parent.
 //!
-//! Where a joint's own inertia ratio is next to zero, only rounding errors may be left of a pivot.
+//! If a joint's own inertia ratio is almost zero, its pivot may consist of rounding errors only.
 //! `expr/error.rs` bounds its error operation by operation, and the pivot must exceed the bound.
 
 mod inertia;
@@ -36,9 +36,9 @@ const METHOD: Method = Method::ForwardDynamics;
 
 /// Forward dynamics by articulated bodies.
 pub(in crate::formulation) enum Articulated {
-    /// Each body with its own inertia: small pivots keep their digits.
+    /// Each body with its own inertia: small pivots are accurate.
     Own,
-    /// Over base parameters.
+    /// With base parameters.
     Base,
 }
 
@@ -61,13 +61,13 @@ impl Formulation for Articulated {
         method.shape().checked()
     }
 
-    /// - Where a joint's own inertia ratio is below [`MIN_INERTIA_RATIO`], `articulated` at any cost: no
-    ///   sample of states could show that another formulation keeps the digits of that joint's pivot.
-    /// - `articulated_base` in place of the recursion where it takes fewer operations than the
-    ///   elimination of a long chain's M alone; as a candidate where it is cheaper under the plan that
-    ///   suits the recursion. A plan that suits one suits the other but for a few operations, so that this
-    ///   tells whether a search for its own plan is worth its time.
-    /// - Else both wait: `articulated_base` as a reserve, `articulated` as the last resort.
+    /// - If a joint's own inertia ratio is below [`MIN_INERTIA_RATIO`], `articulated` at any cost: no
+    ///   sample of states could show that another formulation computes that joint's pivot accurately.
+    /// - `articulated_base` in place of the recursion if it needs fewer operations than the elimination
+    ///   of a long chain's M alone; as a candidate if it is cheaper under the best plan of the recursion.
+    ///   A plan that suits one suits the other except for a few operations, so this shows whether a
+    ///   search for its own plan is worth the time.
+    /// - Otherwise `articulated_base` is a reserve, and `articulated` the last resort.
     fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
         let (graph, geometry) = (prepared.graph, prepared.geometry());
         if !makes(graph, method) {
@@ -105,21 +105,21 @@ impl Formulation for Articulated {
             ..Function::flat(graph, method, name, made, outputs)
         };
         Some(match self {
-            // Its pivots keep their digits by the order of what is subtracted in them.
+            // The accuracy of its pivots depends on the order of subtractions.
             Articulated::Own => function.in_order(),
             Articulated::Base => function,
         })
     }
 }
 
-/// Whether articulated bodies make the method. A rotor that turns with its carrier couples joints
-/// beside their bodies.
+/// Returns whether articulated bodies support the method. A rotor that rotates with its carrier couples
+/// joints other than through their bodies.
 fn makes(graph: &Multibody, method: Method) -> bool {
     method == METHOD && graph.rotors.iter().all(|r| r.carrier.is_none())
 }
 
-/// Operations that the elimination of M takes alone: each joint's row is subtracted from those of the
-/// joints that carry it.
+/// Returns the number of operations for the elimination of M alone: each joint's row is subtracted from
+/// those of the inboard joints.
 fn elimination(geometry: &Geometry) -> usize {
     let mut depths: Vec<usize> = Vec::new();
     for parent in geometry.parents() {
@@ -150,14 +150,15 @@ impl Articulated {
         }
     }
 
-    /// Operations under a plan, but for the bounds of pivots: those are much the same under each.
+    /// Returns the cost under a plan, without the bounds of pivots, which cost almost the same under each
+    /// plan.
     fn cost(&self, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Cost {
         let unguarded = vec![false; geometry.bodies.len()];
         let (graph, outputs) = self.outputs(Builder::silent(), graph, geometry, plan, &unguarded);
         expr::cost(&graph, &outputs).unfinished()
     }
 
-    /// The accelerations under a plan.
+    /// Returns the accelerations under a plan.
     fn outputs(
         &self,
         b: Builder,

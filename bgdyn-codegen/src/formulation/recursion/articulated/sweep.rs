@@ -1,7 +1,7 @@
-//! Forward dynamics by articulated bodies: inertia and wrenches inwards, accelerations outwards.
+//! Sweeps of forward dynamics by articulated bodies: inertia and wrenches inboard, accelerations outboard.
 //!
-//! Accelerations are taken relative to those of the motion with q̈ = 0, whose wrenches are known
-//! from the recursion: so no velocity enters here, and what the joints do is linear in what acts.
+//! Accelerations are relative to those of the motion with q̈ = 0, whose wrenches the recursion has
+//! computed: so no velocity enters here, and the joint accelerations are linear in the wrenches.
 
 use bgdyn_runtime::Dd;
 
@@ -14,13 +14,13 @@ use crate::formulation::recursion::inverse_dynamics::{BodyWrench, Load};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
-/// A pivot's rounding error in units of eps/2, times this, is the magnitude that
-/// [`bgdyn_runtime::Scalar::checked_pivot`] compares with: the least pivot is 64 eps of it, which
-/// leaves a factor of four for what the bound leaves out.
+/// A pivot's rounding error in units of eps/2, times this factor, is the magnitude that
+/// [`bgdyn_runtime::Scalar::checked_pivot`] compares with: the least accepted pivot is 64 eps times it, a
+/// factor of four for effects that the bound omits.
 const MAGNITUDE: f64 = 1.0 / 32.0;
 
-/// The size of what was really subtracted in a pivot, by the rounding error it carries; nothing
-/// where the error is a small part of the pivot whatever it is.
+/// Returns the magnitude of the terms subtracted in a pivot, from its rounding error; zero if the error is
+/// always a small fraction of the pivot.
 fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Expr<'g>) -> Expr<'g> {
     let pivot = pivot.signed();
     match b.with_graph(|g| bounds.of(g, pivot)) {
@@ -29,10 +29,10 @@ fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Expr<'g>) -> Ex
     }
 }
 
-/// A joint between the body and what carries it.
+/// A joint between a body and its parent.
 struct Hinge<'g> {
     column: InertiaColumn<'g>,
-    /// Whether the column is in the body's own axes; otherwise in its basis's.
+    /// Whether the column is in the body's own axes; otherwise in those of its basis.
     own: bool,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Sweep<'g, 'f> {
 #[derive(Clone, Copy)]
 struct Acceleration<'g> {
     angular: Vec3<Expr<'g>>,
-    /// Of the origin.
+    /// Acceleration of the origin.
     linear: Vec3<Expr<'g>>,
 }
 
@@ -59,7 +59,7 @@ impl<'g> Acceleration<'g> {
         }
     }
 
-    /// Of the body's point p.
+    /// Returns the acceleration of the body's point p.
     fn at(self, p: Vec3<Expr<'g>>) -> Self {
         Acceleration {
             linear: self.linear + self.angular.cross(p),
@@ -67,7 +67,7 @@ impl<'g> Acceleration<'g> {
         }
     }
 
-    /// With the joint's own.
+    /// Adds the joint's acceleration.
     fn with(mut self, motion: Motion, along: Expr<'g>) -> Self {
         let part = match motion {
             Motion::Rotation => &mut self.angular,
@@ -77,20 +77,19 @@ impl<'g> Acceleration<'g> {
         self
     }
 
-    /// Power of a wrench at this acceleration.
+    /// Returns the power of a wrench at this acceleration.
     fn under(self, wrench: &BodyWrench<'g>) -> Expr<'g> {
         self.angular.dot(wrench.moment) + self.linear.dot(wrench.force)
     }
 }
 
 impl<'g, 'f> Sweep<'g, 'f> {
-    /// Articulated-body inertias from the tips to the base; `careful`ly without subtractions that
-    /// can be avoided. The pivots of the joints that are `guarded` must exceed their rounding
-    /// error.
+    /// Computes articulated-body inertias from the tips to the base; if `careful`, without avoidable
+    /// subtractions. The pivots of the `guarded` joints must exceed their rounding error.
     pub fn new(b: &'g Builder, frames: &'f Frames<'g>, careful: bool, guarded: &[bool]) -> Self {
         let n = frames.bodies.len();
         let mut bounds = ErrorBound::default();
-        // What the bodies beyond hand over: in own axes, and in the basis's.
+        // Contributions of the outboard bodies: in own axes, and in those of the basis.
         let mut own = vec![ArticulatedInertia::zero(b); n];
         let mut basis = own.clone();
         let mut hinges = Vec::new();
@@ -113,15 +112,15 @@ impl<'g, 'f> Sweep<'g, 'f> {
             } else {
                 b.zero()
             };
-            // A rotor adds to what the joint moves, and keeps it from giving way whole.
+            // A rotor adds to the inertia of the joint, so that the projection is not complete.
             let pivot = (along + armature).pivot(magnitude, j);
             pivot.named(|| format!("pivot_{}", frame.joint));
             let (hinge, rest) = if basis[j].is_zero() {
-                // Turning about the joint's axis and giving way along it can change places: the
-                // latter first, which leaves a row and a column of zeros.
+                // The rotation about the joint's axis and the projection along it commute: the projection
+                // first, which leaves a row and a column of zeros.
                 let column = inner.column(b, frame.motion, pivot, armature);
                 let rest = inner.projected(b, frame.motion, &column);
-                // A rigid body's column is constant and turned once; another's stays where it is.
+                // A rigid body's column is constant and rotated once; another's is not rotated.
                 let hinge = if own[j].is_zero() {
                     let column = column.map(|v| turn(v, frame.turn));
                     Hinge { column, own: false }
@@ -149,14 +148,14 @@ impl<'g, 'f> Sweep<'g, 'f> {
         Sweep { b, frames, hinges }
     }
 
-    /// The joints' accelerations under the efforts `tau`, where the motion with q̈ = 0 takes
+    /// Returns the joint accelerations under the efforts `tau`, where the motion with q̈ = 0 requires
     /// `loads`.
     pub fn accelerations(&self, loads: &[Load<'g>], tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let drives = self.inwards(loads, tau);
         self.outwards(&drives)
     }
 
-    /// What is left of each joint's effort for its own acceleration, over its pivot.
+    /// Returns, for each joint, the effort that remains for its own acceleration, divided by its pivot.
     fn inwards(&self, loads: &[Load<'g>], tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let n = self.hinges.len();
         let mut own = vec![BodyWrench::zero(self.b); n];
@@ -179,7 +178,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
             drive.named(|| format!("u_{}", frame.joint));
             drives[j] = drive * hinge.column.inverse;
             let Some(p) = frame.parent else { continue };
-            // The joint carries the drive whole; the rest of the wrench in proportion to it.
+            // The joint transmits the drive completely; the rest of the wrench in proportion to it.
             let given = |w: Vec3<Expr<'g>>| w.scale(drive);
             let given = hinge.column.share.map(given);
             if hinge.own {
@@ -201,7 +200,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
     }
 
     fn outwards(&self, drives: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        // In own axes, and in the basis's.
+        // Accelerations in own axes, and in those of the basis.
         let mut own: Vec<Acceleration<'g>> = Vec::new();
         let mut basis: Vec<Acceleration<'g>> = Vec::new();
         let mut found = Vec::new();
@@ -231,7 +230,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
         found
     }
 
-    /// The parent's acceleration at the body's origin, in twisted axes.
+    /// Returns the parent's acceleration at the body's origin, in twisted axes.
     fn twisted(&self, frame: &BodyFrame<'g>, parent: Acceleration<'g>) -> Acceleration<'g> {
         let back: Mat3<Expr<'g>> = frame.twist.transpose().map(|x| self.b.constant(x));
         parent.at(frame.position_in_parent).map(|v| back * v)

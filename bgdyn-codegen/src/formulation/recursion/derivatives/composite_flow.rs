@@ -1,5 +1,5 @@
-//! Everything beyond a joint as one body: its inertia, how its mass moves relative to a body that
-//! carries it, and what force and moment that relative motion takes.
+//! All bodies outboard of a joint as one body: its inertia, the flow of its mass relative to an inboard
+//! body, and the force and moment of that relative motion.
 
 use bgdyn_runtime::Dd;
 
@@ -12,8 +12,8 @@ use crate::formulation::recursion::rotors::FullRotor;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
-/// All that a body carries, about one point and in one set of axes; velocities and accelerations
-/// are relative to that body and its axes.
+/// A composite body, about one point and in one set of axes; velocities and accelerations are relative to
+/// an inboard body and its axes.
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct CompositeFlow<'g> {
     pub inertia: BodyInertia<'g>,
@@ -24,7 +24,7 @@ pub(in crate::formulation::recursion) struct CompositeFlow<'g> {
 }
 
 impl<'g> CompositeFlow<'g> {
-    /// Of nothing.
+    /// Returns zero.
     pub fn zero(b: &'g Builder) -> Self {
         CompositeFlow {
             inertia: BodyInertia::zero(b),
@@ -33,7 +33,7 @@ impl<'g> CompositeFlow<'g> {
         }
     }
 
-    /// Of both.
+    /// Returns the sum.
     pub fn plus(&self, other: &Self) -> Self {
         CompositeFlow {
             inertia: self.inertia.plus(&other.inertia),
@@ -42,8 +42,9 @@ impl<'g> CompositeFlow<'g> {
         }
     }
 
-    /// Adds a rotor on the body, in the body's own axes. Seen from the body, its momentum H is a flow of
-    /// mass in place: its E is −[H]× (times `factor` / 2), as the moment ω × H must be E ω.
+    /// Adds a rotor on the body, in the body's own axes. Relative to the body, its momentum H is a flow of
+    /// mass without displacement: its E is −[H]× (times `factor` / 2), because the moment ω × H must equal
+    /// E ω.
     pub fn add_rotor(&mut self, b: &'g Builder, rotor: &FullRotor<'g>, factor: Dd) {
         let half = factor * Dd::from_f64(0.5);
         let [x, y, z] = rotor.momentum().map(|x| x * half).0;
@@ -52,7 +53,7 @@ impl<'g> CompositeFlow<'g> {
         self.rest.moment = self.rest.moment + rotor.momentum_rate();
     }
 
-    /// Turned by Rz.
+    /// Returns it rotated by Rz.
     pub fn turned(&self, angle: (Expr<'g>, Expr<'g>)) -> Self {
         let round = self.inertia.round();
         CompositeFlow {
@@ -66,9 +67,9 @@ impl<'g> CompositeFlow<'g> {
         }
     }
 
-    /// Relative to the body before the joint, after a joint with this momentum of a unit rate:
-    /// with Z the field of a unit rate, Q grows by q̇ Z P and the rest by q̈ Z P + q̇² Z Z P + 2 q̇ Z Q.
-    /// With `twice` unset the flow counts once, and the rest means nothing.
+    /// Returns it relative to the body before the joint, for a joint with this momentum of a unit rate:
+    /// with Z the field of a unit rate, Q increases by q̇ Z P and the rest by q̈ Z P + q̇² Z Z P + 2 q̇ Z
+    /// Q. Without `twice` the flow counts once, and the rest is not valid.
     pub fn before(
         &self,
         b: &'g Builder,
@@ -97,7 +98,7 @@ impl<'g> CompositeFlow<'g> {
         }
     }
 
-    /// About the origin of the body before, in its axes or in the basis that continues.
+    /// Returns it about the origin of the body before, in its axes or in the basis that continues.
     pub fn handed_on(&self, b: &'g Builder, frame: &BodyFrame<'g>) -> Self {
         let shifted = CompositeFlow {
             inertia: self.inertia.shifted(frame.position),
@@ -115,7 +116,7 @@ impl<'g> CompositeFlow<'g> {
         }
     }
 
-    /// Number of entries of flow and rest that vanish.
+    /// Returns the number of zero entries of flow and rest.
     pub fn zeros(&self) -> usize {
         let flow = self.flow.moment.0.into_iter().flatten();
         let flow = flow.chain(self.flow.linear.0);
@@ -124,7 +125,7 @@ impl<'g> CompositeFlow<'g> {
     }
 }
 
-/// How mass moves: with Q = ∫ v sᵀ dm about a point, E = tr(Q)·1 − Q and p = ∫ v dm.
+/// The flow of mass: with Q = ∫ v sᵀ dm about a point, E = tr(Q)·1 − Q and p = ∫ v dm.
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct Flow<'g> {
     /// E
@@ -134,7 +135,7 @@ pub(in crate::formulation::recursion) struct Flow<'g> {
 }
 
 impl<'g> Flow<'g> {
-    /// Of nothing.
+    /// Returns zero.
     pub fn zero(b: &'g Builder) -> Self {
         Flow {
             moment: Mat3([[b.zero(); 3]; 3]),
@@ -142,7 +143,7 @@ impl<'g> Flow<'g> {
         }
     }
 
-    /// Of both.
+    /// Returns the sum.
     pub fn plus(&self, other: &Self) -> Self {
         Flow {
             moment: self.moment + other.moment,
@@ -150,7 +151,7 @@ impl<'g> Flow<'g> {
         }
     }
 
-    /// Of mass that moves at a joint's `rate` along or about z.
+    /// Returns the flow of mass that moves at a joint's `rate` along or about z.
     pub fn of_joint(
         b: &'g Builder,
         motion: Motion,
@@ -176,8 +177,7 @@ impl<'g> Flow<'g> {
         }
     }
 
-    /// The same seen from a point from which this one's origin is displaced by r:
-    /// E + (p·r)·1 − p rᵀ.
+    /// Returns the flow about a point from which the present origin is displaced by r: E + (p·r)·1 − p rᵀ.
     pub fn shifted(&self, r: Vec3<Expr<'g>>) -> Self {
         let products = Mat3::from_fn(|i, j| self.linear.0[i] * r.0[j]);
         let entry = |i: usize, j: usize| {
@@ -194,7 +194,8 @@ impl<'g> Flow<'g> {
         }
     }
 
-    /// In axes in which the present ones have the columns of the constant `r`: R E Rᵀ, R p.
+    /// Returns the flow in axes in which the present axes have the columns of the constant `r`: R E Rᵀ, R
+    /// p.
     pub fn rotated(&self, b: &'g Builder, r: Mat3<Dd>) -> Self {
         let r = r.map(|x| b.constant(x));
         Flow {
@@ -203,8 +204,8 @@ impl<'g> Flow<'g> {
         }
     }
 
-    /// Turned by Rz: four multiplications for the 2 × 2 block, with
-    /// e = s (E_xx − E_yy) + c (E_xy + E_yx).
+    /// Returns the flow rotated by Rz: four multiplications for the 2 × 2 block, with e = s (E_xx − E_yy)
+    /// + c (E_xy + E_yx).
     pub fn turned(&self, (c, s): (Expr<'g>, Expr<'g>)) -> Self {
         let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = self.moment.0;
         let e = s * (xx - yy) + c * (xy + yx);

@@ -1,31 +1,31 @@
 //! Derivatives of the joint efforts by positions and rates, from composite bodies.
 //!
-//! A change of q_k moves everything beyond joint k as one rigid body. So ∂τ/∂q_k and ∂τ/∂v_k need
-//! no derivative of any body's own motion: what they need of all beyond joint k is its inertia P as
-//! of one body, the flow Q of its mass relative to the body before the joint, and the force and
-//! moment R of its relative accelerations. With W = (U, a) the motion of the body before the joint
-//! and V its velocity, both as 4 × 4 matrices, force and moment are those of W P + 2 V Q + R; with
-//! Z the field of a unit rate of joint k
+//! A change of q_k moves everything outboard of joint k as one rigid body. So ∂τ/∂q_k and ∂τ/∂v_k need no
+//! derivative of the motion of a single body. They need the inertia P of the composite body, the flow Q of
+//! its mass relative to the body before the joint, and the force and moment R of its relative
+//! accelerations. With W = (U, a) the motion of the body before the joint and V its velocity, both as 4 ×
+//! 4 matrices, force and moment are those of W P + 2 V Q + R. With Z the field of a unit rate of joint k,
 //! - q_k changes them by those of W (Z P + P Zᵀ) + 2 V (Z Q + Q Zᵀ) + Z R + R Zᵀ,
 //! - v_k by those of 2 (V Z P + Z Q).
 //!
-//! Carried to the base like the momenta that give the mass matrix, these two give column k of the
-//! derivatives from its diagonal upwards. Below it stand the efforts of joints i beyond k. Those
-//! change by the fields Z̈_k s + 2 Ż_k v and 2 (Ż_k s + Z_k v) of accelerations: with the axis's
-//! rates ω × z and U z they are dot products with the momentum of a unit rate of joint i, and with
-//! 2 ∫ v × δ_i dm of the same rate (see [`super::outboard_joint`]).
+//! Transformed to the base like the momenta of the mass matrix, these two give column k of the derivatives
+//! from its diagonal upwards. Below the diagonal are the efforts of joints i outboard of k. They change by
+//! the fields Z̈_k s + 2 Ż_k v and 2 (Ż_k s + Z_k v) of accelerations: with the axis's rates ω × z and U z
+//! they are dot products with the momentum of a unit rate of joint i, and with 2 ∫ v × δ_i dm of the same
+//! rate (see [`super::outboard_joint`]).
 //!
-//! Inside a group of parallel axes the fields of two joints differ by a translation, and so do
-//! their entries; what a joint hands on may be taken over from the next one ([`super::joint_partials`]).
+//! In a group of parallel axes the fields of two joints differ by a translation, and so do their entries;
+//! results of the next joint can be reused ([`super::joint_partials`]).
 //!
-//! ∂τ/∂v = 2 C with Christoffel's C, and C + Cᵀ = Ṁ: two entries whose place in M holds a constant
-//! are each other's negative.
+//! ∂τ/∂v = 2 C with Christoffel symbols C, and C + Cᵀ = Ṁ: two entries whose position in M is constant are
+//! the negatives of each other.
 //!
-//! A rotor with its axis fixed to a body is a flow of that body's mass in place, and to the joint
-//! that turns it a momentum of its own, wherever that joint is (see [`crate::formulation::recursion::rotors`]).
+//! A rotor whose axis is fixed to a body is a flow of that body's mass without displacement, and a
+//! momentum of the joint that drives it, for any position of that joint (see
+//! [`crate::formulation::recursion::rotors`]).
 //!
-//! Carpentier and Mansard (2018), and Singh, Russell and Wensing (2022), order the derivatives of
-//! the Newton-Euler recursion by composites as well, in spatial vectors.
+//! Carpentier and Mansard (2018), and Singh, Russell and Wensing (2022), also group the derivatives of the
+//! Newton-Euler recursion by composite bodies, in spatial vectors.
 
 use bgdyn_runtime::Dd;
 
@@ -44,8 +44,8 @@ pub(in crate::formulation::recursion) struct EffortDerivatives<'g> {
     pub by_rate: Vec<Vec<Expr<'g>>>,
 }
 
-/// The matrix C of Christoffel's symbols, half of ∂bias/∂v as the bias is quadratic in v, row by
-/// row.
+/// Returns the Coriolis matrix C of Christoffel symbols, half of ∂bias/∂v because the bias is quadratic in
+/// v, row by row.
 pub(in crate::formulation::recursion) fn coriolis_matrix<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
@@ -54,7 +54,7 @@ pub(in crate::formulation::recursion) fn coriolis_matrix<'g>(
     pass(b, frames, views, &motions(b, frames, false), Dd::ONE).by_rate
 }
 
-/// The derivatives with the rates and accelerations in `frames`; where `active`, against gravity.
+/// Returns the derivatives with the rates and accelerations in `frames`; with gravity if `active`.
 pub(in crate::formulation::recursion) fn effort_derivatives<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
@@ -65,7 +65,7 @@ pub(in crate::formulation::recursion) fn effort_derivatives<'g>(
     pass(b, frames, views, &moving, Dd::from_f64(2.0))
 }
 
-/// From the tips to the base; `factor` is that of [`super::outboard_joint::JointAxis`].
+/// Runs the pass from the tips to the base; `factor` is that of [`super::outboard_joint::JointAxis`].
 fn pass<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
@@ -139,7 +139,7 @@ fn pass<'g>(
 }
 
 impl<'g> EffortDerivatives<'g> {
-    /// Entries of a joint with all beyond it, and these in the axes of its basis.
+    /// Adds the entries of a joint with all outboard joints, and returns these in the axes of its basis.
     fn enter_beyond(
         &mut self,
         place: &JointContext<'_, 'g>,
@@ -163,7 +163,7 @@ impl<'g> EffortDerivatives<'g> {
                     let joint = joint.settled(b);
                     (joint, joint.entries(b, frame, &basis))
                 }
-                // Forces are the same about every point.
+                // Forces do not depend on the reference point.
                 _ => (joint, joint.entries(b, frame, &basis)),
             };
             self.enter(frames, j, &joint, entries);
@@ -172,8 +172,8 @@ impl<'g> EffortDerivatives<'g> {
         beyond
     }
 
-    /// Adds the entries of joints j and `joint`: those of a rotor and those of the joint that turns
-    /// it come one after the other.
+    /// Adds the entries of joints j and `joint`: those of a rotor and those of the joint that drives it
+    /// are added in sequence.
     fn enter(
         &mut self,
         frames: &Frames<'g>,
@@ -204,7 +204,7 @@ impl<'g> EffortDerivatives<'g> {
     }
 }
 
-/// Angular motion of the body before joint j, in the axes of the joint's basis.
+/// Returns the angular motion of the body before joint j, in the axes of the joint's basis.
 fn spin_before<'m, 'g>(frames: &Frames<'g>, j: usize, moving: &'m [Moving<'g>]) -> &'m Spin<'g> {
     match frames.bodies[j].parent {
         Some(p) if frames.bodies[j].continues => &moving[p].in_basis,
@@ -212,7 +212,8 @@ fn spin_before<'m, 'g>(frames: &Frames<'g>, j: usize, moving: &'m [Moving<'g>]) 
     }
 }
 
-/// Factor times the velocity of a body's origin relative to its parent's, in the axes of the basis.
+/// Returns the factor times the velocity of a body's origin relative to its parent's, in the axes of the
+/// basis.
 fn drift<'g>(frame: &BodyFrame<'g>, before: &Spin<'g>, factor: Dd) -> Vec3<Expr<'g>> {
     let mut drift = before.omega.map(|x| x * factor).cross(frame.position);
     if frame.motion != Motion::Rotation {

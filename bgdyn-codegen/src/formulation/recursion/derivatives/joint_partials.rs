@@ -1,9 +1,9 @@
-//! What one joint contributes to the derivatives of the joint efforts.
+//! The contribution of one joint to the derivatives of the joint efforts.
 //!
-//! It follows from all that the joint moves as one body, and is linear in it. So the parts of that
-//! body may be seen from different places: what the body's own axes hold in those axes, where its
-//! inertia is constant and sparse; what continues its basis from there. A rotation further on in
-//! the group has made its own share already, and its field differs by a translation only.
+//! It follows from the composite body that the joint moves, and is linear in it. So the parts of that body
+//! can be expressed in different axes: parts known in the body's own axes in those axes, where its inertia
+//! is constant and sparse; parts that continue its basis in the basis. The next rotation of the group has
+//! already computed its contribution, and its field differs by a translation only.
 
 use bgdyn_runtime::Dd;
 
@@ -18,22 +18,22 @@ use crate::formulation::recursion::plan::{PartialsPlan, SeenFrom};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 
-/// A joint, and how it moves.
+/// A joint, and its motion.
 pub(super) struct JointContext<'a, 'g> {
     pub b: &'g Builder,
-    /// Its place in the order of the coordinates.
+    /// Its index in the order of the coordinates.
     pub index: usize,
     pub frame: &'a BodyFrame<'g>,
     /// Motion of the body after the joint.
     pub moving: &'a Moving<'g>,
     /// Angular motion of the body before it, in the axes of the joint's basis.
     pub before: &'a Spin<'g>,
-    /// That of [`JointAxis`].
+    /// The factor of [`JointAxis`].
     pub factor: Dd,
     pub view: PartialsPlan,
 }
 
-/// What a body has gathered from those beyond it, in one set of axes.
+/// The sum of outboard bodies, in one set of axes.
 #[derive(Clone)]
 pub(super) struct Subtree<'g> {
     /// All of them as one body.
@@ -42,12 +42,12 @@ pub(super) struct Subtree<'g> {
     pub beyond: Vec<OutboardJoint<'g>>,
     /// The rotations that continue the body's basis.
     pub next: Vec<GroupNeighbour<'g>>,
-    /// As `whole`, without what those move.
+    /// The same as `whole`, without the bodies of those rotations.
     pub others: CompositeFlow<'g>,
 }
 
 impl<'g> Subtree<'g> {
-    /// Nothing.
+    /// Returns an empty sum.
     pub fn nothing(b: &'g Builder) -> Self {
         Subtree {
             whole: CompositeFlow::zero(b),
@@ -58,17 +58,17 @@ impl<'g> Subtree<'g> {
     }
 }
 
-/// A joint's own share of the derivatives.
+/// A joint's contribution to the derivatives.
 pub(super) struct JointPartials<'g> {
     pub joint: OutboardJoint<'g>,
-    /// All that it moves, relative to the body before it.
+    /// The composite body, relative to the body before it.
     pub before: CompositeFlow<'g>,
-    /// The same for the rotation before it in its group.
+    /// The same for the previous rotation of its group.
     pub next: GroupNeighbour<'g>,
 }
 
 impl<'g> JointPartials<'g> {
-    /// From what the body has gathered in its own axes and in those of its basis.
+    /// Computes it from the outboard bodies in the body's own axes and in those of its basis.
     pub fn new(place: &JointContext<'_, 'g>, own: &Subtree<'g>, basis: &Subtree<'g>) -> Self {
         let (frame, axis) = (place.frame, place.axis_in_basis());
         let carried = CompositeFlow {
@@ -106,7 +106,7 @@ impl<'g> JointPartials<'g> {
 }
 
 impl<'g> JointContext<'_, 'g> {
-    /// The body's axes.
+    /// Returns the axis in the body's axes.
     pub fn axis_of_body(&self) -> JointAxis<'g> {
         JointAxis {
             spin: self.moving.own,
@@ -115,7 +115,7 @@ impl<'g> JointContext<'_, 'g> {
         }
     }
 
-    /// Those of its basis.
+    /// Returns the axis in the axes of its basis.
     pub fn axis_in_basis(&self) -> JointAxis<'g> {
         JointAxis {
             spin: self.moving.in_basis,
@@ -124,27 +124,27 @@ impl<'g> JointContext<'_, 'g> {
         }
     }
 
-    /// What is carried in own axes and `outer` as one body in the axes of the basis, relative to
-    /// the body after the joint, and the momentum that a unit rate gives to it.
+    /// Returns the bodies in own axes and `outer` as one body in the axes of the basis, relative to the
+    /// body after the joint, and the momentum that a unit rate gives to it.
     fn joined(
         &self,
         carried: &CompositeFlow<'g>,
         outer: &CompositeFlow<'g>,
     ) -> (CompositeFlow<'g>, Momentum<'g>) {
         let after = carried.turned(self.frame.turn).plus(outer);
-        // Turning about z leaves J_zz as it is.
+        // A rotation about z does not change J_zz.
         let j_zz = (carried.inertia.d(0, 0) + carried.inertia.d(1, 1))
             + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
         let momentum = unit_momentum(self.b, self.index, self.frame, &after.inertia, j_zz);
         (after, momentum)
     }
 
-    /// The same relative to the body before it.
+    /// Returns the same relative to the body before it.
     fn before(&self, after: &CompositeFlow<'g>, momentum: &Momentum<'g>) -> CompositeFlow<'g> {
         after.before(self.b, self.frame, momentum, self.factor != Dd::ONE)
     }
 
-    /// The joint's share from what is carried in own axes and `outer`.
+    /// Returns the joint's contribution from the bodies in own axes and `outer`.
     fn share(
         &self,
         carried: &CompositeFlow<'g>,

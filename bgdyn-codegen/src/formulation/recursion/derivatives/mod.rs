@@ -3,9 +3,9 @@
 //! | file | computes |
 //! |---|---|
 //! | `composite_flow.rs` | inertia, flow of mass and force of all bodies outboard of a joint |
-//! | `outboard_joint.rs` | a joint as the joints inboard of it need it |
-//! | `joint_partials.rs` | what one joint contributes |
-//! | `reference_body.rs` | the body and axes in which that is expressed, chosen by counting |
+//! | `outboard_joint.rs` | quantities of a joint for the derivatives of inboard joints |
+//! | `joint_partials.rs` | the contribution of one joint |
+//! | `reference_body.rs` | the body and axes for expressing it, chosen by counting |
 //! | `inverse_dynamics.rs` | the derivatives, from the tips to the base |
 
 pub(super) mod composite_flow;

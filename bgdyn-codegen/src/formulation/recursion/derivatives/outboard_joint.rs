@@ -1,7 +1,8 @@
-//! A joint as the joints inboard of it need it, to differentiate their efforts by its coordinate.
+//! Quantities of a joint from which inboard joints compute the derivatives of their efforts by its
+//! coordinate.
 //!
-//! Accelerations by velocities carry a factor of 2. The Coriolis matrix is half of ∂τ/∂v: for it the
-//! factor is 1 throughout, and ∂τ/∂q means nothing.
+//! Accelerations due to velocities have a factor of 2. The Coriolis matrix is half of ∂τ/∂v: for it the
+//! factor is 1 in all equations, and ∂τ/∂q is not valid.
 
 use bgdyn_runtime::Dd;
 
@@ -15,62 +16,63 @@ use crate::formulation::recursion::motion::Spin;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
-/// A joint, seen from a body before it.
+/// A joint, expressed in the frame of an inboard body.
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct OutboardJoint<'g> {
-    /// Momentum that a unit rate gives to all beyond it.
+    /// Momentum of all outboard bodies per unit rate.
     pub momentum: Momentum<'g>,
-    /// Factor · ∫ v × δ dm, with δ the velocity of a unit rate and v the true one relative to the point
-    /// that this is about, in axes that do not turn.
+    /// Factor · ∫ v × δ dm, with δ the velocity of a unit rate and v the true velocity relative to the
+    /// reference point, in axes that do not rotate.
     swirl: Vec3<Expr<'g>>,
-    /// ∂/∂q of force and moment on all beyond it.
+    /// ∂/∂q of force and moment on all outboard bodies.
     by_position: BodyWrench<'g>,
     /// Factor / 2 · ∂/∂v of the same.
     by_rate: BodyWrench<'g>,
-    /// From the body's origin to the point that all this is about, and factor times the velocity
-    /// of that point relative to the origin: not zero inside a group of parallel axes only.
+    /// The displacement from the body's origin to the reference point, and factor times the velocity of
+    /// that point relative to the origin: nonzero only in a group of parallel axes.
     offset: Vec3<Expr<'g>>,
     drift: Vec3<Expr<'g>>,
-    /// Entries with the last rotation passed in the group, and where its origin is from this one.
+    /// Entries with the last rotation passed in the group, and the position of its origin relative to this
+    /// one.
     last: Option<(PartialEntries<'g>, Vec3<Expr<'g>>)>,
-    /// Where the forces are wanted in the axes of the body that the group ends with as well.
+    /// The forces in the axes of the last body of the group, if they are needed there.
     met: Option<Met<'g>>,
 }
 
-/// Changes of force in the axes of a body.
+/// Derivatives of force in the axes of a body.
 #[derive(Clone, Copy)]
 struct Met<'g> {
-    /// Those of `by_position` and `by_rate`.
+    /// The forces of `by_position` and `by_rate`.
     forces: [Vec3<Expr<'g>>; 2],
     /// Cosine and sine of the angle from the basis to the body's axes.
     angle: (Expr<'g>, Expr<'g>),
 }
 
-/// A rotation of a group, and what moves with it, as the rotation before it in the group sees them.
+/// A rotation of a group, with the bodies that it moves, for the previous rotation of the group.
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct GroupNeighbour<'g> {
     /// The rotation, about its own origin.
     pub joint: OutboardJoint<'g>,
-    /// Of all that it moves, about the same origin.
+    /// Inertia of all bodies that it moves, about the same origin.
     pub inertia: BodyInertia<'g>,
-    /// Factor · ∫ v dm, with v the true velocity relative to that origin, in axes that do not turn.
+    /// Factor · ∫ v dm, with v the true velocity relative to that origin, in axes that do not rotate.
     pub flow: Vec3<Expr<'g>>,
-    /// The force on all that.
+    /// The force on these bodies.
     pub force: Vec3<Expr<'g>>,
-    /// That origin's place from the one of the body before.
+    /// Displacement of that origin from the origin of the body before.
     pub offset: Vec3<Expr<'g>>,
 }
 
-/// The four derivatives that tie a joint to one beyond it.
+/// The four derivatives that couple a joint and an outboard one.
 #[derive(Clone, Copy)]
 pub(in crate::formulation::recursion) struct PartialEntries<'g> {
-    /// Of the joint's effort, by position and rate of the one beyond.
+    /// Derivatives of the joint's effort by position and rate of the outboard one.
     pub own: (Expr<'g>, Expr<'g>),
-    /// Of the effort of the one beyond, by the joint's position and rate.
+    /// Derivatives of the outboard joint's effort by this joint's position and rate.
     pub beyond: (Expr<'g>, Expr<'g>),
 }
 
-/// How a joint's axis moves, in one set of axes.
+/// The motion of a joint's axis, in one set of axes.
 pub(in crate::formulation::recursion) struct JointAxis<'g> {
     /// Motion of the body.
     pub spin: Spin<'g>,
@@ -81,21 +83,21 @@ pub(in crate::formulation::recursion) struct JointAxis<'g> {
 }
 
 impl<'g> JointAxis<'g> {
-    /// ω × z
+    /// Returns ω × z.
     fn rate(&self, b: &'g Builder) -> Vec3<Expr<'g>> {
         let [x, y, _] = self.spin.omega.0;
         Vec3([y, -x, b.zero()])
     }
 
-    /// z̈ = U z
+    /// Returns z̈ = U z.
     fn second_rate(&self) -> Vec3<Expr<'g>> {
         self.spin.u.column(2)
     }
 }
 
 impl<'g> OutboardJoint<'g> {
-    /// What the joint itself hands on: from all beyond it as one body, seen from a body with the
-    /// motion `spin`, and from the force `force` on it.
+    /// Returns the quantities of a joint from its composite body, relative to a body with the motion
+    /// `spin`, and from the force `force` on it.
     pub fn new(
         b: &'g Builder,
         motion: Motion,
@@ -125,10 +127,10 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// A rotor that `joint` turns, seen from the body it sits on, in that body's own axes: a unit
-    /// rate gives it the momentum h alone, which the body's ω turns, so that it takes the moment
-    /// ω × h. By position it changes nothing. The dot products of [`OutboardJoint::entries`] give the
-    /// changes h · z̈ + ω × h · ż and 2 h · ż + ω × h · z of the effort h · ω̇ with its swirl ω × h.
+    /// Returns a rotor that `joint` drives, relative to its carrier, in the carrier's own axes: a unit
+    /// rate gives it only the momentum h, which the carrier's ω rotates, so that it requires the moment ω
+    /// × h. The position has no influence. The dot products of [`OutboardJoint::entries`] give the changes
+    /// h · z̈ + ω × h · ż and 2 h · ż + ω × h · z of the effort h · ω̇ with its swirl ω × h.
     pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Expr<'g>>, axis: &JointAxis<'g>) -> Self {
         let zero = Vec3([b.zero(); 3]);
         let half = axis.factor * Dd::from_f64(0.5);
@@ -152,7 +154,7 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// In other axes.
+    /// Applies `f`, a change of axes.
     pub fn map(self, f: impl Fn(Vec3<Expr<'g>>) -> Vec3<Expr<'g>>) -> Self {
         OutboardJoint {
             momentum: self.momentum.map(&f),
@@ -163,7 +165,7 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// Turned by Rz; `meet` keeps the forces in the present axes as well.
+    /// Returns it rotated by Rz; with `meet`, the forces are also stored in the present axes.
     pub fn turned(self, angle: (Expr<'g>, Expr<'g>), meet: bool) -> Self {
         let forces = [self.by_position.force, self.by_rate.force];
         OutboardJoint {
@@ -172,7 +174,7 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// With what another part of the mass beyond adds; the momentum is that of all already.
+    /// Adds the contribution of another part of the outboard mass; the momentum is already that of all.
     pub fn with(self, part: &Self) -> Self {
         OutboardJoint {
             swirl: self.swirl + part.swirl,
@@ -182,9 +184,10 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// The share in a rotation of what the next one of the group moves. The two fields differ by
-    /// the translation d = z × r, which is fixed in the body with `axis` between them: it adds
-    /// m d̈ to ∂F/∂q, h × d̈ + d × F to ∂M/∂q and, with ḋ, 2 m ḋ and 2 h × ḋ to those by the rate.
+    /// Returns the contribution to a rotation of the bodies that the next rotation of the group moves. The
+    /// two fields differ by the translation d = z × r, which is fixed in the body with `axis` between
+    /// them: it adds m d̈ to ∂F/∂q, h × d̈ + d × F to ∂M/∂q and, with ḋ, 2 m ḋ and 2 h × ḋ to those by the
+    /// rate.
     pub fn from_neighbour(b: &'g Builder, next: &GroupNeighbour<'g>, axis: &JointAxis<'g>) -> Self {
         let twice = axis.spin.omega.map(|x| x * axis.factor);
         let d = across(b, next.offset);
@@ -212,8 +215,9 @@ impl<'g> OutboardJoint<'g> {
             .settled(b)
     }
 
-    /// SeenFrom from an origin from which the present one is displaced by r and relative to which it
-    /// moves, factor times, at `drift`; what follows from it is left for [`OutboardJoint::settled`].
+    /// Changes the reference origin to one from which the present one is displaced by r and relative to
+    /// which it moves, times the factor, at `drift`; [`OutboardJoint::settled`] evaluates the
+    /// consequences.
     pub fn moved(self, r: Vec3<Expr<'g>>, drift: Vec3<Expr<'g>>) -> Self {
         OutboardJoint {
             offset: self.offset + r,
@@ -223,7 +227,7 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// About the body's origin.
+    /// Returns it about the body's origin.
     pub fn settled(self, b: &'g Builder) -> Self {
         let zero = Vec3([b.zero(); 3]);
         OutboardJoint {
@@ -238,7 +242,7 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// The same, after its entries with a joint whose axis may go on.
+    /// Returns the same, after its entries with a joint whose axis may continue the group.
     pub fn entered(self, b: &'g Builder, motion: Motion, entries: PartialEntries<'g>) -> Self {
         let here = Vec3([b.zero(); 3]);
         let last = match motion {
@@ -248,18 +252,18 @@ impl<'g> OutboardJoint<'g> {
         OutboardJoint { last, ..self }
     }
 
-    /// The entry of the mass matrix with a joint before it.
+    /// Returns the entry of the mass matrix with an inboard joint.
     pub fn mass(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
         self.momentum.carried(self.offset).along(frame)
     }
 
-    /// Entries with itself.
+    /// Returns the entries with itself.
     pub fn diagonal(&self, frame: &BodyFrame<'g>) -> PartialEntries<'g> {
         let own = (self.by_position.along(frame), self.by_rate.along(frame));
         PartialEntries { own, beyond: own }
     }
 
-    /// Entries with a joint before it, about whose origin this is.
+    /// Returns the entries with an inboard joint, whose origin is the reference point.
     pub fn entries(
         &self,
         b: &'g Builder,
@@ -283,8 +287,8 @@ impl<'g> OutboardJoint<'g> {
         PartialEntries { own, beyond }
     }
 
-    /// Entries with a rotation of the same group as the last one passed, whose field differs by
-    /// the translation z × r; `None` where there was no such joint.
+    /// Returns the entries with a rotation of the same group as the last one passed, whose field differs
+    /// by the translation z × r; `None` if there was no such joint.
     pub fn entries_from_last(
         &self,
         b: &'g Builder,
@@ -313,17 +317,17 @@ impl<'g> OutboardJoint<'g> {
     }
 }
 
-/// z ×
+/// Returns z × v.
 fn across<'g>(b: &'g Builder, v: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
     Vec3([-v.0[1], v.0[0], b.zero()])
 }
 
-/// Row i of D times v.
+/// Returns row i of D times v.
 fn d_row<'g>(inertia: &BodyInertia<'g>, i: usize, v: Vec3<Expr<'g>>) -> Expr<'g> {
     Vec3(std::array::from_fn(|k| inertia.d(i, k))).dot(v)
 }
 
-/// Factor · ∫ v × (z × s) dm = row z of E + factor · D (ω × z).
+/// Returns factor · ∫ v × (z × s) dm = row z of E + factor · D (ω × z).
 fn rotation_swirl<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
@@ -334,7 +338,7 @@ fn rotation_swirl<'g>(
     whole.flow.moment.row(2) + turning
 }
 
-/// Factor · ω × (z × h) + z × p, and about the origin factor · (D ω) × z + column z of E.
+/// Returns factor · ω × (z × h) + z × p, and about the origin factor · (D ω) × z + column z of E.
 fn rotation_by_rate<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
@@ -349,8 +353,8 @@ fn rotation_by_rate<'g>(
     }
 }
 
-/// As the composite turns about z, its inertia P and its flow change by Z P + P Zᵀ and
-/// Z Q + Q Zᵀ, and with them the force and moment; those of the relative accelerations turn along.
+/// If the composite rotates about z, its inertia P and its flow change by Z P + P Zᵀ and Z Q + Q Zᵀ, and
+/// the force and moment change accordingly; those of the relative accelerations rotate with it.
 fn rotation_by_position<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
@@ -384,13 +388,13 @@ fn rotation_by_position<'g>(
         force: spin.omega.cross(across(b, whole.flow.linear)),
         moment: flow * spin.omega,
     };
-    // J_zz stays as it is.
+    // J_zz does not change.
     dynamics(&inertia, zero, spin, axis.a, false)
         .plus(of_flow)
         .plus(whole.rest.map(|v| across(b, v)))
 }
 
-/// Swirl, ∂/∂q and ∂/∂v of a translation along z.
+/// Returns swirl, ∂/∂q and ∂/∂v of a translation along z.
 fn translation<'g>(
     b: &'g Builder,
     whole: &CompositeFlow<'g>,
@@ -404,7 +408,7 @@ fn translation<'g>(
         moment: h.cross(v),
     };
     let drift = whole.flow.linear + times(axis.spin.omega).cross(h);
-    // The force acts at another place.
+    // The point of application of the force changes.
     let mut by_position = field(axis.second_rate());
     by_position.moment = by_position.moment + across(b, force);
     (-across(b, drift), by_position, field(times(axis.rate(b))))

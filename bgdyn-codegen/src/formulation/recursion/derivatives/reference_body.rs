@@ -1,9 +1,9 @@
-//! The body and axes in which each joint's derivatives are expressed, chosen by counting operations.
+//! Chooses the body and axes in which each joint's derivatives are expressed, by counting operations.
 //!
-//! What each choice saves at the most, of the operations of C or ∂τ/∂q, ∂τ/∂v, over `specs/`,
+//! The largest saving of each choice, of the operations of C or ∂τ/∂q, ∂τ/∂v, over `specs/`,
 //! `tests/outside` and four arms with random bodies (58 functions, 2026):
 //!
-//! | left out | more operations, at the most | in all |
+//! | without | largest increase of operations | total increase |
 //! |---|---|---|
 //! | [`PartialsPlan::seen_from`] | 4.3 % (`crane`: 268 for 257) | 0.4 % |
 //! | [`PartialsPlan::reuse_neighbour`] | 3.4 % (`palletiser`: 397 for 384) | 0.5 % |
@@ -17,22 +17,22 @@ use crate::formulation::recursion::geometry::Geometry;
 use crate::formulation::recursion::plan::{PartialsPlan, Plan, SeenFrom, origin_offset};
 use crate::formulation::recursion::plan_search::SEARCHED;
 
-/// How often all choices are gone through.
+/// Number of passes over all choices.
 const ROUNDS: usize = 1;
 
-/// Operations in all of the plans that are compared after factoring: more of small functions, none
-/// beside the cheapest of large ones.
+/// Total number of operations of the plans that are compared after factoring: several plans of small
+/// functions, only the cheapest plan of large ones.
 const FACTORED: usize = 4_500;
 
-/// How much more than the cheapest a plan may cost before factoring, to be tried: one part in so
-/// many.
+/// Plans are compared after factoring if their cost before it exceeds the least by at most one part in
+/// this number.
 const NEAR: usize = 32;
 
-/// A length that is no unit, as a part of the largest one.
+/// Lengths below this fraction of the largest one are not used as units.
 const SMALL: f64 = 1e-4;
 
-/// The plan with the views that cost least: one choice at a time from the tips to the base, kept
-/// where it costs less.
+/// Returns the plan with the cheapest choices: one choice at a time from the tips to the base, accepted if
+/// it costs less.
 pub(in crate::formulation::recursion) fn choose_partials(
     geometry: &Geometry,
     start: Plan,
@@ -43,7 +43,7 @@ pub(in crate::formulation::recursion) fn choose_partials(
         return plan;
     }
     let mut least = cost(&plan).weighted();
-    // Joints gone through since the last change: after a whole turn nothing is new.
+    // Number of joints since the last change: after a whole pass without a change the search ends.
     let mut unchanged = 0;
     for j in std::iter::repeat_n((0..n).rev(), ROUNDS).flatten() {
         unchanged += 1;
@@ -66,8 +66,8 @@ pub(in crate::formulation::recursion) fn choose_partials(
     plan
 }
 
-/// The plan with the unit of length that costs least `after` factoring, among those that cost about
-/// the same before it: units differ in which numbers become one, and in what meets then.
+/// Returns the plan with the unit of length that costs least `after` factoring, among those that cost
+/// about the same before it. The unit determines which numbers become 1, and which terms are then equal.
 pub(in crate::formulation::recursion) fn choose_length_unit(
     geometry: &Geometry,
     plan: Plan,
@@ -75,7 +75,7 @@ pub(in crate::formulation::recursion) fn choose_length_unit(
     after: impl Fn(&Plan) -> Cost,
 ) -> Plan {
     let found = cost(&plan);
-    // How many plans the budget allows; a choice between two would seldom save anything.
+    // The number of plans that the budget permits; a choice between two would rarely save anything.
     let others = FACTORED / found.operations.total().max(1);
     if others < 3 {
         return plan;
@@ -98,8 +98,8 @@ pub(in crate::formulation::recursion) fn choose_length_unit(
         .expect("there is one")
 }
 
-/// The distances between the origins of joined bodies along the axes, each once; none so small
-/// that other lengths would become huge.
+/// Returns the distances along the axes between the origins of connected bodies, each once; without very
+/// small ones, for which other lengths would become huge.
 fn lengths(geometry: &Geometry, plan: &Plan) -> Vec<Dd> {
     let offsets = (0..geometry.bodies.len()).map(|j| origin_offset(geometry, plan, j));
     let all: Vec<Dd> = offsets.flat_map(|offset| offset.0.map(Dd::abs)).collect();
@@ -116,7 +116,7 @@ fn lengths(geometry: &Geometry, plan: &Plan) -> Vec<Dd> {
 
 type PartialsChange = fn(&mut PartialsPlan);
 
-/// What there is to choose for joint j.
+/// Returns the possible changes for joint j.
 fn changes(geometry: &Geometry, plan: &Plan, j: usize) -> Vec<PartialsChange> {
     let mut changes: Vec<PartialsChange> = vec![
         |view| view.seen_from = SeenFrom::Before,
