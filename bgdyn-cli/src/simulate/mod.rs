@@ -13,9 +13,11 @@ pub(crate) mod progress;
 pub(crate) mod report;
 mod run_recorder;
 mod run_table;
+mod undefined;
 
 pub use difference::Difference;
 pub(crate) use plant::Evaluation;
-pub use plant::{Evaluated, Form, Numbers, Undefined};
+pub use plant::{Evaluated, Form, Numbers};
 pub use run_recorder::{prepared, record, record_from};
 pub use run_table::{Column, EnergyAt, Event, Record, Row, Way, columns};
+pub use undefined::Undefined;

@@ -1,6 +1,5 @@
 //! A scene in the evaluator as a plant, which [`bgdyn_sim::Run`] integrates without a compiler.
 
-use std::fmt;
 use std::sync::Arc;
 
 use bgdyn_codegen::expr::Inputs;
@@ -11,30 +10,10 @@ use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction};
 use nalgebra::{DMatrix, DVector};
 
+use super::undefined::Undefined;
+
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
-
-/// The error that a scene has no rates, or no values, in a state.
-#[derive(Clone, PartialEq)]
-pub struct Undefined {
-    /// The coordinate or the first-order state.
-    pub at: String,
-    /// Whether the mass matrix is singular; otherwise the value is not finite.
-    pub singular: bool,
-}
-
-impl fmt::Debug for Undefined {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.singular {
-            true => write!(f, "the mass matrix is singular at `{}`", self.at),
-            false => write!(
-                f,
-                "the rate of `{}` is not finite; a smaller step or a tolerance may help",
-                self.at
-            ),
-        }
-    }
-}
 
 /// The variables in which a scene is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,9 @@ use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::{Dense, Failure, Integrator, Run, Tolerance, WithIntegrator, with_integrator};
 
-use super::plant::{Evaluated, Form, Numbers, Undefined};
+use super::plant::{Evaluated, Form, Numbers};
 use super::run_table::{EnergyAt, Event, Record, Row, Way};
+use super::undefined::Undefined;
 
 /// Returns a scene as a plant for its integrator.
 pub fn prepared(system: &SceneEquations, method: IntegratorName) -> Evaluated<'_> {

@@ -26,6 +26,7 @@ mod random;
 mod reference;
 mod refused;
 mod refused_bodies;
+mod refused_fluids;
 mod refused_phases;
 #[allow(dead_code)]
 #[path = "../common/rng.rs"]

@@ -19,24 +19,35 @@ oil: { type: fluid, bulk_modulus: 1 GPa }
 pump: { type: supply, pressure: 10 MPa }
 hose: { type: line, volume: 2 cm^3 }";
 
-struct Case {
+pub(super) struct Case {
     effects: String,
     rest: &'static str,
 }
 
-fn plain(effects: &str) -> Case {
+pub(super) fn plain(effects: &str) -> Case {
     Case {
         effects: effects.into(),
         rest: "",
     }
 }
 
-fn oil(effects: &str) -> Case {
+pub(super) fn oil(effects: &str) -> Case {
     plain(&format!("{OIL}\n{effects}"))
 }
 
+impl Case {
+    /// Every node except the tested one names its fluid.
+    pub(super) fn named(mut self) -> Self {
+        self.effects = self
+            .effects
+            .replace("pressure: 10 MPa", "pressure: 10 MPa, fluid: oil")
+            .replace("volume: 2 cm^3", "volume: 2 cm^3, fluid: oil");
+        self
+    }
+}
+
 /// Checks that the scene has only this fault, on the line that contains `line_has`.
-fn refused(case: &Case, rule: &str, line_has: &str, words: &[&str]) {
+pub(super) fn refused(case: &Case, rule: &str, line_has: &str, words: &[&str]) {
     let lines = case
         .effects
         .lines()
@@ -357,70 +368,6 @@ fn names_that_stand_twice() {
         "parameter-twice",
         "part",
         &["`m`"],
-    );
-}
-
-#[test]
-fn fluids_that_are_missing_or_mixed() {
-    refused(
-        &plain("hose: { type: line, volume: 1 cm^3 }"),
-        "no-fluid",
-        "hose",
-        &["calls for none"],
-    );
-    refused(&oil("water: { type: fluid, bulk_modulus: 2 GPa }\nwell: { type: line, volume: 1 l, fluid: wine }").named(), "no-fluid", "well", &["`wine`"]);
-    let two = "
-        oil: { type: fluid, bulk_modulus: 1 GPa }
-        water: { type: fluid, bulk_modulus: 2 GPa }
-        pump: { type: supply, pressure: 1 MPa, fluid: oil }";
-    refused(
-        &plain(&format!("{two}\nhose: {{ type: line, volume: 1 l }}")),
-        "no-fluid",
-        "hose",
-        &["which of the fluids `oil`, `water`"],
-    );
-    refused(
-        &plain(&format!(
-            "{two}\nhose: {{ type: line, volume: 1 l, fluid: water }}\ncut: {{ type: leakage, from: pump, to: hose, conductance: 1e-12 }}"
-        )),
-        "two-fluids",
-        "cut",
-        &["`oil` and `water`"],
-    );
-}
-
-impl Case {
-    /// Every node except the tested one names its fluid.
-    fn named(mut self) -> Self {
-        self.effects = self
-            .effects
-            .replace("pressure: 10 MPa", "pressure: 10 MPa, fluid: oil")
-            .replace("volume: 2 cm^3", "volume: 2 cm^3, fluid: oil");
-        self
-    }
-}
-
-#[test]
-fn cylinders_that_run_out_of_volume() {
-    // Side a closes at −0.15 m, the joint goes to −0.2 m.
-    refused(
-        &oil("ram: { type: cylinder, joint: slide, area_a: 10 cm^2, dead_a: 150 cm^3 }"),
-        "effect-range",
-        "ram",
-        &["`ram_a`", "within its limits", "`slide` is -0.2", "-5"],
-    );
-    refused(
-        &oil("ram: { type: cylinder, joint: slide, area_a: 10 cm^2, dead_a: 0 }"),
-        "effect-range",
-        "ram",
-        &["at the start"],
-    );
-    // The lug swings to within 0.3 m of the anchor.
-    refused(
-        &oil("ram: { type: cylinder, between: [anchor, lug], area_a: 10 cm^2, offset: 0.25 m }"),
-        "effect-range",
-        "ram",
-        &["`swing`"],
     );
 }
 
