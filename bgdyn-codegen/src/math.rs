@@ -123,8 +123,8 @@ impl<T: Ring> Sub for Mat3<T> {
     }
 }
 
-/// Returns the rotation by an angle about the unit vector n, by Rodrigues' formula: `n nᵀ + cos (1 − n nᵀ)
-/// + sin [n]×`. `constant` converts a number to an entry.
+/// Returns the rotation by an angle about the unit vector n, by Rodrigues' formula:
+/// `n nᵀ + cos (1 − n nᵀ) + sin [n]×`. `constant` converts a number to an entry.
 pub fn rodrigues<T: Ring + Mul<Dd, Output = T>>(
     axis: Vec3<Dd>,
     (cos, sin): (T, T),

@@ -2,12 +2,11 @@
 //!
 //! | pass | job | on graphs |
 //! |---|---|---|
-//! | [`factor`] | extracts common factors and sums, replaces reciprocals: fewer operations |
-//! `expr/factor/`, `expr/quotient.rs` |
+//! | [`factor`] | extracts common factors and sums, replaces reciprocals | `expr/factor/`, `expr/quotient.rs` |
 //! | [`cheapest`] | chooses one of the functions of the formulations | `expr/cost.rs` |
 //! | `reassociate` | orders the terms of sums by the time of their availability | `expr/arrange.rs` |
 //! | `fuse` | fuses products with sums, moves signs into them | `expr/fuse.rs`, `expr/signs.rs` |
-//! | `cut` | divides long functions into blocks | `cut.rs`, `products.rs` |
+//! | `cut` | divides long functions into blocks | `split_blocks.rs`, `inner_products.rs` |
 //!
 //! For a function whose accuracy depends on the order of its operations ([`Function::ordered`]), only the
 //! last pass is applied.

@@ -222,8 +222,8 @@ fn inverse_langevin(ratio: Dd) -> Dd {
     (low + high) * half
 }
 
-/// Returns coth z − 1/z for z > 0. Near zero, where the terms cancel, it uses the continued fraction z/(3
-/// + z²/(5 + z²/(7 + …))).
+/// Returns coth z − 1/z for z > 0. Near zero, where the terms cancel, it uses the continued fraction
+/// z/(3 + z²/(5 + z²/(7 + …))).
 fn langevin(z: Dd) -> Dd {
     if z < Dd::from_f64(2.0) {
         let square = z * z;

@@ -11,8 +11,8 @@ pub(crate) fn sin_cos_in_range<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P
     P::turned(quarters, s, c)
 }
 
-/// Returns n, with its last two binary digits at the end of the significand, and angle + tail − n π/2 as r
-/// + low.
+/// Returns n, with its last two binary digits at the end of the significand, and angle + tail − n π/2
+/// as r + low.
 #[inline(always)]
 fn reduced<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P, P) {
     let Coefficients {

@@ -107,8 +107,8 @@ impl<'g> BodyInertia<'g> {
         self.pseudo[PLACE[i][j]]
     }
 
-    /// Returns the inertia about a point from which the present origin is displaced by p: D + p hᵀ + h pᵀ
-    /// + m p pᵀ.
+    /// Returns the inertia about a point from which the present origin is displaced by p:
+    /// D + p hᵀ + h pᵀ + m p pᵀ.
     pub fn shifted(&self, p: Vec3<Expr<'g>>) -> Self {
         let h = self.first;
         let pseudo = symmetric(|i, j| {

@@ -6,8 +6,7 @@
 //! | `geometry.rs` | a frame for every moving body: z along its joint's axis, x along the common normal with the next axis |
 //! | `frames.rs` | these frames as expressions, for one [`Plan`] (`plan.rs`) |
 //! | `inertia_ratio.rs` | each joint's own inertia over the inertia that it moves |
-//! | `base_parameters.rs` | base parameters: inertia moved inboard, known parts always, run-time
-//! parameters according to the plan |
+//! | `base_parameters.rs` | base parameters: inertia moved inboard, known parts always, run-time parameters by the plan |
 //! | `motion.rs` | velocities and accelerations, outboard |
 //! | `inverse_dynamics.rs` | forces, moments and efforts, inboard |
 //! | `mass_matrix.rs` | the mass matrix, from the momenta of composite bodies |

@@ -204,8 +204,8 @@ impl<'g> Flow<'g> {
         }
     }
 
-    /// Returns the flow rotated by Rz: four multiplications for the 2 × 2 block, with e = s (E_xx − E_yy)
-    /// + c (E_xy + E_yx).
+    /// Returns the flow rotated by Rz: four multiplications for the 2 × 2 block, with
+    /// e = s (E_xx − E_yy) + c (E_xy + E_yx).
     pub fn turned(&self, (c, s): (Expr<'g>, Expr<'g>)) -> Self {
         let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = self.moment.0;
         let e = s * (xx - yy) + c * (xy + yx);
