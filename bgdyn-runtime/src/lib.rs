@@ -1,7 +1,7 @@
 //! The runtime library of generated code: `no_std`, no heap, no panic, no `unsafe` (except one instruction
 //! on some Arm processors).
 //!
-//! # Conventions, said once
+//! # Conventions
 //! - SI units and radians; torques and rates are those of the joint.
 //! - x forward, y left, z up; gravity is the acceleration of free fall in world axes,
 //!   `[0, 0, -9.81]` unless the spec says otherwise.
