@@ -385,7 +385,7 @@ fn a_wrong_function_refuses_the_module_unless_told_not_to_look() {
         .iter_mut()
         .find(|f| f.method == Method::Bias);
     let output = &mut gravity.expect("a bias").blocks[0].outputs[0];
-    *output = -*output;
+    output.negative = !output.negative;
     let Err(Refusal::Unequal(differences)) = verify(&model, &Options::default()) else {
         panic!("a turned sign passes");
     };
