@@ -1,9 +1,9 @@
 //! Collects the offers of the formulations, creates the functions, and chooses one for each method.
 //!
 //! 1. The candidates are the functions of the formulations that offer themselves in place of the others;
-//! if there are none, of those that offer themselves as candidates.
+//!    if there are none, of those that offer themselves as candidates.
 //! 2. The accuracy of forward dynamics is checked ([`super::keep_digits`]). If no candidate meets its
-//! bounds, or there is no candidate, the reserves are created one by one, then the last resorts.
+//!    bounds, or there is no candidate, the reserves are created one by one, then the last resorts.
 //! 3. The function with the least cost after factoring is chosen.
 //!
 //! If the user selected a formulation, it provides all methods that it supports. Formulations that

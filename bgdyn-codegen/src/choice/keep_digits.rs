@@ -1,18 +1,18 @@
 //! Sorts candidates for forward dynamics by cost, among those whose rounding errors meet the bounds.
 //!
 //! 1. Each candidate is measured in sampled states (`conditioning/sample_states.rs`): generic ones, fast
-//! ones, large efforts, and states with neighbouring common normals in line or perpendicular.
-//! `reference_solution.rs` solves M q̈ = τ − h in double-double, and `error_bounds.rs` compares the errors
-//! in `f64` with bounds: backward error joint by joint, forward error by the condition number, the round
-//! trip through the efforts, and at most three digits lost beyond the effect of rounding the arguments.
-//! The exact result for arguments that round to the same numbers counts as correct.
+//!    ones, large efforts, and states with neighbouring common normals in line or perpendicular.
+//!    `reference_solution.rs` solves M q̈ = τ − h in double-double, and `error_bounds.rs` compares the errors
+//!    in `f64` with bounds: backward error joint by joint, forward error by the condition number, the round
+//!    trip through the efforts, and at most three digits lost beyond the effect of rounding the arguments.
+//!    The exact result for arguments that round to the same numbers counts as correct.
 //! 2. The cheapest candidate that meets the bounds is chosen; if there is none, the one closest to them. A
-//! candidate that exceeds them by less than one bit, in at most one state of twenty, counts as losing no
-//! digit: it is chosen unless another one costs at most 5 % more.
+//!    candidate that exceeds them by less than one bit, in at most one state of twenty, counts as losing no
+//!    digit: it is chosen unless another one costs at most 5 % more.
 //! 3. A function is measured again after factoring. If it then comes close to the bounds or exceeds them,
-//! the order of its operations is not changed. Of 74 functions (`specs/`, `tests/outside`, eight arms with
-//! random bodies) seven cost up to 4.8 % more by this (`crane`: 173 operations instead of 165), 0.25 % in
-//! total.
+//!    the order of its operations is not changed. Of 74 functions (`specs/`, `tests/outside`, eight arms with
+//!    random bodies) seven cost up to 4.8 % more by this (`crane`: 173 operations instead of 165), 0.25 % in
+//!    total.
 //!
 //! The condition number is no bound if the efforts almost balance the bias: rounding one argument then
 //! changes q̈ by more. `tests/common/bars.rs` measures this effect before it permits an error.

@@ -3,11 +3,11 @@
 //! Generated code does not use it.
 //!
 //! 1. Create the expression graph of the literal sum (6), for the mechanism with letters for its numbers
-//! ([`Mechanism::symbolic`]). The letters are run-time parameters, and prismatic joints of massless links
-//! that never move.
+//!    ([`Mechanism::symbolic`]). The letters are run-time parameters, and prismatic joints of massless links
+//!    that never move.
 //! 2. Convert it to polynomials in normal form (`polynomial.rs`, `expand.rs`). For each group of parallel
-//! axes a term has at most one sine or cosine, of a sum of multiples of their angles. In this form every
-//! trigonometric identity is satisfied automatically, and terms cancel as soon as they are added.
+//!    axes a term has at most one sine or cosine, of a sum of multiples of their angles. In this form every
+//!    trigonometric identity is satisfied automatically, and terms cancel as soon as they are added.
 //! 3. Collect the coefficients of q̈_k, q̇_k q̇_l and the rest, factored ([`ClosedForm`]).
 //! 4. Print text or LaTeX ([`text`](text()), [`latex`](latex())).
 //!

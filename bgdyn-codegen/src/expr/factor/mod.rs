@@ -1,12 +1,12 @@
 //! Algebraic factoring: computes the same function with fewer operations.
 //!
 //! 1. [`network`] reads the graph as sums of products, Σ k·Π factors. Values with a single user are
-//! expanded, so that constants and equal terms of nested expressions are combined, and cancel. A sum with
-//! several users is expanded if the cancellation saves more than it costs.
+//!    expanded, so that constants and equal terms of nested expressions are combined, and cancel. A sum with
+//!    several users is expanded if the cancellation saves more than it costs.
 //! 2. [`extract`] extracts common products and common two-term sums, the largest saving first (the
-//! two-cube divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
-//! Kastner 2006). A last round expands every product again, so that the first choices do not block better
-//! ones.
+//!    two-cube divisors of Rajski and Vasudevamurthy 1992, used on polynomials by Hosangadi, Fallah and
+//!    Kastner 2006). A last round expands every product again, so that the first choices do not block better
+//!    ones.
 //! 3. [`rebuild`] rebuilds the graph in the old order, with the old names and sections.
 //! 4. In small functions, shared values are then expanded one by one if another round becomes cheaper.
 //!
