@@ -3,6 +3,8 @@
 use std::io::Read;
 use std::process::{Command, Stdio};
 
+use bgdyn_codegen::formulation::FORMULATIONS;
+
 use crate::{bgdyn, root};
 
 const SCARA: &str = "tests/golden/specs/scara4.yaml";
@@ -49,7 +51,9 @@ fn bad_usage_exits_with_two() {
         assert!(!stderr.is_empty(), "{arguments:?}");
     }
     let stderr = bgdyn(&["ops", SCARA, "--formulation", "fastest"]).bad_usage();
-    let told = "bgdyn: no formulation is called `fastest`; there are literal, recursion, recursion_own, common_axes, articulated, articulated_base\n";
+    let names: Vec<&str> = FORMULATIONS.iter().map(|f| f.name()).collect();
+    let names = names.join(", ");
+    let told = format!("bgdyn: no formulation is called `fastest`; there are {names}\n");
     assert_eq!(stderr, told);
     let stderr = bgdyn(&["ops", SCARA, "--prefer", "acuracy"]).bad_usage();
     let told = "bgdyn: no preference is called `acuracy`: did you mean `accuracy`?\n";
