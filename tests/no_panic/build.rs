@@ -6,7 +6,7 @@ use std::{env, fs};
 
 use bgdyn_codegen::build_script::Build;
 use quote::{format_ident, quote};
-use syn::{File, FnArg, Ident, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type};
+use syn::{File, FnArg, Ident, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type, Visibility};
 
 const SPECS: [&str; 4] = [
     "specs/scara.yaml",
@@ -98,7 +98,10 @@ fn methods(item: &Item) -> Vec<(Type, Signature)> {
         return Vec::new();
     };
     let method = |item: &ImplItem| match item {
-        ImplItem::Fn(method) => Some(((**self_ty).clone(), method.sig.clone())),
+        // The private ones are parts of them.
+        ImplItem::Fn(method) if matches!(method.vis, Visibility::Public(_)) => {
+            Some(((**self_ty).clone(), method.sig.clone()))
+        }
         _ => None,
     };
     items.iter().filter_map(method).collect()
