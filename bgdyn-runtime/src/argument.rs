@@ -7,6 +7,7 @@ pub type Look<'a, T> = dyn FnMut(Argument, &'static [&'static str], &[T]) + 'a;
 /// An argument of a generated function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[repr(u32)] // as wide as the index beside it in an error: loaded and stored with it
 pub enum Argument {
     /// Positions `q`.
     Q,

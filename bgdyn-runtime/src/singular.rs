@@ -44,53 +44,21 @@ pub enum Cause {
     NotFinite,
 }
 
-/// A [`Cause`] without its index, so that `Option` and `Result` can use its unused values.
+/// A [`Cause`] without its index: four bytes, so that `Option` and `Result` can use its unused values.
 #[derive(Clone, Copy, PartialEq, Eq)]
-#[repr(u32)]
 enum Kind {
     Pivot,
     NotFinite,
-    Q,
-    V,
-    Tau,
-    State,
-    Input,
-    Modes,
-    Canonical,
-    Time,
-    Parameters,
+    Argument(Argument),
 }
 
 impl Kind {
-    const fn of(argument: Argument) -> Self {
-        match argument {
-            Argument::Q => Kind::Q,
-            Argument::V => Kind::V,
-            Argument::Tau => Kind::Tau,
-            Argument::State => Kind::State,
-            Argument::Input => Kind::Input,
-            Argument::Modes => Kind::Modes,
-            Argument::Canonical => Kind::Canonical,
-            Argument::Time => Kind::Time,
-            Argument::Parameters => Kind::Parameters,
-        }
-    }
-
     const fn cause(self, index: usize) -> Cause {
-        let argument = match self {
-            Kind::Pivot => return Cause::Pivot,
-            Kind::NotFinite => return Cause::NotFinite,
-            Kind::Q => Argument::Q,
-            Kind::V => Argument::V,
-            Kind::Tau => Argument::Tau,
-            Kind::State => Argument::State,
-            Kind::Input => Argument::Input,
-            Kind::Modes => Argument::Modes,
-            Kind::Canonical => Argument::Canonical,
-            Kind::Time => Argument::Time,
-            Kind::Parameters => Argument::Parameters,
-        };
-        Cause::Argument { argument, index }
+        match self {
+            Kind::Pivot => Cause::Pivot,
+            Kind::NotFinite => Cause::NotFinite,
+            Kind::Argument(argument) => Cause::Argument { argument, index },
+        }
     }
 }
 
@@ -138,7 +106,7 @@ impl Singular {
         index: Option<usize>,
     ) {
         if let (Some(index), Kind::Pivot | Kind::NotFinite) = (index, self.kind) {
-            *self = Singular::of_kind(Kind::of(argument), index, components);
+            *self = Singular::of_kind(Kind::Argument(argument), index, components);
         }
     }
 }

@@ -181,8 +181,9 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
     }
 
     fn next_corner(&self, t: T) -> Option<T> {
-        let corners = self.scene.corners().iter();
-        corners.map(|&corner| T::from_f64(corner)).find(|&c| c > t)
+        let corners = self.scene.corners();
+        let next = corners.partition_point(|&corner| T::from_f64(corner) <= t);
+        corners.get(next).map(|&corner| T::from_f64(corner))
     }
 
     fn nothing(&self) -> S::Entries {

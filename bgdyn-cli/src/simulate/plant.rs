@@ -373,8 +373,9 @@ impl Plant for Evaluated<'_> {
     }
 
     fn next_corner(&self, t: f64) -> Option<f64> {
-        let corners = self.functions.corners.iter();
-        corners.copied().find(|&corner| corner > t)
+        let corners = &self.functions.corners;
+        let next = corners.partition_point(|&corner| corner <= t);
+        corners.get(next).copied()
     }
 
     fn nothing(&self) -> Numbers {

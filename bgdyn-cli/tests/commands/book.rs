@@ -1,6 +1,6 @@
 //! Checks that the book's pages show the command's output: every `$ bgdyn …` of a `console` block is run.
 //!
-//! A line `…` stands for omitted output. `<!-- change: A => B -->` before a block changes the page's spec
+//! A line `…` replaces omitted output. `<!-- change: A => B -->` before a block changes the page's spec
 //! for that block. A block of Rust after `<!-- generated: SPEC -->` is part of the generated code for that
 //! spec.
 
