@@ -75,6 +75,7 @@ fn effects(
         }
     }
     let all = mechanism.joint_names();
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
     let each = found.iter().cloned();
     let each: Vec<Declaration> = each.flat_map(|d| d.of_each_joint(&all, faults)).collect();
     let mut context = NameScope::of(mechanism, Vec::new()).with(each.iter());

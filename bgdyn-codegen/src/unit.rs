@@ -9,6 +9,10 @@ pub enum Dimension {
     One,
     /// Length, m.
     Length,
+    /// Length per angle, m/rad.
+    Lead,
+    /// Angle per length, rad/m.
+    AnglePerLength,
     /// Angle, rad.
     Angle,
     /// Mass, kg.
@@ -63,7 +67,18 @@ pub enum Dimension {
     FlowResistance,
 }
 
-/// A unit: `text` is 10^`exponent` of the SI unit, or a degree (per second).
+/// A factor of a unit that is not a power of ten.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Factor {
+    /// 1
+    One,
+    /// π/180: the unit contains a degree.
+    Degree,
+    /// 1/(2π): the unit is per turn.
+    PerTurn,
+}
+
+/// A unit: `text` is 10^`exponent` times a factor of the SI unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
     /// Its text in the spec.
@@ -72,8 +87,8 @@ pub struct Unit {
     pub dimension: Dimension,
     /// The power of ten of the factor to the SI unit.
     pub exponent: i32,
-    /// Whether π/180 is a factor to the SI unit.
-    pub degrees: bool,
+    /// Another factor to the SI unit.
+    pub factor: Factor,
 }
 
 const fn unit(text: &'static str, dimension: Dimension, exponent: i32) -> Unit {
@@ -81,7 +96,7 @@ const fn unit(text: &'static str, dimension: Dimension, exponent: i32) -> Unit {
         text,
         dimension,
         exponent,
-        degrees: false,
+        factor: Factor::One,
     }
 }
 
@@ -90,15 +105,29 @@ const fn degrees(text: &'static str, dimension: Dimension) -> Unit {
         text,
         dimension,
         exponent: 0,
-        degrees: true,
+        factor: Factor::Degree,
+    }
+}
+
+const fn per_turn(text: &'static str, exponent: i32) -> Unit {
+    Unit {
+        text,
+        dimension: Dimension::Lead,
+        exponent,
+        factor: Factor::PerTurn,
     }
 }
 
 /// All units; a dimension's SI unit is first.
-static UNITS: [Unit; 57] = [
+static UNITS: [Unit; 62] = [
     unit("m", Dimension::Length, 0),
     unit("cm", Dimension::Length, -2),
     unit("mm", Dimension::Length, -3),
+    unit("m/rad", Dimension::Lead, 0),
+    unit("mm/rad", Dimension::Lead, -3),
+    per_turn("m/turn", 0),
+    per_turn("mm/turn", -3),
+    unit("rad/m", Dimension::AnglePerLength, 0),
     unit("rad", Dimension::Angle, 0),
     degrees("deg", Dimension::Angle),
     unit("kg", Dimension::Mass, 0),
@@ -195,6 +224,8 @@ impl fmt::Display for Dimension {
         f.write_str(match self {
             Dimension::One => "a plain number",
             Dimension::Length => "a length",
+            Dimension::Lead => "a length per turn or per radian",
+            Dimension::AnglePerLength => "an angle per length",
             Dimension::Angle => "an angle",
             Dimension::Mass => "a mass",
             Dimension::Inertia => "a moment of inertia",

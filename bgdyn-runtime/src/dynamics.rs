@@ -52,6 +52,19 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     /// Returns the potential energy of gravity, J; zero if every centre of mass is at the world's origin.
     fn potential_energy(&self, q: &SVector<T, NQ>) -> T;
 
+    /// Returns the position in which every joint is at zero: zeros, and the quaternion (0, 0, 0, 1).
+    fn neutral(&self) -> SVector<T, NQ>;
+
+    /// Returns the rates of the positions, q̇ = N(q) v; v itself where every joint has one position.
+    fn position_rates(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, NQ>;
+
+    /// Returns the position with every quaternion scaled to length 1.
+    fn normalize(&self, q: &SVector<T, NQ>) -> SVector<T, NQ>;
+
+    /// Returns the position for numbers in 0 … 1: angles in −π … π, lengths in −1 … 1 m, rotations evenly
+    /// distributed if the numbers are.
+    fn sample(&self, u: &SVector<T, NV>) -> SVector<T, NQ>;
+
     /// Returns the position reached from `q` by the displacement `dv` (a velocity times a time).
     fn integrate(&self, q: &SVector<T, NQ>, dv: &SVector<T, NV>) -> SVector<T, NQ>;
 

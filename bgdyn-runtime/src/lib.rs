@@ -42,6 +42,7 @@ pub mod inertia;
 mod joint;
 #[cfg(feature = "wide")]
 mod lanes;
+pub mod manifold;
 mod operations;
 mod pose;
 pub mod rotation;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Location, Severity};
-use bgdyn_codegen::mechanism::{LinkId, Mechanism, Parameter, Snapped};
+use bgdyn_codegen::mechanism::{Mechanism, Parameter, Snapped};
 use bgdyn_codegen::scene::{Solved, Variable};
 use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
@@ -124,7 +124,7 @@ fn mechanism(spec: &SpecFile) -> CheckedFile {
         ..CheckedFile::default()
     };
     if let Some(m) = mechanism {
-        let names = coordinates(&m).join(", ");
+        let names = m.joint_names().join(", ");
         let sizes = format!("NQ {}, NV {}", m.nq(), m.nv());
         found
             .lines
@@ -236,12 +236,6 @@ fn scene_model(system: &SceneEquations) -> Value {
     })
 }
 
-/// Returns the coordinates' joints, in the order of q.
-fn coordinates(mechanism: &Mechanism) -> Vec<&str> {
-    let joint = |link: &LinkId| mechanism.links()[link.0].joint.name.as_str();
-    mechanism.coordinates().iter().map(joint).collect()
-}
-
 fn model(mechanism: &Mechanism) -> Value {
     let parameter = |p: &Parameter| {
         json!({
@@ -256,7 +250,8 @@ fn model(mechanism: &Mechanism) -> Value {
         "name": mechanism.name(),
         "nq": mechanism.nq(),
         "nv": mechanism.nv(),
-        "coordinates": coordinates(mechanism),
+        "coordinates": mechanism.joint_names(),
+        "positions": mechanism.position_names(),
         "parameters": parameters,
         "snapped": mechanism.snapped().map(|s| json!({ "count": s.count, "most": s.most, "path": s.location.path })),
     })

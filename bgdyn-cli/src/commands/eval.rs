@@ -7,7 +7,7 @@ mod states;
 use anyhow::Result;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::mechanism::{Mechanism, Motion};
 use bgdyn_codegen::method::{Argument, Method, Shape};
 use serde_json::{Value, json};
 
@@ -16,6 +16,9 @@ pub(crate) use self::arguments::Eval;
 use self::states::{Failure, finite, parameters, plain, singular, states};
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
+
+/// Largest deviation of a quaternion's length from 1.
+const LENGTH: f64 = 1e-6;
 
 impl Eval {
     pub(crate) fn run(self) -> Result<()> {
@@ -49,6 +52,7 @@ fn evaluate(
     parameters: &[f64],
     state: &Value,
 ) -> Result<Value, Failure> {
+    let rates = mechanism.joint_names();
     let mut inputs = Inputs {
         parameters: parameters.to_vec(),
         ..Inputs::default()
@@ -56,8 +60,9 @@ fn evaluate(
     for &argument in function.method.arguments() {
         let values = match argument {
             // `tau` may be the effort of the state's own motion: `tau_in` has priority.
-            Argument::Tau if state.get("tau_in").is_none() => vector(mechanism, state, "tau")?,
-            _ => vector(mechanism, state, field(argument))?,
+            Argument::Tau if state.get("tau_in").is_none() => vector(&rates, state, "tau")?,
+            Argument::Q => positions(mechanism, state)?,
+            _ => vector(&rates, state, field(argument))?,
         };
         match argument {
             Argument::Q => inputs.q = values,
@@ -69,8 +74,7 @@ fn evaluate(
     }
     let (values, refused) = function.evaluate::<f64>(inputs);
     if let Some(joint) = refused {
-        let joint = bgdyn_codegen::mechanism::CoordinateId(joint);
-        return Err(singular(&mechanism.joint(joint).name));
+        return Err(singular(&rates[joint]));
     }
     if values.iter().any(|x| !x.is_finite()) {
         return Err(plain(
@@ -80,15 +84,51 @@ fn evaluate(
     Ok(shaped(function.shape(), mechanism.nv(), &values))
 }
 
-fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, Failure> {
-    let Some(Value::Array(values)) = state.get(name) else {
-        return Err(plain(format!("no array `{name}`")));
+/// Returns the positions. A quaternion whose length differs from 1 by up to [`LENGTH`] is scaled to
+/// length 1; other lengths are refused, unless the joint accepts any length.
+fn positions(mechanism: &Mechanism, state: &Value) -> Result<Vec<f64>, Failure> {
+    let names = mechanism.position_names();
+    let mut q = vector(&names, state, "q")?;
+    for joint in mechanism.compound_joints() {
+        let Motion::Compound(motion) = joint.kind.motion else {
+            continue;
+        };
+        let (Some(first), None, false) = (
+            motion.quaternion(),
+            joint.degrees.mimic,
+            joint.degrees.any_length,
+        ) else {
+            continue;
+        };
+        let at = joint.degrees.positions[first].0;
+        let own = &mut q[at..at + 4];
+        let length = own.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if (length - 1.0).abs() > LENGTH {
+            let message = format!(
+                "the quaternion of `{}` (x, y, z, w in `q[{at}..{}]`) has length {length}, not 1",
+                joint.name,
+                at + 4
+            );
+            return Err(Failure {
+                joint: Some(joint.name.clone()),
+                message,
+            });
+        }
+        own.iter_mut().for_each(|x| *x /= length);
+    }
+    Ok(q)
+}
+
+/// Returns a state's array of numbers, one for each name.
+fn vector(names: &[String], state: &Value, array: &str) -> Result<Vec<f64>, Failure> {
+    let Some(Value::Array(values)) = state.get(array) else {
+        return Err(plain(format!("no array `{array}`")));
     };
-    if values.len() != mechanism.nv() {
-        let n = mechanism.nv();
+    if values.len() != names.len() {
         return Err(plain(format!(
-            "`{name}` has {} components instead of {n}",
-            values.len()
+            "`{array}` has {} components instead of {}",
+            values.len(),
+            names.len()
         )));
     }
     let mut numbers = Vec::new();
@@ -96,13 +136,9 @@ fn vector(mechanism: &Mechanism, state: &Value, name: &str) -> Result<Vec<f64>, 
         match finite(value) {
             Some(x) => numbers.push(x),
             None => {
-                let joint = mechanism
-                    .joint(bgdyn_codegen::mechanism::CoordinateId(j))
-                    .name
-                    .clone();
-                let message = format!("`{name}[{j}]` is not a finite number");
+                let message = format!("`{array}[{j}]` is not a finite number");
                 return Err(Failure {
-                    joint: Some(joint),
+                    joint: Some(names[j].clone()),
                     message,
                 });
             }

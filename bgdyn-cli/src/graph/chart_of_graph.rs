@@ -5,7 +5,7 @@ use bgdyn_codegen::bond_graph::{
     Store, StoreInertia,
 };
 use bgdyn_codegen::math::Vec3;
-use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose, Value};
+use bgdyn_codegen::mechanism::{CoordinateId, LinkId, Mechanism, Pose, Value};
 use bgdyn_runtime::Dd;
 
 use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, Velocity};
@@ -32,8 +32,14 @@ impl Chart {
         description: Option<&str>,
     ) -> Self {
         let links = depth_first(&graph.frames);
-        let of_link = |i: &LinkId| graph.frames[i.0].coordinate;
-        let order: Vec<CoordinateId> = links.iter().filter_map(of_link).collect();
+        let own = |i: &LinkId| {
+            let degrees = &graph.frames[i.0].degrees;
+            match degrees.mimic {
+                None => degrees.velocities.clone(),
+                Some(_) => Vec::new(),
+            }
+        };
+        let order: Vec<CoordinateId> = links.iter().flat_map(own).collect();
         let moved = |i: &LinkId| {
             let junctions = [graph.translation(*i), graph.rotation(*i)];
             graph.transformers.iter().any(|t| junctions.contains(&t.to))
@@ -113,9 +119,9 @@ pub(super) fn drive(graph: &BondGraph, part: &NodePart) -> Option<String> {
 
 /// Returns the units of the velocity of a joint and of its effort.
 fn units(graph: &BondGraph, j: CoordinateId) -> [&'static str; 2] {
-    match graph.coordinates[j.0].motion {
-        Motion::Rotation => ["rad/s", "N·m"],
-        _ => ["m/s", "N"],
+    match graph.coordinates[j.0].linear {
+        false => ["rad/s", "N·m"],
+        true => ["m/s", "N"],
     }
 }
 
@@ -149,7 +155,7 @@ fn link(
     ChartLink {
         name: frame.name.clone(),
         velocities: (0..order.len())
-            .filter(|&k| frame.coordinate == Some(order[k]))
+            .filter(|&k| frame.degrees.velocities.contains(&order[k]))
             .collect(),
         flows: flows.collect(),
     }

@@ -11,6 +11,7 @@ use crate::quantity;
 use anyhow::{Result, bail};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::math::Vec3;
+use bgdyn_codegen::unit::Factor;
 
 /// The word for every link that can be a frame.
 const ALL: &str = "all";
@@ -270,7 +271,9 @@ impl Lock {
         let read = quantity::read(text, &[Dimension::Angle, Dimension::Length])
             .map_err(|what| format!("`{joint}`: {what}"))?;
         let number = match read.unit {
-            Some(unit) if unit.degrees => Num::degrees(text.trim_end_matches(unit_of_degrees)),
+            Some(unit) if unit.factor == Factor::Degree => {
+                Num::degrees(text.trim_end_matches(unit_of_degrees))
+            }
             Some(_) => Some(Num::computed(read.value.to_f64())),
             None => Num::parse(text),
         };

@@ -4,10 +4,11 @@ use bgdyn_runtime::Dd;
 
 use super::pattern::{Coordinates, Modulus};
 use super::{
-    BondGraph, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody, Site,
-    Store, StoreInertia, Transformer,
+    BondGraph, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody,
+    Position, Site, Store, StoreInertia, Transformer,
 };
 use crate::math::{Mat3, Vec3, rodrigues};
+use crate::mechanism::joint::{Column, Numbers};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
 /// Builds the bond graph of a mechanism.
@@ -16,6 +17,7 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
     let mut graph = BondGraph {
         multibody: Multibody {
             coordinates: coordinates(mechanism),
+            positions: positions(mechanism),
             frames: links.iter().map(frame).collect(),
             inertials: links.iter().map(|link| link.inertial).collect(),
             gravity: mechanism.gravity(),
@@ -59,19 +61,55 @@ fn sites(mechanism: &Mechanism) -> Vec<Site> {
         prominent: true,
     };
     let named = mechanism.frames().iter().map(frame);
-    links.iter().enumerate().map(link).chain(named).collect()
+    let shown = links.iter().enumerate().filter(|(_, link)| !link.hidden);
+    shown.map(link).chain(named).collect()
 }
 
 fn coordinates(mechanism: &Mechanism) -> Vec<Coordinate> {
-    let coordinate = |&link: &LinkId| {
+    let names = mechanism.joint_names().into_iter();
+    let coordinate = |(j, (&link, name)): (usize, (&LinkId, String))| {
         let joint = &mechanism.links()[link.0].joint;
+        let motion = joint.kind.motion;
+        let columns = joint.degrees.columns(motion, joint.axis);
+        let own = columns.iter().find(|(k, _)| k.0 == j);
+        let still = |column: &Column<Dd>| column.angular.0.iter().all(|&x| x == Dd::ZERO);
         Coordinate {
-            name: joint.name.clone(),
+            name,
             link,
-            motion: joint.kind.motion,
+            motion,
+            linear: own.is_some_and(|(_, column)| still(column)),
         }
     };
-    mechanism.coordinates().iter().map(coordinate).collect()
+    let all = mechanism.coordinates().iter().zip(names);
+    all.enumerate().map(coordinate).collect()
+}
+
+fn positions(mechanism: &Mechanism) -> Vec<Position> {
+    let names = mechanism.position_names().into_iter();
+    let position = |(p, (&link, name)): (usize, (&LinkId, String))| {
+        let joint = &mechanism.links()[link.0].joint;
+        let own = joint.degrees.positions.iter().position(|x| x.0 == p);
+        let single = |k: usize| joint.degrees.velocities.get(k).copied();
+        match (joint.kind.motion, own) {
+            (Motion::Compound(motion), Some(k)) => Position {
+                name,
+                link,
+                unit: motion.positions[k].unit,
+                coordinate: match motion.positions.len() {
+                    1 => single(k),
+                    _ => None,
+                },
+            },
+            (motion, _) => Position {
+                name,
+                link,
+                unit: motion.unit(),
+                coordinate: single(0),
+            },
+        }
+    };
+    let all = mechanism.positions().iter().zip(names);
+    all.enumerate().map(position).collect()
 }
 
 fn frame(link: &Link) -> LinkFrame {
@@ -82,6 +120,7 @@ fn frame(link: &Link) -> LinkFrame {
         motion: link.joint.kind.motion,
         axis: link.joint.axis,
         coordinate: link.joint.coordinate,
+        degrees: link.joint.degrees.clone(),
         com: link.inertial.com,
         tensor_axes: link.inertial.inertia.axes,
     }
@@ -126,6 +165,7 @@ fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
 struct PosePattern {
     rotation: Mat3<Modulus>,
     origin: Vec3<Modulus>,
+    /// The joint's axis; its own rotation does not change it.
     axis: Vec3<Modulus>,
 }
 
@@ -150,21 +190,84 @@ fn place(frame: &LinkFrame, parent: Option<PosePattern>) -> PosePattern {
         rotation = parent.rotation * rotation;
     }
     let axis = rotation * frame.axis.map(Modulus::constant);
-    if let Some(j) = frame.coordinate {
-        let varying = Modulus::Varying(Coordinates::one(j));
-        match frame.motion {
-            Motion::Rotation => {
-                let turn = rodrigues(frame.axis, (varying, varying), Modulus::constant);
-                rotation = rotation * turn;
-            }
-            Motion::Translation => origin = origin + axis.scale(varying),
-            Motion::None => {}
+    let (turned, shift) = match frame.motion {
+        Motion::None => (Mat3::from_fn(identity), Vec3([Modulus::Zero; 3])),
+        Motion::Rotation => {
+            let varying = position(frame, 0);
+            (
+                rodrigues(frame.axis, (varying, varying), Modulus::constant),
+                Vec3([Modulus::Zero; 3]),
+            )
         }
-    }
+        Motion::Translation => {
+            let along = frame.axis.map(Modulus::constant).scale(position(frame, 0));
+            (Mat3::from_fn(identity), along)
+        }
+        Motion::Compound(motion) => {
+            let q: Vec<Modulus> = (0..motion.positions.len())
+                .map(|k| position(frame, k))
+                .collect();
+            motion.pose(&frame.constants(), &q, &Patterns)
+        }
+    };
     PosePattern {
-        rotation,
-        origin,
+        rotation: rotation * turned,
+        origin: origin + rotation * shift,
         axis,
+    }
+}
+
+fn identity(i: usize, j: usize) -> Modulus {
+    if i == j {
+        Modulus::constant(Dd::ONE)
+    } else {
+        Modulus::Zero
+    }
+}
+
+/// Returns the columns of a joint's motion subspace in fixed axes.
+fn columns(frame: &LinkFrame, place: &PosePattern) -> Vec<(CoordinateId, Column<Modulus>)> {
+    if let Some((j, factors)) = frame.degrees.axial(frame.motion) {
+        let [angular, linear] = factors.map(|k| place.axis.scale(Modulus::constant(k)));
+        return vec![(j, Column { angular, linear })];
+    }
+    let fixed = |v: Vec3<Dd>| place.rotation * v.map(Modulus::constant);
+    let of = |(j, column): (CoordinateId, Column<Dd>)| {
+        let (angular, linear) = (fixed(column.angular), fixed(column.linear));
+        (j, Column { angular, linear })
+    };
+    frame.columns().into_iter().map(of).collect()
+}
+
+/// Returns the pattern of position k of a joint: it varies with the coordinates that change it.
+fn position(frame: &LinkFrame, k: usize) -> Modulus {
+    let one_by_one = frame.degrees.positions.len() == frame.degrees.velocities.len();
+    let moved = match (frame.motion, frame.degrees.velocities.get(k)) {
+        (Motion::Rotation | Motion::Translation, Some(&j)) if one_by_one => Coordinates::one(j),
+        _ => {
+            let all = frame.degrees.velocities.iter();
+            all.fold(Coordinates::default(), |set, &j| {
+                set.union(Coordinates::one(j))
+            })
+        }
+    };
+    Modulus::Varying(moved)
+}
+
+/// Patterns as the numbers of a pose.
+struct Patterns;
+
+impl Numbers<Modulus> for Patterns {
+    fn constant(&self, x: Dd) -> Modulus {
+        Modulus::constant(x)
+    }
+
+    fn cos_sin(&self, angle: Modulus) -> (Modulus, Modulus) {
+        (angle, angle)
+    }
+
+    fn twice_inverse(&self, squares: Modulus) -> Modulus {
+        squares
     }
 }
 
@@ -181,20 +284,28 @@ fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
         path.push(l);
         link = graph.frames[l.0].parent;
     }
+    // A coordinate moves link i through its own joint and through joints that mimic it.
+    let mut sums: Vec<(CoordinateId, Column<Modulus>)> = Vec::new();
     for l in path.into_iter().rev() {
-        let Some(j) = graph.frames[l.0].coordinate else {
+        let columns = columns(&graph.frames[l.0], &places[l.0]);
+        if columns.is_empty() {
             continue;
-        };
-        let axis = places[l.0].axis;
-        let linear = match graph.frames[l.0].motion {
-            Motion::None => continue,
-            Motion::Translation => axis,
-            Motion::Rotation => {
-                add(graph, j, graph.rotation(i), axis);
-                axis.cross(lever(&graph.frames, places, l, i, com))
+        }
+        let arm = lever(&graph.frames, places, l, i, com);
+        for (j, Column { angular, linear }) in columns {
+            let linear = linear + angular.cross(arm);
+            match sums.iter_mut().find(|(k, _)| *k == j) {
+                Some((_, sum)) => {
+                    sum.angular = sum.angular + angular;
+                    sum.linear = sum.linear + linear;
+                }
+                None => sums.push((j, Column { angular, linear })),
             }
-        };
-        add(graph, j, graph.translation(i), linear);
+        }
+    }
+    for (j, column) in sums {
+        add(graph, j, graph.rotation(i), column.angular);
+        add(graph, j, graph.translation(i), column.linear);
     }
 }
 
@@ -215,13 +326,28 @@ fn lever(
         };
         let step = frames[link.0].origin.translation.map(Modulus::constant);
         lever = lever + places[parent.0].rotation * step;
-        if let (Motion::Translation, Some(j)) = (frames[link.0].motion, frames[link.0].coordinate) {
-            let varying = Modulus::Varying(Coordinates::one(j));
-            lever = lever + places[link.0].axis.scale(varying);
-        }
+        lever = lever + shifts(&frames[link.0], places[parent.0].rotation);
         link = parent;
     }
     lever
+}
+
+/// Returns the pattern of the displacement of a link's origin by its own joint; `carrier` is the pattern of
+/// the parent's axes.
+fn shifts(frame: &LinkFrame, carrier: Mat3<Modulus>) -> Vec3<Modulus> {
+    let origin = carrier * frame.origin.rotation.map(Modulus::constant);
+    match frame.motion {
+        Motion::None | Motion::Rotation => Vec3([Modulus::Zero; 3]),
+        Motion::Translation => {
+            (origin * frame.axis.map(Modulus::constant)).scale(position(frame, 0))
+        }
+        Motion::Compound(motion) => {
+            let q: Vec<Modulus> = (0..motion.positions.len())
+                .map(|k| position(frame, k))
+                .collect();
+            origin * motion.pose(&frame.constants(), &q, &Patterns).1
+        }
+    }
 }
 
 fn add(graph: &mut BondGraph, from: CoordinateId, to: JunctionId, modulus: Vec3<Modulus>) {

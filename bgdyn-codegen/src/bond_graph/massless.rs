@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::{BondGraph, JunctionId, LinkFrame, StoreInertia};
 use crate::math::Vec3;
-use crate::mechanism::{CoordinateId, Motion, Value};
+use crate::mechanism::{CoordinateId, Value};
 
 const ZERO: Value = Value::Fixed(Dd::ZERO);
 
@@ -39,26 +39,26 @@ impl BondGraph {
         // transformers, in fixed axes, do not show.
         let link = self.coordinates[j.0].link;
         let own = [self.translation(link), self.rotation(link)].contains(&junction);
-        there && (!own || moved_by_own_joint(&self.frames[link.0], inertia))
+        there && (!own || moved_by_own_joint(&self.frames[link.0], j, inertia))
     }
 }
 
-/// Returns whether the inertia of a link about, or along, its joint's axis is not zero.
-fn moved_by_own_joint(frame: &LinkFrame, inertia: &StoreInertia) -> bool {
-    match (inertia, frame.motion) {
-        (StoreInertia::Mass(_), Motion::Translation) => true,
-        (StoreInertia::Mass(_), _) => {
-            let offset = fixed(&frame.com.0).map(|com| frame.axis.cross(Vec3(com)));
-            offset.is_none_or(|offset| offset.dot(offset).to_f64() > 1e-48)
-        }
-        (StoreInertia::Tensor(_), Motion::Translation) => false,
-        (StoreInertia::Tensor(entries), _) => fixed(entries).is_none_or(|entries| {
-            // nᵀ J n
+/// Returns whether the inertia of a link for unit velocity of its own joint is not zero.
+fn moved_by_own_joint(frame: &LinkFrame, j: CoordinateId, inertia: &StoreInertia) -> bool {
+    let own = frame.columns().into_iter().find(|(k, _)| *k == j);
+    let Some((_, column)) = own else { return true };
+    let size = |v: Vec3<Dd>| v.dot(v).to_f64();
+    match inertia {
+        // |v + ω × r|²
+        StoreInertia::Mass(_) => fixed(&frame.com.0)
+            .is_none_or(|com| size(column.linear + column.angular.cross(Vec3(com))) > 1e-48),
+        StoreInertia::Tensor(entries) => fixed(entries).is_none_or(|entries| {
+            // ωᵀ J ω
             let [xx, yy, zz, xy, xz, yz] = entries;
-            let Vec3([x, y, z]) = frame.tensor_axes.transpose() * frame.axis;
+            let Vec3([x, y, z]) = frame.tensor_axes.transpose() * column.angular;
             let twice = Dd::from_f64(2.0) * (xy * x * y + xz * x * z + yz * y * z);
             let about = xx * x * x + yy * y * y + zz * z * z + twice;
-            let size = xx.abs() + yy.abs() + zz.abs();
+            let size = (xx.abs() + yy.abs() + zz.abs()) * (x * x + y * y + z * z);
             about.to_f64() > 1e-24 * size.to_f64()
         }),
     }

@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{CoordinateId, Inertial, LinkId, Motion, Parameter, Pose, Value};
+use crate::mechanism::joint::{Column, DoubleDouble, JointConstants};
+use crate::mechanism::{CoordinateId, Degrees, Inertial, LinkId, Motion, Parameter, Pose, Value};
 
 /// An index into [`Multibody::sites`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -36,23 +37,59 @@ pub struct LinkFrame {
     pub motion: Motion,
     /// Unit vector of the joint's axis in link axes.
     pub axis: Vec3<Dd>,
-    /// The coordinate of the joint.
+    /// The coordinate of a rotation or translation that mimics no other joint.
     pub coordinate: Option<CoordinateId>,
+    /// Positions and velocities of a joint of any type.
+    pub degrees: Degrees,
     /// Centre of mass in link axes, m.
     pub com: Vec3<Value>,
     /// The axes of the inertia tensor, as columns in the link's axes.
     pub tensor_axes: Mat3<Dd>,
 }
 
-/// A generalized coordinate.
+impl LinkFrame {
+    /// Returns the constants of the joint's motion.
+    pub fn constants(&self) -> JointConstants {
+        self.degrees.constants(self.axis)
+    }
+
+    /// Returns the columns of the joint's motion subspace, link axes at the link's origin.
+    pub fn columns(&self) -> Vec<(CoordinateId, Column<Dd>)> {
+        self.degrees.columns(self.motion, self.axis)
+    }
+}
+
+/// A generalized coordinate: a component of v.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coordinate {
-    /// Name of its joint.
+    /// Name of its joint; with an ending if the joint has several.
     pub name: String,
     /// The link outboard of its joint.
     pub link: LinkId,
-    /// Rotation or translation.
+    /// The motion of its joint.
     pub motion: Motion,
+    /// Whether its unit is m/s, not rad/s.
+    pub linear: bool,
+}
+
+impl Coordinate {
+    /// Returns the unit of the velocity.
+    pub fn velocity_unit(&self) -> &'static str {
+        if self.linear { "m/s" } else { "rad/s" }
+    }
+}
+
+/// A component of q.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Position {
+    /// Name of its joint; with an ending if the joint has several.
+    pub name: String,
+    /// The link outboard of its joint.
+    pub link: LinkId,
+    /// Its unit; empty for a component of a quaternion.
+    pub unit: &'static str,
+    /// The coordinate whose velocity is its rate; `None` if q̇ = N(q) v couples several.
+    pub coordinate: Option<CoordinateId>,
 }
 
 /// An inertial store on the junction of a generalized velocity: a rotor behind a gear.
@@ -80,8 +117,10 @@ pub struct Gyrostat {
 /// A tree of rigid bodies with joints, rotors behind gears, and gravity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Multibody {
-    /// Generalized coordinates, in the order of q.
+    /// Generalized coordinates, in the order of v.
     pub coordinates: Vec<Coordinate>,
+    /// Positions, in the order of q.
+    pub positions: Vec<Position>,
     /// Frames of the links, parents before children.
     pub frames: Vec<LinkFrame>,
     /// Mass, centre of mass and tensor of each link.
@@ -103,6 +142,38 @@ impl Multibody {
     pub fn coordinate_named(&self, name: &str) -> Option<CoordinateId> {
         let found = self.coordinates.iter().position(|c| c.name == name);
         found.map(CoordinateId)
+    }
+
+    /// Returns whether every joint is a rotation or a translation with a position and a velocity of its own:
+    /// then q and v have the same components.
+    pub fn plain(&self) -> bool {
+        self.frames
+            .iter()
+            .all(|frame| frame.coordinate.is_some() || frame.motion == Motion::None)
+    }
+
+    /// Returns q̇ = N(q) v.
+    pub fn position_rates(&self, q: &[Dd], v: &[Dd]) -> Vec<Dd> {
+        let mut rates = vec![Dd::ZERO; self.positions.len()];
+        for frame in self.frames.iter().filter(|f| f.degrees.mimic.is_none()) {
+            let Degrees {
+                positions,
+                velocities,
+                ..
+            } = &frame.degrees;
+            let own: Vec<Dd> = velocities.iter().map(|j| v[j.0]).collect();
+            let own = match frame.motion {
+                Motion::Compound(motion) => {
+                    let q: Vec<Dd> = positions.iter().map(|p| q[p.0]).collect();
+                    motion.position_rates(&frame.constants(), (&q, &own), &DoubleDouble)
+                }
+                _ => own,
+            };
+            for (p, rate) in positions.iter().zip(own) {
+                rates[p.0] = rate;
+            }
+        }
+        rates
     }
 
     /// Returns mass, centre of mass and tensor of a link.

@@ -315,7 +315,7 @@ fn movers(graph: &BondGraph) -> BTreeMap<String, BTreeSet<CoordinateId>> {
     let of_link = |mut link: Option<LinkId>| {
         let mut found = BTreeSet::new();
         while let Some(LinkId(i)) = link {
-            found.extend(graph.frames[i].coordinate);
+            found.extend(&graph.frames[i].degrees.velocities);
             link = graph.frames[i].parent;
         }
         found

@@ -43,7 +43,8 @@ impl Coordinates {
         self.0[place / 64] >> (place % 64) & 1 == 1
     }
 
-    fn union(self, b: Self) -> Self {
+    /// Returns the union of two sets.
+    pub fn union(self, b: Self) -> Self {
         Coordinates(std::array::from_fn(|i| self.0[i] | b.0[i]))
     }
 }

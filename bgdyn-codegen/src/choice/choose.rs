@@ -88,7 +88,7 @@ impl<'a> Choice<'a> {
         offered.extend(self.offers(&DERIVED, method));
         sort(match method {
             Method::ForwardDynamics => {
-                let bounds = || ErrorBounds::new(self.prepared.graph, self.prepared.geometry());
+                let bounds = || ErrorBounds::new(&self.prepared);
                 let bounds = self.bounds.get_or_init(bounds);
                 self.make_offered(&offered, method, |plain| check(bounds, plain))
             }
@@ -115,7 +115,8 @@ impl<'a> Choice<'a> {
 
     /// Returns the offers of the formulations that support the method.
     fn offers(&self, all: &[&'static dyn Formulation], method: Method) -> Vec<Offered> {
-        let known = all.iter().filter(|f| f.knows(method));
+        let graph = &self.prepared.graph.multibody;
+        let known = all.iter().filter(|f| f.knows(method) && f.serves(graph));
         let offered = known.map(|&f| (f, f.offer(&self.prepared, method)));
         offered.collect()
     }

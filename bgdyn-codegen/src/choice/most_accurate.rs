@@ -31,7 +31,7 @@ pub(super) fn most_accurate(
     let asked = asked.filter(|f| f.knows(method));
     let tried = FORMULATIONS.into_iter().filter(|f| match asked {
         Some(asked) => f.name() == asked.name(),
-        None => f.knows(method) && is_affordable(graph, method, *f),
+        None => f.knows(method) && f.serves(graph) && is_affordable(graph, method, *f),
     });
     let candidates: Vec<Function> = tried.flat_map(|f| variants(graph, method, f)).collect();
     let exact = exact_results(&candidates, graph);

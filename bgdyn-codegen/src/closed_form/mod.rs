@@ -54,8 +54,13 @@ const PRODUCTS: usize = 250;
 /// Returns P_j(q, q̇, q̈) of a mechanism without effects, from equation (6), with at most `limit` terms.
 ///
 /// # Errors
-/// If the equations, or intermediate sums, are longer.
+/// If the equations, or intermediate sums, are longer, or if a joint is neither a rotation nor a
+/// translation of its own.
 pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, NoClosedForm> {
+    if let Some(joint) = mechanism.compound_joints().next() {
+        let joint = joint.name.clone();
+        return Err(NoClosedForm::Joint { joint });
+    }
     let symbolic = mechanism.symbolic();
     let mut graph = bond_graph::build(&symbolic.mechanism);
     let mut letters = symbolic.letters.clone();

@@ -22,6 +22,11 @@ pub enum NoClosedForm {
     },
     /// The equations have operations other than sines, cosines, products and sums.
     NotTrigonometric,
+    /// A joint is neither a rotation nor a translation, or mimics another.
+    Joint {
+        /// Its name.
+        joint: String,
+    },
 }
 
 impl fmt::Display for NoClosedForm {
@@ -34,6 +39,11 @@ impl fmt::Display for NoClosedForm {
             NoClosedForm::ManyProducts { products } => write!(
                 f,
                 "the way to its equations takes {products} products of two terms and more"
+            ),
+            NoClosedForm::Joint { joint } => write!(
+                f,
+                "the joint `{joint}` has several degrees of freedom, a lead or `mimic`; equations are printed \
+                 for rotations and translations with a coordinate of their own"
             ),
             NoClosedForm::NotTrigonometric => {
                 write!(

@@ -24,10 +24,8 @@ use bgdyn_runtime::Dd;
 
 use super::reference_solution::{MassAndBias, ReferenceSolution, Rounding, norm, product};
 use super::sample_states::{least_inertia, near_singular, random, subsample};
-use crate::bond_graph::BondGraph;
 use crate::expr::{Graph, Inputs, Signed, copy_into, evaluate};
-use crate::formulation::geometry::Geometry;
-use crate::formulation::mass_and_bias;
+use crate::formulation::{Prepared, mass_and_bias, mass_and_bias_of_any_joint};
 use crate::function::{Function, in_triangle};
 
 const EPS: f64 = f64::EPSILON;
@@ -132,11 +130,17 @@ pub(crate) struct ErrorBounds {
 
 impl ErrorBounds {
     /// Returns sampled states of the mechanism, with their reference solutions.
-    pub fn new(graph: &BondGraph, geometry: &Geometry) -> Self {
-        let n = geometry.bodies.len();
-        let (made, outputs) = mass_and_bias(graph, geometry);
+    pub fn new(prepared: &Prepared<'_>) -> Self {
+        let graph = prepared.graph;
+        let n = graph.coordinates.len();
         let few = |most: usize| (most * ALL * ALL / n.max(ALL).pow(2)).max(2);
         let mut states = subsample(&random(graph), few(STATES[0]));
+        if !graph.plain() {
+            // Aligned axes are known for rotations and translations only.
+            let (made, outputs) = mass_and_bias_of_any_joint(graph);
+            return Self::solved(made, outputs, states, n);
+        }
+        let (made, outputs) = mass_and_bias(graph, prepared.geometry());
         states.extend(subsample(&near_singular(graph), few(STATES[1])));
         let moved = |i: usize| {
             let mut own = Graph::default();
@@ -145,6 +149,11 @@ impl ErrorBounds {
             move |state: &Inputs<f64>| evaluate(&own, &diagonal, state, &mut None)[0]
         };
         states.extend(least_inertia(graph, few(STATES[2]), moved));
+        Self::solved(made, outputs, states, n)
+    }
+
+    /// Returns these states with their reference solutions; `made` and `outputs` are M and h.
+    fn solved(made: Graph, outputs: Vec<Signed>, states: Vec<Inputs<f64>>, n: usize) -> Self {
         let states = states.into_iter().enumerate();
         let terms = |inputs: &Inputs<Dd>| {
             MassAndBias::new(&evaluate(&made, &outputs, inputs, &mut None), n)

@@ -120,7 +120,8 @@ impl ReferenceSolution {
             efforts: vec![0.0; n],
             accelerations: 0.0,
         };
-        for (joint, velocity) in (0..n).flat_map(|j| [(j, false), (j, true)]) {
+        let positions = (0..here.q.len()).map(|p| (p, false));
+        for (joint, velocity) in positions.chain((0..n).map(|j| (j, true))) {
             let mut inputs = here.clone();
             let of = if velocity {
                 &mut inputs.v

@@ -8,9 +8,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, Scalar};
 
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::{BondGraph, Multibody};
 use crate::expr::Inputs;
 use crate::formulation::geometry::{Body, angle_of, geometry};
 use crate::math::Vec3;
@@ -136,8 +136,8 @@ pub(crate) fn subsample<T: Clone>(all: &[T], most: usize) -> Vec<T> {
 
 fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     let mut random = Random(seed);
-    let mut all = |size: &dyn Fn(usize) -> f64| -> Vec<f64> {
-        let n = graph.coordinates.len();
+    let (nq, nv) = (graph.positions.len(), graph.coordinates.len());
+    let mut all = |n: usize, size: &dyn Fn(usize) -> f64| -> Vec<f64> {
         (0..n).map(|j| random.signed() * size(j)).collect()
     };
     let (fast, forced) = match seed % 4 {
@@ -145,21 +145,45 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
         3 => (1.0, 1e3),
         _ => (1.0, 1.0),
     };
-    let turn = |j: usize| match graph.coordinates[j].motion {
-        Motion::Rotation => PI,
-        Motion::Translation | Motion::None => 1.0,
+    let turn = |p: usize| match graph.positions[p].unit {
+        "rad" => PI,
+        _ => 1.0,
     };
+    let mut q = all(nq, &turn);
+    normalize(graph, &mut q);
     Inputs {
-        q: all(&turn),
-        v: all(&|_| 2.0 * fast),
-        a: all(&|_| 5.0),
-        u: all(&|_| 10.0 * forced),
+        q,
+        v: all(nv, &|_| 2.0 * fast),
+        a: all(nv, &|_| 5.0),
+        u: all(nv, &|_| 10.0 * forced),
         parameters: graph
             .parameters
             .iter()
             .map(|p| p.default.to_f64())
             .collect(),
         ..Inputs::default()
+    }
+}
+
+/// Scales every quaternion to length 1; one of length 0 becomes the identity.
+pub(crate) fn normalize<T: Scalar>(graph: &Multibody, q: &mut [T]) {
+    for frame in graph.frames.iter().filter(|f| f.degrees.mimic.is_none()) {
+        let Motion::Compound(motion) = frame.motion else {
+            continue;
+        };
+        let Some(first) = motion.quaternion() else {
+            continue;
+        };
+        let at = frame.degrees.positions[first].0;
+        let own = &mut q[at..at + 4];
+        let zero = T::from_f64(0.0);
+        let square = own.iter().fold(zero, |sum, &x| sum + x * x);
+        if square == zero {
+            own[3] = T::from_f64(1.0);
+        } else {
+            let length = square.sqrt();
+            own.iter_mut().for_each(|x| *x = *x / length);
+        }
     }
 }
 

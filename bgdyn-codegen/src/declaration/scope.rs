@@ -27,16 +27,22 @@ pub struct NameScope {
 impl NameScope {
     /// Returns the names of a mechanism; `locked` are joints that a scene locks.
     pub fn of(mechanism: &Mechanism, locked: Vec<String>) -> NameScope {
-        let coordinate = |&link: &LinkId| {
+        let names = mechanism.joint_names();
+        let coordinate = |(link, name): (&LinkId, String)| {
             let joint = &mechanism.links()[link.0].joint;
-            (joint.name.clone(), joint.kind.motion)
+            (name, joint.kind.motion)
         };
         let limits = |&link: &LinkId| {
             let joint = &mechanism.links()[link.0].joint;
             (joint.name.clone(), joint.limits)
         };
         NameScope {
-            coordinates: mechanism.coordinates().iter().map(coordinate).collect(),
+            coordinates: mechanism
+                .coordinates()
+                .iter()
+                .zip(names)
+                .map(coordinate)
+                .collect(),
             limits: mechanism.coordinates().iter().map(limits).collect(),
             added: Vec::new(),
             locked,

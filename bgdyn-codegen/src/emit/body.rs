@@ -14,7 +14,7 @@ use super::tokens::{argument_type, ident};
 use super::writer::Writer;
 use crate::expr::Leaf;
 use crate::function::{Block, Function};
-use crate::method::{Method, Shape};
+use crate::method::{Argument, Method, Shape};
 use crate::model::Model;
 
 /// The body of a method, and the private functions of its blocks if it has several.
@@ -164,12 +164,15 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     for argument in function.method.arguments() {
         let components = naming.components(*argument);
         let is_read = |j: usize| read.contains(&components[j].0);
-        let joints = &model.bond_graph.coordinates;
+        let joints = match argument {
+            Argument::Q => &naming.positions,
+            _ => &naming.joints,
+        };
         let missing: Vec<_> = (0..joints.len()).filter(|&j| !is_read(j)).collect();
         if missing.len() == joints.len() {
             unread.push(format!("`{}`", argument.name()));
         } else {
-            let name = |&j: &usize| format!("`{}[{j}]` ({})", argument.name(), joints[j].name);
+            let name = |&j: &usize| format!("`{}[{j}]` ({})", argument.name(), joints[j]);
             unread.extend(missing.iter().map(name));
         }
     }

@@ -61,6 +61,8 @@ pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
 
 /// The names of a function's leaves.
 pub(super) struct Naming<'a> {
+    /// Positions.
+    pub(super) positions: Vec<&'a str>,
     /// Coordinates.
     pub(super) joints: Vec<&'a str>,
     /// Run-time parameters.
@@ -76,7 +78,9 @@ impl<'a> Naming<'a> {
     pub(super) fn of_model(model: &'a Model, plain: bool) -> Self {
         let coordinates = model.bond_graph.coordinates.iter();
         let parameters = model.mechanism.parameters().iter();
+        let positions = model.bond_graph.positions.iter();
         Naming {
+            positions: positions.map(|p| p.name.as_str()).collect(),
             joints: coordinates.map(|c| c.name.as_str()).collect(),
             parameters: parameters.map(|p| p.name.as_str()).collect(),
             layout: None,
@@ -87,8 +91,10 @@ impl<'a> Naming<'a> {
     /// Names for a scene's functions.
     pub(super) fn of_scene(scene: &'a SceneInterface, plain: bool) -> Self {
         let coordinates = scene.layout.coordinates.iter();
+        let joints: Vec<&str> = coordinates.map(|c| c.name.as_str()).collect();
         Naming {
-            joints: coordinates.map(|c| c.name.as_str()).collect(),
+            positions: joints.clone(),
+            joints,
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(&scene.layout),
             plain,
@@ -98,14 +104,15 @@ impl<'a> Naming<'a> {
     /// Returns the leaves of an argument's components with names of variables for them; empty for an
     /// argument with named parts.
     pub(super) fn components(&self, argument: Argument) -> Vec<(Leaf, String)> {
-        let of_joints = |leaf: fn(usize) -> Leaf| {
-            let names = self.joints.iter().enumerate();
+        let named = |all: &[&str], leaf: fn(usize) -> Leaf| {
+            let names = all.iter().enumerate();
             let named =
                 |(j, name): (usize, &&str)| (leaf(j), format!("{}_{name}", argument.name()));
             names.map(named).collect()
         };
+        let of_joints = |leaf| named(&self.joints, leaf);
         match (argument, self.layout) {
-            (Argument::Q, _) => of_joints(Leaf::Position),
+            (Argument::Q, _) => named(&self.positions, Leaf::Position),
             (Argument::V, _) => of_joints(Leaf::Velocity),
             (Argument::A, _) => of_joints(Leaf::Acceleration),
             (Argument::Tau, _) => of_joints(Leaf::Input),

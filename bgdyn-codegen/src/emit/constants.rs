@@ -6,7 +6,7 @@ use quote::quote;
 use super::tokens::{ident, number};
 use crate::expr::Operations;
 use crate::function::Function;
-use crate::mechanism::{CoordinateId, Limits, Motion};
+use crate::mechanism::{CoordinateId, Limits};
 use crate::model::Model;
 
 /// Returns the constants at the beginning of the module.
@@ -14,15 +14,24 @@ pub(super) fn constants(model: &Model) -> TokenStream {
     let mechanism = &model.mechanism;
     let (nq, nv) = (size(mechanism.nq()), size(mechanism.nv()));
     let joints = model.bond_graph.coordinates.iter().map(|c| c.name.as_str());
-    let labels = (0..mechanism.nv()).map(|j| {
-        let joint = mechanism.joint(CoordinateId(j));
-        joint.label.as_ref().unwrap_or(&joint.name)
-    });
-    let links: Vec<&str> = mechanism.links().iter().map(|l| l.name.as_str()).collect();
+    let positions = model.bond_graph.positions.iter().map(|p| p.name.as_str());
+    let labels = model
+        .bond_graph
+        .coordinates
+        .iter()
+        .enumerate()
+        .map(|(j, c)| {
+            let joint = mechanism.joint(CoordinateId(j));
+            let ending = c.name.strip_prefix(&joint.name).unwrap_or_default();
+            let label = joint.label.as_ref().unwrap_or(&joint.name);
+            format!("{label}{ending}")
+        });
+    let links = mechanism.links().iter().filter(|link| !link.hidden);
+    let links: Vec<&str> = links.map(|l| l.name.as_str()).collect();
     let count = size(links.len());
-    let motions = model.bond_graph.coordinates.iter().map(|c| match c.motion {
-        Motion::Rotation => ident("Rotation"),
-        _ => ident("Translation"),
+    let motions = model.bond_graph.coordinates.iter().map(|c| match c.linear {
+        false => ident("Rotation"),
+        true => ident("Translation"),
     });
     let limits = (0..mechanism.nv()).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
     quote! {
@@ -30,13 +39,15 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         pub const NQ: usize = #nq;
         /// Number of velocities.
         pub const NV: usize = #nv;
-        /// Names of the moving joints, in the order of the coordinates.
+        /// Names of the moving joints, in the order of the velocities.
         pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
+        /// Names of the positions; those of the joints where every joint has one.
+        pub const POSITION_NAMES: [&str; NQ] = [#(#positions),*];
         /// Names that the joints have elsewhere; without such a name the joint's own.
         pub const JOINT_LABELS: [&str; NV] = [#(#labels),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
-        /// What each coordinate is: an angle or a displacement.
+        /// The kind of each velocity: angular or linear.
         pub const JOINT_MOTIONS: [__rt::Motion; NV] = [#(__rt::Motion::#motions),*];
         /// Limits of the moving joints; infinite where the spec states none.
         pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];

@@ -70,7 +70,11 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
     };
     let (joints, states) = (quote! { &JOINT_NAMES }, quote! { &STATE_NAMES });
     match argument {
-        Argument::Q => look(quote! { Q }, joints, quote! { #name.as_slice() }),
+        Argument::Q => look(
+            quote! { Q },
+            quote! { &POSITION_NAMES },
+            quote! { #name.as_slice() },
+        ),
         Argument::V => look(quote! { V }, joints, quote! { #name.as_slice() }),
         Argument::Tau => look(quote! { Tau }, joints, quote! { #name.as_slice() }),
         Argument::State => {

@@ -7,6 +7,7 @@ use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{body, code, constants, entries, explain, traits};
+use crate::bond_graph::Position;
 use crate::function::Function;
 use crate::method::Method;
 use crate::model::Model;
@@ -30,7 +31,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
         name: &struct_name,
         methods: &present,
         sites: &model.bond_graph.sites,
-        nv: Some(model.mechanism.nv()),
+        joints: Some(traits::segments(&model.bond_graph)),
     };
     let traits = traits.tokens();
     let rebuild = rebuild(output);
@@ -61,6 +62,31 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     }
 }
 
+/// Describes the positions, if they are not those of the velocities.
+fn position_docs(model: &Model) -> Vec<String> {
+    let graph = &model.bond_graph;
+    let own = |p: &Position| p.coordinate.is_some();
+    if graph.positions.iter().all(own) {
+        return Vec::new();
+    }
+    let mut docs = vec![
+        String::new(),
+        " Velocities of joints with several degrees are along and about the link's axes; `position_rates`"
+            .into(),
+        " returns the rates of the positions. Quaternions are x, y, z, w, from link axes to the axes of the"
+            .into(),
+        " joint's origin, of length 1 unless the spec says `quaternion: any`.".into(),
+        String::new(),
+        " | position | name | unit |".into(),
+        " |---|---|---|".into(),
+    ];
+    for (p, position) in graph.positions.iter().enumerate() {
+        let unit = position.unit;
+        docs.push(format!(" | {p} | `{}` | {unit} |", position.name));
+    }
+    docs
+}
+
 fn struct_name(model: &Model) -> Ident {
     ident(&struct_ident(model.mechanism.name()))
 }
@@ -82,13 +108,14 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
         docs.extend(text.lines().map(|line| format!(" {}", line.trim_end())));
     }
     docs.push(String::new());
-    docs.push(" | coordinate | joint | carries | unit |".into());
+    docs.push(" | velocity | joint | carries | unit |".into());
     docs.push(" |---|---|---|---|".into());
     for (j, c) in model.bond_graph.coordinates.iter().enumerate() {
         let link = &mechanism.links()[c.link.0].name;
-        let unit = c.motion.unit();
+        let unit = c.velocity_unit();
         docs.push(format!(" | {j} | `{}` | `{link}` | {unit} |", c.name));
     }
+    docs.extend(position_docs(model));
     docs.push(String::new());
     docs.push(" | method | operations | formulation |".into());
     docs.push(" |---|---|---|".into());

@@ -128,7 +128,7 @@ impl Writer<'_> {
     /// Returns the names of the joints whose angles are summed: `shoulder_elbow`.
     fn angle_name(&self, angle: NodeId) -> String {
         let joint = |id: NodeId| match self.graph.node(id) {
-            Node::Leaf(Leaf::Position(j)) => self.naming.joints[*j].to_string(),
+            Node::Leaf(Leaf::Position(j)) => self.naming.positions[*j].to_string(),
             _ => "angle".to_string(),
         };
         match self.graph.node(angle) {

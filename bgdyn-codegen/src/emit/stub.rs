@@ -10,7 +10,7 @@ use quote::quote;
 use super::constants::{operations, size};
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
-use super::traits::Traits;
+use super::traits::{JointSegment, Traits};
 use crate::bond_graph::Site;
 use crate::expr::Operations;
 use crate::interface::Interface;
@@ -42,7 +42,7 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
         name: &model,
         methods: &possible,
         sites: &sites,
-        nv: interface.certain.then_some(interface.joints.len()),
+        joints: (interface.certain).then(|| vec![JointSegment::PLAIN; interface.joints.len()]),
     };
     let traits = traits.tokens();
     let serde = serde(&model, interface.parameters.iter().map(String::as_str));
@@ -93,13 +93,15 @@ fn constants(interface: &Interface) -> TokenStream {
         pub const NQ: usize = #nv;
         /// Number of velocities.
         pub const NV: usize = #nv;
-        /// Names of the moving joints, in the order of the coordinates.
+        /// Names of the moving joints, in the order of the velocities.
         pub const JOINT_NAMES: [&str; NV] = [#(#joints),*];
+        /// Names of the positions.
+        pub const POSITION_NAMES: [&str; NQ] = [#(#joints),*];
         /// Names that the joints have elsewhere; without such a name the joint's own.
         pub const JOINT_LABELS: [&str; NV] = [#(#joints),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
-        /// What each coordinate is: an angle or a displacement.
+        /// The kind of each velocity: angular or linear.
         pub const JOINT_MOTIONS: [__rt::Motion; NV] = [__rt::Motion::Rotation; NV];
         /// Limits of the moving joints; infinite where the spec states none.
         pub const JOINT_LIMITS: [__rt::Limits; NV] =

@@ -4,8 +4,9 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::tokens::{argument_type, ident, return_type};
-use crate::bond_graph::{Site, SiteId};
+use super::tokens::{argument_type, ident, number, return_type};
+use crate::bond_graph::{LinkFrame, Multibody, Site, SiteId};
+use crate::mechanism::Motion;
 use crate::method::Method;
 
 /// The parts of a module that its traits provide.
@@ -15,8 +16,45 @@ pub(super) struct Traits<'a> {
     /// Its methods.
     pub(super) methods: &'a [Method],
     pub(super) sites: &'a [Site],
-    /// Number of velocities; `None` if it is a guess, for any number.
-    pub(super) nv: Option<usize>,
+    /// The joints; `None` if their number is a guess, for any number.
+    pub(super) joints: Option<Vec<JointSegment>>,
+}
+
+/// The positions and velocities of a joint that follow each other in q and v.
+#[derive(Clone, Copy)]
+pub(super) struct JointSegment {
+    /// Its module of `bgdyn_runtime::manifold`; empty if q̇ = v.
+    manifold: &'static str,
+    nq: usize,
+    nv: usize,
+    /// Whether its position is an angle.
+    turns: bool,
+}
+
+impl JointSegment {
+    /// A joint with one position and q̇ = v.
+    pub(super) const PLAIN: Self = JointSegment {
+        manifold: "",
+        nq: 1,
+        nv: 1,
+        turns: true,
+    };
+}
+
+/// Returns the joints in the order of q and v.
+pub(super) fn segments(graph: &Multibody) -> Vec<JointSegment> {
+    let own = graph.frames.iter().filter(|f| f.degrees.mimic.is_none());
+    let moving = own.filter(|frame| frame.motion != Motion::None);
+    let segment = |frame: &LinkFrame| JointSegment {
+        manifold: match frame.motion {
+            Motion::Compound(motion) => motion.manifold,
+            _ => "",
+        },
+        nq: frame.motion.nq(),
+        nv: frame.motion.nv(),
+        turns: frame.motion != Motion::Translation,
+    };
+    moving.map(segment).collect()
 }
 
 impl Traits<'_> {
@@ -51,12 +89,12 @@ impl Traits<'_> {
 
     /// Returns the parameters of the implementation other than the scalar.
     fn sizes(&self) -> Option<TokenStream> {
-        (self.nv.is_none()).then(|| quote! { , const NQ: usize, const NV: usize })
+        (self.joints.is_none()).then(|| quote! { , const NQ: usize, const NV: usize })
     }
 
     /// Returns the body of a trait's method: a call of the struct's method.
     fn body(&self, call: TokenStream) -> TokenStream {
-        match self.nv {
+        match &self.joints {
             Some(_) => call,
             None => quote! { ::core::unreachable!() },
         }
@@ -97,8 +135,8 @@ impl Traits<'_> {
 
     fn description(&self) -> TokenStream {
         let name = self.name;
-        let sizes = (self.nv.is_none()).then(|| quote! { , const NV: usize });
-        let [names, labels, motions, limits] = match self.nv {
+        let sizes = (self.joints.is_none()).then(|| quote! { , const NV: usize });
+        let [names, labels, motions, limits] = match &self.joints {
             Some(_) => [
                 quote! { JOINT_NAMES },
                 quote! { JOINT_LABELS },
@@ -122,42 +160,123 @@ impl Traits<'_> {
         let (name, sizes) = (self.name, self.sizes());
         let methods = Method::OF_TRAIT.into_iter().map(|m| self.delegate(m));
         let names = self.body(quote! { &JOINT_NAMES });
-        let integrate = self.joint_by_joint(["q", "dv"], quote! { + });
-        let difference = self.joint_by_joint(["q1", "q0"], quote! { - });
+        let [q, v] = [
+            quote! { &__na::SVector<T, NQ> },
+            quote! { &__na::SVector<T, NV> },
+        ];
+        let positions = [
+            self.joint_method("neutral", &[], true),
+            self.joint_method("position_rates", &[("q", &q, true), ("v", &v, false)], true),
+            self.joint_method("normalize", &[("q", &q, true)], true),
+            self.joint_method("sample", &[("u", &v, false)], true),
+            self.joint_method("integrate", &[("q", &q, true), ("dv", &v, false)], true),
+            self.joint_method("difference", &[("q1", &q, true), ("q0", &q, true)], false),
+        ];
         quote! {
             impl<T: __Scalar #sizes> __rt::Dynamics<T, NQ, NV> for #name<T> {
                 fn joint_names(&self) -> &'static [&'static str; NV] {
                     #names
                 }
                 #(#methods)*
-                fn integrate(
-                    &self,
-                    q: &__na::SVector<T, NQ>,
-                    dv: &__na::SVector<T, NV>,
-                ) -> __na::SVector<T, NQ> {
-                    #integrate
-                }
-                fn difference(
-                    &self,
-                    q1: &__na::SVector<T, NQ>,
-                    q0: &__na::SVector<T, NQ>,
-                ) -> __na::SVector<T, NV> {
-                    #difference
-                }
+                #(#positions)*
             }
         }
     }
 
-    /// Returns sums or differences of the components of two vectors.
-    fn joint_by_joint(&self, vectors: [&str; 2], operator: TokenStream) -> TokenStream {
-        let n = self.nv.unwrap_or_default();
-        let each =
-            |prefix: &str| -> Vec<Ident> { (0..n).map(|i| format_ident!("{prefix}{i}")).collect() };
-        let ([x, y], [a, b]) = ([each("x"), each("y")], vectors.map(ident));
-        self.body(quote! {
-            let ([[#(#x),*]], [[#(#y),*]]) = (#a.data.0, #b.data.0);
-            __rt::vector([#(#x #operator #y),*])
-        })
+    /// Returns a method that computes a vector joint by joint. The arguments have a name, a type, and
+    /// whether they are positions; so has the result.
+    fn joint_method(
+        &self,
+        name: &str,
+        arguments: &[(&str, &TokenStream, bool)],
+        positions: bool,
+    ) -> TokenStream {
+        let function = ident(name);
+        let of = |positions: bool| ident(if positions { "NQ" } else { "NV" });
+        let result = of(positions);
+        let parameters = arguments.iter().map(|(name, of, _)| {
+            let name = ident(name);
+            quote! { #name: #of }
+        });
+        let body = self.body(self.joint_by_joint(name, arguments, positions));
+        quote! {
+            fn #function(&self, #(#parameters),*) -> __na::SVector<T, #result> {
+                #body
+            }
+        }
+    }
+
+    fn joint_by_joint(
+        &self,
+        name: &str,
+        arguments: &[(&str, &TokenStream, bool)],
+        positions: bool,
+    ) -> TokenStream {
+        let joints = self.joints.as_deref().unwrap_or_default();
+        let size = |s: &JointSegment, positions: bool| if positions { s.nq } else { s.nv };
+        // The components of each argument, joint by joint.
+        let components = |k: usize, of: bool| -> Vec<Vec<Ident>> {
+            let mut next = 0;
+            let own = |s: &JointSegment| {
+                let from = next;
+                next += size(s, of);
+                (from..next)
+                    .map(|i| format_ident!("{}{i}", ["x", "y"][k]))
+                    .collect()
+            };
+            joints.iter().map(own).collect()
+        };
+        let arrays: Vec<Vec<Vec<Ident>>> = arguments
+            .iter()
+            .enumerate()
+            .map(|(k, (_, _, of))| components(k, *of))
+            .collect();
+        let opened = arguments.iter().zip(&arrays).map(|((name, ..), array)| {
+            let (name, all) = (ident(name), array.iter().flatten());
+            quote! { let [[#(#all),*]] = #name.data.0; }
+        });
+        let (mut statements, mut results) = (TokenStream::new(), Vec::new());
+        for (j, segment) in joints.iter().enumerate() {
+            let own: Vec<&Vec<Ident>> = arrays.iter().map(|array| &array[j]).collect();
+            if segment.manifold.is_empty() {
+                results.push(plain(name, segment.turns, &own));
+                continue;
+            }
+            let (module, function) = (ident(segment.manifold), ident(name));
+            let found: Vec<Ident> = (0..size(segment, positions))
+                .map(|i| format_ident!("r{j}_{i}"))
+                .collect();
+            let arguments = own.iter().map(|array| quote! { [#(#array),*] });
+            statements.extend(quote! {
+                let [#(#found),*] = __rt::manifold::#module::#function(#(#arguments),*);
+            });
+            results.extend(found.iter().map(|r| quote! { #r }));
+        }
+        quote! {
+            #(#opened)*
+            #statements
+            __rt::vector([#(#results),*])
+        }
+    }
+}
+
+/// Returns the component of a joint with q̇ = v.
+fn plain(name: &str, turns: bool, arguments: &[&Vec<Ident>]) -> TokenStream {
+    let first: Vec<&Ident> = arguments.iter().filter_map(|array| array.first()).collect();
+    match (name, first.as_slice()) {
+        ("integrate", [x, y]) => quote! { #x + #y },
+        ("difference", [x, y]) => quote! { #x - #y },
+        ("position_rates", [_, v]) => quote! { #v },
+        ("normalize", [q]) => quote! { #q },
+        // From 0 … 1 to −π … π, or to −1 … 1.
+        ("sample", [u]) => {
+            let half = match turns {
+                true => number(std::f64::consts::PI),
+                false => number(1.0),
+            };
+            quote! { (#u + #u - T::from_f64(1.0)) * T::from_f64(#half) }
+        }
+        _ => quote! { T::from_f64(0.0) },
     }
 }
 

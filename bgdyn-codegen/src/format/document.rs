@@ -66,11 +66,33 @@ pub struct JointSpec {
     pub kind: Field<String>,
     /// Direction of its axis, of any length; a letter denotes a unit vector.
     pub axis: Field<Vector>,
+    /// Direction of the second axis of a universal joint.
+    pub axis2: Field<Vector>,
+    /// Advance of a helical joint along its axis: a length per turn, or a length per turn or per radian.
+    pub lead: Field<Number>,
+    /// The joint that this one mimics.
+    pub mimic: Field<MimicSpec>,
+    /// `any`: a quaternion of any length is accepted.
+    pub quaternion: Field<String>,
     /// Pose of the link in the parent.
     pub origin: Field<Origin>,
     /// Limits.
     pub limits: Field<LimitsSpec>,
 }
+
+/// A joint's `mimic`: position = ratio · the other's position + offset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MimicSpec {
+    /// Name of the other joint.
+    pub joint: Field<String>,
+    /// Units of this joint per unit of the other; 1 if absent.
+    pub ratio: Field<Number>,
+    /// Position where the other joint's position is zero; 0 if absent.
+    pub offset: Field<Number>,
+}
+
+/// The keys of [`LimitsSpec::parts`].
+pub const LIMIT_PARTS: [&str; 4] = ["turn", "slide", "first", "second"];
 
 /// A pose: `xyz` and `rpy`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -92,6 +114,8 @@ pub struct LimitsSpec {
     pub velocity: Field<Number>,
     /// Largest effort.
     pub effort: Field<Number>,
+    /// Limits of the parts of a cylindrical or universal joint, in the order of [`LIMIT_PARTS`].
+    pub parts: Vec<Field<LimitsSpec>>,
 }
 
 /// A link's `inertia`: entries of a tensor, or a solid of uniform density.

@@ -16,7 +16,8 @@ mod yaml;
 
 pub use crate::unit::{Dimension, Unit};
 pub use document::{
-    FrameSpec, InertiaSpec, JointSpec, LENGTHS, LimitsSpec, LinkSpec, Origin, Spec,
+    FrameSpec, InertiaSpec, JointSpec, LENGTHS, LIMIT_PARTS, LimitsSpec, LinkSpec, MimicSpec,
+    Origin, Spec,
 };
 pub use field::{Field, Located};
 pub(crate) use number::misfit;

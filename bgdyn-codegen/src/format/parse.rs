@@ -3,8 +3,8 @@
 use super::walk::{At, Mapping, Reader};
 use super::yaml::{self, Data};
 use super::{
-    Field, FrameSpec, InertiaSpec, JointSpec, LENGTHS, LimitsSpec, LinkSpec, Located, Number,
-    Origin, Spec, Vector,
+    Field, FrameSpec, InertiaSpec, JointSpec, LENGTHS, LIMIT_PARTS, LimitsSpec, LinkSpec, Located,
+    MimicSpec, Number, Origin, Spec, Vector,
 };
 use crate::fault::{Faults, wording};
 use crate::unit::Dimension;
@@ -111,7 +111,18 @@ impl Reader {
     }
 
     fn joint(&mut self, at: &At<'_>) -> Option<JointSpec> {
-        let keys = ["name", "label", "type", "axis", "origin", "limits"];
+        let keys = [
+            "name",
+            "label",
+            "type",
+            "axis",
+            "axis2",
+            "lead",
+            "origin",
+            "limits",
+            "mimic",
+            "quaternion",
+        ];
         let map = self.mapping(
             at,
             ("a joint", "`{ name: …, type: revolute, axis: z }`"),
@@ -123,13 +134,29 @@ impl Reader {
             kind: self.needed(
                 &map,
                 "type",
-                "`type: …`: `revolute`, `continuous`, `prismatic` or `fixed`",
+                "`type: …`: `revolute`, `prismatic`, `floating`, `fixed` or another joint type",
                 Self::text,
             ),
             axis: self.field(&map, "axis", Self::axis),
+            axis2: self.field(&map, "axis2", Self::axis),
+            lead: self.number_field(&map, "lead", &[Dimension::Length, Dimension::Lead]),
+            mimic: self.field(&map, "mimic", Self::mimic),
+            quaternion: self.text_field(&map, "quaternion"),
             origin: self.field(&map, "origin", Self::origin),
             limits: self.field(&map, "limits", Self::limits),
             location: map.location,
+        })
+    }
+
+    fn mimic(&mut self, at: &At<'_>) -> Option<MimicSpec> {
+        let what = ("a mapping", "`{ joint: …, ratio: 1, offset: 0 }`");
+        let map = self.mapping(at, what, &["joint", "ratio", "offset"])?;
+        let ratios = [Dimension::One, Dimension::Lead, Dimension::AnglePerLength];
+        let offsets = [Dimension::Angle, Dimension::Length];
+        Some(MimicSpec {
+            joint: self.needed(&map, "joint", "`joint: …`, the joint it mimics", Self::text),
+            ratio: self.number_field(&map, "ratio", &ratios),
+            offset: self.number_field(&map, "offset", &offsets),
         })
     }
 
@@ -176,15 +203,12 @@ impl Reader {
     }
 
     fn limits(&mut self, at: &At<'_>) -> Option<LimitsSpec> {
-        let keys = ["lower", "upper", "velocity", "effort"];
-        let map = self.mapping(
-            at,
-            (
-                "a mapping",
-                "`{ lower: …, upper: …, velocity: …, effort: … }`",
-            ),
-            &keys,
-        )?;
+        let keys = [&["lower", "upper", "velocity", "effort"][..], &LIMIT_PARTS].concat();
+        let what = (
+            "a mapping",
+            "`{ lower: …, upper: …, velocity: …, effort: … }`",
+        );
+        let map = self.mapping(at, what, &keys)?;
         let position = [Dimension::Angle, Dimension::Length];
         Some(LimitsSpec {
             lower: self.number_field(&map, "lower", &position),
@@ -195,6 +219,10 @@ impl Reader {
                 &[Dimension::AngularSpeed, Dimension::Speed],
             ),
             effort: self.number_field(&map, "effort", &[Dimension::Torque, Dimension::Force]),
+            parts: LIMIT_PARTS
+                .iter()
+                .map(|key| self.field(&map, key, Self::limits))
+                .collect(),
         })
     }
 

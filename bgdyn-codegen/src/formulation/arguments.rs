@@ -22,19 +22,19 @@ pub(super) struct Arguments<'g> {
 impl<'g> Arguments<'g> {
     /// Returns the arguments of a method.
     pub fn new(b: &'g Builder, graph: &Multibody, method: Method) -> Self {
-        let n = graph.coordinates.len();
-        let read = |on: bool, leaf: fn(usize) -> Leaf| -> Vec<Expr<'g>> {
+        let read_all = |n: usize, on: bool, leaf: fn(usize) -> Leaf| -> Vec<Expr<'g>> {
             (0..n)
                 .map(|j| if on { b.leaf(leaf(j)) } else { b.zero() })
                 .collect()
         };
+        let read = |on, leaf| read_all(graph.coordinates.len(), on, leaf);
         let takes = |argument| method.arguments().contains(&argument);
         // Kinetic energy and velocities of frames always use the true velocities, also without velocity
         // products.
         let kinematic = method.site().is_some() || method == Method::KineticEnergy;
         let turning = graph.velocity_products || kinematic;
         Arguments {
-            q: read(true, Leaf::Position),
+            q: read_all(graph.positions.len(), true, Leaf::Position),
             v: read(takes(Argument::V) && turning, Leaf::Velocity),
             a: read(takes(Argument::A), Leaf::Acceleration),
             tau: read(takes(Argument::Tau), Leaf::Input),

@@ -1,6 +1,7 @@
 //! The trait of formulations: name, offer for each method, functions.
 
 use super::prepared::Prepared;
+use crate::bond_graph::Multibody;
 use crate::function::Function;
 use crate::method::Method;
 
@@ -15,6 +16,12 @@ pub trait Formulation: Sync {
     /// Returns whether it supports the method, or the method that this one is derived from.
     fn knows(&self, _: Method) -> bool {
         true
+    }
+
+    /// Returns whether it serves this mechanism. By default it serves rotations and translations that mimic
+    /// no other joint.
+    fn serves(&self, graph: &Multibody) -> bool {
+        graph.plain()
     }
 
     /// Returns its offer for a method that it supports, if no formulation is selected.

@@ -8,12 +8,14 @@
 mod arguments;
 mod definition;
 mod derivatives;
+mod joint_motion;
 mod literal;
 mod placement;
 mod prepared;
 mod recursion;
 mod site;
 mod solve;
+mod subspaces;
 
 pub use definition::{Formulation, Offer};
 pub use prepared::Prepared;
@@ -21,18 +23,20 @@ pub(crate) use prepared::{Candidate, Candidates};
 pub(crate) use recursion::expressions::mass_and_bias;
 pub(crate) use recursion::geometry;
 pub(crate) use solve::ltdl as solve_symmetric;
+pub(crate) use subspaces::mass_and_bias as mass_and_bias_of_any_joint;
 
 /// The name of the literal sum.
 pub(crate) const LITERAL: &str = literal::NAME;
 
 /// All formulations that the user can select.
-pub static FORMULATIONS: [&dyn Formulation; 6] = [
+pub static FORMULATIONS: [&dyn Formulation; 7] = [
     &literal::Literal,
     &recursion::Recursion,
     &recursion::OwnInertia,
     &recursion::CommonAxes,
     &recursion::Articulated::Own,
     &recursion::Articulated::Base,
+    &subspaces::Subspaces,
 ];
 
 /// Formulations that differentiate the functions chosen for other methods. They make offers for any

@@ -2,10 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::bond_graph::Multibody;
+use super::joint_motion::joint_positions;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3, rodrigues};
-use crate::mechanism::{LinkId, Motion};
+use crate::mechanism::joint::Column;
+use crate::mechanism::{CoordinateId, LinkId, Motion};
 
 /// Pose of every link frame.
 pub(super) struct Placement<'g> {
@@ -33,19 +35,45 @@ impl<'g> Placement<'g> {
                 rotation = placed.rotations[p] * rotation;
             }
             let axis = rotation * b.vector(frame.axis);
-            match (frame.motion, frame.coordinate) {
-                (Motion::Rotation, Some(j)) => {
-                    let angle = b.cos_sin(&[q[j.0]], Dd::ZERO);
+            let own = joint_positions(b, frame, q);
+            match frame.motion {
+                Motion::None => {}
+                Motion::Rotation => {
+                    let angle = b.cos_sin(&own, Dd::ZERO);
                     rotation = rotation * rodrigues(frame.axis, angle, |x| b.constant(x));
                 }
-                (Motion::Translation, Some(j)) => origin = origin + axis.scale(q[j.0]),
-                _ => {}
+                Motion::Translation => origin = origin + axis.scale(own[0]),
+                Motion::Compound(motion) => {
+                    let (turned, shift) = motion.pose(&frame.constants(), &own, &b);
+                    origin = origin + rotation * shift;
+                    rotation = rotation * turned;
+                }
             }
             placed.rotations.push(rotation);
             placed.origins.push(origin);
             placed.axes.push(axis);
         }
         placed
+    }
+
+    /// Returns the columns of the motion subspace of link i's joint in fixed axes, at the link's origin.
+    pub(super) fn columns(
+        &self,
+        b: &'g Builder,
+        i: usize,
+        frame: &LinkFrame,
+    ) -> Vec<(CoordinateId, Column<Expr<'g>>)> {
+        // The joint's own rotation does not change its axis.
+        if let Some((j, factors)) = frame.degrees.axial(frame.motion) {
+            let [angular, linear] = factors.map(|k| self.axes[i].scale(b.constant(k)));
+            return vec![(j, Column { angular, linear })];
+        }
+        let fixed = |v: Vec3<Dd>| self.rotations[i] * b.vector(v);
+        let of = |(j, column): (CoordinateId, Column<Dd>)| {
+            let (angular, linear) = (fixed(column.angular), fixed(column.linear));
+            (j, Column { angular, linear })
+        };
+        frame.columns().into_iter().map(of).collect()
     }
 
     /// Returns a point of link i, given in its axes.

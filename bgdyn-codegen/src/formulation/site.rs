@@ -1,6 +1,8 @@
 //! Computes the results of a site's methods from its pose and the columns of its Jacobian.
 
-use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
+use super::joint_motion::{along, tangents};
+use crate::bond_graph::Multibody;
+use crate::expr::{Builder, Expr, Tangent};
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 
@@ -25,7 +27,13 @@ pub(super) struct SiteMotion<'g> {
 
 impl<'g> SiteMotion<'g> {
     /// Returns the expressions of one of a site's methods.
-    pub(super) fn outputs(&self, b: &'g Builder, method: Method, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub(super) fn outputs(
+        &self,
+        b: &'g Builder,
+        graph: &Multibody,
+        method: Method,
+        v: &[Expr<'g>],
+    ) -> Vec<Expr<'g>> {
         match method {
             Method::Pose(_) => self
                 .rotation
@@ -36,7 +44,7 @@ impl<'g> SiteMotion<'g> {
                 .collect(),
             Method::Jacobian(_) => self.jacobian(b),
             Method::Velocity(_) => self.velocity(b, v),
-            Method::JacobianDotV(_) => rates(b, &self.velocity(b, v), v),
+            Method::JacobianDotV(_) => rates(b, graph, &self.velocity(b, v), v),
             other => unreachable!("{other:?} is no method of a site"),
         }
     }
@@ -71,12 +79,8 @@ impl<'g> SiteMotion<'g> {
 }
 
 /// Returns rates of change along the motion, at constant velocities.
-fn rates<'g>(b: &'g Builder, x: &[Expr<'g>], v: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    let velocities: Vec<_> = v.iter().map(|v| v.signed()).collect();
-    let mut rate = Tangent::new(|_: &mut Graph, leaf| match leaf {
-        Leaf::Position(j) => Some(velocities[j]),
-        _ => None,
-    });
+fn rates<'g>(b: &'g Builder, graph: &Multibody, x: &[Expr<'g>], v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let mut rate = Tangent::new(along(tangents(b, graph, v)));
     let x: Vec<_> = x.iter().map(|e| e.signed()).collect();
     x.into_iter()
         .map(|e| b.expr(b.with_graph(|g| rate.of(g, e))))

@@ -3,7 +3,7 @@
 mod scene;
 
 use crate::format::{Field, LinkSpec, Spec};
-use crate::mechanism::joint::{JOINT_TYPES, Motion};
+use crate::mechanism::joint::{JOINT_TYPES, JointType, Motion};
 use crate::name::is_identifier;
 pub use scene::SceneInterface;
 
@@ -53,7 +53,8 @@ impl Interface {
                 .collect(),
             frames: spec.as_ref().map(frames).unwrap_or_default(),
             parameters: parameter_words(text),
-            certain: !faults.0.iter().any(|f| shapes_the_tree(&f.path)),
+            certain: links.iter().all(is_plain)
+                && !faults.0.iter().any(|f| shapes_the_tree(&f.path)),
         })
     }
 }
@@ -79,6 +80,20 @@ fn moving_joint(link: &LinkSpec) -> Option<String> {
     };
     let fixed = joint.kind.value().is_some_and(|kind| kind == "fixed");
     (!fixed).then(|| joint.name.value().cloned().unwrap_or_default())
+}
+
+/// Returns whether the link's joint has at most one position, which is its own.
+fn is_plain(link: &LinkSpec) -> bool {
+    let Some(joint) = link.joint.value() else {
+        return true;
+    };
+    let word = joint.kind.value();
+    let kind = JOINT_TYPES
+        .iter()
+        .find(|kind| Some(kind.keyword) == word.map(String::as_str));
+    let compound =
+        |kind: &&&JointType| !kind.chain.is_empty() || matches!(kind.motion, Motion::Compound(_));
+    kind.filter(compound).is_none() && joint.mimic.is_absent()
 }
 
 /// Returns whether a fault at this path makes the number of joints uncertain.

@@ -3,6 +3,7 @@
 mod direction;
 mod inertia;
 mod joint;
+mod mimic;
 mod names;
 mod order;
 mod parameters;
@@ -10,12 +11,13 @@ mod solid;
 
 use bgdyn_runtime::Dd;
 
-use super::{CoordinateId, Frame, Inertial, Joint, Link, LinkId, Mechanism, Motion, Value};
+use super::{Frame, Inertial, Link, LinkId, Mechanism, Tensor, Value};
 use crate::fault::{Faults, wording};
 use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
+use joint::CheckedJoints;
 use order::LinkTree;
 use parameters::Parameters;
 
@@ -54,18 +56,25 @@ pub(crate) fn check(
         .collect();
     let gravity = direction::vector_or(&spec.gravity, standard_gravity());
     let whole = || {
-        let (links, coordinates) = assemble(bodies, &tree)?;
-        Some(Mechanism {
+        let (links, places) = assemble(bodies, &tree, faults)?;
+        let mut frames = all(frames)?;
+        for frame in &mut frames {
+            frame.link = frame.link.map(|LinkId(i)| places[i]);
+        }
+        let mut mechanism = Mechanism {
             name: name?,
             label: text(&spec.label),
             description: text(&spec.description),
             gravity: gravity?,
             links,
-            frames: all(frames)?,
+            frames,
             parameters: parameters.into_all(),
-            coordinates,
+            coordinates: Vec::new(),
+            positions: Vec::new(),
             snapped: directions.into_snapped(),
-        })
+        };
+        mechanism.number();
+        Some(mechanism)
     };
     whole()
 }
@@ -91,7 +100,7 @@ fn standard_gravity() -> Vec3<Dd> {
 struct CheckedLink {
     name: String,
     label: Option<String>,
-    joint: Joint,
+    joints: CheckedJoints,
     inertial: Inertial,
 }
 
@@ -101,12 +110,12 @@ fn body(
     parameters: &mut Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<CheckedLink> {
-    let joint = joint::joint(link, directions, faults);
+    let joints = joint::joints(link, directions, faults);
     let inertial = inertial(link, directions, parameters, faults);
     Some(CheckedLink {
         name: link.name.value()?.clone(),
         label: text(&link.label),
-        joint: joint?,
+        joints: joints?,
         inertial: inertial?,
     })
 }
@@ -165,32 +174,64 @@ fn frame(
     })
 }
 
-/// Returns the links in their order, and the link of every coordinate.
+/// Returns the links in their order, each after the massless links of its chain of joints, and the place
+/// of each link of the tree among them.
 fn assemble(
     mut bodies: Vec<Option<CheckedLink>>,
     tree: &LinkTree<'_>,
+    faults: &mut Faults,
 ) -> Option<(Vec<Link>, Vec<LinkId>)> {
-    let (mut links, mut coordinates) = (Vec::with_capacity(bodies.len()), Vec::new());
+    let mut links: Vec<Link> = Vec::with_capacity(bodies.len());
+    let mut mimics: Vec<mimic::Given> = Vec::new();
+    // The place of each link of the tree among all links.
+    let mut places: Vec<LinkId> = Vec::with_capacity(bodies.len());
     for &index in &tree.sequence {
         let CheckedLink {
             name,
             label,
-            mut joint,
+            mut joints,
             inertial,
         } = bodies.get_mut(index)?.take()?;
-        if joint.kind.motion != Motion::None {
-            joint.coordinate = Some(CoordinateId(coordinates.len()));
-            coordinates.push(LinkId(links.len()));
+        let mut parent = tree.parent_id(index)?.map(|LinkId(p)| places[p]);
+        let own = joints.chain.pop()?;
+        for joint in joints.chain {
+            links.push(Link {
+                name: format!("{name}_{}", joint.name),
+                label: None,
+                parent,
+                joint,
+                inertial: massless(),
+                hidden: true,
+            });
+            mimics.push(None);
+            parent = Some(LinkId(links.len() - 1));
         }
+        places.push(LinkId(links.len()));
+        mimics.push(joints.mimic);
         links.push(Link {
             name,
             label,
-            parent: tree.parent_id(index)?,
-            joint,
+            parent,
+            joint: own,
             inertial,
+            hidden: false,
         });
     }
-    Some((links, coordinates))
+    mimic::resolve(&mut links, &mimics, faults)?;
+    Some((links, places))
+}
+
+/// Returns the inertial parameters of a massless link.
+fn massless() -> Inertial {
+    let zero = Value::Fixed(Dd::ZERO);
+    Inertial {
+        mass: zero,
+        com: Vec3([zero; 3]),
+        inertia: Tensor {
+            entries: [zero; 6],
+            axes: Directions::identity().rotation,
+        },
+    }
 }
 
 fn text(field: &Field<String>) -> Option<String> {

@@ -4,6 +4,7 @@
 //! because of the user's input. Numbers are double-double, parsed from the spec's decimals.
 
 mod check;
+mod coordinates;
 pub mod joint;
 mod places;
 mod symbolic;
@@ -16,6 +17,7 @@ use crate::fault::Location;
 use crate::math::{Mat3, Vec3};
 pub(crate) use check::check;
 pub(crate) use check::check_tensor;
+pub use coordinates::{Degrees, Mimic};
 pub use joint::{JointType, Motion};
 pub(crate) use places::SiteOrigins;
 pub use symbolic::{NumberSymbol, SymbolicMechanism};
@@ -29,8 +31,10 @@ macro_rules! id {
 }
 id!(/// A link of [`Mechanism::links`].
     LinkId);
-id!(/// A moving joint's coordinate: its place in q and v.
+id!(/// A generalized coordinate: its place in v. Its rate is a velocity of a joint.
     CoordinateId);
+id!(/// A position of a joint: its place in q.
+    PositionId);
 id!(/// A run-time parameter of [`Mechanism::parameters`].
     ParameterId);
 
@@ -141,8 +145,11 @@ pub struct Joint {
     pub origin: Pose,
     /// Limits of the spec.
     pub limits: Limits,
-    /// Its index in q and v; `None` for a fixed joint.
+    /// The coordinate of a rotation or a translation that mimics no other joint: its position and velocity
+    /// are this joint's alone. `None` for other joints.
     pub coordinate: Option<CoordinateId>,
+    /// The positions and velocities of a joint of any type.
+    pub degrees: Degrees,
 }
 
 /// A rigid link and the joint to its parent.
@@ -158,6 +165,8 @@ pub struct Link {
     pub joint: Joint,
     /// Mass, centre of mass, inertia.
     pub inertial: Inertial,
+    /// Whether it is the massless link between two joints that the spec has as one: it has no methods.
+    pub hidden: bool,
 }
 
 /// A named pose on a link, or in the world (`link: None`).
@@ -196,16 +205,11 @@ pub struct Mechanism {
     frames: Vec<Frame>,
     parameters: Vec<Parameter>,
     coordinates: Vec<LinkId>,
+    positions: Vec<LinkId>,
     snapped: Option<Snapped>,
 }
 
 impl Mechanism {
-    /// Returns the names of the moving joints, in the order of the coordinates.
-    pub fn joint_names(&self) -> Vec<&str> {
-        let of = |link: &LinkId| self.links[link.0].joint.name.as_str();
-        self.coordinates.iter().map(of).collect()
-    }
-
     /// Returns its name: a snake_case identifier, the module's name.
     pub fn name(&self) -> &str {
         &self.name
@@ -259,14 +263,9 @@ impl Mechanism {
             let joint = &mut welded.links[link.0].joint;
             joint.kind = joint::fixed();
             joint.origin = *pose;
-            joint.coordinate = None;
+            joint.degrees = Degrees::default();
         }
-        welded
-            .coordinates
-            .retain(|l| welded.links[l.0].joint.coordinate.is_some());
-        for (j, link) in welded.coordinates.iter().enumerate() {
-            welded.links[link.0].joint.coordinate = Some(CoordinateId(j));
-        }
+        welded.number();
         welded
     }
 
@@ -293,8 +292,10 @@ impl Mechanism {
                 origin,
                 limits: Limits::default(),
                 coordinate: None,
+                degrees: Degrees::default(),
             },
             inertial,
+            hidden: false,
         });
     }
 
@@ -317,20 +318,5 @@ impl Mechanism {
             });
         }
         Value::Parameter(ParameterId(p))
-    }
-
-    /// Returns the number of velocities.
-    pub fn nv(&self) -> usize {
-        self.coordinates.len()
-    }
-
-    /// Returns the number of positions.
-    pub fn nq(&self) -> usize {
-        self.coordinates.len()
-    }
-
-    /// Returns the joint of a coordinate.
-    pub fn joint(&self, coordinate: CoordinateId) -> &Joint {
-        &self.links[self.coordinates[coordinate.0].0].joint
     }
 }

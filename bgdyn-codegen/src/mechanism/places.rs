@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{LinkId, Mechanism, Motion, Pose};
+use super::joint::DoubleDouble;
+use super::{Joint, LinkId, Mechanism, Motion, Pose, PositionId};
 use crate::math::{Vec3, rodrigues};
 
 /// Number of sampled positions.
@@ -70,24 +71,49 @@ fn link_poses(mechanism: &Mechanism, k: usize) -> Vec<Pose> {
             link.parent.map_or(Pose::IDENTITY, carrier),
             link.joint.origin,
         );
-        let coordinate = link.joint.coordinate.map(|j| sampled(j.0, k));
-        let moved = match (link.joint.kind.motion, coordinate) {
-            (Motion::Rotation, Some(q)) => {
-                let (sin, cos) = q.sin_cos();
-                Pose {
-                    rotation: rodrigues(link.joint.axis, (cos, sin), |x| x),
-                    ..Pose::IDENTITY
-                }
-            }
-            (Motion::Translation, Some(q)) => Pose {
-                translation: link.joint.axis.scale(q),
-                ..Pose::IDENTITY
-            },
-            _ => Pose::IDENTITY,
-        };
+        let moved = moved(&link.joint, k);
         poses.push(after(placed, moved));
     }
     poses
+}
+
+/// Returns the pose of a joint's link in its origin at sampled position `k`.
+fn moved(joint: &Joint, k: usize) -> Pose {
+    let own = |p: &PositionId| {
+        let q = sampled(p.0, k);
+        joint
+            .degrees
+            .mimic
+            .map_or(q, |mimic| mimic.ratio * q + mimic.offset)
+    };
+    let mut q: Vec<Dd> = joint.degrees.positions.iter().map(own).collect();
+    match joint.kind.motion {
+        Motion::None => Pose::IDENTITY,
+        Motion::Rotation => {
+            let (sin, cos) = q[0].sin_cos();
+            Pose {
+                rotation: rodrigues(joint.axis, (cos, sin), |x| x),
+                ..Pose::IDENTITY
+            }
+        }
+        Motion::Translation => Pose {
+            translation: joint.axis.scale(q[0]),
+            ..Pose::IDENTITY
+        },
+        Motion::Compound(motion) => {
+            if let Some(first) = motion.quaternion() {
+                let own = &mut q[first..first + 4];
+                let square = own.iter().fold(Dd::ZERO, |sum, &x| sum + x * x);
+                let length = square.sqrt();
+                own.iter_mut().for_each(|x| *x = *x / length);
+            }
+            let (rotation, translation) = motion.pose(&joint.constants(), &q, &DoubleDouble);
+            Pose {
+                rotation,
+                translation,
+            }
+        }
+    }
 }
 
 /// Returns a coordinate at a sampled position: multiples of the golden ratio have no pattern in common

@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use super::{
-    CoordinateId, Inertial, Joint, Limits, Link, LinkId, Mechanism, Pose, Tensor, Value, joint,
+    CoordinateId, Degrees, Inertial, Joint, Limits, Link, LinkId, Mechanism, Pose, PositionId,
+    Tensor, Value, joint,
 };
 use crate::math::Vec3;
 
@@ -51,7 +52,8 @@ const INERTIA: [i32; 3] = [1, 2, 0];
 
 impl Mechanism {
     /// Returns the mechanism with letters for masses, centres of mass, tensors and the displacements
-    /// between joints. The base's position does not change: no effort depends on it.
+    /// between joints. The base's position does not change: no effort depends on it. All joints must be
+    /// plain ([`Mechanism::compound_joints`]).
     pub fn symbolic(&self) -> SymbolicMechanism {
         let mut all = SymbolicMechanism {
             mechanism: self.clone(),
@@ -89,6 +91,7 @@ impl Mechanism {
             let place = LinkId(all.mechanism.links.len());
             if let Some(j) = copy.joint.coordinate {
                 all.mechanism.coordinates[j.0] = place;
+                all.mechanism.positions[j.0] = place;
             }
             all.mechanism.links.push(copy);
             places.push(place);
@@ -145,6 +148,7 @@ impl SymbolicMechanism {
         let coordinate = CoordinateId(self.mechanism.coordinates.len());
         let name = format!("displacement {}", coordinate.0);
         self.mechanism.coordinates.push(place);
+        self.mechanism.positions.push(place);
         self.mechanism.links.push(Link {
             name: name.clone(),
             label: None,
@@ -157,6 +161,11 @@ impl SymbolicMechanism {
                 origin: Pose::IDENTITY,
                 limits: Limits::default(),
                 coordinate: Some(coordinate),
+                degrees: Degrees {
+                    positions: vec![PositionId(coordinate.0)],
+                    velocities: vec![coordinate],
+                    ..Degrees::default()
+                },
             },
             inertial: Inertial {
                 mass: zero,
@@ -166,6 +175,7 @@ impl SymbolicMechanism {
                     axes: Pose::IDENTITY.rotation,
                 },
             },
+            hidden: true,
         });
         place
     }

@@ -20,7 +20,8 @@ pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
             rotation,
             translation: translation + rotation * joint.axis.scale(at),
         },
-        Motion::None => joint.origin,
+        // Only joints with one coordinate of their own can be locked.
+        Motion::None | Motion::Compound(_) => joint.origin,
     }
 }
 

@@ -65,10 +65,10 @@ impl<'a> LiteralValues<'a> {
         self.inverse.evaluate(inputs).0
     }
 
-    /// Returns dP for q + ε dq, v + ε dv, a + ε da.
+    /// Returns dP for the position that moves from q with the velocities dq, v + ε dv, a + ε da.
     fn effort_rates(&self, at: &Inputs<Dd>, dq: &[Dd], dv: &[Dd], a: (&[Dd], &[Dd])) -> Vec<Dd> {
         let direction = Direction {
-            q: dq.to_vec(),
+            q: self.prepared.graph.position_rates(&at.q, dq),
             v: dv.to_vec(),
             x: vec![],
             t: Dd::ZERO,
@@ -93,7 +93,7 @@ struct State {
 
 impl State {
     fn new(literal: &LiteralValues<'_>, at: Inputs<Dd>) -> Self {
-        let zero = vec![Dd::ZERO; at.q.len()];
+        let zero = vec![Dd::ZERO; at.v.len()];
         let mut state = State {
             at_rest: literal.efforts(&at, &zero, &zero),
             efforts: literal.efforts(&at, &at.v, &at.a),
@@ -107,7 +107,7 @@ impl State {
     }
 
     fn zero(&self) -> Vec<Dd> {
-        vec![Dd::ZERO; self.at.q.len()]
+        vec![Dd::ZERO; self.at.v.len()]
     }
 
     /// Returns M(q) x = P(q, 0, x) − P(q, 0, 0).
@@ -215,7 +215,7 @@ impl Subject<'_> {
             Method::Gravity => exact("gravity = P(q, 0, 0)", found, state.at_rest.clone()),
             Method::MassMatrix => {
                 let text = "M x = P(q, 0, x) − P(q, 0, 0)";
-                let moved = times(&whole(&found, at.q.len()), &at.a);
+                let moved = times(&whole(&found, at.v.len()), &at.a);
                 let sides = Sides::new(text, EXACT, moved, state.inertial(lit, &at.a));
                 vec![sides.sized(largest(&state.at_rest))]
             }
@@ -245,7 +245,7 @@ impl Subject<'_> {
 
     fn coriolis(&self, state: &State, matrix: &[Dd]) -> Vec<Sides> {
         let (lit, at, zero) = (self.literal, &state.at, state.zero());
-        let n = at.q.len();
+        let n = at.v.len();
         let bias = lit.efforts(at, &at.v, &zero);
         let size = largest(&bias);
         let moved = plus(&times(matrix, &at.v), &state.at_rest);
@@ -266,7 +266,7 @@ impl Subject<'_> {
     /// Returns ∂τ/∂q d + ∂τ/∂v e along random directions.
     fn inverse_slopes(&self, state: &State, matrices: &[Dd]) -> Sides {
         let at = &state.at;
-        let n = at.q.len();
+        let n = at.v.len();
         let [along_q, along_v, _] = directions(n);
         let accelerations = (&at.a[..], &state.zero()[..]);
         let expected = self
@@ -282,7 +282,7 @@ impl Subject<'_> {
     /// equations of motion.
     fn forward_slopes(&self, state: &State, result: &[Dd]) -> Vec<Sides> {
         let at = &state.at;
-        let n = at.q.len();
+        let n = at.v.len();
         let (accelerations, matrices) = result.split_at(n);
         let [along_q, along_v, along_tau] = directions(n);
         let parts = [&along_q, &along_v, &along_tau]

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{derivatives, finish, reopened};
+use super::differentiate::{derivatives, finish, position_derivatives, reopened};
 use super::forward_dynamics::ForwardDerivatives;
 use crate::bond_graph::Multibody;
 use crate::expr::{Expr, Leaf, Signed};
@@ -26,11 +26,19 @@ impl Formulation for Differentiated {
         "derivatives of the expressions of inverse dynamics and of the bias"
     }
 
+    fn serves(&self, _: &Multibody) -> bool {
+        true
+    }
+
     fn knows(&self, method: Method) -> bool {
         !self.reads(method).is_empty()
     }
 
-    fn offer(&self, prepared: &Prepared<'_>, _: Method) -> Offer {
+    fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
+        // Half the derivative of the bias is C only for joints with q̇ = v.
+        if method == Method::CoriolisMatrix && !prepared.graph.plain() {
+            return Offer::Never;
+        }
         match prepared.graph.coordinates.len() <= SMALL {
             true => Offer::Candidate,
             false => Offer::Reserve,
@@ -59,7 +67,7 @@ impl Formulation for Differentiated {
                 .map(|e| half(b.expr(e)))
                 .collect()
         } else {
-            let mut outputs = rows(&derivatives(&b, &x, n, Leaf::Position));
+            let mut outputs = rows(&position_derivatives(&b, &x, graph));
             outputs.extend(rows(&derivatives(&b, &x, n, Leaf::Velocity)));
             outputs
         };
@@ -78,6 +86,10 @@ impl Formulation for ForwardDynamicsDerivatives {
 
     fn summary(&self) -> &'static str {
         "derivatives of forward dynamics from those of inverse dynamics"
+    }
+
+    fn serves(&self, _: &Multibody) -> bool {
+        true
     }
 
     fn knows(&self, method: Method) -> bool {

@@ -4,6 +4,7 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Graph, Leaf, Signed, Tangent};
+use crate::formulation::joint_motion::{along, unit_tangents};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -30,6 +31,21 @@ pub(super) fn derivatives(
             .collect()
     };
     (0..n).map(column).collect()
+}
+
+/// Returns the derivatives along the tangent: column j is d/dε x(q + ε q̇) with q̇ = N(q) e_j.
+pub(super) fn position_derivatives(
+    b: &Builder,
+    x: &[Signed],
+    graph: &Multibody,
+) -> Vec<Vec<Signed>> {
+    let column = |j: usize| {
+        let mut tangent = Tangent::new(along(unit_tangents(b, graph, j)));
+        x.iter()
+            .map(|&e| b.with_graph(|g| tangent.of(g, e)))
+            .collect()
+    };
+    (0..graph.coordinates.len()).map(column).collect()
 }
 
 /// Returns a function of the differentiated graph; its operations are in a fixed order if those of the

@@ -5,15 +5,19 @@
 //! All other formulations are verified against it. It follows the transformers of the bond graph one by
 //! one and omits only structural zeros.
 
+mod coriolis;
 mod sites;
 mod sum;
 
 use super::arguments::Arguments;
 use super::{Formulation, Offer, Prepared, solve};
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::function::Function;
 use crate::method::Method;
 use sum::LiteralSum;
+
+pub(super) use sites::outputs as site_outputs;
 
 pub(super) const NAME: &str = "literal";
 
@@ -27,6 +31,10 @@ impl Formulation for Literal {
 
     fn summary(&self) -> &'static str {
         "equation (6) term by term, in fixed axes"
+    }
+
+    fn serves(&self, _: &Multibody) -> bool {
+        true
     }
 
     /// The graph grows with the cube of the number of links.
@@ -54,6 +62,7 @@ impl Formulation for Literal {
                         .collect();
                     solve::ltdl(&b, mass, drive)
                 }
+                Method::CoriolisMatrix => sum.coriolis_matrix(&arguments.v),
                 Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
                 Method::PotentialEnergy => vec![sum.potential_energy()],
                 method => sites::outputs(&b, graph, method, &arguments)?,

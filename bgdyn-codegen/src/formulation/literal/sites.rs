@@ -5,12 +5,10 @@ use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::placement::Placement;
 use crate::formulation::site::{JacobianColumn, SiteMotion};
-use crate::math::Vec3;
-use crate::mechanism::Motion;
 use crate::method::Method;
 
 /// Returns the expressions of a method of a site; `None` for any other method.
-pub(super) fn outputs<'g>(
+pub(in crate::formulation) fn outputs<'g>(
     b: &'g Builder,
     graph: &Multibody,
     method: Method,
@@ -27,23 +25,25 @@ pub(super) fn outputs<'g>(
             origin: point,
             columns,
         };
-        return Some(motion.outputs(b, method, &x.v));
+        return Some(motion.outputs(b, graph, method, &x.v));
     };
     let rotation = placement.rotations[link.0] * place;
     let origin = placement.point(link.0, point);
     let mut on_path = Some(link);
     while let Some(l) = on_path {
         let frame = &graph.frames[l.0];
-        let axis = placement.axes[l.0];
-        if let Some(j) = frame.coordinate {
-            columns[j.0] = Some(match frame.motion {
-                Motion::Rotation => JacobianColumn {
-                    angular: axis,
-                    linear: axis.cross(origin - placement.origins[l.0]),
-                },
-                _ => JacobianColumn {
-                    angular: Vec3([b.zero(); 3]),
-                    linear: axis,
+        let lever = origin - placement.origins[l.0];
+        for (j, column) in placement.columns(b, l.0, frame) {
+            let own = JacobianColumn {
+                angular: column.angular,
+                linear: column.linear + column.angular.cross(lever),
+            };
+            // A coordinate moves the site through its own joint and through joints that mimic it.
+            columns[j.0] = Some(match columns[j.0] {
+                None => own,
+                Some(other) => JacobianColumn {
+                    angular: other.angular + own.angular,
+                    linear: other.linear + own.linear,
                 },
             });
         }
@@ -54,5 +54,5 @@ pub(super) fn outputs<'g>(
         origin,
         columns,
     };
-    Some(motion.outputs(b, method, &x.v))
+    Some(motion.outputs(b, graph, method, &x.v))
 }

@@ -1,31 +1,35 @@
 //! The double sum of equation (6).
 
+use std::collections::BTreeMap;
+
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{BondGraph, Effort, JunctionId, LinkFrame, Modulus, Transformer};
-use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
+use crate::expr::{Builder, Expr, Tangent};
 use crate::formulation::arguments::{Arguments, reflected, spin, value};
+use crate::formulation::joint_motion::{along, tangents};
 use crate::formulation::placement::Placement;
 use crate::math::{Mat3, Vec3};
+use crate::mechanism::joint::Column;
 use crate::mechanism::{CoordinateId, LinkId, Motion, Tensor};
 
 /// Transformer moduli of one link: ∂r_i/∂q_j and ρ_j^i for the coordinates that move it.
-struct Moduli<'g> {
+pub(super) struct Moduli<'g> {
     /// (j, ∂r_i/∂q_j)
-    linear: Vec<(usize, Vec3<Expr<'g>>)>,
+    pub(super) linear: Vec<(usize, Vec3<Expr<'g>>)>,
     /// (j, ρ_j^i)
-    angular: Vec<(usize, Vec3<Expr<'g>>)>,
+    pub(super) angular: Vec<(usize, Vec3<Expr<'g>>)>,
 }
 
 /// The quantities of the double sum, per link.
 pub(super) struct LiteralSum<'a, 'g> {
-    b: &'g Builder,
-    graph: &'a BondGraph,
+    pub(super) b: &'g Builder,
+    pub(super) graph: &'a BondGraph,
     /// A_i, and the poses of the joints.
     placement: Placement<'g>,
     /// r_i: centres of mass.
     positions: Vec<Vec3<Expr<'g>>>,
-    moduli: Vec<Moduli<'g>>,
+    pub(super) moduli: Vec<Moduli<'g>>,
 }
 
 impl<'a, 'g> LiteralSum<'a, 'g> {
@@ -50,28 +54,45 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
 
     /// Returns the moduli of link i, with the structural zeros and constants of the graph.
     fn moduli_of(&self, i: LinkId) -> Moduli<'g> {
-        let Placement { origins, axes, .. } = &self.placement;
-        let read = |to: JunctionId, linear: bool| {
+        let sums = self.columns_to(i);
+        let read = |to: JunctionId, part: fn(&Column<Expr<'g>>) -> Vec3<Expr<'g>>| {
             let of = |t: &Transformer| {
-                let coordinate = &self.graph.coordinates[t.from.0];
-                let l = coordinate.link.0;
-                let whole = match (linear, coordinate.motion) {
-                    (true, Motion::Rotation) => axes[l].cross(self.positions[i.0] - origins[l]),
-                    _ => axes[l],
-                };
-                (
-                    t.from.0,
-                    Vec3(std::array::from_fn(|c| {
-                        self.entry(t.modulus.0[c], whole.0[c])
-                    })),
-                )
+                let whole = part(&sums[&t.from.0]);
+                let entry = |c: usize| self.entry(t.modulus.0[c], whole.0[c]);
+                (t.from.0, Vec3(std::array::from_fn(entry)))
             };
             self.graph.into(to).map(of).collect()
         };
         Moduli {
-            linear: read(self.graph.translation(i), true),
-            angular: read(self.graph.rotation(i), false),
+            linear: read(self.graph.translation(i), |column| column.linear),
+            angular: read(self.graph.rotation(i), |column| column.angular),
         }
+    }
+
+    /// Returns ∂ṙ_i/∂v_j and ρ_j^i: the columns of every joint on the path to link i, moved to its centre of
+    /// mass, and summed over the joints that a coordinate moves.
+    fn columns_to(&self, i: LinkId) -> BTreeMap<usize, Column<Expr<'g>>> {
+        let mut sums: BTreeMap<usize, Column<Expr<'g>>> = BTreeMap::new();
+        let mut on_path = Some(i);
+        while let Some(l) = on_path {
+            let frame = &self.graph.frames[l.0];
+            let lever = || self.positions[i.0] - self.placement.origins[l.0];
+            for (j, column) in self.placement.columns(self.b, l.0, frame) {
+                let angular = column.angular;
+                let linear = match frame.motion {
+                    Motion::Translation => column.linear,
+                    _ => column.linear + angular.cross(lever()),
+                };
+                sums.entry(j.0)
+                    .and_modify(|sum| {
+                        sum.angular = sum.angular + angular;
+                        sum.linear = sum.linear + linear;
+                    })
+                    .or_insert(Column { angular, linear });
+            }
+            on_path = frame.parent;
+        }
+        sums
     }
 
     fn entry(&self, modulus: Modulus, varying: Expr<'g>) -> Expr<'g> {
@@ -87,14 +108,18 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
     }
 
     /// Returns Σ_k modulus_k · x_k.
-    fn combine(&self, moduli: &[(usize, Vec3<Expr<'g>>)], x: &[Expr<'g>]) -> Vec3<Expr<'g>> {
+    pub(super) fn combine(
+        &self,
+        moduli: &[(usize, Vec3<Expr<'g>>)],
+        x: &[Expr<'g>],
+    ) -> Vec3<Expr<'g>> {
         moduli
             .iter()
             .fold(self.zero(), |sum, (k, m)| sum + m.scale(x[*k]))
     }
 
     /// Returns J_i = A_i J_i⁰ A_iᵀ in fixed axes.
-    fn tensor(&self, i: usize) -> Mat3<Expr<'g>> {
+    pub(super) fn tensor(&self, i: usize) -> Mat3<Expr<'g>> {
         let Tensor { entries, axes } = self.graph.inertial(LinkId(i)).inertia;
         let [xx, yy, zz, xy, xz, yz] = entries.map(|x| value(self.b, x));
         let tensor = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
@@ -102,7 +127,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         axes * tensor * axes.transpose()
     }
 
-    fn mass(&self, i: usize) -> Expr<'g> {
+    pub(super) fn mass(&self, i: usize) -> Expr<'g> {
         value(self.b, self.graph.inertial(LinkId(i)).mass)
     }
 
@@ -121,12 +146,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
 
     /// Returns P_j for the given velocities and accelerations.
     pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
-        let velocities: Vec<_> = x.v.iter().map(|v| v.signed()).collect();
-        let seed = |_: &mut Graph, leaf| match leaf {
-            Leaf::Position(l) => Some(velocities[l]),
-            _ => None,
-        };
-        let mut rate = Tangent::new(seed);
+        let mut rate = Tangent::new(along(tangents(self.b, self.graph, &x.v)));
         let mut rate_of = |m: &Vec3<Expr<'g>>| {
             m.map(|e| {
                 let e = e.signed();
@@ -169,7 +189,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
     }
 
     /// Returns the joints that drive rotors on link i, with N J e in fixed axes.
-    fn spinning(&self, i: usize) -> Vec<(usize, Vec3<Expr<'g>>)> {
+    pub(super) fn spinning(&self, i: usize) -> Vec<(usize, Vec3<Expr<'g>>)> {
         let rotors = self.graph.rotors.iter();
         let on = rotors.filter_map(|r| Some((r, r.carrier.as_ref()?)));
         on.filter(|(_, carrier)| carrier.link == LinkId(i))

@@ -55,7 +55,7 @@ fn outputs(
         );
         let motion = motion(&b, graph, geometry, &frames, site);
         motion
-            .outputs(&b, method, &x.v)
+            .outputs(&b, graph, method, &x.v)
             .into_iter()
             .map(|e| e.signed())
             .collect()

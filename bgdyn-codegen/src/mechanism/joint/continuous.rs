@@ -7,4 +7,5 @@ pub(super) static CONTINUOUS: JointType = JointType {
     keyword: "continuous",
     motion: Motion::Rotation,
     position_limits: false,
+    chain: &[],
 };

@@ -7,4 +7,5 @@ pub(super) static FIXED: JointType = JointType {
     keyword: "fixed",
     motion: Motion::None,
     position_limits: false,
+    chain: &[],
 };

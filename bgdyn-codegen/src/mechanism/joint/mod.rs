@@ -1,12 +1,23 @@
 //! The list of joint types: a file for each, and a line for each in [`JOINT_TYPES`].
 
+mod compound;
 mod continuous;
+mod cylindrical;
 mod fixed;
+mod floating;
+mod helical;
 mod joint_type;
+mod planar;
 mod prismatic;
 mod revolute;
+mod spherical;
+mod universal;
 
-pub use joint_type::{JointType, Motion};
+pub use compound::{
+    Column, CompoundMotion, DoubleDouble, JointConstants, Numbers, PositionPart, Step, Twist,
+    VelocityPart,
+};
+pub use joint_type::{ChainMember, JointType, Motion};
 
 /// Returns the fixed joint.
 pub(crate) fn fixed() -> &'static JointType {
@@ -19,9 +30,15 @@ pub(crate) fn prismatic() -> &'static JointType {
 }
 
 /// All joint types.
-pub static JOINT_TYPES: [&JointType; 4] = [
+pub static JOINT_TYPES: [&JointType; 10] = [
     &revolute::REVOLUTE,
     &continuous::CONTINUOUS,
     &prismatic::PRISMATIC,
     &fixed::FIXED,
+    &spherical::SPHERICAL,
+    &floating::FLOATING,
+    &planar::PLANAR,
+    &cylindrical::CYLINDRICAL,
+    &universal::UNIVERSAL,
+    &helical::HELICAL,
 ];

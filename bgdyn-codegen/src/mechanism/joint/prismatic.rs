@@ -7,4 +7,5 @@ pub(super) static PRISMATIC: JointType = JointType {
     keyword: "prismatic",
     motion: Motion::Translation,
     position_limits: true,
+    chain: &[],
 };

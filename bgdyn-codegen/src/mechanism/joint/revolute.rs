@@ -7,4 +7,5 @@ pub(super) static REVOLUTE: JointType = JointType {
     keyword: "revolute",
     motion: Motion::Rotation,
     position_limits: true,
+    chain: &[],
 };

@@ -32,10 +32,13 @@ pub(super) fn elements(
         refused.unread();
     }
     let free = reduced.joint_names();
+    let free: Vec<&str> = free.iter().map(String::as_str).collect();
     let wanted = wanted(spec, (whole, kinds, &free), &mut refused, faults);
     let all = whole.mechanism.joint_names();
-    let locked = all.into_iter().filter(|name| !free.contains(name));
-    let mut context = NameScope::of(reduced, locked.map(str::to_owned).collect());
+    let locked = all
+        .into_iter()
+        .filter(|name| !free.contains(&name.as_str()));
+    let mut context = NameScope::of(reduced, locked.collect());
     context.refused = refused.clone();
     let context = context.with(wanted.iter());
     check_unique_names(&wanted, &whole.mechanism, faults);

@@ -83,15 +83,17 @@ fn scene(
 ) -> (Scene, bool) {
     version(spec, faults);
     let name = name(spec, stem, faults);
+    compound_joints(spec, &whole.mechanism, faults);
     let locked = locks(spec, &whole.mechanism, faults);
     let mechanism = whole.mechanism.welded(&locked);
+    let plain = whole.mechanism.compound_joints().next().is_none();
     let before = faults.count();
     let effects::Called {
         elements,
         chains,
         refused,
     } = effects::elements(spec, (whole, kinds), &mechanism, faults);
-    let sound = faults.count() == before && refused.is_empty();
+    let sound = faults.count() == before && refused.is_empty() && plain;
     let integration = run::integration(&spec.integration, faults);
     let unloaded = mechanism.clone();
     let empty = Scene {
@@ -190,6 +192,22 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
     }
 }
 
+/// Refuses joints whose positions and velocities are not the same: the state of a scene has one velocity,
+/// the rate of the position, for each position.
+fn compound_joints(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) {
+    for joint in mechanism.compound_joints() {
+        let location = match spec.mechanism.given() {
+            Some(path) => &path.location,
+            None => &spec.location,
+        };
+        let why = match joint.degrees.mimic {
+            Some(_) => "has `mimic`",
+            None => joint.kind.keyword,
+        };
+        faults.push(wording::joint_in_scene(location, &joint.name, why));
+    }
+}
+
 /// Returns the locked joints, with the poses of their links.
 fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Pose)> {
     let mut locked = Vec::new();
@@ -200,7 +218,8 @@ fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(L
             .copied()
             .find(|l| mechanism.links()[l.0].joint.name == *name);
         let Some(link) = found else {
-            let known: Vec<&str> = mechanism.joint_names();
+            let known = mechanism.joint_names();
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
             faults.push(wording::unknown_locked_joint(
                 &raw.name.location,
                 name,

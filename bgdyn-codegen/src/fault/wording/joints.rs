@@ -1,0 +1,150 @@
+//! Messages about joint types and their keys.
+
+use super::{figure, listed, meant, quote};
+use crate::fault::{Fault, Location};
+
+pub(crate) fn axis_of_joint(location: &Location, keyword: &str) -> Fault {
+    let message = format!("a {keyword} joint has no axis");
+    Fault::new(location, "axis-of-joint", message)
+        .with_help("leave `axis` out; `origin: { rpy: … }` rotates the joint's axes")
+}
+
+pub(crate) fn no_second_axis(location: &Location) -> Fault {
+    Fault::new(
+        location,
+        "no-second-axis",
+        "a universal joint needs its second axis",
+    )
+    .with_help("add `axis2: y`, in link axes at zero; the first rotation carries it along")
+}
+
+pub(crate) fn parallel_axes(location: &Location) -> Fault {
+    Fault::new(
+        location,
+        "parallel-axes",
+        "`axis2` is parallel to `axis`: the two rotations are one",
+    )
+    .with_help("choose another `axis2`, or write `type: revolute`")
+}
+
+pub(crate) fn key_of_other_joint(
+    location: &Location,
+    key: &str,
+    keyword: &str,
+    other: &str,
+) -> Fault {
+    let message = format!("a {keyword} joint has no `{key}`");
+    Fault::new(location, "key-of-other-joint", message)
+        .with_help(format!("leave `{key}` out, or write `type: {other}`"))
+}
+
+pub(crate) fn no_lead(location: &Location) -> Fault {
+    Fault::new(location, "no-lead", "a helical joint needs its lead").with_help(
+        "add `lead: 5 mm`, the travel along the axis for a full turn, or `lead: 0.8 mm/rad`",
+    )
+}
+
+pub(crate) fn zero_lead(location: &Location) -> Fault {
+    Fault::new(
+        location,
+        "zero-lead",
+        "a screw with lead 0 does not advance",
+    )
+    .with_help("write `type: revolute` without `lead`")
+}
+
+pub(crate) fn unknown_quaternion(location: &Location, word: &str) -> Fault {
+    let message = format!("`quaternion` is `any` or absent, not {}", quote(word));
+    Fault::new(location, "unknown-quaternion", message).with_help(
+        "`any` accepts quaternions of any length; without the key their length must be 1",
+    )
+}
+
+pub(crate) fn limits_of_joint(location: &Location, keyword: &str) -> Fault {
+    let message = format!("a {keyword} joint has no limits in this format");
+    Fault::new(location, "limits-of-joint", message).with_help("leave `limits` out")
+}
+
+pub(crate) fn limits_of_part(location: &Location, keyword: &str, part: &str) -> Fault {
+    let message = format!("a {keyword} joint has no part `{part}`");
+    Fault::new(location, "limits-of-part", message).with_help(
+        "`turn` and `slide` belong to `cylindrical`, `first` and `second` to `universal`",
+    )
+}
+
+pub(crate) fn limits_of_chain(location: &Location, keyword: &str, parts: &[&str]) -> Fault {
+    let message = format!("a {keyword} joint has limits for each of its parts");
+    let example = format!("{{ {}: {{ lower: …, upper: … }} }}", parts.join(": {…}, "));
+    Fault::new(location, "limits-of-chain", message).with_help(format!("write `limits: {example}`"))
+}
+
+pub(crate) fn mimic_of_joint(location: &Location, keyword: &str) -> Fault {
+    let message = format!("a {keyword} joint cannot mimic: it does not have one coordinate");
+    Fault::new(location, "mimic-of-joint", message)
+        .with_help("`mimic` belongs to `revolute`, `continuous`, `prismatic` and `helical` joints")
+}
+
+pub(crate) fn unknown_leader(location: &Location, name: &str, known: &[&str]) -> Fault {
+    let message = format!("no joint is called {}", quote(name));
+    let all = format!("the joints are {}", listed(known.iter().copied().take(12)));
+    Fault::new(location, "unknown-leader", message).with_help(meant(name, known, all))
+}
+
+pub(crate) fn leader_of_type(location: &Location, name: &str, keyword: &str) -> Fault {
+    let message = format!(
+        "{} is a {keyword} joint; only a joint with one coordinate can be mimicked",
+        quote(name)
+    );
+    Fault::new(location, "leader-of-type", message)
+        .with_help("name a revolute, continuous, prismatic or helical joint")
+}
+
+pub(crate) fn zero_ratio(location: &Location) -> Fault {
+    Fault::new(
+        location,
+        "zero-ratio",
+        "with ratio 0 the joint does not move",
+    )
+    .with_help("write `type: fixed`, or a ratio that is not 0")
+}
+
+pub(crate) fn mimic_circle(location: &Location, names: &[&str]) -> Fault {
+    let mut circle: Vec<&str> = names.to_vec();
+    circle.extend(names.first());
+    let message = format!(
+        "these joints mimic each other in a circle: {}",
+        circle.join(" → ")
+    );
+    Fault::new(location, "mimic-circle", message)
+        .with_help("leave `mimic` out of one of them: it is then the coordinate of all")
+}
+
+pub(crate) fn mimic_empty_range(
+    location: &Location,
+    leader: &str,
+    (lower, upper): (Option<f64>, Option<f64>),
+) -> Fault {
+    let (lower, upper) = (lower.unwrap_or_default(), upper.unwrap_or_default());
+    let message = format!(
+        "no position of {} keeps the limits of both joints: it would be at least {} and at most {}",
+        quote(leader),
+        figure(lower),
+        figure(upper)
+    );
+    Fault::new(location, "mimic-empty-range", message)
+        .with_help("change `ratio`, `offset` or one of the limits")
+}
+
+pub(crate) fn joint_in_scene(location: &Location, joint: &str, why: &str) -> Fault {
+    let what = match why.contains(' ') {
+        true => why.to_owned(),
+        false => format!("is {why}"),
+    };
+    let message = format!(
+        "scenes do not support this joint yet: {} {what}",
+        quote(joint)
+    );
+    Fault::new(location, "joint-in-scene", message).with_help(
+        "use the mechanism's methods (`bgdyn eval`, `bgdyn!`), or a mechanism of revolute, continuous and prismatic joints",
+    )
+}

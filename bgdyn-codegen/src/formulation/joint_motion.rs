@@ -1,0 +1,92 @@
+//! Positions, velocities and position rates of joints, as expressions.
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::{LinkFrame, Multibody};
+use crate::expr::{Builder, Expr, Graph, Leaf, Signed};
+use crate::mechanism::Motion;
+use crate::mechanism::joint::Numbers;
+
+impl<'g> Numbers<Expr<'g>> for &'g Builder {
+    fn constant(&self, x: Dd) -> Expr<'g> {
+        Builder::constant(self, x)
+    }
+
+    fn cos_sin(&self, angle: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
+        Builder::cos_sin(self, &[angle], Dd::ZERO)
+    }
+
+    fn twice_inverse(&self, squares: Expr<'g>) -> Expr<'g> {
+        Builder::constant(self, Dd::from_f64(2.0)) / squares
+    }
+}
+
+/// Returns the positions of a joint; for one with `mimic` ratio · q + offset of its leader's.
+pub(super) fn joint_positions<'g>(
+    b: &'g Builder,
+    frame: &LinkFrame,
+    q: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
+    let read = |p: &crate::mechanism::PositionId| match frame.degrees.mimic {
+        None => q[p.0],
+        Some(mimic) => q[p.0] * mimic.ratio + b.constant(mimic.offset),
+    };
+    frame.degrees.positions.iter().map(read).collect()
+}
+
+/// Returns the velocities of a joint, or its accelerations; for one with `mimic` ratio times its leader's.
+pub(super) fn joint_rates<'g>(frame: &LinkFrame, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let read = |j: &crate::mechanism::CoordinateId| match frame.degrees.mimic {
+        None => v[j.0],
+        Some(mimic) => v[j.0] * mimic.ratio,
+    };
+    frame.degrees.velocities.iter().map(read).collect()
+}
+
+/// Returns q̇ = N(q) v.
+pub(crate) fn position_rates<'g>(
+    b: &'g Builder,
+    graph: &Multibody,
+    (q, v): (&[Expr<'g>], &[Expr<'g>]),
+) -> Vec<Expr<'g>> {
+    let mut rates = vec![b.zero(); graph.positions.len()];
+    for frame in graph.frames.iter().filter(|f| f.degrees.mimic.is_none()) {
+        let positions = &frame.degrees.positions;
+        let own = match frame.motion {
+            Motion::Compound(motion) => {
+                let q: Vec<Expr<'g>> = positions.iter().map(|p| q[p.0]).collect();
+                motion.position_rates(&frame.constants(), (&q, &joint_rates(frame, v)), &b)
+            }
+            _ => joint_rates(frame, v),
+        };
+        for (p, rate) in positions.iter().zip(own) {
+            rates[p.0] = rate;
+        }
+    }
+    rates
+}
+
+/// Returns the rates of the positions for velocities, as the tangents of the positions' leaves.
+pub(super) fn tangents<'g>(b: &'g Builder, graph: &Multibody, v: &[Expr<'g>]) -> Vec<Signed> {
+    let q: Vec<Expr<'g>> = (0..graph.positions.len())
+        .map(|p| b.leaf(Leaf::Position(p)))
+        .collect();
+    let rates = position_rates(b, graph, (&q, v));
+    rates.into_iter().map(Expr::signed).collect()
+}
+
+/// Returns the tangents of the positions for a unit velocity of coordinate j.
+pub(super) fn unit_tangents(b: &Builder, graph: &Multibody, j: usize) -> Vec<Signed> {
+    let n = graph.coordinates.len();
+    let unit = |k: usize| b.constant(if k == j { Dd::ONE } else { Dd::ZERO });
+    let v: Vec<Expr<'_>> = (0..n).map(unit).collect();
+    tangents(b, graph, &v)
+}
+
+/// Returns the seed of a tangent along these rates of the positions.
+pub(super) fn along(rates: Vec<Signed>) -> impl FnMut(&mut Graph, Leaf) -> Option<Signed> {
+    move |_, leaf| match leaf {
+        Leaf::Position(p) => Some(rates[p]),
+        _ => None,
+    }
+}

@@ -1,0 +1,75 @@
+//! The Coriolis matrix, body by body.
+
+use bgdyn_runtime::Dd;
+
+use super::sum::LiteralSum;
+use crate::expr::{Expr, Tangent};
+use crate::formulation::joint_motion::{along, tangents};
+use crate::math::{Mat3, Vec3};
+
+impl<'g> LiteralSum<'_, 'g> {
+    /// Returns C, row by row, with bias = C v + gravity and Ṁ − 2C skew:
+    ///
+    /// C_jk = Σ_i [ ∂r_i/∂q_j · m_i d/dt(∂r_i/∂q_k) + ρ_j · (J_i ρ̇_k + B_i ρ_k) ],
+    /// B = ½ ([ω]× J − J [ω]× − [J ω]×).
+    ///
+    /// For joints with q̇ = v it is the matrix of Christoffel's symbols.
+    pub(super) fn coriolis_matrix(&self, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let n = self.graph.coordinates.len();
+        let mut matrix = vec![self.b.zero(); n * n];
+        let mut rate = Tangent::new(along(tangents(self.b, self.graph, v)));
+        let mut rate_of = |m: &Vec3<Expr<'g>>| {
+            m.map(|e| {
+                let e = e.signed();
+                self.b.expr(self.b.with_graph(|g| rate.of(g, e)))
+            })
+        };
+        let mut add = |j: usize, k: usize, more: Expr<'g>| {
+            matrix[j * n + k] = matrix[j * n + k] + more;
+        };
+        for i in 0..self.graph.frames.len() {
+            let moduli = &self.moduli[i];
+            let (mass, tensor) = (self.mass(i), self.tensor(i));
+            for (k, y) in &moduli.linear {
+                let force = rate_of(y).scale(mass);
+                moduli
+                    .linear
+                    .iter()
+                    .for_each(|(j, x)| add(*j, *k, x.dot(force)));
+            }
+            let omega = self.combine(&moduli.angular, v);
+            let coupling = coupling(tensor, omega);
+            for (k, y) in &moduli.angular {
+                let moment = tensor * rate_of(y) + coupling * *y;
+                moduli
+                    .angular
+                    .iter()
+                    .for_each(|(j, x)| add(*j, *k, x.dot(moment)));
+            }
+            // A rotor's momentum h v_l on the link turns with it.
+            for (l, h) in self.spinning(i) {
+                for (j, x) in &moduli.angular {
+                    add(*j, l, x.dot(omega.cross(h)));
+                    let rate = rate_of(x);
+                    add(l, *j, h.dot(rate));
+                }
+            }
+        }
+        matrix
+    }
+}
+
+/// Returns B = ½ ([ω]× J − J [ω]× − [J ω]×).
+fn coupling<'g>(tensor: Mat3<Expr<'g>>, omega: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
+    let half = Dd::from_f64(0.5);
+    let turning = cross(omega);
+    let whole = turning * tensor - tensor * turning - cross(tensor * omega);
+    whole.map(|x| x * half)
+}
+
+/// Returns [v]×.
+fn cross<'g>(v: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
+    let [x, y, z] = v.0;
+    let zero = x - x;
+    Mat3([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
+}

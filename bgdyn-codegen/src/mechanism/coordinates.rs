@@ -1,0 +1,197 @@
+//! The positions and velocities of a mechanism's joints.
+
+use bgdyn_runtime::Dd;
+
+use super::joint::{Column, JointConstants, Motion};
+use super::{CoordinateId, Joint, LinkId, Mechanism, PositionId};
+use crate::math::Vec3;
+
+/// The positions and velocities of a joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Degrees {
+    /// Its positions; those of the leader for a joint with `mimic`.
+    pub positions: Vec<PositionId>,
+    /// Its velocities; those of the leader for a joint with `mimic`.
+    pub velocities: Vec<CoordinateId>,
+    /// The leader, for a joint with `mimic`.
+    pub mimic: Option<Mimic>,
+    /// Advance along the axis of a helical joint, m/rad.
+    pub advance: Dd,
+    /// Whether its quaternion may have any length.
+    pub any_length: bool,
+}
+
+/// The relation of a joint to another: position = ratio · q + offset, velocity = ratio · v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mimic {
+    /// The link of the other joint.
+    pub leader: LinkId,
+    /// Units of this joint per unit of the other.
+    pub ratio: Dd,
+    /// Position where the other joint's position is zero.
+    pub offset: Dd,
+}
+
+impl Joint {
+    /// Returns the constants of its motion.
+    pub fn constants(&self) -> JointConstants {
+        self.degrees.constants(self.axis)
+    }
+}
+
+impl Degrees {
+    /// Returns the constants of the motion of a joint with this axis.
+    pub fn constants(&self, axis: Vec3<Dd>) -> JointConstants {
+        JointConstants {
+            axis,
+            advance: self.advance,
+            any_length: self.any_length,
+        }
+    }
+
+    /// Returns the columns of the motion subspace by coordinate, in link axes at the link's origin. For a
+    /// joint with `mimic` they are per unit velocity of the leader.
+    pub fn columns(&self, motion: Motion, axis: Vec3<Dd>) -> Vec<(CoordinateId, Column<Dd>)> {
+        let zero = Vec3([Dd::ZERO; 3]);
+        let own = match motion {
+            Motion::None => Vec::new(),
+            Motion::Rotation => vec![Column {
+                angular: axis,
+                linear: zero,
+            }],
+            Motion::Translation => vec![Column {
+                angular: zero,
+                linear: axis,
+            }],
+            Motion::Compound(compound) => compound.columns(&self.constants(axis)),
+        };
+        let ratio = self.mimic.map_or(Dd::ONE, |mimic| mimic.ratio);
+        let scaled = own.into_iter().map(|column| Column {
+            angular: column.angular.scale(ratio),
+            linear: column.linear.scale(ratio),
+        });
+        self.velocities.iter().copied().zip(scaled).collect()
+    }
+}
+
+impl Degrees {
+    /// Returns the column of a motion about and along an axis, as factors of the axis: rad and m per unit
+    /// velocity. `None` for other motions.
+    pub fn axial(&self, motion: Motion) -> Option<(CoordinateId, [Dd; 2])> {
+        let ratio = self.mimic.map_or(Dd::ONE, |mimic| mimic.ratio);
+        let factors = match motion {
+            Motion::Rotation => [ratio, Dd::ZERO],
+            Motion::Translation => [Dd::ZERO, ratio],
+            Motion::Compound(compound) if compound.axial => [ratio, ratio * self.advance],
+            Motion::None | Motion::Compound(_) => return None,
+        };
+        Some((*self.velocities.first()?, factors))
+    }
+}
+
+impl Mechanism {
+    /// Numbers the positions and velocities, in the order of the links; a joint with `mimic` gets those of
+    /// its leader.
+    pub(super) fn number(&mut self) {
+        let (mut positions, mut coordinates) = (Vec::new(), Vec::new());
+        for (i, link) in self.links.iter_mut().enumerate() {
+            let joint = &mut link.joint;
+            let motion = joint.kind.motion;
+            joint.coordinate = None;
+            (joint.degrees.positions, joint.degrees.velocities) = (vec![], vec![]);
+            if joint.degrees.mimic.is_some() {
+                continue;
+            }
+            if matches!(motion, Motion::Rotation | Motion::Translation) {
+                joint.coordinate = Some(CoordinateId(coordinates.len()));
+            }
+            for _ in 0..motion.nq() {
+                joint.degrees.positions.push(PositionId(positions.len()));
+                positions.push(LinkId(i));
+            }
+            for _ in 0..motion.nv() {
+                joint
+                    .degrees
+                    .velocities
+                    .push(CoordinateId(coordinates.len()));
+                coordinates.push(LinkId(i));
+            }
+        }
+        for i in 0..self.links.len() {
+            if let Some(mimic) = self.links[i].joint.degrees.mimic {
+                let Degrees {
+                    positions,
+                    velocities,
+                    ..
+                } = self.links[mimic.leader.0].joint.degrees.clone();
+                let own = &mut self.links[i].joint.degrees;
+                (own.positions, own.velocities) = (positions, velocities);
+            }
+        }
+        (self.positions, self.coordinates) = (positions, coordinates);
+    }
+
+    /// Returns the number of velocities.
+    pub fn nv(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Returns the number of positions.
+    pub fn nq(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Returns, for each position, the link of its joint.
+    pub fn positions(&self) -> &[LinkId] {
+        &self.positions
+    }
+
+    /// Returns the joint of a coordinate.
+    pub fn joint(&self, coordinate: CoordinateId) -> &Joint {
+        &self.links[self.coordinates[coordinate.0].0].joint
+    }
+
+    /// Returns the joints that are not plain: more than one degree, a screw, or `mimic`.
+    pub fn compound_joints(&self) -> impl Iterator<Item = &Joint> {
+        let joints = self.links.iter().map(|link| &link.joint);
+        joints.filter(|joint| joint.coordinate.is_none() && joint.kind.motion != Motion::None)
+    }
+
+    /// Returns the names of the coordinates: that of the joint, with an ending for each velocity of a
+    /// joint with several.
+    pub fn joint_names(&self) -> Vec<String> {
+        let named = self.coordinates.iter().enumerate();
+        let name = |(j, link): (usize, &LinkId)| {
+            let joint = &self.links[link.0].joint;
+            let own = joint.degrees.velocities.iter().position(|v| v.0 == j);
+            let suffix = match (joint.kind.motion, own) {
+                (Motion::Compound(motion), Some(k)) => motion.velocities[k].suffix,
+                _ => "",
+            };
+            suffixed(&joint.name, suffix)
+        };
+        named.map(name).collect()
+    }
+
+    /// Returns the names of the positions, in the same way.
+    pub fn position_names(&self) -> Vec<String> {
+        let named = self.positions.iter().enumerate();
+        let name = |(p, link): (usize, &LinkId)| {
+            let joint = &self.links[link.0].joint;
+            let own = joint.degrees.positions.iter().position(|x| x.0 == p);
+            let suffix = match (joint.kind.motion, own) {
+                (Motion::Compound(motion), Some(k)) => motion.positions[k].suffix,
+                _ => "",
+            };
+            suffixed(&joint.name, suffix)
+        };
+        named.map(name).collect()
+    }
+}
+
+fn suffixed(name: &str, suffix: &str) -> String {
+    match suffix {
+        "" => name.to_owned(),
+        _ => format!("{name}_{suffix}"),
+    }
+}

@@ -1,0 +1,139 @@
+//! Ratios of an angle, its sine and its cosine, accurate and differentiable also at the angle 0.
+//!
+//! Near 0 they are power series in the square of the angle, elsewhere quotients. Both are computed, and
+//! one is selected. A number whose root or reciprocal is infinite is replaced before, so that derivatives
+//! by dual numbers are finite.
+
+use crate::Scalar;
+
+/// A constant as the sum of two words.
+type Words = (f64, f64);
+
+/// Below this square of the angle (rad²) the series are used. Above it, sin(x)/x is below 1/2, and its
+/// difference from 1 does not cancel.
+const SWITCH: f64 = 4.0;
+/// Number of terms of the series; at the switch the first omitted term is below 2⁻¹⁰⁶ of the sum.
+const TERMS: usize = 18;
+/// 1/2!, 1/4!, …
+const EVEN: [Words; TERMS] = inverse_factorials(2);
+/// 1/3!, 1/5!, …
+const ODD: [Words; TERMS] = inverse_factorials(3);
+
+/// Number of halvings of the angle of [`arc_ratio`]. It is at most π/2 before and π/32 after them, with a
+/// tangent below 0.1.
+const HALVINGS: usize = 4;
+/// 1/2ᵏ after k halvings.
+const POWER: f64 = 1.0 / (1_u32 << HALVINGS) as f64;
+/// Number of terms of the series of the arc tangent; the first omitted term is below 2⁻¹⁰⁶.
+const ARC_TERMS: usize = 16;
+/// 1, 1/3, 1/5, …
+const ARC: [Words; ARC_TERMS] = odd_reciprocals();
+
+/// Cosine of an angle x and ratios of sines and cosines to powers of x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sines<T> {
+    /// cos x.
+    pub cosine: T,
+    /// sin(x)/x; 1 at 0.
+    pub sine: T,
+    /// (1 − cos x)/x²; 1/2 at 0.
+    pub versine: T,
+    /// (x − sin x)/x³; 1/6 at 0.
+    pub excess: T,
+}
+
+impl<T: Scalar> Sines<T> {
+    /// Returns the ratios for the angle whose square (rad²) is `square`: all are even functions.
+    ///
+    /// Relative errors are a few roundings, of the cosine and the sine for angles up to 2 and π/2 − 1e-3
+    /// rad; beyond, cosine, sine and versine have absolute errors of this size near their zeros.
+    pub fn of_square(square: T) -> Self {
+        let one = T::from_f64(1.0);
+        let near = square.less(T::from_f64(SWITCH));
+        let far = T::select(near, one, square);
+        let angle = far.sqrt();
+        let (s, c) = angle.sin_cos();
+        let ratio = s / angle;
+        let (versine, excess) = (series(&EVEN, square), series(&ODD, square));
+        Self {
+            cosine: T::select(near, one - square * versine, c),
+            sine: T::select(near, one - square * excess, ratio),
+            versine: T::select(near, versine, (one - c) / far),
+            excess: T::select(near, excess, (one - ratio) / far),
+        }
+    }
+}
+
+/// Returns sin(x)/x for an angle x in radians; 1 at 0.
+pub fn sine_ratio<T: Scalar>(x: T) -> T {
+    let one = T::from_f64(1.0);
+    let square = x * x;
+    let near = square.less(T::from_f64(SWITCH));
+    let far = T::select(near, one, x);
+    let (s, _) = far.sin_cos();
+    T::select(near, one - square * series(&ODD, square), s / far)
+}
+
+/// Returns x/sin(x) of the angle x in [0, π/2] with the cosine `cosine` and the square of the sine
+/// `square`; 1 at 0. Their rounding errors must be small: `square + cosine²` = 1.
+///
+/// There is no root or reciprocal of a number that can vanish, and no selection.
+pub fn arc_ratio<T: Scalar>(square: T, cosine: T) -> T {
+    let (half, one) = (T::from_f64(0.5), T::from_f64(1.0));
+    // With xₖ = x/2ᵏ: cos xₖ from cos xₖ₋₁, sin xₖ = sin x/(2ᵏ cos x₁ … cos xₖ).
+    let (last, product) = (0..HALVINGS).fold((cosine, one), |(cosine, product), _| {
+        let halved = (half * (one + cosine)).sqrt();
+        (halved, product * halved)
+    });
+    // x/sin x = 2ᵏ (xₖ/tan xₖ) (tan xₖ/sin x).
+    let share = one / (product * last);
+    let tangent = T::from_f64(POWER) * share;
+    share * series(&ARC, square * (tangent * tangent))
+}
+
+/// Returns c₀ − c₁ x + c₂ x² − …
+fn series<T: Scalar, const K: usize>(coefficients: &[Words; K], x: T) -> T {
+    let minus = -x;
+    let zero = T::from_f64(0.0);
+    coefficients.iter().rev().fold(zero, |sum, &(hi, lo)| {
+        sum.mul_add(minus, T::from_parts(hi, lo))
+    })
+}
+
+/// Returns 1/first!, 1/(first + 2)!, …
+const fn inverse_factorials(first: u32) -> [Words; TERMS] {
+    let mut all = [(0.0, 0.0); TERMS];
+    let (mut value, mut n, mut k) = ((1.0, 0.0), 1, 0);
+    while k < TERMS {
+        while n < first + 2 * k as u32 {
+            n += 1;
+            value = divided(value, n);
+        }
+        all[k] = value;
+        k += 1;
+    }
+    all
+}
+
+/// Returns 1, 1/3, 1/5, …
+const fn odd_reciprocals() -> [Words; ARC_TERMS] {
+    let mut all = [(0.0, 0.0); ARC_TERMS];
+    let mut k = 0;
+    while k < ARC_TERMS {
+        all[k] = divided((1.0, 0.0), 2 * k as u32 + 1);
+        k += 1;
+    }
+    all
+}
+
+/// Returns (hi + lo)/n for an n below 2¹¹.
+const fn divided((hi, lo): Words, n: u32) -> Words {
+    let n = n as f64;
+    let quotient = hi / n;
+    // Two halves of the quotient, whose products with n are exact.
+    let upper = f64::from_bits(quotient.to_bits() >> 27 << 27);
+    let lower = quotient - upper;
+    let rest = ((hi - upper * n) - lower * n + lo) / n;
+    let sum = quotient + rest;
+    (sum, rest - (sum - quotient))
+}
