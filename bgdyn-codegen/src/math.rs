@@ -123,6 +123,12 @@ impl<T: Ring> Sub for Mat3<T> {
     }
 }
 
+/// Returns [v]×, the matrix of the cross product with v.
+pub fn skew<T: Ring>(v: Vec3<T>, zero: T) -> Mat3<T> {
+    let [x, y, z] = v.0;
+    Mat3([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
+}
+
 /// Returns the rotation by an angle about the unit vector n, by Rodrigues' formula:
 /// `n nᵀ + cos (1 − n nᵀ) + sin [n]×`. `constant` converts a number to an entry.
 pub fn rodrigues<T: Ring + Mul<Dd, Output = T>>(

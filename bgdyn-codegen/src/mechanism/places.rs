@@ -105,7 +105,7 @@ fn moved(joint: &Joint, k: usize) -> Pose {
                 let own = &mut q[first..first + 4];
                 let square = own.iter().fold(Dd::ZERO, |sum, &x| sum + x * x);
                 let length = square.sqrt();
-                own.iter_mut().for_each(|x| *x = *x / length);
+                own.iter_mut().for_each(|x| *x /= length);
             }
             let (rotation, translation) = motion.pose(&joint.constants(), &q, &DoubleDouble);
             Pose {

@@ -52,6 +52,7 @@ pub fn verify(model: &Model, options: &Options) -> Result<(), Refusal> {
 /// Every requested name that the mechanism does not have.
 pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unknown>> {
     let bond_graph = bond_graph::build(&mechanism);
+    options.check_formulation(&bond_graph)?;
     let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
     let choice = Choice::new(&bond_graph, options.formulation);
     let chosen = methods
@@ -66,9 +67,11 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
     })
 }
 
-/// Returns one function of a mechanism, without the others.
+/// Returns one function of a mechanism, without the others; `None` if the selected formulation does not
+/// compute the method, or does not serve the mechanism.
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
     let graph = bond_graph::build(mechanism);
+    options.check_formulation(&graph).ok()?;
     prefer(
         &Choice::new(&graph, options.formulation),
         method,

@@ -63,6 +63,22 @@ impl<M: Dynamics<f64, N, N>, const N: usize> Dynamics<f64, N, N> for Geared<M, N
         self.arm.potential_energy(q)
     }
 
+    fn neutral(&self) -> SVector<f64, N> {
+        self.arm.neutral()
+    }
+
+    fn position_rates(&self, q: &SVector<f64, N>, v: &SVector<f64, N>) -> SVector<f64, N> {
+        self.arm.position_rates(q, v)
+    }
+
+    fn normalize(&self, q: &SVector<f64, N>) -> SVector<f64, N> {
+        self.arm.normalize(q)
+    }
+
+    fn sample(&self, u: &SVector<f64, N>) -> SVector<f64, N> {
+        self.arm.sample(u)
+    }
+
     fn integrate(&self, q: &SVector<f64, N>, dv: &SVector<f64, N>) -> SVector<f64, N> {
         self.arm.integrate(q, dv)
     }

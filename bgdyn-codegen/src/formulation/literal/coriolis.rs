@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use super::sum::LiteralSum;
 use crate::expr::{Expr, Tangent};
 use crate::formulation::joint_motion::{along, tangents};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, skew};
 
 impl<'g> LiteralSum<'_, 'g> {
     /// Returns C, row by row, with bias = C v + gravity and Ṁ − 2C skew:
@@ -38,7 +38,7 @@ impl<'g> LiteralSum<'_, 'g> {
                     .for_each(|(j, x)| add(*j, *k, x.dot(force)));
             }
             let omega = self.combine(&moduli.angular, v);
-            let coupling = coupling(tensor, omega);
+            let coupling = self.coupling(tensor, omega);
             for (k, y) in &moduli.angular {
                 let moment = tensor * rate_of(y) + coupling * *y;
                 moduli
@@ -57,19 +57,12 @@ impl<'g> LiteralSum<'_, 'g> {
         }
         matrix
     }
-}
 
-/// Returns B = ½ ([ω]× J − J [ω]× − [J ω]×).
-fn coupling<'g>(tensor: Mat3<Expr<'g>>, omega: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
-    let half = Dd::from_f64(0.5);
-    let turning = cross(omega);
-    let whole = turning * tensor - tensor * turning - cross(tensor * omega);
-    whole.map(|x| x * half)
-}
-
-/// Returns [v]×.
-fn cross<'g>(v: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
-    let [x, y, z] = v.0;
-    let zero = x - x;
-    Mat3([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
+    /// Returns B = ½ ([ω]× J − J [ω]× − [J ω]×).
+    fn coupling(&self, tensor: Mat3<Expr<'g>>, omega: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
+        let (half, zero) = (Dd::from_f64(0.5), self.b.zero());
+        let turning = skew(omega, zero);
+        let whole = turning * tensor - tensor * turning - skew(tensor * omega, zero);
+        whole.map(|x| x * half)
+    }
 }

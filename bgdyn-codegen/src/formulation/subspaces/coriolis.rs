@@ -8,9 +8,9 @@
 use bgdyn_runtime::Dd;
 
 use super::bodies::Bodies;
-use super::spatial::{Block, Spatial, cross, diagonal};
+use super::spatial::{Block, Spatial, diagonal};
 use crate::expr::Expr;
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, skew};
 
 impl<'g> Bodies<'_, 'g> {
     /// Returns C(q, v), row by row.
@@ -33,7 +33,7 @@ impl<'g> Bodies<'_, 'g> {
                     block
                         .turned(body.turned)
                         .turned(fixed)
-                        .shifted(body.position)
+                        .shifted(self.b, body.position)
                 };
                 inertias[p] = inertias[p].plus(&moved(&inertias[i]));
                 couplings[p] = couplings[p].plus(&moved(&couplings[i]));
@@ -137,7 +137,7 @@ impl<'g> Bodies<'_, 'g> {
         let d = inertia.pseudo;
         let trace = d.0[0][0] + d.0[1][1] + d.0[2][2];
         let tensor = diagonal(self.b, trace) - d;
-        let first = cross(inertia.first);
+        let first = skew(inertia.first, self.b.zero());
         let minus = first.map(|x| -x);
         Block([[tensor, first], [minus, diagonal(self.b, inertia.mass)]])
     }
@@ -145,9 +145,10 @@ impl<'g> Bodies<'_, 'g> {
     /// Returns B = ½ ([v]×* I + [I v] − I [v]×).
     fn coupling(&self, inertia: &Block<'g>, twist: Spatial<'g>) -> Block<'g> {
         let zero = Mat3([[self.b.zero(); 3]; 3]);
+        let cross = |v: Vec3<Expr<'g>>| skew(v, self.b.zero());
         let (w, v) = (cross(twist.0), cross(twist.1));
         let (moment, force) = inertia.times(twist);
-        let (n, f) = (cross(moment).map(|x| -x), cross(force).map(|x| -x));
+        let (n, f) = (cross(-moment), cross(-force));
         let half = Dd::from_f64(0.5);
         let [[a, c], [d, e]] = inertia.0;
         // [v]×* = [ω, v; 0, ω], [v]× = [ω, 0; v, ω], s ×* (n, f) = (ω × n + v × f, ω × f)

@@ -1,7 +1,7 @@
 //! Spatial vectors and 6×6 matrices of expressions, angular part first (Featherstone 2008).
 
 use crate::expr::{Builder, Expr};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, skew};
 
 /// A spatial vector: angular part, linear part.
 pub(super) type Spatial<'g> = (Vec3<Expr<'g>>, Vec3<Expr<'g>>);
@@ -33,20 +33,13 @@ impl<'g> Block<'g> {
 
     /// Returns it about a point from which the origin is displaced by p: a motion (ω, v) there is
     /// (ω, v + ω × p) here, a force (n, f) here is (n + p × f, f) there.
-    pub(super) fn shifted(&self, p: Vec3<Expr<'g>>) -> Self {
-        let x = cross(p);
+    pub(super) fn shifted(&self, b: &'g Builder, p: Vec3<Expr<'g>>) -> Self {
+        let x = skew(p, b.zero());
         let [[a, c], [d, e]] = self.0;
         // Columns: v here = v − p × ω.
         let (a, d) = (a - c * x, d - e * x);
         Block([[a + x * d, c + x * e], [d, e]])
     }
-}
-
-/// Returns [v]×.
-pub(super) fn cross<'g>(v: Vec3<Expr<'g>>) -> Mat3<Expr<'g>> {
-    let [x, y, z] = v.0;
-    let zero = x - x;
-    Mat3([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
 }
 
 /// Returns k·1.

@@ -1,0 +1,10 @@
+//! Joints with several degrees of freedom in compiled code, in every scalar: motions keep what they must
+//! keep, integration undoes difference, and the laws between the methods hold along the tangent.
+
+mod laws;
+mod motions;
+
+bgdyn::bgdyn!("helical_universal_test.yaml");
+bgdyn::bgdyn!("quadrotor_arm.yaml", derivatives = true);
+bgdyn::bgdyn!("satellite_arm6.yaml");
+bgdyn::bgdyn!("spherical_chain3.yaml");
