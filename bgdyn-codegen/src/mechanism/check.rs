@@ -59,7 +59,7 @@ pub(crate) fn check(
         let (links, places) = assemble(bodies, &tree, faults)?;
         let mut frames = all(frames)?;
         for frame in &mut frames {
-            frame.link = frame.link.map(|LinkId(i)| places[i]);
+            frame.link = frame.link.and_then(|LinkId(i)| places.get(i).copied());
         }
         let mut mechanism = Mechanism {
             name: name?,
@@ -192,7 +192,11 @@ fn assemble(
             mut joints,
             inertial,
         } = bodies.get_mut(index)?.take()?;
-        let mut parent = tree.parent_id(index)?.map(|LinkId(p)| places[p]);
+        let mut parent = match tree.parent_id(index)? {
+            None => None,
+            // In a circle a parent has no place yet.
+            Some(LinkId(p)) => Some(*places.get(p)?),
+        };
         let own = joints.chain.pop()?;
         for joint in joints.chain {
             links.push(Link {

@@ -85,7 +85,9 @@ pub fn places<D: Number>(mechanism: &Mechanism, q: &[D]) -> Vec<Place<D>> {
             match joint.kind.motion {
                 Motion::Rotation => rotation = times(rotation, rodrigues(n, q[j.0])),
                 Motion::Translation => origin = add(origin, scaled(axis, q[j.0])),
-                Motion::None => unreachable!("a fixed joint has no coordinate"),
+                Motion::None | Motion::Compound(_) => {
+                    unreachable!("the joint has no coordinate of its own")
+                }
             }
         }
         let com = v3(|i| D::from(fixed(link.inertial.com.0[i], &[])));

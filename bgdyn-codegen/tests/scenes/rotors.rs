@@ -76,7 +76,10 @@ fn equals_the_literal_sum(system: &SceneEquations) {
             bgdyn_codegen::choice::Choice::new(&system.graph, Some(way))
         };
         let literal = by("literal").function(method).expect("the literal sum");
-        for name in ["recursion", "recursion_own"] {
+        for name in ["recursion", "recursion_own", "subspaces"] {
+            if !by_name(name).expect("a formulation").knows(method) {
+                continue;
+            }
             let way = by_name(name).expect("a formulation");
             let prepared = bgdyn_codegen::formulation::Prepared::new(&system.graph);
             let found = way.function(&prepared, method).expect("a function");

@@ -46,12 +46,23 @@ impl<'g> LiteralSum<'_, 'g> {
                     .iter()
                     .for_each(|(j, x)| add(*j, *k, x.dot(moment)));
             }
-            // A rotor's momentum h v_l on the link turns with it.
+            // A full rotor is a body that turns by N v_l e relative to the link, so that its momentum is
+            // h v_l with h = N J e. The terms linear in N:
             for (l, h) in self.spinning(i) {
+                let half = Dd::from_f64(0.5);
+                let spun = skew(h, self.b.zero()).map(|x| x * v[l] * half);
+                for (k, y) in &moduli.angular {
+                    let moment = spun * *y;
+                    moduli
+                        .angular
+                        .iter()
+                        .for_each(|(j, x)| add(*j, *k, -x.dot(moment)));
+                }
+                let turning = omega.cross(h).map(|x| x * half);
                 for (j, x) in &moduli.angular {
-                    add(*j, l, x.dot(omega.cross(h)));
+                    add(*j, l, x.dot(turning));
                     let rate = rate_of(x);
-                    add(l, *j, h.dot(rate));
+                    add(l, *j, h.dot(rate) + x.dot(turning));
                 }
             }
         }

@@ -21,7 +21,13 @@ impl<'g> Bodies<'_, 'g> {
         let (mut inertias, mut couplings) = (Vec::new(), Vec::new());
         for (i, twist) in twists.iter().enumerate() {
             let inertia = self.inertia_block(i);
-            couplings.push(self.coupling(&inertia, *twist));
+            let mut coupling = self.coupling(&inertia, *twist);
+            let [[angular, _], _] = &mut coupling.0;
+            for &(j, h) in &self.bodies[i].rotors {
+                let half = v[j] * Dd::from_f64(-0.5);
+                *angular = *angular + skew(h, self.b.zero()).map(|x| x * half);
+            }
+            couplings.push(coupling);
             inertias.push(inertia);
         }
         for i in (0..self.bodies.len()).rev() {
@@ -83,14 +89,15 @@ impl<'g> Bodies<'_, 'g> {
         }
     }
 
-    /// Adds the full rotors: with h = N J e on its carrier, column j gets ω × h along the columns that move
-    /// the carrier, row j gets h · ṡ.
+    /// Adds the full rotors: with h = N J e on its carrier, column j gets ½ ω × h along the columns that
+    /// move the carrier, row j gets h · ṡ and ½ ω × h along them. The coupling of the carrier has −½ v_j [h]×.
     fn add_rotors(&self, twists: &[Spatial<'g>], matrix: &mut [Expr<'g>]) {
         let n = self.graph.coordinates.len();
         let zero = Vec3([self.b.zero(); 3]);
         for (i, carrier) in self.bodies.iter().enumerate() {
             for &(j, h) in &carrier.rotors {
-                let mut moment = (twists[i].0.cross(h), zero);
+                let half = Dd::from_f64(0.5);
+                let mut moment = (twists[i].0.cross(h).map(|x| x * half), zero);
                 let mut momentum = (h, zero);
                 let mut at = i;
                 loop {
@@ -99,7 +106,7 @@ impl<'g> Bodies<'_, 'g> {
                         let s = (column.angular, column.linear);
                         add(matrix, k * n + j, dot(s, moment));
                         let rate = cross_motion(twists[at], s);
-                        add(matrix, j * n + k, dot(rate, momentum));
+                        add(matrix, j * n + k, dot(rate, momentum) + dot(s, moment));
                     }
                     let Some(p) = body.parent else { break };
                     moment.0 = body.inward(self.b, moment.0);
