@@ -69,7 +69,7 @@ pub enum Dimension {
 
 /// A factor of a unit that is not a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Factor {
+pub enum UnitFactor {
     /// 1
     One,
     /// π/180: the unit contains a degree.
@@ -88,7 +88,7 @@ pub struct Unit {
     /// The power of ten of the factor to the SI unit.
     pub exponent: i32,
     /// Another factor to the SI unit.
-    pub factor: Factor,
+    pub factor: UnitFactor,
 }
 
 const fn unit(text: &'static str, dimension: Dimension, exponent: i32) -> Unit {
@@ -96,7 +96,7 @@ const fn unit(text: &'static str, dimension: Dimension, exponent: i32) -> Unit {
         text,
         dimension,
         exponent,
-        factor: Factor::One,
+        factor: UnitFactor::One,
     }
 }
 
@@ -105,7 +105,7 @@ const fn degrees(text: &'static str, dimension: Dimension) -> Unit {
         text,
         dimension,
         exponent: 0,
-        factor: Factor::Degree,
+        factor: UnitFactor::Degree,
     }
 }
 
@@ -114,7 +114,7 @@ const fn per_turn(text: &'static str, exponent: i32) -> Unit {
         text,
         dimension: Dimension::Lead,
         exponent,
-        factor: Factor::PerTurn,
+        factor: UnitFactor::PerTurn,
     }
 }
 

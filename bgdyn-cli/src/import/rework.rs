@@ -11,7 +11,7 @@ use crate::quantity;
 use anyhow::{Result, bail};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::math::Vec3;
-use bgdyn_codegen::unit::Factor;
+use bgdyn_codegen::unit::UnitFactor;
 
 /// The word for every link that can be a frame.
 const ALL: &str = "all";
@@ -271,7 +271,7 @@ impl Lock {
         let read = quantity::read(text, &[Dimension::Angle, Dimension::Length])
             .map_err(|what| format!("`{joint}`: {what}"))?;
         let number = match read.unit {
-            Some(unit) if unit.factor == Factor::Degree => {
+            Some(unit) if unit.factor == UnitFactor::Degree => {
                 Num::degrees(text.trim_end_matches(unit_of_degrees))
             }
             Some(_) => Some(Num::computed(read.value.to_f64())),

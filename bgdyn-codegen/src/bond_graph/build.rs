@@ -5,10 +5,10 @@ use bgdyn_runtime::Dd;
 use super::pattern::{Coordinates, Modulus};
 use super::{
     BondGraph, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody,
-    Position, Site, Store, StoreInertia, Transformer,
+    PositionVariable, Site, Store, StoreInertia, Transformer,
 };
 use crate::math::{Mat3, Vec3, rodrigues};
-use crate::mechanism::joint::{Column, Numbers};
+use crate::mechanism::joint::{Column, PoseNumbers};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
 /// Builds the bond graph of a mechanism.
@@ -84,14 +84,14 @@ fn coordinates(mechanism: &Mechanism) -> Vec<Coordinate> {
     all.enumerate().map(coordinate).collect()
 }
 
-fn positions(mechanism: &Mechanism) -> Vec<Position> {
+fn positions(mechanism: &Mechanism) -> Vec<PositionVariable> {
     let names = mechanism.position_names().into_iter();
     let position = |(p, (&link, name)): (usize, (&LinkId, String))| {
         let joint = &mechanism.links()[link.0].joint;
         let own = joint.degrees.positions.iter().position(|x| x.0 == p);
         let single = |k: usize| joint.degrees.velocities.get(k).copied();
         match (joint.kind.motion, own) {
-            (Motion::Compound(motion), Some(k)) => Position {
+            (Motion::Compound(motion), Some(k)) => PositionVariable {
                 name,
                 link,
                 unit: motion.positions[k].unit,
@@ -100,7 +100,7 @@ fn positions(mechanism: &Mechanism) -> Vec<Position> {
                     _ => None,
                 },
             },
-            (motion, _) => Position {
+            (motion, _) => PositionVariable {
                 name,
                 link,
                 unit: motion.unit(),
@@ -257,7 +257,7 @@ fn position(frame: &LinkFrame, k: usize) -> Modulus {
 /// Patterns as the numbers of a pose.
 struct Patterns;
 
-impl Numbers<Modulus> for Patterns {
+impl PoseNumbers<Modulus> for Patterns {
     fn constant(&self, x: Dd) -> Modulus {
         Modulus::constant(x)
     }

@@ -23,7 +23,9 @@ use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 
 pub use build::build;
 pub use causality::Causality;
-pub use multibody::{Coordinate, Gyrostat, LinkFrame, Multibody, Position, Rotor, Site, SiteId};
+pub use multibody::{
+    Coordinate, Gyrostat, LinkFrame, Multibody, PositionVariable, Rotor, Site, SiteId,
+};
 pub use network::BondNetwork;
 pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortSite, PowerTerm};
 pub use pattern::Modulus;

@@ -81,7 +81,7 @@ impl Coordinate {
 
 /// A component of q.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Position {
+pub struct PositionVariable {
     /// Name of its joint; with an ending if the joint has several.
     pub name: String,
     /// The link outboard of its joint.
@@ -120,7 +120,7 @@ pub struct Multibody {
     /// Generalized coordinates, in the order of v.
     pub coordinates: Vec<Coordinate>,
     /// Positions, in the order of q.
-    pub positions: Vec<Position>,
+    pub positions: Vec<PositionVariable>,
     /// Frames of the links, parents before children.
     pub frames: Vec<LinkFrame>,
     /// Mass, centre of mass and tensor of each link.
@@ -147,9 +147,13 @@ impl Multibody {
     /// Returns whether every joint is a rotation or a translation with a position and a velocity of its own:
     /// then q and v have the same components.
     pub fn plain(&self) -> bool {
-        self.frames
-            .iter()
-            .all(|frame| frame.coordinate.is_some() || frame.motion == Motion::None)
+        self.first_compound().is_none()
+    }
+
+    /// Returns the first link whose joint has several degrees of freedom, a lead, or `mimic`.
+    pub fn first_compound(&self) -> Option<&LinkFrame> {
+        let plain = |f: &&LinkFrame| f.coordinate.is_some() || f.motion == Motion::None;
+        self.frames.iter().find(|frame| !plain(frame))
     }
 
     /// Returns q̇ = N(q) v.

@@ -7,7 +7,7 @@ use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{body, code, constants, entries, explain, traits};
-use crate::bond_graph::Position;
+use crate::bond_graph::PositionVariable;
 use crate::function::Function;
 use crate::method::Method;
 use crate::model::Model;
@@ -65,7 +65,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
 /// Describes the positions, if they are not those of the velocities.
 fn position_docs(model: &Model) -> Vec<String> {
     let graph = &model.bond_graph;
-    let own = |p: &Position| p.coordinate.is_some();
+    let own = |p: &PositionVariable| p.coordinate.is_some();
     if graph.positions.iter().all(own) {
         return Vec::new();
     }

@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use super::yaml::YamlKind;
 use super::{Located, Number};
 use crate::fault::{Fault, Location, wording};
-use crate::unit::{Dimension, Factor, Unit};
+use crate::unit::{Dimension, Unit, UnitFactor};
 
 /// Permitted sizes of nonzero numbers: with others, products could overflow.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
@@ -149,9 +149,9 @@ fn value(mantissa: &str, exponent: i32, unit: Option<&'static Unit>) -> Option<D
     let number: Dd = decimal.parse().ok()?;
     // The quotient first: 90/180 is exact, so that 90 deg is exactly the double-double of π/2.
     let number = match unit.map(|u| u.factor) {
-        Some(Factor::Degree) => number / Dd::from_f64(180.0) * Dd::PI,
-        Some(Factor::PerTurn) => number / (Dd::from_f64(2.0) * Dd::PI),
-        Some(Factor::One) | None => number,
+        Some(UnitFactor::Degree) => number / Dd::from_f64(180.0) * Dd::PI,
+        Some(UnitFactor::PerTurn) => number / (Dd::from_f64(2.0) * Dd::PI),
+        Some(UnitFactor::One) | None => number,
     };
     number.to_f64().is_finite().then_some(number)
 }

@@ -5,9 +5,9 @@ use bgdyn_runtime::Dd;
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed};
 use crate::mechanism::Motion;
-use crate::mechanism::joint::Numbers;
+use crate::mechanism::joint::PoseNumbers;
 
-impl<'g> Numbers<Expr<'g>> for &'g Builder {
+impl<'g> PoseNumbers<Expr<'g>> for &'g Builder {
     fn constant(&self, x: Dd) -> Expr<'g> {
         Builder::constant(self, x)
     }

@@ -10,6 +10,7 @@ mod definition;
 mod derivatives;
 mod joint_motion;
 mod literal;
+mod placed_sites;
 mod placement;
 mod prepared;
 mod recursion;

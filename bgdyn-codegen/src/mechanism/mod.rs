@@ -1,11 +1,13 @@
 //! The checked mechanism: always valid, with parent links before their children.
 //!
 //! Only [`crate::machine::check`] can construct a [`Mechanism`]; no later step checks again or fails
-//! because of the user's input. Numbers are double-double, parsed from the spec's decimals.
+//! because of the user's input. PoseNumbers are double-double, parsed from the spec's decimals.
 
 mod check;
-mod coordinates;
+mod degrees;
+mod id;
 pub mod joint;
+mod numbering;
 mod places;
 mod symbolic;
 
@@ -17,26 +19,11 @@ use crate::fault::Location;
 use crate::math::{Mat3, Vec3};
 pub(crate) use check::check;
 pub(crate) use check::check_tensor;
-pub use coordinates::{Degrees, Mimic};
+pub use degrees::{Degrees, Mimic};
+pub use id::{CoordinateId, LinkId, ParameterId, PositionId};
 pub use joint::{JointType, Motion};
 pub(crate) use places::SiteOrigins;
 pub use symbolic::{NumberSymbol, SymbolicMechanism};
-
-macro_rules! id {
-    ($(#[$doc:meta])* $name:ident) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub struct $name(pub usize);
-    };
-}
-id!(/// A link of [`Mechanism::links`].
-    LinkId);
-id!(/// A generalized coordinate: its place in v. Its rate is a velocity of a joint.
-    CoordinateId);
-id!(/// A position of a joint: its place in q.
-    PositionId);
-id!(/// A run-time parameter of [`Mechanism::parameters`].
-    ParameterId);
 
 /// A number of the spec: folded into the code, or a public field of the generated struct.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,6 +137,13 @@ pub struct Joint {
     pub coordinate: Option<CoordinateId>,
     /// The positions and velocities of a joint of any type.
     pub degrees: Degrees,
+}
+
+impl Joint {
+    /// Returns the constants of its motion.
+    pub fn constants(&self) -> joint::JointConstants {
+        self.degrees.constants(self.axis)
+    }
 }
 
 /// A rigid link and the joint to its parent.

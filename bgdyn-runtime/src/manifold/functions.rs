@@ -1,8 +1,8 @@
 //! Ratios of an angle, its sine and its cosine, accurate and differentiable also at the angle 0.
 //!
 //! Near 0 they are power series in the square of the angle, elsewhere quotients. Both are computed, and
-//! one is selected. A number whose root or reciprocal is infinite is replaced before, so that derivatives
-//! by dual numbers are finite.
+//! one is selected. For the quotients, angles near 0 are replaced before, so that neither they nor their
+//! derivatives become infinite.
 
 use crate::Scalar;
 
@@ -45,8 +45,9 @@ pub struct Sines<T> {
 impl<T: Scalar> Sines<T> {
     /// Returns the ratios for the angle whose square (rad²) is `square`: all are even functions.
     ///
-    /// Relative errors are a few roundings, of the cosine and the sine for angles up to 2 and π/2 − 1e-3
-    /// rad; beyond, cosine, sine and versine have absolute errors of this size near their zeros.
+    /// With ε the distance from 1 to the next number: up to 2 rad the ratios have relative errors, and the
+    /// cosine an absolute one, below 2ε. Beyond, the angle is a rounded root: errors grow with the angle, and
+    /// are absolute near the zeros of 1 − cos x and sin x.
     pub fn of_square(square: T) -> Self {
         let one = T::from_f64(1.0);
         let near = square.less(T::from_f64(SWITCH));

@@ -6,18 +6,15 @@
 //! one and omits only structural zeros.
 
 mod coriolis;
-mod sites;
 mod sum;
 
 use super::arguments::Arguments;
-use super::{Formulation, Offer, Prepared, solve};
+use super::{Formulation, Offer, Prepared, placed_sites, solve};
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::function::Function;
 use crate::method::Method;
 use sum::LiteralSum;
-
-pub(super) use sites::outputs as site_outputs;
 
 pub(super) const NAME: &str = "literal";
 
@@ -65,7 +62,7 @@ impl Formulation for Literal {
                 Method::CoriolisMatrix => sum.coriolis_matrix(&arguments.v),
                 Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
                 Method::PotentialEnergy => vec![sum.potential_energy()],
-                method => sites::outputs(&b, graph, method, &arguments)?,
+                method => placed_sites::outputs(&b, graph, method, &arguments)?,
             };
             outputs.into_iter().map(|e: Expr<'_>| e.signed()).collect()
         };

@@ -12,7 +12,7 @@ use crate::mechanism::joint::Column;
 use crate::mechanism::{LinkId, Motion, Pose};
 
 /// A rigid body.
-pub(super) struct Body<'g> {
+pub(super) struct SubspaceBody<'g> {
     /// The parent body; `None` for the fixed base.
     pub(super) parent: Option<usize>,
     /// From the body's axes to those of the joint's origin.
@@ -31,7 +31,7 @@ pub(super) struct Body<'g> {
     pub(super) rotors: Vec<(usize, Vec3<Expr<'g>>)>,
 }
 
-impl<'g> Body<'g> {
+impl<'g> SubspaceBody<'g> {
     /// Returns a vector of the body's axes in the parent's axes.
     pub(super) fn inward(&self, b: &'g Builder, v: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         self.fixed.map(|x| b.constant(x)) * (self.turned * v)
@@ -61,7 +61,7 @@ impl<'g> Body<'g> {
 pub(super) struct Bodies<'a, 'g> {
     pub(super) b: &'g Builder,
     pub(super) graph: &'a Multibody,
-    pub(super) bodies: Vec<Body<'g>>,
+    pub(super) bodies: Vec<SubspaceBody<'g>>,
     /// Mass and first moment of the links that never move, in world axes.
     pub(super) fixed: Inertia<'g>,
 }
@@ -114,7 +114,7 @@ fn body<'g>(
     frame: &LinkFrame,
     (parent, place): (Option<usize>, Pose),
     q: &[Expr<'g>],
-) -> Body<'g> {
+) -> SubspaceBody<'g> {
     let own = joint_positions(b, frame, q);
     let one = |i, j| b.constant(if i == j { Dd::ONE } else { Dd::ZERO });
     let still = Vec3([b.zero(); 3]);
@@ -135,7 +135,7 @@ fn body<'g>(
         };
         (j.0, column)
     };
-    Body {
+    SubspaceBody {
         parent,
         turned,
         fixed: place.rotation,

@@ -8,7 +8,7 @@
 use bgdyn_runtime::Dd;
 
 use super::bodies::Bodies;
-use super::spatial::{Block, Spatial, diagonal};
+use super::spatial::{Spatial, SpatialMatrix, diagonal};
 use crate::expr::Expr;
 use crate::math::{Mat3, Vec3, skew};
 
@@ -35,7 +35,7 @@ impl<'g> Bodies<'_, 'g> {
             let body = &self.bodies[i];
             if let Some(p) = body.parent {
                 let fixed = body.fixed.map(|x| self.b.constant(x));
-                let moved = |block: &Block<'g>| {
+                let moved = |block: &SpatialMatrix<'g>| {
                     block
                         .turned(body.turned)
                         .turned(fixed)
@@ -54,7 +54,7 @@ impl<'g> Bodies<'_, 'g> {
         &self,
         i: usize,
         twists: &[Spatial<'g>],
-        (inertia, coupling): (&Block<'g>, &Block<'g>),
+        (inertia, coupling): (&SpatialMatrix<'g>, &SpatialMatrix<'g>),
         matrix: &mut [Expr<'g>],
     ) {
         let n = self.graph.coordinates.len();
@@ -139,18 +139,18 @@ impl<'g> Bodies<'_, 'g> {
     }
 
     /// Returns [J, [h]×; −[h]×, m 1] of a body.
-    fn inertia_block(&self, i: usize) -> Block<'g> {
+    fn inertia_block(&self, i: usize) -> SpatialMatrix<'g> {
         let inertia = &self.bodies[i].inertia;
         let d = inertia.pseudo;
         let trace = d.0[0][0] + d.0[1][1] + d.0[2][2];
         let tensor = diagonal(self.b, trace) - d;
         let first = skew(inertia.first, self.b.zero());
         let minus = first.map(|x| -x);
-        Block([[tensor, first], [minus, diagonal(self.b, inertia.mass)]])
+        SpatialMatrix([[tensor, first], [minus, diagonal(self.b, inertia.mass)]])
     }
 
     /// Returns B = ½ ([v]×* I + [I v] − I [v]×).
-    fn coupling(&self, inertia: &Block<'g>, twist: Spatial<'g>) -> Block<'g> {
+    fn coupling(&self, inertia: &SpatialMatrix<'g>, twist: Spatial<'g>) -> SpatialMatrix<'g> {
         let zero = Mat3([[self.b.zero(); 3]; 3]);
         let cross = |v: Vec3<Expr<'g>>| skew(v, self.b.zero());
         let (w, v) = (cross(twist.0), cross(twist.1));
@@ -164,7 +164,7 @@ impl<'g> Bodies<'_, 'g> {
         let middle = [[n, f], [f, zero]];
         let entry =
             |i: usize, j: usize| (left[i][j] + middle[i][j] - right[i][j]).map(|x| x * half);
-        Block([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
+        SpatialMatrix([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
     }
 }
 

@@ -21,7 +21,7 @@ mod mass_matrix;
 mod spatial;
 
 use super::arguments::Arguments;
-use super::{Formulation, Offer, Prepared, literal, solve};
+use super::{Formulation, Offer, Prepared, placed_sites, solve};
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
@@ -67,7 +67,7 @@ impl Formulation for Subspaces {
         let outputs: Vec<Signed> = {
             let x = Arguments::new(&b, graph, method);
             let outputs = match method {
-                method if method.site().is_some() => literal::site_outputs(&b, graph, method, &x)?,
+                method if method.site().is_some() => placed_sites::outputs(&b, graph, method, &x)?,
                 method => outputs(&b, graph, method, &x)?,
             };
             outputs.into_iter().map(Expr::signed).collect()

@@ -8,9 +8,9 @@ pub(super) type Spatial<'g> = (Vec3<Expr<'g>>, Vec3<Expr<'g>>);
 
 /// A matrix from motions to forces: rows give moment and force.
 #[derive(Clone, Copy)]
-pub(super) struct Block<'g>(pub(super) [[Mat3<Expr<'g>>; 2]; 2]);
+pub(super) struct SpatialMatrix<'g>(pub(super) [[Mat3<Expr<'g>>; 2]; 2]);
 
-impl<'g> Block<'g> {
+impl<'g> SpatialMatrix<'g> {
     pub(super) fn times(&self, (angular, linear): Spatial<'g>) -> Spatial<'g> {
         let [[a, c], [d, e]] = self.0;
         (a * angular + c * linear, d * angular + e * linear)
@@ -23,12 +23,12 @@ impl<'g> Block<'g> {
 
     pub(super) fn plus(&self, other: &Self) -> Self {
         let entry = |i: usize, j: usize| self.0[i][j] + other.0[i][j];
-        Block([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
+        SpatialMatrix([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
     }
 
     /// Returns it in axes in which the present axes have this rotation.
     pub(super) fn turned(&self, r: Mat3<Expr<'g>>) -> Self {
-        Block(self.0.map(|row| row.map(|m| r * m * r.transpose())))
+        SpatialMatrix(self.0.map(|row| row.map(|m| r * m * r.transpose())))
     }
 
     /// Returns it about a point from which the origin is displaced by p: a motion (ω, v) there is
@@ -38,7 +38,7 @@ impl<'g> Block<'g> {
         let [[a, c], [d, e]] = self.0;
         // Columns: v here = v − p × ω.
         let (a, d) = (a - c * x, d - e * x);
-        Block([[a + x * d, c + x * e], [d, e]])
+        SpatialMatrix([[a + x * d, c + x * e], [d, e]])
     }
 }
 

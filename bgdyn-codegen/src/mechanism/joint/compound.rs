@@ -26,7 +26,7 @@ pub struct CompoundMotion {
     pub axial: bool,
 }
 
-/// An elementary motion. Numbers are indices of the joint's positions.
+/// An elementary motion. PoseNumbers are indices of the joint's positions.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Step {
     /// Displacement by positions along x, y and z.
@@ -91,7 +91,7 @@ pub struct JointConstants {
 }
 
 /// The functions of the numbers that poses are computed with.
-pub trait Numbers<E> {
+pub trait PoseNumbers<E> {
     /// Returns a constant.
     fn constant(&self, x: Dd) -> E;
     /// Returns cosine and sine.
@@ -103,7 +103,7 @@ pub trait Numbers<E> {
 /// Double-double numbers.
 pub struct DoubleDouble;
 
-impl Numbers<Dd> for DoubleDouble {
+impl PoseNumbers<Dd> for DoubleDouble {
     fn constant(&self, x: Dd) -> Dd {
         x
     }
@@ -125,7 +125,7 @@ impl CompoundMotion {
         &self,
         joint: &JointConstants,
         q: &[E],
-        numbers: &impl Numbers<E>,
+        numbers: &impl PoseNumbers<E>,
     ) -> (Mat3<E>, Vec3<E>) {
         let constant = |x: Dd| numbers.constant(x);
         let zero = constant(Dd::ZERO);
@@ -180,7 +180,7 @@ impl CompoundMotion {
         &self,
         joint: &JointConstants,
         (q, v): (&[E], &[E]),
-        numbers: &impl Numbers<E>,
+        numbers: &impl PoseNumbers<E>,
     ) -> Vec<E> {
         let zero = numbers.constant(Dd::ZERO);
         let (mut linear, mut angular) = (Vec3([zero; 3]), Vec3([zero; 3]));
@@ -233,7 +233,7 @@ impl CompoundMotion {
 fn turned<E: Ring + Mul<Dd, Output = E>>(
     [x, y, z, w]: [E; 4],
     any_length: bool,
-    numbers: &impl Numbers<E>,
+    numbers: &impl PoseNumbers<E>,
 ) -> Mat3<E> {
     let one = numbers.constant(Dd::ONE);
     let squares = x * x + y * y + z * z + w * w;

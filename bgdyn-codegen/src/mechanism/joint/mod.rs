@@ -14,7 +14,7 @@ mod spherical;
 mod universal;
 
 pub use compound::{
-    Column, CompoundMotion, DoubleDouble, JointConstants, Numbers, PositionPart, Step, Twist,
+    Column, CompoundMotion, DoubleDouble, JointConstants, PoseNumbers, PositionPart, Step, Twist,
     VelocityPart,
 };
 pub use joint_type::{ChainMember, JointType, Motion};

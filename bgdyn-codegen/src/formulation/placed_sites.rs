@@ -8,7 +8,7 @@ use crate::formulation::site::{JacobianColumn, SiteMotion};
 use crate::method::Method;
 
 /// Returns the expressions of a method of a site; `None` for any other method.
-pub(in crate::formulation) fn outputs<'g>(
+pub(super) fn outputs<'g>(
     b: &'g Builder,
     graph: &Multibody,
     method: Method,
