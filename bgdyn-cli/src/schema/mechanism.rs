@@ -117,6 +117,25 @@ fn joint() -> Value {
                 "axis",
                 described("direction in link axes; z without it", axis()),
             ),
+            (
+                "axis2",
+                described("second axis of a universal joint", axis()),
+            ),
+            (
+                "lead",
+                described(
+                    "advance of a helical joint: a length per turn",
+                    quantity(&[Dimension::Length, Dimension::Lead]),
+                ),
+            ),
+            (
+                "mimic",
+                json!({ "type": "object", "description": "another joint: position = ratio q + offset" }),
+            ),
+            (
+                "quaternion",
+                json!({ "const": "any", "description": "accept any length" }),
+            ),
             ("origin", json!({ "$ref": "#/$defs/origin" })),
             ("limits", json!({ "$ref": "#/$defs/limits" })),
         ],

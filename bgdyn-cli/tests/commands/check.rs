@@ -100,7 +100,7 @@ fn findings_as_json() {
 
     let good = bgdyn(&["check", "tests/golden/specs/dpend2.yaml", "--json"]).good();
     let good: Value = serde_json::from_str(&good).expect("JSON");
-    let model = serde_json::json!({ "name": "dpend2", "nq": 2, "nv": 2, "coordinates": ["j1", "j2"], "parameters": [], "snapped": null });
+    let model = serde_json::json!({ "name": "dpend2", "nq": 2, "nv": 2, "coordinates": ["j1", "j2"], "positions": ["j1", "j2"], "parameters": [], "snapped": null });
     assert_eq!(good["model"], model);
     assert_eq!(good["ok"], true);
     assert_eq!(good["findings"], Value::Array(vec![]));
