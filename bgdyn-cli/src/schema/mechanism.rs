@@ -1,6 +1,6 @@
 //! Builds the JSON Schema of a mechanism's file.
 
-use bgdyn_codegen::format::{Dimension, LENGTHS};
+use bgdyn_codegen::format::{Dimension, LENGTHS, LIMIT_PARTS};
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
 use serde_json::{Value, json};
 
@@ -55,6 +55,8 @@ pub fn mechanism() -> Value {
             "joint": joint(),
             "origin": origin(),
             "limits": limits(),
+            "part_limits": part_limits(),
+            "mimic": mimic(),
             "inertia": inertia(),
             "frame": frame(),
             "effect": effects(),
@@ -115,7 +117,24 @@ fn joint() -> Value {
             ("type", json!({ "enum": kinds })),
             (
                 "axis",
-                described("direction in link axes; z without it", axis()),
+                described(
+                    "direction in link axes; z without it; not for fixed, spherical, floating and planar joints",
+                    axis(),
+                ),
+            ),
+            (
+                "axis2",
+                described(
+                    "second axis of a universal joint, in link axes where the positions are zero",
+                    axis(),
+                ),
+            ),
+            (
+                "lead",
+                described(
+                    "of a helical joint: displacement along the axis for a full turn, or per radian with such a unit",
+                    quantity(&[Dimension::Length, Dimension::Lead]),
+                ),
             ),
             (
                 "axis2",
@@ -138,6 +157,14 @@ fn joint() -> Value {
             ),
             ("origin", json!({ "$ref": "#/$defs/origin" })),
             ("limits", json!({ "$ref": "#/$defs/limits" })),
+            ("mimic", json!({ "$ref": "#/$defs/mimic" })),
+            (
+                "quaternion",
+                json!({
+                    "const": "any",
+                    "description": "of a spherical or floating joint: its quaternion may have any length; without it the length must be 1",
+                }),
+            ),
         ],
         &["type"],
     )
@@ -160,28 +187,62 @@ fn origin() -> Value {
     )
 }
 
+/// Returns the limits of a joint with one coordinate, and those of the parts of one with two.
 fn limits() -> Value {
+    let parts = LIMIT_PARTS.map(|part| (part, json!({ "$ref": "#/$defs/part_limits" })));
+    object(&[&limit_keys()[..], &parts].concat(), &[])
+}
+
+fn part_limits() -> Value {
+    object(&limit_keys(), &[])
+}
+
+fn limit_keys() -> [(&'static str, Value); 4] {
     let position = || quantity(&[Dimension::Angle, Dimension::Length]);
+    [
+        ("lower", described("smallest coordinate", position())),
+        ("upper", described("largest coordinate", position())),
+        (
+            "velocity",
+            described(
+                "largest speed",
+                quantity(&[Dimension::AngularSpeed, Dimension::Speed]),
+            ),
+        ),
+        (
+            "effort",
+            described(
+                "largest effort",
+                quantity(&[Dimension::Torque, Dimension::Force]),
+            ),
+        ),
+    ]
+}
+
+fn mimic() -> Value {
+    let ratios = [Dimension::One, Dimension::Lead, Dimension::AnglePerLength];
     object(
         &[
-            ("lower", described("smallest coordinate", position())),
-            ("upper", described("largest coordinate", position())),
             (
-                "velocity",
+                "joint",
+                described("the joint whose coordinate it follows", identifier()),
+            ),
+            (
+                "ratio",
                 described(
-                    "largest speed",
-                    quantity(&[Dimension::AngularSpeed, Dimension::Speed]),
+                    "units of this joint per unit of the other, not 0; 1 without it",
+                    quantity(&ratios),
                 ),
             ),
             (
-                "effort",
+                "offset",
                 described(
-                    "largest effort",
-                    quantity(&[Dimension::Torque, Dimension::Force]),
+                    "position where the other joint's is zero; 0 without it",
+                    quantity(&[Dimension::Angle, Dimension::Length]),
                 ),
             ),
         ],
-        &[],
+        &["joint"],
     )
 }
 
