@@ -136,25 +136,6 @@ fn joint() -> Value {
                     quantity(&[Dimension::Length, Dimension::Lead]),
                 ),
             ),
-            (
-                "axis2",
-                described("second axis of a universal joint", axis()),
-            ),
-            (
-                "lead",
-                described(
-                    "advance of a helical joint: a length per turn",
-                    quantity(&[Dimension::Length, Dimension::Lead]),
-                ),
-            ),
-            (
-                "mimic",
-                json!({ "type": "object", "description": "another joint: position = ratio q + offset" }),
-            ),
-            (
-                "quaternion",
-                json!({ "const": "any", "description": "accept any length" }),
-            ),
             ("origin", json!({ "$ref": "#/$defs/origin" })),
             ("limits", json!({ "$ref": "#/$defs/limits" })),
             ("mimic", json!({ "$ref": "#/$defs/mimic" })),
