@@ -4,10 +4,10 @@
 ///
 /// A camera head that pans about z and tilts about y
 ///
-/// | coordinate | joint | carries | unit |
+/// | velocity | joint | carries | unit |
 /// |---|---|---|---|
-/// | 0 | `pan` | `yoke` | rad |
-/// | 1 | `tilt` | `cradle` | rad |
+/// | 0 | `pan` | `yoke` | rad/s |
+/// | 1 | `tilt` | `cradle` | rad/s |
 ///
 /// | method | operations | formulation |
 /// |---|---|---|
@@ -45,13 +45,15 @@ pub mod head {
     pub const NQ: usize = 2;
     /// Number of velocities.
     pub const NV: usize = 2;
-    /// Names of the moving joints, in the order of the coordinates.
+    /// Names of the moving joints, in the order of the velocities.
     pub const JOINT_NAMES: [&str; NV] = ["pan", "tilt"];
+    /// Names of the positions; those of the joints where every joint has one.
+    pub const POSITION_NAMES: [&str; NQ] = ["pan", "tilt"];
     /// Names that the joints have elsewhere; without such a name the joint's own.
     pub const JOINT_LABELS: [&str; NV] = ["pan", "tilt"];
     /// Names of the links, parents before children.
     pub const LINK_NAMES: [&str; 3] = ["yoke", "cradle", "lens"];
-    /// What each coordinate is: an angle or a displacement.
+    /// The kind of each velocity: angular or linear.
     pub const JOINT_MOTIONS: [__rt::Motion; NV] = [
         __rt::Motion::Rotation,
         __rt::Motion::Rotation,
