@@ -54,6 +54,39 @@ links:
     )
 }
 
+/// One joint: no other axis determines the direction of x of its body.
+fn alone(kind: &str, axis: [f64; 3]) -> String {
+    format!(
+        "\
+format: 1
+name: alone
+snap: 0
+gravity: [2, 3, -9]
+links:
+  - name: post
+    joint: {{ name: only, type: {kind}, axis: {axis:?} }}
+    mass: 2
+    com: [0.2, 0.1, 0.3]
+    inertia: {{ xx: 0.02, yy: 0.05, zz: 0.06, xy: 0.002, xz: 0.003, yz: 0.004 }}
+"
+    )
+}
+
+/// The same with a second joint at the same origin, its axis as given. If the two axes are one line, the
+/// direction of x is as free as with one joint.
+fn stacked(first: [f64; 3], second: [f64; 3]) -> String {
+    let text = alone("revolute", first);
+    format!(
+        "{text}  - name: top
+    parent: post
+    joint: {{ name: second, type: revolute, axis: {second:?} }}
+    mass: 1
+    com: [0.15, -0.05, 0.1]
+    inertia: {{ xx: 0.005, yy: 0.02, zz: 0.02, xz: 0.001 }}
+"
+    )
+}
+
 /// Compares every formulation with the literal sum; forward dynamics as the inverse.
 fn equals_the_literal_sum(text: &str) {
     let robot = Robot::read(text, None);
@@ -105,11 +138,15 @@ fn equals_the_literal_sum(text: &str) {
 }
 
 /// Deviations by the rounding of a quarter turn (6.1e-17), smaller and larger ones, up to and beyond that
-/// at which an axis is no longer 1 to the last digit of a double-double.
-const OFF: [f64; 8] = [
+/// at which an axis is no longer 1 to the last digit of a double-double. (Up to 1e-14 its largest
+/// component is exactly 1.)
+const OFF: [f64; 11] = [
+    1e-20,
     1e-17,
     6.123233995736766e-17,
+    1e-16,
     1e-15,
+    1e-14,
     3e-14,
     1e-13,
     1.4e-13,
@@ -127,6 +164,27 @@ fn opposite_and_parallel_axes_off_the_coordinate_axes() {
         };
         for (first, sign) in [(-off, -1.0), (off, -1.0), (off, 1.0), (0.0, -1.0)] {
             equals_the_literal_sum(&pair(axis(off, 1.0), axis(first, sign)));
+        }
+    }
+}
+
+/// Axes whose common normal does not determine x of the first body: there is no other axis, or it is the
+/// same line. Then x follows from the noisy axis alone, and must be perpendicular to it.
+#[test]
+fn noisy_axes_without_a_common_normal() {
+    for (k, off) in OFF.into_iter().enumerate() {
+        let axis = |sign: f64, first: f64, second: f64| {
+            let mut axis = [0.0; 3];
+            (axis[k % 3], axis[(k + 1) % 3], axis[(k + 2) % 3]) = (sign, first, second);
+            axis
+        };
+        equals_the_literal_sum(&alone("revolute", axis(1.0, off, 0.0)));
+        equals_the_literal_sum(&alone("revolute", axis(-1.0, 0.0, off)));
+        equals_the_literal_sum(&alone("prismatic", axis(1.0, -off, off)));
+        let first = axis(1.0, off, -off);
+        let opposite = first.map(|x| -x);
+        for second in [first, opposite, axis(-1.0, off, -off), axis(1.0, 0.0, 0.0)] {
+            equals_the_literal_sum(&stacked(first, second));
         }
     }
 }

@@ -138,6 +138,9 @@ once "rotors' joints in derivatives" $recursion/derivatives/inverse_dynamics.rs 
 once "axes that are almost z" $recursion/geometry.rs \
     'let third = (0..3).find(|&k| exact(k));' \
     'let third = (0..3).find(|&k| exact(k) || z.0[k].abs() == Dd::ONE);' noisy_axes
+once "axes almost parallel" $recursion/geometry.rs \
+    'z.0[..2].iter().all(|x| x.hi().abs() < NOISE)' \
+    '(z.0[2].abs() - Dd::ONE).hi().abs() < NOISE' noisy_axes
 
 if [[ $survivors -gt 0 ]]; then
     echo "$survivors mutations were not caught, or could not be made" >&2
