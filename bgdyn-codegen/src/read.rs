@@ -46,9 +46,16 @@ fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
     let joints: Vec<&JointSpec> = links.filter_map(|link| link.joint.value()).collect();
     let found = graph.without_inertia().into_iter().filter_map(|j| {
         let name = &graph.coordinates[j.0].name;
-        let joint = joints
-            .iter()
-            .find(|joint| joint.name.value() == Some(name))?;
+        // A velocity of a joint with several is called JOINT_ENDING.
+        let own = |joint: &&&JointSpec| {
+            let rest = joint
+                .name
+                .value()
+                .and_then(|own| name.strip_prefix(own.as_str()));
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+        };
+        let length = |joint: &&&JointSpec| joint.name.value().map_or(0, String::len);
+        let joint = joints.iter().filter(own).max_by_key(length)?;
         Some(wording::no_inertia(&joint.location, name))
     });
     found.collect()

@@ -6,6 +6,7 @@ use bgdyn::runtime::{Coriolis, Dd, Derivatives};
 use bgdyn::{Dynamics, Scalar};
 use bgdyn_codegen::random::Random;
 
+use crate::any_length::AnyLength;
 use crate::helical_universal_test::{self as every_type, HelicalUniversalTest};
 use crate::quadrotor_arm::{self, QuadrotorArm};
 use crate::spherical_chain3::SphericalChain3;
@@ -171,6 +172,31 @@ fn lanes_equal_the_scalar_model() {
             assert!((moved[i].to_array()[k] - reached[i]).abs() < 1e-14);
         }
     }
+}
+
+/// With `quaternion: any` nothing depends on the lengths of the quaternions, but their own rates, which are
+/// proportional to them.
+#[test]
+fn quaternions_of_any_length() {
+    let model = AnyLength::<Dd>::default();
+    let mut random = Random(23);
+    let q = position(&model, &mut random);
+    let (v, d) = (numbers(&mut random, 2.0), numbers(&mut random, 1.0));
+    let lengths = [3.0, 0.2];
+    let length = |p: usize| match p {
+        3..7 => Dd::from_f64(lengths[0]),
+        7..11 => Dd::from_f64(lengths[1]),
+        _ => Dd::from_f64(1.0),
+    };
+    let scaled = SVector::from_fn(|p, _| q[p] * length(p));
+    let rates = model.position_rates(&q, &v);
+    let wanted = SVector::from_fn(|p, _| rates[p] * length(p));
+    assert!(worst(&model.position_rates(&scaled, &v), &wanted) < 1e-28);
+    let moved = model.integrate(&q, &d);
+    assert!(worst(&model.integrate(&scaled, &d), &moved) < 1e-28);
+    assert!(worst(&model.difference(&moved, &scaled), &d) < 1e-27);
+    let bias = model.bias(&q, &v);
+    assert!(worst(&model.bias(&scaled, &v), &bias) < 1e-26);
 }
 
 /// The mass matrix in single precision, to its rounding.

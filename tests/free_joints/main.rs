@@ -4,6 +4,7 @@
 mod laws;
 mod motions;
 
+bgdyn::bgdyn!("any_length.yaml");
 bgdyn::bgdyn!("helical_universal_test.yaml");
 bgdyn::bgdyn!("quadrotor_arm.yaml", derivatives = true);
 bgdyn::bgdyn!("satellite_arm6.yaml");

@@ -181,7 +181,10 @@ fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
     text += &list("plans before factoring, the first one taken", &f.plans);
     text += &list("passed over", &f.passed_over);
     text += "  formulations\n";
-    for formulation in FORMULATIONS.iter().filter(|known| known.knows(f.method)) {
+    let serving = FORMULATIONS
+        .iter()
+        .filter(|one| one.knows(f.method) && one.serves(&model.bond_graph));
+    for formulation in serving {
         let asked = Options {
             formulation: Some(*formulation),
             ..Options::default()

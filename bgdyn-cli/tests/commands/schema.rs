@@ -107,7 +107,8 @@ links:
       type: revolute
       zzzzzzzzzz: 1
       origin: { zzzzzzzzzz: 1 }
-      limits: { zzzzzzzzzz: 1 }
+      limits: { zzzzzzzzzz: 1, turn: { zzzzzzzzzz: 1 } }
+      mimic: { joint: k, zzzzzzzzzz: 1 }
     inertia: { zzzzzzzzzz: 1, products: { zzzzzzzzzz: 1 } }
 frames:
   - { name: f, link: a, zzzzzzzzzz: 1 }
@@ -121,6 +122,8 @@ fn keys(schema: &Value, path: &str) -> BTreeSet<String> {
         "links[0].joint" => "/$defs/joint/properties",
         "links[0].joint.origin" => "/$defs/origin/properties",
         "links[0].joint.limits" => "/$defs/limits/properties",
+        "links[0].joint.limits.turn" => "/$defs/part_limits/properties",
+        "links[0].joint.mimic" => "/$defs/mimic/properties",
         "links[0].inertia" => "/$defs/inertia/properties",
         "links[0].inertia.products" => "/$defs/inertia/properties/products/properties",
         "frames[0]" => "/$defs/frame/properties",
@@ -153,7 +156,7 @@ fn keys_are_those_of_the_reader_and_of_the_page() {
         }
         mappings += 1;
     }
-    assert_eq!(mappings, 8);
+    assert_eq!(mappings, 10);
 }
 
 /// Texts with units, as the parser accepts them.

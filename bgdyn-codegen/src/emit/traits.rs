@@ -20,6 +20,9 @@ pub(super) struct Traits<'a> {
     pub(super) joints: Option<Vec<JointSegment>>,
 }
 
+/// The number of components of a quaternion, the last positions of a joint that has one.
+const QUATERNION: usize = 4;
+
 /// The positions and velocities of a joint that follow each other in q and v.
 #[derive(Clone, Copy)]
 pub(super) struct JointSegment {
@@ -29,6 +32,8 @@ pub(super) struct JointSegment {
     nv: usize,
     /// Whether its position is an angle.
     turns: bool,
+    /// Whether its quaternion may have any length.
+    any_length: bool,
 }
 
 impl JointSegment {
@@ -38,6 +43,7 @@ impl JointSegment {
         nq: 1,
         nv: 1,
         turns: true,
+        any_length: false,
     };
 }
 
@@ -53,6 +59,7 @@ pub(super) fn segments(graph: &Multibody) -> Vec<JointSegment> {
         nq: frame.motion.nq(),
         nv: frame.motion.nv(),
         turns: frame.motion != Motion::Translation,
+        any_length: frame.degrees.any_length,
     };
     moving.map(segment).collect()
 }
@@ -239,18 +246,37 @@ impl Traits<'_> {
         for (j, segment) in joints.iter().enumerate() {
             let own: Vec<&Vec<Ident>> = arrays.iter().map(|array| &array[j]).collect();
             if segment.manifold.is_empty() {
-                results.push(plain(name, segment.turns, &own));
+                results.extend((0..segment.nq).map(|k| plain(name, segment.turns, &own, k)));
                 continue;
             }
             let (module, function) = (ident(segment.manifold), ident(name));
-            let found: Vec<Ident> = (0..size(segment, positions))
-                .map(|i| format_ident!("r{j}_{i}"))
-                .collect();
-            let arguments = own.iter().map(|array| quote! { [#(#array),*] });
-            statements.extend(quote! {
-                let [#(#found),*] = __rt::manifold::#module::#function(#(#arguments),*);
-            });
-            results.extend(found.iter().map(|r| quote! { #r }));
+            let found = |letter: &str| -> Vec<Ident> {
+                let all = 0..size(segment, positions);
+                all.map(|i| format_ident!("{letter}{j}_{i}")).collect()
+            };
+            let call = |normal: bool| {
+                let given = own.iter().zip(arguments).map(|(array, (.., of))| {
+                    let array = quote! { [#(#array),*] };
+                    match normal && *of {
+                        true => quote! { __rt::manifold::#module::normalize(#array) },
+                        false => array,
+                    }
+                });
+                quote! { __rt::manifold::#module::#function(#(#given),*) }
+            };
+            // A quaternion of any length is scaled first. Its own rates are proportional to its length.
+            let (normal, rates) = (segment.any_length, name == "position_rates");
+            let (first, call_first) = (found("r"), call(normal));
+            statements.extend(quote! { let [#(#first),*] = #call_first; });
+            if normal && rates {
+                let (second, call_second) = (found("s"), call(false));
+                statements.extend(quote! { let [#(#second),*] = #call_second; });
+                let shifts = first.len() - QUATERNION;
+                let both = first[..shifts].iter().chain(&second[shifts..]);
+                results.extend(both.map(|r| quote! { #r }));
+            } else {
+                results.extend(first.iter().map(|r| quote! { #r }));
+            }
         }
         quote! {
             #(#opened)*
@@ -260,9 +286,9 @@ impl Traits<'_> {
     }
 }
 
-/// Returns the component of a joint with q̇ = v.
-fn plain(name: &str, turns: bool, arguments: &[&Vec<Ident>]) -> TokenStream {
-    let first: Vec<&Ident> = arguments.iter().filter_map(|array| array.first()).collect();
+/// Returns component k of a joint with q̇ = v.
+fn plain(name: &str, turns: bool, arguments: &[&Vec<Ident>], k: usize) -> TokenStream {
+    let first: Vec<&Ident> = arguments.iter().filter_map(|array| array.get(k)).collect();
     match (name, first.as_slice()) {
         ("integrate", [x, y]) => quote! { #x + #y },
         ("difference", [x, y]) => quote! { #x - #y },

@@ -203,7 +203,12 @@ impl Reader {
     }
 
     fn limits(&mut self, at: &At<'_>) -> Option<LimitsSpec> {
-        let keys = [&["lower", "upper", "velocity", "effort"][..], &LIMIT_PARTS].concat();
+        self.limits_with(at, &LIMIT_PARTS)
+    }
+
+    /// Parses limits that may have these parts, which have none themselves.
+    fn limits_with(&mut self, at: &At<'_>, parts: &[&'static str]) -> Option<LimitsSpec> {
+        let keys = [&["lower", "upper", "velocity", "effort"][..], parts].concat();
         let what = (
             "a mapping",
             "`{ lower: …, upper: …, velocity: …, effort: … }`",
@@ -219,9 +224,9 @@ impl Reader {
                 &[Dimension::AngularSpeed, Dimension::Speed],
             ),
             effort: self.number_field(&map, "effort", &[Dimension::Torque, Dimension::Force]),
-            parts: LIMIT_PARTS
+            parts: parts
                 .iter()
-                .map(|key| self.field(&map, key, Self::limits))
+                .map(|key| self.field(&map, key, |r, at| r.limits_with(at, &[])))
                 .collect(),
         })
     }

@@ -73,32 +73,39 @@ impl Mechanism {
     /// Returns the names of the coordinates: that of the joint, with an ending for each velocity of a
     /// joint with several.
     pub fn joint_names(&self) -> Vec<String> {
-        let named = self.coordinates.iter().enumerate();
-        let name = |(j, link): (usize, &LinkId)| {
-            let joint = &self.links[link.0].joint;
-            let own = joint.degrees.velocities.iter().position(|v| v.0 == j);
-            let suffix = match (joint.kind.motion, own) {
-                (Motion::Compound(motion), Some(k)) => motion.velocities[k].suffix,
-                _ => "",
-            };
-            suffixed(&joint.name, suffix)
+        let of = |joint: &Joint, j: usize| {
+            let own = joint.degrees.velocities.iter().position(|v| v.0 == j)?;
+            match joint.kind.motion {
+                Motion::Compound(motion) => Some(motion.velocities[own].suffix),
+                _ => None,
+            }
         };
-        named.map(name).collect()
+        self.names(&self.coordinates, of)
     }
 
     /// Returns the names of the positions, in the same way.
     pub fn position_names(&self) -> Vec<String> {
-        let named = self.positions.iter().enumerate();
-        let name = |(p, link): (usize, &LinkId)| {
-            let joint = &self.links[link.0].joint;
-            let own = joint.degrees.positions.iter().position(|x| x.0 == p);
-            let suffix = match (joint.kind.motion, own) {
-                (Motion::Compound(motion), Some(k)) => motion.positions[k].suffix,
-                _ => "",
-            };
-            suffixed(&joint.name, suffix)
+        let of = |joint: &Joint, p: usize| {
+            let own = joint.degrees.positions.iter().position(|x| x.0 == p)?;
+            match joint.kind.motion {
+                Motion::Compound(motion) => Some(motion.positions[own].suffix),
+                _ => None,
+            }
         };
-        named.map(name).collect()
+        self.names(&self.positions, of)
+    }
+
+    /// Returns a name for each of these: that of the joint of its link, with an ending.
+    fn names(
+        &self,
+        links: &[LinkId],
+        ending: impl Fn(&Joint, usize) -> Option<&'static str>,
+    ) -> Vec<String> {
+        let name = |(k, link): (usize, &LinkId)| {
+            let joint = &self.links[link.0].joint;
+            suffixed(&joint.name, ending(joint, k).unwrap_or_default())
+        };
+        links.iter().enumerate().map(name).collect()
     }
 }
 

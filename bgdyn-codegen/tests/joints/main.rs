@@ -2,11 +2,16 @@
 //! mechanics, equal mechanisms written in two ways, the generator's own check, faults.
 
 mod equal;
-mod faults;
+mod faults_of_keys;
+mod faults_of_mimic;
+mod faults_of_names;
+mod findings;
 mod golden;
 mod invariance;
 mod laws;
 mod mimic;
+mod order;
 mod robot;
+mod same_motion;
 mod specs;
 mod verified;

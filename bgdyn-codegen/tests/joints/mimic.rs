@@ -3,8 +3,8 @@
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 
-use super::equal::{Mapped, same};
 use super::robot::{Robot, State, WAYS, golden_text};
+use super::same_motion::{Mapped, same};
 use super::specs;
 
 /// Follower, leader, ratio, offset, as the file has them.

@@ -2,6 +2,7 @@
 
 use super::{figure, listed, meant, quote};
 use crate::fault::{Fault, Location};
+use crate::unit::Dimension;
 
 pub(crate) fn axis_of_joint(location: &Location, keyword: &str) -> Fault {
     let message = format!("a {keyword} joint has no axis");
@@ -97,6 +98,37 @@ pub(crate) fn leader_of_type(location: &Location, name: &str, keyword: &str) -> 
     );
     Fault::new(location, "leader-of-type", message)
         .with_help("name a revolute, continuous, prismatic or helical joint")
+}
+
+pub(crate) fn ratio_needed(location: &Location, leader: &str, of: Dimension) -> Fault {
+    let message = format!("`mimic` of {} needs a ratio: {of}", quote(leader));
+    let units: Vec<&str> = of.units().collect();
+    Fault::new(location, "ratio-needed", message).with_help(format!(
+        "add `ratio: …`, a number in {}, or with a unit: {}",
+        of.si(),
+        listed(units)
+    ))
+}
+
+pub(crate) fn oblique_axes(location: &Location, degrees: f64) -> Fault {
+    let message = format!(
+        "`axis2` is at {}° to `axis`, not at a right angle",
+        figure(degrees)
+    );
+    Fault::new(location, "oblique-axes", message)
+        .with_help("the two axes of a universal joint are usually perpendicular; if these are not, ignore this")
+        .into_warning()
+}
+
+pub(crate) fn floating_on_link(location: &Location, joint: &str, parent: &str) -> Fault {
+    let message = format!(
+        "the floating joint {} is on the link {}: its position and velocity are relative to that link",
+        quote(joint),
+        quote(parent)
+    );
+    Fault::new(location, "floating-on-link", message)
+        .with_help("leave `parent` out to have them in the world")
+        .into_warning()
 }
 
 pub(crate) fn zero_ratio(location: &Location) -> Fault {

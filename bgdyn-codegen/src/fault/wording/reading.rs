@@ -233,9 +233,17 @@ fn wanted(fit: &[Dimension]) -> String {
     if units.is_empty() {
         return "a plain number".to_owned();
     }
-    let si: Vec<&str> = fit.iter().map(|d| d.si()).collect();
+    let si: Vec<&str> = fit
+        .iter()
+        .map(|d| d.si())
+        .filter(|si| !si.is_empty())
+        .collect();
+    let plain = match fit.contains(&Dimension::One) {
+        true => "a plain number, ",
+        false => "",
+    };
     format!(
-        "a number in {}, or with a unit: {}",
+        "{plain}a number in {}, or with a unit: {}",
         si.join(" or "),
         listed(units)
     )

@@ -117,27 +117,6 @@ impl<'g> Bodies<'_, 'g> {
         }
     }
 
-    /// Returns the twist of each body, in its own axes.
-    fn twists(&self, v: &[Expr<'g>]) -> Vec<Spatial<'g>> {
-        let b = self.b;
-        let mut twists: Vec<Spatial<'g>> = Vec::new();
-        for body in &self.bodies {
-            let own = body.twist(b, v);
-            twists.push(match body.parent {
-                Some(p) => {
-                    let (angular, linear) = twists[p];
-                    let origin = linear + angular.cross(body.position);
-                    (
-                        body.outward(b, angular) + own.angular,
-                        body.outward(b, origin) + own.linear,
-                    )
-                }
-                None => (own.angular, own.linear),
-            });
-        }
-        twists
-    }
-
     /// Returns [J, [h]×; −[h]×, m 1] of a body.
     fn inertia_block(&self, i: usize) -> SpatialMatrix<'g> {
         let inertia = &self.bodies[i].inertia;

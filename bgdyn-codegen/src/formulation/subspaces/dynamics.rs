@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::bodies::Bodies;
+use super::spatial::Spatial;
 use crate::expr::Expr;
 use crate::formulation::arguments::{Arguments, reflected};
 use crate::math::{Mat3, Vec3};
@@ -93,14 +94,13 @@ impl<'g> Bodies<'_, 'g> {
         motions
     }
 
-    /// Returns T = ½ Σ (m v·v + 2 v·(ω × h) + ω·J ω) and the energy of the rotors.
-    pub(super) fn kinetic_energy(&self, v: &[Expr<'g>]) -> Expr<'g> {
+    /// Returns the twist of each body, in its own axes.
+    pub(super) fn twists(&self, v: &[Expr<'g>]) -> Vec<Spatial<'g>> {
         let b = self.b;
-        let mut twice = b.zero();
-        let mut twists: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> = Vec::new();
+        let mut twists: Vec<Spatial<'g>> = Vec::new();
         for body in &self.bodies {
             let own = body.twist(b, v);
-            let (angular, linear) = match body.parent {
+            twists.push(match body.parent {
                 Some(p) => {
                     let (angular, linear) = twists[p];
                     let origin = linear + angular.cross(body.position);
@@ -110,7 +110,16 @@ impl<'g> Bodies<'_, 'g> {
                     )
                 }
                 None => (own.angular, own.linear),
-            };
+            });
+        }
+        twists
+    }
+
+    /// Returns T = ½ Σ (m v·v + 2 v·(ω × h) + ω·J ω) and the energy of the rotors.
+    pub(super) fn kinetic_energy(&self, v: &[Expr<'g>]) -> Expr<'g> {
+        let b = self.b;
+        let mut twice = b.zero();
+        for (body, (angular, linear)) in self.bodies.iter().zip(self.twists(v)) {
             let inertia = &body.inertia;
             let moved = angular.cross(inertia.first);
             let momentum = linear.scale(inertia.mass) + moved + moved;
@@ -119,7 +128,6 @@ impl<'g> Bodies<'_, 'g> {
                 let shared = angular.dot(h) * v[j];
                 twice = twice + shared + shared;
             }
-            twists.push((angular, linear));
         }
         for rotor in &self.graph.rotors {
             let rate = v[rotor.coordinate.0];

@@ -9,6 +9,10 @@ use crate::format::{self, Dimension, Field, LinkSpec, Located, MimicSpec, Number
 use crate::math::Vec3;
 use crate::mechanism::joint::{ChainMember, JOINT_TYPES, Step};
 use crate::mechanism::{Degrees, Joint, JointType, Limits, Motion};
+use crate::name::WORLD;
+
+/// Cosine above which two axes are not perpendicular: rounding of decimals.
+const OBLIQUE: f64 = 1e-9;
 
 /// The joints from a link's parent to the link, in series: one, or two with a massless link between them.
 pub(super) struct CheckedJoints {
@@ -81,6 +85,23 @@ fn given(
         let location = joint.axis2.given().map_or(&joint.location, |a| &a.location);
         faults.push(wording::parallel_axes(location));
         return None;
+    }
+    if let (Some(axis2), Some(given)) = (axis2, joint.axis2.given())
+        && axis.dot(axis2).to_f64().abs() > OBLIQUE
+    {
+        let degrees = axis.dot(axis2).to_f64().acos().to_degrees();
+        faults.push(wording::oblique_axes(&given.location, degrees));
+    }
+    if let (Motion::Compound(motion), Some(parent)) = (kind.motion, link.parent.given())
+        && motion.velocities.len() == 6
+        && parent.value != WORLD
+    {
+        let location = joint.kind.given().map_or(&joint.location, |k| &k.location);
+        faults.push(wording::floating_on_link(
+            location,
+            &first.name,
+            &parent.value,
+        ));
     }
     let mut chain = Vec::new();
     for (k, member) in kind.chain.iter().enumerate() {

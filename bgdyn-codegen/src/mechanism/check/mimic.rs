@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
-use crate::format::{Dimension, Located, MimicSpec, Number};
+use crate::format::{Dimension, Field, Located, MimicSpec, Number, misfit};
+use crate::mechanism::joint::{JOINT_TYPES, JointType};
 use crate::mechanism::{Joint, Limits, Link, LinkId, Mimic, Motion};
 
 /// The `mimic` of a link's joint, as in the file.
@@ -74,6 +75,14 @@ fn direct(
 ) -> Option<Relation> {
     let name = mimic.value.joint.given()?;
     let Some(leader) = links.iter().position(|l| l.joint.name == name.value) else {
+        if let Some(keyword) = chain_named(links, &name.value) {
+            faults.push(wording::leader_of_type(
+                &name.location,
+                &name.value,
+                keyword,
+            ));
+            return None;
+        }
         let names: Vec<&str> = links.iter().map(|l| l.joint.name.as_str()).collect();
         faults.push(wording::unknown_leader(&name.location, &name.value, &names));
         return None;
@@ -99,6 +108,10 @@ fn direct(
     } else {
         Dimension::Angle
     };
+    if fit != Dimension::One && mimic.value.ratio.is_absent() {
+        faults.push(wording::ratio_needed(&mimic.location, &name.value, fit));
+        return None;
+    }
     let ratio = number(&mimic.value.ratio, fit, Dd::ONE, faults)?;
     let offset = number(&mimic.value.offset, length, Dd::ZERO, faults)?;
     if ratio == Dd::ZERO {
@@ -117,14 +130,17 @@ fn direct(
     })
 }
 
+/// Returns the type of a joint that is two joints in series, by its name.
+fn chain_named(links: &[Link], name: &str) -> Option<&'static str> {
+    let hidden = links.iter().filter(|link| link.hidden);
+    let mut first = hidden.filter_map(|link| link.joint.name.strip_prefix(name)?.strip_prefix('_'));
+    let suffix = first.next()?;
+    let of = |kind: &&&JointType| kind.chain.first().is_some_and(|m| m.suffix == suffix);
+    JOINT_TYPES.iter().find(of).map(|kind| kind.keyword)
+}
+
 /// Returns a number of this dimension, or the default.
-fn number(
-    field: &crate::format::Field<Number>,
-    fit: Dimension,
-    default: Dd,
-    faults: &mut Faults,
-) -> Option<Dd> {
-    use crate::format::{Field, misfit};
+fn number(field: &Field<Number>, fit: Dimension, default: Dd, faults: &mut Faults) -> Option<Dd> {
     match field {
         Field::Absent => Some(default),
         Field::Broken => None,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Field, FrameSpec, JointSpec, LinkSpec, Located, Spec};
+use crate::mechanism::joint::JOINT_TYPES;
 use crate::name::{WORLD, is_identifier};
 
 /// The only name whose struct, `T`, would hide the type parameter of generated code.
@@ -59,10 +60,39 @@ pub(super) fn check(links: &[LinkSpec], frames: &[FrameSpec], faults: &mut Fault
             joints.add(&name.value, &name.location, faults);
         }
     }
+    for link in links {
+        parts(link, &mut carriers, &mut joints, faults);
+    }
     for link in links.iter().filter(|link| named_after_link(link)) {
         if let Some(name) = link.name.given() {
             joints.add_mount(&mount_name(&name.value), &name.location, faults);
         }
+    }
+}
+
+/// Adds the names of the velocities and positions of a joint with several, and of the massless link between
+/// two joints in series.
+fn parts(link: &LinkSpec, carriers: &mut SeenNames, joints: &mut SeenNames, faults: &mut Faults) {
+    let Some(joint) = link.joint.value() else {
+        return;
+    };
+    let word = joint.kind.value().map(String::as_str);
+    let kind = JOINT_TYPES.iter().find(|kind| Some(kind.keyword) == word);
+    let (Some(kind), Some(name)) = (kind, joint.name.given()) else {
+        return;
+    };
+    let named: Vec<String> = kind
+        .suffixes()
+        .iter()
+        .map(|suffix| format!("{}_{suffix}", name.value))
+        .collect();
+    for part in &named {
+        joints.add(part, &name.location, faults);
+    }
+    if let (false, Some(own), Some(first)) =
+        (kind.chain.is_empty(), link.name.value(), named.first())
+    {
+        carriers.add(&format!("{own}_{first}"), &name.location, faults);
     }
 }
 

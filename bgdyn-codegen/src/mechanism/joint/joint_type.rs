@@ -84,12 +84,17 @@ impl JointType {
         self.chain.is_empty() && self.motion.nv() == 1
     }
 
-    /// Returns the ends of the names of its velocities; a single one has the joint's name.
+    /// Returns the ends of the names of its velocities and positions, each once; a single one has the
+    /// joint's name.
     pub fn suffixes(&self) -> Vec<&'static str> {
         match self.motion {
             _ if !self.chain.is_empty() => self.chain.iter().map(|m| m.suffix).collect(),
             Motion::Compound(motion) if motion.velocities.len() > 1 => {
-                motion.velocities.iter().map(|v| v.suffix).collect()
+                let velocities = motion.velocities.iter().map(|v| v.suffix);
+                let mut all: Vec<&str> = velocities.collect();
+                let positions = motion.positions.iter().map(|p| p.suffix);
+                all.extend(positions.filter(|p| motion.velocities.iter().all(|v| v.suffix != *p)));
+                all
             }
             _ => Vec::new(),
         }

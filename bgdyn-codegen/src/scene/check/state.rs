@@ -13,19 +13,20 @@ use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
 
 /// Returns the layout of the state: the joints, then the parts that the effects add.
 pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout {
-    let coordinate = |j: usize| {
+    let coordinate = |(j, name): (usize, String)| {
         let joint = mechanism.joint(CoordinateId(j));
         StateCoordinate {
-            name: joint.name.clone(),
             store: MomentumStore::Links(CoordinateId(j)),
             stored: true,
             dimensions: dimensions(joint.kind.motion),
-            rate_name: format!("{}_rate", joint.name),
+            rate_name: format!("{name}_rate"),
             starts_with: None,
+            name,
         }
     };
+    let names = mechanism.joint_names().into_iter();
     let mut layout = StateLayout {
-        coordinates: (0..mechanism.nv()).map(coordinate).collect(),
+        coordinates: names.enumerate().map(coordinate).collect(),
         ..StateLayout::default()
     };
     // Coordinates first: other effects may act on them.
