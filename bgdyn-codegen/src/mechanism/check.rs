@@ -3,6 +3,7 @@
 mod direction;
 mod inertia;
 mod joint;
+mod limits;
 mod mimic;
 mod names;
 mod order;
