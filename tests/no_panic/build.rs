@@ -6,13 +6,17 @@ use std::{env, fs};
 
 use bgdyn_codegen::build_script::Build;
 use quote::{format_ident, quote};
-use syn::{File, FnArg, Ident, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type, Visibility};
+use syn::{
+    File, FnArg, Ident, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type, Visibility,
+};
 
-const SPECS: [&str; 4] = [
+const SPECS: [&str; 6] = [
     "specs/scara.yaml",
     "specs/puma560.yaml",
     "specs/panda.yaml",
     "firmware/specs/scara_payload.yaml",
+    "tests/free_joints/quadrotor_arm.yaml",
+    "tests/free_joints/any_length.yaml",
 ];
 
 /// Scenes with effects of every kind.
@@ -38,6 +42,7 @@ fn main() {
     });
     println!("cargo::rerun-if-changed=../../specs");
     println!("cargo::rerun-if-changed=../../firmware/specs");
+    println!("cargo::rerun-if-changed=../free_joints");
     for build in mechanisms.chain(scenes) {
         let source = build.source();
         let source = source.unwrap_or_else(|error| panic!("{error}"));

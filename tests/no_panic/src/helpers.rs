@@ -2,7 +2,9 @@
 
 use bgdyn::Scalar;
 use bgdyn::nalgebra::{Matrix3, Matrix4, SMatrix, SVector, Vector3};
-use bgdyn::runtime::{Argument, Dd, Pose, inertia, inner_products, matrix, mirror, rotation, vector};
+use bgdyn::runtime::{
+    Argument, Dd, Pose, inertia, inner_products, manifold, matrix, mirror, rotation, vector,
+};
 
 /// Functions that must not panic, and `all`, which keeps them in the program and returns their number.
 macro_rules! proved {
@@ -58,6 +60,23 @@ macro_rules! scalar {
                 rpy(x: T, y: T, z: T) -> Matrix3<T> = rotation::rpy(x, y, z);
                 skew(x: &Vector3<T>) -> Matrix3<T> = rotation::skew(x);
                 unskew(x: &Matrix3<T>) -> Vector3<T> = rotation::unskew(x);
+                spherical_rates(q: [T; 4], v: [T; 3]) -> [T; 4] = manifold::spherical::position_rates(q, v);
+                spherical_integrate(q: [T; 4], d: [T; 3]) -> [T; 4] = manifold::spherical::integrate(q, d);
+                spherical_difference(p: [T; 4], q: [T; 4]) -> [T; 3] = manifold::spherical::difference(p, q);
+                spherical_normalize(q: [T; 4]) -> [T; 4] = manifold::spherical::normalize(q);
+                spherical_sample(u: [T; 3]) -> [T; 4] = manifold::spherical::sample(u);
+                floating_rates(q: [T; 7], v: [T; 6]) -> [T; 7] = manifold::floating::position_rates(q, v);
+                floating_integrate(q: [T; 7], d: [T; 6]) -> [T; 7] = manifold::floating::integrate(q, d);
+                floating_difference(p: [T; 7], q: [T; 7]) -> [T; 6] = manifold::floating::difference(p, q);
+                floating_normalize(q: [T; 7]) -> [T; 7] = manifold::floating::normalize(q);
+                floating_sample(u: [T; 6]) -> [T; 7] = manifold::floating::sample(u);
+                planar_rates(q: [T; 3], v: [T; 3]) -> [T; 3] = manifold::planar::position_rates(q, v);
+                planar_integrate(q: [T; 3], d: [T; 3]) -> [T; 3] = manifold::planar::integrate(q, d);
+                planar_difference(p: [T; 3], q: [T; 3]) -> [T; 3] = manifold::planar::difference(p, q);
+                planar_normalize(q: [T; 3]) -> [T; 3] = manifold::planar::normalize(q);
+                planar_sample(u: [T; 3]) -> [T; 3] = manifold::planar::sample(u);
+                quaternion_rotation(q: [T; 4]) -> Matrix3<T> = manifold::rotation(q);
+                quaternion_of(x: &Matrix3<T>) -> [T; 4] = manifold::quaternion_of(x);
                 parallel_axis(m: T, r: &Vector3<T>) -> Matrix3<T> = inertia::parallel_axis(m, r);
                 about_origin(j: &Matrix3<T>, m: T, r: &Vector3<T>) -> Matrix3<T> =
                     inertia::about_origin(j, m, r);
