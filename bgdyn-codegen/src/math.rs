@@ -123,7 +123,7 @@ impl<T: Ring> Sub for Mat3<T> {
     }
 }
 
-/// Returns [v]×, the matrix of the cross product with v.
+/// Returns `[v]×`, the matrix of the cross product with v.
 pub fn skew<T: Ring>(v: Vec3<T>, zero: T) -> Mat3<T> {
     let [x, y, z] = v.0;
     Mat3([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
