@@ -264,3 +264,20 @@ fn a_vanished_pivot_names_its_velocity() {
     assert_eq!(joint, "ball_rz");
     assert!(message.contains("`ball_rz`"), "{message}");
 }
+
+/// Equations are not printed for such joints; more terms would not help.
+#[test]
+fn equations_name_the_joint() {
+    let spec = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../tests/golden/joints/quadrotor_arm.yaml"
+    );
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_bgdyn"))
+        .args(["equations", spec])
+        .output()
+        .expect("the command runs");
+    let said = String::from_utf8_lossy(&run.stderr);
+    assert!(!run.status.success());
+    assert!(said.contains("no closed form: the joint `free`"), "{said}");
+    assert!(!said.contains("--limit"), "{said}");
+}

@@ -66,7 +66,9 @@ impl Equations {
     fn refused(&self, refused: &NoClosedForm) -> anyhow::Error {
         let (file, limit) = (self.file.display(), self.limit);
         match refused {
-            NoClosedForm::NotTrigonometric => anyhow!("{file}: no closed form: {refused}"),
+            NoClosedForm::NotTrigonometric | NoClosedForm::Joint { .. } => {
+                anyhow!("{file}: no closed form: {refused}")
+            }
             _ => anyhow!(
                 "{file}: too long for a closed form: {refused}, and the limit is {limit} terms; \
                  give joints that may stand still the type `fixed`, or allow more by `--limit N`"
