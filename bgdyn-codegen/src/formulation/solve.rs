@@ -15,8 +15,8 @@ struct PivotFactor<'g> {
 }
 
 impl<'g> PivotFactor<'g> {
-    /// Factors the lower triangle of M.
-    fn new(b: &'g Builder, mut mass: Vec<Vec<Expr<'g>>>) -> Self {
+    /// Factors the lower triangle of M, whose rows belong to these coordinates.
+    fn of(b: &'g Builder, mut mass: Vec<Vec<Expr<'g>>>, coordinates: &[usize]) -> Self {
         let n = mass.len();
         let original: Vec<Expr<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
@@ -30,7 +30,7 @@ impl<'g> PivotFactor<'g> {
             } else {
                 original[k]
             };
-            let pivot = mass[k][k].pivot(magnitude, k);
+            let pivot = mass[k][k].pivot(magnitude, coordinates[k]);
             inverse[k] = b.constant(Dd::ONE) / pivot;
             // M_ij ← M_ij − l_ki M_kj for i, j < k with l_ki = M_ki / d_k
             let row = mass[k].clone();
@@ -75,11 +75,36 @@ impl<'g> PivotFactor<'g> {
     }
 }
 
+/// Solves M x = f for one right-hand side, where the velocities `first` are eliminated before all others.
+pub(crate) fn ltdl_after<'g>(
+    b: &'g Builder,
+    mass: Vec<Vec<Expr<'g>>>,
+    f: Vec<Expr<'g>>,
+    first: &[usize],
+) -> Vec<Expr<'g>> {
+    if first.is_empty() {
+        return ltdl(b, mass, f);
+    }
+    // The last row is eliminated first.
+    let rest = (0..f.len()).filter(|k| !first.contains(k));
+    let order: Vec<usize> = rest.chain(first.iter().copied()).collect();
+    let entry = |i: usize, j: usize| mass[order[i].max(order[j])][order[i].min(order[j])];
+    let permuted = (0..f.len()).map(|i| (0..=i).map(|j| entry(i, j)).collect());
+    let sides = order.iter().map(|&k| f[k]).collect();
+    let solved = PivotFactor::of(b, permuted.collect(), &order).solve(sides);
+    let mut found = vec![b.zero(); f.len()];
+    for (&k, x) in order.iter().zip(solved) {
+        found[k] = x;
+    }
+    found
+}
+
 /// Solves M x = f for one right-hand side.
 pub(crate) fn ltdl<'g>(
     b: &'g Builder,
     mass: Vec<Vec<Expr<'g>>>,
     f: Vec<Expr<'g>>,
 ) -> Vec<Expr<'g>> {
-    PivotFactor::new(b, mass).solve(f)
+    let coordinates: Vec<usize> = (0..f.len()).collect();
+    PivotFactor::of(b, mass, &coordinates).solve(f)
 }

@@ -10,10 +10,11 @@ use super::base_parameter_cache::Numbers;
 use super::geometry::{Body, Geometry};
 use super::inertia::{BodyInertia, Point};
 use super::plan::{Plan, origin_offset};
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::value;
 use crate::math::Vec3;
+use crate::mechanism::joint::Column;
 use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
 
 /// Inertia of a body about its origin, in its axes.
@@ -105,7 +106,10 @@ fn regroup<'g>(
         let mut take = |own: &mut BodyInertia<'g>| {
             let moved = match body.motion {
                 Motion::Rotation => take_from_rotation(b, own),
-                _ => take_from_translation(b, own, body.planar).turned(phase),
+                Motion::Translation => {
+                    take_from_translation(b, own, body.planar).turned(phase.into())
+                }
+                _ => take_from_compound(b, own, body, &graph.frames[body.link().0]),
             };
             let at_parent = moved.shifted(offset).rotated(b, body.twist);
             if body.parent.is_none() {
@@ -231,6 +235,33 @@ fn take_from_rotation<'g>(b: &'g Builder, own: &mut BodyInertia<'g>) -> BodyIner
     (own.mass, own.axial) = (b.zero(), b.zero());
     own.first.0[2] = b.zero();
     own.pseudo[2] = b.zero();
+    moved
+}
+
+/// Takes from another joint the inertia that its parent moves alike: from rotations about a point the mass
+/// there, from rotations about z with translations D_zz; nothing if it translates and rotates in all
+/// directions.
+fn take_from_compound<'g>(
+    b: &'g Builder,
+    own: &mut BodyInertia<'g>,
+    body: &Body,
+    link: &LinkFrame,
+) -> BodyInertia<'g> {
+    let zero = Vec3([Dd::ZERO; 3]);
+    let mut moved = BodyInertia::zero(b);
+    let columns = link.columns();
+    let of = |part: fn(&Column<Dd>) -> Vec3<Dd>| {
+        let parts = columns.iter().map(move |(_, column)| part(column));
+        parts.filter(|v| *v != zero).collect::<Vec<_>>()
+    };
+    let (turns, shifts) = (of(|c| c.angular), of(|c| c.linear));
+    if shifts.is_empty() {
+        (moved.mass, moved.axial) = (own.mass, own.axial);
+        (own.mass, own.axial) = (b.zero(), b.zero());
+    } else if body.axial || turns.iter().all(|axis| axis.0[..2] == [Dd::ZERO; 2]) {
+        moved.pseudo[2] = own.pseudo[2];
+        own.pseudo[2] = b.zero();
+    }
     moved
 }
 

@@ -17,7 +17,6 @@
 
 use super::frames::{BodyFrame, Frames};
 use super::geometry::Geometry;
-use super::inertia::turn_back;
 use super::mass_matrix::{Momentum, composites};
 use super::plan::Plan;
 use super::plan_search::{self, BestPlan};
@@ -77,7 +76,7 @@ impl Formulation for CommonAxes {
 fn plans(prepared: &Prepared<'_>, method: Method) -> Option<BestPlan> {
     let graph = prepared.graph;
     let coupled = graph.rotors.iter().any(|r| r.carrier.is_some());
-    if method != METHOD || coupled {
+    if method != METHOD || coupled || !graph.plain() {
         return None;
     }
     let mut best = cheapest_plans(prepared, METHOD);
@@ -125,7 +124,7 @@ fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
         let frame = &frames.bodies[k];
         b.section(|| format!("row of `{}`", frame.joint));
         let mut row = vec![b.zero(); k + 1];
-        let diagonal = unit.along(frame) * (frame.effort * frame.effort);
+        let diagonal = unit.along(&frame.columns[0]) * (frame.effort * frame.effort);
         row[k] = (diagonal + frames.rotors.armature(k))
             .named(|| format!("m_{}_{}", frame.joint, frame.joint));
         let mut inwards = frame.parent;
@@ -155,7 +154,7 @@ fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<PlacedAxis<'g>> {
     for frame in &frames.bodies {
         b.section(|| format!("{}: its axes and origin", frame.name));
         let rows_turned =
-            |m: &Mat3<Expr<'g>>| Mat3(m.0.map(|row| turn_back(Vec3(row), frame.turn).0));
+            |m: &Mat3<Expr<'g>>| Mat3(m.0.map(|row| frame.turn.apply_back(Vec3(row)).0));
         let place = match frame.parent {
             None => PlacedAxis {
                 basis: rows_turned(&unit).transpose(),

@@ -2,10 +2,11 @@
 
 use super::frames::Frames;
 use super::geometry::Geometry;
+use super::motion::{Field, add_set_aside, motions};
 use super::plan::Plan;
 use super::{derivatives, inverse_dynamics, mass_matrix};
 use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Graph, Signed};
+use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::solve;
 use crate::method::Method;
@@ -21,22 +22,16 @@ pub(super) fn outputs(
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, method);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
-        let efforts = || inverse_dynamics::efforts(&b, &frames, plan, x.active);
         let outputs = match method {
-            Method::InverseDynamics | Method::Bias | Method::Gravity => efforts(),
+            Method::InverseDynamics | Method::Bias | Method::Gravity => {
+                let moving = motions(&b, &frames, Field::Gravity);
+                inverse_dynamics::efforts(&b, &frames, plan, &moving)
+            }
             Method::MassMatrix => mass_matrix::mass_matrix(&b, &frames)
                 .into_iter()
                 .flatten()
                 .collect(),
-            Method::ForwardDynamics => {
-                let drive = x
-                    .tau
-                    .iter()
-                    .zip(efforts())
-                    .map(|(&tau, h)| tau - h)
-                    .collect();
-                solve::ltdl(&b, mass_matrix::mass_matrix(&b, &frames), drive)
-            }
+            Method::ForwardDynamics => forward_dynamics(&b, &frames, plan, &x.tau),
             Method::InverseDynamicsDerivatives => {
                 let derivatives =
                     derivatives::effort_derivatives(&b, &frames, &plan.views, x.active);
@@ -59,6 +54,23 @@ pub(super) fn outputs(
     (b.into_graph(), outputs)
 }
 
+/// Returns M⁻¹ (τ − h).
+fn forward_dynamics<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    plan: &Plan,
+    tau: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
+    let moving = motions(b, frames, Field::SetAside);
+    let bias = inverse_dynamics::efforts(b, frames, plan, &moving);
+    let drive = tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
+    let mass = mass_matrix::mass_matrix(b, frames);
+    let first = if plan.linear_first { frames.translations() } else { Vec::new() };
+    let mut found = solve::ltdl_after(b, mass, drive, &first);
+    add_set_aside(frames, &moving, &mut found);
+    found
+}
+
 /// Returns the lower triangle of M, row by row, and h, in one graph.
 pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, Vec<Signed>) {
     let (b, plan) = (Builder::silent(), &Plan::of_kinematics(geometry, true));
@@ -66,7 +78,8 @@ pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, V
         let x = Arguments::new(&b, graph, Method::ForwardDynamics);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let rows = mass_matrix::mass_matrix(&b, &frames).into_iter().flatten();
-        let bias = inverse_dynamics::efforts(&b, &frames, plan, x.active);
+        let moving = motions(&b, &frames, Field::Gravity);
+        let bias = inverse_dynamics::efforts(&b, &frames, plan, &moving);
         rows.chain(bias).map(|e| e.signed()).collect()
     };
     (b.into_graph(), outputs)

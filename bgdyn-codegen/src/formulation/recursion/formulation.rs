@@ -23,19 +23,39 @@ impl Formulation for Recursion {
         "link axes, base parameters, common-axis trick, sliding origins, groups of parallel axes"
     }
 
-    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
-        Offer::Candidate
+    fn serves(&self, _: &Multibody) -> bool {
+        true
+    }
+
+    fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
+        match makes(prepared.graph, method) {
+            true => Offer::Candidate,
+            false => Offer::Never,
+        }
     }
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let graph = prepared.graph;
         let geometry = prepared.geometry();
+        if !makes(graph, method) {
+            return None;
+        }
         if let Some(site) = method.site() {
             return Some(kinematics::function(graph, geometry, method, site));
         }
         let best = best_plans(prepared, method)?;
         Some(with_plan(graph, geometry, method, &best))
     }
+}
+
+/// Returns whether the recursion has the method: its derivatives are those of joints with q̇ = v.
+pub(super) fn makes(graph: &Multibody, method: Method) -> bool {
+    let partial = [
+        Method::InverseDynamicsDerivatives,
+        Method::ForwardDynamicsDerivatives,
+        Method::CoriolisMatrix,
+    ];
+    graph.plain() || !partial.contains(&method)
 }
 
 /// Returns the function under the chosen plan.

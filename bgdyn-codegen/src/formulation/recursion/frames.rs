@@ -4,16 +4,20 @@
 use bgdyn_runtime::Dd;
 
 use super::base_parameters::{Parts, regrouped};
-use super::geometry::{Geometry, angle_of};
-use super::inertia::{BodyInertia, Point, turn};
+use super::geometry::{Body, Geometry, angle_of};
+use super::inertia::{BodyInertia, Point};
+use super::joint_columns::{Direction, JointColumn, joint_columns};
 use super::names::{name_body, name_number};
 use super::plan::{Plan, origin_offset};
+use super::rotation::{JointPose, Rotation, joint_pose};
 use super::rotors::Rotors;
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
+use crate::formulation::joint_motion::joint_rates;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
+use crate::mechanism::joint::Column;
 
 /// A body of the recursion. Lengths are in units of the plan.
 pub(super) struct BodyFrame<'g> {
@@ -23,8 +27,12 @@ pub(super) struct BodyFrame<'g> {
     pub joint: String,
     /// The parent body.
     pub parent: Option<usize>,
-    /// Rotation or translation.
+    /// The motion that its joint allows.
     pub motion: Motion,
+    /// Whether its joint has one velocity, about or along z.
+    pub axial: bool,
+    /// The columns of its joint's motion subspace.
+    pub columns: Vec<JointColumn>,
     /// Whether it continues the basis of the parent: parallel axes, grouped.
     pub continues: bool,
     /// Columns: twisted axes in the parent's axes.
@@ -33,25 +41,40 @@ pub(super) struct BodyFrame<'g> {
     pub position: Vec3<Expr<'g>>,
     /// The same in the parent's own axes.
     pub position_in_parent: Vec3<Expr<'g>>,
-    /// Cosine and sine of the angle from the basis to the body's axes.
-    pub turn: (Expr<'g>, Expr<'g>),
-    /// Rate of the coordinate, along z.
+    /// Rotation from the basis to the body's axes.
+    pub turn: Rotation<'g>,
+    /// Rate of the coordinate, along z; zero for a joint with several.
     pub rate: Expr<'g>,
     /// Second rate of the coordinate, along z.
     pub acceleration: Expr<'g>,
+    /// Velocity and acceleration of the body relative to its parent, in own axes, for a joint with several
+    /// velocities. The acceleration is that of the velocities alone.
+    pub relative: Option<[Column<Expr<'g>>; 2]>,
     /// Base parameters about the origin, in own axes.
     pub inertia: BodyInertia<'g>,
     /// The same without the separate point masses.
     pub rest: BodyInertia<'g>,
     /// The separate point masses.
     pub points: Vec<Point<'g>>,
-    /// Factor from a moment or force along z to the joint's effort.
+    /// Factor from a moment or force along z to the joint's effort; 1 for a joint with several velocities.
     pub effort: Dd,
+}
+
+impl BodyFrame<'_> {
+    /// Returns whether the joint does not move.
+    pub fn at_rest(&self, accelerated: bool) -> bool {
+        let zero = |column: &Column<Expr<'_>>| {
+            let mut all = column.angular.0.iter().chain(&column.linear.0);
+            all.all(|x| x.is_zero())
+        };
+        let alone = if accelerated { self.acceleration } else { self.rate };
+        alone.is_zero() && (self.relative.iter()).all(|both| zero(&both[usize::from(accelerated)]))
+    }
 }
 
 /// All bodies, and the constant terms of the base.
 pub(super) struct Frames<'g> {
-    /// In the order of the coordinates.
+    /// Parents before children. In a plain mechanism in the order of the coordinates.
     pub bodies: Vec<BodyFrame<'g>>,
     /// For each body on the base: gravity in its twisted axes.
     pub gravity: Vec<Vec3<Expr<'g>>>,
@@ -59,6 +82,8 @@ pub(super) struct Frames<'g> {
     pub constant_energy: Expr<'g>,
     /// Rotors behind gears.
     pub rotors: Rotors<'g>,
+    /// Names of the coordinates.
+    pub names: Vec<String>,
 }
 
 impl<'g> Frames<'g> {
@@ -80,47 +105,68 @@ impl<'g> Frames<'g> {
             b.section(|| format!("{}: place and inertia", body.name));
             let parts = parts[j].in_units_of(plan.unit);
             let (weight, aimed) = aim(b, plan.aimed[j], &parts);
-            let phase = after(body.phase, aimed);
+            let mut phase = after(body.phase, aimed);
             aims.push(aimed);
-            let continues = plan.grouped && body.parallel();
+            let continues = plan.grouped && body.parallel;
             let (mut terms, start) = match body.parent {
                 Some(p) if continues => angles[p].clone(),
                 _ => (Vec::new(), (Dd::ONE, Dd::ZERO)),
             };
-            let signed = |e: Expr<'g>| if body.opposite { -e } else { e };
-            let scale = if body.motion == Motion::Rotation {
-                Dd::ONE
-            } else {
-                Dd::ONE / plan.unit
+            let link = &graph.frames[body.link().0];
+            let columns = joint_columns(
+                body,
+                link,
+                |k| graph.coordinates[k].name.clone(),
+                plan.unit,
+            );
+            let own = BodyJoint {
+                body,
+                link,
+                unit: plan.unit,
             };
-            if body.motion == Motion::Rotation {
-                terms.push(signed(x.q[j]));
-            }
-            let phase = after(start, phase);
-            let mut local = b.vector(origin_offset(geometry, plan, j).scale(Dd::ONE / plan.unit));
-            if body.motion == Motion::Translation {
-                local.0[2] = local.0[2] + signed(x.q[j]) * scale;
-            }
+            let offset = origin_offset(geometry, plan, j);
+            let JointPose {
+                twist,
+                origin: local,
+                turn,
+            } = match body.axial {
+                true => {
+                    let (angle, constant) = own.angle(x);
+                    terms.extend(angle);
+                    phase = after(after(start, constant), phase);
+                    let local = b.vector(offset.scale(Dd::ONE / plan.unit));
+                    JointPose {
+                        twist: body.twist,
+                        origin: own.slid(b, local, x),
+                        turn: Rotation::AboutZ(cos_sin(b, &terms, phase)),
+                    }
+                }
+                false => joint_pose(b, body, link, &x.q, (offset, plan.unit)),
+            };
             let position = match body.parent {
-                Some(p) if continues => turn(local, bodies[p].turn),
+                Some(p) if continues => bodies[p].turn.apply(local),
                 _ => local,
             };
+            let (rate, acceleration) = own.rates(b, &columns, x);
             bodies.push(BodyFrame {
                 name: body.name.clone(),
                 joint: body.joint.clone(),
                 parent: body.parent,
                 motion: body.motion,
+                axial: body.axial,
                 continues,
-                twist: body.twist,
+                twist,
                 position,
-                position_in_parent: body.twist.map(|t| b.constant(t)) * local,
-                turn: cos_sin(b, &terms, phase),
-                rate: signed(x.v[j]) * scale,
-                acceleration: signed(x.a[j]) * scale,
+                position_in_parent: twist.map(|t| b.constant(t)) * local,
+                turn,
+                rate,
+                acceleration,
+                relative: own.relative(b, x),
                 inertia: weight.inertia,
                 rest: weight.rest,
                 points: weight.points,
-                effort: if body.opposite { -scale } else { scale },
+                effort: if body.axial { columns[0].effort } else { Dd::ONE },
+                columns,
             });
             angles.push((terms, phase));
         }
@@ -128,17 +174,137 @@ impl<'g> Frames<'g> {
             b.vector((body.twist.transpose() * graph.gravity).scale(Dd::ONE / plan.unit))
         });
         let gravity = gravity.collect();
-        let efforts: Vec<Dd> = bodies.iter().map(|frame| frame.effort).collect();
-        let rotors = Rotors::new(b, graph, geometry, (&aims, &efforts), x);
+        let rotors = Rotors::new(b, graph, geometry, (&aims, &efforts(graph, &bodies)), x);
         let frames = Frames {
             gravity,
             bodies,
             constant_energy: energy,
             rotors,
+            names: graph.coordinates.iter().map(|c| c.name.clone()).collect(),
         };
         name_data(&frames);
         frames
     }
+}
+
+impl Frames<'_> {
+    /// Returns the coordinates in which roots that also rotate translate.
+    pub fn translations(&self) -> Vec<usize> {
+        let roots = self.bodies.iter().filter(|f| f.parent.is_none() && !f.axial);
+        let columns = roots.flat_map(|frame| &frame.columns);
+        let linear = columns.filter(|c| matches!(c.direction, Direction::Along(_)));
+        linear.map(|column| column.coordinate).collect()
+    }
+}
+
+/// A joint with an axis or without one, and the unit of length.
+struct BodyJoint<'a> {
+    body: &'a Body,
+    link: &'a LinkFrame,
+    unit: Dd,
+}
+
+impl BodyJoint<'_> {
+    fn signed<'g>(&self, e: Expr<'g>) -> Expr<'g> {
+        if self.body.opposite { -e } else { e }
+    }
+
+    /// Returns its position, without the offset of a joint with `mimic`: as a rotation about or a
+    /// translation along z.
+    fn position<'g>(&self, x: &Arguments<'g>) -> Expr<'g> {
+        let q = self.signed(x.q[self.link.degrees.positions[0].0]);
+        match self.link.degrees.mimic {
+            Some(mimic) => q * mimic.ratio,
+            None => q,
+        }
+    }
+
+    fn offset(&self) -> Dd {
+        let offset = self.link.degrees.mimic.map_or(Dd::ZERO, |m| m.offset);
+        if self.body.opposite { -offset } else { offset }
+    }
+
+    /// Returns the angle about z, if it rotates: its variable part, and cosine and sine of its constant
+    /// part.
+    fn angle<'g>(&self, x: &Arguments<'g>) -> (Option<Expr<'g>>, (Dd, Dd)) {
+        let offset = self.offset();
+        if self.body.motion == Motion::Translation {
+            return (None, (Dd::ONE, Dd::ZERO));
+        }
+        let (sin, cos) = offset.sin_cos();
+        let offset = if offset == Dd::ZERO { (Dd::ONE, Dd::ZERO) } else { (cos, sin) };
+        (Some(self.position(x)), offset)
+    }
+
+    /// Returns a position with the displacement along z.
+    fn slid<'g>(
+        &self,
+        b: &'g Builder,
+        mut place: Vec3<Expr<'g>>,
+        x: &Arguments<'g>,
+    ) -> Vec3<Expr<'g>> {
+        let per_position = match self.body.motion {
+            Motion::Rotation => return place,
+            Motion::Translation => Dd::ONE / self.unit,
+            _ => self.link.degrees.advance / self.unit,
+        };
+        let moved = self.position(x) * per_position;
+        place.0[2] = place.0[2] + moved;
+        if self.offset() != Dd::ZERO {
+            place.0[2] = place.0[2] + b.constant(self.offset() * per_position);
+        }
+        place
+    }
+
+    /// Returns rate and second rate about or along z; zero for a joint with several velocities.
+    fn rates<'g>(
+        &self,
+        b: &'g Builder,
+        columns: &[JointColumn],
+        x: &Arguments<'g>,
+    ) -> (Expr<'g>, Expr<'g>) {
+        match columns {
+            [column] if self.body.axial => {
+                let signed = |e: Expr<'g>| match column.effort < Dd::ZERO {
+                    true => -e * -column.effort,
+                    false => e * column.effort,
+                };
+                (signed(x.v[column.coordinate]), signed(x.a[column.coordinate]))
+            }
+            _ => (b.zero(), b.zero()),
+        }
+    }
+
+    /// Returns the twist of a joint with several velocities, and its rate for constant columns.
+    fn relative<'g>(&self, b: &'g Builder, x: &Arguments<'g>) -> Option<[Column<Expr<'g>>; 2]> {
+        if self.body.axial {
+            return None;
+        }
+        let of = |rates: &[Expr<'g>]| {
+            let still = Vec3([b.zero(); 3]);
+            let start = Column {
+                angular: still,
+                linear: still,
+            };
+            let rates = joint_rates(self.link, rates);
+            let columns = self.link.columns().into_iter().zip(rates);
+            columns.fold(start, |sum, ((_, column), rate)| Column {
+                angular: sum.angular + b.vector(column.angular).scale(rate),
+                linear: sum.linear + b.vector(column.linear).scale(rate * (Dd::ONE / self.unit)),
+            })
+        };
+        Some([of(&x.v), of(&x.a)])
+    }
+}
+
+/// Returns, for each coordinate, the factor from the component in its direction to its effort; of the
+/// joint that mimics no other.
+fn efforts(graph: &Multibody, bodies: &[BodyFrame<'_>]) -> Vec<Dd> {
+    let mut efforts = vec![Dd::ONE; graph.coordinates.len()];
+    for column in bodies.iter().rev().flat_map(|frame| &frame.columns) {
+        efforts[column.coordinate] = column.effort;
+    }
+    efforts
 }
 
 /// Inertia of a body: in total, and without the points.
@@ -177,9 +343,9 @@ fn aim<'g>(b: &'g Builder, aimed: bool, parts: &Parts<'g>) -> (Weight<'g>, (Dd, 
     }
     let (c, s) = (x / length, y / length);
     let back = (b.constant(c), b.constant(-s));
-    let mut turned = rest.turned(back);
+    let mut turned = rest.turned(back.into());
     turned.first.0[1] = b.zero();
-    let points = parts.points.iter().map(|p| p.turned(back)).collect();
+    let points = parts.points.iter().map(|p| p.turned(back.into())).collect();
     (Weight::new(b, turned, points), (c, s))
 }
 

@@ -4,6 +4,9 @@
 //! Welded links are one body; body j is moved by coordinate j. Between a body and its parent are the
 //! *twisted axes* T: the parent's axes rotated by a constant rotation whose third column is the joint's
 //! axis. The body's own axes are T rotated by Rz(φ), φ = ±q + a constant.
+//!
+//! A joint with several velocities has no such axis. Its body has the axes of its link, in which the
+//! columns of its motion subspace are constant, and T are the axes of the joint's origin.
 
 use bgdyn_runtime::Dd;
 
@@ -18,7 +21,7 @@ const NOISE: f64 = 1e-26;
 /// Largest ratio of the distance to two axes' common normal to the distance of their origins.
 const FAR: f64 = 4.0;
 
-/// A rigid body: the links that one coordinate moves, and their frame.
+/// A rigid body: the links that one joint moves, and their frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     /// Name of the link outboard of the joint.
@@ -27,8 +30,12 @@ pub(crate) struct Body {
     pub joint: String,
     /// The parent body; `None` for the fixed base.
     pub parent: Option<usize>,
-    /// Rotation or translation.
+    /// The motion that its joint allows.
     pub motion: Motion,
+    /// Whether its joint has one velocity, about or along z.
+    pub axial: bool,
+    /// Whether its axis is parallel to the axis of its parent body.
+    pub parallel: bool,
     /// Whether z is opposite to the joint's axis, so that parallel joints have one direction.
     pub opposite: bool,
     /// Whether every joint from the base to this one has the same axis: the body moves in a plane, and
@@ -51,16 +58,20 @@ pub(crate) struct Body {
 }
 
 impl Body {
-    /// Returns whether the axis is parallel to the parent body's.
-    pub fn parallel(&self) -> bool {
-        self.parent.is_some() && self.twist == identity()
+    /// Returns the link outboard of its joint.
+    pub fn link(&self) -> LinkId {
+        self.links[0].0
     }
 
     /// Returns the feet of the common normal with the parent's axis: (distance from the parent's origin
     /// along its z, distance from the foot to this origin along this z). Parallel axes have no unique
     /// normal; then the whole distance counts as this body's. For almost parallel axes the normal is so
-    /// far away that inertia relative to it would lose its digits: they count as parallel.
+    /// far away that inertia relative to it would lose its digits: they count as parallel. A body without
+    /// an axis has its origin as its foot.
     pub fn normal_feet(&self) -> (Dd, Dd) {
+        if !self.axial {
+            return ((self.twist * self.offset).0[2], Dd::ZERO);
+        }
         let [_, sin, cos] = (self.twist.transpose() * unit(2)).0;
         let [_, y, z] = self.offset.0;
         let size = self
@@ -74,11 +85,19 @@ impl Body {
         let along_parent = y / sin;
         (along_parent, z - along_parent * cos)
     }
+
+    /// Returns the displacements of its origin along its axis for which the origin is closest to the
+    /// parent's, or for which a coordinate of the origin in the parent's axes is zero.
+    pub fn near_parent(&self) -> Vec<Dd> {
+        let [place, z] = [self.twist * self.offset, self.twist.column(2)].map(|v| v.0);
+        let zeros = (0..3).filter(|&k| z[k] != Dd::ZERO).map(|k| -place[k] / z[k]);
+        [-self.offset.0[2]].into_iter().chain(zeros).collect()
+    }
 }
 
 /// The bodies, parents before children, and the links welded to the world.
 pub(crate) struct Geometry {
-    /// In the order of the coordinates.
+    /// Parents before children. In a plain mechanism in the order of the coordinates.
     pub bodies: Vec<Body>,
     /// Links that never move, with their poses in the world.
     pub fixed: Vec<(LinkId, Pose)>,
@@ -90,6 +109,11 @@ impl Geometry {
     /// Returns the parent of each body.
     pub fn parents(&self) -> Vec<Option<usize>> {
         self.bodies.iter().map(|body| body.parent).collect()
+    }
+
+    /// Returns whether a body has an axis and carries no other body.
+    pub fn axial_tip(&self, j: usize) -> bool {
+        self.bodies[j].axial && self.bodies.iter().all(|body| body.parent != Some(j))
     }
 }
 
@@ -108,33 +132,37 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
             None => (None, frame.origin),
             Some(p) => (homes[p.0].0, compose(&homes[p.0].1, &frame.origin)),
         };
-        let Some(j) = frame.coordinate else {
+        if frame.motion == Motion::None {
             homes.push((parent, place));
             match parent {
                 Some(body) => made.bodies[body].links.push((LinkId(i), place)),
                 None => made.fixed.push((LinkId(i), place)),
             }
             continue;
-        };
-        debug_assert_eq!(
-            j.0,
-            made.bodies.len(),
-            "coordinates follow the order of links"
-        );
+        }
         let still = Pose::IDENTITY;
-        homes.push((Some(j.0), still));
+        let axial = frame.motion.has_axis();
+        homes.push((Some(made.bodies.len()), still));
         placed.push(place);
         made.bodies.push(Body {
             name: frame.name.clone(),
-            joint: graph.coordinates[j.0].name.clone(),
+            joint: match frame.coordinate {
+                Some(j) => graph.coordinates[j.0].name.clone(),
+                None => frame.name.clone(),
+            },
             parent,
             motion: frame.motion,
+            axial,
+            parallel: false,
             opposite: false,
             planar: false,
             twist: identity(),
             offset: place.translation,
             phase: (Dd::ONE, Dd::ZERO),
-            axes: basis_with_z(frame.axis),
+            axes: match axial {
+                true => basis_with_z(frame.axis),
+                false => identity(),
+            },
             free_x: true,
             links: vec![(LinkId(i), still)],
             varying: false,
@@ -145,7 +173,10 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
         body.varying = (body.links.iter()).any(|(link, _)| graph.inertial(*link).varies());
     }
     for j in 0..made.bodies.len() {
-        orient(&mut made.bodies, &placed, j);
+        match made.bodies[j].axial {
+            true => orient(&mut made.bodies, &placed, j),
+            false => place_in_parent(&mut made.bodies, &placed[j], j),
+        }
     }
     made
 }
@@ -154,6 +185,9 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
 fn align_parallel_axes(bodies: &mut [Body], placed: &[Pose]) {
     for j in 0..bodies.len() {
         let Some(p) = bodies[j].parent else { continue };
+        if !(bodies[j].axial && bodies[p].axial) {
+            continue;
+        }
         let z = bodies[p].axes.transpose() * (placed[j].rotation * bodies[j].axes.column(2));
         if along_z(z) && z.0[2] < Dd::ZERO {
             bodies[j].opposite = true;
@@ -193,10 +227,18 @@ fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
         None => bodies[j].twist = clean_matrix(placed[j].rotation * bodies[j].axes),
     }
     bodies[j].offset = clean_length(bodies[j].twist.transpose() * offset);
-    bodies[j].planar = match bodies[j].parent {
-        None => true,
-        Some(p) => bodies[p].planar && bodies[j].parallel(),
-    };
+    let parent = bodies[j].parent;
+    bodies[j].parallel = parent.is_some_and(|p| bodies[p].axial) && bodies[j].twist == identity();
+    bodies[j].planar = parent.is_none_or(|p| bodies[p].planar && bodies[j].parallel);
+}
+
+/// Computes twist and offset of body j, whose joint has several velocities: T are the axes of the joint's
+/// origin.
+fn place_in_parent(bodies: &mut [Body], placed: &Pose, j: usize) {
+    let to_parent = bodies[j].parent.map_or(identity(), |p| bodies[p].axes.transpose());
+    let twist = clean_matrix(to_parent * placed.rotation);
+    bodies[j].twist = twist;
+    bodies[j].offset = clean_length(twist.transpose() * (to_parent * placed.translation));
 }
 
 /// Returns the direction of the common normal with the axis of the first child that has one, in the axes
@@ -206,11 +248,14 @@ fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd
     let children = (0..bodies.len()).filter(|&c| bodies[c].parent == Some(j));
     let normal = |c: usize| {
         let child_z = placed[c].rotation * bodies[c].axes.column(2);
-        let normal = clean(z.cross(child_z));
+        let normal = match bodies[c].axial {
+            true => clean(z.cross(child_z)),
+            false => Vec3([Dd::ZERO; 3]),
+        };
         if normal != Vec3([Dd::ZERO; 3]) {
             return Some(perpendicular(normal, z));
         }
-        // Parallel axes: from one to the other. The remainder of a distance along z does not count.
+        // Parallel axes, or a child without an axis: from one to the other. The remainder of a distance along z does not count.
         let p = placed[c].translation;
         let across = p - z.scale(z.dot(p));
         let apart = across.dot(across) > p.dot(p) * Dd::from_f64(NOISE * NOISE);

@@ -5,6 +5,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::rotation::Rotation;
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 
@@ -44,10 +45,10 @@ impl<'g> Point<'g> {
         entries.all(|e| e.as_constant().is_some())
     }
 
-    /// Returns it rotated by Rz.
-    pub fn turned(&self, angle: (Expr<'g>, Expr<'g>)) -> Self {
+    /// Returns it rotated.
+    pub fn turned(&self, turn: Rotation<'g>) -> Self {
         Point {
-            place: turn(self.place, angle),
+            place: turn.apply(self.place),
             ..*self
         }
     }
@@ -141,9 +142,42 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
+    /// Returns it rotated.
+    pub fn turned(&self, turn: Rotation<'g>) -> Self {
+        match turn {
+            Rotation::AboutZ(angle) => self.turned_about_z(angle),
+            Rotation::General(r) => self.turned_by(r),
+        }
+    }
+
+    /// Returns it rotated by R, from R J and (R J) Rᵀ with J = tr(D)·1 − D: the columns of R J are also the
+    /// angular momenta of unit rates about the body's own axes.
+    fn turned_by(&self, r: Mat3<Expr<'g>>) -> Self {
+        let [xx, yy, zz, ..] = self.pseudo;
+        let trace = xx + yy + zz;
+        let half = r * self.tensor();
+        let turned = symmetric(|i, j| half.row(i).dot(r.row(j)));
+        let [jxx, jyy, jzz, jxy, jxz, jyz] = turned;
+        BodyInertia {
+            first: r * self.first,
+            pseudo: [trace - jxx, trace - jyy, trace - jzz, -jxy, -jxz, -jyz],
+            ..*self
+        }
+    }
+
+    /// Returns J = tr(D)·1 − D.
+    pub fn tensor(&self) -> Mat3<Expr<'g>> {
+        let [xx, yy, zz, xy, xz, yz] = self.pseudo;
+        Mat3([
+            [yy + zz, -xy, -xz],
+            [-xy, zz + xx, -yz],
+            [-xz, -yz, xx + yy],
+        ])
+    }
+
     /// Returns it rotated by Rz: four multiplications for the 2 × 2 block, with e = s (D_xx − D_yy) + 2 c
     /// D_xy.
-    pub fn turned(&self, (c, s): (Expr<'g>, Expr<'g>)) -> Self {
+    fn turned_about_z(&self, (c, s): (Expr<'g>, Expr<'g>)) -> Self {
         let [xx, yy, zz, xy, xz, yz] = self.pseudo;
         let e = s * (xx - yy) + c * (xy * Dd::from_f64(2.0));
         let (se, ce) = (s * e, c * e);
@@ -156,7 +190,7 @@ impl<'g> BodyInertia<'g> {
             s * xz + c * yz,
         ];
         BodyInertia {
-            first: turn(self.first, (c, s)),
+            first: Rotation::AboutZ((c, s)).apply(self.first),
             pseudo,
             ..*self
         }
@@ -250,18 +284,6 @@ impl<'g> BodyInertia<'g> {
             pseudo: self.pseudo,
         }
     }
-}
-
-/// Returns Rz v.
-pub(super) fn turn<'g>(v: Vec3<Expr<'g>>, (c, s): (Expr<'g>, Expr<'g>)) -> Vec3<Expr<'g>> {
-    let [x, y, z] = v.0;
-    Vec3([c * x - s * y, s * x + c * y, z])
-}
-
-/// Returns Rzᵀ v.
-pub(super) fn turn_back<'g>(v: Vec3<Expr<'g>>, (c, s): (Expr<'g>, Expr<'g>)) -> Vec3<Expr<'g>> {
-    let [x, y, z] = v.0;
-    Vec3([c * x + s * y, c * y - s * x, z])
 }
 
 /// Returns the upper triangle from `f(i, j)`.

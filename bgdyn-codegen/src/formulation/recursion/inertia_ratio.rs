@@ -31,7 +31,10 @@ pub(super) fn own_inertia_ratios(graph: &Multibody, geometry: &Geometry) -> Vec<
                 .sum();
             let own = match bodies[j].motion {
                 Motion::Rotation => lumps[j].about_axis,
-                _ => lumps[j].mass,
+                Motion::Translation => lumps[j].mass,
+                // A helical joint moves both. Rotations about a point are judged by the size of the tensor.
+                _ if bodies[j].axial => lumps[j].about_axis,
+                _ => lumps[j].second,
             };
             if own > 0.0 { own / beyond } else { 0.0 }
         })
@@ -100,10 +103,8 @@ impl LumpedBody {
     /// Returns an upper bound of the inertia about or along the joint's axis, at a distance.
     fn at_most(&self, motion: Motion, distance: f64) -> f64 {
         match motion {
-            Motion::Rotation => {
-                self.second + 2.0 * self.first * distance + self.mass * distance * distance
-            }
-            _ => self.mass,
+            Motion::Translation => self.mass,
+            _ => self.second + 2.0 * self.first * distance + self.mass * distance * distance,
         }
     }
 }

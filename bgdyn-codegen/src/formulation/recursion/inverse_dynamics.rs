@@ -5,13 +5,13 @@
 //! term for term.
 
 use super::frames::{BodyFrame, Frames};
-use super::inertia::{BodyInertia, Point, turn};
-use super::motion::{Moving, Spin, motions, zero};
+use super::inertia::{BodyInertia, Point};
+use super::joint_columns::JointColumn;
+use super::motion::{Moving, Spin, zero};
 use super::names::name_vector;
 use super::plan::Plan;
 use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
-use crate::mechanism::Motion;
 
 /// Force and moment about the body's origin.
 #[derive(Clone, Copy)]
@@ -55,12 +55,9 @@ impl<'g> BodyWrench<'g> {
         }
     }
 
-    /// Returns the component in the direction of a joint.
-    pub fn along(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
-        match frame.motion {
-            Motion::Rotation => self.moment.0[2],
-            _ => self.force.0[2],
-        }
+    /// Returns the component in the direction of a column.
+    pub fn along(&self, column: &JointColumn) -> Expr<'g> {
+        column.direction.component(self.moment, self.force)
     }
 }
 
@@ -73,32 +70,22 @@ pub(super) struct Load<'g> {
     pub basis: BodyWrench<'g>,
 }
 
-/// Returns joint efforts for the rates and accelerations in `frames`.
+/// Returns joint efforts for the motions of the bodies.
 pub(super) fn efforts<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
     plan: &Plan,
-    active: bool,
+    moving: &[Moving<'g>],
 ) -> Vec<Expr<'g>> {
-    let moving = motions(b, frames, active);
-    let loads = loads_of(b, frames, plan, &moving);
+    let loads = loads(b, frames, plan, moving);
     let mut efforts = inwards(b, frames, &loads);
     let omega_dot: Vec<_> = moving.iter().map(|motion| motion.own.omega_dot).collect();
     frames.rotors.add_efforts(&omega_dot, &mut efforts);
     efforts
 }
 
-/// Returns forces and moments that move each body with the rates and accelerations in `frames`.
+/// Returns the forces and moments that move each body.
 pub(super) fn loads<'g>(
-    b: &'g Builder,
-    frames: &Frames<'g>,
-    plan: &Plan,
-    active: bool,
-) -> Vec<Load<'g>> {
-    loads_of(b, frames, plan, &motions(b, frames, active))
-}
-
-fn loads_of<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
     plan: &Plan,
@@ -208,7 +195,7 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
     // Contributions of the outboard bodies: in own axes, and in those of the basis.
     let mut own = vec![BodyWrench::zero(b); n];
     let mut basis = own.clone();
-    let mut efforts = vec![b.zero(); n];
+    let mut efforts = vec![b.zero(); frames.rotors.coordinates()];
     let effort = effort_name(frames);
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
@@ -219,9 +206,14 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
             )
         });
         let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
-        let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
-        efforts[j] =
-            (whole.along(frame) * frame.effort).named(|| format!("{effort}_{}", frame.joint));
+        let whole = outer.plus(inner.map(|v| frame.turn.apply(v)));
+        // The columns are constant in the axes of the basis for a joint with an axis, and in own axes.
+        let at_joint = if frame.axial { &whole } else { &inner };
+        for column in &frame.columns {
+            let own = at_joint.along(column) * column.effort;
+            let j = column.coordinate;
+            efforts[j] = (efforts[j] + own).named(|| format!("{effort}_{}", column.name));
+        }
         name_wrenches(["f", "n"], frame, &inner, &outer, &whole);
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
@@ -237,11 +229,8 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
 
 /// Returns the name of the efforts of this motion: `gravity` at rest, `bias` without accelerations.
 fn effort_name(frames: &Frames<'_>) -> &'static str {
-    let zero = |x: fn(&BodyFrame<'_>) -> bool| frames.bodies.iter().all(x);
-    match (
-        zero(|f| f.acceleration.is_zero()),
-        zero(|f| f.rate.is_zero()),
-    ) {
+    let zero = |accelerated| frames.bodies.iter().all(|f| f.at_rest(accelerated));
+    match (zero(true), zero(false)) {
         (true, true) => "gravity",
         (true, false) => "bias",
         (false, _) => "tau",

@@ -5,6 +5,7 @@ use bgdyn_runtime::Dd;
 
 use super::frames::Frames;
 use super::geometry::Geometry;
+use super::joint_columns::{Direction, JointColumn};
 use super::plan::Plan;
 use crate::bond_graph::{Multibody, SiteId};
 use crate::expr::{Builder, Expr, Graph, Signed, cost};
@@ -12,7 +13,7 @@ use crate::formulation::arguments::Arguments;
 use crate::formulation::site::{JacobianColumn, SiteMotion};
 use crate::function::Function;
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{LinkId, Motion, Pose};
+use crate::mechanism::{LinkId, Pose};
 use crate::method::Method;
 
 /// Returns the cheaper one of the functions with and without groups.
@@ -81,7 +82,8 @@ fn motion<'g>(
     let placed = placed(b, geometry, frames);
     let site = &graph.sites[site.0];
     b.section(|| format!("{}: its axes and place in the world", site.name));
-    let mut columns: Vec<Option<JacobianColumn<'g>>> = vec![None; frames.bodies.len()];
+    let n = graph.coordinates.len();
+    let mut columns: Vec<Option<JacobianColumn<'g>>> = vec![None; n];
     let (body, in_body) = home(geometry, site.link, &site.place);
     let (rotation, origin) = in_body;
     let (mut rotation, mut origin) = (rotation.map(|x| b.constant(x)), b.vector(origin));
@@ -91,29 +93,51 @@ fn motion<'g>(
     }
     let mut on_path = body;
     while let Some(j) = on_path {
-        let axis = placed[j].basis.column(2);
-        let axis = if geometry.bodies[j].opposite {
-            -axis
-        } else {
-            axis
-        };
-        columns[j] = Some(match frames.bodies[j].motion {
-            Motion::Rotation => JacobianColumn {
-                angular: axis,
-                linear: axis.cross(origin - placed[j].origin),
-            },
-            _ => JacobianColumn {
-                angular: Vec3([b.zero(); 3]),
-                linear: axis,
-            },
-        });
-        on_path = frames.bodies[j].parent;
+        let frame = &frames.bodies[j];
+        for column in &frame.columns {
+            let own = jacobian_column(b, column, frame.axial, &placed[j], origin);
+            let entry = &mut columns[column.coordinate];
+            *entry = Some(match entry.take() {
+                Some(other) => JacobianColumn {
+                    angular: other.angular + own.angular,
+                    linear: other.linear + own.linear,
+                },
+                None => own,
+            });
+        }
+        on_path = frame.parent;
     }
     SiteMotion {
         rotation,
         origin,
         columns,
     }
+}
+
+/// Returns the velocity of a site at `origin` per unit velocity of a column.
+fn jacobian_column<'g>(
+    b: &'g Builder,
+    column: &JointColumn,
+    axial: bool,
+    placed: &PlacedSite<'g>,
+    origin: Vec3<Expr<'g>>,
+) -> JacobianColumn<'g> {
+    let axes = if axial { &placed.basis } else { &placed.own };
+    let axis = |k: usize| {
+        let axis = axes.column(k);
+        let signed = if column.effort < Dd::ZERO { -axis } else { axis };
+        signed.map(|x| x * column.effort.abs())
+    };
+    let about = |k: usize| (axis(k), axis(k).cross(origin - placed.origin));
+    let (angular, linear) = match column.direction {
+        Direction::About(k) => about(k),
+        Direction::Along(k) => (Vec3([b.zero(); 3]), axis(k)),
+        Direction::Screw(pitch) => {
+            let (angular, linear) = about(2);
+            (angular, linear + axis(2).map(|x| x * pitch))
+        }
+    };
+    JacobianColumn { angular, linear }
 }
 
 fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<PlacedSite<'g>> {
@@ -134,14 +158,7 @@ fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<P
                 (basis, parent.origin + parent.own * frame.position_in_parent)
             }
         };
-        let (c, s) = frame.turn;
-        let (x, y) = (basis.column(0), basis.column(1));
-        let own = Mat3([
-            (x.scale(c) + y.scale(s)).0,
-            (y.scale(c) - x.scale(s)).0,
-            basis.column(2).0,
-        ])
-        .transpose();
+        let own = frame.turn.own_axes(&basis);
         placed.push(PlacedSite { basis, own, origin });
     }
     placed

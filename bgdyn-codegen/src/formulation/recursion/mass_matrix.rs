@@ -9,16 +9,19 @@ use std::cmp::Ordering;
 use bgdyn_runtime::Dd;
 
 use super::frames::{BodyFrame, Frames};
-use super::inertia::{BodyInertia, turn, turn_back};
+use super::inertia::BodyInertia;
+use super::joint_columns::{Direction, JointColumn};
 use super::names::{name_composite, name_vector};
 use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
-use crate::mechanism::Motion;
 
-/// Momentum of all outboard bodies per unit rate of a joint.
+/// Momentum of all outboard bodies per unit rate in the direction of a coordinate.
 #[derive(Clone, Copy)]
 pub(super) struct Momentum<'g> {
+    /// The coordinate.
     pub joint: usize,
+    /// Factor from the velocity of the coordinate to that rate.
+    pub effort: Dd,
     pub linear: Vec3<Expr<'g>>,
     pub angular: Vec3<Expr<'g>>,
 }
@@ -41,16 +44,13 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// Returns the component in the direction of a joint.
-    pub fn along(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
-        match frame.motion {
-            Motion::Rotation => self.angular.0[2],
-            _ => self.linear.0[2],
-        }
+    /// Returns the component in the direction of a column.
+    pub fn along(&self, column: &JointColumn) -> Expr<'g> {
+        column.direction.component(self.angular, self.linear)
     }
 }
 
-/// Momenta of joints, one for each.
+/// Momenta of coordinates, one for each coordinate and factor.
 #[derive(Clone)]
 pub(super) struct BodyMomenta<'g>(Vec<Momentum<'g>>);
 
@@ -58,7 +58,8 @@ impl<'g> BodyMomenta<'g> {
     /// Adds another one, in the same axes and about the same point. The momentum of a rotor elsewhere is
     /// added to that of the bodies outboard of its joint.
     pub fn add(&mut self, more: Momentum<'g>) {
-        match self.0.iter_mut().find(|m| m.joint == more.joint) {
+        let same = |m: &&mut Momentum<'g>| (m.joint, m.effort) == (more.joint, more.effort);
+        match self.0.iter_mut().find(same) {
             Some(m) => {
                 m.linear = m.linear + more.linear;
                 m.angular = m.angular + more.angular;
@@ -80,10 +81,12 @@ struct Gathered<'g> {
     momenta: BodyMomenta<'g>,
 }
 
-/// The composite body of a joint, in the axes of its basis, and its momentum per unit rate.
+/// The composite body of a joint, and its momenta per unit rates.
 struct CompositeInertia<'g> {
+    /// In the axes of the basis.
     whole: BodyInertia<'g>,
-    unit: Momentum<'g>,
+    /// In the axes of the columns.
+    units: Vec<Momentum<'g>>,
 }
 
 impl<'g> CompositeInertia<'g> {
@@ -91,7 +94,6 @@ impl<'g> CompositeInertia<'g> {
     /// of its basis.
     fn new(
         b: &'g Builder,
-        j: usize,
         frame: &BodyFrame<'g>,
         inner: &BodyInertia<'g>,
         outer: &BodyInertia<'g>,
@@ -109,8 +111,10 @@ impl<'g> CompositeInertia<'g> {
         name_composite(&whole, &format!("at_{}", frame.joint));
         // A rotation about z does not change J_zz.
         let j_zz = (composite.d(0, 0) + composite.d(1, 1)) + (outer.d(0, 0) + outer.d(1, 1));
-        let unit = unit_momentum(b, j, frame, &whole, j_zz);
-        CompositeInertia { whole, unit }
+        let moved = if frame.axial { &whole } else { &composite };
+        let unit = |column| unit_momentum(b, column, moved, frame.axial.then_some(j_zz));
+        let units = frame.columns.iter().map(unit).collect();
+        CompositeInertia { whole, units }
     }
 }
 
@@ -135,8 +139,8 @@ pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentu
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
         b.section(|| format!("{}: inertia with all it carries", frame.name));
-        let composite = CompositeInertia::new(b, j, frame, &own[j], &basis[j]);
-        units.push(composite.unit);
+        let composite = CompositeInertia::new(b, frame, &own[j], &basis[j]);
+        units.extend(composite.units);
         let Some(p) = frame.parent else { continue };
         let home = if frame.continues {
             &mut basis[p]
@@ -152,14 +156,14 @@ pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentu
 
 /// Returns the lower triangle of M.
 pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
-    let n = frames.bodies.len();
+    let (n, all) = (frames.bodies.len(), frames.rotors.coordinates());
     let empty = || Gathered {
         inertia: BodyInertia::zero(b),
         momenta: BodyMomenta(Vec::new()),
     };
     let mut own: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
     let mut basis: Vec<Gathered<'g>> = (0..n).map(|_| empty()).collect();
-    let mut mass: Vec<Vec<Expr<'g>>> = (0..n).map(|j| vec![b.zero(); j + 1]).collect();
+    let mut mass: Vec<Vec<Expr<'g>>> = (0..all).map(|j| vec![b.zero(); j + 1]).collect();
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
         b.section(|| {
@@ -169,32 +173,35 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
             )
         });
         let (inner, outer) = (&own[j], &basis[j]);
-        let composite = CompositeInertia::new(b, j, frame, &inner.inertia, &outer.inertia);
-        let mut momenta = BodyMomenta(Vec::new());
-        momenta.extend(
-            inner
-                .momenta
-                .0
-                .iter()
-                .map(|m| m.map(|v| turn(v, frame.turn))),
-        );
-        momenta.extend(outer.momenta.0.iter().copied());
+        let composite = CompositeInertia::new(b, frame, &inner.inertia, &outer.inertia);
         // The joint that drives a rotor can be anywhere: outboard of the body, inboard, or the body's own.
-        for rotor in frames.rotors.on(j) {
-            momenta.add(Momentum {
-                joint: rotor.joint,
-                angular: turn(rotor.unit_momentum(), frame.turn),
-                linear: Vec3([b.zero(); 3]),
-            });
+        let rotors = frames.rotors.on(j).map(|rotor| Momentum {
+            joint: rotor.joint,
+            effort: rotor.effort,
+            angular: rotor.unit_momentum(),
+            linear: Vec3([b.zero(); 3]),
+        });
+        let turned = |m: &Momentum<'g>| m.map(|v| frame.turn.apply(v));
+        let mut momenta = BodyMomenta(Vec::new());
+        if frame.axial {
+            momenta.extend(inner.momenta.0.iter().map(turned));
+            momenta.extend(outer.momenta.0.iter().copied());
+            momenta.extend(rotors.map(|m| turned(&m)));
+            enter(&mut mass, frames, frame, &momenta);
+            enter_own(&mut mass, frames, frame, &composite.units);
+            composite.units.iter().for_each(|&unit| momenta.add(unit));
+        } else {
+            let mut at_joint = inner.momenta.clone();
+            at_joint.extend(rotors);
+            enter(&mut mass, frames, frame, &at_joint);
+            enter_own(&mut mass, frames, frame, &composite.units);
+            composite.units.iter().for_each(|&unit| at_joint.add(unit));
+            if frame.parent.is_some() {
+                momenta.extend(at_joint.0.iter().map(turned));
+            }
         }
-        enter(&mut mass, frames, j, &momenta);
-        let unit = composite.unit;
-        let diagonal = unit.along(frame) * (frame.effort * frame.effort);
-        mass[j][j] = (mass[j][j] + (diagonal + frames.rotors.armature(j)))
-            .named(|| format!("m_{}_{}", frame.joint, frame.joint));
-        momenta.add(unit);
         for m in &momenta.0 {
-            name_momentum(m, &frames.bodies[m.joint].joint, &frame.joint);
+            name_momentum(m, &frames.names[m.joint], &frame.joint);
         }
         let Some(p) = frame.parent else { continue };
         let shifted = composite.whole.shifted(frame.position);
@@ -212,45 +219,97 @@ pub(super) fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Ex
     mass
 }
 
-/// Adds to M the components of momenta at body j, in the axes of its basis, along its joint.
-fn enter<'g>(mass: &mut [Vec<Expr<'g>>], frames: &Frames<'g>, j: usize, momenta: &BodyMomenta<'g>) {
-    let frame = &frames.bodies[j];
+/// Adds to M the components of momenta at a body, in the axes of its columns, in their directions.
+fn enter<'g>(
+    mass: &mut [Vec<Expr<'g>>],
+    frames: &Frames<'g>,
+    frame: &BodyFrame<'g>,
+    momenta: &BodyMomenta<'g>,
+) {
     for m in &momenta.0 {
-        let other = &frames.bodies[m.joint];
-        let share = m.along(frame) * frame.effort * other.effort;
-        let entry = &mut mass[m.joint.max(j)][m.joint.min(j)];
-        *entry = match m.joint.cmp(&j) {
-            Ordering::Greater => {
-                (*entry + share).named(|| format!("m_{}_{}", frame.joint, other.joint))
-            }
-            // A rotor on the body of its own joint: the momentum is added in row and column.
-            Ordering::Equal => share + share,
-            // A rotor outboard of its joint, or on another branch.
-            Ordering::Less => *entry + share,
-        };
+        for column in &frame.columns {
+            let j = column.coordinate;
+            let share = m.along(column) * column.effort * m.effort;
+            let entry = &mut mass[m.joint.max(j)][m.joint.min(j)];
+            *entry = match m.joint.cmp(&j) {
+                Ordering::Greater => (*entry + share)
+                    .named(|| format!("m_{}_{}", column.name, frames.names[m.joint])),
+                // A rotor on the body of its own joint, or a joint that mimics this one: the momentum is
+                // added in row and column.
+                Ordering::Equal => *entry + (share + share),
+                // A rotor outboard of its joint, or on another branch.
+                Ordering::Less => *entry + share,
+            };
+        }
     }
 }
 
-/// Returns the momentum of `whole` per unit rate of `joint`, in the axes of its basis.
+/// Adds to M the components of a joint's own unit momenta in the directions of its columns, and the
+/// inertia of rotors.
+fn enter_own<'g>(
+    mass: &mut [Vec<Expr<'g>>],
+    frames: &Frames<'g>,
+    frame: &BodyFrame<'g>,
+    units: &[Momentum<'g>],
+) {
+    for (k, column) in frame.columns.iter().enumerate() {
+        let i = column.coordinate;
+        for (unit, other) in units.iter().zip(&frame.columns).take(k) {
+            let share = unit.along(column) * (column.effort * other.effort);
+            let j = other.coordinate;
+            let entry = &mut mass[i.max(j)][i.min(j)];
+            *entry = (*entry + share).named(|| format!("m_{}_{}", other.name, column.name));
+        }
+        let diagonal = units[k].along(column) * (column.effort * column.effort);
+        // Once for each coordinate: at the joint that mimics no other.
+        let own = if column.mimics { diagonal } else { diagonal + frames.rotors.armature(i) };
+        mass[i][i] = (mass[i][i] + own)
+            .named(|| format!("m_{}_{}", column.name, column.name));
+    }
+}
+
+/// Returns the momentum of a composite body per unit rate in the direction of a column, in the axes of the
+/// column; `j_zz` is the moment of inertia about z, if it is known in a cheaper form.
 pub(super) fn unit_momentum<'g>(
     b: &'g Builder,
-    joint: usize,
-    frame: &BodyFrame<'g>,
-    whole: &BodyInertia<'g>,
-    j_zz: Expr<'g>,
+    column: &JointColumn,
+    moved: &BodyInertia<'g>,
+    j_zz: Option<Expr<'g>>,
 ) -> Momentum<'g> {
-    let [x, y, _] = whole.first.0;
-    match frame.motion {
-        Motion::Rotation => Momentum {
-            joint,
-            linear: Vec3([-y, x, b.zero()]),
-            angular: Vec3([-whole.d(0, 2), -whole.d(1, 2), j_zz]),
-        },
-        _ => Momentum {
-            joint,
-            linear: Vec3([b.zero(), b.zero(), whole.axial]),
-            angular: Vec3([y, -x, b.zero()]),
-        },
+    let [x, y, z] = moved.first.0;
+    let [h_x, h_y, h_z] = [
+        Vec3([b.zero(), -z, y]),
+        Vec3([z, b.zero(), -x]),
+        Vec3([-y, x, b.zero()]),
+    ];
+    let about = |k: usize| {
+        let mut angular = moved.tensor().column(k);
+        if let (Some(j_zz), 2) = (j_zz, k) {
+            angular.0[2] = j_zz;
+        }
+        // e × h
+        ([h_x, h_y, h_z][k], angular)
+    };
+    let along = |k: usize| {
+        let mut linear = Vec3([b.zero(); 3]);
+        linear.0[k] = if k == 2 { moved.axial } else { moved.mass };
+        // h × e
+        (linear, -[h_x, h_y, h_z][k])
+    };
+    let (linear, angular) = match column.direction {
+        Direction::About(k) => about(k),
+        Direction::Along(k) => along(k),
+        Direction::Screw(pitch) => {
+            let (turn, slide) = (about(2), along(2));
+            let sum = |a: Vec3<Expr<'g>>, b: Vec3<Expr<'g>>| a + b.map(|x| x * pitch);
+            (sum(turn.0, slide.0), sum(turn.1, slide.1))
+        }
+    };
+    Momentum {
+        joint: column.coordinate,
+        effort: column.effort,
+        linear,
+        angular,
     }
 }
 
@@ -282,12 +341,21 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<'g
                 (back * omega, back * u)
             }
         };
-        match frame.motion {
-            Motion::Rotation => omega.0[2] = omega.0[2] + frame.rate,
-            _ => u.0[2] = u.0[2] + frame.rate,
+        if frame.axial {
+            match frame.columns[0].direction {
+                Direction::About(_) => omega.0[2] = omega.0[2] + frame.rate,
+                Direction::Along(_) => u.0[2] = u.0[2] + frame.rate,
+                Direction::Screw(pitch) => {
+                    omega.0[2] = omega.0[2] + frame.rate;
+                    u.0[2] = u.0[2] + frame.rate * pitch;
+                }
+            }
         }
         basis.push((omega, u));
-        let (omega, u) = (turn_back(omega, frame.turn), turn_back(u, frame.turn));
+        let (mut omega, mut u) = (frame.turn.apply_back(omega), frame.turn.apply_back(u));
+        if let Some([velocity, _]) = &frame.relative {
+            (omega, u) = (omega + velocity.angular, u + velocity.linear);
+        }
         name_vector(&omega, "omega", &frame.name);
         name_vector(&u, "v", &frame.name);
         own.push((omega, u));
@@ -325,7 +393,7 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<
         b.section(|| format!("{}: first moment with all it carries", frame.name));
         // Masses and first moments only: the weight does not depend on D.
         let mut whole = frame.inertia.plus(&own[j]);
-        whole.first = turn(whole.first, frame.turn);
+        whole.first = frame.turn.apply(whole.first);
         whole = whole.plus(&basis[j]);
         whole.first = whole.first + whole.weigh(frame.position);
         match frame.parent {

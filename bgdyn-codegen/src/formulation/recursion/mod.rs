@@ -4,6 +4,8 @@
 //! | file | computes |
 //! |---|---|
 //! | `geometry.rs` | a frame for every moving body: z along its joint's axis, x along the common normal with the next axis |
+//! | `rotation.rs` | rotations of bodies, about z or about any axis |
+//! | `joint_columns.rs` | the velocities of a joint and their directions |
 //! | `frames.rs` | these frames as expressions, for one [`Plan`] (`plan.rs`) |
 //! | `inertia_ratio.rs` | each joint's own inertia over the inertia that it moves |
 //! | `base_parameters.rs` | base parameters: inertia moved inboard, known parts always, run-time parameters by the plan |
@@ -37,6 +39,7 @@ pub(crate) mod geometry;
 mod inertia;
 mod inertia_ratio;
 mod inverse_dynamics;
+mod joint_columns;
 mod kinematics;
 mod mass_matrix;
 mod motion;
@@ -44,6 +47,7 @@ mod names;
 mod plan;
 pub(super) mod plan_search;
 mod plans;
+mod rotation;
 mod rotors;
 mod standard_parameters;
 

@@ -6,11 +6,13 @@
 use bgdyn_runtime::Dd;
 
 use super::frames::{BodyFrame, Frames};
-use super::inertia::turn_back;
+use super::joint_columns::Direction;
+use super::rotation::Rotation;
 use super::names::{name_matrix, name_vector};
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
+use crate::mechanism::joint::Column;
 
 /// Angular motion in one set of axes.
 #[derive(Clone, Copy)]
@@ -32,6 +34,18 @@ impl Spin<'_> {
     }
 }
 
+/// The gravity that accelerations include.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Field {
+    /// None.
+    Zero,
+    /// That of the mechanism.
+    Gravity,
+    /// That of the mechanism, except on trees with a root that translates freely: seen from axes that
+    /// accelerate with the root, nothing on the tree depends on the acceleration.
+    SetAside,
+}
+
 /// Motion of a body.
 pub(super) struct Moving<'g> {
     /// Angular motion of the twisted axes at the start of the basis, before any angle of the group.
@@ -46,26 +60,62 @@ pub(super) struct Moving<'g> {
     pub own: Spin<'g>,
     /// Acceleration of the origin in own axes.
     pub a_own: Vec3<Expr<'g>>,
+    /// The uniform acceleration that `a_own` leaves out, in own axes.
+    pub set_aside: Option<Vec3<Expr<'g>>>,
 }
 
-/// Returns the motion of every body with the rates and accelerations in `frames`; with gravity if
-/// `active`.
-pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, active: bool) -> Vec<Moving<'g>> {
+/// Returns the motion of every body with the rates and accelerations in `frames`.
+pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, field: Field) -> Vec<Moving<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
         let parent = frame.parent.map(|p| &moving[p]);
-        let gravity = if active { frames.gravity[j] } else { zero(b) };
+        let gravity = match field {
+            Field::Zero => zero(b),
+            Field::Gravity | Field::SetAside => frames.gravity[j],
+        };
         b.section(|| {
             format!(
                 "{}: ω, U = [ω̇]× + [ω]×[ω]×, acceleration a of its origin less gravity",
                 frame.name
             )
         });
-        let step = outwards(b, frame, parent, gravity);
+        let mut step = outwards(b, frame, parent, gravity);
+        if field == Field::SetAside && frame.parent.is_none() {
+            set_aside(b, frame, &mut step);
+        }
         name(frame, &step);
         moving.push(step);
     }
     moving
+}
+
+/// Sets the acceleration of a root aside, in the directions in which its joint translates.
+fn set_aside<'g>(b: &'g Builder, frame: &BodyFrame<'g>, step: &mut Moving<'g>) {
+    let mut aside = zero(b);
+    for column in frame.columns.iter().filter(|_| !frame.axial) {
+        if let Direction::Along(k) = column.direction {
+            aside.0[k] = step.a_own.0[k];
+            step.a_own.0[k] = b.zero();
+            step.set_aside = Some(aside);
+        }
+    }
+}
+
+/// Adds the accelerations set aside to the accelerations found without them.
+pub(super) fn add_set_aside<'g>(
+    frames: &Frames<'g>,
+    moving: &[Moving<'g>],
+    accelerations: &mut [Expr<'g>],
+) {
+    for (frame, step) in frames.bodies.iter().zip(moving) {
+        let Some(aside) = step.set_aside else { continue };
+        for column in &frame.columns {
+            if let Direction::Along(k) = column.direction {
+                let own = &mut accelerations[column.coordinate];
+                *own = *own - aside.0[k] * (Dd::ONE / column.effort);
+            }
+        }
+    }
 }
 
 pub(super) fn zero(b: &Builder) -> Vec3<Expr<'_>> {
@@ -100,18 +150,27 @@ fn outwards<'g>(
             )
         }
     };
-    match frame.motion {
-        Motion::Rotation => rate = (rate.0 + frame.rate, rate.1 + frame.acceleration),
-        // 2 ω × ẑ ṡ + ẑ s̈
-        _ => {
-            let twice = frame.rate * Dd::from_f64(2.0);
-            let [x, y, _] = basis.omega.0;
-            a_basis = a_basis + Vec3([y * twice, -(x * twice), frame.acceleration]);
-        }
+    if let Some([velocity, change]) = &frame.relative {
+        return outwards_several(frame, (basis, a_basis), velocity, change);
+    }
+    // 2 ω × ẑ ṡ + ẑ s̈ along the axis
+    let along = |factor: Option<Dd>| {
+        let scaled = |x: Expr<'g>| factor.map_or(x, |pitch| x * pitch);
+        let twice = scaled(frame.rate) * Dd::from_f64(2.0);
+        let [x, y, _] = basis.omega.0;
+        Vec3([y * twice, -(x * twice), scaled(frame.acceleration)])
+    };
+    if frame.motion != Motion::Translation {
+        rate = (rate.0 + frame.rate, rate.1 + frame.acceleration);
+    }
+    match frame.columns[0].direction {
+        Direction::About(_) => {}
+        Direction::Along(_) => a_basis = a_basis + along(None),
+        Direction::Screw(pitch) => a_basis = a_basis + along(Some(pitch)),
     }
     let in_basis = spun(&basis, rate);
     let own = own_spin(&basis, rate, frame.turn);
-    let a_own = turn_back(a_basis, frame.turn);
+    let a_own = frame.turn.apply_back(a_basis);
     Moving {
         basis,
         rate,
@@ -119,6 +178,43 @@ fn outwards<'g>(
         a_basis,
         own,
         a_own,
+        set_aside: None,
+    }
+}
+
+/// Returns the motion of a body whose joint has several velocities: the twist `velocity` relative to the
+/// parent, in own axes, and its rate `change` for constant columns.
+///
+/// ω = Rᵀω_p + ω_J, ω̇ = Rᵀω̇_p + (Rᵀω_p) × ω_J + ω̇_J, a = Rᵀa_p + (2 Rᵀω_p + ω_J) × v_J + v̇_J
+fn outwards_several<'g>(
+    frame: &BodyFrame<'g>,
+    (basis, a_basis): (Spin<'g>, Vec3<Expr<'g>>),
+    velocity: &Column<Expr<'g>>,
+    change: &Column<Expr<'g>>,
+) -> Moving<'g> {
+    let back = |v: Vec3<Expr<'g>>| frame.turn.apply_back(v);
+    let carried = back(basis.omega);
+    let omega = carried + velocity.angular;
+    let omega_dot = back(basis.omega_dot) + carried.cross(velocity.angular) + change.angular;
+    let coupled = (carried + omega).cross(velocity.linear);
+    let a_own = back(a_basis) + coupled + change.linear;
+    let u = u_of(omega, omega_dot);
+    let own = Spin {
+        omega,
+        omega_dot,
+        u,
+        differences: differences(&u),
+    };
+    // No body continues its basis: its own axes take the place of the basis.
+    let none = own.omega.0[0] - own.omega.0[0];
+    Moving {
+        basis: own,
+        rate: (none, none),
+        in_basis: own,
+        a_basis: a_own,
+        own,
+        a_own,
+        set_aside: None,
     }
 }
 
@@ -162,7 +258,7 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
 }
 
 /// Returns, for a rotation by quarter turns, the parent's axis parallel to each new one.
-fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
+pub(super) fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
     // A rotation that differs by 1e-17 from a quarter turn has ones, but no zeros.
     let only = |k: usize, i: usize| (0..3).all(|l| l == i || twist.0[l][k] == Dd::ZERO);
     let place = |k: usize| (0..3).find(|&i| only(k, i));
@@ -237,15 +333,18 @@ fn spun<'g>(basis: &Spin<'g>, (rate, acceleration): (Expr<'g>, Expr<'g>)) -> Spi
 fn own_spin<'g>(
     basis: &Spin<'g>,
     (rate, acceleration): (Expr<'g>, Expr<'g>),
-    angle: (Expr<'g>, Expr<'g>),
+    turn: Rotation<'g>,
 ) -> Spin<'g> {
-    let straight = angle.0.as_constant() == Some(Dd::ONE);
+    let straight = match turn {
+        Rotation::AboutZ((cos, _)) => cos.as_constant() == Some(Dd::ONE),
+        Rotation::General(_) => false,
+    };
     if rate.is_zero() && acceleration.is_zero() && straight {
         return *basis;
     }
-    let [x, y, _] = turn_back(basis.omega, angle).0;
+    let [x, y, _] = turn.apply_back(basis.omega).0;
     let z = basis.omega.0[2] + rate;
-    let [ux, uy, uz] = turn_back(basis.u.column(2), angle).0;
+    let [ux, uy, uz] = turn.apply_back(basis.u.column(2)).0;
     let (xy, xz, yz) = (x * y, x * z, y * z);
     // ω̇_x = ω_y ω_z − u_y, ω̇_y = u_x − ω_x ω_z
     let (dx, dy, dz) = (yz - uy, ux - xz, basis.omega_dot.0[2] + acceleration);

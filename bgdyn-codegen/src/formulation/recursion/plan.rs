@@ -27,6 +27,9 @@ pub(super) struct Plan {
     pub base_parameters: bool,
     /// N_z = J_zz ω̇_z + (D_xx − D_yy) ω_x ω_y + … instead of the skew part of U·D.
     pub short_moment: bool,
+    /// For forward dynamics: whether the translations of a root that also rotates are eliminated before all
+    /// other velocities (by articulated bodies before its rotations), or its rotations before them.
+    pub linear_first: bool,
     /// For derivatives: how each joint's contribution is computed.
     pub views: Vec<PartialsPlan>,
 }
@@ -71,6 +74,7 @@ impl Plan {
             apart: vec![false; n],
             base_parameters: true,
             short_moment: false,
+            linear_first: false,
             views: vec![PartialsPlan::default(); n],
         }
     }

@@ -153,7 +153,7 @@ pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) ->
 /// Returns the initial plans: with and without groups.
 fn starts(geometry: &Geometry) -> Vec<Plan> {
     let n = geometry.bodies.len();
-    let tip = |j: usize| geometry.bodies.iter().all(|b| b.parent != Some(j));
+    let tip = |j: usize| geometry.axial_tip(j);
     let plan = |grouped| Plan {
         slides: (0..n).map(|j| slides(geometry, j)[0]).collect(),
         unit: Dd::ONE,
@@ -164,9 +164,10 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         apart: vec![false; n],
         base_parameters: true,
         short_moment: false,
+        linear_first: false,
         views: vec![PartialsPlan::default(); n],
     };
-    let groups = geometry.bodies.iter().any(|b| b.parallel());
+    let groups = geometry.bodies.iter().any(|b| b.parallel);
     if groups {
         vec![plan(true), plan(false)]
     } else {
@@ -194,10 +195,10 @@ fn places(geometry: &Geometry) -> Vec<PlanChange> {
 fn changes(geometry: &Geometry) -> Vec<PlanChange> {
     let n = geometry.bodies.len();
     let mut changes = places(geometry);
-    for j in 0..n {
+    for j in (0..n).filter(|&j| geometry.bodies[j].axial) {
         changes.push(Box::new(move |plan| plan.in_basis[j] ^= true));
     }
-    for j in (0..n).filter(|&j| geometry.bodies.iter().all(|b| b.parent != Some(j))) {
+    for j in (0..n).filter(|&j| geometry.axial_tip(j)) {
         changes.push(Box::new(move |plan| plan.aimed[j] ^= true));
     }
     for j in (0..n).filter(|&j| geometry.bodies[j].varying) {
@@ -210,6 +211,9 @@ fn changes(geometry: &Geometry) -> Vec<PlanChange> {
         }
     }
     changes.push(Box::new(|plan| plan.short_moment ^= true));
+    if geometry.bodies.iter().any(|body| !body.axial) {
+        changes.push(Box::new(|plan| plan.linear_first ^= true));
+    }
     changes
 }
 
@@ -223,16 +227,22 @@ fn joints_to_base(geometry: &Geometry, mut j: usize) -> usize {
 }
 
 /// Returns the possible positions of the origin of body j along its axis: the feet of the common normals
-/// with the axes of its children and of its parent; and the original position.
+/// with the axes of its children and of its parent; and the original position. On a parent without an
+/// axis those next to the parent's origin.
 fn slides(geometry: &Geometry, j: usize) -> Vec<Dd> {
     let body = &geometry.bodies[j];
+    if !body.axial {
+        return vec![Dd::ZERO];
+    }
     let mut slides: Vec<Dd> = Vec::new();
     for child in geometry.bodies.iter().filter(|b| b.parent == Some(j)) {
         let (on_parent, own) = child.normal_feet();
-        slides.push(if child.parallel() { own } else { on_parent });
+        slides.push(if child.parallel { own } else { on_parent });
     }
-    if body.parent.is_some() {
-        slides.push(-body.normal_feet().1);
+    match body.parent.map(|p| &geometry.bodies[p]) {
+        Some(parent) if parent.axial => slides.push(-body.normal_feet().1),
+        Some(_) => slides.extend(body.near_parent()),
+        None => {}
     }
     slides.push(Dd::ZERO);
     let mut distinct: Vec<Dd> = Vec::new();
@@ -280,6 +290,10 @@ fn differences(geometry: &Geometry, other: &Plan, plan: &Plan) -> String {
             "U D"
         };
         words += &format!("; moment about an axis from {which}");
+    }
+    if plan.linear_first != other.linear_first {
+        let which = if plan.linear_first { "translations" } else { "rotations" };
+        words += &format!("; {which} of the root eliminated first");
     }
     words
 }

@@ -28,10 +28,10 @@ pub(super) struct Rotors<'g> {
 /// A full rotor on a moving body.
 pub(super) struct FullRotor<'g> {
     body: usize,
-    /// The joint that drives it.
+    /// The coordinate that drives it.
     pub joint: usize,
-    /// Factor from a moment or force along z to that joint's effort.
-    effort: Dd,
+    /// Factor from a moment or force in the direction of that coordinate to its effort.
+    pub effort: Dd,
     /// q̇ and q̈ of that joint.
     rates: (Expr<'g>, Expr<'g>),
     /// N J e in the body's own axes.
@@ -58,7 +58,7 @@ impl<'g> FullRotor<'g> {
 
 impl<'g> Rotors<'g> {
     /// `aims` are cosine and sine of the angle about z by which a plan rotates each body's axes, `efforts`
-    /// the factor from a moment or force along each joint's z to its effort.
+    /// the factor from a moment or force in the direction of each coordinate to its effort.
     pub fn new(
         b: &'g Builder,
         graph: &Multibody,
@@ -67,7 +67,7 @@ impl<'g> Rotors<'g> {
         x: &Arguments<'g>,
     ) -> Self {
         let mut rotors = Rotors {
-            armature: vec![b.zero(); geometry.bodies.len()],
+            armature: vec![b.zero(); graph.coordinates.len()],
             rate: x.v.clone(),
             acceleration: x.a.clone(),
             full: Vec::new(),
@@ -94,6 +94,11 @@ impl<'g> Rotors<'g> {
             }
         }
         rotors
+    }
+
+    /// Returns the number of coordinates.
+    pub fn coordinates(&self) -> usize {
+        self.armature.len()
     }
 
     /// Returns the full rotors on a body.

@@ -3,9 +3,10 @@
 //! Base parameters move inertia inboard and leave a remainder. Where both contribute to one effort, they
 //! can be larger than their sum, and digits are lost.
 
-use super::formulation::with_plan;
+use super::formulation::{makes, with_plan};
 use super::plan_search;
 use super::plans::{best_plans, cost};
+use crate::bond_graph::Multibody;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
@@ -22,6 +23,10 @@ impl Formulation for OwnInertia {
         "the recursion with each body's own inertia instead of base parameters"
     }
 
+    fn serves(&self, _: &Multibody) -> bool {
+        true
+    }
+
     fn knows(&self, method: Method) -> bool {
         method.site().is_none()
     }
@@ -32,6 +37,9 @@ impl Formulation for OwnInertia {
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let graph = prepared.graph;
+        if !makes(graph, method) {
+            return None;
+        }
         let geometry = prepared.geometry();
         let mut best = best_plans(prepared, method)?;
         for tried in &mut best.plans {

@@ -9,9 +9,10 @@ use bgdyn_runtime::Dd;
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::inertia::BodyInertia;
 use crate::formulation::recursion::inverse_dynamics::BodyWrench;
+use crate::formulation::recursion::joint_columns::Direction;
+use crate::formulation::recursion::rotation::Rotation;
 use crate::formulation::recursion::names::name_matrix;
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::Motion;
 
 /// Articulated-body inertia about one point, in one set of axes.
 #[derive(Clone, Copy, Debug)]
@@ -102,11 +103,32 @@ impl<'g> ArticulatedInertia<'g> {
             .all(|m| m.0.iter().flatten().all(|e| e.is_zero()))
     }
 
-    /// Returns the component along the joint: Sᵀ I S.
-    pub fn along(&self, motion: Motion) -> Expr<'g> {
-        match motion {
-            Motion::Rotation => self.angular.0[2][2],
-            _ => self.linear.0[2][2],
+    /// Returns the component in a direction: sᵀ I s.
+    pub fn along(&self, direction: Direction) -> Expr<'g> {
+        match direction {
+            Direction::About(k) => self.angular.0[k][k],
+            Direction::Along(k) => self.linear.0[k][k],
+            Direction::Screw(_) => {
+                let wrench = self.wrench(direction);
+                direction.component(wrench.moment, wrench.force)
+            }
+        }
+    }
+
+    /// Returns I s, the wrench of a unit acceleration in a direction.
+    fn wrench(&self, direction: Direction) -> BodyWrench<'g> {
+        let about = |k: usize| BodyWrench {
+            moment: self.angular.row(k),
+            force: self.coupling.row(k),
+        };
+        let along = |k: usize| BodyWrench {
+            moment: self.coupling.column(k),
+            force: self.linear.row(k),
+        };
+        match direction {
+            Direction::About(k) => about(k),
+            Direction::Along(k) => along(k),
+            Direction::Screw(pitch) => about(2).plus(along(2).map(|v| v.map(|x| x * pitch))),
         }
     }
 
@@ -115,22 +137,13 @@ impl<'g> ArticulatedInertia<'g> {
     pub fn column(
         &self,
         b: &'g Builder,
-        motion: Motion,
+        direction: Direction,
         pivot: Expr<'g>,
         armature: Expr<'g>,
     ) -> InertiaColumn<'g> {
-        let wrench = match motion {
-            Motion::Rotation => BodyWrench {
-                moment: self.angular.row(2),
-                force: self.coupling.row(2),
-            },
-            _ => BodyWrench {
-                moment: self.coupling.column(2),
-                force: self.linear.row(2),
-            },
-        };
+        let wrench = self.wrench(direction);
         let inverse = b.constant(Dd::ONE) / pivot;
-        let along = self.along(motion);
+        let along = self.along(direction);
         // An entry equal to the pivot has a ratio of exactly one.
         let free = armature.is_zero();
         let share = |x: Expr<'g>| {
@@ -154,16 +167,21 @@ impl<'g> ArticulatedInertia<'g> {
 
     /// Returns I − I S (SᵀI S + A)⁻¹ SᵀI with the armature A. The row and the column along the joint are
     /// multiplied by A/(SᵀI S + A): without a rotor they are set to zero exactly.
-    pub fn projected(&self, b: &'g Builder, motion: Motion, column: &InertiaColumn<'g>) -> Self {
+    pub fn projected(
+        &self,
+        b: &'g Builder,
+        direction: Direction,
+        column: &InertiaColumn<'g>) -> Self {
         let InertiaColumn {
             wrench,
             share,
             kept,
             ..
         } = column;
-        let (angular, linear) = match motion {
-            Motion::Rotation => (Some(2), None),
-            _ => (None, Some(2)),
+        let (angular, linear) = match direction {
+            Direction::About(k) => (Some(k), None),
+            Direction::Along(k) => (None, Some(k)),
+            Direction::Screw(_) => (None, None),
         };
         let less = |m: &Mat3<Expr<'g>>,
                     row: (Vec3<Expr<'g>>, Option<usize>),
@@ -189,8 +207,12 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Returns the inertia rotated by Rz.
-    pub fn turned(&self, turn: (Expr<'g>, Expr<'g>), careful: bool) -> Self {
+    /// Returns the inertia rotated.
+    pub fn turned(&self, turn: Rotation<'g>, careful: bool) -> Self {
+        let turn = match turn {
+            Rotation::AboutZ(angle) => angle,
+            Rotation::General(r) => return self.rotated(r),
+        };
         ArticulatedInertia {
             angular: mirrored(turned(&self.angular, 2, turn, careful)),
             coupling: turned(&self.coupling, 2, turn, careful),
@@ -198,12 +220,25 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Returns the inertia in axes in which the present axes have the columns of the constant `r`, a
-    /// rotation about x followed by one about z: a twist.
+    /// Returns the inertia in axes in which the present axes have the columns of the constant `r`: a twist,
+    /// a rotation about x followed by one about z, or any rotation.
     pub fn twisted(&self, b: &'g Builder, r: Mat3<Dd>, careful: bool) -> Self {
+        if r.0[2][0] != Dd::ZERO {
+            return self.rotated(r.map(|x| b.constant(x)));
+        }
         let [about_x, about_z] = [(r.0[2][2], r.0[2][1]), (r.0[0][0], r.0[1][0])];
         self.turned_by(b, 0, about_x, careful)
             .turned_by(b, 2, about_z, careful)
+    }
+
+    /// Returns the inertia in axes in which the present axes have the columns of `r`.
+    fn rotated(&self, r: Mat3<Expr<'g>>) -> Self {
+        let turned = |m: &Mat3<Expr<'g>>| (r * *m) * r.transpose();
+        ArticulatedInertia {
+            angular: mirrored(turned(&self.angular)),
+            coupling: turned(&self.coupling),
+            linear: mirrored(turned(&self.linear)),
+        }
     }
 
     /// Rotates about an axis by a constant angle; quarter turns need no operations.

@@ -14,6 +14,7 @@
 //! If a joint's own inertia ratio is almost zero, its pivot may consist of rounding errors only.
 //! `expr/error.rs` bounds its error operation by operation, and the pivot must exceed the bound.
 
+mod hinge;
 mod inertia;
 mod sweep;
 
@@ -23,6 +24,7 @@ use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use super::plan::Plan;
 use super::plan_search::{self, BestPlan, SEARCHED};
 use super::plans::cheapest_plans;
+use super::motion::{Field, add_set_aside, motions};
 use super::{expressions, inverse_dynamics};
 use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Cost, Graph, Signed};
@@ -55,6 +57,10 @@ impl Formulation for Articulated {
             Articulated::Own => "articulated bodies: small pivots keep their digits",
             Articulated::Base => "articulated bodies over base parameters",
         }
+    }
+
+    fn serves(&self, graph: &Multibody) -> bool {
+        !mimics(graph)
     }
 
     fn knows(&self, method: Method) -> bool {
@@ -112,10 +118,15 @@ impl Formulation for Articulated {
     }
 }
 
+/// Returns whether a joint mimics another one.
+fn mimics(graph: &Multibody) -> bool {
+    graph.frames.iter().any(|frame| frame.degrees.mimic.is_some())
+}
+
 /// Returns whether articulated bodies support the method. A rotor that rotates with its carrier couples
-/// joints other than through their bodies.
+/// joints other than through their bodies, and so does a joint that mimics another.
 fn makes(graph: &Multibody, method: Method) -> bool {
-    method == METHOD && graph.rotors.iter().all(|r| r.carrier.is_none())
+    method == METHOD && !mimics(graph) && graph.rotors.iter().all(|r| r.carrier.is_none())
 }
 
 /// Returns the number of operations for the elimination of M alone: each joint's row is subtracted from
@@ -175,9 +186,11 @@ impl Articulated {
         let outputs: Vec<Signed> = {
             let x = Arguments::new(&b, graph, Method::ForwardDynamics);
             let frames = Frames::new(&b, graph, geometry, plan, &x);
-            let sweep = Sweep::new(&b, &frames, careful, guarded);
-            let loads = inverse_dynamics::loads(&b, &frames, plan, x.active);
-            let found = sweep.accelerations(&loads, &x.tau);
+            let sweep = Sweep::new(&b, &frames, careful, (guarded, plan.linear_first));
+            let moving = motions(&b, &frames, Field::SetAside);
+            let loads = inverse_dynamics::loads(&b, &frames, plan, &moving);
+            let mut found = sweep.accelerations(&loads, &x.tau);
+            add_set_aside(&frames, &moving, &mut found);
             found.into_iter().map(|e| e.signed()).collect()
         };
         (b.into_graph(), outputs)

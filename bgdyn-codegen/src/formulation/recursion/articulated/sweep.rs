@@ -3,38 +3,13 @@
 //! Accelerations are relative to those of the motion with q̈ = 0, whose wrenches the recursion has
 //! computed: so no velocity enters here, and the joint accelerations are linear in the wrenches.
 
-use bgdyn_runtime::Dd;
-
-use super::inertia::{ArticulatedInertia, InertiaColumn};
-use crate::expr::{Bound, Builder, ErrorBound, Expr};
+use super::hinge::{Hinge, HingeColumn, axial_hinge, compound_hinge};
+use super::inertia::ArticulatedInertia;
+use crate::expr::{Builder, ErrorBound, Expr};
 use crate::formulation::recursion::frames::{BodyFrame, Frames};
-use crate::formulation::recursion::inertia::{turn, turn_back};
-use crate::formulation::recursion::inverse_dynamics::name_wrenches;
-use crate::formulation::recursion::inverse_dynamics::{BodyWrench, Load};
+use crate::formulation::recursion::inverse_dynamics::{BodyWrench, Load, name_wrenches};
+use crate::formulation::recursion::joint_columns::Direction;
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::Motion;
-
-/// A pivot's rounding error in units of eps/2, times this factor, is the magnitude that
-/// [`bgdyn_runtime::Scalar::checked_pivot`] compares with: the least accepted pivot is 64 eps times it, a
-/// factor of four for effects that the bound omits.
-const MAGNITUDE: f64 = 1.0 / 32.0;
-
-/// Returns the magnitude of the terms subtracted in a pivot, from its rounding error; zero if the error is
-/// always a small fraction of the pivot.
-fn magnitude<'g>(b: &'g Builder, bounds: &mut ErrorBound, pivot: Expr<'g>) -> Expr<'g> {
-    let pivot = pivot.signed();
-    match b.with_graph(|g| bounds.of(g, pivot)) {
-        Bound::Relative(_) => b.zero(),
-        Bound::Absolute(bound) => b.expr(bound) * Dd::from_f64(MAGNITUDE),
-    }
-}
-
-/// A joint between a body and its parent.
-struct Hinge<'g> {
-    column: InertiaColumn<'g>,
-    /// Whether the column is in the body's own axes; otherwise in those of its basis.
-    own: bool,
-}
 
 /// The joints' columns, from the tips to the base (Featherstone 2008, ch. 7).
 pub(super) struct Sweep<'g, 'f> {
@@ -67,13 +42,16 @@ impl<'g> Acceleration<'g> {
         }
     }
 
-    /// Adds the joint's acceleration.
-    fn with(mut self, motion: Motion, along: Expr<'g>) -> Self {
-        let part = match motion {
-            Motion::Rotation => &mut self.angular,
-            _ => &mut self.linear,
-        };
-        part.0[2] = part.0[2] + along;
+    /// Adds an acceleration of the joint.
+    fn with(mut self, direction: Direction, along: Expr<'g>) -> Self {
+        match direction {
+            Direction::About(k) => self.angular.0[k] = self.angular.0[k] + along,
+            Direction::Along(k) => self.linear.0[k] = self.linear.0[k] + along,
+            Direction::Screw(pitch) => {
+                self.angular.0[2] = self.angular.0[2] + along;
+                self.linear.0[2] = self.linear.0[2] + along * pitch;
+            }
+        }
         self
     }
 
@@ -85,8 +63,9 @@ impl<'g> Acceleration<'g> {
 
 impl<'g, 'f> Sweep<'g, 'f> {
     /// Computes articulated-body inertias from the tips to the base; if `careful`, without avoidable
-    /// subtractions. The pivots of the `guarded` joints must exceed their rounding error.
-    pub fn new(b: &'g Builder, frames: &'f Frames<'g>, careful: bool, guarded: &[bool]) -> Self {
+    /// subtractions. The pivots of the `guarded` joints must exceed their rounding error. Of a joint with
+    /// several velocities the linear or the angular ones are eliminated first.
+    pub fn new(b: &'g Builder, frames: &'f Frames<'g>, careful: bool, (guarded, linear_first): (&[bool], bool)) -> Self {
         let n = frames.bodies.len();
         let mut bounds = ErrorBound::default();
         // Contributions of the outboard bodies: in own axes, and in those of the basis.
@@ -105,35 +84,16 @@ impl<'g, 'f> Sweep<'g, 'f> {
             if basis[j].is_zero() {
                 inner.name(&frame.name);
             }
-            let armature = frames.rotors.armature(j) * (Dd::ONE / (frame.effort * frame.effort));
-            let along = inner.along(frame.motion) + basis[j].along(frame.motion);
-            let magnitude = if guarded[j] {
-                magnitude(b, &mut bounds, along)
+            let (hinge, rest) = if frame.axial {
+                let bounds = guarded[j].then_some(&mut bounds);
+                let carries = !own[j].is_zero();
+                axial_hinge(b, frames, j, (inner, basis[j], carries), (careful, bounds))
             } else {
-                b.zero()
-            };
-            // A rotor adds to the inertia of the joint, so that the projection is not complete.
-            let pivot = (along + armature).pivot(magnitude, j);
-            pivot.named(|| format!("pivot_{}", frame.joint));
-            let (hinge, rest) = if basis[j].is_zero() {
-                // The rotation about the joint's axis and the projection along it commute: the projection
-                // first, which leaves a row and a column of zeros.
-                let column = inner.column(b, frame.motion, pivot, armature);
-                let rest = inner.projected(b, frame.motion, &column);
-                // A rigid body's column is constant and rotated once; another's is not rotated.
-                let hinge = if own[j].is_zero() {
-                    let column = column.map(|v| turn(v, frame.turn));
-                    Hinge { column, own: false }
-                } else {
-                    Hinge { column, own: true }
-                };
-                (hinge, rest.turned(frame.turn, careful))
-            } else {
-                let whole = inner.turned(frame.turn, careful).plus(&basis[j]);
-                whole.name(&format!("at_{}", frame.joint));
-                let column = whole.column(b, frame.motion, pivot, armature);
-                let rest = whole.projected(b, frame.motion, &column);
-                (Hinge { column, own: false }, rest)
+                let (hinge, rest) = compound_hinge(b, frames, frame, inner, linear_first);
+                match frame.parent {
+                    Some(_) => (hinge, rest.turned(frame.turn, careful)),
+                    None => (hinge, rest),
+                }
             };
             hinges.push(hinge);
             let Some(p) = frame.parent else { continue };
@@ -160,7 +120,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
         let n = self.hinges.len();
         let mut own = vec![BodyWrench::zero(self.b); n];
         let mut basis = own.clone();
-        let mut drives = vec![self.b.zero(); n];
+        let mut drives = vec![self.b.zero(); tau.len()];
         for j in (0..n).rev() {
             let (frame, hinge) = (&self.frames.bodies[j], &self.hinges[j]);
             self.b.section(|| {
@@ -170,23 +130,29 @@ impl<'g, 'f> Sweep<'g, 'f> {
                 )
             });
             let (mut inner, mut outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
-            let along = match frame.motion {
-                Motion::Rotation => inner.moment.0[2] + outer.moment.0[2],
-                _ => inner.force.0[2] + outer.force.0[2],
-            };
-            let drive = tau[j] * (self.b.number(1.0) / self.b.constant(frame.effort)) - along;
-            drive.named(|| format!("u_{}", frame.joint));
-            drives[j] = drive * hinge.column.inverse;
-            let Some(p) = frame.parent else { continue };
-            // The joint transmits the drive completely; the rest of the wrench in proportion to it.
-            let given = |w: Vec3<Expr<'g>>| w.scale(drive);
-            let given = hinge.column.share.map(given);
-            if hinge.own {
-                inner = inner.plus(given);
-            } else {
-                outer = outer.plus(given);
+            for HingeColumn {
+                index,
+                direction,
+                column,
+            } in &hinge.columns
+            {
+                let of = &frame.columns[*index];
+                let along = direction.component(inner.moment, inner.force)
+                    + direction.component(outer.moment, outer.force);
+                let tau = tau[of.coordinate] * (self.b.number(1.0) / self.b.constant(of.effort));
+                let drive = tau - along;
+                drive.named(|| format!("u_{}", of.name));
+                drives[of.coordinate] = drive * column.inverse;
+                // The joint transmits the drive completely; the rest of the wrench in proportion to it.
+                let given = column.share.map(|w: Vec3<Expr<'g>>| w.scale(drive));
+                if hinge.own {
+                    inner = inner.plus(given);
+                } else {
+                    outer = outer.plus(given);
+                }
             }
-            let whole = outer.plus(inner.map(|v| turn(v, frame.turn)));
+            let Some(p) = frame.parent else { continue };
+            let whole = outer.plus(inner.map(|v| frame.turn.apply(v)));
             name_wrenches(["fa", "na"], frame, &inner, &outer, &whole);
             let carried = whole.carried(frame.position);
             if frame.continues {
@@ -203,7 +169,7 @@ impl<'g, 'f> Sweep<'g, 'f> {
         // Accelerations in own axes, and in those of the basis.
         let mut own: Vec<Acceleration<'g>> = Vec::new();
         let mut basis: Vec<Acceleration<'g>> = Vec::new();
-        let mut found = Vec::new();
+        let mut found = vec![self.b.zero(); drives.len()];
         for (j, hinge) in self.hinges.iter().enumerate() {
             let frame = &self.frames.bodies[j];
             self.b
@@ -219,13 +185,25 @@ impl<'g, 'f> Sweep<'g, 'f> {
                 Some(p) if frame.continues => basis[p].at(frame.position),
                 Some(p) => self.twisted(frame, own[p]),
             };
-            let turned = carried.map(|v| turn_back(v, frame.turn));
-            let felt = if hinge.own { turned } else { carried };
-            let along = drives[j] - felt.under(&hinge.column.share);
-            own.push(turned.with(frame.motion, along));
-            basis.push(carried.with(frame.motion, along));
-            let acceleration = along * (self.b.number(1.0) / self.b.constant(frame.effort));
-            found.push(acceleration.named(|| format!("a_{}", frame.joint)));
+            let mut turned = carried.map(|v| frame.turn.apply_back(v));
+            let mut at_basis = carried;
+            // The velocity eliminated last depends on the parent's acceleration only.
+            for HingeColumn {
+                index,
+                direction,
+                column,
+            } in hinge.columns.iter().rev()
+            {
+                let of = &frame.columns[*index];
+                let felt = if hinge.own { turned } else { at_basis };
+                let along = drives[of.coordinate] - felt.under(&column.share);
+                turned = turned.with(*direction, along);
+                at_basis = at_basis.with(*direction, along);
+                let acceleration = along * (self.b.number(1.0) / self.b.constant(of.effort));
+                found[of.coordinate] = acceleration.named(|| format!("a_{}", of.name));
+            }
+            own.push(turned);
+            basis.push(at_basis);
         }
         found
     }

@@ -5,10 +5,11 @@ use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::BodyFrame;
-use crate::formulation::recursion::inertia::{BodyInertia, turn};
+use crate::formulation::recursion::inertia::BodyInertia;
 use crate::formulation::recursion::inverse_dynamics::BodyWrench;
 use crate::formulation::recursion::mass_matrix::Momentum;
 use crate::formulation::recursion::rotors::FullRotor;
+use crate::formulation::recursion::rotation::Rotation;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -60,10 +61,10 @@ impl<'g> CompositeFlow<'g> {
             inertia: if round {
                 self.inertia
             } else {
-                self.inertia.turned(angle)
+                self.inertia.turned(angle.into())
             },
             flow: self.flow.turned(angle),
-            rest: self.rest.map(|v| turn(v, angle)),
+            rest: self.rest.map(|v| Rotation::AboutZ(angle).apply(v)),
         }
     }
 
@@ -216,7 +217,7 @@ impl<'g> Flow<'g> {
                 [ce - xy, yy + se, s * xz + c * yz],
                 [c * zx - s * zy, s * zx + c * zy, zz],
             ]),
-            linear: turn(self.linear, (c, s)),
+            linear: Rotation::AboutZ((c, s)).apply(self.linear),
         }
     }
 }

@@ -33,7 +33,7 @@ use super::joint_partials::{JointContext, JointPartials, Subtree};
 use super::outboard_joint::{OutboardJoint, PartialEntries};
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::{BodyFrame, Frames};
-use crate::formulation::recursion::motion::{Moving, Spin, motions};
+use crate::formulation::recursion::motion::{Field, Moving, Spin, motions};
 use crate::formulation::recursion::plan::PartialsPlan;
 use crate::math::Vec3;
 use crate::mechanism::Motion;
@@ -51,7 +51,7 @@ pub(in crate::formulation::recursion) fn coriolis_matrix<'g>(
     frames: &Frames<'g>,
     views: &[PartialsPlan],
 ) -> Vec<Vec<Expr<'g>>> {
-    pass(b, frames, views, &motions(b, frames, false), Dd::ONE).by_rate
+    pass(b, frames, views, &motions(b, frames, Field::Zero), Dd::ONE).by_rate
 }
 
 /// Returns the derivatives with the rates and accelerations in `frames`; with gravity if `active`.
@@ -61,7 +61,8 @@ pub(in crate::formulation::recursion) fn effort_derivatives<'g>(
     views: &[PartialsPlan],
     active: bool,
 ) -> EffortDerivatives<'g> {
-    let moving = motions(b, frames, active);
+    let field = if active { Field::Gravity } else { Field::Zero };
+    let moving = motions(b, frames, field);
     pass(b, frames, views, &moving, Dd::from_f64(2.0))
 }
 
@@ -99,7 +100,7 @@ fn pass<'g>(
         };
         let axis = place.axis_of_body();
         for rotor in frames.rotors.on(j) {
-            let seen = OutboardJoint::of_rotor(b, rotor.joint, rotor.unit_momentum(), &axis);
+            let seen = OutboardJoint::of_rotor(b, rotor, &axis);
             own[j].beyond.push(seen);
         }
         for rotor in frames.rotors.on(j) {
@@ -153,7 +154,7 @@ impl<'g> EffortDerivatives<'g> {
         for joint in &inner.beyond {
             let entries = joint.entries(b, frame, &own);
             self.enter(frames, j, joint, entries);
-            let turned = joint.turned(frame.turn, place.view.keep_body_axes);
+            let turned = joint.turned(frame.turn.angle(), place.view.keep_body_axes);
             beyond.push(turned.entered(b, frame.motion, entries));
         }
         for &joint in &outer.beyond {

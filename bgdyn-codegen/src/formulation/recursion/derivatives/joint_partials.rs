@@ -11,7 +11,6 @@ use super::composite_flow::CompositeFlow;
 use super::outboard_joint::{GroupNeighbour, JointAxis, OutboardJoint};
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::BodyFrame;
-use crate::formulation::recursion::inertia::turn;
 use crate::formulation::recursion::mass_matrix::{Momentum, unit_momentum};
 use crate::formulation::recursion::motion::{Moving, Spin};
 use crate::formulation::recursion::plan::{PartialsPlan, SeenFrom};
@@ -131,11 +130,11 @@ impl<'g> JointContext<'_, 'g> {
         carried: &CompositeFlow<'g>,
         outer: &CompositeFlow<'g>,
     ) -> (CompositeFlow<'g>, Momentum<'g>) {
-        let after = carried.turned(self.frame.turn).plus(outer);
+        let after = carried.turned(self.frame.turn.angle()).plus(outer);
         // A rotation about z does not change J_zz.
         let j_zz = (carried.inertia.d(0, 0) + carried.inertia.d(1, 1))
             + (outer.inertia.d(0, 0) + outer.inertia.d(1, 1));
-        let momentum = unit_momentum(self.b, self.index, self.frame, &after.inertia, j_zz);
+        let momentum = unit_momentum(self.b, &self.frame.columns[0], &after.inertia, Some(j_zz));
         (after, momentum)
     }
 
@@ -166,7 +165,7 @@ impl<'g> JointContext<'_, 'g> {
             SeenFrom::Own if motion == Motion::Rotation => {
                 let body = self.axis_of_body();
                 let own = seen(&body, &body.spin, carried);
-                let turned = own.map(|v| turn(v, self.frame.turn));
+                let turned = own.map(|v| self.frame.turn.apply(v));
                 turned.with(&seen(&axis, spin, outer))
             }
             SeenFrom::Before => seen(&axis, self.before, &before),

@@ -9,10 +9,12 @@ use bgdyn_runtime::Dd;
 use super::composite_flow::CompositeFlow;
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::BodyFrame;
-use crate::formulation::recursion::inertia::{BodyInertia, turn, turn_back};
+use crate::formulation::recursion::inertia::BodyInertia;
 use crate::formulation::recursion::inverse_dynamics::{BodyWrench, dynamics};
 use crate::formulation::recursion::mass_matrix::Momentum;
 use crate::formulation::recursion::motion::Spin;
+use crate::formulation::recursion::rotation::Rotation;
+use crate::formulation::recursion::rotors::FullRotor;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 
@@ -127,17 +129,19 @@ impl<'g> OutboardJoint<'g> {
         }
     }
 
-    /// Returns a rotor that `joint` drives, relative to its carrier, in the carrier's own axes: a unit
+    /// Returns a rotor, relative to its carrier, in the carrier's own axes: a unit
     /// rate gives it only the momentum h, which the carrier's ω rotates, so that it requires the moment ω
     /// × h. The position has no influence. The dot products of [`OutboardJoint::entries`] give the changes
     /// h · z̈ + ω × h · ż and 2 h · ż + ω × h · z of the effort h · ω̇ with its swirl ω × h.
-    pub fn of_rotor(b: &'g Builder, joint: usize, h: Vec3<Expr<'g>>, axis: &JointAxis<'g>) -> Self {
+    pub fn of_rotor(b: &'g Builder, rotor: &FullRotor<'g>, axis: &JointAxis<'g>) -> Self {
+        let h = rotor.unit_momentum();
         let zero = Vec3([b.zero(); 3]);
         let half = axis.factor * Dd::from_f64(0.5);
         let whirl = axis.spin.omega.cross(h).map(|x| x * half);
         OutboardJoint {
             momentum: Momentum {
-                joint,
+                joint: rotor.joint,
+                effort: rotor.effort,
                 linear: zero,
                 angular: h,
             },
@@ -170,7 +174,7 @@ impl<'g> OutboardJoint<'g> {
         let forces = [self.by_position.force, self.by_rate.force];
         OutboardJoint {
             met: meet.then_some(Met { forces, angle }),
-            ..self.map(|v| turn(v, angle))
+            ..self.map(|v| Rotation::AboutZ(angle).apply(v))
         }
     }
 
@@ -254,12 +258,12 @@ impl<'g> OutboardJoint<'g> {
 
     /// Returns the entry of the mass matrix with an inboard joint.
     pub fn mass(&self, frame: &BodyFrame<'g>) -> Expr<'g> {
-        self.momentum.carried(self.offset).along(frame)
+        self.momentum.carried(self.offset).along(&frame.columns[0])
     }
 
     /// Returns the entries with itself.
     pub fn diagonal(&self, frame: &BodyFrame<'g>) -> PartialEntries<'g> {
-        let own = (self.by_position.along(frame), self.by_rate.along(frame));
+        let own = (self.by_position.along(&frame.columns[0]), self.by_rate.along(&frame.columns[0]));
         PartialEntries { own, beyond: own }
     }
 
@@ -283,7 +287,7 @@ impl<'g> OutboardJoint<'g> {
             }
             _ => (p.dot(second_rate), p.dot(rates)),
         };
-        let own = (self.by_position.along(frame), self.by_rate.along(frame));
+        let own = (self.by_position.along(&frame.columns[0]), self.by_rate.along(&frame.columns[0]));
         PartialEntries { own, beyond }
     }
 
@@ -299,7 +303,7 @@ impl<'g> OutboardJoint<'g> {
         let step = Vec3([-y, x, b.zero()]);
         let forces = [self.by_position.force, self.by_rate.force];
         let ([by_position, by_rate], met_step) = match self.met {
-            Some(met) => (met.forces, turn_back(step, met.angle)),
+            Some(met) => (met.forces, Rotation::AboutZ(met.angle).apply_back(step)),
             None => (forces, step),
         };
         let step_rate = axis.spin.omega.map(|x| x * axis.factor).cross(step);

@@ -123,7 +123,7 @@ fn changes(geometry: &Geometry, plan: &Plan, j: usize) -> Vec<PartialsChange> {
         |view| view.seen_from = SeenFrom::After,
         |view| view.seen_from = SeenFrom::Own,
     ];
-    let parallel = |k: usize| plan.grouped && geometry.bodies[k].parallel();
+    let parallel = |k: usize| plan.grouped && geometry.bodies[k].parallel;
     let followed =
         (0..geometry.bodies.len()).any(|k| geometry.bodies[k].parent == Some(j) && parallel(k));
     if followed {

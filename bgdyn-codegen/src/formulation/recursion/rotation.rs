@@ -1,0 +1,171 @@
+//! The rotation of a body relative to its basis: about z, or about any axis.
+
+use bgdyn_runtime::Dd;
+
+use super::geometry::{Body, identity};
+use super::motion::permutation;
+use crate::bond_graph::LinkFrame;
+use crate::expr::{Builder, Expr};
+use crate::formulation::joint_motion::joint_positions;
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::Motion;
+
+/// A rotation from a body's own axes to those of its basis.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Rotation<'g> {
+    /// About z: cosine and sine of the angle.
+    AboutZ((Expr<'g>, Expr<'g>)),
+    /// The body's own axes as columns.
+    General(Mat3<Expr<'g>>),
+}
+
+impl<'g> From<(Expr<'g>, Expr<'g>)> for Rotation<'g> {
+    fn from(angle: (Expr<'g>, Expr<'g>)) -> Self {
+        Rotation::AboutZ(angle)
+    }
+}
+
+impl<'g> Rotation<'g> {
+    /// Returns cosine and sine of a rotation about z, which all rotations of plain mechanisms are.
+    pub fn angle(self) -> (Expr<'g>, Expr<'g>) {
+        match self {
+            Rotation::AboutZ(angle) => angle,
+            Rotation::General(_) => unreachable!("a rotation that is not about z"),
+        }
+    }
+
+    /// Returns R v.
+    pub fn apply(self, v: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
+        match self {
+            Rotation::AboutZ((c, s)) => {
+                let [x, y, z] = v.0;
+                Vec3([c * x - s * y, s * x + c * y, z])
+            }
+            Rotation::General(r) => r * v,
+        }
+    }
+
+    /// Returns Rᵀ v.
+    pub fn apply_back(self, v: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
+        match self {
+            Rotation::AboutZ((c, s)) => {
+                let [x, y, z] = v.0;
+                Vec3([c * x + s * y, c * y - s * x, z])
+            }
+            Rotation::General(r) => r.transpose() * v,
+        }
+    }
+
+    /// Returns the body's own axes in axes in which those of the basis are the columns of `basis`.
+    pub fn own_axes(self, basis: &Mat3<Expr<'g>>) -> Mat3<Expr<'g>> {
+        match self {
+            Rotation::AboutZ((c, s)) => {
+                let (x, y) = (basis.column(0), basis.column(1));
+                let columns = [
+                    x.scale(c) + y.scale(s),
+                    y.scale(c) - x.scale(s),
+                    basis.column(2),
+                ];
+                Mat3(columns.map(|v| v.0)).transpose()
+            }
+            Rotation::General(r) => *basis * r,
+        }
+    }
+}
+
+/// The pose of a body relative to its parent, for a joint with several velocities.
+pub(super) struct JointPose<'g> {
+    /// Columns: the axes of the joint's origin in the parent's axes.
+    pub twist: Mat3<Dd>,
+    /// The body's origin in the axes of the joint's origin, in units of the plan.
+    pub origin: Vec3<Expr<'g>>,
+    /// From the body's axes to those of the joint's origin.
+    pub turn: Rotation<'g>,
+}
+
+/// Returns the pose of a body whose joint has several velocities. A constant rotation before a quaternion
+/// is folded into the quaternion: 16 products instead of 27.
+pub(super) fn joint_pose<'g>(
+    b: &'g Builder,
+    body: &Body,
+    link: &LinkFrame,
+    q: &[Expr<'g>],
+    (offset, unit): (Vec3<Dd>, Dd),
+) -> JointPose<'g> {
+    let Motion::Compound(motion) = body.motion else {
+        unreachable!("{} has one velocity", body.joint)
+    };
+    let mut positions = joint_positions(b, link, q);
+    let folded = match motion.quaternion() {
+        Some(first) if body.parent.is_some() && permutation(body.twist).is_none() => {
+            let own = std::array::from_fn(|k| positions[first + k]);
+            let whole = product(quaternion_of(body.twist), own);
+            positions[first..first + 4].copy_from_slice(&whole);
+            true
+        }
+        _ => false,
+    };
+    let (rotation, shift) = motion.pose(&link.constants(), &positions, &b);
+    let origin = b.vector(offset.scale(Dd::ONE / unit)) + shift.map(|x| x * (Dd::ONE / unit));
+    let about_z = rotation.0[2][2].as_constant() == Some(Dd::ONE);
+    let turn = match about_z {
+        true => Rotation::AboutZ((rotation.0[0][0], rotation.0[1][0])),
+        false => Rotation::General(rotation),
+    };
+    match folded {
+        true => JointPose {
+            twist: identity(),
+            origin: body.twist.map(|x| b.constant(x)) * origin,
+            turn,
+        },
+        false => JointPose {
+            twist: body.twist,
+            origin,
+            turn,
+        },
+    }
+}
+
+/// Returns the product of two quaternions x, y, z, w.
+fn product<'g>(first: [Dd; 4], second: [Expr<'g>; 4]) -> [Expr<'g>; 4] {
+    let [a, b, c, d] = first;
+    let [x, y, z, w] = second;
+    [
+        x * d + w * a + (z * b - y * c),
+        y * d + w * b + (x * c - z * a),
+        z * d + w * c + (y * a - x * b),
+        w * d - x * a - (y * b + z * c),
+    ]
+}
+
+/// Returns the unit quaternion x, y, z, w of a rotation. Of the four formulas the one with the largest
+/// divisor is taken (Shepperd 1978).
+fn quaternion_of(r: Mat3<Dd>) -> [Dd; 4] {
+    let m = r.0;
+    let trace = m[0][0] + m[1][1] + m[2][2];
+    let squares = [m[0][0], m[1][1], m[2][2], trace];
+    let mut largest = 3;
+    for k in 0..3 {
+        if squares[k] > squares[largest] {
+            largest = k;
+        }
+    }
+    let mut q = [Dd::ZERO; 4];
+    let half = Dd::from_f64(0.5);
+    if largest == 3 {
+        let twice = (Dd::ONE + trace).sqrt();
+        q[3] = twice * half;
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            q[k] = (m[j][i] - m[i][j]) * half / twice;
+        }
+    } else {
+        let (k, i, j) = (largest, (largest + 1) % 3, (largest + 2) % 3);
+        let twice = (Dd::ONE + m[k][k] - m[i][i] - m[j][j]).sqrt();
+        q[k] = twice * half;
+        q[i] = (m[i][k] + m[k][i]) * half / twice;
+        q[j] = (m[j][k] + m[k][j]) * half / twice;
+        q[3] = (m[j][i] - m[i][j]) * half / twice;
+    }
+    q
+}
