@@ -121,6 +121,7 @@ fn frame(link: &Link) -> LinkFrame {
         axis: link.joint.axis,
         coordinate: link.joint.coordinate,
         degrees: link.joint.degrees.clone(),
+        hidden: link.hidden,
         com: link.inertial.com,
         tensor_axes: link.inertial.inertia.axes,
     }

@@ -41,6 +41,8 @@ pub struct LinkFrame {
     pub coordinate: Option<CoordinateId>,
     /// Positions and velocities of a joint of any type.
     pub degrees: Degrees,
+    /// Whether it is the link without mass between two joints in series.
+    pub hidden: bool,
     /// Centre of mass in link axes, m.
     pub com: Vec3<Value>,
     /// The axes of the inertia tensor, as columns in the link's axes.

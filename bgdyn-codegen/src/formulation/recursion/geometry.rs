@@ -55,6 +55,8 @@ pub(crate) struct Body {
     pub links: Vec<(LinkId, Pose)>,
     /// Whether one of them has a run-time parameter.
     pub varying: bool,
+    /// Whether it is the link without mass between two joints in series.
+    pub hidden: bool,
 }
 
 impl Body {
@@ -166,6 +168,7 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
             free_x: true,
             links: vec![(LinkId(i), still)],
             varying: false,
+            hidden: frame.hidden,
         });
     }
     align_parallel_axes(&mut made.bodies, &placed);

@@ -17,13 +17,24 @@ const TRAVEL: f64 = 1.0;
 
 /// Returns, for each joint, its own body's inertia about the axis (its mass along it) over a bound for
 /// that of everything outboard of the joint, in any position. A pivot is between the two. Run-time
-/// parameters have their default values.
+/// parameters have their default values. The first of two joints in series, whose link is hidden, has the
+/// inertia of the next body.
 pub(super) fn own_inertia_ratios(graph: &Multibody, geometry: &Geometry) -> Vec<f64> {
     let bodies = &geometry.bodies;
-    let lumps: Vec<LumpedBody> = bodies
+    let mut lumps: Vec<LumpedBody> = bodies
         .iter()
         .map(|body| LumpedBody::new(graph, body))
         .collect();
+    for j in (0..bodies.len()).rev() {
+        if bodies[j].hidden
+            && let Some(next) = (0..bodies.len()).find(|&i| bodies[i].parent == Some(j))
+        {
+            lumps[j] = LumpedBody {
+                about_axis: lumps[next].second,
+                ..lumps[next]
+            };
+        }
+    }
     (0..bodies.len())
         .map(|j| {
             let beyond: f64 = (j..bodies.len())
@@ -57,7 +68,7 @@ fn distance(bodies: &[Body], j: usize, i: usize) -> Option<f64> {
 }
 
 /// A body's mass and moments.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct LumpedBody {
     /// kg
     mass: f64,

@@ -72,7 +72,8 @@ impl Formulation for Articulated {
     /// - `articulated_base` in place of the recursion if it needs fewer operations than the elimination
     ///   of a long chain's M alone; as a candidate if it is cheaper under the best plan of the recursion.
     ///   A plan that suits one suits the other except for a few operations, so this shows whether a
-    ///   search for its own plan is worth the time.
+    ///   search for its own plan is worth the time. Always as a candidate with joints of several
+    ///   velocities, whose blocks of M are full.
     /// - Otherwise `articulated_base` is a reserve, and `articulated` the last resort.
     fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
         let (graph, geometry) = (prepared.graph, prepared.geometry());
@@ -150,6 +151,9 @@ impl Articulated {
         let long = geometry.bodies.len() > SEARCHED;
         if long && self.search(prepared).cost().operations.total() < elimination(geometry) {
             return Offer::Instead(None);
+        }
+        if !graph.plain() {
+            return Offer::Candidate;
         }
         let best = cheapest_plans(prepared, METHOD);
         let (made, outputs) =
