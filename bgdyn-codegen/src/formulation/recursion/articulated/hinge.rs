@@ -63,12 +63,12 @@ pub(super) fn axial_hinge<'g>(
         // first, which leaves a row and a column of zeros.
         let column = inner.column(b, direction, pivot, armature);
         let rest = inner.projected(b, direction, &column);
-        let rest = rest.turned(frame.turn, careful);
         // A rigid body's column is constant and rotated once; another's is not rotated.
-        match carries {
-            true => (column, true, rest),
-            false => (column.map(|v| frame.turn.apply(v)), false, rest),
-        }
+        let column = match carries {
+            true => column,
+            false => column.map(|v| frame.turn.apply(v)),
+        };
+        (column, carries, rest.turned(frame.turn, careful))
     } else {
         let whole = inner.turned(frame.turn, careful).plus(&outer);
         whole.name(&format!("at_{}", frame.joint));
