@@ -150,12 +150,13 @@ pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) ->
     best
 }
 
-/// Returns the initial plans: with and without groups.
+/// Returns the initial plans: with and without groups. On parents without an axis also with every origin
+/// next to its parent: the legs of one base share products, so that moving one leg alone can cost more.
 fn starts(geometry: &Geometry) -> Vec<Plan> {
     let n = geometry.bodies.len();
     let tip = |j: usize| geometry.axial_tip(j);
-    let plan = |grouped| Plan {
-        slides: (0..n).map(|j| slides(geometry, j)[0]).collect(),
+    let plan = |grouped, slides: Vec<Dd>| Plan {
+        slides,
         unit: Dd::ONE,
         grouped,
         in_basis: (0..n).map(tip).collect(),
@@ -167,23 +168,45 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         linear_first: false,
         views: vec![PartialsPlan::default(); n],
     };
+    let mut places = vec![(0..n).map(|j| slides(geometry, j)[0]).collect::<Vec<Dd>>()];
+    if geometry.bodies.iter().any(|body| !body.axial) {
+        let mut next = vec![Dd::ZERO; n];
+        for j in 0..n {
+            next[j] = next_to_parent(geometry, j, &next);
+        }
+        places.push(next);
+    }
     let groups = geometry.bodies.iter().any(|b| b.parallel);
-    if groups {
-        vec![plan(true), plan(false)]
-    } else {
-        vec![plan(false)]
+    let grouped: &[bool] = if groups { &[true, false] } else { &[false] };
+    let all = grouped.iter().flat_map(|&g| places.iter().map(move |p| (g, p)));
+    all.map(|(grouped, slides)| plan(grouped, slides.clone())).collect()
+}
+
+/// Returns the displacement of the origin of body j that brings it closest to its parent's, which is
+/// displaced as in `slides`.
+fn next_to_parent(geometry: &Geometry, j: usize, slides: &[Dd]) -> Dd {
+    let body = &geometry.bodies[j];
+    match body.parent {
+        Some(p) if body.axial => {
+            let parent_z = body.twist.transpose().column(2);
+            parent_z.0[2] * slides[p] - body.offset.0[2]
+        }
+        _ => Dd::ZERO,
     }
 }
 
-type PlanChange = Box<dyn Fn(&mut Plan)>;
+type PlanChange<'a> = Box<dyn Fn(&mut Plan) + 'a>;
 
 /// Returns every position of an origin and every unit of length, as a change of a plan.
-fn places(geometry: &Geometry) -> Vec<PlanChange> {
-    let mut changes: Vec<PlanChange> = Vec::new();
+fn places(geometry: &Geometry) -> Vec<PlanChange<'_>> {
+    let mut changes: Vec<PlanChange<'_>> = Vec::new();
     for j in 0..geometry.bodies.len() {
         for h in slides(geometry, j) {
             changes.push(Box::new(move |plan| plan.slides[j] = h));
         }
+        changes.push(Box::new(move |plan| {
+            plan.slides[j] = next_to_parent(geometry, j, &plan.slides);
+        }));
     }
     for unit in units(geometry) {
         changes.push(Box::new(move |plan| plan.unit = unit));
@@ -192,7 +215,7 @@ fn places(geometry: &Geometry) -> Vec<PlanChange> {
 }
 
 /// Returns every single choice, as a change of a plan.
-fn changes(geometry: &Geometry) -> Vec<PlanChange> {
+fn changes(geometry: &Geometry) -> Vec<PlanChange<'_>> {
     let n = geometry.bodies.len();
     let mut changes = places(geometry);
     for j in (0..n).filter(|&j| geometry.bodies[j].axial) {
