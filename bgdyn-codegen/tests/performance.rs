@@ -43,6 +43,28 @@ const ROBOTS: [Robot; 7] = [
     Robot { name: "iiwa_gen", what: "iiwa", best: [(261, 238), (134, 129), (499, 444), (2123, 1900)], pairs: [6, 6], divisions: 6 },
 ];
 
+/// A mechanism with joints of several velocities; sums of the fewest multiplications and additions known
+/// before bgdyn of inverse dynamics, mass matrix and forward dynamics, and the divisions of the last.
+struct FreeRobot {
+    file: &'static str,
+    what: &'static str,
+    best: [usize; 3],
+    divisions: usize,
+}
+
+#[rustfmt::skip]
+const FREE_ROBOTS: [FreeRobot; 9] = [
+    FreeRobot { file: "counting/free_body_diagonal", what: "free body, diagonal inertia about the mass centre", best: [51, 0, 45], divisions: 0 },
+    FreeRobot { file: "counting/free_body", what: "free body, general inertia", best: [108, 0, 126], divisions: 0 },
+    FreeRobot { file: "quadrotor_arm", what: "quadrotor with a 2R arm", best: [307, 84, 498], divisions: 5 },
+    FreeRobot { file: "counting/two_balls", what: "double pendulum on balls", best: [293, 202, 516], divisions: 3 },
+    FreeRobot { file: "counting/three_balls", what: "chain of three balls", best: [517, 538, 1051], divisions: 6 },
+    FreeRobot { file: "spherical_chain3", what: "the same, with a constant rotation", best: [545, 566, 1079], divisions: 6 },
+    FreeRobot { file: "planar_base_ur5", what: "planar base with a UR5", best: [292, 139, 478], divisions: 9 },
+    FreeRobot { file: "satellite_arm6", what: "satellite with a 6R arm", best: [671, 406, 1584], divisions: 12 },
+    FreeRobot { file: "anymal_floating", what: "ANYmal B", best: [1244, 511, 2574], divisions: 18 },
+];
+
 /// Largest cost of derivatives relative to the best known count, that of plain forward differentiation.
 const STRUCTURED: f64 = 0.7;
 
@@ -106,6 +128,31 @@ fn records(text: &mut String) {
     .unwrap();
 }
 
+fn free_robots(text: &mut String) {
+    let heads: Vec<&str> = METHODS[..3].iter().map(|(_, head)| *head).collect();
+    let heads = heads.join(" | best known | ");
+    writeln!(text, "| mechanism | {heads} | best known |").unwrap();
+    writeln!(text, "|---|{}", "---|---|".repeat(3)).unwrap();
+    for robot in &FREE_ROBOTS {
+        let path = folder("tests/golden/joints").join(format!("{}.yaml", robot.file));
+        let mut row = format!("| {} |", robot.what);
+        for (&(method, head), best) in METHODS.iter().zip(robot.best) {
+            let o = count(&path, method);
+            let (m, a, sum) = (o.mul, o.add, o.total());
+            assert!(sum <= best, "{}, {head}: {o}: above {best}", robot.file);
+            let forward = method == Method::ForwardDynamics;
+            let divisions = if forward { robot.divisions } else { 0 };
+            assert!(
+                o.div <= divisions && o.sqrt == 0,
+                "{}, {head}: {o}",
+                robot.file
+            );
+            write!(row, " **{sum}** ({m}/{a}) | {best} |").unwrap();
+        }
+        writeln!(text, "{row}").unwrap();
+    }
+}
+
 fn own_specs(text: &mut String) {
     let heads: Vec<&str> = METHODS.iter().map(|(_, head)| *head).collect();
     writeln!(text, "| spec | {} |", heads.join(" | ")).unwrap();
@@ -136,7 +183,11 @@ fn the_page_holds_what_is_generated() {
     records(&mut text);
     text += "\nSine pairs, divisions and roots are never more than there. Derivatives come from composite \
              bodies instead of differentiation, for about half of the operations.\n\n\
-             The mechanisms of [`specs/`](../specs):\n\n";
+             With [joints of several velocities](spec.md#joint-types) (`tests/golden/joints`; quaternions are \
+             unit by contract). \"Best known\" is the least of Pinocchio's templates traced by CasADi and by \
+             CppADCodeGen, and of a study that came before this one:\n\n";
+    free_robots(&mut text);
+    text += "\nThe mechanisms of [`specs/`](../specs):\n\n";
     own_specs(&mut text);
     text += "\nTo get these numbers again: `bgdyn ops FILE --derivatives`, for all of them \
              `BGDYN_WRITE=1 cargo test -p bgdyn-codegen --test performance`, which writes this page; \

@@ -194,7 +194,7 @@ fn a_quaternion_of_zeros_is_no_number() {
 }
 
 /// A NaN in a component of a quaternion reaches every result that this component changes, and at least one
-/// result of inverse dynamics. (An entry of the rotation matrix of a unit quaternion reads three
+/// result of inverse dynamics if they depend on the orientation. (An entry of the rotation matrix of a unit quaternion reads three
 /// components at most on its diagonal, so a result can be independent of a component.)
 #[test]
 fn nan_in_a_quaternion_stays_nan() {
@@ -204,6 +204,11 @@ fn nan_in_a_quaternion_stays_nan() {
             for at in robot.quaternions() {
                 let s = robot.state(11).rounded();
                 let plain = s.value(&f);
+                let mut turned = s.clone();
+                turned.q[at..at + 4].copy_from_slice(&[0.0, 0.6, 0.0, 0.8]);
+                let turned = turned.value(&f);
+                let mut changes = plain.iter().zip(&turned);
+                let oriented = changes.any(|(x, y)| (x - y).abs() > 1e-9);
                 for component in at..at + 4 {
                     let with = |x: f64| {
                         let mut other = s.clone();
@@ -222,7 +227,7 @@ fn nan_in_a_quaternion_stays_nan() {
                         );
                     }
                     assert!(
-                        reached > 0 || method == Method::PotentialEnergy,
+                        reached > 0 || !oriented || method == Method::PotentialEnergy,
                         "{name}, {}: no entry is NaN for NaN in q[{component}]",
                         f.name
                     );

@@ -4,7 +4,7 @@ use super::frames::Frames;
 use super::geometry::Geometry;
 use super::motion::{Field, add_set_aside, motions};
 use super::plan::Plan;
-use super::{derivatives, inverse_dynamics, mass_matrix};
+use super::{derivatives, energies, inverse_dynamics, mass_matrix};
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::formulation::arguments::Arguments;
@@ -45,8 +45,8 @@ pub(super) fn outputs(
                 let rows = derivatives::coriolis_matrix(&b, &frames, &plan.views);
                 rows.into_iter().flatten().collect()
             }
-            Method::KineticEnergy => vec![mass_matrix::kinetic_energy(&b, &frames)],
-            Method::PotentialEnergy => vec![mass_matrix::potential_energy(&b, &frames)],
+            Method::KineticEnergy => vec![energies::kinetic_energy(&b, &frames)],
+            Method::PotentialEnergy => vec![energies::potential_energy(&b, &frames)],
             other => unreachable!("{other:?} is no method of the recursion"),
         };
         outputs.into_iter().map(|e| e.signed()).collect()
@@ -65,7 +65,11 @@ fn forward_dynamics<'g>(
     let bias = inverse_dynamics::efforts(b, frames, plan, &moving);
     let drive = tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
     let mass = mass_matrix::mass_matrix(b, frames);
-    let first = if plan.linear_first { frames.translations() } else { Vec::new() };
+    let first = if plan.linear_first {
+        frames.translations()
+    } else {
+        Vec::new()
+    };
     let mut found = solve::ltdl_after(b, mass, drive, &first);
     add_set_aside(frames, &moving, &mut found);
     found

@@ -67,7 +67,11 @@ impl BodyFrame<'_> {
             let mut all = column.angular.0.iter().chain(&column.linear.0);
             all.all(|x| x.is_zero())
         };
-        let alone = if accelerated { self.acceleration } else { self.rate };
+        let alone = if accelerated {
+            self.acceleration
+        } else {
+            self.rate
+        };
         alone.is_zero() && (self.relative.iter()).all(|both| zero(&both[usize::from(accelerated)]))
     }
 }
@@ -113,12 +117,8 @@ impl<'g> Frames<'g> {
                 _ => (Vec::new(), (Dd::ONE, Dd::ZERO)),
             };
             let link = &graph.frames[body.link().0];
-            let columns = joint_columns(
-                body,
-                link,
-                |k| graph.coordinates[k].name.clone(),
-                plan.unit,
-            );
+            let columns =
+                joint_columns(body, link, |k| graph.coordinates[k].name.clone(), plan.unit);
             let own = BodyJoint {
                 body,
                 link,
@@ -165,7 +165,11 @@ impl<'g> Frames<'g> {
                 inertia: weight.inertia,
                 rest: weight.rest,
                 points: weight.points,
-                effort: if body.axial { columns[0].effort } else { Dd::ONE },
+                effort: if body.axial {
+                    columns[0].effort
+                } else {
+                    Dd::ONE
+                },
                 columns,
             });
             angles.push((terms, phase));
@@ -190,7 +194,10 @@ impl<'g> Frames<'g> {
 impl Frames<'_> {
     /// Returns the coordinates in which roots that also rotate translate.
     pub fn translations(&self) -> Vec<usize> {
-        let roots = self.bodies.iter().filter(|f| f.parent.is_none() && !f.axial);
+        let roots = self
+            .bodies
+            .iter()
+            .filter(|f| f.parent.is_none() && !f.axial);
         let columns = roots.flat_map(|frame| &frame.columns);
         let linear = columns.filter(|c| matches!(c.direction, Direction::Along(_)));
         linear.map(|column| column.coordinate).collect()
@@ -232,7 +239,11 @@ impl BodyJoint<'_> {
             return (None, (Dd::ONE, Dd::ZERO));
         }
         let (sin, cos) = offset.sin_cos();
-        let offset = if offset == Dd::ZERO { (Dd::ONE, Dd::ZERO) } else { (cos, sin) };
+        let offset = if offset == Dd::ZERO {
+            (Dd::ONE, Dd::ZERO)
+        } else {
+            (cos, sin)
+        };
         (Some(self.position(x)), offset)
     }
 
@@ -269,7 +280,10 @@ impl BodyJoint<'_> {
                     true => -e * -column.effort,
                     false => e * column.effort,
                 };
-                (signed(x.v[column.coordinate]), signed(x.a[column.coordinate]))
+                (
+                    signed(x.v[column.coordinate]),
+                    signed(x.a[column.coordinate]),
+                )
             }
             _ => (b.zero(), b.zero()),
         }

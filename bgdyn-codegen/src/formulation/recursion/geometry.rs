@@ -92,7 +92,9 @@ impl Body {
     /// parent's, or for which a coordinate of the origin in the parent's axes is zero.
     pub fn near_parent(&self) -> Vec<Dd> {
         let [place, z] = [self.twist * self.offset, self.twist.column(2)].map(|v| v.0);
-        let zeros = (0..3).filter(|&k| z[k] != Dd::ZERO).map(|k| -place[k] / z[k]);
+        let zeros = (0..3)
+            .filter(|&k| z[k] != Dd::ZERO)
+            .map(|k| -place[k] / z[k]);
         [-self.offset.0[2]].into_iter().chain(zeros).collect()
     }
 }
@@ -238,7 +240,9 @@ fn orient(bodies: &mut [Body], placed: &[Pose], j: usize) {
 /// Computes twist and offset of body j, whose joint has several velocities: T are the axes of the joint's
 /// origin.
 fn place_in_parent(bodies: &mut [Body], placed: &Pose, j: usize) {
-    let to_parent = bodies[j].parent.map_or(identity(), |p| bodies[p].axes.transpose());
+    let to_parent = bodies[j]
+        .parent
+        .map_or(identity(), |p| bodies[p].axes.transpose());
     let twist = clean_matrix(to_parent * placed.rotation);
     bodies[j].twist = twist;
     bodies[j].offset = clean_length(twist.transpose() * (to_parent * placed.translation));

@@ -125,7 +125,11 @@ fn jacobian_column<'g>(
     let axes = if axial { &placed.basis } else { &placed.own };
     let axis = |k: usize| {
         let axis = axes.column(k);
-        let signed = if column.effort < Dd::ZERO { -axis } else { axis };
+        let signed = if column.effort < Dd::ZERO {
+            -axis
+        } else {
+            axis
+        };
         signed.map(|x| x * column.effort.abs())
     };
     let about = |k: usize| (axis(k), axis(k).cross(origin - placed.origin));

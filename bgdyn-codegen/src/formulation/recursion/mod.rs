@@ -12,6 +12,7 @@
 //! | `motion.rs` | velocities and accelerations, outboard |
 //! | `inverse_dynamics.rs` | forces, moments and efforts, inboard |
 //! | `mass_matrix.rs` | the mass matrix, from the momenta of composite bodies |
+//! | `energies.rs` | kinetic and potential energy |
 //! | `derivatives/` | first derivatives and the Coriolis matrix, from composite bodies |
 //! | `kinematics.rs` | poses, velocities and Jacobians of sites |
 //! | `expressions.rs` | the expressions of a method under a plan, from the files above |
@@ -32,6 +33,7 @@ mod base_parameter_cache;
 mod base_parameters;
 mod common_axes;
 mod derivatives;
+mod energies;
 pub(crate) mod expressions;
 mod formulation;
 mod frames;

@@ -7,8 +7,8 @@ use bgdyn_runtime::Dd;
 
 use super::frames::{BodyFrame, Frames};
 use super::joint_columns::Direction;
-use super::rotation::Rotation;
 use super::names::{name_matrix, name_vector};
+use super::rotation::Rotation;
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -108,7 +108,9 @@ pub(super) fn add_set_aside<'g>(
     accelerations: &mut [Expr<'g>],
 ) {
     for (frame, step) in frames.bodies.iter().zip(moving) {
-        let Some(aside) = step.set_aside else { continue };
+        let Some(aside) = step.set_aside else {
+            continue;
+        };
         for column in &frame.columns {
             if let Direction::Along(k) = column.direction {
                 let own = &mut accelerations[column.coordinate];
@@ -151,7 +153,7 @@ fn outwards<'g>(
         }
     };
     if let Some([velocity, change]) = &frame.relative {
-        return outwards_several(frame, (basis, a_basis), velocity, change);
+        return outwards_several(b, frame, (basis, a_basis), velocity, change);
     }
     // 2 ω × ẑ ṡ + ẑ s̈ along the axis
     let along = |factor: Option<Dd>| {
@@ -187,6 +189,7 @@ fn outwards<'g>(
 ///
 /// ω = Rᵀω_p + ω_J, ω̇ = Rᵀω̇_p + (Rᵀω_p) × ω_J + ω̇_J, a = Rᵀa_p + (2 Rᵀω_p + ω_J) × v_J + v̇_J
 fn outwards_several<'g>(
+    b: &'g Builder,
     frame: &BodyFrame<'g>,
     (basis, a_basis): (Spin<'g>, Vec3<Expr<'g>>),
     velocity: &Column<Expr<'g>>,
@@ -206,10 +209,9 @@ fn outwards_several<'g>(
         differences: differences(&u),
     };
     // No body continues its basis: its own axes take the place of the basis.
-    let none = own.omega.0[0] - own.omega.0[0];
     Moving {
         basis: own,
-        rate: (none, none),
+        rate: (b.zero(), b.zero()),
         in_basis: own,
         a_basis: a_own,
         own,

@@ -178,8 +178,11 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
     }
     let groups = geometry.bodies.iter().any(|b| b.parallel);
     let grouped: &[bool] = if groups { &[true, false] } else { &[false] };
-    let all = grouped.iter().flat_map(|&g| places.iter().map(move |p| (g, p)));
-    all.map(|(grouped, slides)| plan(grouped, slides.clone())).collect()
+    let all = grouped
+        .iter()
+        .flat_map(|&g| places.iter().map(move |p| (g, p)));
+    all.map(|(grouped, slides)| plan(grouped, slides.clone()))
+        .collect()
 }
 
 /// Returns the displacement of the origin of body j that brings it closest to its parent's, which is
@@ -315,7 +318,11 @@ fn differences(geometry: &Geometry, other: &Plan, plan: &Plan) -> String {
         words += &format!("; moment about an axis from {which}");
     }
     if plan.linear_first != other.linear_first {
-        let which = if plan.linear_first { "translations" } else { "rotations" };
+        let which = if plan.linear_first {
+            "translations"
+        } else {
+            "rotations"
+        };
         words += &format!("; {which} of the root eliminated first");
     }
     words

@@ -12,6 +12,10 @@ use crate::mechanism::Motion;
 
 /// A rotation from a body's own axes to those of its basis.
 #[derive(Clone, Copy, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "copied by value like every expression; there are few of them"
+)]
 pub(super) enum Rotation<'g> {
     /// About z: cosine and sine of the angle.
     AboutZ((Expr<'g>, Expr<'g>)),

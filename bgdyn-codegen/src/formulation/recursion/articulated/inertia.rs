@@ -10,8 +10,8 @@ use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::inertia::BodyInertia;
 use crate::formulation::recursion::inverse_dynamics::BodyWrench;
 use crate::formulation::recursion::joint_columns::Direction;
-use crate::formulation::recursion::rotation::Rotation;
 use crate::formulation::recursion::names::name_matrix;
+use crate::formulation::recursion::rotation::Rotation;
 use crate::math::{Mat3, Vec3};
 
 /// Articulated-body inertia about one point, in one set of axes.
@@ -171,7 +171,8 @@ impl<'g> ArticulatedInertia<'g> {
         &self,
         b: &'g Builder,
         direction: Direction,
-        column: &InertiaColumn<'g>) -> Self {
+        column: &InertiaColumn<'g>,
+    ) -> Self {
         let InertiaColumn {
             wrench,
             share,

@@ -21,10 +21,10 @@ mod sweep;
 use super::frames::Frames;
 use super::geometry::Geometry;
 use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
+use super::motion::{Field, add_set_aside, motions};
 use super::plan::Plan;
 use super::plan_search::{self, BestPlan, SEARCHED};
 use super::plans::cheapest_plans;
-use super::motion::{Field, add_set_aside, motions};
 use super::{expressions, inverse_dynamics};
 use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Cost, Graph, Signed};
@@ -121,7 +121,10 @@ impl Formulation for Articulated {
 
 /// Returns whether a joint mimics another one.
 fn mimics(graph: &Multibody) -> bool {
-    graph.frames.iter().any(|frame| frame.degrees.mimic.is_some())
+    graph
+        .frames
+        .iter()
+        .any(|frame| frame.degrees.mimic.is_some())
 }
 
 /// Returns whether articulated bodies support the method. A rotor that rotates with its carrier couples

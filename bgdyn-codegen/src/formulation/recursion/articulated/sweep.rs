@@ -65,7 +65,12 @@ impl<'g, 'f> Sweep<'g, 'f> {
     /// Computes articulated-body inertias from the tips to the base; if `careful`, without avoidable
     /// subtractions. The pivots of the `guarded` joints must exceed their rounding error. Of a joint with
     /// several velocities the linear or the angular ones are eliminated first.
-    pub fn new(b: &'g Builder, frames: &'f Frames<'g>, careful: bool, (guarded, linear_first): (&[bool], bool)) -> Self {
+    pub fn new(
+        b: &'g Builder,
+        frames: &'f Frames<'g>,
+        careful: bool,
+        (guarded, linear_first): (&[bool], bool),
+    ) -> Self {
         let n = frames.bodies.len();
         let mut bounds = ErrorBound::default();
         // Contributions of the outboard bodies: in own axes, and in those of the basis.

@@ -8,8 +8,8 @@ use crate::formulation::recursion::frames::BodyFrame;
 use crate::formulation::recursion::inertia::BodyInertia;
 use crate::formulation::recursion::inverse_dynamics::BodyWrench;
 use crate::formulation::recursion::mass_matrix::Momentum;
-use crate::formulation::recursion::rotors::FullRotor;
 use crate::formulation::recursion::rotation::Rotation;
+use crate::formulation::recursion::rotors::FullRotor;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 

@@ -263,7 +263,10 @@ impl<'g> OutboardJoint<'g> {
 
     /// Returns the entries with itself.
     pub fn diagonal(&self, frame: &BodyFrame<'g>) -> PartialEntries<'g> {
-        let own = (self.by_position.along(&frame.columns[0]), self.by_rate.along(&frame.columns[0]));
+        let own = (
+            self.by_position.along(&frame.columns[0]),
+            self.by_rate.along(&frame.columns[0]),
+        );
         PartialEntries { own, beyond: own }
     }
 
@@ -287,7 +290,10 @@ impl<'g> OutboardJoint<'g> {
             }
             _ => (p.dot(second_rate), p.dot(rates)),
         };
-        let own = (self.by_position.along(&frame.columns[0]), self.by_rate.along(&frame.columns[0]));
+        let own = (
+            self.by_position.along(&frame.columns[0]),
+            self.by_rate.along(&frame.columns[0]),
+        );
         PartialEntries { own, beyond }
     }
 
