@@ -1,6 +1,6 @@
 //! `bgdyn import` on the command line: arguments, files, messages.
 
-use super::{Convention, Lock, Options, import_table, import_with, naming};
+use super::{Base, Convention, Lock, Options, import_table, import_with, naming};
 use crate::output::{print, tell};
 use crate::quantity::value;
 use crate::spec_file::{STDIN_NAME, is_stdin, read_text, shown};
@@ -34,7 +34,10 @@ pub struct ImportArgs {
     /// Write these links as frames: links without inertia on fixed joints, commas between; `all` for all of them
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub frames: Vec<String>,
-    /// Leave damping and friction out, which are otherwise declared as effects
+    /// The joint between the world and the link that has none
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub base: Option<Base>,
+    /// Leave damping, friction, springs and rotors of joints out, which are otherwise declared as effects
     #[arg(long)]
     pub no_effects: bool,
     /// The convention of a table's rows that do not say theirs
@@ -59,6 +62,8 @@ pub fn run(args: ImportArgs) -> Result<()> {
         snap: args.snap,
         frames: args.frames,
         no_effects: args.no_effects,
+        base: args.base,
+        folder: folder(&args.file),
     };
     let ending = args.file.extension();
     let table = match is_stdin(&args.file) {
@@ -104,6 +109,14 @@ pub fn run(args: ImportArgs) -> Result<()> {
     }
     tell(&format!("written: {to}{}\n", made.written));
     Ok(())
+}
+
+/// Returns the folder of a file; the current one for standard input.
+fn folder(file: &Path) -> Option<PathBuf> {
+    match is_stdin(file) {
+        true => Some(PathBuf::new()),
+        false => file.parent().map(Path::to_owned),
+    }
 }
 
 /// Returns a warning if the module cannot have the name of the file.

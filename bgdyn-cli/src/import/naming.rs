@@ -49,6 +49,13 @@ pub(super) fn identifiers(names: &[&str], kind: &str) -> Vec<String> {
     names.iter().zip(kept).map(choose).collect()
 }
 
+/// Returns the name, or its first numbered form that is not in use.
+pub(super) fn free_name(name: &str, taken: &HashSet<String>) -> String {
+    let numbered = (2..).map(|number| format!("{name}_{number}"));
+    let mut names = [name.to_owned()].into_iter().chain(numbered);
+    names.find(|name| !taken.contains(name)).unwrap_or_default()
+}
+
 /// Returns a name for a message or a comment, on one line.
 pub(super) fn shown(name: &str) -> String {
     let visible =

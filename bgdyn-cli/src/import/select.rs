@@ -56,7 +56,7 @@ const JOINT: &[Kind] = &[
     leaf("child", &["link"]),
     leaf("axis", &["xyz"]),
     leaf("limit", &["lower", "upper", "velocity", "effort"]),
-    reported("mimic"),
+    leaf("mimic", &["joint", "multiplier", "offset"]),
     reported("dynamics"),
 ];
 

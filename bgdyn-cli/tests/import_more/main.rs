@@ -1,5 +1,6 @@
-//! `bgdyn import` with options, and of tables of Denavit–Hartenberg parameters.
+//! `bgdyn import` with options, of joints that move freely, and of tables of Denavit–Hartenberg parameters.
 
+mod free;
 mod options;
 mod table;
 
