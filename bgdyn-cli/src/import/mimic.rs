@@ -105,7 +105,7 @@ fn circle(model: &Model, joint: &Joint) -> Option<String> {
             let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
             let path = names.join(" follows ");
             return Some(format!(
-                "{path}: the joints follow each other in a circle, remove one `<mimic>`"
+                "{path}: the joints follow each other in a circle, remove one of these relations"
             ));
         }
     }

@@ -1,7 +1,7 @@
-//! `bgdyn import`: converts a URDF or a table of Denavit–Hartenberg parameters into a mechanism.
+//! `bgdyn import`: converts a URDF, an MJCF or a table of Denavit–Hartenberg parameters into a mechanism.
 //!
 //! Text → elements with their positions (`xml`) → the part that a mechanism can represent; the rest is
-//! counted (`select`) → links and joints (`reading`; for a table `dh`) → changes by options (`rework`) →
+//! counted (`select`) → links and joints (`reading`; of an MJCF `mjcf`, of a table `dh`) → changes by options (`rework`) →
 //! their order (`tree`) and names (`naming`) → YAML (`writing`). `doubts` warns about suspicious data,
 //! `placement` computes poses.
 
@@ -18,6 +18,7 @@ mod joint_type;
 mod limits;
 mod locks;
 mod mimic;
+mod mjcf;
 mod model;
 mod naming;
 mod number;
@@ -27,6 +28,7 @@ mod planar;
 mod reading;
 mod rework;
 mod select;
+mod tally;
 mod tree;
 mod writing;
 mod xml;
@@ -38,15 +40,15 @@ use joint_type::JointType;
 use model::{Joint, Model};
 use naming::{free_name, identifiers, shown};
 use number::Num;
-use select::plural;
 use std::collections::HashSet;
+use tally::plural;
 
 pub use base::Base;
 pub use command::{ImportArgs, run};
 pub use dh::Convention;
 pub use options::{Lock, Options};
 
-/// A mechanism made from a URDF, with messages.
+/// A mechanism made from a file, with messages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Import {
     /// The mechanism, format 1. It has no `name:`: its name is that of its file.
@@ -63,20 +65,25 @@ pub struct Import {
     pub written: String,
 }
 
-/// Converts the text of a URDF to a mechanism.
+/// Converts the text of a URDF or an MJCF to a mechanism; the root element decides which it is.
 ///
 /// Links are in the order of their joints, numbers have their original text. An error starts with
 /// `LINE:COLUMN: `.
-pub fn import(urdf_text: &str) -> Result<Import> {
-    import_with(urdf_text, &Options::default())
+pub fn import(text: &str) -> Result<Import> {
+    import_with(text, &Options::default())
 }
 
 /// [`import`] with options.
 ///
 /// # Errors
 /// The error of the text, prefixed by `LINE:COLUMN: `, or of an option, prefixed by its name.
-pub fn import_with(urdf_text: &str, options: &Options) -> Result<Import> {
-    made(reading::read(&xml::parse(urdf_text)?)?, options)
+pub fn import_with(text: &str, options: &Options) -> Result<Import> {
+    let root = xml::parse(text)?;
+    let model = match root.name.as_str() {
+        mjcf::ROOT => mjcf::read(&root, options.folder.as_deref())?,
+        _ => reading::read(&root)?,
+    };
+    made(model, options)
 }
 
 /// Converts a table of Denavit–Hartenberg parameters to a mechanism: comma-separated values with the names

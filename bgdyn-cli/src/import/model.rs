@@ -95,6 +95,7 @@ impl Joint {
 }
 
 /// The relation of a follower to its leader: position = ratio · leader + offset.
+#[derive(Clone)]
 pub(super) struct Mimic {
     /// The name of the leader.
     pub(super) joint: String,
@@ -105,7 +106,7 @@ pub(super) struct Mimic {
 }
 
 /// What acts at a joint; `None` where it is 0.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct JointEffects {
     /// Viscous damping, N·m·s/rad or N·s/m.
     pub(super) damping: Option<Num>,
@@ -119,7 +120,7 @@ pub(super) struct JointEffects {
     pub(super) rotor: Option<Num>,
 }
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Limits {
     pub(super) lower: Option<Num>,
     pub(super) upper: Option<Num>,
