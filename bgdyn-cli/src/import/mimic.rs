@@ -7,6 +7,7 @@ use super::naming::shown;
 use super::number::Num;
 use super::xml::{Element, fault};
 use anyhow::Result;
+use bgdyn_runtime::Dd;
 
 /// Reads the `<mimic>` of a URDF's joint: multiplier 1 and offset 0 by default.
 pub(super) fn read(element: &Element) -> Result<Mimic> {
@@ -35,6 +36,37 @@ pub(super) fn followers(model: &Model, leader: usize, position: &Num) -> Vec<(us
     };
     let joints = model.joints.iter().enumerate();
     joints.filter_map(follows).collect()
+}
+
+/// A follower's relation to the joint at the end of its chain of leaders.
+pub(super) struct Relation {
+    /// The index of the leader.
+    pub(super) leader: usize,
+    pub(super) ratio: Dd,
+    pub(super) offset: Dd,
+}
+
+/// Returns the relation of a follower to the joint that has the coordinate; `None` for other joints and for
+/// circles.
+pub(super) fn relation(model: &Model, joint: &Joint) -> Option<Relation> {
+    let (mut ratio, mut offset) = (Dd::ONE, Dd::ZERO);
+    let mut next = joint.mimic.as_ref()?;
+    for _ in 0..model.joints.len() {
+        offset = offset + ratio * next.offset.exact();
+        ratio = ratio * next.ratio.exact();
+        let leader = model.joints.iter().position(|it| it.name == next.joint)?;
+        match &model.joints[leader].mimic {
+            Some(mimic) => next = mimic,
+            None => {
+                return Some(Relation {
+                    leader,
+                    ratio,
+                    offset,
+                });
+            }
+        }
+    }
+    None
 }
 
 /// Checks that followers and leaders have one coordinate each, and that no relation is circular; returns

@@ -131,6 +131,7 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
         true => Vec::new(),
         false => {
             taken.extend(named.links.iter().chain(&named.frames).cloned());
+            warnings.extend(effects::moved(&model));
             effects::effects(&model, &named.joints, taken)
         }
     };

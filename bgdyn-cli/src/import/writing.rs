@@ -68,7 +68,7 @@ pub(super) struct Effect<'a> {
     pub(super) kind: &'static str,
     pub(super) joint: &'a str,
     /// Its keys with their numbers.
-    pub(super) keys: Vec<(&'static str, &'a Num)>,
+    pub(super) keys: Vec<(&'static str, Num)>,
 }
 
 /// Returns the effects that scenes can include; empty without effects.

@@ -1,18 +1,21 @@
 //! Reads an MJCF, the format of MuJoCo.
 //!
 //! Included files (`include`) → settings (`settings`) and default classes (`defaults`) → the tree of bodies
-//! (`bodies`), with poses (`pose`), joints (`joints`), inertia given (`inertial`) or that of geoms
-//! (`solids`) → followers (`equality`). `report` counts what is not taken over.
+//! (`builder`, `bodies`, `content`, `mount`), with poses (`pose`), joints (`joints`), inertia given
+//! (`inertial`) or that of geoms (`solids`) → followers (`equality`). `report` counts what is not taken over.
 //!
 //! A body's link has its origin at the anchor of the body's last joint, since the axes of a link are those of
 //! its joint; MuJoCo's body frame may be anywhere.
 
 mod bodies;
+mod builder;
+mod content;
 mod defaults;
 mod equality;
 mod include;
 mod inertial;
 mod joints;
+mod mount;
 mod pose;
 mod report;
 mod settings;
@@ -21,7 +24,7 @@ mod solids;
 use super::model::Model;
 use super::xml::Element;
 use anyhow::Result;
-use bodies::Builder;
+use builder::Builder;
 use defaults::Defaults;
 use report::Report;
 use settings::Settings;

@@ -12,6 +12,9 @@ use anyhow::Result;
 use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
 use bgdyn_runtime::Dd;
 
+/// The attributes of a pose.
+pub(super) const POSE: &[&str] = &["pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"];
+
 /// Returns an element's `pos`, zero without it.
 pub(super) fn position(element: &Element) -> Result<[Num; 3]> {
     match element.get("pos") {

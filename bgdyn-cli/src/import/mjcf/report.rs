@@ -6,6 +6,9 @@ use crate::import::tally::{Tally, plural};
 use crate::import::xml::{At, Element, fault};
 use anyhow::Result;
 
+/// So many bodies of meshes are named.
+const SHOWN: usize = 5;
+
 /// Messages of an import.
 #[derive(Default)]
 pub(super) struct Report {
@@ -15,6 +18,8 @@ pub(super) struct Report {
     /// Elements with the attributes that are not read and their counts.
     attributes: Vec<(String, Vec<(String, usize)>)>,
     refused: Vec<(At, String)>,
+    /// Bodies that move and have their inertia from shapes whose inertia is not computed here.
+    pub(super) shapes: Vec<(At, String)>,
     geoms: usize,
     solid_geoms: usize,
 }
@@ -74,12 +79,36 @@ impl Report {
 
     /// Returns one error for everything that was refused.
     pub(super) fn check(&mut self) -> Result<()> {
-        let refused = std::mem::take(&mut self.refused);
+        let mut refused = std::mem::take(&mut self.refused);
+        refused.extend(self.bodies_of_shapes());
         let Some((at, _)) = refused.first() else {
             return Ok(());
         };
         let all: Vec<&str> = refused.iter().map(|(_, what)| what.as_str()).collect();
         Err(fault(*at, all.join("; ")))
+    }
+
+    /// Returns the refusal of bodies whose inertia is that of meshes.
+    fn bodies_of_shapes(&self) -> Option<(At, String)> {
+        let (at, _) = self.shapes.first()?;
+        let names = self.shapes.iter().take(SHOWN);
+        let names: Vec<&str> = names.map(|(_, name)| name.as_str()).collect();
+        let more = match self.shapes.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        let bodies = match self.shapes.len() {
+            1 => "a moving body".to_owned(),
+            count => format!("{count} moving bodies"),
+        };
+        Some((
+            *at,
+            format!(
+                "the inertia of {bodies} is that of meshes or shells, which is not computed here: {}{more}; give each an \
+                 `<inertial>` (MuJoCo writes them into the file it saves with `saveinertial`)",
+                names.join(", ")
+            ),
+        ))
     }
 
     /// Returns the warnings.

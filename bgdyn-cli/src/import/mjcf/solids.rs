@@ -71,13 +71,13 @@ pub(super) fn part(geom: &Element, settings: &Settings) -> Result<Part> {
         return Ok(Part::Nothing);
     }
     if let Some(mesh) = geom.get("mesh") {
-        return Ok(Part::Unknown(format!("the mesh `{}`", shown(mesh))));
+        return Ok(Part::Unknown(format!("mesh `{}`", shown(mesh))));
     }
     if geom.get("shellinertia").is_some_and(|word| word == "true") {
-        return Ok(Part::Unknown("a shell (`shellinertia`)".into()));
+        return Ok(Part::Unknown("`shellinertia`".into()));
     }
     if matches!(kind, "mesh" | "sdf") {
-        return Ok(Part::Unknown(format!("a shape of type {kind}")));
+        return Ok(Part::Unknown(format!("type {kind}")));
     }
     let (shape, pose) = shape(geom, kind, settings)?;
     let mass = match (mass, density) {
