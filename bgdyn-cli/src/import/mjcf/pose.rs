@@ -125,15 +125,15 @@ fn from_z_to(direction: Vec3<Dd>) -> Pose {
     }
 }
 
-/// Returns the pose between the two points of `fromto`, z along the line from the first to the second, and
-/// half their distance; `None` without the attribute.
+/// Returns the pose between the two points of `fromto`, z along the line from the second to the first (as
+/// MuJoCo 4.0 has it), and half their distance; `None` without the attribute.
 pub(super) fn between(element: &Element) -> Result<Option<(Pose, Dd)>> {
     if element.get("fromto").is_none() {
         return Ok(None);
     }
     let [a, b, c, d, e, f] = numbers::<6>(element, "fromto")?;
     let (from, to) = (exact(&[a, b, c]), exact(&[d, e, f]));
-    let (along, half) = (to - from, Dd::from_f64(0.5));
+    let (along, half) = (from - to, Dd::from_f64(0.5));
     if is_zero(along) {
         return Err(fault(element.at, "the two points of `fromto` are one"));
     }
