@@ -80,7 +80,7 @@ fn errors_say_where_and_what() {
         "<robot name='r'><link name='a'/>\n <link name='a'/></robot>".into(),
         "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n  <xacro:include filename='x'/></robot>".into(),
         "<robot>\n  <xacro:include filename='x'/></robot>".into(),
-        format!("<robot name='r'>{}</robot>", "<a>".repeat(100) + &"</a>".repeat(100)),
+        format!("<robot name='r'>{}</robot>", "<a>".repeat(300) + &"</a>".repeat(300)),
         joint("type='spherical'"),
         joint("type='ball &#7;'"),
         joint(""),

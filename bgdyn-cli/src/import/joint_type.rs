@@ -59,4 +59,17 @@ impl JointType {
     pub(super) fn has_axis(self) -> bool {
         self.is_scalar()
     }
+
+    /// Returns the endings that a mechanism adds to the joint's name for its positions and velocities; none
+    /// for a joint with one coordinate.
+    pub(super) fn endings(self) -> &'static [&'static str] {
+        match self {
+            JointType::Floating => &[
+                "_x", "_y", "_z", "_qx", "_qy", "_qz", "_qw", "_rx", "_ry", "_rz",
+            ],
+            JointType::Spherical => &["_qx", "_qy", "_qz", "_qw", "_rx", "_ry", "_rz"],
+            JointType::Planar => &["_x", "_y", "_turn"],
+            _ => &[],
+        }
+    }
 }

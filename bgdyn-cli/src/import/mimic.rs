@@ -52,8 +52,8 @@ pub(super) fn relation(model: &Model, joint: &Joint) -> Option<Relation> {
     let (mut ratio, mut offset) = (Dd::ONE, Dd::ZERO);
     let mut next = joint.mimic.as_ref()?;
     for _ in 0..model.joints.len() {
-        offset = offset + ratio * next.offset.exact();
-        ratio = ratio * next.ratio.exact();
+        offset += ratio * next.offset.exact();
+        ratio *= next.ratio.exact();
         let leader = model.joints.iter().position(|it| it.name == next.joint)?;
         match &model.joints[leader].mimic {
             Some(mimic) => next = mimic,

@@ -177,10 +177,13 @@ impl Identifiers {
         let frames = links.split_off(model.links.len());
         let joints = model.joints.iter().map(|joint| joint.name.as_str());
         let joints: Vec<&str> = joints.collect();
+        let mut joints = identifiers(&joints, "joint");
+        let kinds = model.joints.iter().map(|joint| joint.kind.endings());
+        naming::separate(&mut joints, &kinds.collect::<Vec<_>>());
         Identifiers {
             robot: naming::identifier(&model.name, "robot"),
             links,
-            joints: identifiers(&joints, "joint"),
+            joints,
             frames,
         }
     }

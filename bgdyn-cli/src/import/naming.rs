@@ -56,6 +56,26 @@ pub(super) fn free_name(name: &str, taken: &HashSet<String>) -> String {
     names.find(|name| !taken.contains(name)).unwrap_or_default()
 }
 
+/// Renames those of which a name with one of its endings is the name of another, with `_2`, `_3`, ….
+pub(super) fn separate(names: &mut [String], endings: &[&[&str]]) {
+    let mut used: HashSet<String> = names.iter().cloned().collect();
+    for (name, endings) in names.iter_mut().zip(endings) {
+        let clashes = |name: &str| {
+            endings
+                .iter()
+                .any(|it| used.contains(&format!("{name}{it}")))
+        };
+        if !clashes(name) {
+            continue;
+        }
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        let mut fits = numbered.filter(|name| !used.contains(name) && !clashes(name));
+        let new = fits.next().unwrap_or_default();
+        used.insert(new.clone());
+        *name = new;
+    }
+}
+
 /// Returns a name for a message or a comment, on one line.
 pub(super) fn shown(name: &str) -> String {
     let visible =

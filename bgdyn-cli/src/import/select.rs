@@ -86,7 +86,10 @@ pub(super) fn select(root: &Element) -> Result<(Element, Vec<String>)> {
     if root.name != ROBOT.name {
         return Err(fault(
             root.at,
-            format_args!("a URDF's root is `<robot>`, this is `<{}>`", root.name),
+            format_args!(
+                "the root of a URDF is `<robot>`, that of an MJCF `<mujoco>`; this is `<{}>`",
+                root.name
+            ),
         ));
     }
     let mut ignored = Tally::default();

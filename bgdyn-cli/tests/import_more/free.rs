@@ -321,3 +321,16 @@ fn joints_with_several_coordinates_are_locked_in_neutral_only() {
     let locked = import_with(&urdf, &lock("root")).expect("an import");
     assert!(locked.written.contains("(0 moving)"), "{}", locked.written);
 }
+
+/// The velocities of a joint with several are called after it; another joint with such a name is no clash.
+#[test]
+fn names_of_velocities_do_not_clash() {
+    let urdf = robot(
+        &(joint("root", "floating", ["ground", "a"], "")
+            + &joint("root_qx", "prismatic", ["a", "b"], LIMIT)
+            + &joint("root_2_x", "prismatic", ["b", "c"], LIMIT)),
+    );
+    let import = made(&urdf);
+    assert_eq!(import.notes, ["joints `root` → `root_3`"]);
+    mechanism(&import.yaml);
+}

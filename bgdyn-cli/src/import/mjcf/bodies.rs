@@ -33,7 +33,8 @@ impl Builder<'_> {
         let mut content = Content::default();
         let class = element.get("childclass");
         self.collect(element, &Placement::identity(), class, &mut content)?;
-        for wrong in content.joints.iter().chain(&content.inertials) {
+        let mut wrong = content.joints.iter().chain(&content.inertials);
+        if let Some(wrong) = wrong.next() {
             let name = &wrong.element.name;
             let message = format!("`<{name}>` in `<worldbody>`: the world does not move");
             return Err(fault(wrong.element.at, message));
@@ -161,7 +162,8 @@ impl Builder<'_> {
             match part {
                 Part::Nothing => {}
                 Part::Unknown(what) => unknown.push(what),
-                Part::Solid(mut solid) => {
+                Part::Solid(solid) => {
+                    let mut solid = *solid;
                     solid.pose = item.frame.pose().then(&solid.pose);
                     solids.push(solid);
                 }

@@ -31,7 +31,7 @@ pub(super) struct Solid {
 /// What a geom adds to the inertia of its body.
 pub(super) enum Part {
     Nothing,
-    Solid(Solid),
+    Solid(Box<Solid>),
     /// A shape whose inertia is not computed here, with a name for it.
     Unknown(String),
 }
@@ -87,11 +87,11 @@ pub(super) fn part(geom: &Element, settings: &Settings) -> Result<Part> {
     };
     Ok(match mass.to_f64() < LEAST_MASS {
         true => Part::Nothing,
-        false => Part::Solid(Solid {
+        false => Part::Solid(Box::new(Solid {
             mass,
             pose,
             moments: shape.moments(mass),
-        }),
+        })),
     })
 }
 
