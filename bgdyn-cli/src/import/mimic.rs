@@ -109,7 +109,7 @@ fn judge(model: &Model, joint: &Joint, mimic: &Mimic) -> Option<String> {
     let offset = &mimic.offset.text;
     let Some(found) = model.joints.iter().find(|it| it.name == mimic.joint) else {
         return Some(format!(
-            "joint `{name}` follows `{leader}`, and there is no such joint here: `--lock {name}` fixes the follower"
+            "joint `{name}` follows `{leader}`, and there is no such joint here: correct the name, or fix the follower with `--lock {name}`"
         ));
     };
     if !found.kind.is_scalar() {

@@ -114,9 +114,11 @@ fn joint(element: &Element, strict: bool, groups: &mut Groups) -> Result<Joint> 
         Some(axis) => numbers(axis, "xyz")?,
         None => DEFAULT_AXIS.map(Num::computed),
     };
+    let fixed = kind == JointType::Fixed;
     for (part, unused) in [
         ("axis", !kind.has_axis() && kind != JointType::Planar),
         ("limit", !kind.is_scalar()),
+        ("mimic", fixed),
     ] {
         if unused && element.child(part).is_some() {
             let item = format!("<{part}> of {label}");
@@ -140,7 +142,10 @@ fn joint(element: &Element, strict: bool, groups: &mut Groups) -> Result<Joint> 
         origin,
         axis,
         limits,
-        mimic: element.child("mimic").map(mimic::read).transpose()?,
+        mimic: match element.child("mimic") {
+            Some(mimic) if !fixed => Some(mimic::read(mimic)?),
+            _ => None,
+        },
         effects: dynamics(element, kind, &label, groups),
     })
 }

@@ -118,7 +118,8 @@ fn followers_that_cannot_follow_are_named_together() {
     ]);
     let told = error(&both, &Options::default());
     for part in [
-        "4:1: joint `second` follows `none`, and there is no such joint here: `--lock second` fixes the follower; ",
+        "4:1: joint `second` follows `none`, and there is no such joint here: correct the name, or fix the follower with \
+         `--lock second`; ",
         "joint `third` follows `first` with the multiplier 0: `--lock third=0.5` fixes it where it rests",
     ] {
         assert!(told.contains(part), "{told}");
@@ -320,6 +321,16 @@ fn joints_with_several_coordinates_are_locked_in_neutral_only() {
     );
     let locked = import_with(&urdf, &lock("root")).expect("an import");
     assert!(locked.written.contains("(0 moving)"), "{}", locked.written);
+}
+
+/// A reduced robot has `<mimic>` in joints that were fixed: there it means nothing.
+#[test]
+fn a_fixed_follower_is_reported() {
+    let urdf = chain(["", "<mimic joint='first'/>"])
+        .replace("'third' type='revolute'", "'third' type='fixed'");
+    let import = made(&urdf);
+    let line = "without meaning on fixed joints, left out: <axis> of `third`; <limit> of `third`; <mimic> of `third`";
+    assert!(import.warnings.iter().any(|it| it == line), "{import:?}");
 }
 
 /// The velocities of a joint with several are called after it; another joint with such a name is no clash.

@@ -44,7 +44,11 @@ fn each_refusal_says_where_and_what() {
         "<freejoint/>{WEIGHT}<body><freejoint name='f'/></body>"
     ));
     let cases = [
-        (mjcf(""), "1:1: the robot has no link"),
+        (
+            mjcf(""),
+            "1:1: this `<mujoco>` has no `<worldbody>`: import the file that includes it",
+        ),
+        (mjcf("<worldbody/>"), "1:1: the robot has no link"),
         (
             compiler("coordinate='global'"),
             "2:1: `coordinate` must be `local`",
@@ -146,7 +150,7 @@ fn each_refusal_says_where_and_what() {
             "; `<composite>` of line 2 makes bodies",
         ),
         (
-            mjcf("<default><default><joint/></default></default>"),
+            mjcf("<default><default><joint/></default></default><worldbody/>"),
             "this nested `<default>` names no class: `class=…` is missing",
         ),
         (
@@ -320,6 +324,43 @@ fn bodies_on_the_world_stay_or_move_as_asked() {
         .to_string();
     assert!(
         found.starts_with("--base: no link is fixed to the world"),
+        "{found}"
+    );
+}
+
+/// A chain keeps sites on its links and on the world; its base is where it is with every joint at 0.
+#[test]
+fn a_chain_of_an_mjcf_keeps_its_sites() {
+    let text = include_str!("../mjcf/everything.xml");
+    let chain = |base: &str, tip: &str| {
+        import_with(
+            text,
+            &Options {
+                chain: Some([base.into(), tip.into()]),
+                ..Options::default()
+            },
+        )
+    };
+    let made = chain("knee", "toe").expect("an import");
+    assert!(
+        made.written
+            .starts_with("3 links, 2 joints (1 moving), 2 frames"),
+        "{}",
+        made.written
+    );
+    mechanism(&made.yaml);
+    // Its link is a part of the floating trunk.
+    let made = chain("trunk", "hip").expect("an import");
+    let line = "--chain: `trunk` is fixed to the world where it is with every joint at 0";
+    assert!(
+        made.warnings.iter().any(|it| it == line),
+        "{:?}",
+        made.warnings
+    );
+    mechanism(&made.yaml);
+    let found = chain("arm", "thumb").expect_err("refused").to_string();
+    assert!(
+        found.contains("joint `pinch` follows `grip`, and there is no such joint here"),
         "{found}"
     );
 }

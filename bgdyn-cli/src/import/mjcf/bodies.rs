@@ -4,7 +4,7 @@ use super::builder::{Builder, Carrier, Mount};
 use super::content::{Content, Item};
 use super::inertial;
 use super::joints::{self, BodyJoint};
-use super::pose::{POSE, between, placement};
+use super::pose::{between, placement};
 use super::settings::FromGeoms;
 use super::solids::{self, Part};
 use crate::import::model::{Frame, Inertial, Link};
@@ -12,20 +12,6 @@ use crate::import::naming::{free_name, shown};
 use crate::import::placement::Placement;
 use crate::import::xml::{Element, fault};
 use anyhow::Result;
-
-/// Attributes of a `<geom>` that are read, besides its pose.
-const GEOM: &[&str] = &[
-    "name",
-    "class",
-    "type",
-    "size",
-    "fromto",
-    "mass",
-    "density",
-    "group",
-    "shellinertia",
-    "mesh",
-];
 
 impl Builder<'_> {
     /// Builds everything in `<worldbody>`.
@@ -41,7 +27,7 @@ impl Builder<'_> {
         }
         // They neither move nor weigh.
         for item in &content.geoms {
-            self.report.attributes(item.element, &[POSE, GEOM].concat());
+            self.report.known(item.element);
             self.report.geom(false);
         }
         let carrier = Carrier {
@@ -64,8 +50,7 @@ impl Builder<'_> {
     fn body(&mut self, item: &Item<'_>, carrier: &Carrier) -> Result<()> {
         let element = item.element;
         self.count += 1;
-        let known = [POSE, &["name", "childclass", "mocap", "gravcomp"]].concat();
-        self.report.attributes(element, &known);
+        self.report.known(element);
         let name = self.body_name(element);
         self.note(element, &name);
         let class = element.get("childclass").or(item.class);
@@ -125,7 +110,7 @@ impl Builder<'_> {
     }
 
     fn joint(&mut self, item: &Item<'_>) -> Result<BodyJoint> {
-        joints::count(item.element, self.report);
+        self.report.known(item.element);
         let element = match item.element.name.as_str() {
             "freejoint" => item.element.clone(),
             _ => self.defaults.apply(item.element, item.class)?,
@@ -152,7 +137,7 @@ impl Builder<'_> {
         };
         let (mut solids, mut unknown) = (Vec::new(), Vec::new());
         for item in &content.geoms {
-            self.report.attributes(item.element, &[POSE, GEOM].concat());
+            self.report.known(item.element);
             let geom = self.defaults.apply(item.element, item.class)?;
             let part = match from_geoms {
                 true => solids::part(&geom, self.settings)?,
@@ -191,8 +176,7 @@ impl Builder<'_> {
     /// Writes the sites with names as frames.
     fn sites(&mut self, items: &[Item<'_>], carrier: &Carrier) -> Result<()> {
         for item in items {
-            let known = [POSE, &["name", "class", "fromto"]].concat();
-            self.report.attributes(item.element, &known);
+            self.report.known(item.element);
             let site = self.defaults.apply(item.element, item.class)?;
             let Some(name) = site.get("name") else {
                 self.report.groups.add(

@@ -1,7 +1,7 @@
 //! The elements of a body, sorted by kind; those of a `<frame>` belong to the body.
 
 use super::builder::Builder;
-use super::pose::{POSE, placement};
+use super::pose::placement;
 use crate::import::placement::Placement;
 use crate::import::xml::Element;
 use anyhow::Result;
@@ -43,8 +43,7 @@ impl Builder<'_> {
                 "site" => &mut content.sites,
                 "body" => &mut content.bodies,
                 "frame" => {
-                    let known = [POSE, &["name", "childclass"]].concat();
-                    self.report.attributes(child, &known);
+                    self.report.known(child);
                     let inner = frame.then(&placement(child, self.settings)?);
                     let class = child.get("childclass").or(class);
                     self.collect(child, &inner, class, content)?;

@@ -1,5 +1,6 @@
 //! Default classes: the attributes that elements of a class have without giving them.
 
+use super::known::ORIENTATION;
 use super::report::Report;
 use crate::import::naming::shown;
 use crate::import::xml::{Element, fault};
@@ -11,9 +12,6 @@ const KINDS: [&str; 3] = ["joint", "geom", "site"];
 
 /// The class of elements without one.
 const MAIN: &str = "main";
-
-/// Attributes that give an orientation: one of a class is replaced by any of these.
-pub(super) const ORIENTATION: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
 type Attributes = Vec<(String, String)>;
 
@@ -54,6 +52,7 @@ impl Defaults {
         let mut own = outer;
         for (kind, attributes) in KINDS.iter().zip(&mut own) {
             for child in element.all(kind) {
+                report.known(child);
                 overlay(attributes, &child.attributes);
             }
         }

@@ -17,20 +17,7 @@ pub(super) fn read(
     settings: &Settings,
     report: &mut Report,
 ) -> Result<Inertial> {
-    report.attributes(
-        element,
-        &[
-            "pos",
-            "quat",
-            "axisangle",
-            "xyaxes",
-            "zaxis",
-            "euler",
-            "mass",
-            "diaginertia",
-            "fullinertia",
-        ],
-    );
+    report.known(element);
     let tensor = match (element.get("diaginertia"), element.get("fullinertia")) {
         (Some(_), Some(_)) => {
             let message = "`diaginertia` and `fullinertia` both give the tensor: leave one";

@@ -28,30 +28,6 @@ pub(super) struct BodyJoint {
     pub(super) effects: JointEffects,
 }
 
-const READ: &[&str] = &[
-    "name",
-    "class",
-    "type",
-    "pos",
-    "axis",
-    "ref",
-    "limited",
-    "range",
-    "stiffness",
-    "springref",
-    "damping",
-    "frictionloss",
-    "armature",
-];
-
-/// Counts the attributes of a `<joint>` that are not taken over.
-pub(super) fn count(element: &Element, report: &mut Report) {
-    match element.name.as_str() {
-        "freejoint" => report.attributes(element, &["name"]),
-        _ => report.attributes(element, READ),
-    }
-}
-
 /// Reads a `<joint>`, given with the attributes of its class, or a `<freejoint>`. `frame` is the pose of its
 /// `<frame>` in the body.
 pub(super) fn read(

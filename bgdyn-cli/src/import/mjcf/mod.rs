@@ -15,6 +15,7 @@ mod equality;
 mod include;
 mod inertial;
 mod joints;
+mod known;
 mod mount;
 mod pose;
 mod report;
@@ -22,7 +23,7 @@ mod settings;
 mod solids;
 
 use super::model::Model;
-use super::xml::Element;
+use super::xml::{Element, fault};
 use anyhow::Result;
 use builder::Builder;
 use defaults::Defaults;
@@ -61,6 +62,10 @@ const READ: [&str; 6] = [
 /// Reads an MJCF from its root element. `folder` is that of the files it includes.
 pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
     let root = include::expand(root, folder)?;
+    if root.child("worldbody").is_none() {
+        let message = "this `<mujoco>` has no `<worldbody>`: import the file that includes it";
+        return Err(fault(root.at, message));
+    }
     let mut report = Report::default();
     report.attributes(&root, &["model"]);
     let settings = Settings::read(&root, &mut report)?;

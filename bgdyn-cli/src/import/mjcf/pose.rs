@@ -1,6 +1,6 @@
 //! Poses of an MJCF: position, and orientation in five notations.
 
-use super::defaults::ORIENTATION;
+use super::known::ORIENTATION;
 use super::settings::Settings;
 use crate::import::attributes::numbers;
 use crate::import::number::Num;
@@ -11,9 +11,6 @@ use crate::import::xml::{Element, fault};
 use anyhow::Result;
 use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
 use bgdyn_runtime::Dd;
-
-/// The attributes of a pose.
-pub(super) const POSE: &[&str] = &["pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
 /// Returns an element's `pos`, zero without it.
 pub(super) fn position(element: &Element) -> Result<[Num; 3]> {

@@ -1,5 +1,6 @@
 //! What an MJCF has and the mechanism does not: counted by name, and written once.
 
+use super::known::known;
 use crate::import::groups::Groups;
 use crate::import::naming::shown;
 use crate::import::tally::{Tally, plural};
@@ -25,6 +26,11 @@ pub(super) struct Report {
 }
 
 impl Report {
+    /// Counts the attributes of an element that are not read anywhere.
+    pub(super) fn known(&mut self, element: &Element) {
+        self.attributes(element, &known(&element.name));
+    }
+
     /// Counts the attributes of an element that are not in the list.
     pub(super) fn attributes(&mut self, element: &Element, read: &[&str]) {
         for (attribute, _) in &element.attributes {
