@@ -9,6 +9,7 @@ difference is above 1e-9.
 """
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -121,16 +122,6 @@ def results(bgdyn, spec, method, states):
     return np.array(json.loads(run.stdout)["results"], dtype=float)
 
 
-def square(values, count):
-    """The full matrix of a method's result: its entries, or those of the upper triangle."""
-    values = np.asarray(values)
-    if values.size == count * count:
-        return values.reshape(count, count)
-    full = np.zeros((count, count))
-    full[np.triu_indices(count)] = values
-    return np.where(full == 0, full.T, full)
-
-
 def with_inertials(file, folder):
     """The file as MuJoCo saves it, with an <inertial> in each body: meshes are no longer needed for masses."""
     spec = mujoco.MjSpec.from_file(str(file))
@@ -194,7 +185,7 @@ def compared(bgdyn, file, folder, rng):
         mujoco.mj_rne(model, data, 0, h)
         theirs = turn.T @ full @ turn
         wanted = turn.T @ (full @ rates + h)
-        ours = square(ours, count)
+        ours = ours.reshape(count, count)
         # Relative to the largest entry; the bias at least to the efforts of unit accelerations.
         size = np.abs(theirs).max()
         worst[0] = max(worst[0], np.abs(ours - theirs).max() / size)
@@ -212,7 +203,11 @@ def robots(below):
 def main(bgdyn, below, table=None):
     rng = np.random.default_rng(1)
     worst, equal, still, rows = 0.0, 0, 0, []
+    bgdyn, below = Path(bgdyn).resolve(), Path(below).resolve()
+    table = table and Path(table).resolve()
     with tempfile.TemporaryDirectory() as folder:
+        # MuJoCo writes its log into the current folder.
+        os.chdir(folder)
         for file in robots(below):
             found = compared(bgdyn, file, Path(folder), rng)
             label = str(file.relative_to(below))
@@ -229,7 +224,7 @@ def main(bgdyn, below, table=None):
     print(f"{equal} equal to MuJoCo {mujoco.__version__}, {still} without a moving joint, largest difference {worst:.1e}")
     if table:
         head = "| file | velocities | M | bias | |\n|---|---|---|---|---|\n"
-        Path(table).write_text(head + "\n".join(rows) + "\n")
+        table.write_text(head + "\n".join(rows) + "\n")
     sys.exit(int(worst > MOST))
 
 

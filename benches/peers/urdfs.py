@@ -98,15 +98,6 @@ def results(bgdyn, spec, method, states):
     return np.array(json.loads(run.stdout)["results"], dtype=float)
 
 
-def full(values, count):
-    """The matrix of a result: all entries, or those of the lower triangle."""
-    if values.size == count * count:
-        return values.reshape(count, count)
-    matrix = np.zeros((count, count))
-    matrix[np.tril_indices(count)] = values.ravel()
-    return np.where(matrix == 0, matrix.T, matrix)
-
-
 def compared(bgdyn, urdf, folder, rng, base):
     stem = re.sub(r"[^a-z0-9]+", "_", urdf.stem.lower()).strip("_")
     spec = folder / f"{stem}.yaml"
@@ -137,7 +128,7 @@ def compared(bgdyn, urdf, folder, rng, base):
         wanted = turn.T @ pin.nonLinearEffects(model, data, q, turn @ v)
         # Relative to the largest entry; the bias at least to the efforts of unit accelerations.
         size = np.abs(theirs).max()
-        worst[0] = max(worst[0], np.abs(full(ours, count) - theirs).max() / size)
+        worst[0] = max(worst[0], np.abs(ours.reshape(count, count) - theirs).max() / size)
         worst[1] = max(worst[1], np.abs(bias - wanted).max() / max(size, np.abs(wanted).max()))
     return count, len(joints.followers), worst
 

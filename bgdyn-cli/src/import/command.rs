@@ -8,15 +8,16 @@ use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::format::Dimension;
 use std::path::{Path, PathBuf};
 
-/// Make a mechanism from a URDF or from a table of Denavit–Hartenberg parameters
+/// Make a mechanism from a URDF, an MJCF or a table of Denavit–Hartenberg parameters
 #[derive(Debug, Clone, Default, clap::Args)]
 #[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n  \
     bgdyn import pr2.urdf --chain torso_lift_link r_gripper_tool_frame --lock r_wrist_roll_joint=0.5\n  \
+    bgdyn import go2.urdf --base floating\n  bgdyn import humanoid.xml\n  \
     bgdyn import ur5.csv --convention standard\n\n\
     The mechanism's module is called after the file it is written to. Changed names, what is not taken over and what \
     was written are told on stderr.")]
 pub struct ImportArgs {
-    /// The URDF (a xacro file must be expanded first), or a table `.csv`; `-` reads either from standard input
+    /// The URDF (a xacro file must be expanded first), the MJCF, or a table `.csv`; `-` reads it from standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Where to write the mechanism; stdout if not given
@@ -34,7 +35,7 @@ pub struct ImportArgs {
     /// Write these links as frames: links without inertia on fixed joints, commas between; `all` for all of them
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub frames: Vec<String>,
-    /// The joint between the world and the link that has none
+    /// The joint between the world and the link that has no joint
     #[arg(long, value_enum, value_name = "KIND")]
     pub base: Option<Base>,
     /// Leave damping, friction, springs and rotors of joints out, which are otherwise declared as effects

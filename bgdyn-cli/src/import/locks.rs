@@ -3,11 +3,10 @@
 use super::joint_type::JointType;
 use super::mimic::followers;
 use super::model::{Joint, Model};
-use super::naming::shown;
+use super::naming::{is_called, listed, shown};
 use super::number::Num;
 use super::options::Lock;
 use super::placement::{displaced, turned, unit};
-use super::rework::{is_called, listed};
 use crate::quantity;
 use anyhow::{Result, bail};
 use bgdyn_codegen::format::Dimension;

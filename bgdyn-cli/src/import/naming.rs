@@ -76,6 +76,20 @@ pub(super) fn separate(names: &mut [String], endings: &[&[&str]]) {
     }
 }
 
+/// Returns whether a name of the robot matches the caller's name: that in the file, or that in the
+/// mechanism.
+pub(super) fn is_called(name: &str, asked: &str, kind: &str) -> bool {
+    name == asked || identifier(name, kind) == asked
+}
+
+pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<String> = names.map(|name| format!("`{}`", shown(name))).collect();
+    match names.as_slice() {
+        [] => "none".into(),
+        names => names.join(", "),
+    }
+}
+
 /// Returns a name for a message or a comment, on one line.
 pub(super) fn shown(name: &str) -> String {
     let visible =

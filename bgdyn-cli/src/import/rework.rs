@@ -2,7 +2,7 @@
 
 use super::joint_type::JointType;
 use super::model::{Frame, Link, Model};
-use super::naming::{identifier, shown};
+use super::naming::{is_called, listed, shown};
 use super::options::Options;
 use super::placement::Placement;
 use super::tree::{Tree, order};
@@ -26,20 +26,6 @@ pub(super) fn rework(model: &mut Model, options: &Options) -> Result<Vec<String>
         frames(model, &options.frames)?;
     }
     Ok(told)
-}
-
-/// Returns whether a name of the robot matches the caller's name: that in the file, or that in the
-/// mechanism.
-pub(super) fn is_called(name: &str, asked: &str, kind: &str) -> bool {
-    name == asked || identifier(name, kind) == asked
-}
-
-pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let names: Vec<String> = names.map(|name| format!("`{}`", shown(name))).collect();
-    match names.as_slice() {
-        [] => "none".into(),
-        names => names.join(", "),
-    }
 }
 
 /// Returns the only link of this name; the names in the file have priority.

@@ -7,13 +7,15 @@ bgdyn-cli/tests/import_more/mjcf.rs.
 """
 
 import json
+import os
 import sys
+import tempfile
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "../../../benches/peers"))
 
 from mjcf import Conversion, followers  # noqa: E402
@@ -65,6 +67,8 @@ def golden(text, rng):
 
 
 def main():
+    # MuJoCo writes its log into the current folder.
+    os.chdir(tempfile.mkdtemp())
     rng = np.random.default_rng(7)
     everything = (HERE / "everything.xml").read_text()
     models = {}

@@ -3,7 +3,7 @@
 use super::builder::{Builder, Carrier, Mount};
 use super::content::{Content, Item};
 use super::inertial;
-use super::joints::{self, BodyJoint};
+use super::joints::{self, MjcfJoint};
 use super::pose::{between, placement};
 use super::settings::FromGeoms;
 use super::solids::{self, Part};
@@ -109,7 +109,7 @@ impl Builder<'_> {
         }
     }
 
-    fn joint(&mut self, item: &Item<'_>) -> Result<BodyJoint> {
+    fn joint(&mut self, item: &Item<'_>) -> Result<MjcfJoint> {
         self.report.known(item.element);
         let element = match item.element.name.as_str() {
             "freejoint" => item.element.clone(),

@@ -13,12 +13,12 @@ const KINDS: [&str; 3] = ["joint", "geom", "site"];
 /// The class of elements without one.
 const MAIN: &str = "main";
 
-type Attributes = Vec<(String, String)>;
+type ClassAttributes = Vec<(String, String)>;
 
 /// All classes with their attributes, those of outer classes included.
 pub(super) struct Defaults {
     /// By class: an element for each of [`KINDS`].
-    classes: HashMap<String, [Attributes; 3]>,
+    classes: HashMap<String, [ClassAttributes; 3]>,
     main: String,
 }
 
@@ -46,7 +46,7 @@ impl Defaults {
         &mut self,
         name: &str,
         element: &Element,
-        outer: [Attributes; 3],
+        outer: [ClassAttributes; 3],
         report: &mut Report,
     ) -> Result<()> {
         let mut own = outer;
@@ -87,7 +87,7 @@ impl Defaults {
 }
 
 /// Replaces attributes by those given. Of `size` only the given numbers are replaced.
-fn overlay(attributes: &mut Attributes, given: &Attributes) {
+fn overlay(attributes: &mut ClassAttributes, given: &ClassAttributes) {
     let orients = |name: &str| ORIENTATION.contains(&name);
     if given.iter().any(|(name, _)| orients(name)) {
         attributes.retain(|(name, _)| !orients(name));

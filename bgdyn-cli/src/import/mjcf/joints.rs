@@ -13,7 +13,7 @@ use crate::import::xml::{At, Element, fault};
 use anyhow::Result;
 
 /// A joint in the axes of its body.
-pub(super) struct BodyJoint {
+pub(super) struct MjcfJoint {
     /// The name in the file; empty without one.
     pub(super) name: String,
     pub(super) at: At,
@@ -35,7 +35,7 @@ pub(super) fn read(
     frame: &Placement,
     settings: &Settings,
     report: &mut Report,
-) -> Result<BodyJoint> {
+) -> Result<MjcfJoint> {
     let kinds = [
         ("free", JointType::Floating),
         ("ball", JointType::Spherical),
@@ -71,7 +71,7 @@ pub(super) fn read(
         axis = displaced(turned.0).placement().xyz;
     }
     let anchor = frame.then(&plain(anchor)).xyz;
-    let mut joint = BodyJoint {
+    let mut joint = MjcfJoint {
         name: name.to_owned(),
         at: element.at,
         kind,
@@ -178,7 +178,7 @@ fn effects(
     })
 }
 
-impl BodyJoint {
+impl MjcfJoint {
     /// Returns the pose, in the joint's axes at its reference, of its axes at the coordinate 0.
     pub(super) fn at_zero(&self) -> Placement {
         if self.reference.is_zero() {

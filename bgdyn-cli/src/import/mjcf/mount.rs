@@ -1,7 +1,7 @@
 //! Joins a body to its parent: a joint for each of the file, with links without inertia between them.
 
 use super::builder::{Builder, Carrier, Mount};
-use super::joints::BodyJoint;
+use super::joints::MjcfJoint;
 use crate::import::joint_type::JointType;
 use crate::import::model::{Joint, Link};
 use crate::import::naming::{free_name, shown};
@@ -16,7 +16,7 @@ impl Builder<'_> {
     pub(super) fn mount(
         &mut self,
         mount: &Mount<'_>,
-        joints: Vec<BodyJoint>,
+        joints: Vec<MjcfJoint>,
         carrier: &Carrier,
     ) -> Result<(Placement, Option<Placement>)> {
         let Mount { element, name, .. } = *mount;
@@ -47,7 +47,7 @@ impl Builder<'_> {
     }
 
     /// Writes a floating joint; its coordinates are the pose of the body in the world, as in MuJoCo.
-    fn float(&mut self, free: &BodyJoint, mount: &Mount<'_>) {
+    fn float(&mut self, free: &MjcfJoint, mount: &Mount<'_>) {
         let name = self.name_of(free, mount.name);
         let text = |numbers: &[Num; 3]| numbers.each_ref().map(|it| it.text.as_str()).join(" ");
         let Placement { xyz, rpy } = &mount.place;
@@ -67,7 +67,7 @@ impl Builder<'_> {
     fn chain(
         &mut self,
         mount: &Mount<'_>,
-        joints: &[BodyJoint],
+        joints: &[MjcfJoint],
         parent: Option<&str>,
     ) -> Placement {
         let mut parent = parent.map(str::to_owned);
@@ -108,7 +108,7 @@ impl Builder<'_> {
     }
 
     /// Returns the joint's name, or one made of that of its body and its kind.
-    fn name_of(&mut self, joint: &BodyJoint, body: &str) -> String {
+    fn name_of(&mut self, joint: &MjcfJoint, body: &str) -> String {
         match joint.name.as_str() {
             "" => {
                 let word = match joint.kind {
