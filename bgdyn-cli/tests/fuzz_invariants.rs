@@ -35,7 +35,7 @@ frames:
   - { name: tool, link: forearm, origin: { xyz: [0.25, 0, 0] } }
 ";
 
-/// Returns specs, scenes and URDFs of the repository, valid and invalid ones.
+/// Returns specs, scenes, URDFs and MJCFs of the repository, valid and invalid ones.
 fn seeds() -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folders = [
@@ -43,11 +43,18 @@ fn seeds() -> Vec<String> {
         "specs/invalid",
         "specs/scenes",
         "bgdyn-cli/tests/urdf",
+        "bgdyn-cli/tests/mjcf",
     ];
     let mut files: Vec<_> = (folders.iter())
         .flat_map(|folder| fs::read_dir(root.join(folder)).expect("a folder"))
         .map(|entry| entry.expect("an entry").path())
         .filter(|path| path.is_file())
+        // Neither the values nor the script that made them.
+        .filter(|path| {
+            !["json", "py"]
+                .iter()
+                .any(|it| path.extension() == Some(it.as_ref()))
+        })
         .collect();
     files.sort();
     assert!(files.len() > 80);
@@ -123,6 +130,22 @@ const WORDS: &[&str] = &[
     "<",
     "/>",
     "<link name='x'/>",
+    "<mujoco>",
+    "<worldbody>",
+    "<body name='x' pos='0 0 1' euler='1 2 3'>",
+    "</body>",
+    "<joint name='x' type='slide' ref='1'/>",
+    "<freejoint name='x'/>",
+    "<joint type='ball' name='y'/>",
+    "<geom size='1 1 1' type='box' mesh='x'/>",
+    "<geom type='capsule' fromto='0 0 0 0 0 0' size='1'/>",
+    "<default class='x'>",
+    "<include file='x'/>",
+    "<joint joint1='x' joint2='y' polycoef='1e999 2'/>",
+    "<site name='x_qx'/>",
+    "<compiler boundinertia='1' settotalmass='1'/>",
+    " name='x_x'",
+    " type='floating'",
     "<mimic joint='x'/>",
     "<joint",
     "</robot>",
@@ -201,6 +224,19 @@ proptest! {
              <inertia ixx='{number}' ixy='{digits}' ixz='0' iyy='1' iyz='0' izz='2'/></inertial></link>\
              <joint name='{joint}' type='revolute'><parent link='{a}'/><child link='{b}'/>\
              <origin xyz='{digits} {digits} {number}'/><limit lower='{digits}' velocity='{digits}'/></joint></robot>"
+        ));
+    }
+
+    #[test]
+    fn names_and_numbers_of_an_mjcf(names in prop::array::uniform3(".*"), number in any::<f64>(), digits in "[-+0-9.eE ]{0,40}") {
+        let [robot, a, joint] = names.map(|name| {
+            name.chars().map(|c| format!("&#{};", u32::from(c))).collect::<String>()
+        });
+        any_text(&format!(
+            "<mujoco model='{robot}'><compiler boundinertia='{digits}'/><worldbody><body name='{a}' pos='{digits}'><freejoint name='{joint}'/>\
+             <geom type='capsule' size='{number}' fromto='0 0 {number:e} {digits}'/>\
+             <body name='{joint}'><joint name='{a}' pos='0 0 {number}' ref='{digits}' axis='{digits}'/></body></body></worldbody>\
+             <equality><joint joint1='{a}' joint2='{a}' polycoef='{digits}'/></equality></mujoco>"
         ));
     }
 

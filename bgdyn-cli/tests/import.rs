@@ -80,8 +80,8 @@ fn errors_say_where_and_what() {
         "<robot name='r'><link name='a'/>\n <link name='a'/></robot>".into(),
         "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n  <xacro:include filename='x'/></robot>".into(),
         "<robot>\n  <xacro:include filename='x'/></robot>".into(),
-        format!("<robot name='r'>{}</robot>", "<a>".repeat(100) + &"</a>".repeat(100)),
-        joint("type='floating'"),
+        format!("<robot name='r'>{}</robot>", "<a>".repeat(300) + &"</a>".repeat(300)),
+        joint("type='spherical'"),
         joint("type='ball &#7;'"),
         joint(""),
         with("<joint type='fixed'/>", ""),
@@ -115,11 +115,11 @@ fn errors_say_where_and_what() {
 #[test]
 fn several_unsupported_joints_come_in_one_error() {
     let urdf = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>
-        <joint name='root' type='floating'><parent link='a'/><child link='b'/></joint>
-        <joint name='slide' type='planar'><parent link='b'/><child link='c'/></joint></robot>";
+        <joint name='root' type='ball'><parent link='a'/><child link='b'/></joint>
+        <joint name='slide' type='screw'><parent link='b'/><child link='c'/></joint></robot>";
     let error = error(urdf);
     assert!(
-        error.starts_with("2:9: joint `root` is `floating`, joint `slide` is `planar`: "),
+        error.starts_with("2:9: joint `root` is `ball`, joint `slide` is `screw`: "),
         "{error}"
     );
 }

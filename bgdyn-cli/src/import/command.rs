@@ -1,6 +1,6 @@
 //! `bgdyn import` on the command line: arguments, files, messages.
 
-use super::{Convention, Lock, Options, import_table, import_with, naming};
+use super::{Base, Convention, Lock, Options, import_table, import_with, naming};
 use crate::output::{print, tell};
 use crate::quantity::value;
 use crate::spec_file::{STDIN_NAME, is_stdin, read_text, shown};
@@ -8,15 +8,16 @@ use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::format::Dimension;
 use std::path::{Path, PathBuf};
 
-/// Make a mechanism from a URDF or from a table of Denavit–Hartenberg parameters
+/// Make a mechanism from a URDF, an MJCF or a table of Denavit–Hartenberg parameters
 #[derive(Debug, Clone, Default, clap::Args)]
 #[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n  \
     bgdyn import pr2.urdf --chain torso_lift_link r_gripper_tool_frame --lock r_wrist_roll_joint=0.5\n  \
+    bgdyn import go2.urdf --base floating\n  bgdyn import humanoid.xml\n  \
     bgdyn import ur5.csv --convention standard\n\n\
     The mechanism's module is called after the file it is written to. Changed names, what is not taken over and what \
     was written are told on stderr.")]
 pub struct ImportArgs {
-    /// The URDF (a xacro file must be expanded first), or a table `.csv`; `-` reads either from standard input
+    /// The URDF (a xacro file must be expanded first), the MJCF, or a table `.csv`; `-` reads it from standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Where to write the mechanism; stdout if not given
@@ -34,7 +35,10 @@ pub struct ImportArgs {
     /// Write these links as frames: links without inertia on fixed joints, commas between; `all` for all of them
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub frames: Vec<String>,
-    /// Leave damping and friction out, which are otherwise declared as effects
+    /// The joint between the world and the link that has no joint
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub base: Option<Base>,
+    /// Leave damping, friction, springs and rotors of joints out, which are otherwise declared as effects
     #[arg(long)]
     pub no_effects: bool,
     /// The convention of a table's rows that do not say theirs
@@ -59,6 +63,8 @@ pub fn run(args: ImportArgs) -> Result<()> {
         snap: args.snap,
         frames: args.frames,
         no_effects: args.no_effects,
+        base: args.base,
+        folder: folder(&args.file),
     };
     let ending = args.file.extension();
     let table = match is_stdin(&args.file) {
@@ -104,6 +110,14 @@ pub fn run(args: ImportArgs) -> Result<()> {
     }
     tell(&format!("written: {to}{}\n", made.written));
     Ok(())
+}
+
+/// Returns the folder of a file; the current one for standard input.
+fn folder(file: &Path) -> Option<PathBuf> {
+    match is_stdin(file) {
+        true => Some(PathBuf::new()),
+        false => file.parent().map(Path::to_owned),
+    }
 }
 
 /// Returns a warning if the module cannot have the name of the file.

@@ -5,10 +5,10 @@
 //! moves to the next row, and the part of the last row becomes a frame.
 
 use super::joint_type::JointType;
+use super::model::{Frame, Inertial, Joint, JointEffects, Limits, Link, Model};
 use super::naming::shown;
 use super::number::Num;
 use super::placement::{Pose, about, displaced};
-use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
 use super::xml::{At, fault};
 use crate::table::{self, TableRow};
 use anyhow::{Result, bail};
@@ -64,6 +64,7 @@ pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Re
     let mut model = Model {
         name: name.to_owned(),
         source: "a table of Denavit–Hartenberg parameters".into(),
+        gravity: None,
         links: vec![base()],
         joints: Vec::new(),
         frames: Vec::new(),
@@ -93,7 +94,7 @@ pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Re
     }) {
         model.frames.push(Frame {
             name: "flange".into(),
-            link: last,
+            link: Some(last),
             place,
         });
     }
@@ -206,7 +207,7 @@ impl JointRow<'_> {
         let Some((at, word)) = self.cell("type") else {
             return Ok(JointType::Revolute);
         };
-        JointType::parse(word).ok_or_else(|| {
+        JointType::of_table(word).ok_or_else(|| {
             let word = shown(word);
             let message =
                 format!("the type is revolute, continuous, prismatic or fixed, not `{word}`");
@@ -270,13 +271,17 @@ impl JointRow<'_> {
         let joint = Joint {
             name: named("joint").unwrap_or_else(|| format!("joint_{number}")),
             at: (self.row.line, 1),
-            parent: parent.to_owned(),
+            parent: Some(parent.to_owned()),
             child: name.clone(),
             origin: placed.placement(),
             axis: [Num::zero(), Num::zero(), Num::computed(1.0)],
             limits: if fixed { Limits::default() } else { limits },
-            damping: loss("damping")?,
-            friction: loss("friction")?,
+            mimic: None,
+            effects: JointEffects {
+                damping: loss("damping")?,
+                friction: loss("friction")?,
+                ..JointEffects::default()
+            },
             kind,
         };
         let link = Link {

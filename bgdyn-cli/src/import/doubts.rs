@@ -2,9 +2,9 @@
 
 use super::inertia::{DUST, Verdict, is_dust, judge};
 use super::joint_type::JointType;
+use super::model::{Inertial, Link, Model};
 use super::naming::shown;
 use super::number::Num;
-use super::reading::{Inertial, Model};
 use super::tree::Tree;
 use bgdyn_codegen::name::WORLD;
 use bgdyn_runtime::Digits;
@@ -16,12 +16,11 @@ pub(super) fn doubtful(model: &Model, tree: &Tree) -> Vec<String> {
     if model.name.is_empty() {
         warnings.push("the robot has no name".into());
     }
-    if tree.roots.len() > 1 {
-        let roots: Vec<String> = tree
-            .roots
-            .iter()
-            .map(|root| format!("`{}`", shown(&model.links[*root].name)))
-            .collect();
+    let unsaid = tree.roots.iter().map(|root| &model.links[*root]);
+    let unsaid: Vec<&Link> = unsaid.filter(|link| link.place.is_none()).collect();
+    if unsaid.len() > 1 {
+        let roots = unsaid.iter().map(|link| format!("`{}`", shown(&link.name)));
+        let roots: Vec<String> = roots.collect();
         warnings.push(format!(
             "several links have no joint, all are fixed to the world: {}",
             roots.join(", ")
@@ -102,8 +101,9 @@ fn grounded(model: &Model, tree: &Tree) -> Option<String> {
             let inertial = model.links[link].inertial.as_ref();
             mass += inertial.map_or(0.0, |inertial| inertial.mass.value);
             let fixed = model.joints.iter().zip(&tree.ends);
-            let fixed = fixed
-                .filter(|(joint, (parent, _))| *parent == link && joint.kind == JointType::Fixed);
+            let fixed = fixed.filter(|(joint, (parent, _))| {
+                *parent == Some(link) && joint.kind == JointType::Fixed
+            });
             rigid.extend(fixed.map(|(_, (_, child))| *child));
         }
         (mass != 0.0).then(|| {
@@ -119,8 +119,8 @@ fn grounded(model: &Model, tree: &Tree) -> Option<String> {
     let heavy: Vec<String> = tree.roots.iter().filter(said).filter_map(heavy).collect();
     (!heavy.is_empty()).then(|| {
         format!(
-            "fixed to the world, since no joint carries it: {}; where the base drives, walks or flies, put six massless \
-             links before it, three slides and three turns (docs/import.md, \"A base that moves\")",
+            "fixed to the world, since no joint carries it: {}; for a base that drives, walks or flies: \
+             `--base floating`, `--base planar`",
             heavy.join(", ")
         )
     })

@@ -1,42 +1,54 @@
-//! `bgdyn import`: converts a URDF or a table of Denavit–Hartenberg parameters into a mechanism.
+//! `bgdyn import`: converts a URDF, an MJCF or a table of Denavit–Hartenberg parameters into a mechanism.
 //!
 //! Text → elements with their positions (`xml`) → the part that a mechanism can represent; the rest is
-//! counted (`select`) → links and joints (`reading`; for a table `dh`) → changes by options (`rework`) →
+//! counted (`select`) → links and joints (`reading`; of an MJCF `mjcf`, of a table `dh`) → changes by options (`rework`) →
 //! their order (`tree`) and names (`naming`) → YAML (`writing`). `doubts` warns about suspicious data,
 //! `placement` computes poses.
 
 mod attributes;
+mod base;
 mod command;
 mod defaults;
 mod dh;
 mod doubts;
+mod effects;
 mod groups;
 mod inertia;
 mod joint_type;
+mod limits;
+mod locks;
+mod mimic;
+mod mjcf;
+mod model;
 mod naming;
 mod number;
 mod options;
 mod placement;
+mod planar;
 mod reading;
 mod rework;
 mod select;
+mod tally;
 mod tree;
 mod writing;
 mod xml;
 
 use crate::commands::check::snapped_words;
 use anyhow::Result;
+use bgdyn_codegen::name::WORLD;
 use joint_type::JointType;
-use naming::{identifiers, shown};
+use model::{Joint, Model};
+use naming::{free_name, identifiers, shown};
 use number::Num;
-use reading::Model;
 use std::collections::HashSet;
+use tally::plural;
 
+pub use base::Base;
 pub use command::{ImportArgs, run};
 pub use dh::Convention;
 pub use options::{Lock, Options};
 
-/// A mechanism made from a URDF, with messages.
+/// A mechanism made from a file, with messages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Import {
     /// The mechanism, format 1. It has no `name:`: its name is that of its file.
@@ -53,20 +65,25 @@ pub struct Import {
     pub written: String,
 }
 
-/// Converts the text of a URDF to a mechanism.
+/// Converts the text of a URDF or an MJCF to a mechanism; the root element decides which it is.
 ///
 /// Links are in the order of their joints, numbers have their original text. An error starts with
 /// `LINE:COLUMN: `.
-pub fn import(urdf_text: &str) -> Result<Import> {
-    import_with(urdf_text, &Options::default())
+pub fn import(text: &str) -> Result<Import> {
+    import_with(text, &Options::default())
 }
 
 /// [`import`] with options.
 ///
 /// # Errors
 /// The error of the text, prefixed by `LINE:COLUMN: `, or of an option, prefixed by its name.
-pub fn import_with(urdf_text: &str, options: &Options) -> Result<Import> {
-    made(reading::read(urdf_text)?, options)
+pub fn import_with(text: &str, options: &Options) -> Result<Import> {
+    let root = xml::parse(text)?;
+    let model = match root.name.as_str() {
+        mjcf::ROOT => mjcf::read(&root, options.folder.as_deref())?,
+        _ => reading::read(&root)?,
+    };
+    made(model, options)
 }
 
 /// Converts a table of Denavit–Hartenberg parameters to a mechanism: comma-separated values with the names
@@ -88,7 +105,12 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
     let dusty = doubts::without_dust(&mut model);
     // Errors of the file are reported first.
     tree::order(&model)?;
-    let told = rework::rework(&mut model, options)?;
+    let mut told: Vec<String> = planar::turn_links(&mut model).into_iter().collect();
+    told.extend(rework::rework(&mut model, options)?);
+    if let Some(base) = options.base {
+        let tree = tree::order(&model)?;
+        base::free(&mut model, &tree, base)?;
+    }
     let tree = tree::order(&model)?;
     let named = Identifiers::new(&model);
 
@@ -107,10 +129,15 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
     let frames = frames(&model, &named);
     let effects = match options.no_effects {
         true => Vec::new(),
-        false => effects(&model, &named, taken),
+        false => {
+            taken.extend(named.links.iter().chain(&named.frames).cloned());
+            warnings.extend(effects::moved(&model));
+            effects::effects(&model, &named.joints, taken)
+        }
     };
-    if options.no_effects && model.joints.iter().any(has_losses) {
-        warnings.push("damping and friction of joints are left out, as asked".into());
+    if options.no_effects && model.joints.iter().any(|joint| !joint.effects.is_empty()) {
+        warnings
+            .push("damping, friction, springs and rotors of joints are left out, as asked".into());
     }
     let snap = options.snap.map(|snap| Num::computed(snap).text);
     let yaml = writing::head(&model, snap.as_deref())
@@ -150,10 +177,13 @@ impl Identifiers {
         let frames = links.split_off(model.links.len());
         let joints = model.joints.iter().map(|joint| joint.name.as_str());
         let joints: Vec<&str> = joints.collect();
+        let mut joints = identifiers(&joints, "joint");
+        let kinds = model.joints.iter().map(|joint| joint.kind.endings());
+        naming::separate(&mut joints, &kinds.collect::<Vec<_>>());
         Identifiers {
             robot: naming::identifier(&model.name, "robot"),
             links,
-            joints: identifiers(&joints, "joint"),
+            joints,
             frames,
         }
     }
@@ -187,6 +217,7 @@ fn entries(
         name: &named.links[link],
         parent: None,
         joint: None,
+        leader: None,
         mount: None,
         allow_nonphysical: allowed[link],
     };
@@ -194,7 +225,7 @@ fn entries(
     for root in &tree.roots {
         // By default, the joint of a root has this name: find another name if a joint has it already.
         let default = format!("{}_mount", named.links[*root]);
-        let mount = taken.contains(&default).then(|| free(&default, taken));
+        let mount = taken.contains(&default).then(|| free_name(&default, taken));
         taken.insert(mount.clone().unwrap_or(default));
         entries.push(writing::entry(&writing::LinkEntry {
             mount,
@@ -202,70 +233,38 @@ fn entries(
         }));
     }
     for ((joint, name), (parent, child)) in model.joints.iter().zip(&named.joints).zip(&tree.ends) {
-        let (parent, joint) = (
-            Some(named.links[*parent].as_str()),
-            Some((joint, name.as_str())),
-        );
         entries.push(writing::entry(&writing::LinkEntry {
-            parent,
-            joint,
+            parent: parent.map(|parent| named.links[parent].as_str()),
+            joint: Some((joint, name.as_str())),
+            leader: leader(model, named, joint),
             ..entry(*child)
         }));
     }
     entries
 }
 
-/// Returns the name, or its first numbered form that is not in use.
-fn free(name: &str, taken: &HashSet<String>) -> String {
-    let numbered = (2..).map(|number| format!("{name}_{number}"));
-    let mut names = [name.to_owned()].into_iter().chain(numbered);
-    names.find(|name| !taken.contains(name)).unwrap_or_default()
+/// Returns the name of the joint that a follower follows, and whether both turn or both slide.
+fn leader<'a>(model: &Model, named: &'a Identifiers, joint: &Joint) -> Option<(&'a str, bool)> {
+    let name = &joint.mimic.as_ref()?.joint;
+    let index = model.joints.iter().position(|it| it.name == *name)?;
+    let slides = |joint: &Joint| joint.kind == JointType::Prismatic;
+    let alike = slides(joint) == slides(&model.joints[index]);
+    Some((&named.joints[index], alike))
 }
 
 /// Returns the frames with their names and those of their links.
 fn frames<'a>(
     model: &'a Model,
     named: &'a Identifiers,
-) -> Vec<(&'a reading::Frame, &'a str, &'a str)> {
-    let link = |name: &str| {
-        let found = model.links.iter().position(|link| link.name == name);
-        found.map_or("", |i| named.links[i].as_str())
+) -> Vec<(&'a model::Frame, &'a str, &'a str)> {
+    let link = |name: &Option<String>| {
+        let index = |name: &String| model.links.iter().position(|link| link.name == *name);
+        let found = name.as_ref().and_then(index);
+        found.map_or(WORLD, |i| named.links[i].as_str())
     };
     let frames = model.frames.iter().zip(&named.frames);
     let frames = frames.map(|(frame, name)| (frame, name.as_str(), link(&frame.link)));
     frames.collect()
-}
-
-/// Returns damping and friction of joints as effects.
-fn effects<'a>(
-    model: &'a Model,
-    named: &'a Identifiers,
-    mut taken: HashSet<String>,
-) -> Vec<writing::Effect<'a>> {
-    taken.extend(named.links.iter().chain(&named.frames).cloned());
-    let mut effects = Vec::new();
-    for (joint, name) in model.joints.iter().zip(&named.joints) {
-        let losses = [
-            ("damping", ["viscous", "damping"], &joint.damping),
-            ("friction", ["coulomb", "kinetic"], &joint.friction),
-        ];
-        for (what, law, value) in losses {
-            let Some(value) = value else { continue };
-            let own = free(&format!("{name}_{what}"), &taken);
-            taken.insert(own.clone());
-            effects.push(writing::Effect {
-                name: own,
-                law,
-                joint: name,
-                value,
-            });
-        }
-    }
-    effects
-}
-
-fn has_losses(joint: &reading::Joint) -> bool {
-    joint.damping.is_some() || joint.friction.is_some()
 }
 
 /// Returns the summary of the mechanism, on one line.
@@ -278,16 +277,35 @@ fn written(model: &Model, tree: &tree::Tree, named: &Identifiers, effects: usize
         .roots
         .iter()
         .map(|root| format!("`{}`", named.links[*root]));
-    let roots: Vec<String> = roots.collect();
-    let plural = select::plural;
+    let roots = match roots.collect::<Vec<String>>() {
+        roots if roots.is_empty() => "none".to_owned(),
+        roots => roots.join(", "),
+    };
+    let ends = model.joints.iter().zip(&named.joints).zip(&tree.ends);
+    let free = ends.filter(|(_, (parent, _))| parent.is_none());
+    let free = free.map(|((joint, name), (_, child))| {
+        format!(
+            "`{}` by `{name}` ({})",
+            named.links[*child],
+            joint.kind.keyword()
+        )
+    });
+    let free = match free.collect::<Vec<String>>() {
+        free if free.is_empty() => String::new(),
+        free => format!("; moving in the world: {}", free.join(", ")),
+    };
+    let followers = model.joints.iter().filter(|joint| joint.mimic.is_some());
+    let followers = match followers.count() {
+        0 => String::new(),
+        count => format!(", of them {}", plural(count, "follower")),
+    };
     format!(
-        "{}, {} ({} moving), {}, {}; fixed to the world: {}",
+        "{}, {} ({} moving{followers}), {}, {}; fixed to the world: {roots}{free}",
         plural(model.links.len(), "link"),
         plural(model.joints.len(), "joint"),
         moving.count(),
         plural(model.frames.len(), "frame"),
         plural(effects, "effect"),
-        roots.join(", ")
     )
 }
 

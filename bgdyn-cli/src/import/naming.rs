@@ -49,6 +49,47 @@ pub(super) fn identifiers(names: &[&str], kind: &str) -> Vec<String> {
     names.iter().zip(kept).map(choose).collect()
 }
 
+/// Returns the name, or its first numbered form that is not in use.
+pub(super) fn free_name(name: &str, taken: &HashSet<String>) -> String {
+    let numbered = (2..).map(|number| format!("{name}_{number}"));
+    let mut names = [name.to_owned()].into_iter().chain(numbered);
+    names.find(|name| !taken.contains(name)).unwrap_or_default()
+}
+
+/// Renames those of which a name with one of its endings is the name of another, with `_2`, `_3`, ….
+pub(super) fn separate(names: &mut [String], endings: &[&[&str]]) {
+    let mut used: HashSet<String> = names.iter().cloned().collect();
+    for (name, endings) in names.iter_mut().zip(endings) {
+        let clashes = |name: &str| {
+            endings
+                .iter()
+                .any(|it| used.contains(&format!("{name}{it}")))
+        };
+        if !clashes(name) {
+            continue;
+        }
+        let numbered = (2..).map(|number| format!("{name}_{number}"));
+        let mut fits = numbered.filter(|name| !used.contains(name) && !clashes(name));
+        let new = fits.next().unwrap_or_default();
+        used.insert(new.clone());
+        *name = new;
+    }
+}
+
+/// Returns whether a name of the robot matches the caller's name: that in the file, or that in the
+/// mechanism.
+pub(super) fn is_called(name: &str, asked: &str, kind: &str) -> bool {
+    name == asked || identifier(name, kind) == asked
+}
+
+pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<String> = names.map(|name| format!("`{}`", shown(name))).collect();
+    match names.as_slice() {
+        [] => "none".into(),
+        names => names.join(", "),
+    }
+}
+
 /// Returns a name for a message or a comment, on one line.
 pub(super) fn shown(name: &str) -> String {
     let visible =

@@ -1,8 +1,9 @@
 //! Options of the import.
 
-use bgdyn_codegen::format::Dimension;
-
+use super::base::Base;
 use super::number::Num;
+use bgdyn_codegen::format::Dimension;
+use std::path::PathBuf;
 
 /// Options of the caller.
 #[derive(Debug, Clone, Default)]
@@ -16,8 +17,13 @@ pub struct Options {
     /// Links to convert to frames, by name; `all` for every link without inertia that is fixed and carries
     /// no body.
     pub frames: Vec<String>,
-    /// Whether to omit damping and friction; otherwise they are declared as effects.
+    /// Whether to omit damping, friction, springs and rotors of joints; otherwise they are declared as
+    /// effects.
     pub no_effects: bool,
+    /// The joint between the world and the link without a joint; fixed by default.
+    pub base: Option<Base>,
+    /// The folder of the files that an MJCF includes; without it such a file is refused.
+    pub folder: Option<PathBuf>,
 }
 
 /// A joint to fix at a value of its coordinate.

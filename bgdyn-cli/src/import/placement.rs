@@ -66,6 +66,15 @@ impl Pose {
         }
     }
 
+    /// Returns the pose of the outer axes in these.
+    pub(super) fn inverse(&self) -> Pose {
+        let rotation = self.rotation.transpose();
+        Pose {
+            rotation,
+            translation: -(rotation * self.translation),
+        }
+    }
+
     /// Converts it to the numbers of a mechanism. At a pitch of ±90° the yaw is 0.
     pub(super) fn placement(&self) -> Placement {
         let r = self.rotation.0;

@@ -1,5 +1,6 @@
 //! Selects the elements of a URDF that a mechanism can represent, and counts all others by name.
 
+use super::tally::Tally;
 use super::xml::{Element, fault};
 use anyhow::Result;
 
@@ -56,7 +57,7 @@ const JOINT: &[Kind] = &[
     leaf("child", &["link"]),
     leaf("axis", &["xyz"]),
     leaf("limit", &["lower", "upper", "velocity", "effort"]),
-    reported("mimic"),
+    leaf("mimic", &["joint", "multiplier", "offset"]),
     reported("dynamics"),
 ];
 
@@ -80,52 +81,24 @@ const ROBOT: Kind = Kind {
     once: true,
 };
 
-/// The omitted elements, in the order of first occurrence: name, count, number of mesh files.
-#[derive(Default)]
-struct Ignored(Vec<(String, usize, usize)>);
-
-impl Ignored {
-    fn count(&mut self, what: String, meshes: usize) {
-        match self.0.iter_mut().find(|(known, ..)| *known == what) {
-            Some((_, times, all)) => {
-                *times += 1;
-                *all += meshes;
-            }
-            None => self.0.push((what, 1, meshes)),
-        }
-    }
-}
-
 /// Returns the part of the robot that can be imported, and one line for each kind of element that cannot.
 pub(super) fn select(root: &Element) -> Result<(Element, Vec<String>)> {
     if root.name != ROBOT.name {
         return Err(fault(
             root.at,
-            format_args!("a URDF's root is `<robot>`, this is `<{}>`", root.name),
+            format_args!(
+                "the root of a URDF is `<robot>`, that of an MJCF `<mujoco>`; this is `<{}>`",
+                root.name
+            ),
         ));
     }
-    let mut ignored = Ignored::default();
+    let mut ignored = Tally::default();
     let quaternions = version(root) >= (1, 1);
     let kept = keep(root, &ROBOT, quaternions, &mut ignored)?;
-    let lines = ignored.0.into_iter().map(|(what, times, meshes)| {
-        let times = plural(times, "time");
-        match meshes {
-            0 => format!("not taken over: {what} ({times})"),
-            _ => format!(
-                "not taken over: {what} ({times}, with {})",
-                plural(meshes, "mesh file")
-            ),
-        }
-    });
-    Ok((kept, lines.collect()))
+    Ok((kept, ignored.lines().collect()))
 }
 
-fn keep(
-    element: &Element,
-    kind: &Kind,
-    quaternions: bool,
-    ignored: &mut Ignored,
-) -> Result<Element> {
+fn keep(element: &Element, kind: &Kind, quaternions: bool, ignored: &mut Tally) -> Result<Element> {
     let Element { name, at, .. } = element;
     let mut kept = Element::empty(name, *at);
     if element.text {
@@ -168,12 +141,4 @@ pub(super) fn version(root: &Element) -> (u32, u32) {
         Some((major.parse().ok()?, minor.parse().ok()?))
     };
     root.get("version").and_then(parse).unwrap_or((1, 0))
-}
-
-/// Returns `1 time`, `3 times`.
-pub(super) fn plural(count: usize, word: &str) -> String {
-    match count {
-        1 => format!("1 {word}"),
-        _ => format!("{count} {word}s"),
-    }
 }

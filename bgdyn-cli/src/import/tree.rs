@@ -1,7 +1,7 @@
 //! The trees that joints form from links, with links without a joint as roots.
 
+use super::model::Model;
 use super::naming::shown;
-use super::reading::Model;
 use super::xml::fault;
 use anyhow::Result;
 use std::collections::HashMap;
@@ -11,8 +11,26 @@ use std::collections::HashMap;
 pub(super) struct Tree {
     /// Indices of links without a joint.
     pub(super) roots: Vec<usize>,
-    /// For each joint the indices of its parent and its child.
-    pub(super) ends: Vec<(usize, usize)>,
+    /// For each joint the indices of its parent and its child; `None` is the world.
+    pub(super) ends: Vec<(Option<usize>, usize)>,
+}
+
+impl Tree {
+    /// Returns for each link the joint that carries it, and the link that this joint is on; `None` for links
+    /// without a joint or with a joint on the world.
+    pub(super) fn carriers(&self) -> Vec<Option<(usize, usize)>> {
+        let links = self.roots.len() + self.ends.len();
+        let mut carriers = vec![None; links];
+        for (joint, (parent, child)) in self.ends.iter().enumerate() {
+            carriers[*child] = parent.map(|parent| (joint, parent));
+        }
+        carriers
+    }
+
+    /// Returns the joint of a link.
+    pub(super) fn joint_of(&self, link: usize) -> Option<usize> {
+        self.ends.iter().position(|(_, child)| *child == link)
+    }
 }
 
 /// Sorts the links; an error names a link that is missing, repeated, the child of two joints or on a loop.
@@ -45,7 +63,9 @@ pub(super) fn order(model: &Model) -> Result<Tree> {
             };
             index.get(link).copied().ok_or_else(missing)
         };
-        let (parent, child) = (find(&joint.parent, "parent")?, find(&joint.child, "child")?);
+        let parent = joint.parent.as_deref();
+        let parent = parent.map(|link| find(link, "parent")).transpose()?;
+        let child = find(&joint.child, "child")?;
         if let Some(other) = carrier[child] {
             let (link, other) = (shown(&joint.child), shown(&model.joints[other].name));
             let message = format!(
@@ -65,7 +85,11 @@ pub(super) fn order(model: &Model) -> Result<Tree> {
 }
 
 /// Checks that the parents of every link lead to a root.
-fn refuse_cycles(model: &Model, carrier: &[Option<usize>], ends: &[(usize, usize)]) -> Result<()> {
+fn refuse_cycles(
+    model: &Model,
+    carrier: &[Option<usize>],
+    ends: &[(Option<usize>, usize)],
+) -> Result<()> {
     // For each link the start of the walk that visited it first: a walk that visits its own links is a
     // cycle.
     let mut seen = vec![None; carrier.len()];
@@ -73,12 +97,14 @@ fn refuse_cycles(model: &Model, carrier: &[Option<usize>], ends: &[(usize, usize
         let mut link = start;
         while seen[link].is_none() {
             seen[link] = Some(start);
-            match carrier[link] {
-                Some(joint) => link = ends[joint].0,
+            match carrier[link].and_then(|joint| ends[joint].0) {
+                Some(parent) => link = parent,
                 None => break,
             }
         }
-        if let Some(joint) = carrier[link]
+        // A walk that ended at the world is none.
+        let inside = carrier[link].filter(|joint| ends[*joint].0.is_some());
+        if let Some(joint) = inside
             && seen[link] == Some(start)
         {
             let (name, joint) = (shown(&model.links[link].name), &model.joints[joint]);

@@ -1,10 +1,9 @@
 //! Writes a robot as the YAML text of a mechanism.
 
-use super::joint_type::JointType;
+use super::model::{Frame, Inertial, Joint, Limits, Link, Mimic, Model};
 use super::naming::shown;
 use super::number::{Num, all_zero};
 use super::placement::Placement;
-use super::reading::{Frame, Inertial, Joint, Limits, Link, Model};
 
 /// Longer lines are broken.
 const WIDTH: usize = 100;
@@ -16,6 +15,8 @@ pub(super) struct LinkEntry<'a> {
     /// The name of the parent link; `None` for the fixed base.
     pub(super) parent: Option<&'a str>,
     pub(super) joint: Option<(&'a Joint, &'a str)>,
+    /// The name of the joint that its joint follows, and whether both are angles or both displacements.
+    pub(super) leader: Option<(&'a str, bool)>,
     /// A name for the joint that fixes a root, if the default name is in use.
     pub(super) mount: Option<String>,
     pub(super) allow_nonphysical: bool,
@@ -36,6 +37,9 @@ pub(super) fn head(model: &Model, snap: Option<&str>) -> String {
     }
     if let Some(snap) = snap {
         text += &format!("snap: {snap}\n");
+    }
+    if let Some(gravity) = &model.gravity {
+        text += &format!("gravity: {}\n", list(gravity));
     }
     text + "\nlinks:\n"
 }
@@ -61,18 +65,21 @@ pub(super) fn frames(frames: &[(&Frame, &str, &str)]) -> String {
 /// An effect that the mechanism declares.
 pub(super) struct Effect<'a> {
     pub(super) name: String,
-    /// Its type and the key of its number.
-    pub(super) law: [&'static str; 2],
+    pub(super) kind: &'static str,
     pub(super) joint: &'a str,
-    pub(super) value: &'a Num,
+    /// Its keys with their numbers.
+    pub(super) keys: Vec<(&'static str, Num)>,
 }
 
 /// Returns the effects that scenes can include; empty without effects.
 pub(super) fn effects(effects: &[Effect<'_>]) -> String {
     let entry = |effect: &Effect<'_>| {
-        let ([law, key], joint) = (effect.law, scalar(effect.joint));
-        let (name, value) = (&effect.name, &effect.value.text);
-        format!("  {name}: {{ type: {law}, joint: {joint}, {key}: {value} }}\n")
+        let (name, kind, joint) = (&effect.name, effect.kind, scalar(effect.joint));
+        let keys = effect.keys.iter();
+        let keys: String = keys
+            .map(|(key, value)| format!(", {key}: {}", value.text))
+            .collect();
+        format!("  {name}: {{ type: {kind}, joint: {joint}{keys} }}\n")
     };
     let entries: String = effects.iter().map(entry).collect();
     match entries.as_str() {
@@ -91,7 +98,7 @@ pub(super) fn entry(entry: &LinkEntry<'_>) -> String {
         lines.push(format!("parent: {}", scalar(parent)));
     }
     if let Some((joint, name)) = entry.joint {
-        write_joint(joint, name, &mut lines);
+        write_joint(joint, name, entry.leader, &mut lines);
     }
     let mount = entry
         .mount
@@ -112,17 +119,20 @@ pub(super) fn entry(entry: &LinkEntry<'_>) -> String {
     format!("  - {}\n", lines.join("\n    "))
 }
 
-fn write_joint(joint: &Joint, name: &str, lines: &mut Vec<String>) {
+fn write_joint(joint: &Joint, name: &str, leader: Option<(&str, bool)>, lines: &mut Vec<String>) {
     let mut keys = vec![format!("name: {}", scalar(name))];
     if name != joint.name {
         keys.push(format!("label: {}", scalar(&joint.name)));
     }
     keys.push(format!("type: {}", joint.kind.keyword()));
-    if joint.kind != JointType::Fixed {
+    if joint.kind.has_axis() {
         keys.extend(axis(&joint.axis));
     }
     keys.extend(origin(&joint.origin));
     keys.extend(limits(&joint.limits));
+    if let (Some(mimic), Some((leader, alike))) = (&joint.mimic, leader) {
+        keys.push(follows(mimic, leader, alike));
+    }
     let flow = format!("joint: {{ {} }}", keys.join(", "));
     if flow.len() + 4 <= WIDTH {
         lines.push(flow);
@@ -130,6 +140,18 @@ fn write_joint(joint: &Joint, name: &str, lines: &mut Vec<String>) {
         lines.push("joint:".into());
         lines.extend(keys.into_iter().map(|key| format!("  {key}")));
     }
+}
+
+/// Returns the key `mimic`. Between an angle and a displacement the ratio must be given.
+fn follows(mimic: &Mimic, leader: &str, alike: bool) -> String {
+    let mut keys = vec![format!("joint: {}", scalar(leader))];
+    if !alike || mimic.ratio.value != 1.0 {
+        keys.push(format!("ratio: {}", mimic.ratio.text));
+    }
+    if !mimic.offset.is_zero() {
+        keys.push(format!("offset: {}", mimic.offset.text));
+    }
+    format!("mimic: {{ {} }}", keys.join(", "))
 }
 
 /// Returns the key `axis`; `None` for z, which is the default.

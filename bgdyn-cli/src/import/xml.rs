@@ -3,8 +3,8 @@
 use anyhow::{Result, anyhow};
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-/// Deeper nesting is refused: no URDF is close to it, and it bounds every recursion.
-const MAX_DEPTH: usize = 64;
+/// Deeper nesting is refused: no robot is close to it, and it bounds every recursion.
+const MAX_DEPTH: usize = 200;
 
 /// Largest number of elements, texts and comments of a file: only a document that expands its own entities
 /// has more.

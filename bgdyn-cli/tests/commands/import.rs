@@ -65,3 +65,35 @@ fn a_table_is_read_by_its_ending() {
     let checked = bgdyn(&["check", &scratch("import_table", "made.yaml", &yaml)]).good();
     assert!(checked.contains("NQ 2, NV 2"), "{checked}");
 }
+
+/// The root element decides that a file is an MJCF, from standard input too; included files are relative to
+/// the folder of the file.
+#[test]
+fn an_mjcf_is_read_by_its_root() {
+    let legs = "<mujocoinclude><body name='leg'><joint name='hip' axis='0 1 0'/><geom size='0.1'/></body></mujocoinclude>";
+    let trunk = "<mujoco model='walker'><worldbody><body name='trunk'><freejoint name='root'/><geom size='0.2'/>\
+                 <include file='legs.xml'/></body></worldbody></mujoco>";
+    scratch("import_mjcf", "legs.xml", legs);
+    let file = scratch("import_mjcf", "walker.xml", trunk);
+    let run = bgdyn(&["import", &file]);
+    let told = run.stderr.clone();
+    let yaml = run.good();
+    assert!(
+        yaml.starts_with("# Imported from an MJCF (robot walker)"),
+        "{yaml}"
+    );
+    let written = "fixed to the world: none; moving in the world: `trunk` by `root` (floating)";
+    assert!(told.contains(written), "{told}");
+    let checked = bgdyn(&["check", &scratch("import_mjcf", "made.yaml", &yaml)]).good();
+    assert!(checked.contains("NQ 8, NV 7"), "{checked}");
+}
+
+#[test]
+fn a_base_moves_when_the_option_says_so() {
+    let file = scratch("import_base", "arm.urdf", ARM);
+    let yaml = bgdyn(&["import", &file, "--base", "floating"]).good();
+    let checked = bgdyn(&["check", &scratch("import_base", "made.yaml", &yaml)]).good();
+    assert!(checked.contains("NQ 9, NV 8"), "{checked}");
+    let refused = bgdyn(&["import", &file, "--base", "given"]).bad_input();
+    assert!(refused.contains("--base given: "), "{refused}");
+}

@@ -1,5 +1,8 @@
-//! `bgdyn import` with options, and of tables of Denavit–Hartenberg parameters.
+//! `bgdyn import` with options, of joints that move freely, and of tables of Denavit–Hartenberg parameters.
 
+mod free;
+mod mjcf;
+mod mjcf_report;
 mod options;
 mod table;
 

@@ -1,0 +1,64 @@
+//! `--base`: a joint between the world and the robot.
+
+use super::joint_type::JointType;
+use super::model::{Joint, Model};
+use super::naming::{free_name, shown};
+use super::placement::Placement;
+use super::tree::Tree;
+use anyhow::{Result, bail};
+
+/// The name of the joint that carries the robot.
+const ROOT: &str = "root";
+
+/// How the link without a joint is connected to the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Base {
+    /// Fixed to the world
+    Fixed,
+    /// On a floating joint
+    Floating,
+    /// On a planar joint: x and y of the world, and the turn about z
+    Planar,
+    /// Moved by a given motion: not yet generated
+    Given,
+}
+
+/// Puts a joint between the world and the only link without a joint. At a neutral position the link is where
+/// it was fixed.
+pub(super) fn free(model: &mut Model, tree: &Tree, base: Base) -> Result<()> {
+    let kind = match base {
+        Base::Fixed => return Ok(()),
+        Base::Floating => JointType::Floating,
+        Base::Planar => JointType::Planar,
+        Base::Given => bail!(
+            "--base given: a base whose motion is an argument cannot be generated yet; \
+             `--base floating` makes its motion part of the state"
+        ),
+    };
+    let root = match tree.roots.as_slice() {
+        [root] => *root,
+        [] => bail!("--base: no link is fixed to the world, every one has a joint already"),
+        several => {
+            let names = several.iter().map(|root| &model.links[*root].name);
+            let names: Vec<String> = names.map(|name| format!("`{}`", shown(name))).collect();
+            bail!(
+                "--base: several links have no joint: {}; join them by fixed joints, or keep one with `--chain`",
+                names.join(", ")
+            )
+        }
+    };
+    let taken = model
+        .joints
+        .iter()
+        .map(|joint| joint.name.clone())
+        .collect();
+    let name = free_name(ROOT, &taken);
+    let link = &mut model.links[root];
+    let joint = Joint {
+        kind,
+        origin: link.place.take().unwrap_or_else(Placement::identity),
+        ..Joint::fixed(&name, link.at, None, &link.name)
+    };
+    model.joints.insert(0, joint);
+    Ok(())
+}

@@ -1,0 +1,214 @@
+//! The tree of bodies: each becomes a link, with a link without inertia for each further joint.
+
+use super::builder::{Builder, Carrier, Mount};
+use super::content::{Content, Item};
+use super::inertial;
+use super::joints::{self, MjcfJoint};
+use super::pose::{between, placement};
+use super::settings::FromGeoms;
+use super::solids::{self, Part};
+use crate::import::model::{Frame, Inertial, Link};
+use crate::import::naming::{free_name, shown};
+use crate::import::placement::Placement;
+use crate::import::xml::{Element, fault};
+use anyhow::Result;
+
+impl Builder<'_> {
+    /// Builds everything in `<worldbody>`.
+    pub(super) fn world(&mut self, element: &Element) -> Result<()> {
+        let mut content = Content::default();
+        let class = element.get("childclass");
+        self.collect(element, &Placement::identity(), class, &mut content)?;
+        let mut wrong = content.joints.iter().chain(&content.inertials);
+        if let Some(wrong) = wrong.next() {
+            let name = &wrong.element.name;
+            let message = format!("`<{name}>` in `<worldbody>`: the world does not move");
+            return Err(fault(wrong.element.at, message));
+        }
+        // They neither move nor weigh.
+        for item in &content.geoms {
+            self.report.known(item.element);
+            self.report.geom(false);
+        }
+        let carrier = Carrier {
+            link: None,
+            place: Placement::identity(),
+            moves: false,
+        };
+        self.sites(&content.sites, &carrier)?;
+        self.bodies(&content.bodies, &carrier)
+    }
+
+    fn bodies(&mut self, items: &[Item<'_>], carrier: &Carrier) -> Result<()> {
+        for item in items {
+            self.body(item, carrier)?;
+        }
+        Ok(())
+    }
+
+    /// Builds a body and those on it.
+    fn body(&mut self, item: &Item<'_>, carrier: &Carrier) -> Result<()> {
+        let element = item.element;
+        self.count += 1;
+        self.report.known(element);
+        let name = self.body_name(element);
+        self.note(element, &name);
+        let class = element.get("childclass").or(item.class);
+        let mut content = Content::default();
+        self.collect(element, &Placement::identity(), class, &mut content)?;
+        let mut joints = Vec::new();
+        for joint in &content.joints {
+            joints.push(self.joint(joint)?);
+        }
+        let moves = carrier.moves || !joints.is_empty();
+        let inertial = self.inertial(&name, &content, moves)?;
+        let place = item.frame.then(&placement(element, self.settings)?);
+        let mount = Mount {
+            element,
+            name: &name,
+            place: carrier.place.then(&place),
+        };
+        let (shift, place) = self.mount(&mount, joints, carrier)?;
+        self.model.links.push(Link {
+            name: name.clone(),
+            at: element.at,
+            inertial: inertial.map(|inertial| shifted(inertial, &shift)),
+            place,
+        });
+        let own = Carrier {
+            link: Some(name),
+            place: shift,
+            moves,
+        };
+        self.sites(&content.sites, &own)?;
+        self.bodies(&content.bodies, &own)
+    }
+
+    fn body_name(&mut self, element: &Element) -> String {
+        if let Some(name) = element.get("name") {
+            return name.to_owned();
+        }
+        let name = free_name(&format!("body_{}", self.count), &self.links);
+        self.links.insert(name.clone());
+        name
+    }
+
+    /// Reports what a body has and a link does not.
+    fn note(&mut self, element: &Element, name: &str) {
+        let name = shown(name);
+        if element.get("mocap") == Some("true") {
+            let kind = "bodies whose pose is an input (mocap), fixed here";
+            self.report.groups.add(kind, format!("`{name}`"));
+        }
+        let compensation = element.get("gravcomp").map(str::trim);
+        let zero = |text: &str| text.parse() == Ok(0.0);
+        if let Some(value) = compensation.filter(|text| !zero(text)) {
+            let item = format!("`{name}` ({})", shown(value));
+            let kind = "compensation of gravity (gravcomp), not taken over";
+            self.report.groups.add(kind, item);
+        }
+    }
+
+    fn joint(&mut self, item: &Item<'_>) -> Result<MjcfJoint> {
+        self.report.known(item.element);
+        let element = match item.element.name.as_str() {
+            "freejoint" => item.element.clone(),
+            _ => self.defaults.apply(item.element, item.class)?,
+        };
+        joints::read(&element, &item.frame, self.settings, self.report)
+    }
+
+    /// Returns the inertia of a body, in its own axes.
+    fn inertial(
+        &mut self,
+        name: &str,
+        content: &Content<'_>,
+        moves: bool,
+    ) -> Result<Option<Inertial>> {
+        if let [_, second, ..] = content.inertials.as_slice() {
+            let message = format!("a second `<inertial>` in body `{}`", shown(name));
+            return Err(fault(second.element.at, message));
+        }
+        let given = content.inertials.first();
+        let from_geoms = match self.settings.inertia_from_geoms {
+            FromGeoms::Never => false,
+            FromGeoms::Always => true,
+            FromGeoms::Missing => given.is_none(),
+        };
+        let (mut solids, mut unknown) = (Vec::new(), Vec::new());
+        for item in &content.geoms {
+            self.report.known(item.element);
+            let geom = self.defaults.apply(item.element, item.class)?;
+            let part = match from_geoms {
+                true => solids::part(&geom, self.settings)?,
+                false => Part::Nothing,
+            };
+            self.report.geom(matches!(part, Part::Solid(_)));
+            match part {
+                Part::Nothing => {}
+                Part::Unknown(what) => unknown.push(what),
+                Part::Solid(solid) => {
+                    let mut solid = *solid;
+                    solid.pose = item.frame.pose().then(&solid.pose);
+                    solids.push(solid);
+                }
+            }
+        }
+        let label = shown(name);
+        if !unknown.is_empty() && (moves || self.settings.total_mass.is_some()) {
+            let at = content.geoms.first().map_or((1, 1), |it| it.element.at);
+            let item = format!("`{label}` ({})", unknown.join(", "));
+            self.report.shapes.push((at, item));
+        } else if !unknown.is_empty() {
+            let kind = "bodies that do not move, without the inertia of their meshes";
+            self.report.groups.add(kind, format!("`{label}`"));
+        }
+        let mut inertial = solids::sum(&solids);
+        if let (Some(given), None) = (given, &inertial) {
+            inertial = Some(inertial::read(given.element, self.settings, self.report)?);
+        }
+        if let Some(changed) = inertial::adjust(&mut inertial, self.settings) {
+            self.report.groups.add(changed, format!("`{label}`"));
+        }
+        Ok(inertial)
+    }
+
+    /// Writes the sites with names as frames.
+    fn sites(&mut self, items: &[Item<'_>], carrier: &Carrier) -> Result<()> {
+        for item in items {
+            self.report.known(item.element);
+            let site = self.defaults.apply(item.element, item.class)?;
+            let Some(name) = site.get("name") else {
+                self.report.groups.add(
+                    "sites without a name, not taken over",
+                    format!("line {}", site.at.0),
+                );
+                continue;
+            };
+            let place = match between(&site)? {
+                Some((pose, _)) => pose.placement(),
+                None => placement(&site, self.settings)?,
+            };
+            self.model.frames.push(Frame {
+                name: name.to_owned(),
+                link: carrier.link.clone(),
+                place: carrier.place.then(&item.frame.then(&place)),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Returns an inertia of the body's axes in those of its link.
+fn shifted(inertial: Inertial, shift: &Placement) -> Inertial {
+    let own = Placement {
+        xyz: inertial.com,
+        rpy: inertial.rpy,
+    };
+    let Placement { xyz: com, rpy } = shift.then(&own);
+    Inertial {
+        com,
+        rpy,
+        ..inertial
+    }
+}
