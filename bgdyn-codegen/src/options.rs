@@ -123,20 +123,23 @@ impl Options {
     /// # Errors
     /// The formulation, with a joint that it does not serve.
     pub fn check_formulation(&self, graph: &Multibody) -> Result<(), Vec<Unknown>> {
-        let Some(formulation) = self.formulation.filter(|f| !f.serves(graph)) else {
+        let unserved = |f: &'static dyn Formulation| Some((f, f.unserved(graph)?));
+        let Some((formulation, link)) = self.formulation.and_then(unserved) else {
             return Ok(());
         };
-        let link = graph.first_compound();
         let served: Vec<&str> = FORMULATIONS
             .iter()
             .filter(|f| f.serves(graph))
             .map(|f| f.name())
             .collect();
         let message = format!(
-            "the formulation `{}` serves revolute, continuous and prismatic joints without `mimic`, and not \
-             that of link `{}`: use {}",
+            "the formulation `{}` does not serve the joint of link `{}`, which {}: use {}",
             formulation.name(),
-            link.map_or("", |frame| &frame.name),
+            link.name,
+            match link.degrees.mimic {
+                Some(_) => "follows another joint (`mimic`)",
+                None => "is no rotation about an axis and no translation along one",
+            },
             served.join(" or ")
         );
         Err(vec![Unknown::whole("formulation", message)])

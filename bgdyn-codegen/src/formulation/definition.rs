@@ -1,7 +1,7 @@
 //! The trait of formulations: name, offer for each method, functions.
 
 use super::prepared::Prepared;
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -18,10 +18,15 @@ pub trait Formulation: Sync {
         true
     }
 
-    /// Returns whether it serves this mechanism. By default it serves rotations and translations that mimic
-    /// no other joint.
+    /// Returns the first link whose joint it does not serve. By default it serves rotations and translations
+    /// that mimic no other joint.
+    fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {
+        graph.first_compound()
+    }
+
+    /// Returns whether it serves this mechanism.
     fn serves(&self, graph: &Multibody) -> bool {
-        graph.plain()
+        self.unserved(graph).is_none()
     }
 
     /// Returns its offer for a method that it supports, if no formulation is selected.

@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::differentiate::{derivatives, finish, position_derivatives, reopened};
 use super::forward_dynamics::ForwardDerivatives;
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Expr, Leaf, Signed};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
@@ -26,8 +26,8 @@ impl Formulation for Differentiated {
         "derivatives of the expressions of inverse dynamics and of the bias"
     }
 
-    fn serves(&self, _: &Multibody) -> bool {
-        true
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
     }
 
     fn knows(&self, method: Method) -> bool {
@@ -88,8 +88,8 @@ impl Formulation for ForwardDynamicsDerivatives {
         "derivatives of forward dynamics from those of inverse dynamics"
     }
 
-    fn serves(&self, _: &Multibody) -> bool {
-        true
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
     }
 
     fn knows(&self, method: Method) -> bool {

@@ -10,7 +10,7 @@ mod sum;
 
 use super::arguments::Arguments;
 use super::{Formulation, Offer, Prepared, placed_sites, solve};
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
 use crate::function::Function;
 use crate::method::Method;
@@ -30,8 +30,8 @@ impl Formulation for Literal {
         "equation (6) term by term, in fixed axes"
     }
 
-    fn serves(&self, _: &Multibody) -> bool {
-        true
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
     }
 
     /// The graph grows with the cube of the number of links.

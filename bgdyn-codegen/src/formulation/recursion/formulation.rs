@@ -5,7 +5,7 @@ use super::geometry::Geometry;
 use super::plan_search::BestPlan;
 use super::plans::best_plans;
 use super::{kinematics, plan_search};
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::Builder;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
@@ -23,8 +23,8 @@ impl Formulation for Recursion {
         "link axes, base parameters, common-axis trick, sliding origins, groups of parallel axes"
     }
 
-    fn serves(&self, _: &Multibody) -> bool {
-        true
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
     }
 
     fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {

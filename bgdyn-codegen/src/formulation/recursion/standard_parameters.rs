@@ -6,7 +6,7 @@
 use super::formulation::{makes, with_plan};
 use super::plan_search;
 use super::plans::{best_plans, cost};
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
@@ -23,8 +23,8 @@ impl Formulation for OwnInertia {
         "the recursion with each body's own inertia instead of base parameters"
     }
 
-    fn serves(&self, _: &Multibody) -> bool {
-        true
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
     }
 
     fn knows(&self, method: Method) -> bool {

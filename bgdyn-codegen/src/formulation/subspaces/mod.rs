@@ -22,7 +22,7 @@ mod spatial;
 
 use super::arguments::Arguments;
 use super::{Formulation, Offer, Prepared, placed_sites, solve};
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
 use crate::method::Method;
@@ -40,8 +40,8 @@ impl Formulation for Subspaces {
         "link axes, motion subspaces of joints of any type, composite bodies"
     }
 
-    fn serves(&self, _: &Multibody) -> bool {
-        true
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
     }
 
     fn knows(&self, method: Method) -> bool {

@@ -26,7 +26,7 @@ use super::plan::Plan;
 use super::plan_search::{self, BestPlan, SEARCHED};
 use super::plans::cheapest_plans;
 use super::{expressions, inverse_dynamics};
-use crate::bond_graph::Multibody;
+use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{self, Builder, Cost, Graph, Signed};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::{Formulation, Offer, Prepared};
@@ -59,8 +59,8 @@ impl Formulation for Articulated {
         }
     }
 
-    fn serves(&self, graph: &Multibody) -> bool {
-        !mimics(graph)
+    fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {
+        first_follower(graph)
     }
 
     fn knows(&self, method: Method) -> bool {
@@ -119,18 +119,18 @@ impl Formulation for Articulated {
     }
 }
 
-/// Returns whether a joint mimics another one.
-fn mimics(graph: &Multibody) -> bool {
-    graph
-        .frames
-        .iter()
-        .any(|frame| frame.degrees.mimic.is_some())
+/// Returns the first link whose joint mimics another one.
+fn first_follower(graph: &Multibody) -> Option<&LinkFrame> {
+    let mut frames = graph.frames.iter();
+    frames.find(|frame| frame.degrees.mimic.is_some())
 }
 
 /// Returns whether articulated bodies support the method. A rotor that rotates with its carrier couples
 /// joints other than through their bodies, and so does a joint that mimics another.
 fn makes(graph: &Multibody, method: Method) -> bool {
-    method == METHOD && !mimics(graph) && graph.rotors.iter().all(|r| r.carrier.is_none())
+    method == METHOD
+        && first_follower(graph).is_none()
+        && graph.rotors.iter().all(|r| r.carrier.is_none())
 }
 
 /// Returns the number of operations for the elimination of M alone: each joint's row is subtracted from
