@@ -66,8 +66,8 @@ def beyond(found):
 
 
 def page(folder):
-    compiler, emulator = (folder / "versions.txt").read_text().splitlines()
-    yield f"Measured with {compiler} and {emulator}, `opt-level = 3`, fat LTO, one codegen unit."
+    compiler, emulator, commit = (folder / "versions.txt").read_text().splitlines()
+    yield f"Measured at commit `{commit}` with {compiler} and {emulator}, `opt-level = 3`, fat LTO, one codegen unit."
     for cpu, shown in CPUS.items():
         found = read(folder / f"{cpu}.txt")
         for scalar in ("f32", "f64"):

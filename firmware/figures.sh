@@ -19,4 +19,5 @@ for cpu in m4f m7; do
 done
 "$rustc" --version >"$out/versions.txt"
 qemu-system-arm --version | sed -n 1p >>"$out/versions.txt"
+git rev-parse --short HEAD >>"$out/versions.txt"
 python3 figures.py "$out" ../docs/embedded.md

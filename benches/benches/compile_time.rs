@@ -80,9 +80,10 @@ fn write(table: &str) -> Result<(), String> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let compiler = said("rustc", &["--version"]).unwrap_or_default();
     let date = said("date", &["+%F"]).unwrap_or_default();
+    let commit = said("git", &["rev-parse", "--short", "HEAD"]).unwrap_or_default();
     let text = format!(
         "# What a model costs while compiling\n\n\
-         {machine}, {cores} cores; {compiler}; {date}. Written by\n\n\
+         {machine}, {cores} cores; {compiler}; {date}, commit `{commit}`. Written by\n\n\
          ```sh\ncargo bench -p benches --bench compile_time -- --docs\n```\n\n\
          A release build of a crate that calls every method once, as Cargo makes it for a user who sets nothing: the \
          macro itself unoptimised. \"Macro\" is what the crate takes longer to build than with the generated text in \

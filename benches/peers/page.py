@@ -133,10 +133,11 @@ def versions(folder):
 
 def text(results, rounds, undisturbed, folder):
     date = datetime.date.today().isoformat()
+    commit = output("git", "rev-parse", "--short", "HEAD").strip()
     quiet = "on a core of their own (`chrt -f`, `taskset`)" if undisturbed else "on a machine that did other work too"
     return f"""# Times compared with other systems
 
-{machine()}, {date}. {versions(folder)}. Written by `benches/peers/run.sh --docs`.
+{machine()}, {date}, commit `{commit}`. {versions(folder)}. Written by `benches/peers/run.sh --docs`.
 
 ![How many times as long as bgdyn](peers.svg)
 

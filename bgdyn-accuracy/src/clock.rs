@@ -40,9 +40,45 @@ pub(crate) fn times(
         .collect()
 }
 
+/// Rounds in which calls are measured, as a multiple of those for runs.
+const CALL_ROUNDS: usize = 5;
+
+/// The distribution of a time over the rounds of its measurement, ns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// The shortest round.
+    pub least: f64,
+    /// The first and the third quartile.
+    pub quartiles: [f64; 2],
+    /// The median.
+    pub median: f64,
+}
+
+impl Spread {
+    /// Returns a time without spread: an estimate.
+    pub fn exact(ns: f64) -> Self {
+        Spread {
+            least: ns,
+            quartiles: [ns; 2],
+            median: ns,
+        }
+    }
+
+    /// Returns the distribution of the times of some rounds.
+    fn of_rounds(rounds: &mut [f64]) -> Self {
+        rounds.sort_by(f64::total_cmp);
+        let at = |quarters: usize| rounds[quarters * (rounds.len() - 1) / 4];
+        Spread {
+            least: at(0),
+            quartiles: [at(1), at(3)],
+            median: at(2),
+        }
+    }
+}
+
 /// Returns the time of one call, ns, of each of these functions, whose argument is the number of calls,
-/// measured as [`times`] measures runs.
-pub(crate) fn calls(jobs: &[&dyn Fn(usize)], effort: &Effort) -> Vec<f64> {
+/// measured as [`times`] measures runs, in more rounds.
+pub(crate) fn calls(jobs: &[&dyn Fn(usize)], effort: &Effort) -> Vec<Spread> {
     let spent = |job: &dyn Fn(usize), count: usize| {
         let begin = Instant::now();
         job(black_box(count));
@@ -56,14 +92,16 @@ pub(crate) fn calls(jobs: &[&dyn Fn(usize)], effort: &Effort) -> Vec<f64> {
         count
     };
     let counts: Vec<usize> = jobs.iter().map(|job| enough(*job)).collect();
-    let mut rounds = vec![Vec::with_capacity(effort.rounds); jobs.len()];
-    for _ in 0..effort.rounds {
+    let repeats = CALL_ROUNDS * effort.rounds;
+    let mut rounds = vec![Vec::with_capacity(repeats); jobs.len()];
+    for _ in 0..repeats {
         for ((job, &count), found) in jobs.iter().zip(&counts).zip(&mut rounds) {
             let tried = (0..BEST_OF).map(|_| spent(*job, count));
             found.push(1e9 * tried.fold(f64::INFINITY, f64::min) / count as f64);
         }
     }
-    rounds.iter_mut().map(|found| median(found)).collect()
+    let spread = |found: &mut Vec<f64>| Spread::of_rounds(found);
+    rounds.iter_mut().map(spread).collect()
 }
 
 /// Measures this number of runs, s.
@@ -89,6 +127,17 @@ fn median(numbers: &mut [f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::Spread;
+
+    #[test]
+    fn a_spread_has_least_quartiles_and_median() {
+        let spread = Spread::of_rounds(&mut [9.0, 1.0, 2.0, 100.0, 3.0]);
+        assert_eq!((spread.least, spread.median), (1.0, 3.0));
+        assert_eq!(spread.quartiles, [2.0, 9.0]);
+        let one = Spread::of_rounds(&mut [7.0]);
+        assert_eq!(one, Spread::exact(7.0));
+    }
+
     #[test]
     fn the_middle_one_counts() {
         assert_eq!(super::median(&mut [9.0, 1.0, 2.0, 100.0, 3.0]), 3.0);

@@ -107,7 +107,7 @@ where
 }
 
 /// Leaks a scene: studies are few and their scenes small.
-fn kept<S: 'static>(scene: S) -> &'static S {
+fn leak<S: 'static>(scene: S) -> &'static S {
     Box::leak(Box::new(scene))
 }
 
@@ -117,7 +117,7 @@ const REFERENCE: &str = "extrapolation12";
 impl TestCase {
     /// Sets the reference: order 12 in double-double with controlled steps.
     pub fn reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
-        let scene = kept(scene);
+        let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
         self.reference = Some(Box::new(move |grid, tolerance| {
             let run = started.integrate(grid, StepControl::Tolerance(tolerance));
@@ -127,7 +127,7 @@ impl TestCase {
 
     /// Adds every integrator of bgdyn-sim except that of the reference.
     pub fn methods<S: Slope<f64> + 'static>(&mut self, scene: S) {
-        let scene = kept(scene);
+        let scene = leak(scene);
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
         for name in INTEGRATORS.iter().filter(|name| **name != REFERENCE) {
             let run = started.runner_by_name(name);
@@ -138,7 +138,7 @@ impl TestCase {
 
     /// Adds Gauss–Legendre integrators of the canonical form.
     pub fn momenta<S: Canonical<f64> + 'static>(&mut self, scene: S) {
-        let scene = kept(scene);
+        let scene = leak(scene);
         let plant = CanonicalPlant::new(scene);
         let mut begin = Run::begin(scene);
         begin.y = plant.to_canonical(begin.t, &begin.y, &begin.modes);
@@ -153,7 +153,7 @@ impl TestCase {
 
     /// Adds an explicit integrator and one with step control in `f32`.
     pub fn single<S: HybridSystem<f32> + 'static>(&mut self, scene: S) {
-        let scene = kept(scene);
+        let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
         let runs: [(&str, Runner); 2] = [
             ("rk4", started.runner(|| Rk4)),
@@ -167,7 +167,7 @@ impl TestCase {
 
     /// Adds the scene's rates by another formulation, with the classical Runge–Kutta method.
     pub fn formulation<S: HybridSystem<f64> + 'static>(&mut self, name: &str, scene: S) {
-        let scene = kept(scene);
+        let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
         let run = started.runner(|| Rk4);
         self.configurations
@@ -181,7 +181,7 @@ impl TestCase {
         scene: S,
         integrator: impl Fn() -> I + 'static,
     ) {
-        let scene = kept(scene);
+        let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
         self.add_ablation(effects, started.runner(integrator));
     }
@@ -193,7 +193,7 @@ impl TestCase {
         scene: S,
         integrator: impl Fn() -> I + 'static,
     ) {
-        let scene = kept(scene);
+        let scene = leak(scene);
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
         self.add_ablation(effects, started.runner(integrator));
     }

@@ -9,12 +9,12 @@ use bgdyn_sim::{
     Dopri5, HybridState, Integrator, Of, Plant, Real, Run, ScenePlant, Tolerance, WithIntegrator,
 };
 
-use crate::clock::calls;
+use crate::clock::{Spread, calls};
 use crate::configuration::RunError;
 use crate::integrate::in_short;
 use crate::priced::{Call, Priced};
 use crate::step_sequence::Effort;
-use crate::table::written;
+use crate::table::write_csv;
 use crate::test_case::TestCase;
 
 /// The integrator with which steps are counted.
@@ -32,7 +32,7 @@ pub struct Cost {
     /// Operations of one call of `derivative`.
     pub operations: usize,
     /// Time of one call, ns.
-    pub ns: f64,
+    pub ns: Spread,
     /// Steps of [`METHOD`] in the scene's run; `None` if the run ends early.
     pub steps: Option<usize>,
 }
@@ -49,8 +49,8 @@ pub(crate) fn costs(all: &[Priced], end: f64, effort: &Effort) -> Vec<Cost> {
         effects: p.effects.clone(),
         operations: p.operations,
         ns: match (compiled(p), &p.call) {
-            (false, Call::Estimated(ns)) => *ns,
-            _ => times.next().unwrap_or(f64::NAN),
+            (false, Call::Estimated(ns)) => Spread::exact(*ns),
+            _ => times.next().unwrap_or(Spread::exact(f64::NAN)),
         },
         steps: (p.steps)(end).ok(),
     };
@@ -139,7 +139,16 @@ impl TestCase {
 }
 
 /// The columns, in their order.
-const COLUMNS: [&str; 5] = ["scene", "effects", "operations", "ns_per_call", "steps"];
+const COLUMNS: [&str; 8] = [
+    "scene",
+    "effects",
+    "operations",
+    "ns_per_call",
+    "ns_least",
+    "ns_first_quartile",
+    "ns_third_quartile",
+    "steps",
+];
 
 /// Returns costs as CSV, with a header; each with its scene's name.
 pub fn costs_csv<'a>(costs: impl IntoIterator<Item = (&'a str, &'a Cost)>) -> String {
@@ -148,27 +157,38 @@ pub fn costs_csv<'a>(costs: impl IntoIterator<Item = (&'a str, &'a Cost)>) -> St
         let scene = std::iter::once(scene.to_owned());
         scene.chain(cost.record()).collect()
     });
-    written(std::iter::once(header).chain(rows))
+    write_csv(std::iter::once(header).chain(rows))
 }
 
 impl Cost {
     /// Returns its fields, without the scene.
-    pub(crate) fn record(&self) -> [String; 4] {
+    pub(crate) fn record(&self) -> [String; 7] {
+        let [first, third] = self.ns.quartiles;
+        let [median, least, first, third] =
+            [self.ns.median, self.ns.least, first, third].map(|ns| format!("{ns:.3e}"));
         [
             self.effects.clone(),
             self.operations.to_string(),
-            format!("{:.3e}", self.ns),
+            median,
+            least,
+            first,
+            third,
             self.steps.map_or(String::new(), |n| n.to_string()),
         ]
     }
 
     /// Parses a cost from its fields; `None` if they are invalid.
     pub(crate) fn of_record(fields: Vec<String>) -> Option<Cost> {
-        let [effects, operations, ns, steps] = <[String; 4]>::try_from(fields).ok()?;
+        let [effects, operations, median, least, first, third, steps] =
+            <[String; 7]>::try_from(fields).ok()?;
         Some(Cost {
             effects,
             operations: operations.parse().ok()?,
-            ns: ns.parse().ok()?,
+            ns: Spread {
+                least: least.parse().ok()?,
+                quartiles: [first.parse().ok()?, third.parse().ok()?],
+                median: median.parse().ok()?,
+            },
             steps: match steps.as_str() {
                 "" => None,
                 steps => Some(steps.parse().ok()?),

@@ -38,7 +38,7 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
 }
 
 /// Converts an error of the rates to the name in it, in quotes.
-fn told<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
+fn with_text_error<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
     result.map_err(|e| {
         let text = format!("{e:?}");
         let named = text.split('"').nth(1).map(str::to_owned);
@@ -48,7 +48,7 @@ fn told<X, E: std::fmt::Debug>(result: Result<X, E>) -> Result<X, String> {
 
 impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
     fn rates(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Result<P::State, String> {
-        told(Plant::rates(self, t, y, modes))
+        with_text_error(Plant::rates(self, t, y, modes))
     }
 
     fn jacobian(
@@ -57,7 +57,7 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         y: &P::State,
         modes: &P::Modes,
     ) -> Option<Result<Jacobian<P::State>, String>> {
-        Plant::jacobian(self, t, y, modes).map(told)
+        Plant::jacobian(self, t, y, modes).map(with_text_error)
     }
 
     fn positions(&self) -> usize {
@@ -70,11 +70,11 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         y: &P::State,
         modes: &P::Modes,
     ) -> Result<P::State, String> {
-        told(Plant::position_rates(self, t, y, modes))
+        with_text_error(Plant::position_rates(self, t, y, modes))
     }
 
     fn events(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Result<P::Values, String> {
-        told(Plant::events(self, t, y, modes))
+        with_text_error(Plant::events(self, t, y, modes))
     }
 
     fn changes_mode(&self, event: usize) -> bool {
@@ -88,7 +88,7 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         modes: &P::Modes,
         fell: &dyn Fn(usize) -> bool,
     ) -> Result<(P::State, P::Modes), String> {
-        told(Plant::change(self, t, y, modes, fell))
+        with_text_error(Plant::change(self, t, y, modes, fell))
     }
 
     fn resolve_stiction(
@@ -98,7 +98,7 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         modes: &P::Modes,
         rest: Of<P::State>,
     ) -> Result<Option<(P::State, P::Modes)>, String> {
-        told(Plant::resolve_stiction(self, t, y, modes, rest))
+        with_text_error(Plant::resolve_stiction(self, t, y, modes, rest))
     }
 
     fn next_corner(&self, t: Of<P::State>) -> Option<Of<P::State>> {

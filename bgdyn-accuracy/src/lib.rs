@@ -51,6 +51,7 @@ mod test_case;
 
 pub use bgdyn_runtime::Dd;
 pub use bgdyn_sim;
+pub use clock::Spread;
 pub use configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
 pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 pub use figures::{Figure, figures};
@@ -61,5 +62,5 @@ pub use pareto::{Choice, front, targets};
 pub use priced::{Call, Priced};
 pub use row::{Row, Status, rows_csv};
 pub use step_sequence::Effort;
-pub use study::{Facts, Failed, Study, study};
+pub use study::{Failed, Study, StudyInfo, study};
 pub use test_case::{References, TestCase, order};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::configuration::StepControl;
 use crate::row::Row;
-use crate::study::{Facts, Study};
+use crate::study::{Study, StudyInfo};
 use crate::test_case::order;
 
 /// The conclusion from an integrator's errors.
@@ -106,7 +106,7 @@ fn stable_step(study: &Study) -> f64 {
 }
 
 /// Returns the conclusion from the errors of one integrator, from the coarsest to the finest.
-fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
+fn finding(rows: &[&Row], facts: &StudyInfo, order: u32, stable: f64) -> Finding {
     let epsilon = match rows[0].scalar.as_str() {
         "f32" => f64::from(f32::EPSILON) / f64::EPSILON,
         _ => 1.0,
@@ -132,7 +132,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
         return match logs.len() {
             0..=2 if reached => Finding::Converges(slope(&logs).unwrap_or(1.0)),
             0..=2 => Finding::TooFew,
-            _ => match (judged(slope(&logs), FOLLOWS), points.last()) {
+            _ => match (judge(slope(&logs), FOLLOWS), points.last()) {
                 // Errors within the tolerance need not be proportional to it: steps end at the samples.
                 (Finding::DoesNot(p), Some((step_control, error)))
                     if *error < KEEPS * step_control.value() * facts.size =>
@@ -149,7 +149,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     // Of the fits with the order choose the finest: coarser ones may be at the stability limit.
     let shown = slopes.clone().rfind(|p| *p >= least);
     match shown.or_else(|| slopes.reduce(f64::max)) {
-        Some(best) => match judged(Some(best), least) {
+        Some(best) => match judge(Some(best), least) {
             Finding::DoesNot(p) if beyond => Finding::Stiff(p),
             Finding::DoesNot(p) if facts.kinked && p > KINKED => Finding::Kinked(p),
             finding => finding,
@@ -158,7 +158,7 @@ fn finding(rows: &[&Row], facts: &Facts, order: u32, stable: f64) -> Finding {
     }
 }
 
-fn judged(slope: Option<f64>, least: f64) -> Finding {
+fn judge(slope: Option<f64>, least: f64) -> Finding {
     match slope {
         Some(slope) if slope >= least => Finding::Converges(slope),
         Some(slope) => Finding::DoesNot(slope),

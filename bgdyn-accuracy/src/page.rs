@@ -6,7 +6,7 @@ use crate::figures::{figures, way};
 use crate::format::{escaped, short, time};
 use crate::order_check::verdicts;
 use crate::pareto::targets;
-use crate::study::{Facts, Study};
+use crate::study::{Study, StudyInfo};
 
 /// The machine on which times were measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,11 +73,11 @@ fn today() -> String {
 const ERROR: &str = "The error of a run is the largest distance of the scene's measured output from the reference over equally spaced sample times. The reference is made by extrapolation of order 12; what it is off by is taken from a second one with a tolerance a hundred times as large.";
 const VARIED: &str = "One factor is varied at a time, from all effects in f64 by the cheapest formulation: the method with its step or tolerance, the scalar, the way the equations are written, the effects. Steps are halved, tolerances divided by ten, until the error is rounding or falls no more.";
 const POINTS: &str = "Leaving out `inertia` can make a scene dearer: its links are point masses then. Where they come to lie on a joint's axis, this joint has next to no inertia, and the mass matrix loses digits. The generator sees that in sampled states and solves by articulated bodies, which keep the digits and take more operations. A joint that has no inertia in any state has no acceleration: `derivative` refuses the state, the time shown is that of the refusal, and no steps are given.";
-const TIMES: &str = "Times are of compiled code, runs of the whole scene with what the method needs, medians of five rounds in which every run is timed in turn, in each round the best of three measurements. Integrators call the scene's functions through a pointer. Times of one call of `derivative` are taken in the same way, at the start of the run, without a pointer.";
+const TIMES: &str = "Times are of compiled code, runs of the whole scene with what the method needs, medians of five rounds in which every run is timed in turn, in each round the best of three measurements. Integrators call the scene's functions through a pointer. Times of one call of `derivative` are measured in the same way, in 25 rounds, at the start of the run, without a pointer.";
 const GUESSES: &str = "Times are estimates from the weighted count of operations: no cargo, or no crates, to compile the scene with. Nothing of the evaluator's own speed is in them.";
 
 /// Describes the subject of a study, in a sentence.
-fn about(facts: &Facts) -> String {
+fn about(facts: &StudyInfo) -> String {
     format!(
         "{}. Measured: `{}`, in {}, at {} times up to {} s; it moves by {} {}. The reference is off by {} {}; rounding in f64 begins at {} {}.",
         facts.description.trim_end_matches('.'),

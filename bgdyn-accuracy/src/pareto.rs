@@ -68,7 +68,7 @@ mod tests {
     use super::*;
     use crate::configuration::StepControl;
     use crate::row::Status;
-    use crate::study::Facts;
+    use crate::study::StudyInfo;
 
     fn study(points: &[(&str, f64, f64)]) -> Study {
         let row = |&(method, error, ns): &(&str, f64, f64)| Row {
@@ -83,7 +83,7 @@ mod tests {
             status: Status::Ok,
         };
         Study {
-            facts: Facts {
+            facts: StudyInfo {
                 scene: "made_up".into(),
                 description: String::new(),
                 output: "tip".into(),

@@ -1,7 +1,7 @@
 //! A row of `accuracy.csv`, with its conversion from and to text.
 
 use crate::configuration::StepControl;
-use crate::table::written;
+use crate::table::write_csv;
 
 /// Whether a row has valid numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ const COLUMNS: [&str; 9] = [
 pub fn rows_csv<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
     let header = COLUMNS.map(str::to_owned).to_vec();
     let rows = rows.into_iter().map(|row| row.record().to_vec());
-    written(std::iter::once(header).chain(rows))
+    write_csv(std::iter::once(header).chain(rows))
 }
 
 impl Row {

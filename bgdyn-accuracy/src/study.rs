@@ -8,12 +8,12 @@ use crate::cost::{Cost, costs};
 use crate::integrate::{distance, numbers};
 use crate::row::{Row, Status};
 use crate::step_sequence::{Effort, ErrorScale, Trial, step_sequence};
-use crate::table::{records, written};
+use crate::table::{records, write_csv};
 use crate::test_case::TestCase;
 
 /// The subject of a study.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Facts {
+pub struct StudyInfo {
     /// The scene's name.
     pub scene: String,
     /// Its description, in a line.
@@ -40,7 +40,7 @@ pub struct Facts {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// The subject.
-    pub facts: Facts,
+    pub facts: StudyInfo,
     /// The results.
     pub rows: Vec<Row>,
     /// The cost of the scene with all effects, and without each.
@@ -74,7 +74,7 @@ impl fmt::Display for Failed {
 impl std::error::Error for Failed {}
 
 /// References that differ by more than this fraction of the motion are not usable.
-const CERTAIN: f64 = 1e-6;
+const MAX_REFERENCE_ERROR: f64 = 1e-6;
 
 /// Studies a scene.
 ///
@@ -90,8 +90,8 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
     let reference = run(&grid, fine).map_err(Failed::Reference)?;
     let error = distance(&reference, &run(&grid, coarse).map_err(Failed::Reference)?);
     let reference = numbers(reference);
-    let size = moved(&reference);
-    if error.is_nan() || error > CERTAIN * size {
+    let size = largest_motion(&reference);
+    if error.is_nan() || error > MAX_REFERENCE_ERROR * size {
         return Err(Failed::Uncertain(error / size));
     }
     let zero = vec![vec![0.0; reference[0].len()]; reference.len()];
@@ -116,7 +116,7 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
         tried.push((ablation, far.attempt(ablation, &grid, step_control)));
     }
     Ok(Study {
-        facts: Facts {
+        facts: StudyInfo {
             scene: test_case.scene.clone(),
             description: test_case.description.clone(),
             output: test_case.output.clone(),
@@ -134,7 +134,7 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
 }
 
 /// Returns the distance of an output from its first sample.
-fn moved(reference: &[Vec<f64>]) -> f64 {
+fn largest_motion(reference: &[Vec<f64>]) -> f64 {
     let still = vec![reference[0].clone(); reference.len()];
     distance(reference, &still).max(f64::MIN_POSITIVE)
 }
@@ -191,7 +191,7 @@ impl Study {
         let facts = record(FACTS, &self.facts.record());
         let costs = self.costs.iter().map(|cost| record(COST, &cost.record()));
         let rows = self.rows.iter().map(|row| record(ROW, &row.record()));
-        written(std::iter::once(facts).chain(costs).chain(rows))
+        write_csv(std::iter::once(facts).chain(costs).chain(rows))
     }
 
     /// Parses the studies in a text of [`Study::write`], one after the other; `None` if the text is
@@ -201,7 +201,7 @@ impl Study {
         for mut fields in records(text) {
             match fields.remove(0).as_str() {
                 FACTS => all.push(Study {
-                    facts: Facts::of_record(fields)?,
+                    facts: StudyInfo::of_record(fields)?,
                     rows: Vec::new(),
                     costs: Vec::new(),
                 }),
@@ -224,7 +224,7 @@ const FACTS: &str = "facts";
 const COST: &str = "cost";
 const ROW: &str = "row";
 
-impl Facts {
+impl StudyInfo {
     fn record(&self) -> [String; 10] {
         let number = |x: f64| format!("{x:e}");
         [
@@ -241,7 +241,7 @@ impl Facts {
         ]
     }
 
-    fn of_record(fields: Vec<String>) -> Option<Facts> {
+    fn of_record(fields: Vec<String>) -> Option<StudyInfo> {
         let [
             scene,
             description,
@@ -254,7 +254,7 @@ impl Facts {
             floor,
             error,
         ] = <[String; 10]>::try_from(fields).ok()?;
-        Some(Facts {
+        Some(StudyInfo {
             scene,
             description,
             output,

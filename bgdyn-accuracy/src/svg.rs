@@ -89,7 +89,7 @@ impl Drawing {
     }
 
     fn polyline(&mut self, points: &[(f64, f64)], colour: &str, width: f64, dashes: &str) {
-        let path = joined(points);
+        let path = polyline(points);
         let dashes = match dashes {
             "" => String::new(),
             dashes => format!(" stroke-dasharray=\"{dashes}\""),
@@ -112,7 +112,7 @@ impl Drawing {
 
     /// Draws a filled polygon.
     pub fn area(&mut self, points: &[(f64, f64)], colour: &str) {
-        let corners = joined(points);
+        let corners = polyline(points);
         writeln!(
             self.body,
             "<polygon points=\"{corners}\" fill=\"{colour}\"/>"
@@ -225,7 +225,7 @@ impl Drawing {
 }
 
 /// Returns points in the notation of SVG, in tenths of a pixel.
-fn joined(points: &[(f64, f64)]) -> String {
+fn polyline(points: &[(f64, f64)]) -> String {
     let all = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}"));
     all.collect::<Vec<_>>().join(" ")
 }

@@ -1,7 +1,7 @@
 //! Converts records to CSV text and back.
 
 /// Returns the CSV text of records, which may have different numbers of fields.
-pub(crate) fn written(records: impl IntoIterator<Item = Vec<String>>) -> String {
+pub(crate) fn write_csv(records: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut writer = csv::WriterBuilder::new()
         .flexible(true)
         .from_writer(Vec::new());

@@ -2,8 +2,8 @@
 //! and one with a wrong coefficient.
 
 use bgdyn_accuracy::{
-    Configuration, Cost, CountSteps, Effort, Finding, Grid, RunError, Samples, Status, StepControl,
-    Study, TestCase, costs_csv, figures, page, rows_csv, study, targets, verdicts,
+    Configuration, Cost, CountSteps, Effort, Finding, Grid, RunError, Samples, Spread, Status,
+    StepControl, Study, TestCase, costs_csv, figures, page, rows_csv, study, targets, verdicts,
 };
 use bgdyn_runtime::Dd;
 use bgdyn_sim::{Plant, Power};
@@ -165,16 +165,20 @@ fn priced() -> Study {
         row.error = Some(error);
         study.rows.push(row);
     }
-    let cost = |effects: &str, operations, ns, steps| Cost {
+    let cost = |effects: &str, operations, [least, first, median, third]: [f64; 4], steps| Cost {
         effects: effects.into(),
         operations,
-        ns,
+        ns: Spread {
+            least,
+            quartiles: [first, third],
+            median,
+        },
         steps,
     };
     study.costs = vec![
-        cost("all", 42, 12.5, Some(300)),
-        cost("all but springs", 30, 12.75, Some(40)),
-        cost("all but drag", 37, 11.0, None),
+        cost("all", 42, [12.25, 12.3, 12.5, 12.6], Some(300)),
+        cost("all but springs", 30, [12.25, 12.5, 12.75, 13.0], Some(40)),
+        cost("all but drag", 37, [10.0, 10.5, 11.0, 11.5], None),
     ];
     study
 }
@@ -185,7 +189,10 @@ fn costs_of_effects_are_written_and_read() {
     let again = Study::read(&study.write()).expect("a study");
     assert_eq!(again[0].costs, study.costs);
     let table = costs_csv(study.costs.iter().map(|c| ("arm", c)));
-    let wanted = "scene,effects,operations,ns_per_call,steps\narm,all,42,1.250e1,300\narm,all but springs,30,1.275e1,40\narm,all but drag,37,1.100e1,\n";
+    let wanted = "scene,effects,operations,ns_per_call,ns_least,ns_first_quartile,ns_third_quartile,steps\n\
+                  arm,all,42,1.250e1,1.225e1,1.230e1,1.260e1,300\n\
+                  arm,all but springs,30,1.275e1,1.225e1,1.250e1,1.300e1,40\n\
+                  arm,all but drag,37,1.100e1,1.000e1,1.050e1,1.150e1,\n";
     assert_eq!(table, wanted);
 }
 
@@ -196,7 +203,8 @@ fn the_figure_of_effects_shows_calls_and_steps() {
     let figures = figures(&study);
     let figure = figures.iter().find(|f| f.name.ends_with("_effects.svg"));
     let svg = &figure.expect("a figure of effects").svg;
-    for number in ["42", "30", "37", "12.5", "12.8", "11", "300", "40", "0.5"] {
+    // A time that does not differ measurably is marked.
+    for number in ["42", "30", "37", "12.5", "≈ 12.8", "11", "300", "40", "0.5"] {
         assert!(
             svg.contains(&format!(">{number}</text>")),
             "{number}: {svg}"
@@ -211,6 +219,9 @@ fn the_figure_of_effects_shows_calls_and_steps() {
     ] {
         assert!(svg.contains(&format!(">{words}</text>")), "{words}");
     }
+    // A range for each time: a line and its two ends.
+    let is_range = |line: &&str| line.starts_with("<line") && line.contains("#e69f00");
+    assert_eq!(svg.lines().filter(is_range).count(), 9);
     assert!(!svg.contains(">-") && !svg.contains(">−"), "{svg}");
     // A bar for each cost, a dot for the change that is not 0.
     assert_eq!(svg.matches("fill=\"#0072b2\"/>").count(), 8);

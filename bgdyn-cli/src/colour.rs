@@ -90,7 +90,7 @@ fn line(line: &str) -> String {
             _ => paint(BLUE, &text[..head + 1], rest),
         };
     }
-    match placed(text) {
+    match split_location(text) {
         Some((place, rest)) if rest.starts_with(" warning:") => {
             let rest = &rest[" warning:".len()..];
             paint("1", place, &format!(" \x1b[{YELLOW}mwarning:\x1b[0m{rest}"))
@@ -101,7 +101,7 @@ fn line(line: &str) -> String {
 }
 
 /// Splits a line into `FILE:LINE:COLUMN:` and the rest.
-fn placed(text: &str) -> Option<(&str, &str)> {
+fn split_location(text: &str) -> Option<(&str, &str)> {
     let end = text.find(": ")?;
     let mut parts = text[..end].rsplitn(3, ':');
     let number = |part: Option<&str>| {

@@ -8,7 +8,7 @@ use bgdyn_codegen::fault::{Fault, Faults, Location};
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::format::{parse, parse_scene};
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::options::{Options, Unknown, formulation_named, preference_named};
+use bgdyn_codegen::options::{Options, UnknownName, formulation_named, preference_named};
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::system::SceneEquations;
@@ -218,40 +218,40 @@ fn stdin_bytes() -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The generator's options, as the command line gives them.
+/// The options of the generator on the command line.
 #[derive(Args)]
-pub(crate) struct Asked {
-    /// These methods only, separated by commas; `dynamics` stands for those of the trait
+pub(crate) struct GeneratorArgs {
+    /// Generate only these methods, separated by commas; `dynamics` means those of the trait `Dynamics`
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     methods: Option<Vec<String>>,
-    /// Pose, velocity, Jacobian and J̇ v of these links and frames only, separated by commas
+    /// Generate pose, velocity, Jacobian and J̇ v of these links and frames only, separated by commas
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     frames: Option<Vec<String>>,
-    /// The first derivatives as well
+    /// Generate the first derivatives as well
     #[arg(long)]
     derivatives: bool,
-    /// Of a scene: the Jacobian ∂ẏ/∂y and ∂ẏ/∂t as well
+    /// For a scene: generate the Jacobian ∂ẏ/∂y and ∂ẏ/∂t as well
     #[arg(long)]
     jacobian: bool,
-    /// Of a scene: the canonical form as well, momenta in place of velocities
+    /// For a scene: generate the canonical form as well (momenta in place of velocities)
     #[arg(long)]
     canonical: bool,
     #[command(flatten)]
     choice: Choice,
 }
 
-/// What the formulations are chosen by.
+/// How the formulation of each method is chosen.
 #[derive(Args)]
 pub(crate) struct Choice {
-    /// One formulation for every method
+    /// Use this formulation for every method
     #[arg(long, value_name = "NAME")]
     formulation: Option<String>,
-    /// Choose by the fewest `operations`, or by `accuracy`: the fewest digits lost in f64
+    /// Choose the formulation with the fewest `operations`, or the most accurate (`accuracy`): the fewest digits lost in f64
     #[arg(long, value_name = "NAME", default_value = "operations")]
     prefer: String,
 }
 
-impl Asked {
+impl GeneratorArgs {
     pub(crate) fn options(&self) -> Result<Options> {
         Ok(Options {
             derivatives: self.derivatives,
@@ -277,7 +277,7 @@ impl Choice {
 }
 
 /// Converts unknown names to a usage error.
-pub(crate) fn unknown(names: Vec<Unknown>) -> Usage {
+pub(crate) fn unknown(names: Vec<UnknownName>) -> Usage {
     let lines: Vec<String> = names.into_iter().map(|u| u.message).collect();
     Usage(lines.join("\nbgdyn: "))
 }

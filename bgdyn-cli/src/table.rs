@@ -76,7 +76,7 @@ fn cell(text: &str) -> String {
 }
 
 /// Returns records as the text of a table.
-pub(crate) fn written(records: impl IntoIterator<Item = Vec<String>>) -> String {
+pub(crate) fn write_csv(records: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for record in records {
         writer.write_record(record).expect("memory");

@@ -13,15 +13,15 @@ use bgdyn_runtime::Scalar;
 
 use crate::expr::{Graph, Inputs, Leaf, Node, NodeId, QuickMap, Signed, evaluate, reachable};
 
-/// The block of [`Leaf::Passed`] for values that all columns share.
+/// The block of [`Leaf::BlockResult`] for values that all columns share.
 pub(crate) const SHARED: usize = 0;
-/// The block of [`Leaf::Passed`] for values of one column.
+/// The block of [`Leaf::BlockResult`] for values of one column.
 pub(crate) const OWN: usize = 1;
 
 /// Columns that one loop computes.
 #[derive(Clone, Debug)]
 pub struct ColumnLoop {
-    /// The expressions of one column, over [`Leaf::Passed`]: block 0 is what all columns read, block 1 the
+    /// The expressions of one column, over [`Leaf::BlockResult`]: block 0 is what all columns read, block 1 the
     /// values of the column.
     pub graph: Graph,
     /// The results of a column.
@@ -100,7 +100,7 @@ pub(crate) fn column(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>, V
                 let index = shared.len();
                 shared.push(Signed::plus(id));
                 let block = SHARED;
-                to.leaf(Leaf::Passed { block, index })
+                to.leaf(Leaf::BlockResult { block, index })
             }
         };
         copies.insert(id, copy);
@@ -127,7 +127,7 @@ fn of_column(graph: &Graph, outputs: &[Signed]) -> Vec<bool> {
     let mut own = vec![false; graph.len()];
     for i in (0..graph.len()).filter(|&i| needed[i]) {
         let node = graph.node(NodeId(i as u32));
-        let mut found = matches!(node, Node::Leaf(Leaf::Passed { block: OWN, .. }));
+        let mut found = matches!(node, Node::Leaf(Leaf::BlockResult { block: OWN, .. }));
         node.for_each_operand(|operand| found |= own[operand.place()]);
         own[i] = found;
     }

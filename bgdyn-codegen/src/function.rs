@@ -10,7 +10,7 @@ use crate::column_loop::{ColumnLoop, LoopedResult};
 use crate::expr::{Cost, Graph, Inputs, Operations, Signed, cost, count, evaluate};
 use crate::method::{Method, Shape};
 
-/// A piece of straight-line code. Later blocks read its results as [`crate::expr::Leaf::Passed`].
+/// A piece of straight-line code. Later blocks read its results as [`crate::expr::Leaf::BlockResult`].
 #[derive(Clone, Debug)]
 pub struct Block {
     /// Its results, in order.
@@ -67,7 +67,7 @@ pub struct Function {
     /// Empty if there are no choices.
     pub plans: Vec<Considered>,
     /// Rejected alternatives that were created completely, with their cost at the comparison.
-    pub passed_over: Vec<Considered>,
+    pub rejected: Vec<Considered>,
     /// Whether its accuracy depends on the order of its operations; then it is not factored.
     pub ordered: bool,
     /// Expressions of all blocks.
@@ -98,7 +98,7 @@ impl Function {
             name: method.name(&bond_graph.sites),
             formulation,
             plans: Vec::new(),
-            passed_over: Vec::new(),
+            rejected: Vec::new(),
             ordered: false,
             graph,
             blocks: vec![Block {
@@ -129,7 +129,7 @@ impl Function {
             name: self.name.clone(),
             formulation: self.formulation.clone(),
             plans: Vec::new(),
-            passed_over: Vec::new(),
+            rejected: Vec::new(),
             ordered: self.ordered,
             graph: columns.graph.clone(),
             blocks: vec![Block {

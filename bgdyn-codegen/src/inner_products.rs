@@ -19,7 +19,7 @@ use crate::expr::{Graph, Node, NodeId, QuickMap, Signed, reads};
 use crate::function::InnerProducts;
 
 /// Smallest number of entries for which a loop saves time.
-const WORTH: usize = 64;
+const MIN_LOOP_ENTRIES: usize = 64;
 
 /// One product of a sum, with its sign.
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ struct MatrixEntry {
 impl MatrixEntry {
     /// Returns the other factors of the products with those of `vector`, in its order, with their signs;
     /// `None` if a term contains none of them.
-    fn beside(&self, vector: &[Signed]) -> Option<Vec<Signed>> {
+    fn with_vector(&self, vector: &[Signed]) -> Option<Vec<Signed>> {
         let other = |x: &Signed| {
             let mut with = self.terms.iter().filter(|t| t.factors.contains(&x.node));
             let term = with.next().filter(|_| with.next().is_none())?;
@@ -76,12 +76,12 @@ pub fn products(graph: &Graph, triangle: &[Signed]) -> Vec<InnerProducts> {
     let mut found = Vec::new();
     let mut tried = vec![false; entries.len()];
     for first in 0..entries.len() {
-        let grown = (!tried[first]).then(|| FactorTables::grown(&entries, &by_node, first, &tried));
+        let grown = (!tried[first]).then(|| FactorTables::grow(&entries, &by_node, first, &tried));
         let Some(tables) = grown.flatten() else {
             continue;
         };
         tables.members.iter().for_each(|(e, _)| tried[*e] = true);
-        if tables.members.len() >= WORTH {
+        if tables.members.len() >= MIN_LOOP_ENTRIES {
             found.extend(tables.products(&entries));
         }
     }
@@ -136,7 +136,7 @@ struct FactorTables {
 impl FactorTables {
     /// Returns all entries connected with a given entry, without entries that were tried before. The
     /// vector of its row is the common part with another entry of that row.
-    fn grown(
+    fn grow(
         entries: &[MatrixEntry],
         by_node: &QuickMap<NodeId, Vec<usize>>,
         first: usize,
@@ -147,14 +147,14 @@ impl FactorTables {
         let near = by_node[&a].iter().chain(&by_node[&b]);
         let of_row = near.filter(|&&e| e != first && entries[e].place[0] == start.place[0]);
         let mut vectors = of_row.filter_map(|&e| start.shared(&entries[e]));
-        let row = vectors.find(|v| start.beside(v).is_some())?;
+        let row = vectors.find(|v| start.with_vector(v).is_some())?;
         let mut tables = FactorTables::default();
         tables.meet(0, &row);
         let mut seen = tried.to_vec();
         while let Some(key) = tables.open.pop_front() {
             let (side, vector) = tables.known[&key].clone();
             for &e in &by_node[&key] {
-                let other = entries[e].beside(&vector).filter(|_| !seen[e]);
+                let other = entries[e].with_vector(&vector).filter(|_| !seen[e]);
                 if let Some(other) = other.filter(|other| tables.meet(1 - side, other)) {
                     let mut both = [vector.clone(), other];
                     both.rotate_left(side);

@@ -58,7 +58,7 @@ impl Default for Options {
 
 /// An option whose value may be invalid for the mechanism or the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
+pub enum OptionName {
     /// An entry of [`Options::methods`].
     Methods,
     /// An entry of [`Options::frames`].
@@ -69,16 +69,16 @@ pub enum Asked {
 
 /// A requested name or option that the mechanism or the scene does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unknown {
+pub struct UnknownName {
     /// The option.
-    pub option: Asked,
+    pub option: OptionName,
     /// Its index in the option's list.
     pub index: usize,
     /// The error, and advice.
     pub message: String,
 }
 
-impl fmt::Display for Unknown {
+impl fmt::Display for UnknownName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
@@ -89,8 +89,12 @@ impl Options {
     ///
     /// # Errors
     /// Every name that the mechanism does not have.
-    pub fn select(&self, sites: &[Site], velocities: usize) -> Result<Vec<Method>, Vec<Unknown>> {
-        let mut unknown = self.of_scenes();
+    pub fn select(
+        &self,
+        sites: &[Site],
+        velocities: usize,
+    ) -> Result<Vec<Method>, Vec<UnknownName>> {
+        let mut unknown = self.misplaced_scene_options();
         let mut wanted = BTreeSet::new();
         match &self.methods {
             None => wanted.extend(usual(velocities)),
@@ -99,8 +103,9 @@ impl Options {
         match &self.frames {
             Some(names) => wanted.extend(frames(names, sites, &mut unknown)),
             None if self.methods.is_none() => {
-                let prominent = (0..sites.len()).filter(|&i| sites[i].prominent);
-                wanted.extend(prominent.flat_map(|i| Method::of_site(SiteId(i))));
+                let exported_by_default =
+                    (0..sites.len()).filter(|&i| sites[i].exported_by_default);
+                wanted.extend(exported_by_default.flat_map(|i| Method::of_site(SiteId(i))));
             }
             None => {}
         }
@@ -122,7 +127,7 @@ impl Options {
     ///
     /// # Errors
     /// The formulation, with a joint that it does not serve.
-    pub fn check_formulation(&self, graph: &Multibody) -> Result<(), Vec<Unknown>> {
+    pub fn check_formulation(&self, graph: &Multibody) -> Result<(), Vec<UnknownName>> {
         let unserved = |f: &'static dyn Formulation| Some((f, f.unserved(graph)?));
         let Some((formulation, link)) = self.formulation.and_then(unserved) else {
             return Ok(());
@@ -142,11 +147,11 @@ impl Options {
             },
             served.join(" or ")
         );
-        Err(vec![Unknown::whole("formulation", message)])
+        Err(vec![UnknownName::whole("formulation", message)])
     }
 
     /// Returns the selected options that only scenes have.
-    fn of_scenes(&self) -> Vec<Unknown> {
+    fn misplaced_scene_options(&self) -> Vec<UnknownName> {
         let asked = [
             (self.jacobian, "jacobian", "derivatives"),
             (self.canonical, "canonical", "mass_matrix"),
@@ -154,13 +159,13 @@ impl Options {
         let asked = asked.into_iter().filter(|(wanted, ..)| *wanted);
         let unknown = asked.map(|(_, name, instead)| {
             let way = format!("this is a mechanism: see `{instead}`, or write a scene");
-            Unknown::whole(name, format!("`{name}` is of scenes, and {way}"))
+            UnknownName::whole(name, format!("`{name}` is an option of scenes, but {way}"))
         });
         unknown.collect()
     }
 
     /// Returns the selected options that only mechanisms have, for the generation of a scene.
-    pub fn of_mechanisms(&self) -> Vec<Unknown> {
+    pub fn misplaced_mechanism_options(&self) -> Vec<UnknownName> {
         let asked = [
             (self.methods.is_some(), "methods", "a scene has its own"),
             (self.frames.is_some(), "frames", "see the key `outputs`"),
@@ -178,18 +183,19 @@ impl Options {
         ];
         let asked = asked.into_iter().filter(|(wanted, ..)| *wanted);
         let unknown = asked.map(|(_, name, instead)| {
-            let message = format!("`{name}` is of mechanisms, and this is a scene: {instead}");
-            Unknown::whole(name, message)
+            let message =
+                format!("`{name}` is an option of mechanisms, but this is a scene: {instead}");
+            UnknownName::whole(name, message)
         });
         unknown.collect()
     }
 }
 
-impl Unknown {
+impl UnknownName {
     /// Returns the error of an option that is invalid here.
     fn whole(name: &'static str, message: String) -> Self {
-        Unknown {
-            option: Asked::Whole(name),
+        UnknownName {
+            option: OptionName::Whole(name),
             index: 0,
             message,
         }
@@ -201,7 +207,7 @@ fn usual(velocities: usize) -> Vec<Method> {
     Method::OF_TRAIT.into_iter().chain(coriolis).collect()
 }
 
-fn methods(names: &[String], sites: &[Site], unknown: &mut Vec<Unknown>) -> Vec<Method> {
+fn methods(names: &[String], sites: &[Site], unknown: &mut Vec<UnknownName>) -> Vec<Method> {
     let mut wanted = Vec::new();
     for (index, name) in names.iter().enumerate() {
         if name == DYNAMICS {
@@ -210,8 +216,8 @@ fn methods(names: &[String], sites: &[Site], unknown: &mut Vec<Unknown>) -> Vec<
         }
         match Method::named(sites, name) {
             Ok(method) => wanted.push(method),
-            Err(message) => unknown.push(Unknown {
-                option: Asked::Methods,
+            Err(message) => unknown.push(UnknownName {
+                option: OptionName::Methods,
                 index,
                 message,
             }),
@@ -220,7 +226,7 @@ fn methods(names: &[String], sites: &[Site], unknown: &mut Vec<Unknown>) -> Vec<
     wanted
 }
 
-fn frames(names: &[String], sites: &[Site], unknown: &mut Vec<Unknown>) -> Vec<Method> {
+fn frames(names: &[String], sites: &[Site], unknown: &mut Vec<UnknownName>) -> Vec<Method> {
     let mut wanted = Vec::new();
     for (index, name) in names.iter().enumerate() {
         if let Some(i) = sites.iter().position(|s| s.name == *name) {
@@ -228,8 +234,8 @@ fn frames(names: &[String], sites: &[Site], unknown: &mut Vec<Unknown>) -> Vec<M
             continue;
         }
         let known: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
-        unknown.push(Unknown {
-            option: Asked::Frames,
+        unknown.push(UnknownName {
+            option: OptionName::Frames,
             index,
             message: unknown_name("link or frame", name, &known, &known.join(", ")),
         });

@@ -88,6 +88,6 @@ pub fn cheapest(candidates: impl IntoIterator<Item = Function>) -> Option<Functi
         what: f.formulation,
         cost,
     });
-    best.passed_over.extend(others);
+    best.rejected.extend(others);
     Some(best)
 }

@@ -1,7 +1,7 @@
 //! The reasons for which a spec or a scene is refused.
 
 use crate::fault::Faults;
-use crate::options::Unknown;
+use crate::options::UnknownName;
 use crate::verify::Difference;
 
 /// The reason why there is no module.
@@ -21,7 +21,7 @@ pub enum Refusal {
         scene: Faults,
     },
     /// Requested names that the mechanism does not have, and options that are invalid here.
-    Options(Vec<Unknown>),
+    Options(Vec<UnknownName>),
     /// Functions that differ from equation (6): an error of the generator.
     Unequal(Vec<Difference>),
 }

@@ -154,7 +154,7 @@ impl<'a> Cutter<'a> {
         self.copies.clear();
         for (block, passed) in self.passed.iter().enumerate().take(b) {
             for (index, &id) in passed.iter().enumerate() {
-                let leaf = self.made.leaf(Leaf::Passed { block, index });
+                let leaf = self.made.leaf(Leaf::BlockResult { block, index });
                 self.copies.insert(id, leaf);
             }
         }

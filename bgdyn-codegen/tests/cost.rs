@@ -110,7 +110,7 @@ fn the_cheapest_is_taken() {
                 let most = plan.cost.operations.total() + 5;
                 assert!(operations <= most, "{place}: {}", plan.what);
             }
-            for other in &chosen.passed_over {
+            for other in &chosen.rejected {
                 assert!(weight <= other.cost.weighted(), "{place}: {}", other.what);
             }
             let other = robot.function("literal", method).cost();

@@ -1,7 +1,9 @@
 //! Parses the arguments of the macro.
 
 use bgdyn_codegen::name::is_identifier;
-use bgdyn_codegen::options::{Asked, Options, Unknown, formulation_named, preference_named};
+use bgdyn_codegen::options::{
+    OptionName, Options, UnknownName, formulation_named, preference_named,
+};
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::parse::{Parse, ParseStream};
@@ -52,11 +54,11 @@ impl Parse for Input {
 
 impl Input {
     /// Returns the error of a name or an option that is not valid here.
-    pub(crate) fn error(&self, unknown: &Unknown) -> syn::Error {
+    pub(crate) fn error(&self, unknown: &UnknownName) -> syn::Error {
         let span = match unknown.option {
-            Asked::Methods => self.methods.get(unknown.index).copied(),
-            Asked::Frames => self.frames.get(unknown.index).copied(),
-            Asked::Whole(name) => {
+            OptionName::Methods => self.methods.get(unknown.index).copied(),
+            OptionName::Frames => self.frames.get(unknown.index).copied(),
+            OptionName::Whole(name) => {
                 let option = self.given.iter().find(|option| *option == name);
                 option.map(Ident::span)
             }

@@ -24,7 +24,7 @@ use input::Input;
 /// bgdyn::bgdyn!("scara.yaml"); // pub mod scara { pub struct Scara … }
 /// ```
 ///
-/// The file is searched for beside the calling source file, then in the package's directory, then in its
+/// The file is searched for next to the calling source file, then in the package's directory, then in its
 /// `specs/` and `specs/scenes/`. A file whose first key is `scene` is a scene: a mechanism with the
 /// effects of a run. The module has the file's name, up to its first dot. A change of the file rebuilds
 /// the crate.
@@ -33,19 +33,19 @@ use input::Input;
 ///
 /// | option | |
 /// |---|---|
-/// | `methods = [inverse_dynamics, pose_tool]` | these methods instead of the usual ones; `dynamics` stands for those of the trait `Dynamics`, which is implemented only where all of them are there |
+/// | `methods = [inverse_dynamics, pose_tool]` | these methods instead of the usual ones; `dynamics` means those of the trait `Dynamics`, which is implemented only if all of them are generated |
 /// | `frames = [tool, forearm]` | pose, velocity, Jacobian and J̇ v of these links and frames instead of the named frames and tips |
 /// | `derivatives = true` | first derivatives of inverse and forward dynamics |
-/// | `jacobian = true` | of a scene: ∂ẏ/∂y and ∂ẏ/∂t, and the trait `Slope`, where its method of integration does not ask for them already |
-/// | `canonical = true` | of a scene: momenta in place of velocities, and the trait `Canonical`, likewise |
+/// | `jacobian = true` | for a scene: ∂ẏ/∂y, ∂ẏ/∂t and the trait `Slope`; its integration method may generate them already |
+/// | `canonical = true` | for a scene: momenta in place of velocities and the trait `Canonical`; its integration method may generate them already |
 /// | `formulation = "literal"` | one formulation for every method instead of the cheapest of each |
 /// | `prefer = "accuracy"` | for each method the formulation that loses the fewest digits in `f64`, instead of the cheapest; `"operations"` is the default |
 /// | `verify = false` | leaves out the comparison of the generated functions with equation (6) |
 /// | `module = left_arm` | another name for the module; the struct keeps the file's |
 /// | `visibility = pub(crate)` | of the module, instead of `pub` |
 ///
-/// A spec with faults gives one error that lists them all. The module is generated in spite of them, with
-/// all names that a caller can use, so that no call adds an error of its own.
+/// A spec with faults gives one error that lists all of them. A replacement module is still generated,
+/// with every name that a caller can use, so that calls do not add errors.
 #[proc_macro]
 pub fn bgdyn(input: TokenStream) -> TokenStream {
     let input = syn::parse_macro_input!(input as Input);

@@ -62,7 +62,7 @@ pub fn batch<I: Sync, R: Send>(
 
 /// Number and length of the steps of a run of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Course<T> {
+pub struct FixedSteps<T> {
     /// Length of a step, s; with a tolerance, the time between two evaluations of the outputs.
     pub step: T,
     /// Number of steps.
@@ -94,7 +94,7 @@ where
 /// successful step.
 pub fn outcome<P, M, Y>(
     mut run: Run<P, M>,
-    course: Course<Of<P::State>>,
+    steps: FixedSteps<Of<P::State>>,
     look: impl Fn(&P, Of<P::State>, &P::State, &P::Modes) -> Y,
 ) -> Outcome<P, Y>
 where
@@ -108,8 +108,8 @@ where
     let mut failure = run.resolve_stiction().err();
     let mut last = see(&run);
     let (mut low, mut high) = (last.clone(), last.clone());
-    for _ in 0..course.steps {
-        failure = failure.or_else(|| run.step(course.step).err());
+    for _ in 0..steps.steps {
+        failure = failure.or_else(|| run.step(steps.step).err());
         if failure.is_some() {
             break;
         }

@@ -7,7 +7,7 @@ use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::HybridSystem;
 use bgdyn::runtime::wide::{f32x4, f32x8, f64x2, f64x4, f64x8};
 use bgdyn::{Dynamics, Scalar};
-use bgdyn_sim::batch::{Course, batch, outcome};
+use bgdyn_sim::batch::{FixedSteps, batch, outcome};
 use bgdyn_sim::lanes::{Driven, LaneError, LaneRun, Lanes, SmoothScene, packed, unpacked};
 use bgdyn_sim::{HybridState, Integrator, Ode, Rk4, Run, ScenePlant, SemiImplicitEuler, Solver};
 
@@ -117,7 +117,7 @@ fn a_lane_that_fails_leaves_the_others_alone() {
 fn by_threads(starts: &[SVector<f64, 6>], threads: usize) -> Vec<[SVector<f64, 6>; 4]> {
     let scene = PumaDistributed::<f64>::default();
     let threads = NonZeroUsize::new(threads).expect("some");
-    let course = Course {
+    let steps = FixedSteps {
         step: 1e-3,
         steps: STEPS,
     };
@@ -126,7 +126,7 @@ fn by_threads(starts: &[SVector<f64, 6>], threads: usize) -> Vec<[SVector<f64, 6
         let from = HybridState { t: 0.0, y, modes };
         let run = Run::by(Rk4, ScenePlant::new(&scene), from);
         // The array of nalgebra's vector as a slice of numbers.
-        let seen = outcome(run, course, |plant, t, y, modes| {
+        let seen = outcome(run, steps, |plant, t, y, modes| {
             <[f64; 6]>::from(plant.output(t, y, modes))
         });
         assert!(seen.failure.is_none());

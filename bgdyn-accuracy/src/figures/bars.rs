@@ -9,9 +9,43 @@ use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
 pub(super) struct Line {
     pub label: String,
     /// A number for each column.
-    pub values: Vec<Option<f64>>,
+    pub values: Vec<Option<Number>>,
     /// The reason why the last column has no number.
     pub failed: Option<String>,
+}
+
+impl Line {
+    /// Returns numbers without ranges.
+    pub fn numbers<const N: usize>(values: [Option<f64>; N]) -> Vec<Option<Number>> {
+        values.map(|value| value.map(Number::exact)).to_vec()
+    }
+
+    /// Returns the number in a column.
+    pub fn value(&self, k: usize) -> Option<f64> {
+        self.values[k].map(|number| number.value)
+    }
+}
+
+/// A number, with the range of its measurements if it was measured.
+#[derive(Clone, Copy)]
+pub(super) struct Number {
+    pub value: f64,
+    pub range: Option<[f64; 2]>,
+}
+
+impl Number {
+    /// Returns a number without a range.
+    pub fn exact(value: f64) -> Self {
+        Number { value, range: None }
+    }
+
+    /// Returns whether the ranges of two measured numbers overlap.
+    fn overlaps(self, other: Number) -> bool {
+        match (self.range, other.range) {
+            (Some([a, b]), Some([c, d])) => a <= d && c <= b,
+            _ => false,
+        }
+    }
 }
 
 /// A column.
@@ -19,6 +53,24 @@ pub(super) struct Column {
     /// Its quantity, and its reference or unit.
     pub title: [String; 2],
     pub scale: Scale,
+}
+
+impl Column {
+    /// Returns a column of bars.
+    pub fn bars(what: String, unit: String) -> Self {
+        Column {
+            title: [what, unit],
+            scale: Scale::Linear,
+        }
+    }
+
+    /// Returns a column of dots on a logarithmic axis.
+    pub fn dots(what: String, unit: &str) -> Self {
+        Column {
+            title: [what, format!("{unit}, logarithmic")],
+            scale: Scale::Log,
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -50,6 +102,8 @@ const NUMBERS: f64 = 62.0;
 const GAP: f64 = 26.0;
 const BAR: &str = "#0072b2";
 const DOT: &str = "#d55e00";
+/// Colour of the ranges of measured numbers: visible on bars and next to them.
+const WHISKER: &str = "#e69f00";
 /// Number of letters that fit beside a column.
 const LETTERS: usize = 24;
 
@@ -86,37 +140,49 @@ impl Bars {
     }
 
     /// Returns the numbers of a column, with the heights of their lines.
-    fn numbers(&self, k: usize) -> impl Iterator<Item = (f64, f64)> {
+    fn numbers(&self, k: usize) -> impl Iterator<Item = (f64, Number)> {
         let lines = self.lines.iter().enumerate();
         lines.filter_map(move |(i, line)| Some((TOP + PITCH * i as f64, line.values[k]?)))
     }
 
     fn bars(&self, d: &mut Drawing, k: usize, (from, to): (f64, f64)) {
-        let most = self.numbers(k).map(|(_, x)| x).fold(0.0, f64::max);
+        let end = |x: Number| x.range.map_or(x.value, |[_, high]| high.max(x.value));
+        let most = self.numbers(k).map(|(_, x)| end(x)).fold(0.0, f64::max);
         let place = |x: f64| from + (to - from) * x.max(0.0) / most.max(f64::MIN_POSITIVE);
         for (y, x) in self.numbers(k) {
-            d.rectangle((from, y), ((place(x) - from).max(1.0), THICK), BAR);
+            let length = (place(x.value) - from).max(1.0);
+            d.rectangle((from, y), (length, THICK), BAR);
+            if let Some([low, high]) = x.range {
+                let (low, high, y) = (place(low), place(high), y + THICK / 2.0);
+                d.line((low, y), (high, y), WHISKER, "");
+                for x in [low, high] {
+                    d.line((x, y - 4.0), (x, y + 4.0), WHISKER, "");
+                }
+            }
         }
         let bottom = TOP + PITCH * self.lines.len() as f64 - 6.0;
         let first = self.lines.first().and_then(|line| line.values[k]);
-        if let Some(x) = first.filter(|_| self.compared) {
-            let at = place(x);
+        let first = first.filter(|_| self.compared);
+        if let Some(x) = first {
+            let at = place(x.value);
             d.line((at, TOP + PITCH - 6.0), (at, bottom), INK, "4 3");
         }
         for (y, x) in self.numbers(k) {
             // Text is not placed on the dashed line.
-            let beyond = first.filter(|_| self.compared).map_or(0.0, place);
-            let crossed = place(x) < beyond && place(x) + NUMBERS > beyond;
-            let end = if crossed { beyond } else { place(x) };
-            let at = (end + 6.0, y + 12.5);
-            d.text(at, 13, INK, Anchor::Start, &number(x));
+            let beyond = first.map_or(0.0, |x| place(x.value));
+            let own = place(end(x));
+            let crossed = own < beyond && own + NUMBERS > beyond;
+            let at = (if crossed { beyond } else { own } + 6.0, y + 12.5);
+            let same = y > TOP && first.is_some_and(|first| first.overlaps(x));
+            let text = format!("{}{}", if same { "≈ " } else { "" }, number(x.value));
+            d.text(at, 13, INK, Anchor::Start, &text);
         }
         d.line((from, TOP - 6.0), (from, bottom), FAINT, "");
     }
 
     fn dots(&self, d: &mut Drawing, k: usize, (from, to): (f64, f64)) {
-        let logs = self.numbers(k).filter(|(_, x)| *x > 0.0 && x.is_finite());
-        let logs = logs.map(|(_, x)| x.log10());
+        let values = self.numbers(k).map(|(_, x)| x.value);
+        let logs = values.filter(|x| *x > 0.0 && x.is_finite()).map(f64::log10);
         let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
             (l.min(x), h.max(x))
         });
@@ -141,7 +207,7 @@ impl Bars {
             d.text((at, bottom + 16.0), 11, FAINT, Anchor::Middle, &text);
         }
         d.line((from, bottom), (to, bottom), FAINT, "");
-        for (y, x) in self.numbers(k) {
+        for (y, x) in self.numbers(k).map(|(y, x)| (y, x.value)) {
             if x > 0.0 && x.is_finite() {
                 let at = place(x.log10());
                 d.marker((at, y + 8.0), Marker::Circle, DOT);
@@ -172,9 +238,9 @@ impl Bars {
     }
 }
 
-/// Prints a number; integers with all digits.
+/// Prints a number; integers below a million with all digits.
 fn number(x: f64) -> String {
-    match x.fract() == 0.0 && x.abs() < 1e7 {
+    match x.fract() == 0.0 && x.abs() < 1e6 {
         true => format!("{x}"),
         false => short(x),
     }

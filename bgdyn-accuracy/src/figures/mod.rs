@@ -2,28 +2,21 @@
 
 mod bars;
 mod diagram;
+mod effects;
+mod figure;
 
-use crate::configuration::StepControl;
-use crate::cost::{Cost, METHOD, TOLERANCE};
 use crate::format::{short, step, time};
 use crate::order_check::{Verdict, verdicts};
 use crate::pareto::targets;
-use crate::row::{Row, Status};
+use crate::row::Row;
 use crate::study::Study;
 use crate::svg::Marker;
-use bars::{Bars, Column, Line, Scale};
+use bars::{Bars, Column, Line};
 use diagram::{Diagram, Series};
-
-/// A figure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// The file's name: `arm_methods.svg`.
-    pub name: String,
-    /// Its caption, in a sentence.
-    pub caption: String,
-    /// The SVG text.
-    pub svg: String,
-}
+use effects::{added, left_out};
+pub use figure::Figure;
+use figure::about;
+pub(crate) use figure::way;
 
 /// Returns the colour and marker of an integrator. The palette of Okabe and Ito is distinguishable for
 /// colour-blind readers; circles are explicit integrators, squares implicit ones, triangles integrators of
@@ -47,9 +40,6 @@ fn look(method: &str) -> (&'static str, Marker) {
     }
 }
 
-/// Prefix of a family of effects that is left out, in the names of ablations.
-const ALL_BUT: &str = "all but ";
-
 /// Returns the figures of a study: integrators, scalars and canonical form, formulations, effects left
 /// out, effects added one after the other. Figures with nothing to compare are omitted.
 pub fn figures(study: &Study) -> Vec<Figure> {
@@ -61,23 +51,6 @@ pub fn figures(study: &Study) -> Vec<Figure> {
         added(study),
     ];
     all.into_iter().flatten().collect()
-}
-
-/// Returns "~" for estimated times.
-fn about(study: &Study) -> &'static str {
-    if study.is_measured() { "" } else { "~" }
-}
-
-/// Returns "gauss2 at 2 ms", "dopri5 with the tolerance 1e-6".
-pub(crate) fn way(row: &Row) -> String {
-    let scalar = match row.scalar.as_str() {
-        "f64" => "",
-        scalar => &format!(" in {scalar}"),
-    };
-    match row.step_control {
-        StepControl::Step(h) => format!("{}{scalar} at {}", row.method, step(h)),
-        StepControl::Tolerance(t) => format!("{}{scalar} with the tolerance {t:e}", row.method),
-    }
 }
 
 /// Returns the cost of a small error, for a title.
@@ -246,13 +219,13 @@ fn formulations(study: &Study) -> Option<Figure> {
         let errors = rows.iter().filter_map(|r| r.error);
         Line {
             label: (*name).to_owned(),
-            values: vec![at.and_then(|r| r.ns), errors.reduce(f64::min)],
+            values: Line::numbers([at.and_then(|r| r.ns), errors.reduce(f64::min)]),
             failed: None,
         }
     };
     let facts = &study.facts;
     let lines: Vec<Line> = names.iter().map(line).collect();
-    let costs = lines.iter().filter_map(|line| line.values[0]);
+    let costs = lines.iter().filter_map(|line| line.value(0));
     let (low, high) = costs.fold((f64::INFINITY, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
     let title = format!(
         "{}: formulations differ by {:.1} times in time",
@@ -265,7 +238,7 @@ fn formulations(study: &Study) -> Option<Figure> {
         svg: Bars {
             title,
             columns: vec![
-                linear(
+                Column::bars(
                     format!(
                         "{}time by rk4 at {}",
                         about(study),
@@ -273,162 +246,7 @@ fn formulations(study: &Study) -> Option<Figure> {
                     ),
                     "ns per simulated ms".into(),
                 ),
-                logarithmic(format!("least error of {}", facts.output), study),
-            ],
-            lines,
-            compared: false,
-        }
-        .draw(),
-    })
-}
-
-/// Returns a column of bars.
-fn linear(what: String, unit: String) -> Column {
-    Column {
-        title: [what, unit],
-        scale: Scale::Linear,
-    }
-}
-
-/// Returns a column of dots, in the measured output's unit.
-fn logarithmic(what: String, study: &Study) -> Column {
-    Column {
-        title: [what, format!("{}, logarithmic", study.facts.unit)],
-        scale: Scale::Log,
-    }
-}
-
-/// Returns the rows of ablations: the scene with all effects and its own settings, then those selected by
-/// `name`.
-fn ablations<'a>(
-    study: &'a Study,
-    name: impl Fn(&'a str) -> Option<&'a str>,
-) -> Option<(&'a Row, Vec<(&'a str, &'a Row)>)> {
-    let named = study
-        .rows
-        .iter()
-        .filter_map(|r| Some((name(&r.effects)?, r)));
-    let named: Vec<(&str, &Row)> = named.collect();
-    let step_control = named.first()?.1.step_control;
-    let method = &named.first()?.1.method;
-    let own =
-        |r: &&Row| r.effects == "all" && r.step_control == step_control && r.method == *method;
-    let own = |r: &&Row| own(r) && r.scalar == "f64" && r.formulation == "cheapest";
-    // The ablation comes after the integrator's own sequence of steps, and is timed with the other
-    // ablations.
-    Some((study.rows.iter().rfind(own)?, named))
-}
-
-fn why(row: &Row) -> Option<String> {
-    match &row.status {
-        Status::Failed(why) => Some(why.clone()),
-        _ => None,
-    }
-}
-
-/// Draws the cost of each effect, and its influence: the scene with all effects, and without each.
-fn left_out(study: &Study) -> Option<Figure> {
-    let (_, named) = ablations(study, |e| e.strip_prefix(ALL_BUT))?;
-    let of = |effects: &str| study.costs.iter().find(|c| c.effects == effects);
-    let whole = of("all")?;
-    let values = |cost: Option<&Cost>, error: Option<f64>| {
-        vec![
-            cost.map(|c| c.operations as f64),
-            cost.map(|c| c.ns),
-            cost.and_then(|c| c.steps).map(|n| n as f64),
-            error,
-        ]
-    };
-    let without = |(effect, row): &(&str, &Row)| Line {
-        label: format!("without {effect}"),
-        values: values(of(&row.effects), row.error),
-        failed: why(row),
-    };
-    let mut lines = vec![Line {
-        label: "all effects".into(),
-        values: values(Some(whole), None),
-        failed: None,
-    }];
-    lines.extend(named.iter().map(without));
-    let facts = &study.facts;
-    let changes = named
-        .iter()
-        .filter_map(|(effect, row)| Some((effect, row.error?)));
-    let most = changes.max_by(|a, b| a.1.total_cmp(&b.1));
-    let what = most.map_or(String::new(), |(effect, change)| {
-        format!(
-            ": {effect} changes the motion most, by {} {}",
-            short(change),
-            facts.unit
-        )
-    });
-    let of_call = "one call of derivative";
-    Some(Figure {
-        name: format!("{}_effects.svg", facts.scene),
-        caption: format!(
-            "What each effect costs and changes: the scene with all effects, and without each in turn. Operations (additions, multiplications, divisions, roots, pairs of sine and cosine) and time of one call of `derivative`; the steps that {METHOD} takes for the run with the tolerance {TOLERANCE:e}; and how far `{}` moves away from its course. The dashed line is the scene with all effects. Fewer operations can take as long, where the processor does them side by side. Without an effect a run may also take more steps: a damper that is left out lets fast motions go on, and a run on which a joint's friction no longer holds it meets other events.",
-            facts.output,
-        ),
-        svg: Bars {
-            title: format!("{}{what}", facts.scene),
-            columns: vec![
-                linear("operations".into(), of_call.into()),
-                linear(format!("{}time, ns", about(study)), of_call.into()),
-                linear("steps".into(), format!("{METHOD}, tolerance {TOLERANCE:e}")),
-                logarithmic(format!("change of {}", facts.output), study),
-            ],
-            lines,
-            compared: true,
-        }
-        .draw(),
-    })
-}
-
-/// Draws effects added one after the other.
-fn added(study: &Study) -> Option<Figure> {
-    let (own, named) = ablations(study, |e| {
-        (!e.starts_with("all")).then(|| e.rsplit('+').next().unwrap_or(e))
-    })?;
-    let line = |(i, (effect, row)): (usize, &(&str, &Row))| Line {
-        label: if i == 0 {
-            (*effect).to_owned()
-        } else {
-            format!("+ {effect}")
-        },
-        values: vec![row.ns, row.error],
-        failed: why(row),
-    };
-    let mut lines: Vec<Line> = named.iter().enumerate().map(line).collect();
-    lines.push(Line {
-        label: "all".into(),
-        values: vec![own.ns, own.error],
-        failed: why(own),
-    });
-    let facts = &study.facts;
-    let first = lines.iter().find_map(|line| line.values[0]);
-    let title = match (first, own.ns) {
-        (Some(first), Some(last)) => format!(
-            "{}: all effects take {:.1} times as long as the first stage that runs",
-            facts.scene,
-            last / first
-        ),
-        _ => format!("{}: effects added one after the other", facts.scene),
-    };
-    Some(Figure {
-        name: format!("{}_stages.svg", facts.scene),
-        caption: format!(
-            "Effects added one after the other, by {}: what each stage takes, and how far `{}` is from its course in the scene with all effects. In the last line that is the error of the method alone.",
-            way(own),
-            facts.output
-        ),
-        svg: Bars {
-            title,
-            columns: vec![
-                linear(
-                    format!("{}time", about(study)),
-                    "ns per simulated ms".into(),
-                ),
-                logarithmic("distance from the full scene".into(), study),
+                Column::dots(format!("least error of {}", facts.output), &facts.unit),
             ],
             lines,
             compared: false,

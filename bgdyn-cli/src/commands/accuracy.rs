@@ -16,27 +16,27 @@ use crate::output::{print, tell};
 use crate::quantity::positive;
 use crate::spec_file::SpecFile;
 
-/// What accuracy costs in time on a scene: error and time by method, step, scalar, formulation, effects
+/// Measure error against computing time of a scene, by method, step, scalar, formulation and effects
 ///
-/// The scene is compiled by your cargo in a crate that is kept, and timed. Where that cannot be, times
-/// are estimates from the operations, and marked as such.
+/// The scene is compiled with your cargo, in a crate that is kept, and timed. If that fails, times are
+/// estimated from the operations, and marked as estimates.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn accuracy specs/scenes/stick_slip.scene.yaml --out accuracy --bgdyn .\n\nWrites accuracy.csv, costs.csv, figures (SVG) and report.html. Exit 1 where a method that should converge does not."
+    after_help = "Example:\n  bgdyn accuracy specs/scenes/stick_slip.scene.yaml --out accuracy --bgdyn .\n\nWrites accuracy.csv, costs.csv, figures (SVG) and report.html. Exit 1 if a method does not converge as it should."
 )]
 pub(crate) struct Accuracy {
     /// The scene
     file: PathBuf,
-    /// The folder for the files, made if it is not there
+    /// Output folder; created if it does not exist
     #[arg(long, value_name = "DIR", default_value = "accuracy")]
     out: PathBuf,
-    /// When the runs end: `2 s`
+    /// End time of the runs, such as `2 s`
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     end: Option<String>,
-    /// Fewer steps and samples
+    /// Use fewer steps and samples
     #[arg(long)]
     quick: bool,
-    /// The bgdyn that times are measured with: a path or a version
+    /// The version or path of the bgdyn crate that the timing program is built with
     #[arg(long, value_name = "PATH|VERSION", default_value = env!("CARGO_PKG_VERSION"))]
     bgdyn: String,
 }

@@ -16,7 +16,7 @@ use crate::spec_file::{SpecFile, shown};
 /// Check specs; report every fault with its location
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn check specs/scara.yaml\n  bgdyn check specs/*.yaml --json\n\nExit 1 where any file is refused. With --json: one report, or a list of reports for several files."
+    after_help = "Example:\n  bgdyn check specs/scara.yaml\n  bgdyn check specs/*.yaml --json\n\nExit 1 if any file has an error. --json prints one report, or a list of reports for several files."
 )]
 pub(crate) struct Check {
     /// Mechanisms and scenes; `-` is standard input
@@ -198,7 +198,7 @@ pub(crate) fn snapped_words(snapped: &Snapped) -> String {
         1 => format!("1 direction, {most:.1e} rad off (`{path}`)"),
         _ => format!("{count} directions, the farthest {most:.1e} rad off (`{path}`)"),
     };
-    format!("{what}; taken as exact, `snap: 0` at the top keeps what is written")
+    format!("{what}; made exact, `snap: 0` at the top keeps the directions as written")
 }
 
 /// Describes a solved algebraic loop: `elbow_motor: without inductance: …`.

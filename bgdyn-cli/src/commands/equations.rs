@@ -18,16 +18,16 @@ use crate::usage::Usage;
 pub(crate) struct Equations {
     /// The spec
     file: PathBuf,
-    /// How they are written
+    /// Output format
     #[arg(long, value_enum, default_value_t = EquationFormat::Text)]
     format: EquationFormat,
-    /// Where to write them; stdout by default
+    /// Output file [default: stdout]
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// Significant digits of numbers, 1 to 17
+    /// Significant digits of the numbers, 1 to 17
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=17))]
     digits: u8,
-    /// The most terms that all efforts may have
+    /// Largest number of terms, summed over all efforts
     #[arg(long, value_name = "N", default_value_t = LIMIT)]
     limit: usize,
 }

@@ -8,41 +8,41 @@ use bgdyn_codegen::pipeline::generate_file;
 use clap::Args;
 
 use crate::output::{print, tell};
-use crate::spec_file::{Asked, SpecFile, is_stdin, read_text};
+use crate::spec_file::{GeneratorArgs, SpecFile, is_stdin, read_text};
 use crate::usage::Usage;
 
 /// Write the generated Rust source
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs\n  bgdyn generate specs/scara.yaml -o scara.rs --check   # exit 1 if scara.rs is not up to date\n  bgdyn generate specs/scara.yaml --plain   # formulas as one writes them"
+    after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs\n  bgdyn generate specs/scara.yaml -o scara.rs --check   # exit 1 if scara.rs is not up to date\n  bgdyn generate specs/scara.yaml --plain   # infix formulas"
 )]
 pub(crate) struct Generate {
     /// The spec
     file: PathBuf,
-    /// Where to write it; stdout by default
+    /// Output file [default: stdout]
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// Write nothing; fail where the output is not what would be written
+    /// Write nothing; fail if the output file differs from what would be written
     #[arg(long, requires = "output")]
     check: bool,
-    /// Another name for the module
+    /// Name of the module [default: the name of the file]
     #[arg(long, value_name = "NAME")]
     module: Option<String>,
-    /// The module's visibility
+    /// Visibility of the module
     #[arg(long, value_name = "RUST", default_value = "pub")]
     visibility: String,
-    /// The path by which the including crate reaches bgdyn
+    /// Path of bgdyn in the crate that includes the file
     #[arg(long = "crate", value_name = "PATH", default_value = "::bgdyn")]
     bgdyn: String,
     /// Do not compare the functions with equation (6)
     #[arg(long)]
     no_verify: bool,
     /// Write infix formulas, for reading and review: `a * b + c` in place of `T::mul_add(a, b, c)`.
-    /// The statements are those of the code that is compiled; this text is not to be compiled
+    /// The statements are those of the compiled code; this text itself does not compile
     #[arg(long)]
     plain: bool,
     #[command(flatten)]
-    asked: Asked,
+    asked: GeneratorArgs,
 }
 
 impl Generate {

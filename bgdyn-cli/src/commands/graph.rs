@@ -13,15 +13,15 @@ use crate::usage::Usage;
 /// Draw the bond graph
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn graph specs/scara.yaml -o scara.svg\n  bgdyn graph specs/scara.yaml --format dot | dot -Tpdf > scara.pdf\n\ndocs/graph.md says how to read it."
+    after_help = "Example:\n  bgdyn graph specs/scara.yaml -o scara.svg\n  bgdyn graph specs/scara.yaml --format dot | dot -Tpdf > scara.pdf\n\ndocs/graph.md explains how to read it."
 )]
 pub(crate) struct Graph {
     /// The mechanism or the scene
     file: PathBuf,
-    /// Where to write it; stdout by default
+    /// Output file [default: stdout]
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// SVG, or the language of Graphviz; by default what the output's name ends with, else SVG
+    /// Output format: SVG or Graphviz [default: from the extension of the output file, else SVG]
     #[arg(long, value_enum)]
     format: Option<DrawingFormat>,
 }

@@ -16,7 +16,7 @@ use clap::Args;
 use serde::{Serialize, Serializer};
 
 use crate::output::print;
-use crate::spec_file::{Asked, SpecFile, unknown};
+use crate::spec_file::{GeneratorArgs, SpecFile, unknown};
 use crate::usage::Usage;
 
 /// Count the operations of each generated function
@@ -28,18 +28,18 @@ pub(crate) struct Ops {
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Say what was chosen, what it costs part by part, and what the other plans and formulations
-    /// cost
+    /// Show the chosen formulation, its cost part by part, and the cost of the other plans and
+    /// formulations
     #[arg(long)]
     explain: bool,
-    /// Of a scene: what each effect costs, added one at a time, and all but one
+    /// For a scene: the cost of each effect, added one at a time and removed one at a time
     #[arg(long)]
     per_effect: bool,
-    /// The bgdyn that times are measured with: a path or a version
+    /// The version or path of the bgdyn crate that the timing program is built with
     #[arg(long, value_name = "PATH|VERSION", default_value = env!("CARGO_PKG_VERSION"))]
     bgdyn: String,
     #[command(flatten)]
-    asked: Asked,
+    asked: GeneratorArgs,
 }
 
 impl Ops {
@@ -73,7 +73,7 @@ impl Ops {
     }
 
     fn scene(&self, system: &SceneEquations, options: &Options) -> Result<()> {
-        let misplaced = options.of_mechanisms();
+        let misplaced = options.misplaced_mechanism_options();
         if !misplaced.is_empty() {
             return Err(unknown(misplaced).into());
         }
@@ -178,8 +178,8 @@ fn explain(mechanism: &Mechanism, model: &Model, f: &Function) -> String {
     let lost = summary(rounding_error(f, &model.bond_graph));
     let mut text = format!("{}: {}; {lost}\n", f.name(), f.formulation);
     text += &format!("  cost {}\n", f.cost());
-    text += &list("plans before factoring, the first one taken", &f.plans);
-    text += &list("passed over", &f.passed_over);
+    text += &list("plans before factoring; the first is used", &f.plans);
+    text += &list("rejected", &f.rejected);
     text += "  formulations\n";
     let serving = FORMULATIONS
         .iter()

@@ -6,13 +6,13 @@ use clap::Args;
 use crate::output::print;
 use crate::schema;
 
-/// The JSON Schema of a mechanism's file, or of a scene's, for editors
+/// Print the JSON Schema of mechanism files, or of scene files, for editors
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  bgdyn schema > mechanism.schema.json\n  bgdyn schema --scene > scene.schema.json\nand in the first line of a spec:\n  # yaml-language-server: $schema=mechanism.schema.json"
 )]
 pub(crate) struct Schema {
-    /// Of a scene's file
+    /// Print the schema of scene files
     #[arg(long)]
     scene: bool,
 }

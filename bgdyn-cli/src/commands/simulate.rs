@@ -23,24 +23,24 @@ use crate::simulate::{
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
 
-/// Run a scene, without a compiler: table, plots, a page that replays it, events, energy
+/// Simulate a scene without a compiler: table, plots, replay page, events, energy balance
 ///
-/// The run is by the scene's `integration` where nothing else is said. It is made once more with half
-/// the step or a tenth of the tolerance, to tell how far its result can be trusted.
+/// The run uses the scene's `integration` unless an option overrides it. It is repeated with half the
+/// step or a tenth of the tolerance, to estimate the error of the result.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2s --points 201\n  bgdyn simulate arm.scene.yaml --parameter payload=2.5 --initial shoulder=\"30 deg\"\n  bgdyn simulate arm.scene.yaml --sweep payload=0:5:21\n  bgdyn simulate arm.scene.yaml --random shoulder=-1:1 --random payload=0:5 --runs 500\n\nInputs that the scene does not drive are 0. Exit 1 where the run cannot go on; what there is of it is written."
+    after_help = "Example:\n  bgdyn simulate specs/scenes/stick_slip.scene.yaml --out runs\n  bgdyn simulate arm.scene.yaml --method dopri5 --tolerance 1e-9 --end 2s --points 201\n  bgdyn simulate arm.scene.yaml --parameter payload=2.5 --initial shoulder=\"30 deg\"\n  bgdyn simulate arm.scene.yaml --sweep payload=0:5:21\n  bgdyn simulate arm.scene.yaml --random shoulder=-1:1 --random payload=0:5 --runs 500\n\nInputs that the scene does not drive are 0. Exit 1 if the run stops early; the files then contain it up to that point."
 )]
 pub(crate) struct Simulate {
     /// The scene
     file: PathBuf,
-    /// The folder for the files, made if it is not there
+    /// Output folder; created if it does not exist
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
-    /// The method of integration, as scenes name it
+    /// Integration method, by its name in scenes
     #[arg(long, value_name = "NAME")]
     method: Option<String>,
-    /// Length of every step: `1 ms`; s without a unit
+    /// Fixed step, such as `1 ms`; s if no unit is given
     #[arg(
         long,
         value_name = "S",
@@ -48,19 +48,19 @@ pub(crate) struct Simulate {
         allow_hyphen_values = true
     )]
     step: Option<String>,
-    /// Error that a step may have, absolute and relative, in SI units
+    /// Error tolerance of a step, absolute and relative, in SI units
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     tolerance: Option<String>,
-    /// When the run ends: `2 s`
+    /// End time of the run, such as `2 s`
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     end: Option<String>,
-    /// Points of the table from 0 to the end; events come besides
+    /// Number of rows of the table from 0 to the end time; events add rows of their own
     #[arg(long, value_name = "N", default_value_t = 1001)]
     points: usize,
-    /// Set a run-time parameter: `payload=500 g`; the file's value otherwise. May be repeated
+    /// Set a run-time parameter, such as `payload=500 g` [default: the value in the file]. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
-    /// Begin with this position, velocity (`NAME_rate`), state or mode: `shoulder=30 deg`. May be repeated
+    /// Set an initial position, velocity (`NAME_rate`), state or mode, such as `shoulder=30 deg`. May be repeated
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     initial: Vec<String>,
     #[command(flatten)]
@@ -92,7 +92,7 @@ impl Simulate {
         }
         let numbers = self.numbers()?;
         let system = file.scene()?;
-        let given = batch_values::fixed(&system.scene, &self.parameters, &self.initial)?;
+        let given = batch_values::parse_fixed(&system.scene, &self.parameters, &self.initial)?;
         let way = Way {
             integration: self.integration(system.scene.integration, &numbers)?,
             points: self.points,

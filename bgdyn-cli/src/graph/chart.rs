@@ -76,8 +76,8 @@ impl Chart {
         let constant = 3 * there - zero - varying;
         let mut text = format!(
             "{}, {}: {there} of {} transformers are there; of their {} components {zero} are zero, {constant} constant, {varying} vary with the coordinates",
-            counted(nv, "velocity", "velocities"),
-            counted(links, "link", "links"),
+            with_count(nv, "velocity", "velocities"),
+            with_count(links, "link", "links"),
             2 * nv * links,
             3 * there
         );
@@ -93,7 +93,7 @@ impl Chart {
 }
 
 /// Returns `1 link`, `2 links`.
-fn counted(n: usize, one: &str, several: &str) -> String {
+fn with_count(n: usize, one: &str, several: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { several })
 }
 

@@ -49,7 +49,7 @@ impl Chart {
         let moving = moving
             .into_iter()
             .map(|i| (i, link(graph, unfolding, &order, i)));
-        let (links, folded) = folded(graph, moving.collect());
+        let (links, folded) = fold_massless(graph, moving.collect());
         Chart {
             title: title.to_owned(),
             description: description.map(str::to_owned),
@@ -69,7 +69,10 @@ impl Chart {
 
 /// Removes links without junctions whose children have some, and returns their names. The velocities of
 /// their joints begin at the next link.
-fn folded(graph: &BondGraph, all: Vec<(LinkId, ChartLink)>) -> (Vec<ChartLink>, Vec<String>) {
+fn fold_massless(
+    graph: &BondGraph,
+    all: Vec<(LinkId, ChartLink)>,
+) -> (Vec<ChartLink>, Vec<String>) {
     let acting = all.iter().filter(|(_, link)| !link.flows.is_empty());
     let mut carries_some = vec![false; graph.frames.len()];
     for (i, _) in acting {

@@ -8,31 +8,31 @@ use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::format::Dimension;
 use std::path::{Path, PathBuf};
 
-/// Make a mechanism from a URDF, an MJCF or a table of Denavit–Hartenberg parameters
+/// Convert a URDF, an MJCF or a table of Denavit–Hartenberg parameters to a mechanism
 #[derive(Debug, Clone, Default, clap::Args)]
 #[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n  \
     bgdyn import pr2.urdf --chain torso_lift_link r_gripper_tool_frame --lock r_wrist_roll_joint=0.5\n  \
     bgdyn import go2.urdf --base floating\n  bgdyn import humanoid.xml\n  \
     bgdyn import ur5.csv --convention standard\n\n\
-    The mechanism's module is called after the file it is written to. Changed names, what is not taken over and what \
-    was written are told on stderr.")]
+    The module is named after the output file. A report on stderr lists changed names, what was \
+    written and what was not imported.")]
 pub struct ImportArgs {
     /// The URDF (a xacro file must be expanded first), the MJCF, or a table `.csv`; `-` reads it from standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Where to write the mechanism; stdout if not given
+    /// Output file [default: stdout]
     #[arg(short, long, value_name = "FILE.yaml")]
     pub output: Option<PathBuf>,
-    /// Fix this joint where its coordinate has this value, `90deg` or `20 mm`, rad or m without a unit; at 0 without one. May be repeated
+    /// Fix this joint at VALUE, such as `90deg` or `20 mm`; rad or m if no unit is given, 0 if no value is given. May be repeated
     #[arg(long, value_name = "JOINT[=VALUE]", value_parser = Lock::parse)]
     pub lock: Vec<Lock>,
-    /// Keep the links from BASE to TIP only, with what is fixed to them; BASE is fixed to the world
+    /// Keep only the links from BASE to TIP and the links fixed to them; BASE is fixed to the world
     #[arg(long, value_names = ["BASE", "TIP"], num_args = 2)]
     pub chain: Vec<String>,
-    /// Write this `snap` into the mechanism, `1e-9` or `0.01 deg`: directions so near to exact ones are taken as exact
+    /// Set `snap` in the mechanism, such as `1e-9` or `0.01 deg`: directions closer than this to an exact direction are made exact
     #[arg(long, value_name = "VALUE", value_parser = snap)]
     pub snap: Option<f64>,
-    /// Write these links as frames: links without inertia on fixed joints, commas between; `all` for all of them
+    /// Convert these links to frames, separated by commas, or `all`; only links without inertia on fixed joints can be converted
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub frames: Vec<String>,
     /// The joint between the world and the link that has no joint
@@ -41,7 +41,7 @@ pub struct ImportArgs {
     /// Leave damping, friction, springs and rotors of joints out, which are otherwise declared as effects
     #[arg(long)]
     pub no_effects: bool,
-    /// The convention of a table's rows that do not say theirs
+    /// The convention for rows of a table that do not state one
     #[arg(long, value_enum)]
     pub convention: Option<Convention>,
 }

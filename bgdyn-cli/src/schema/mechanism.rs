@@ -27,7 +27,7 @@ pub fn mechanism() -> Value {
             (
                 "snap",
                 described(
-                    "how far a direction may be from a quarter turn or an axis and still be taken for it, 0 to 1e-3 rad",
+                    "directions closer than this angle to a quarter turn or an axis are made exact, 0 to 1e-3 rad",
                     quantity(&[Dimension::Angle]),
                 ),
             ),

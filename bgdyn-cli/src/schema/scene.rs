@@ -54,7 +54,7 @@ pub fn scene() -> Value {
             "course": course(),
             "drive": drive(),
             "effect": effects(),
-            "changed": changed(),
+            "changed": changes_schema(),
             "integration": integration(),
         }),
     )
@@ -92,7 +92,7 @@ fn setting(effect: &dyn Effect) -> Value {
 }
 
 /// Returns an effect of the mechanism with other values: keys of any effect.
-fn changed() -> Value {
+fn changes_schema() -> Value {
     let all = EFFECTS.iter().filter(|effect| !effect.built_in());
     let mut names: Vec<&str> = all
         .flat_map(|effect| keys_declared(*effect))

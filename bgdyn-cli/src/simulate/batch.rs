@@ -37,7 +37,7 @@ pub(crate) fn run(
     watch: impl FnMut(usize),
 ) -> Vec<RunSummary> {
     let one = |values: &Vec<f64>| {
-        let system = match system.with_overrides(&varied.given(fixed, values)) {
+        let system = match system.with_overrides(&varied.overrides_of_run(fixed, values)) {
             Ok(system) => system,
             Err(faults) => return refused(&faults),
         };
@@ -102,5 +102,5 @@ pub(crate) fn csv(columns: &[Column], varied: &BatchValues, told: &[RunSummary])
         row.push(run.failure.clone().unwrap_or_default());
         row
     });
-    table::written(once(header).chain(rows))
+    table::write_csv(once(header).chain(rows))
 }

@@ -24,7 +24,7 @@ pub(crate) struct BatchValues {
 
 impl BatchValues {
     /// Returns the values of a run, after the values common to all runs.
-    pub(crate) fn given(&self, fixed: &[Given], run: &[f64]) -> Vec<Given> {
+    pub(crate) fn overrides_of_run(&self, fixed: &[Given], run: &[f64]) -> Vec<Given> {
         let own = self.quantities.iter().zip(run);
         let own = own.map(|(s, &x)| (s.clone(), Dd::from_f64(x)));
         fixed.iter().cloned().chain(own).collect()
@@ -32,7 +32,7 @@ impl BatchValues {
 }
 
 /// Parses `NAME=VALUE` of the options `--parameter` and `--initial`.
-pub(crate) fn fixed(
+pub(crate) fn parse_fixed(
     scene: &Scene,
     parameters: &[String],
     initial: &[String],
@@ -76,7 +76,7 @@ pub(crate) fn table(scene: &Scene, text: &str, shown: &str) -> Result<BatchValue
         let quantity = headed(scene, field).map_err(|e| anyhow!("{shown}:{line}: {e}"))?;
         if varied.quantities.contains(&quantity) {
             let name = &quantity.name;
-            return Err(anyhow!("{shown}:{line}: `{name}` stands there twice"));
+            return Err(anyhow!("{shown}:{line}: `{name}` is listed twice"));
         }
         varied.quantities.push(quantity);
     }
@@ -109,7 +109,7 @@ fn headed(scene: &Scene, field: &str) -> Result<Override, String> {
         Some((name, rest)) => (name.trim(), Some(rest.trim_end_matches(']').trim())),
         None => (field, None),
     };
-    let quantity = named(scene, name)?;
+    let quantity = find_override(scene, name)?;
     let own = if quantity.unit.is_empty() {
         "1"
     } else {
@@ -121,7 +121,7 @@ fn headed(scene: &Scene, field: &str) -> Result<Override, String> {
     }
 }
 
-fn named(scene: &Scene, name: &str) -> Result<Override, String> {
+fn find_override(scene: &Scene, name: &str) -> Result<Override, String> {
     scene.override_named("part of the state or parameter", name, |_| true)
 }
 
@@ -202,7 +202,7 @@ pub(crate) fn chance(
 }
 
 fn new(scene: &Scene, name: &str, varied: &BatchValues) -> Result<Override, String> {
-    let quantity = named(scene, name.trim())?;
+    let quantity = find_override(scene, name.trim())?;
     match varied.quantities.contains(&quantity) {
         true => Err(format!("`{}` is varied twice", quantity.name)),
         false => Ok(quantity),

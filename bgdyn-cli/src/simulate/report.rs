@@ -21,7 +21,7 @@ pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
         let numbers = once(&row.t).chain(&row.values);
         numbers.map(|x| format!("{x:?}")).collect()
     });
-    table::written(once(header).chain(rows))
+    table::write_csv(once(header).chain(rows))
 }
 
 /// Returns steps, events, the last state and the energy account.

@@ -53,7 +53,7 @@ fn times_without_cargo_are_marked_as_estimates() {
             .iter()
             .map(move |c| c[k].parse::<f64>().expect("a number"))
     };
-    let (operations, steps) = (numbers(2), numbers(4));
+    let (operations, steps) = (numbers(2), numbers(7));
     let all: Vec<f64> = operations.collect();
     // The scene without an effect never has more operations, and every scene takes steps.
     assert!(all.iter().all(|n| *n >= 0.0 && *n <= all[0]), "{all:?}");

@@ -141,10 +141,7 @@ fn parsed(dot: &str) -> (BTreeMap<&str, &str>, Vec<Bond<'_>>) {
         } else if name != "node" && name != "edge" {
             let label = style.strip_prefix("label=\"").expect("a label");
             let label = label.strip_suffix('"').expect("a label");
-            assert!(
-                nodes.insert(name, label).is_none(),
-                "{name} stands there twice"
-            );
+            assert!(nodes.insert(name, label).is_none(), "{name} is drawn twice");
         }
     }
     (nodes, bonds)

@@ -133,11 +133,14 @@ fn a_reader_may_stop_early() {
 fn options_that_a_scene_does_not_have() {
     const SCENE: &str = "specs/scenes/motor_linear_stiff.scene.yaml";
     let told = bgdyn(&["ops", SCENE, "--formulation", "literal", "--derivatives"]).bad_usage();
-    for what in ["`formulation` is of mechanisms", "see `jacobian`"] {
+    for what in ["`formulation` is an option of mechanisms", "see `jacobian`"] {
         assert!(told.contains(what), "{told}");
     }
     let told = bgdyn(&["generate", SCENE, "--methods", "bias"]).bad_usage();
-    assert!(told.contains("`methods` is of mechanisms"), "{told}");
+    assert!(
+        told.contains("`methods` is an option of mechanisms"),
+        "{told}"
+    );
     let told = bgdyn(&["ops", SCENE, "--explain"]).bad_usage();
     assert!(told.contains("`--per-effect`"), "{told}");
 }

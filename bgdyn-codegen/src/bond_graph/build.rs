@@ -52,13 +52,13 @@ fn sites(mechanism: &Mechanism) -> Vec<Site> {
         name: link.name.clone(),
         link: Some(LinkId(i)),
         place: Pose::IDENTITY,
-        prominent: tip(i),
+        exported_by_default: tip(i),
     };
     let frame = |frame: &Frame| Site {
         name: frame.name.clone(),
         link: frame.link,
         place: frame.origin,
-        prominent: true,
+        exported_by_default: true,
     };
     let named = mechanism.frames().iter().map(frame);
     let shown = links.iter().enumerate().filter(|(_, link)| !link.hidden);

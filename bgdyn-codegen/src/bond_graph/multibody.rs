@@ -21,7 +21,7 @@ pub struct Site {
     pub place: Pose,
     /// Whether the spec names it as a frame, or it is the frame of a tip. Methods are generated for these
     /// sites by default.
-    pub prominent: bool,
+    pub exported_by_default: bool,
 }
 
 /// Pose of a link's frame; the moduli are functions of these poses.

@@ -53,20 +53,20 @@ impl<'a> Choice<'a> {
     /// Returns the function of the method with the least cost, before the last passes; for forward
     /// dynamics, among those that meet the error bounds.
     pub fn function(&self, method: Method) -> Option<Rc<Function>> {
-        self.chosen(method).1
+        self.choose_once(method).1
     }
 
     /// Returns the functions for forward dynamics that meet the error bounds, the cheapest first, in the
     /// form of their formulations.
     pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {
-        let made = || self.chosen(Method::ForwardDynamics).0;
+        let made = || self.choose_once(Method::ForwardDynamics).0;
         let candidates = self.forward.get_or_init(made);
         candidates.accepted.iter().map(|candidate| &candidate.plain)
     }
 
     /// Returns the candidates for the method, and the chosen one.
-    pub(super) fn chosen(&self, method: Method) -> (Rc<Candidates>, Option<Rc<Function>>) {
-        if let Some(chosen) = self.prepared.chosen(method) {
+    pub(super) fn choose_once(&self, method: Method) -> (Rc<Candidates>, Option<Rc<Function>>) {
+        if let Some(chosen) = self.prepared.choice_of(method) {
             return chosen;
         }
         let anew = self.open.borrow_mut().insert(method);
@@ -76,11 +76,11 @@ impl<'a> Choice<'a> {
         let function = cheapest(generated).map(Rc::new);
         self.open.borrow_mut().remove(&method);
         self.prepared.choose(method, candidates, function);
-        self.prepared.chosen(method).unwrap_or_default()
+        self.prepared.choice_of(method).unwrap_or_default()
     }
 
     fn candidates(&self, method: Method) -> Candidates {
-        let asked = self.asked_for(method);
+        let asked = self.requested_candidates(method);
         if !asked.is_empty() {
             return sort(asked);
         }
@@ -97,7 +97,7 @@ impl<'a> Choice<'a> {
     }
 
     /// Returns the function of the selected formulation, if it supports the method.
-    fn asked_for(&self, method: Method) -> Vec<CheckedCandidate> {
+    fn requested_candidates(&self, method: Method) -> Vec<CheckedCandidate> {
         let Some(asked) = self.asked.filter(|f| f.knows(method)) else {
             return Vec::new();
         };
@@ -109,7 +109,7 @@ impl<'a> Choice<'a> {
     /// Returns the function of the selected formulation in the form of that formulation; `None` if it does
     /// not create the method.
     pub(crate) fn asked_plain(&self, method: Method) -> Option<Function> {
-        let made = self.asked_for(method).into_iter();
+        let made = self.requested_candidates(method).into_iter();
         made.map(|(_, candidate)| candidate.plain).next()
     }
 
@@ -154,7 +154,7 @@ impl<'a> Choice<'a> {
     /// Creates a formulation's function, after the functions that it depends on.
     fn make(&self, formulation: &dyn Formulation, method: Method) -> Option<Function> {
         for &other in formulation.reads(method) {
-            self.chosen(other);
+            self.choose_once(other);
         }
         formulation.function(&self.prepared, method)
     }

@@ -109,7 +109,7 @@ impl<'a> NamesOfSums<'a> {
             definition: match self.split(definition) {
                 (common, rest) if common.is_empty() => rest,
                 (factors, rest) => {
-                    let factors = joined(factors, rest);
+                    let factors = join_factors(factors, rest);
                     let negative = false;
                     vec![Term { negative, factors }]
                 }
@@ -132,7 +132,7 @@ impl<'a> NamesOfSums<'a> {
             return factors;
         }
         let (factors, rest) = self.split(primitive);
-        joined(factors, rest)
+        join_factors(factors, rest)
     }
 
     /// Returns the sum written out, if it is short, as part of a larger sum.
@@ -220,7 +220,7 @@ impl<'a> NamesOfSums<'a> {
 
 /// Returns the common letters times the sum of the remaining factors; for a single product only the
 /// letters.
-fn joined(mut common: Vec<Factor>, rest: Sum) -> Vec<Factor> {
+fn join_factors(mut common: Vec<Factor>, rest: Sum) -> Vec<Factor> {
     if !matches!(&rest[..], [one] if one.factors.is_empty()) {
         common.push(Factor::Sum(rest));
     }

@@ -15,7 +15,7 @@ pub fn latex(form: &ClosedForm, digits: usize) -> String {
     let mut text = format!("% {}: driving efforts in closed form\n", form.name);
     for (j, (name, motion)) in form.joints.iter().enumerate() {
         let (q, j_th) = (motion.unit(), j + 1);
-        let effort = written(&unit(effort(form, j)));
+        let effort = write_unit(&unit(effort(form, j)));
         writeln!(text, "% q_{j_th}: {name}, {q}; P_{j_th} in ${effort}$").expect("a string");
     }
     let mut rows = Vec::new();
@@ -72,7 +72,7 @@ impl Notation for Typeset<'_> {
     }
 
     fn unit(&self, parts: &[(&str, i32)]) -> String {
-        written(parts)
+        write_unit(parts)
     }
 
     fn number(&self, x: Dd) -> String {
@@ -134,7 +134,7 @@ fn escaped(name: &str) -> String {
     name.replace('_', "\\_").replace('−', "$-$")
 }
 
-fn written(unit: &[(&str, i32)]) -> String {
+fn write_unit(unit: &[(&str, i32)]) -> String {
     let part = |(name, n): &(&str, i32)| match n {
         1 => format!("\\mathrm{{{name}}}"),
         n => format!("\\mathrm{{{name}}}^{{{n}}}"),

@@ -68,7 +68,7 @@ impl Polynomial {
         let mut polynomial = Polynomial::default();
         let size = value.hi().abs();
         polynomial.add(monomial, Coefficient { value, size });
-        polynomial.swept()
+        polynomial.without_zeros()
     }
 
     /// Returns a number.
@@ -120,7 +120,7 @@ impl Polynomial {
             let size = c.size;
             sum.add(monomial.clone(), Coefficient { value, size });
         }
-        sum.swept()
+        sum.without_zeros()
     }
 
     /// Returns self · other.
@@ -136,7 +136,7 @@ impl Polynomial {
                 }
             }
         }
-        product.swept()
+        product.without_zeros()
     }
 
     fn add(&mut self, monomial: Monomial, c: Coefficient) {
@@ -149,7 +149,7 @@ impl Polynomial {
     }
 
     /// Removes the terms that cancelled.
-    fn swept(mut self) -> Self {
+    fn without_zeros(mut self) -> Self {
         let remains = |c: &Coefficient| c.value.hi().abs() > CANCELLED * c.size;
         self.terms.retain(|_, c| remains(c));
         self

@@ -23,7 +23,7 @@ pub fn text(form: &ClosedForm, digits: usize) -> String {
             Motion::Rotation => "angle, rad",
             _ => "displacement, m",
         };
-        let unit = written(&unit(effort(form, j)));
+        let unit = write_unit(&unit(effort(form, j)));
         [
             format!("q{j_th}"),
             name.clone(),
@@ -43,7 +43,7 @@ pub fn text(form: &ClosedForm, digits: usize) -> String {
         let whole = format!("{name} = {}", sum(&n, &constant.definition));
         let value = n.value(constant.value, constant.dimension);
         let indent = " ".repeat(name.chars().count());
-        text += &broken(&whole, &indent);
+        text += &wrap_line(&whole, &indent);
         writeln!(text, "{indent} {value}").expect("a string");
     }
     let rows = form.letters_met().into_iter().map(|l| {
@@ -90,13 +90,13 @@ fn equation(name: &str, n: &Plain<'_>, right: &Sum) -> String {
             0 => format!("{name} = {term}"),
             _ => format!("{indent} {term}"),
         };
-        text += &broken(&line, &indent);
+        text += &wrap_line(&line, &indent);
     }
     text
 }
 
 /// Breaks a long line before additions or subtractions.
-fn broken(line: &str, indent: &str) -> String {
+fn wrap_line(line: &str, indent: &str) -> String {
     let mut pieces = vec![String::new()];
     let mut in_angle = false;
     for word in line.split_inclusive(' ') {
@@ -140,7 +140,7 @@ impl Notation for Plain<'_> {
     }
 
     fn unit(&self, parts: &[(&str, i32)]) -> String {
-        written(parts)
+        write_unit(parts)
     }
 
     fn number(&self, x: Dd) -> String {
@@ -210,7 +210,7 @@ fn shift(digit: char, zero: char) -> char {
 }
 
 /// Prints `kg·m²`, `N·m`, `m/s²`.
-fn written(unit: &[(&str, i32)]) -> String {
+fn write_unit(unit: &[(&str, i32)]) -> String {
     let join = |sign: i32| {
         let parts = unit.iter().filter(|(_, n)| n.signum() == sign);
         let part = |(name, n): &(&str, i32)| format!("{name}{}", superscript(n.unsigned_abs()));

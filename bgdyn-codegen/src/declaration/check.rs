@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::{Declaration, Element, ElementValue, NameScope, Quantity, ValueCheck};
 use crate::fault::{Fault, Faults, Location, wording};
-use crate::format::{Dimension, Key, Located, Number, ParsedValue, Reads, misfit};
+use crate::format::{Dimension, Key, Located, Number, ParsedValue, Reads, check_unit};
 use crate::mechanism::Motion;
 use crate::name::is_identifier;
 
@@ -216,7 +216,7 @@ fn quantity(
         value: number.clone(),
         location: location.clone(),
     };
-    if let Some(fault) = misfit(&located, fit) {
+    if let Some(fault) = check_unit(&located, fit) {
         faults.push(fault);
         return None;
     }

@@ -148,7 +148,7 @@ impl EffectKind for DcMotor {
         }
         declare_limits(element, layout);
         if element.quantity("efficiency").is_some() {
-            declare_mode(element, &named(element, GEAR), layout);
+            declare_mode(element, &part_name(element, GEAR), layout);
         }
     }
 }
@@ -192,7 +192,7 @@ impl Effect for DcMotor {
             None => circuit.at_once(sums),
         };
         let torque = gyrator(element, sums) * flowing.current;
-        let mode = named(element, GEAR);
+        let mode = part_name(element, GEAR);
         let geared = match sums.gear(element, &EFFICIENCY, &mode) {
             Some(gear) => {
                 sums.load((element, &mode), gear, &joint, torque);
@@ -235,7 +235,7 @@ fn gyrator<'g>(element: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
 const GEAR: &str = "gear";
 
 /// Returns the name of an event, or of a mode with its event.
-fn named(element: &Element, part: &str) -> String {
+fn part_name(element: &Element, part: &str) -> String {
     format!("{}_{part}", element.name)
 }
 
@@ -247,23 +247,23 @@ fn declare_limits(element: &Element, layout: &mut StateLayout) {
     let name = &element.name;
     if element.quantity(VOLTAGE_LIMIT.name).is_some() {
         let about = format!("the voltage of `{name}` reaches its limit, or leaves it");
-        layout.event(named(element, VOLTAGE_LIMIT.name), about);
+        layout.event(part_name(element, VOLTAGE_LIMIT.name), about);
     }
     if element.quantity(CURRENT_LIMIT.name).is_none() {
         return;
     }
     if element.quantity("inductance").is_none() {
         let about = format!("the current of `{name}` reaches its limit, or leaves it");
-        layout.event(named(element, CURRENT_LIMIT.name), about);
+        layout.event(part_name(element, CURRENT_LIMIT.name), about);
         return;
     }
     for ((side, _), which) in SIDES.into_iter().zip(["upper", "lower"]) {
         let mode = format!(
             "whether the current of `{name}` is held at its {which} limit (0), or the sign of what it is above it"
         );
-        layout.mode(named(element, side), mode);
+        layout.mode(part_name(element, side), mode);
         let event = format!("the current of `{name}` reaches its {which} limit, or leaves it");
-        layout.event(named(element, side), event);
+        layout.event(part_name(element, side), event);
     }
 }
 
@@ -272,7 +272,7 @@ fn supplied_voltage<'g>(element: &Element, sums: &mut EffortSums<'g, '_>) -> Exp
     let asked = sums.input(&element.name);
     match sums.optional(element, &VOLTAGE_LIMIT) {
         Some(limit) if sums.limited() => {
-            sums.event(&named(element, VOLTAGE_LIMIT.name), limit - asked.abs());
+            sums.event(&part_name(element, VOLTAGE_LIMIT.name), limit - asked.abs());
             asked.max(-limit).min(limit)
         }
         _ => asked,
@@ -317,7 +317,7 @@ impl<'g> Circuit<'g, '_> {
             };
         };
         sums.event(
-            &named(self.element, CURRENT_LIMIT.name),
+            &part_name(self.element, CURRENT_LIMIT.name),
             limit - wanted.abs(),
         );
         let current = wanted.max(-limit).min(limit);
@@ -337,7 +337,7 @@ impl<'g> Circuit<'g, '_> {
     fn with_inductance(&self, inductance: Expr<'g>, sums: &mut EffortSums<'g, '_>) -> Flowing<'g> {
         let current = sums.own_velocity(self.element);
         let (free, applied) = match self.current_limit(sums) {
-            Some(limit) => self.held(current, limit, sums),
+            Some(limit) => self.hold_at_limit(current, limit, sums),
             None => (self.asked, self.asked),
         };
         sums.inertia(self.element, inductance);
@@ -352,7 +352,7 @@ impl<'g> Circuit<'g, '_> {
 
     /// Returns the voltage that drives the free current, and the voltage that is applied if the amplifier
     /// holds |i| at the limit I.
-    fn held(
+    fn hold_at_limit(
         &self,
         current: Expr<'g>,
         limit: Expr<'g>,
@@ -366,7 +366,7 @@ impl<'g> Circuit<'g, '_> {
         let (mut free, mut applied) = (self.asked, self.asked);
         for (side, sign) in SIDES {
             let at = limit * Dd::from_f64(sign);
-            let name = named(self.element, side);
+            let name = part_name(self.element, side);
             let mode = sums.mode(&name);
             // Beyond the limit, the voltage of a constant current at the limit brings the current back to
             // it.

@@ -28,7 +28,7 @@ const DAMPING: Key = Key {
     name: "damping",
     reads: EFFORT_PER_RATE,
     needed: false,
-    about: "D, of the damper beside it; 0 without it",
+    about: "damping D, in parallel with the spring; default 0",
 };
 const INERTIA: Key = Key {
     name: "inertia",

@@ -100,7 +100,7 @@ impl EffectKind for WrenchEffect {
                 name: "components",
                 reads: Reads::Words(&COMPONENTS),
                 needed: false,
-                about: "those that are inputs, all six without it",
+                about: "the components that are inputs; default all six",
             },
         ]
     }

@@ -39,7 +39,7 @@ pub(super) fn body(
         }
         let statements = writer.block(&block.outputs, function);
         // Only results that are returned unchecked are written entry by entry.
-        if let Some(result) = writer.written() {
+        if let Some(result) = writer.stored_matrix() {
             return FunctionBody {
                 body: quote! { #statements #result },
                 blocks: vec![],
@@ -112,7 +112,7 @@ fn separate_block(
     let array = |values: &[TokenStream]| quote! { [#(#values),*] };
     writer.entries = Entries::of_array(outputs, &array);
     let statements = writer.block(outputs, function);
-    let result = match writer.written() {
+    let result = match writer.stored_matrix() {
         Some(result) => result.into_token_stream(),
         None => array(&writer.results(outputs)),
     };
@@ -129,7 +129,7 @@ fn separate_block(
         }
     }
     for earlier in 0..b {
-        let reads = |l: &Leaf| matches!(l, Leaf::Passed { block, .. } if *block == earlier);
+        let reads = |l: &Leaf| matches!(l, Leaf::BlockResult { block, .. } if *block == earlier);
         if read.iter().any(reads) {
             let (name, n) = (
                 format_ident!("p{earlier}"),

@@ -150,7 +150,7 @@ impl<'a> Naming<'a> {
             Leaf::Acceleration(j) => of("acceleration", &layout.coordinates[j].name),
             Leaf::Input(i) => of("input", &layout.inputs[i].name),
             Leaf::Time => quote! { t },
-            Leaf::Parameter(_) | Leaf::Passed { .. } => return None,
+            Leaf::Parameter(_) | Leaf::BlockResult { .. } => return None,
         })
     }
 }

@@ -20,7 +20,8 @@ pub(super) fn columns(
     stage: &[TokenStream],
 ) -> (TokenStream, Vec<TokenStream>) {
     let groups = loops.groups.iter().enumerate();
-    let code = groups.map(|(k, group)| one(function, group, &LoopArrays::of(k), naming, stage));
+    let code =
+        groups.map(|(k, group)| column_group(function, group, &LoopArrays::of(k), naming, stage));
     let code = code.collect();
     let value = |part: &ResultSource| match *part {
         ResultSource::Stage(k) => stage[k].clone(),
@@ -33,7 +34,7 @@ pub(super) fn columns(
     (code, loops.parts.iter().map(value).collect())
 }
 
-fn one(
+fn column_group(
     function: &Function,
     group: &ColumnLoop,
     arrays: &LoopArrays,
@@ -45,7 +46,7 @@ fn one(
     let mut writer = Writer::new(&column, naming, &group.outputs);
     for i in 0..group.graph.len() {
         writer.code[i] = match *group.graph.node(NodeId::at(i)) {
-            Node::Leaf(Leaf::Passed { block, index }) => {
+            Node::Leaf(Leaf::BlockResult { block, index }) => {
                 let index = place(index);
                 Some(atom(match block {
                     SHARED => quote! { #shared[#index] },

@@ -19,7 +19,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let visibility = &output.visibility;
     let docs = module_docs(model, output);
     let constants = constants::constants(model);
-    let operations = constants::counted(&model.functions);
+    let operations = constants::operation_counts(&model.functions);
     let about = format!(" The mechanism `{}`.", model.mechanism.name());
     let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
     let methods = model.functions.iter().map(|f| method(f, model, output));

@@ -18,8 +18,8 @@ impl Writer<'_> {
         if let Some(pair) = self.sines.get(&angle) {
             return pair.clone();
         }
-        let together = match self.is_given(angle) {
-            true => self.next_given(angle),
+        let together = match self.is_argument(angle) {
+            true => self.next_arguments(angle),
             false => vec![angle],
         };
         let pairs: Vec<SinePair> = together.iter().map(|&a| self.pair(a)).collect();
@@ -28,7 +28,7 @@ impl Writer<'_> {
             .collect();
         // The code of an argument may come later in the graph, where it is first used.
         for &angle in &together {
-            self.bound(angle);
+            self.bind_angle(angle);
         }
         let terms: Vec<_> = together.iter().map(|&a| self.terms(a)).collect();
         let statement = match (terms.as_slice(), parts.as_slice()) {
@@ -52,7 +52,7 @@ impl Writer<'_> {
     }
 
     /// Returns whether an angle is an argument, or a sum of arguments.
-    fn is_given(&self, angle: NodeId) -> bool {
+    fn is_argument(&self, angle: NodeId) -> bool {
         let is_leaf = |id: NodeId| matches!(self.graph.node(id), Node::Leaf(_));
         match self.graph.node(angle) {
             Node::Angle(terms, ..) => terms.iter().all(|t| is_leaf(t.node)),
@@ -62,13 +62,13 @@ impl Writer<'_> {
 
     /// Returns this angle and the next ones that depend only on arguments and are not computed yet, in the
     /// order of use.
-    fn next_given(&self, angle: NodeId) -> Vec<NodeId> {
+    fn next_arguments(&self, angle: NodeId) -> Vec<NodeId> {
         let mut found = vec![angle];
         for i in (0..self.needed.len()).filter(|&i| self.needed[i]) {
             if let Node::Sin(a) | Node::Cos(a) = self.graph.node(NodeId(i as u32))
                 && !found.contains(a)
                 && !self.sines.contains_key(a)
-                && self.is_given(*a)
+                && self.is_argument(*a)
             {
                 found.push(*a);
                 if found.len() == AT_ONCE {
@@ -80,7 +80,7 @@ impl Writer<'_> {
     }
 
     /// Ensures that the arguments in an angle have code.
-    fn bound(&mut self, angle: NodeId) {
+    fn bind_angle(&mut self, angle: NodeId) {
         let mut read = vec![angle];
         self.graph.node(angle).for_each_operand(|a| read.push(a));
         read.into_iter().for_each(|id| self.bind_leaf(id));

@@ -11,7 +11,7 @@ use crate::expr::{Node, NodeId, Signed};
 
 impl Writer<'_> {
     /// Returns the result if it is written entry by entry; if no entry was written, all are constants.
-    pub(super) fn written(&self) -> Option<Ident> {
+    pub(super) fn stored_matrix(&self) -> Option<Ident> {
         let begun = self.entries.as_ref().is_some_and(|entries| entries.begun);
         begun.then(|| format_ident!("{NAME}"))
     }

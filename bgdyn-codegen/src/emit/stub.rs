@@ -80,7 +80,7 @@ fn sites(interface: &Interface) -> Vec<Site> {
         name: name.clone(),
         link: None,
         place: Pose::IDENTITY,
-        prominent: true,
+        exported_by_default: true,
     };
     names.filter(|n| is_identifier(n)).map(site).collect()
 }

@@ -164,7 +164,7 @@ impl<'a> Writer<'a> {
                 let field = ident(self.naming.parameters[p]);
                 Some(atom(quote! { self.#field }))
             }
-            Leaf::Passed { block, index } => {
+            Leaf::BlockResult { block, index } => {
                 let (name, index) = (
                     format_ident!("p{block}"),
                     proc_macro2::Literal::usize_unsuffixed(index),

@@ -16,7 +16,7 @@ pub fn reassociate(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>) {
         ready: Vec::new(),
     };
     let titles = sums.to.adopt_sections(from);
-    for id in sums.wanted() {
+    for id in sums.sums_to_arrange() {
         sums.to.reopen_section(from, id, titles);
         let copy = match from.node(id) {
             Node::Add(..) => sums.sum(id),
@@ -47,7 +47,7 @@ impl Sums<'_> {
     }
 
     /// Returns the needed nodes, without sums that become part of another sum.
-    fn wanted(&self) -> Vec<NodeId> {
+    fn sums_to_arrange(&self) -> Vec<NodeId> {
         let needed = |i: usize| self.reads[i] > 0;
         let mut wanted: Vec<bool> = (0..self.from.len()).map(needed).collect();
         for i in (0..self.from.len()).filter(|&i| needed(i)) {

@@ -55,7 +55,7 @@ impl<T: Scalar> Inputs<T> {
             Leaf::Mode(i) => self.modes[i],
             Leaf::Parameter(i) => self.parameters[i],
             Leaf::Time => self.t.expect("the time"),
-            Leaf::Passed { block, index } => self.passed[block][index],
+            Leaf::BlockResult { block, index } => self.passed[block][index],
         }
     }
 }

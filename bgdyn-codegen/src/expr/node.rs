@@ -92,7 +92,7 @@ pub enum Leaf {
     /// Time, s.
     Time,
     /// Result `index` of an earlier block of the same function.
-    Passed {
+    BlockResult {
         /// The block.
         block: usize,
         /// Its output.

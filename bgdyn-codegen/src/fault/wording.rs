@@ -25,24 +25,24 @@ pub(crate) use scene::*;
 pub(crate) use values::*;
 
 /// Prints a computed number with six digits.
-fn figure(x: f64) -> String {
+fn six_digits(x: f64) -> String {
     Digits::new(x, 6).to_string()
 }
 
-fn figures(numbers: &[f64]) -> String {
+fn six_digits_each(numbers: &[f64]) -> String {
     numbers
         .iter()
-        .map(|x| figure(*x))
+        .map(|x| six_digits(*x))
         .collect::<Vec<_>>()
         .join(", ")
 }
 
-fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+fn quoted_list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().map(quote).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns "did you mean …?", or the list of known words.
-fn meant(word: &str, known: &[&str], otherwise: String) -> String {
+fn suggestion(word: &str, known: &[&str], otherwise: String) -> String {
     match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean {}?", quote(near)),
         None => otherwise,

@@ -20,7 +20,7 @@ pub use document::{
     Origin, Spec,
 };
 pub use field::{Field, Located};
-pub(crate) use number::misfit;
+pub(crate) use number::check_unit;
 pub use number::quantity;
 pub use parse::parse;
 pub use raw::{Fields, Key, ParsedValue, Raw, Reads};

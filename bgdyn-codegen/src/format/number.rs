@@ -60,7 +60,7 @@ pub fn quantity(text: &str, fit: &[Dimension]) -> Result<Number, Fault> {
 }
 
 /// Returns a fault if the dimension of a number's unit is not one of `fit`.
-pub(crate) fn misfit(number: &Located<Number>, fit: &[Dimension]) -> Option<Fault> {
+pub(crate) fn check_unit(number: &Located<Number>, fit: &[Dimension]) -> Option<Fault> {
     let unit = number.value.unit?;
     let fits = fit.contains(&unit.dimension);
     (!fits).then(|| wording::unit_misfit(&number.location, &number.value.text, unit, fit))

@@ -76,7 +76,10 @@ impl<'a> Prepared<'a> {
     }
 
     /// Returns the choice for a method, if it was made.
-    pub(crate) fn chosen(&self, method: Method) -> Option<(Rc<Candidates>, Option<Rc<Function>>)> {
+    pub(crate) fn choice_of(
+        &self,
+        method: Method,
+    ) -> Option<(Rc<Candidates>, Option<Rc<Function>>)> {
         let chosen = self.chosen.borrow();
         let chosen = chosen.get(&method)?;
         Some((chosen.candidates.clone(), chosen.function.clone()))

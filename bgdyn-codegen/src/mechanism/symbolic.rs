@@ -123,7 +123,7 @@ impl SymbolicMechanism {
             }
             let opposite = step.0[axis] < Dd::ZERO;
             let (joint, parent) = (&from.links[i].joint.name, &from.links[parent.0].name);
-            let along = along(axis, opposite);
+            let along = along_axis(axis, opposite);
             self.letters.push(NumberSymbol {
                 symbol: "l".into(),
                 component: component(step, axis),
@@ -200,7 +200,7 @@ impl SymbolicMechanism {
             Value::Parameter(_) => Dd::ONE,
         });
         for axis in 0..3 {
-            let along = along(axis, numbers.0[axis] < Dd::ZERO);
+            let along = along_axis(axis, numbers.0[axis] < Dd::ZERO);
             let meaning = format!("centre of mass of {name}, along {along}");
             let letter = plain("c", component(numbers, axis), meaning, LENGTH);
             inertial.com.0[axis] = self.letter(inertial.com.0[axis], letter);
@@ -230,7 +230,7 @@ impl SymbolicMechanism {
 }
 
 /// Returns an axis with its direction: `x`, `−x`.
-fn along(axis: usize, opposite: bool) -> String {
+fn along_axis(axis: usize, opposite: bool) -> String {
     let sign = if opposite { "−" } else { "" };
     format!("{sign}{}", AXES[axis])
 }

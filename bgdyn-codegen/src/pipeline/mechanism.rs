@@ -10,7 +10,7 @@ use crate::function::Function;
 use crate::mechanism::Mechanism;
 use crate::method::Method;
 use crate::model::Model;
-use crate::options::{Options, Unknown};
+use crate::options::{Options, UnknownName};
 use crate::read::read;
 use crate::refusal::Refusal;
 use crate::verify::check_functions;
@@ -50,7 +50,7 @@ pub fn verify(model: &Model, options: &Options) -> Result<(), Refusal> {
 ///
 /// # Errors
 /// Every requested name that the mechanism does not have.
-pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unknown>> {
+pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<UnknownName>> {
     let bond_graph = bond_graph::build(&mechanism);
     options.check_formulation(&bond_graph)?;
     let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;

@@ -20,7 +20,7 @@ pub(super) fn generate_scene(
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<(TokenStream, Faults), Refusal> {
     let (system, findings) = read_scene(text, stem, load)?;
-    let misplaced = options.of_mechanisms();
+    let misplaced = options.misplaced_mechanism_options();
     if !misplaced.is_empty() {
         return Err(Refusal::Options(misplaced));
     }

@@ -24,7 +24,7 @@ impl Scene {
                 .collect();
             elements.retain(|e| !missing.iter().any(|gone| acts_on(e, gone)));
             let left = elements.clone();
-            elements.retain(|e| stands(e, &left, &self.written.unloaded));
+            elements.retain(|e| is_kept(e, &left, &self.written.unloaded));
             if elements.len() == before {
                 break;
             }
@@ -56,7 +56,7 @@ impl Scene {
 }
 
 /// Returns whether an element still has the elements that it needs: a fluid, two elements at a junction.
-fn stands(element: &Element, left: &[Element], mechanism: &Mechanism) -> bool {
+fn is_kept(element: &Element, left: &[Element], mechanism: &Mechanism) -> bool {
     let mut faults = Faults::default();
     let beside = SceneContext {
         elements: left,

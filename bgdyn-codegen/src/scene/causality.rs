@@ -111,7 +111,7 @@ fn follow(
     let ends = |i: usize, forward: bool| match (&elements[i].joins()[..], forward) {
         (&[a, b], true) => [a, b],
         (&[a, b], false) => [b, a],
-        _ => unreachable!("what stands in series joins two nodes"),
+        _ => unreachable!("an element in series joins two nodes"),
     };
     let [from, mut at] = ends(first, forward);
     let mut chain = Chain {

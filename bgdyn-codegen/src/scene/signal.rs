@@ -49,7 +49,7 @@ pub enum InputSource {
     /// The caller, in Rust.
     Given,
     /// A course in time.
-    Course(Waveform),
+    Waveform(Waveform),
     /// The time derivative of another input's course: the rate of a reference.
     RateOf(usize),
     /// u = k (r − q) + d (ṙ − q̇)
@@ -77,7 +77,7 @@ impl InputSource {
     pub fn corners(&self) -> impl Iterator<Item = Dd> {
         let course = match self {
             InputSource::Given | InputSource::RateOf(_) => None,
-            InputSource::Course(course) => Some(course),
+            InputSource::Waveform(course) => Some(course),
             InputSource::Pd { target, .. } | InputSource::ComputedTorque { target, .. } => {
                 Some(target)
             }
@@ -103,7 +103,7 @@ pub(super) fn drive(
         return Some(InputSource::Given);
     }
     if !raw.is_mapping() {
-        return signal(raw, dimension, faults).map(InputSource::Course);
+        return signal(raw, dimension, faults).map(InputSource::Waveform);
     }
     let entries = raw.entries(("what drives the input", "`{ constant: 2 }`"), faults);
     let [only] = entries.as_slice() else {
@@ -112,7 +112,7 @@ pub(super) fn drive(
     };
     let word = only.name.value.as_str();
     if !matches!(word, "pd" | "computed_torque") {
-        return signal(raw, dimension, faults).map(InputSource::Course);
+        return signal(raw, dimension, faults).map(InputSource::Waveform);
     }
     if word == "computed_torque" && follows.is_some() && !effort {
         faults.push(wording::computed_torque_without_effort(&only.name.location));

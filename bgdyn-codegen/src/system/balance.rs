@@ -136,7 +136,7 @@ pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>
             *supplied = *supplied + held;
         }
     }
-    let mut along = Along::new(system, &sums, &rates);
+    let mut along = TimeDerivative::new(system, &sums, &rates);
     let kinetic = sums.method(Method::KineticEnergy)[0];
     let kinetic_rate = along.rate(b, kinetic);
     let mut out = Vec::new();
@@ -171,11 +171,11 @@ pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>
 }
 
 /// The rates of change along the motion.
-struct Along {
+struct TimeDerivative {
     tangents: Vec<(Leaf, Signed)>,
 }
 
-impl Along {
+impl TimeDerivative {
     fn new<'g>(system: &SceneEquations, sums: &EffortSums<'g, '_>, rates: &[Expr<'g>]) -> Self {
         let layout = &system.scene.layout;
         let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
@@ -190,7 +190,7 @@ impl Along {
                 tangents.push((Leaf::Input(i), sums.inputs()[k].signed()));
             }
         }
-        Along { tangents }
+        TimeDerivative { tangents }
     }
 
     fn rate<'g>(&mut self, b: &'g Builder, x: Expr<'g>) -> Expr<'g> {

@@ -8,7 +8,7 @@
 use bgdyn_runtime::Dd;
 
 use super::coordinate_rows::own_inertia;
-use super::holds::{Holds, held};
+use super::holds::{StuckJoints, held};
 use super::jacobian::{Response, expressions};
 use super::{EffortSums, SceneEquations};
 use crate::bond_graph::BondGraph;
@@ -54,7 +54,7 @@ impl MomentumFunction {
         let n = system.graph.coordinates.len();
         match self {
             MomentumFunction::Product => {
-                let mass = Holds::new(sums);
+                let mass = StuckJoints::new(sums);
                 let row = |i: usize| {
                     let terms = (0..n).map(|j| mass.entry(i, j) * sums.v[j]);
                     terms.fold(sums.b.zero(), |sum, x| sum + x)
@@ -179,7 +179,7 @@ fn at_velocities(system: &SceneEquations, drift: Drift) -> (Graph, Vec<Signed>) 
         let mut momenta: Vec<Expr<'_>> = (0..sums.v.len()).map(free).collect();
         if !sums.contacts().is_empty() {
             let accelerations = held(system, &sums, &b).accelerations;
-            let holds = Holds::new(&sums);
+            let holds = StuckJoints::new(&sums);
             for (j, momentum) in momenta.iter_mut().enumerate() {
                 let moved = if j < n {
                     let terms = (0..n).map(|k| holds.entry(j, k) * accelerations[k]);

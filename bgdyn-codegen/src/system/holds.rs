@@ -18,7 +18,7 @@ impl SceneEquations {
 }
 
 /// The additional results if joints are held.
-pub(super) struct Held<'g> {
+pub(super) struct StuckSolution<'g> {
     /// Accelerations of all coordinates.
     pub accelerations: Vec<Expr<'g>>,
     /// For each contact the effort with which it holds its joint; the residual of the equation, which is
@@ -31,7 +31,7 @@ pub(super) fn held<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,
     b: &'g Builder,
-) -> Held<'g> {
+) -> StuckSolution<'g> {
     let n = system.graph.coordinates.len();
     let own_holding = |j: usize, a: Expr<'g>| own_inertia(sums, j) * a - sums.effort(j);
     if sums.contacts().iter().all(|c| c.coordinate >= n) {
@@ -41,12 +41,12 @@ pub(super) fn held<'g>(
         let mut accelerations = link_accelerations(b, forward, sums, system);
         accelerations.extend(own_accelerations(system, sums, &Holding::new(sums)));
         let contacts = sums.contacts().iter().map(|c| c.coordinate);
-        return Held {
+        return StuckSolution {
             holding: contacts.map(|j| own_holding(j, accelerations[j])).collect(),
             accelerations,
         };
     }
-    let holds = Holds::new(sums);
+    let holds = StuckJoints::new(sums);
     let bias = sums.method(Method::Bias);
     let force: Vec<Expr<'g>> = (0..n).map(|j| sums.effort(j) - bias[j]).collect();
     let mut accelerations = holds.solve(b, &force, &holds.at.counterparts);
@@ -59,7 +59,7 @@ pub(super) fn held<'g>(
         let moved = (0..n).map(|k| holds.entry(j, k) * accelerations[k]);
         moved.fold(-force[j], |sum, x| sum + x)
     });
-    Held {
+    StuckSolution {
         holding: holding.collect(),
         accelerations,
     }
@@ -120,7 +120,7 @@ impl<'g> Holding<'g> {
 /// The equations of the links if joints can be held: the rows of held joints in M q̈ = f are replaced by
 /// q̈_j = r̈_j, and known terms move to the right-hand side of the other rows. A coordinate with a store
 /// of its own has a row of its own, I_j q̈_j = f_j.
-pub(super) struct Holds<'g> {
+pub(super) struct StuckJoints<'g> {
     /// The coordinates that can be held.
     pub at: Holding<'g>,
     /// Lower triangle of M.
@@ -129,11 +129,11 @@ pub(super) struct Holds<'g> {
     n: usize,
 }
 
-impl<'g> Holds<'g> {
+impl<'g> StuckJoints<'g> {
     pub(super) fn new(sums: &EffortSums<'g, '_>) -> Self {
         let triangle = sums.method(Method::MassMatrix);
         let n = (0..).find(|n| n * (n + 1) / 2 == triangle.len());
-        Holds {
+        StuckJoints {
             at: Holding::new(sums),
             n: n.unwrap_or(0),
             triangle,

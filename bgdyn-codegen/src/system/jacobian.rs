@@ -9,7 +9,7 @@ use bgdyn_runtime::Dd;
 
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::dynamics::{joined, rates};
-use super::holds::Holds;
+use super::holds::StuckJoints;
 use super::{ActuatorEfforts, EffortSums, SceneEquations, signals};
 use crate::choice::Choice;
 use crate::effort_sums::copied;
@@ -19,13 +19,13 @@ use crate::method::{Method, SceneFunction};
 
 /// Largest number of coordinates for which the graph of ẏ is differentiated for comparison: for more
 /// coordinates it costs more, and its factoring takes long.
-const SMALL: usize = 4;
+const MAX_DIFFERENTIATED_COORDINATES: usize = 4;
 
 /// Returns the alternatives for the Jacobian: column by column, first y's parts and then t, the rates v̇
 /// and ẋ of each.
 pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
     let mut ways = implicit(system);
-    if system.graph.coordinates.len() <= SMALL {
+    if system.graph.coordinates.len() <= MAX_DIFFERENTIATED_COORDINATES {
         ways.push(differentiated(system));
     }
     ways
@@ -58,7 +58,7 @@ pub(super) fn expressions(all: &[Expr<'_>]) -> Vec<Signed> {
 /// Differentiates the graph of ẏ.
 fn differentiated(system: &SceneEquations) -> Function {
     let b = Builder::new();
-    let derivative = system.chosen(SceneFunction::Derivative);
+    let derivative = system.cheapest(SceneFunction::Derivative);
     let outputs: Vec<Signed> = {
         let inputs = expressions(&system.driven_inputs(&b));
         let placed = |_: &mut Graph, leaf| match leaf {
@@ -84,7 +84,7 @@ fn implicit(system: &SceneEquations) -> Vec<Function> {
         let b = Builder::new();
         let columns = {
             let sums = system.laws_under_driven_inputs(&b);
-            let holds = Holds::new(&sums);
+            let holds = StuckJoints::new(&sums);
             let rates = rates(system, &sums, &b);
             columns(system, &sums, &rates, &holds, None)
         };
@@ -97,7 +97,7 @@ fn implicit(system: &SceneEquations) -> Vec<Function> {
         let b = Builder::new();
         let columns = {
             let sums = system.laws_under_driven_inputs(&b);
-            let holds = Holds::new(&sums);
+            let holds = StuckJoints::new(&sums);
             let joints = link_accelerations(&b, forward, &sums, system);
             let rates = joined(system, &sums, joints);
             let response = Response::new(forward);
@@ -117,7 +117,7 @@ fn columns<'g>(
     system: &SceneEquations,
     sums: &EffortSums<'g, '_>,
     rates: &[Expr<'g>],
-    holds: &Holds<'g>,
+    holds: &StuckJoints<'g>,
     response: Option<&Response>,
 ) -> Vec<Signed> {
     let b = sums.b;

@@ -148,11 +148,11 @@ impl SceneEquations {
 
     /// Returns a scene function.
     pub fn function(&self, role: SceneFunction) -> Function {
-        finish(self.chosen(role))
+        finish(self.cheapest(role))
     }
 
     /// Returns the same in one block.
-    fn chosen(&self, role: SceneFunction) -> Function {
+    fn cheapest(&self, role: SceneFunction) -> Function {
         let factored = self.ways(role).into_iter().map(factor);
         let best = match role {
             SceneFunction::Jacobian

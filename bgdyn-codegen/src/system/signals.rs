@@ -21,7 +21,7 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
     for (i, drive) in system.scene.drives.iter().enumerate() {
         values.push(match drive {
             InputSource::Given => b.leaf(Leaf::Input(i)),
-            InputSource::Course(signal) => course(b, signal),
+            InputSource::Waveform(signal) => course(b, signal),
             InputSource::RateOf(_) => rate_of(system, b, i),
             InputSource::Pd {
                 target,
@@ -74,7 +74,7 @@ fn computed_torques<'g>(
 fn rate_of<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
     match &system.scene.drives[i] {
         InputSource::RateOf(base) => rate(b, rate_of(system, b, *base)),
-        InputSource::Course(signal) => course(b, signal),
+        InputSource::Waveform(signal) => course(b, signal),
         _ => b.leaf(Leaf::Input(i)),
     }
 }

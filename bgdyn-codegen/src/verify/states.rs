@@ -10,7 +10,7 @@ use crate::random::Random;
 use crate::system::SceneEquations;
 
 /// Largest number of coordinates for which all states are used.
-const SMALL: usize = 10;
+const MAX_COORDINATES_WITH_ALL_STATES: usize = 10;
 
 /// Indices of the generic states that are used: slow, fast, under large efforts.
 const GENERIC: [usize; 3] = [0, 2, 3];
@@ -35,7 +35,7 @@ fn around(random: &mut Random, start: &[Dd], size: f64) -> Vec<Dd> {
 /// parameters have the values of the spec, in the others positive ones close to these.
 pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
     let count = match graph.coordinates.len() {
-        0..=SMALL => GENERIC.len(),
+        0..=MAX_COORDINATES_WITH_ALL_STATES => GENERIC.len(),
         _ => 1,
     };
     let generic = sample_states::random(graph);
@@ -64,7 +64,10 @@ fn vary(parameters: &mut [Dd], random: &mut Random) {
 pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
     let layout = &system.scene.layout;
     let initial = &system.initial;
-    let count = match (layout.nv() <= SMALL, layout.modes.is_empty()) {
+    let count = match (
+        layout.nv() <= MAX_COORDINATES_WITH_ALL_STATES,
+        layout.modes.is_empty(),
+    ) {
         (false, _) => 1,
         (true, true) => 2,
         (true, false) => 3,

@@ -147,3 +147,74 @@ fn slips_are_all_told_at_once() {
     let flat = link("mass: 1, inertia: { solid: box, size: [0.1, 0.2, 0] }");
     assert!(rules(&flat).is_empty(), "a plate is a box");
 }
+
+#[test]
+fn tensors_are_turned_into_link_axes() {
+    assert_eq!(
+        solid("xx: 1, yy: 2, zz: 2.5, yz: 0.1"),
+        ["1", "2", "2.5", "0", "0", "0.1"].map(dd)
+    );
+    let turned = solid("xx: 1, yy: 2, zz: 2.5, yz: 0.1, rpy: [0, 0, 90 deg]");
+    assert_eq!(turned, ["2", "1", "2.5", "0", "-0.1", "0"].map(dd));
+    let round = solid("xx: 2, yy: 2, zz: 2, rpy: [0.3, 0.4, 0.5]");
+    assert_eq!((round[0], round[1]), (round[1], round[2]));
+    assert_eq!(round[3..], [Dd::ZERO; 3]);
+    let slanted = solid("xx: 1, yy: 2, zz: 2.5, rpy: [0, 0, 45 deg]");
+    assert!(
+        (slanted[3] - dd("-0.5")).to_f64().abs() < 1e-30,
+        "xy = (xx − yy)/2"
+    );
+    assert_eq!(slanted[4..], [Dd::ZERO; 2]);
+    let close = solid("xx: 1, yy: 1.00000000000000001, zz: 1");
+    assert_ne!(close[0], close[1], "given numbers stay as written");
+}
+
+#[test]
+fn tensors_of_no_body_are_refused() {
+    let rule = |keys: &str| rules(&link(keys));
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 2 }"),
+        [""; 0],
+        "a flat body"
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 2.000000001 }"),
+        [""; 0],
+        "within 1e-9"
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 2.00000001 }"),
+        ["triangle-inequality"]
+    );
+    assert_eq!(rule("inertia: { zz: 1 }, nonphysical: allow"), [""; 0]);
+    assert_eq!(
+        rule("inertia: { zz: 1, xy: 0.1 }, nonphysical: allow"),
+        ["not-semidefinite"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: -1, yy: -1, zz: -1 }"),
+        ["not-semidefinite"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: 1, zz: 1, xy: 1 }"),
+        ["triangle-inequality"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1e-90, yy: 1e-90, zz: 9e-90 }"),
+        ["triangle-inequality"]
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1e90, yy: 1e90, zz: 9e90 }"),
+        ["triangle-inequality"]
+    );
+    assert_eq!(
+        rule("mass: 0, inertia: { xx: 1, yy: 1, zz: 1 }"),
+        [""; 0],
+        "lumped"
+    );
+    assert_eq!(
+        rule("inertia: { xx: 1, yy: x, zz: 9 }"),
+        ["wrong-type"],
+        "no second fault"
+    );
+}

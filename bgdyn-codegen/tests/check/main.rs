@@ -50,18 +50,6 @@ fn whole(rows: [[f64; 3]; 3]) -> Mat3<Dd> {
     Mat3(rows).map(Dd::from_f64)
 }
 
-fn tensor(text: &str) -> [Dd; 6] {
-    let mechanism = sound(&link(&format!("inertia: {{ {text} }}")));
-    mechanism.links()[0]
-        .inertial
-        .inertia
-        .entries
-        .map(|value| match value {
-            Value::Fixed(number) => number,
-            Value::Parameter(_) => panic!("no parameter was written"),
-        })
-}
-
 #[test]
 fn what_is_left_out_has_its_default() {
     let arm = sound("format: 1\nlinks: [{ name: base }]\n");
@@ -220,77 +208,6 @@ fn a_very_long_chain_is_no_trouble() {
 }
 
 #[test]
-fn tensors_are_turned_into_link_axes() {
-    assert_eq!(
-        tensor("xx: 1, yy: 2, zz: 2.5, yz: 0.1"),
-        ["1", "2", "2.5", "0", "0", "0.1"].map(dd)
-    );
-    let turned = tensor("xx: 1, yy: 2, zz: 2.5, yz: 0.1, rpy: [0, 0, 90 deg]");
-    assert_eq!(turned, ["2", "1", "2.5", "0", "-0.1", "0"].map(dd));
-    let round = tensor("xx: 2, yy: 2, zz: 2, rpy: [0.3, 0.4, 0.5]");
-    assert_eq!((round[0], round[1]), (round[1], round[2]));
-    assert_eq!(round[3..], [Dd::ZERO; 3]);
-    let slanted = tensor("xx: 1, yy: 2, zz: 2.5, rpy: [0, 0, 45 deg]");
-    assert!(
-        (slanted[3] - dd("-0.5")).to_f64().abs() < 1e-30,
-        "xy = (xx − yy)/2"
-    );
-    assert_eq!(slanted[4..], [Dd::ZERO; 2]);
-    let close = tensor("xx: 1, yy: 1.00000000000000001, zz: 1");
-    assert_ne!(close[0], close[1], "given numbers stay as written");
-}
-
-#[test]
-fn tensors_of_no_body_are_refused() {
-    let rule = |keys: &str| rules(&link(keys));
-    assert_eq!(
-        rule("inertia: { xx: 1, yy: 1, zz: 2 }"),
-        [""; 0],
-        "a flat body"
-    );
-    assert_eq!(
-        rule("inertia: { xx: 1, yy: 1, zz: 2.000000001 }"),
-        [""; 0],
-        "within 1e-9"
-    );
-    assert_eq!(
-        rule("inertia: { xx: 1, yy: 1, zz: 2.00000001 }"),
-        ["triangle-inequality"]
-    );
-    assert_eq!(rule("inertia: { zz: 1 }, nonphysical: allow"), [""; 0]);
-    assert_eq!(
-        rule("inertia: { zz: 1, xy: 0.1 }, nonphysical: allow"),
-        ["not-semidefinite"]
-    );
-    assert_eq!(
-        rule("inertia: { xx: -1, yy: -1, zz: -1 }"),
-        ["not-semidefinite"]
-    );
-    assert_eq!(
-        rule("inertia: { xx: 1, yy: 1, zz: 1, xy: 1 }"),
-        ["triangle-inequality"]
-    );
-    assert_eq!(
-        rule("inertia: { xx: 1e-90, yy: 1e-90, zz: 9e-90 }"),
-        ["triangle-inequality"]
-    );
-    assert_eq!(
-        rule("inertia: { xx: 1e90, yy: 1e90, zz: 9e90 }"),
-        ["triangle-inequality"]
-    );
-    assert_eq!(
-        rule("mass: 0, inertia: { xx: 1, yy: 1, zz: 1 }"),
-        [""; 0],
-        "lumped"
-    );
-    assert_eq!(
-        rule("inertia: { xx: 1, yy: x, zz: 9 }"),
-        ["wrong-type"],
-        "no second fault"
-    );
-}
-
-#[test]
 fn limits_fit_their_joint() {
     let prismatic = |keys: &str| {
         rules(&link(&format!(
@@ -343,75 +260,4 @@ frames: [{ name: world, link: fn }, { name: a, link: world }, { name: ok, link: 
 fn a_merge_key_is_the_only_fault_of_its_mapping() {
     let text = "format: 1\nlinks:\n  - &a { name: a, mass: 1 }\n  - { <<: *a }\n";
     assert_eq!(rules(text), ["merge-key"]);
-}
-
-/// A joint that moves no inertia is named, in all cases.
-#[test]
-fn joints_without_inertia_are_named() {
-    let tip = |tip: &str| {
-        format!(
-            "format: 1\nlinks:\n  - {{ name: a, joint: {{ name: one, type: revolute, axis: z }}, mass: 1, com: [1, 0, 0] }}\n  - {{ name: b, parent: a, {tip} }}\n"
-        )
-    };
-    for (text, named) in [
-        ("joint: { name: two, type: revolute, axis: x }", true),
-        (
-            "joint: { name: two, type: revolute, axis: x }, mass: 1",
-            true,
-        ),
-        (
-            "joint: { name: two, type: revolute, axis: x }, mass: 1, com: [1, 0, 0]",
-            true,
-        ),
-        (
-            "joint: { name: two, type: revolute, axis: x }, inertia: { yy: 1, zz: 1 }",
-            true,
-        ),
-        (
-            "joint: { name: two, type: prismatic, axis: x }, inertia: { xx: 1, yy: 1, zz: 1 }",
-            true,
-        ),
-        (
-            "joint: { name: two, type: revolute, axis: y }, inertia: { yy: 1, zz: 1 }",
-            false,
-        ),
-        (
-            "joint: { name: two, type: revolute, axis: x }, mass: 1, com: [0, 1, 0]",
-            false,
-        ),
-        (
-            "joint: { name: two, type: prismatic, axis: x }, mass: { parameter: load, value: 0 }",
-            false,
-        ),
-    ] {
-        let (mechanism, faults) = read(&tip(text), Some("arm"));
-        assert!(mechanism.is_some(), "{text}: {faults:?}");
-        let found = faults.0.iter().filter(|fault| fault.rule == "no-inertia");
-        let found: Vec<&str> = found.map(|fault| fault.message.as_str()).collect();
-        let wanted = "nothing that the joint `two` moves has inertia";
-        assert_eq!(found, if named { vec![wanted] } else { vec![] }, "{text}");
-    }
-}
-
-#[test]
-fn a_mechanism_that_cannot_move_is_told_of() {
-    let link = |kind: &str| {
-        format!(
-            "format: 1\nname: arm\nlinks:\n  - name: a\n    joint: {{ name: j, type: {kind} }}\n    mass: 1\n    com: [1, 0, 0]\n"
-        )
-    };
-    let told = |text: &str| {
-        let (mechanism, faults) = read(text, Some("arm"));
-        let rules = faults
-            .0
-            .iter()
-            .map(|fault| (fault.rule, fault.path.clone()));
-        (mechanism.is_some(), rules.collect::<Vec<_>>())
-    };
-    let still = vec![("no-coordinates", "links".to_owned())];
-    assert_eq!(told(&link("fixed")), (true, still));
-    assert_eq!(told(&link("revolute")), (true, vec![]));
-    // Other findings come first: they may concern the missing inertia.
-    let (_, rules) = told(&link("fixed").replace("mass: 1", "mass: -1"));
-    assert_eq!(rules.len(), 1, "{rules:?}");
 }

@@ -5,6 +5,7 @@
 
 pub mod bars;
 pub mod baseline;
+pub mod forward_law;
 pub mod golden;
 pub mod hard;
 pub mod kinematics;

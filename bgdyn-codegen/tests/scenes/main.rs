@@ -9,6 +9,7 @@ mod common;
 mod cylinders;
 mod drives;
 mod dual;
+mod evaluated;
 mod forms;
 mod friction;
 mod hard_cases;
@@ -27,6 +28,7 @@ mod reference;
 mod refused;
 mod refused_bodies;
 mod refused_fluids;
+mod refused_names;
 mod refused_phases;
 #[allow(dead_code)]
 #[path = "../common/rng.rs"]

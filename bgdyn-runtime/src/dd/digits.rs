@@ -25,7 +25,7 @@ pub struct Digits {
 }
 
 /// The largest number of digits that an `f64` needs.
-const MOST: usize = 17;
+const MAX_DIGITS: usize = 17;
 /// Numbers below this power of ten may be written without an exponent.
 const LONGEST: i32 = 30;
 
@@ -35,7 +35,7 @@ impl Digits {
     pub const fn new(value: f64, count: usize) -> Self {
         let count = match count {
             0 => 1,
-            MOST.. => MOST,
+            MAX_DIGITS.. => MAX_DIGITS,
             count => count,
         };
         Digits {

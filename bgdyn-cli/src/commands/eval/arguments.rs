@@ -14,19 +14,19 @@ use crate::spec_file::Choice;
 /// Evaluate a method at the states of a file, without a compiler
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n  bgdyn eval arm.yaml gravity --states states.json --parameter payload=2.5\n  bgdyn eval specs/scenes/stick_slip.scene.yaml derivative --states states.json\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}\nof a scene:  {\"states\": [{\"y\": [...] or {\"shoulder\": 0.3, ...}, \"modes\", \"input\" or \"given\", \"acceleration\", \"t\"}, ...]}"
+    after_help = "Example:\n  bgdyn eval specs/scara.yaml inverse_dynamics --states states.json\n  bgdyn eval arm.yaml gravity --states states.json --parameter payload=2.5\n  bgdyn eval specs/scenes/stick_slip.scene.yaml derivative --states states.json\n\nstates.json: {\"states\": [{\"q\": [...], \"v\": [...], \"a\": [...], \"tau_in\": [...]}, ...]}\nfor a scene: {\"states\": [{\"y\": [...] or {\"shoulder\": 0.3, ...}, \"modes\", \"input\" or \"given\", \"acceleration\", \"t\"}, ...]}"
 )]
 pub(crate) struct Eval {
     /// The spec or the scene
     pub(super) file: PathBuf,
-    /// The method, as the generated code names it: of a scene `derivative`, `power`, …
+    /// The method, by its name in generated code; for a scene `derivative`, `power`, …
     pub(super) method: String,
-    /// The states: fields a method does not need are ignored
+    /// The states; fields that the method does not need are ignored
     #[arg(long, value_name = "STATES.json")]
     pub(super) states: PathBuf,
     #[command(flatten)]
     pub(super) choice: Choice,
-    /// Set a run-time parameter: `payload=500 g`; the spec's value otherwise. May be repeated
+    /// Set a run-time parameter, such as `payload=500 g` [default: the value in the spec]. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
     pub(super) parameters: Vec<String>,
 }

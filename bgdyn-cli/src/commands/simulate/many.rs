@@ -19,17 +19,17 @@ use crate::usage::Usage;
 /// Number of failed runs that are reported one by one.
 const FAILURES: usize = 10;
 
-/// Many runs in place of one.
+/// Options for many runs instead of one.
 #[derive(Args)]
 #[command(
     next_help_heading = "Many runs: NAME_batch.csv and NAME_batch.svg in place of one run's files"
 )]
 pub(super) struct Many {
-    /// One run per row of a table with commas: names of initial states and parameters in its first
+    /// One run per row of a CSV table: names of initial states and parameters in the first
     /// line, values with units or in SI units
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "random"])]
     batch: Option<PathBuf>,
-    /// N values from FROM to TO, both included. May be repeated: all combinations
+    /// Sweep N values from FROM to TO, both included. May be repeated: every combination is run
     #[arg(
         long,
         value_name = "NAME=FROM:TO:N",
@@ -37,7 +37,7 @@ pub(super) struct Many {
         allow_hyphen_values = true
     )]
     sweep: Vec<String>,
-    /// A value between LOW and HIGH by chance, evenly. May be repeated
+    /// Draw a value uniformly between LOW and HIGH for each run. May be repeated
     #[arg(
         long,
         value_name = "NAME=LOW:HIGH",
@@ -45,13 +45,13 @@ pub(super) struct Many {
         allow_hyphen_values = true
     )]
     random: Vec<String>,
-    /// How many runs by chance
+    /// Number of random runs
     #[arg(long, value_name = "N", requires = "random")]
     runs: Option<usize>,
-    /// What chance begins with: the same seed, the same runs
+    /// Seed of the random numbers: the same seed gives the same runs
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// How many runs go at once; as many as there are cores without it. The results are the same
+    /// Number of runs in parallel [default: number of cores]. Does not change the results
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
 }

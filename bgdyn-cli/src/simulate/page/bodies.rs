@@ -58,7 +58,7 @@ impl Bodies {
             return;
         };
         let axis = link.joint.axis.map(|x| x.to_f64()).0;
-        let along = joint.turned(axis);
+        let along = joint.rotate(axis);
         let slides = link.joint.kind.motion == Motion::Translation;
         let (low, high) = if slides {
             travel[coordinate.0]

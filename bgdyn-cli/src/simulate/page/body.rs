@@ -107,18 +107,18 @@ impl Placed {
         }
     }
 
-    pub(super) fn turned(&self, x: [f64; 3]) -> [f64; 3] {
+    pub(super) fn rotate(&self, x: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| self.r.row(i).dot(Vec3(x)))
     }
 
     pub(super) fn point(&self, x: [f64; 3]) -> [f64; 3] {
-        let turned = self.turned(x);
+        let turned = self.rotate(x);
         std::array::from_fn(|i| turned[i] + self.o[i])
     }
 
     pub(super) fn then(&self, inner: &Placed) -> Self {
         Placed {
-            r: Mat3::from_fn(|i, j| self.turned(inner.r.column(j).0)[i]),
+            r: Mat3::from_fn(|i, j| self.rotate(inner.r.column(j).0)[i]),
             o: self.point(inner.o),
         }
     }

@@ -124,7 +124,7 @@ fn data<'a>(
     run: &Record,
     words: &'a Words,
 ) -> Data<'a> {
-    let rows = shown(system, run);
+    let rows = rows_to_show(system, run);
     let (bodies, grain) = replayed(system, &rows);
     let between = between(system, &bodies, grain, rows.len());
     let outputs = columns.iter().enumerate();
@@ -156,7 +156,7 @@ fn data<'a>(
 }
 
 /// Returns the rows of the page: all of them, or evenly spaced ones with the last.
-fn shown<'r>(system: &SceneEquations, run: &'r Record) -> Vec<&'r Row> {
+fn rows_to_show<'r>(system: &SceneEquations, run: &'r Record) -> Vec<&'r Row> {
     let bodies = system.scene.mechanism.nv().max(1);
     let room = (POSES / bodies).clamp(100, ROWS);
     let stride = run.rows.len().div_ceil(room).max(1);

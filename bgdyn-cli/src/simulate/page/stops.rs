@@ -23,12 +23,12 @@ pub(super) fn stops(
         let q = value(scene, element, key)?;
         let (at, way) = match slides {
             true => (axis.map(|x| q * x), axis),
-            false => ([0.0; 3], turned(radius, axis, q)),
+            false => ([0.0; 3], rotate(radius, axis, q)),
         };
         Some(Stop {
             name: element.name.clone(),
             at: on.point(at),
-            way: on.turned(way),
+            way: on.rotate(way),
             side,
         })
     };
@@ -64,7 +64,7 @@ fn outwards(body: &Body, axis: [f64; 3]) -> [f64; 3] {
 }
 
 /// Returns a vector perpendicular to a unit axis, rotated about it by an angle.
-fn turned(x: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
+fn rotate(x: [f64; 3], axis: [f64; 3], angle: f64) -> [f64; 3] {
     let across = [
         axis[1] * x[2] - axis[2] * x[1],
         axis[2] * x[0] - axis[0] * x[2],

@@ -15,12 +15,12 @@ pub(in crate::effect) struct Supply;
 /// A tank: receives the return flow, at ambient pressure unless the file gives another.
 pub(in crate::effect) struct Tank;
 
-const fn held(needed: bool, about: &'static str) -> Key {
+const fn pressure_key(needed: bool, about: &'static str) -> Key {
     number(PRESSURE, &[Dimension::Pressure], needed, about)
 }
 
-const SUPPLY_PRESSURE: Key = held(true, "p, against the surroundings");
-const TANK_PRESSURE: Key = held(false, "p, against the surroundings; 0 without it");
+const SUPPLY_PRESSURE: Key = pressure_key(true, "p, against the surroundings");
+const TANK_PRESSURE: Key = pressure_key(false, "p, against the surroundings; 0 without it");
 
 static SUPPLY: [Key; 2] = [SUPPLY_PRESSURE, FLUID];
 static TANK: [Key; 2] = [TANK_PRESSURE, FLUID];
@@ -45,7 +45,7 @@ impl EffectKind for Supply {
     }
 
     fn summary(&self) -> &'static str {
-        "hydraulic supply: holds its pressure p, gives the power β (e^{p/β} − 1) q"
+        "hydraulic supply: keeps its pressure p and delivers the power β (e^{p/β} − 1) q"
     }
 
     fn symbol(&self) -> &'static str {

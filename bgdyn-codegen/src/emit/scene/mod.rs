@@ -12,7 +12,7 @@ use quote::quote;
 pub use stub::scene_stub;
 
 use super::code::Naming;
-use super::constants::counted;
+use super::constants::operation_counts;
 use super::explain::explainers;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
@@ -48,7 +48,7 @@ pub fn scene_module(
     let slope = has(SceneFunction::Jacobian).then(|| system::slope_trait(&struct_name));
     let canonical = SceneFunction::CANONICAL.into_iter().all(has);
     let canonical = canonical.then(|| system::canonical_trait(&struct_name));
-    let operations = counted(functions);
+    let operations = operation_counts(functions);
     let rebuild = rebuild(output);
     quote! {
         #(#[doc = #docs])*

@@ -24,7 +24,7 @@ mod rebuild;
 
 use super::{Cost, Graph, Node, NodeId, Signed, cost, reachable};
 use extract::Extraction;
-use network::{Network, Spread};
+use network::{Inline, Network};
 
 /// Largest number of rounds; each one starts from the result of the previous one.
 const ROUNDS: usize = 2;
@@ -33,10 +33,10 @@ const ROUNDS: usize = 2;
 const LIMIT: usize = 8_000;
 
 /// Largest number of operations for expanding products once more; beyond, this saves one in a thousand.
-const SPREAD: usize = 2_500;
+const MAX_INLINED_OPERATIONS: usize = 2_500;
 
 /// Largest number of operations for expanding shared values one by one; each attempt is a round.
-const POLISHED: usize = 100;
+const MAX_POLISHED_OPERATIONS: usize = 100;
 
 /// A function's graph and results, and their cost.
 struct Best {
@@ -47,7 +47,7 @@ struct Best {
 
 impl Best {
     /// Runs a round in which `spread` is expanded, and uses its result if it is cheaper.
-    fn improve(&mut self, spread: Spread) -> bool {
+    fn improve(&mut self, spread: Inline) -> bool {
         let mut network = Network::new(&self.graph, &self.outputs, spread);
         Extraction::new(&mut network).run();
         let (graph, outputs) = rebuild::rebuild(&network, &self.outputs);
@@ -67,13 +67,13 @@ impl Best {
     fn polish(&mut self) {
         let mut readers = readers(&self.graph, &self.outputs);
         let (mut i, mut unchanged) = (0, 0);
-        let mut tries = 4 * POLISHED;
+        let mut tries = 4 * MAX_POLISHED_OPERATIONS;
         while unchanged < self.graph.len() && tries > 0 {
             let place = i % self.graph.len();
             (i, unchanged) = (i + 1, unchanged + 1);
             if (1..=3).contains(&readers[place]) {
                 tries -= 1;
-                if self.improve(Spread::One(NodeId(place as u32))) {
+                if self.improve(Inline::One(NodeId(place as u32))) {
                     readers = self::readers(&self.graph, &self.outputs);
                     unchanged = 0;
                 }
@@ -117,15 +117,15 @@ fn rounds(graph: Graph, outputs: Vec<Signed>, most: usize) -> Best {
         cost,
     };
     for _ in 0..most {
-        if cost.operations.total() > LIMIT || !best.improve(Spread::Nothing) {
+        if cost.operations.total() > LIMIT || !best.improve(Inline::Nothing) {
             break;
         }
     }
     // Products that were extracted first may block better ones.
-    if most > 1 && cost.operations.total() <= SPREAD {
-        best.improve(Spread::Products);
+    if most > 1 && cost.operations.total() <= MAX_INLINED_OPERATIONS {
+        best.improve(Inline::Products);
     }
-    if best.cost.operations.total() <= POLISHED {
+    if best.cost.operations.total() <= MAX_POLISHED_OPERATIONS {
         best.polish();
     }
     best

@@ -11,7 +11,7 @@ pub(super) type Var = u32;
 
 /// The values that are expanded in the terms that read them, although they have other readers.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Spread {
+pub(super) enum Inline {
     /// Nothing.
     Nothing,
     /// A sum or product.
@@ -93,14 +93,14 @@ pub(super) struct Network<'a> {
     /// with a quotient, which could overflow in another order.
     kept: Vec<bool>,
     /// The values that are expanded although they have other readers.
-    spread: Spread,
+    spread: Inline,
     /// The number of terms, other nodes and results that read each variable; never too low.
     uses: Vec<usize>,
 }
 
 impl<'a> Network<'a> {
     /// Reads the graph: single uses are expanded if that costs nothing, and equal terms are merged.
-    pub fn new(graph: &'a Graph, outputs: &[Signed], spread: Spread) -> Self {
+    pub fn new(graph: &'a Graph, outputs: &[Signed], spread: Inline) -> Self {
         let needed = reachable(graph, outputs);
         let mut network = Network {
             graph,
@@ -203,13 +203,13 @@ impl<'a> Network<'a> {
 
     /// Returns whether it is to be expanded: only one term reads it.
     fn read_once(&self, var: Var) -> bool {
-        let wanted = self.uses[var as usize] == 1 || self.spread == Spread::One(NodeId(var));
+        let wanted = self.uses[var as usize] == 1 || self.spread == Inline::One(NodeId(var));
         wanted && !self.kept[var as usize]
     }
 
     /// Returns whether a product is to be expanded.
     fn opens(&self, var: Var) -> bool {
-        let products = self.spread == Spread::Products && !self.kept[var as usize];
+        let products = self.spread == Inline::Products && !self.kept[var as usize];
         products || self.read_once(var)
     }
 
@@ -244,7 +244,7 @@ impl<'a> Network<'a> {
             let spread = merged(whole.into_iter().chain(scaled).collect());
             apart.push(term.clone());
             let sum = sum.map_or(0, sum_cost);
-            let wanted = self.spread == Spread::One(NodeId(term.factors[0]));
+            let wanted = self.spread == Inline::One(NodeId(term.factors[0]));
             whole = if wanted || sum_cost(&spread) <= sum_cost(&apart) + sum {
                 spread
             } else {

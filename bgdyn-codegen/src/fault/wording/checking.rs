@@ -1,6 +1,6 @@
 //! Messages about a mechanism: names, the tree, joints, masses, directions.
 
-use super::{figure, listed, meant, quote};
+use super::{quote, quoted_list, six_digits, suggestion};
 use crate::fault::{Fault, Location};
 use crate::name::{is_keyword, to_identifier};
 use crate::unit::Dimension;
@@ -39,7 +39,7 @@ pub(crate) fn repeated_name(
     first: &Location,
 ) -> Fault {
     let message = format!(
-        "the name {} is taken; names are unique among {what}",
+        "the name {} is already used; names are unique among {what}",
         quote(name)
     );
     let (path, line) = (&first.path, first.position.line);
@@ -176,11 +176,11 @@ pub(crate) fn unknown_link(
     words.push(if known.len() > 8 { "…" } else { "world" });
     let links = format!(
         "the links are {}",
-        listed(words.iter().copied()).replace("`…`", "…")
+        quoted_list(words.iter().copied()).replace("`…`", "…")
     );
     let nearest: Vec<&str> = known.iter().copied().chain(["world"]).collect();
     Fault::new(location, rule, format!("no link is called {}", quote(name)))
-        .with_help(meant(name, &nearest, links))
+        .with_help(suggestion(name, &nearest, links))
 }
 
 pub(crate) fn circle(location: &Location, names: &[&str]) -> Fault {
@@ -218,20 +218,11 @@ pub(crate) fn unknown_joint_type(location: &Location, word: &str, known: &[&str]
         "unknown-joint-type",
         format!("no joint type is called {}", quote(word)),
     );
-    let types = format!("the types are {}", listed(known.iter().copied()));
-    if [
-        "floating",
-        "planar",
-        "spherical",
-        "ball",
-        "universal",
-        "cylindrical",
-    ]
-    .contains(&word)
-    {
-        return fault.with_help(format!("{types}; build it from several of them"));
+    let types = format!("the types are {}", quoted_list(known.iter().copied()));
+    if word == "ball" {
+        return fault.with_help(format!("write `spherical`; {types}"));
     }
-    fault.with_help(meant(word, known, types))
+    fault.with_help(suggestion(word, known, types))
 }
 
 pub(crate) fn moving_joint_without_name(location: &Location) -> Fault {
@@ -305,7 +296,7 @@ pub(crate) fn no_coordinates(location: &Location) -> Fault {
     let message = "no joint moves: the mechanism has no coordinate (NQ 0, NV 0), so no motion can be computed";
     Fault::new(location, "no-coordinates", message)
         .with_help(
-            "give a joint the type `revolute`, `continuous` or `prismatic`; write a moving base as massless links with three prismatic and three revolute joints",
+            "give a joint a type that moves, such as `revolute`; a base that moves freely has `joint: { name: base, type: floating }`",
         )
         .into_warning()
 }
@@ -318,7 +309,7 @@ pub(crate) fn constant_distance(
     [a, b]: [&str; 2],
     distance: f64,
 ) -> Fault {
-    let (effect, distance) = (quote(effect), figure(distance));
+    let (effect, distance) = (quote(effect), six_digits(distance));
     let message = if a == b {
         format!("{effect} acts between {} and itself", quote(a))
     } else {
@@ -351,7 +342,7 @@ pub(crate) fn snap_out_of_range(location: &Location, text: &str) -> Fault {
         "snap-out-of-range",
         format!("{} is outside 0 … 1e-3 rad", quote(text)),
     )
-    .with_help("`snap: 1e-4` takes rounded quarter turns such as 1.5708 as exact")
+    .with_help("`snap: 1e-4` makes rounded quarter turns such as 1.5708 exact")
 }
 
 pub(crate) fn angle_out_of_range(location: &Location, text: &str, most: f64) -> Fault {
@@ -363,7 +354,7 @@ pub(crate) fn angle_out_of_range(location: &Location, text: &str, most: f64) -> 
 pub(crate) fn nearly_quarter_turn(location: &Location, off: &[(&str, f64)]) -> Fault {
     let parts: Vec<String> = off
         .iter()
-        .map(|(name, off)| format!("{name} is {} rad", figure(*off)))
+        .map(|(name, off)| format!("{name} is {} rad", six_digits(*off)))
         .collect();
     let message = format!(
         "{} off a multiple of 90 deg; kept as written",
@@ -375,7 +366,7 @@ pub(crate) fn nearly_quarter_turn(location: &Location, off: &[(&str, f64)]) -> F
 pub(crate) fn nearly_axis(location: &Location, off: &[(&str, f64)]) -> Fault {
     let parts: Vec<String> = off
         .iter()
-        .map(|(name, off)| format!("{name} is {}", figure(*off)))
+        .map(|(name, off)| format!("{name} is {}", six_digits(*off)))
         .collect();
     let message = format!(
         "{} of the axis's length, nearly 0; kept as written",

@@ -1,6 +1,6 @@
 //! Messages about the rules of individual kinds of effects, and of hydraulic nodes.
 
-use super::figure;
+use super::six_digits;
 use crate::fault::{Fault, Location};
 
 // Friction
@@ -215,19 +215,19 @@ pub(crate) fn wrong_mode(location: &Location, mode: &WrongMode<'_>) -> Fault {
     } = mode;
     let why = match *why {
         WhyWrong::Slips(slip) => {
-            let slip = figure(slip);
+            let slip = six_digits(slip);
             format!("`{rate}` begins with {slip} {unit} against its counterpart")
         }
         WhyWrong::IsHeld(holding) => {
-            let holding = figure(holding);
+            let holding = six_digits(holding);
             format!("at rest it is held: that takes {holding} {effort}")
         }
         WhyWrong::CannotHold(holding, beyond) => {
-            let [holding, beyond] = [holding, beyond].map(figure);
+            let [holding, beyond] = [holding, beyond].map(six_digits);
             format!("holding takes {holding} {effort}, {beyond} {effort} more than it can hold")
         }
         WhyWrong::OffLimit(value, limit) => {
-            let [value, limit] = [value, limit].map(figure);
+            let [value, limit] = [value, limit].map(six_digits);
             format!("`{rate}` begins with {value} {unit} and its limit is {limit} {unit}")
         }
         WhyWrong::StaysAtLimit => format!("`{rate}` begins at its limit and is held there"),

@@ -1,12 +1,12 @@
 //! Messages about inertia tensors and solids.
 
-use super::{figure, figures, listed, meant, quote};
+use super::{quote, quoted_list, six_digits, six_digits_each, suggestion};
 use crate::fault::{Fault, Location};
 
 pub(crate) fn not_semidefinite(location: &Location, moments: [f64; 3]) -> Fault {
     let message = format!(
         "no body has this tensor: it is not positive semidefinite, its principal moments are {} kg·m²",
-        figures(&moments)
+        six_digits_each(&moments)
     );
     Fault::new(location, "not-semidefinite", message).with_help(
         "check signs and units; `xy`, `xz`, `yz` are the tensor's entries (for ∫xy dm write \
@@ -15,8 +15,8 @@ pub(crate) fn not_semidefinite(location: &Location, moments: [f64; 3]) -> Fault 
 }
 
 pub(crate) fn triangle_inequality(location: &Location, moments: [f64; 3]) -> Fault {
-    let [a, b, c] = moments.map(figure);
-    let short = figure(moments[2] - moments[0] - moments[1]);
+    let [a, b, c] = moments.map(six_digits);
+    let short = six_digits(moments[2] - moments[0] - moments[1]);
     let message = format!(
         "no body has this tensor: its principal moments are {a}, {b}, {c} kg·m², and {a} + {b} falls short of {c} by {short}"
     );
@@ -36,10 +36,10 @@ pub(crate) fn nonphysical_word(location: &Location, word: &str) -> Fault {
 // Solids, and reference points of tensors
 
 pub(crate) fn unknown_solid(location: &Location, word: &str, known: &[&str]) -> Fault {
-    let help = meant(
+    let help = suggestion(
         word,
         known,
-        format!("solids are {}", listed(known.iter().copied())),
+        format!("solids are {}", quoted_list(known.iter().copied())),
     );
     let message = format!("no solid is called {}", quote(word));
     Fault::new(location, "unknown-solid", message).with_help(help)
@@ -65,7 +65,7 @@ pub(crate) fn dimension_of_another(location: &Location, solid: &str, key: &str) 
 
 pub(crate) fn dimension_without_solid(location: &Location, key: &str, known: &[&str]) -> Fault {
     let message = format!("`{key}` is a dimension of a solid, but there is no `solid`");
-    let known = listed(known.iter().copied());
+    let known = quoted_list(known.iter().copied());
     Fault::new(location, "misplaced-dimension", message).with_help(format!(
         "write `solid: …` with one of {known}, or leave `{key}` out"
     ))

@@ -1,6 +1,6 @@
 //! Messages about joint types and their keys.
 
-use super::{figure, listed, meant, quote};
+use super::{quote, quoted_list, six_digits, suggestion};
 use crate::fault::{Fault, Location};
 use crate::unit::Dimension;
 
@@ -87,8 +87,11 @@ pub(crate) fn mimic_of_joint(location: &Location, keyword: &str) -> Fault {
 
 pub(crate) fn unknown_leader(location: &Location, name: &str, known: &[&str]) -> Fault {
     let message = format!("no joint is called {}", quote(name));
-    let all = format!("the joints are {}", listed(known.iter().copied().take(12)));
-    Fault::new(location, "unknown-leader", message).with_help(meant(name, known, all))
+    let all = format!(
+        "the joints are {}",
+        quoted_list(known.iter().copied().take(12))
+    );
+    Fault::new(location, "unknown-leader", message).with_help(suggestion(name, known, all))
 }
 
 pub(crate) fn leader_of_type(location: &Location, name: &str, keyword: &str) -> Fault {
@@ -106,14 +109,14 @@ pub(crate) fn ratio_needed(location: &Location, leader: &str, of: Dimension) -> 
     Fault::new(location, "ratio-needed", message).with_help(format!(
         "add `ratio: …`, a number in {}, or with a unit: {}",
         of.si(),
-        listed(units)
+        quoted_list(units)
     ))
 }
 
 pub(crate) fn oblique_axes(location: &Location, degrees: f64) -> Fault {
     let message = format!(
         "`axis2` is at {}° to `axis`, not at a right angle",
-        figure(degrees)
+        six_digits(degrees)
     );
     Fault::new(location, "oblique-axes", message)
         .with_help("the two axes of a universal joint are usually perpendicular; if these are not, ignore this")
@@ -160,8 +163,8 @@ pub(crate) fn mimic_empty_range(
     let message = format!(
         "no position of {} keeps the limits of both joints: it would be at least {} and at most {}",
         quote(leader),
-        figure(lower),
-        figure(upper)
+        six_digits(lower),
+        six_digits(upper)
     );
     Fault::new(location, "mimic-empty-range", message)
         .with_help("change `ratio`, `offset` or one of the limits")

@@ -1,6 +1,6 @@
 //! Messages about the text of a file: YAML syntax, keys, types, numbers, units.
 
-use super::{listed, meant, quote};
+use super::{quote, quoted_list, suggestion};
 use crate::fault::quote::escape;
 use crate::fault::{Fault, Location, Position};
 use crate::unit::{Dimension, Unit};
@@ -88,10 +88,10 @@ pub(crate) fn not_two_names(location: &Location, count: usize) -> Fault {
 }
 
 pub(crate) fn unknown_key(location: &Location, key: &str, known: &[&'static str]) -> Fault {
-    let help = meant(
+    let help = suggestion(
         key,
         known,
-        format!("the keys here are {}", listed(known.iter().copied())),
+        format!("the keys here are {}", quoted_list(known.iter().copied())),
     );
     Fault::new(
         location,
@@ -104,7 +104,7 @@ pub(crate) fn unknown_key(location: &Location, key: &str, known: &[&'static str]
 pub(crate) fn key_not_text(location: &Location, known: &[&'static str]) -> Fault {
     Fault::new(location, "unknown-key", "a key must be a single word").with_help(format!(
         "the keys here are {}",
-        listed(known.iter().copied())
+        quoted_list(known.iter().copied())
     ))
 }
 
@@ -150,7 +150,7 @@ pub(crate) fn not_a_number(location: &Location, text: &str, fit: &[Dimension]) -
         "wrong-type",
         format!("{} is not a number", quote(text)),
     );
-    fault.with_help(format!("write {}", wanted(fit)))
+    fault.with_help(format!("write {}", expected_units(fit)))
 }
 
 pub(crate) fn not_decimal(location: &Location, text: &str) -> Fault {
@@ -205,10 +205,10 @@ pub(crate) fn unknown_unit(
 ) -> Fault {
     let units: Vec<&str> = fit.iter().flat_map(|d| d.units()).collect();
     let message = format!("the unit {} in {} is unknown", quote(unit), quote(text));
-    Fault::new(location, "unknown-unit", message).with_help(meant(
+    Fault::new(location, "unknown-unit", message).with_help(suggestion(
         unit,
         &units,
-        format!("write {}", wanted(fit)),
+        format!("write {}", expected_units(fit)),
     ))
 }
 
@@ -224,11 +224,11 @@ pub(crate) fn unit_misfit(
         .collect::<Vec<_>>()
         .join(" or ");
     let message = format!("{} is {}; {what} belongs here", quote(text), unit.dimension);
-    Fault::new(location, "unit-misfit", message).with_help(format!("write {}", wanted(fit)))
+    Fault::new(location, "unit-misfit", message).with_help(format!("write {}", expected_units(fit)))
 }
 
 /// Returns "a number, bare (m) or with one of `m`, `cm`, `mm`".
-fn wanted(fit: &[Dimension]) -> String {
+fn expected_units(fit: &[Dimension]) -> String {
     let units: Vec<&str> = fit.iter().flat_map(|d| d.units()).collect();
     if units.is_empty() {
         return "a plain number".to_owned();
@@ -245,7 +245,7 @@ fn wanted(fit: &[Dimension]) -> String {
     format!(
         "{plain}a number in {}, or with a unit: {}",
         si.join(" or "),
-        listed(units)
+        quoted_list(units)
     )
 }
 

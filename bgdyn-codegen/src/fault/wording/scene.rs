@@ -1,6 +1,6 @@
 //! Messages about a scene: its mechanism, its locked joints, its state, its outputs, its integration.
 
-use super::{figure, unknown_name};
+use super::{six_digits, unknown_name};
 use crate::fault::{Fault, Location};
 
 pub(crate) fn unknown_scene_version(location: &Location, text: &str) -> Fault {
@@ -60,7 +60,7 @@ pub(crate) fn initial_below_least(
 
 /// The two values and their units.
 pub(crate) fn parameter_twice(location: &Location, name: &str, values: [(f64, &str); 2]) -> Fault {
-    let [first, second] = values.map(|(x, unit)| format!("{} {unit}", figure(x)));
+    let [first, second] = values.map(|(x, unit)| format!("{} {unit}", six_digits(x)));
     let message = format!(
         "the parameter `{name}` has two values: {} and {}",
         first.trim_end(),

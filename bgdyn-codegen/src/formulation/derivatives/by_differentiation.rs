@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{derivatives, finish, position_derivatives, reopened};
+use super::differentiate::{derivatives, finish, position_derivatives, reopen};
 use super::forward_dynamics::ForwardDerivatives;
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Expr, Leaf, Signed};
@@ -12,7 +12,7 @@ use crate::method::Method;
 use crate::passes::cheapest;
 
 /// Largest number of velocities for which differentiated expressions may cost less than composite bodies.
-const SMALL: usize = 4;
+const MAX_DIFFERENTIATED_COORDINATES: usize = 4;
 
 /// Derivatives of inverse dynamics, by differentiating its expressions.
 pub(in crate::formulation) struct Differentiated;
@@ -39,7 +39,7 @@ impl Formulation for Differentiated {
         if method == Method::CoriolisMatrix && !prepared.graph.plain() {
             return Offer::Never;
         }
-        match prepared.graph.coordinates.len() <= SMALL {
+        match prepared.graph.coordinates.len() <= MAX_DIFFERENTIATED_COORDINATES {
             true => Offer::Candidate,
             false => Offer::Reserve,
         }
@@ -57,7 +57,7 @@ impl Formulation for Differentiated {
         let graph = prepared.graph;
         let n = graph.coordinates.len();
         let from = prepared.function(*self.reads(method).first()?)?;
-        let (b, x) = reopened(&from);
+        let (b, x) = reopen(&from);
         let outputs = if method == Method::CoriolisMatrix {
             // The bias is quadratic in v with Christoffel symbols: C = ½ ∂bias/∂v.
             let half = |e: Expr<'_>| (e * Dd::from_f64(0.5)).signed();

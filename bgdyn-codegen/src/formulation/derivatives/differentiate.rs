@@ -9,7 +9,7 @@ use crate::function::Function;
 use crate::method::Method;
 
 /// Returns a function's graph, for adding nodes, and its results.
-pub(super) fn reopened(function: &Function) -> (Builder, Vec<Signed>) {
+pub(super) fn reopen(function: &Function) -> (Builder, Vec<Signed>) {
     (
         Builder::from(function.graph.clone()),
         function.blocks[0].outputs.clone(),

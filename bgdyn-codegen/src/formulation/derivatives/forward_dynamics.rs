@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{derivatives, finish, reopened};
+use super::differentiate::{derivatives, finish, reopen};
 use crate::bond_graph::Multibody;
 use crate::column_loop::{self, ColumnLoop, LoopedResult, ResultSource};
 use crate::expr::{Builder, Graph, Leaf, Signed, Tangent, copy_into};
@@ -35,7 +35,7 @@ impl ForwardDerivatives {
     pub(super) fn new(graph: &Multibody, slopes: &Function, forward: &Function) -> Self {
         let n = graph.coordinates.len();
         // In the copy, the accelerations replace their leaves.
-        let (builder, accelerations) = reopened(forward);
+        let (builder, accelerations) = reopen(forward);
         let placed = |_: &mut Graph, leaf: Leaf| match leaf {
             Leaf::Acceleration(j) => Some(accelerations[j]),
             _ => None,
@@ -133,7 +133,7 @@ impl ForwardDerivatives {
         let block = column_loop::OWN;
         let mut drive = first.clone();
         for (index, &row) in rows.iter().enumerate() {
-            let leaf = Leaf::Passed { block, index };
+            let leaf = Leaf::BlockResult { block, index };
             drive[row] = self.builder.leaf(leaf).signed();
         }
         let outputs = self.along(&drive);

@@ -14,7 +14,7 @@ use crate::mechanism::{Pose, Snapped};
 /// Default tolerance for rounding a direction to the exact one.
 const SNAP: f64 = 1e-11;
 /// Largest tolerance in a spec.
-const MOST: f64 = 1e-3;
+const MAX_SNAP: f64 = 1e-3;
 /// Up to this size, a deviation larger than `snap` suggests a rounded quarter turn.
 const SUSPECT: f64 = 1e-4;
 /// Bound, with a margin, for the rounding error of the double-double operations in a rotation.
@@ -40,7 +40,7 @@ impl Directions {
             return Self::within(SNAP);
         };
         let snap = given.value.value.to_f64();
-        if !(0.0..=MOST).contains(&snap) {
+        if !(0.0..=MAX_SNAP).contains(&snap) {
             faults.push(wording::snap_out_of_range(
                 &given.location,
                 &given.value.text,

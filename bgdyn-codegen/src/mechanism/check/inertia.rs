@@ -42,7 +42,7 @@ pub(super) fn tensor(
         Field::Given(inertia) => inertia,
     };
     let rotation = directions.rotation(&inertia.value.rpy, faults);
-    let entries = match written(link, &inertia.value, directions, parameters, faults)? {
+    let entries = match read_tensor(link, &inertia.value, directions, parameters, faults)? {
         InertiaNotation::AboutCentre(entries) => entries,
         InertiaNotation::AboutOrigin(numbers, shift) => {
             let about = minus(turned(numbers, rotation?), shift);
@@ -80,7 +80,7 @@ enum InertiaNotation {
     AboutOrigin([Dd; 6], [Dd; 6]),
 }
 
-fn written(
+fn read_tensor(
     link: &LinkSpec,
     inertia: &InertiaSpec,
     directions: &Directions,

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Location, wording};
-use crate::format::{self, Dimension, Field, Located, Number, misfit};
+use crate::format::{self, Dimension, Field, Located, Number, check_unit};
 use crate::mechanism::joint::ChainMember;
 use crate::mechanism::{JointType, Limits, Motion};
 
@@ -124,9 +124,11 @@ fn units(limits: &format::LimitsSpec, motion: Motion, faults: &mut Faults) {
         (&limits.effort, effort),
     ];
     for (limit, dimension) in places {
-        faults
-            .0
-            .extend(limit.given().and_then(|limit| misfit(limit, &[dimension])));
+        faults.0.extend(
+            limit
+                .given()
+                .and_then(|limit| check_unit(limit, &[dimension])),
+        );
     }
 }
 

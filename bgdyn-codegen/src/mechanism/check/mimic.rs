@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
-use crate::format::{Dimension, Field, Located, MimicSpec, Number, misfit};
+use crate::format::{Dimension, Field, Located, MimicSpec, Number, check_unit};
 use crate::mechanism::joint::{JOINT_TYPES, JointType};
 use crate::mechanism::{Joint, Limits, Link, LinkId, Mimic, Motion};
 
@@ -144,7 +144,7 @@ fn number(field: &Field<Number>, fit: Dimension, default: Dd, faults: &mut Fault
     match field {
         Field::Absent => Some(default),
         Field::Broken => None,
-        Field::Given(number) => match misfit(number, &[fit]) {
+        Field::Given(number) => match check_unit(number, &[fit]) {
             Some(fault) => {
                 faults.push(fault);
                 None

@@ -4,8 +4,8 @@ use bgdyn::nalgebra::Vector2;
 use bgdyn_sim::{State, rk4_step};
 use camera_head::head::Head;
 
-/// Turns `plant` for a second, with the efforts that `model` asks for; how far the tilt is from
-/// where it was to go, degrees.
+/// Turns `plant` for a second with efforts computed by `model`; returns the error of the tilt, in
+/// degrees.
 fn turn(model: &Head, plant: &Head) -> Result<f64, bgdyn::Singular> {
     let target = Vector2::new(60_f64.to_radians(), 20_f64.to_radians());
     let mut state = State {
@@ -33,7 +33,7 @@ fn main() -> Result<(), bgdyn::Singular> {
         turn(&light, &heavy)?
     );
     println!(
-        "0.9 kg, and the model was told: {:+.3}°",
+        "0.9 kg, set in the model too: {:+.3}°",
         turn(&heavy, &heavy)?
     );
     Ok(())

@@ -17,7 +17,7 @@ fn bit(leaf: Leaf) -> u128 {
         Leaf::Velocity(i) => place(MOST, i),
         Leaf::Acceleration(i) | Leaf::State(i) => place(2 * MOST, i),
         Leaf::Input(i) => place(3 * MOST, i),
-        Leaf::Mode(_) | Leaf::Parameter(_) | Leaf::Time | Leaf::Passed { .. } => 1 << 127,
+        Leaf::Mode(_) | Leaf::Parameter(_) | Leaf::Time | Leaf::BlockResult { .. } => 1 << 127,
     }
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn masks(function: &Function) -> Vec<u128> {
             let id = bgdyn_codegen::expr::NodeId::at(i);
             let node = function.graph.node(id);
             let mut mask = match node {
-                Node::Leaf(Leaf::Passed { block, index }) => {
+                Node::Leaf(Leaf::BlockResult { block, index }) => {
                     // Results of a later block are not read here.
                     passed.get(*block).map_or(0, |results| results[*index])
                 }
