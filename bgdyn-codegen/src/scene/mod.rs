@@ -18,7 +18,8 @@ use crate::declaration::Element;
 use crate::fault::Location;
 use crate::format::{Located, Raw};
 pub use crate::layout::{
-    InitialValueAs, Level, MomentumStore, StateCoordinate, StateLayout, Variable,
+    InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition,
+    Variable,
 };
 use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;

@@ -51,8 +51,8 @@ impl Scene {
             kind,
         };
         let coordinates = layout.coordinates.iter().enumerate();
-        let stored = coordinates.clone().filter(|(_, c)| c.stored);
-        let positions = stored.map(|(j, c)| one(&c.name, c.dimensions[0].si(), Position(j)));
+        let positions = layout.positions.iter().enumerate();
+        let positions = positions.map(|(i, p)| one(&p.name, p.dimension.si(), Position(i)));
         let velocities =
             coordinates.map(|(j, c)| one(&c.rate_name, c.dimensions[1].si(), Velocity(j)));
         let states = layout.states.iter().enumerate().map(|(i, part)| {
@@ -155,8 +155,10 @@ impl Scene {
             let Some(k) = with.and_then(|name| layout.coordinate_named(name)) else {
                 continue;
             };
-            if !given(&c.name) {
-                scene.initial.q[j] = scene.initial.q[k];
+            if let (Some(own), Some(other)) = (c.position, layout.coordinates[k].position)
+                && !given(&c.name)
+            {
+                scene.initial.q[own] = scene.initial.q[other];
             }
             if !given(&c.rate_name) {
                 scene.initial.v[j] = scene.initial.v[k];

@@ -33,6 +33,14 @@ pub(crate) fn unknown_locked_joint(location: &Location, name: &str, joints: &[&s
         .with_help("`lock` takes joints and the positions that they keep: `wrist: 30 deg`")
 }
 
+pub(crate) fn lock_of_several(location: &Location, joint: &str, kind: &str) -> Fault {
+    let message = format!(
+        "`{joint}` is a {kind} joint: `lock` takes joints of one degree of freedom, with their position"
+    );
+    Fault::new(location, "lock-of-several", message)
+        .with_help("for this scene write a mechanism in which the joint is `fixed`")
+}
+
 // The state and its start
 
 pub(crate) fn repeated_state_or_input(location: &Location, name: &str) -> Fault {

@@ -5,30 +5,16 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 
 use super::super::Initial;
+use super::joints;
 use crate::declaration::{Element, RejectedEffects};
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
-use crate::layout::{MomentumStore, StateCoordinate, StateLayout};
-use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
+use crate::layout::StateLayout;
+use crate::mechanism::{Mechanism, Parameter};
 
 /// Returns the layout of the state: the joints, then the parts that the effects add.
 pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout {
-    let coordinate = |(j, name): (usize, String)| {
-        let joint = mechanism.joint(CoordinateId(j));
-        StateCoordinate {
-            store: MomentumStore::Links(CoordinateId(j)),
-            stored: true,
-            dimensions: dimensions(joint.kind.motion),
-            rate_name: format!("{name}_rate"),
-            starts_with: None,
-            name,
-        }
-    };
-    let names = mechanism.joint_names().into_iter();
-    let mut layout = StateLayout {
-        coordinates: names.enumerate().map(coordinate).collect(),
-        ..StateLayout::default()
-    };
+    let mut layout = joints::layout(mechanism);
     // Coordinates first: other effects may act on them.
     let (adding, rest): (Vec<&Element>, Vec<&Element>) =
         elements.iter().partition(|e| e.effect.adds_coordinate());
@@ -81,16 +67,16 @@ pub(super) fn initial(
     faults: &mut Faults,
 ) -> Initial {
     let mut initial = Initial {
-        q: vec![Dd::ZERO; layout.nq()],
+        q: layout.positions.iter().map(|p| p.neutral).collect(),
         v: vec![Dd::ZERO; layout.nv()],
         x: vec![Dd::ZERO; layout.nx()],
         modes: vec![Dd::ZERO; layout.modes.len()],
     };
     let mut places: BTreeMap<String, (usize, usize, Dimension)> = BTreeMap::new();
+    for (i, p) in layout.positions.iter().enumerate() {
+        places.insert(p.name.clone(), (0, i, p.dimension));
+    }
     for (j, c) in layout.coordinates.iter().enumerate() {
-        if c.stored {
-            places.insert(c.name.clone(), (0, j, c.dimensions[0]));
-        }
         places.insert(c.rate_name.clone(), (1, j, c.dimensions[1]));
     }
     for (i, part) in layout.states.iter().enumerate() {
@@ -142,20 +128,14 @@ pub(super) fn initial(
             .as_ref()
             .and_then(|name| layout.coordinate_named(name));
         let Some(k) = with else { continue };
-        if !given.contains(&(0, j)) {
-            initial.q[j] = initial.q[k];
+        if let (Some(own), Some(other)) = (c.position, layout.coordinates[k].position)
+            && !given.contains(&(0, own))
+        {
+            initial.q[own] = initial.q[other];
         }
         if !given.contains(&(1, j)) {
             initial.v[j] = initial.v[k];
         }
     }
     initial
-}
-
-/// Returns the dimensions of position, velocity and effort of a joint.
-pub(super) fn dimensions(motion: Motion) -> [Dimension; 3] {
-    match motion {
-        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
-        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
-    }
 }
