@@ -345,6 +345,25 @@ impl StateLayout {
         (0..self.nq()).filter(own).collect()
     }
 
+    /// Returns the entry of row `i` and column `k` of (∂ẏ/∂y, ∂ẏ/∂t) from the columns of the function for the
+    /// Jacobian, which have the rates of velocities and states, then those of coupled positions.
+    pub fn jacobian_entry(&self, values: &[f64], i: usize, k: usize) -> f64 {
+        let own = self.nv() + self.nx();
+        let column = k * (own + self.coupled().len());
+        match (i.checked_sub(self.nq()), self.positions.get(i)) {
+            (Some(i), _) => values[column + i],
+            (None, Some(position)) => match position.coordinate {
+                Some(j) => f64::from(u8::from(k == self.nq() + j)),
+                None => {
+                    let before = self.positions[..i].iter();
+                    let before = before.filter(|p| p.coordinate.is_none()).count();
+                    values[column + own + before]
+                }
+            },
+            (None, None) => 0.0,
+        }
+    }
+
     /// Divides every quaternion by its length.
     pub fn normalize(&self, positions: &mut [Dd]) {
         for first in self.quasi_joints.iter().filter_map(|j| j.quaternion) {
