@@ -8,6 +8,9 @@ use bgdyn_runtime::Dd;
 use crate::mechanism::CoordinateId;
 use crate::unit::Dimension;
 
+/// Largest deviation of the length of a given quaternion from 1.
+const LENGTH: f64 = 1e-6;
+
 /// A coordinate: a joint's, or one that an effect adds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateCoordinate {
@@ -362,6 +365,30 @@ impl StateLayout {
             },
             (None, None) => 0.0,
         }
+    }
+
+    /// Divides every quaternion by its length. Returns the joints whose quaternions are not orientations: of a
+    /// length other than 1 by more than 1e-6, or of length 0 where any length is allowed; with the length.
+    pub fn unit_quaternions(&self, positions: &mut [Dd]) -> Vec<(&QuasiJoint, f64)> {
+        let mut wrong = Vec::new();
+        for joint in &self.quasi_joints {
+            let Some(first) = joint.quaternion else {
+                continue;
+            };
+            let squares = positions[first..first + 4].iter().map(|&x| x * x);
+            let length = squares.fold(Dd::ZERO, |sum, x| sum + x).sqrt().to_f64();
+            let sound = match joint.any_length {
+                true => length > 0.0 && length.is_finite(),
+                false => (length - 1.0).abs() <= LENGTH,
+            };
+            if !sound {
+                wrong.push((joint, length));
+            }
+        }
+        if wrong.is_empty() {
+            self.normalize(positions);
+        }
+        wrong
     }
 
     /// Divides every quaternion by its length.

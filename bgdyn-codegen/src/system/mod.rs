@@ -126,7 +126,8 @@ impl SceneEquations {
         self.roles_with(false, false)
     }
 
-    /// Returns the same, with the Jacobian and the canonical form if selected.
+    /// Returns the same, with the Jacobian and the canonical form if selected. Scenes with quasi-velocities
+    /// have no canonical form.
     pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<SceneFunction> {
         let layout = &self.scene.layout;
         let method = self.scene.integration.method;
@@ -142,7 +143,10 @@ impl SceneEquations {
             SceneFunction::Jacobian => jacobian || method.needs_jacobian(),
             SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
-            | SceneFunction::CanonicalRates => canonical || method.needs_canonical(),
+            | SceneFunction::CanonicalRates => {
+                let natural = layout.quasi_joints.is_empty();
+                natural && (canonical || method.needs_canonical())
+            }
         };
         SceneFunction::ALL.into_iter().filter(has).collect()
     }

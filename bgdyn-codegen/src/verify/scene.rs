@@ -159,7 +159,10 @@ impl CheckedScene<'_> {
         };
         let (supplied, used) = ([sum(0)], [sum(1) + sum(2)]);
         let text = "Σ supplied = Σ d(stored)/dt + Σ dissipated";
-        let size = largest(entries);
+        // Without effects only terms of the kinetic energy's rate are left, which cancel.
+        let still = self.sides_at(&vec![Dd::ZERO; at.v.len()], at);
+        let terms = still.iter().zip(&at.v).map(|(&effort, &v)| effort * v);
+        let size = largest(entries).max(largest(&terms.collect::<Vec<_>>()));
         self.compare(function, (text, SOLVED), (&supplied, &used), size, at)
     }
 

@@ -174,9 +174,8 @@ fn instant(t: f64) -> f64 {
 /// Returns the bodies with their poses by the mechanism's own functions, and the unit of positions, m.
 fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
     let mechanism = &system.scene.mechanism;
-    let joints = mechanism.nv();
-    let travel: Vec<(f64, f64)> = (0..joints)
-        .map(|j| range(rows.iter().map(|row| row.y[j]).filter(|q| q.is_finite())))
+    let travel: Vec<(f64, f64)> = (0..mechanism.nq())
+        .map(|p| range(rows.iter().map(|row| row.y[p]).filter(|q| q.is_finite())))
         .map(
             |(low, high)| {
                 if low <= high { (low, high) } else { (0.0, 0.0) }
@@ -316,13 +315,14 @@ fn in_world(body: &Body, at: [f64; 3], grain: f64, row: usize) -> [f64; 3] {
 /// Returns inputs, coordinates other than joints and first-order states.
 fn states(system: &SceneEquations, rows: &[&Row]) -> Vec<Curve> {
     let layout = &system.scene.layout;
-    let joints = system.scene.mechanism.nv();
+    let (positions, velocities) = (system.scene.mechanism.nq(), system.scene.mechanism.nv());
     let inputs = layout.inputs.iter().enumerate().map(|(i, part)| {
         let column = column(&part.name, part.dimension.si());
         Curve::new(&column, rows.iter().map(|row| row.inputs[i]))
     });
     let parts = super::run_table::state_columns(system);
-    let beside = |i: usize| (i >= joints && i < layout.nq()) || i >= layout.nq() + joints;
+    let beside =
+        |i: usize| (i >= positions && i < layout.nq()) || i >= layout.nq() + velocities;
     let own = parts.iter().enumerate().filter(|&(i, _)| beside(i));
     let own = own.map(|(i, column)| Curve::new(column, rows.iter().map(|row| row.y[i])));
     inputs.chain(own).collect()

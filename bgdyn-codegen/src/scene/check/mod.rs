@@ -1,10 +1,12 @@
 //! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod effects;
+mod initial;
 mod inputs;
 mod joints;
 mod locks;
 mod outputs;
+mod pose;
 mod run;
 mod state;
 
@@ -117,6 +119,7 @@ fn scene(
         },
     };
     let scene = assembled(empty, &refused, faults);
+    canonical(spec, &scene, faults);
     let drawn = sound && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
@@ -148,7 +151,7 @@ pub(in crate::scene) fn assembled(
     Scene {
         parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
         drives: inputs::drives(&layout, inputs, refused, faults),
-        initial: state::initial(&layout, &scene.written.initial, refused, faults),
+        initial: initial::initial(&layout, &scene.written.initial, refused, faults),
         layout,
         ..scene
     }
@@ -187,5 +190,23 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
             }
             Some(name.value.clone())
         }
+    }
+}
+
+/// Refuses the canonical form of joints with quasi-velocities.
+fn canonical(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) {
+    let joint = scene.layout.quasi_joints.first();
+    let method = scene.integration.method;
+    if let (Some(joint), true, Some(raw)) =
+        (joint, method.needs_canonical(), spec.integration.value())
+    {
+        let natural = method.on_velocities().name();
+        let (location, name) = (&raw.location, method.name());
+        faults.push(wording::canonical_of_quasi_velocities(
+            location,
+            name,
+            &joint.name,
+            natural,
+        ));
     }
 }
