@@ -3,18 +3,16 @@
 mod bodies;
 mod body;
 mod curve;
+mod poses;
 mod stops;
 
-use bgdyn_codegen::bond_graph::SiteId;
-use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::system::SceneEquations;
 use serde::Serialize;
 
 use self::bodies::Bodies;
 use self::body::{Body, End};
 use self::curve::{Curve, LEVELS};
+use self::poses::{poses, turns};
 use super::difference::range;
 use super::report::{changes, short};
 use super::run_table::{Column, Record, Row};
@@ -203,72 +201,6 @@ fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
         body.turn = Some(turns(&poses));
     }
     (bodies, grain)
-}
-
-/// Returns the poses of a link at all rows: its axes row by row, its origin. An undefined pose is replaced
-/// by the previous one.
-fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
-    let mechanism = &system.scene.mechanism;
-    let pose = function(mechanism, Method::Pose(SiteId(link)), &Options::default());
-    let pose = pose.expect("every formulation knows poses");
-    let mut last = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-    let at = |row: &&Row| {
-        let inputs = bgdyn_codegen::expr::Inputs {
-            q: row.y.as_slice()[..mechanism.nq()].to_vec(),
-            ..Default::default()
-        };
-        let (values, _) = pose.evaluate::<f64>(inputs);
-        if values.iter().all(|x| x.is_finite() && x.abs() < 1e9) {
-            last.copy_from_slice(&values);
-        }
-        last
-    };
-    rows.iter().map(at).collect()
-}
-
-/// Returns quaternions of rotation matrices, each with the sign nearest to the previous one.
-fn turns(poses: &[[f64; 12]]) -> Vec<i64> {
-    let mut before = [1.0, 0.0, 0.0, 0.0];
-    let mut counts = Vec::with_capacity(4 * poses.len());
-    for pose in poses {
-        let mut q = quaternion(pose);
-        if q.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
-            q = q.map(|x| -x);
-        }
-        counts.extend(q.map(|x| (TURN * x).round() as i64));
-        before = q;
-    }
-    counts
-}
-
-/// Returns the unit quaternion w, x, y, z of a rotation matrix, from its largest component (Shepperd
-/// 1978).
-fn quaternion(r: &[f64; 12]) -> [f64; 4] {
-    let r = |i: usize, j: usize| r[3 * i + j];
-    let trace = r(0, 0) + r(1, 1) + r(2, 2);
-    let squares = [
-        1.0 + trace,
-        1.0 + 2.0 * r(0, 0) - trace,
-        1.0 + 2.0 * r(1, 1) - trace,
-        1.0 + 2.0 * r(2, 2) - trace,
-    ];
-    let largest = (1..4).fold(0, |k, i| if squares[i] > squares[k] { i } else { k });
-    let s = squares[largest].max(1e-300).sqrt();
-    let (half, k) = (0.5 * s, 0.5 / s);
-    let skew = [r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)];
-    if largest == 0 {
-        return [half, k * skew[0], k * skew[1], k * skew[2]];
-    }
-    let i = largest - 1;
-    let mut q = [k * skew[i], 0.0, 0.0, 0.0];
-    for j in 0..3 {
-        q[1 + j] = if i == j {
-            half
-        } else {
-            k * (r(i, j) + r(j, i))
-        };
-    }
-    q
 }
 
 /// Returns springs, dampers and cylinders between two points.
