@@ -128,10 +128,8 @@ fn the_state_of_the_cart_has_these_parts() {
         "wheels_current",
     ];
     assert_eq!(cart_run::STATE_NAMES, names);
-    let mut run = Run::by(
-        Gauss2::new(),
-        ScenePlant::with_slope(&CartRun::<f64>::default()),
-        Run::begin(&CartRun::<f64>::default()),
-    );
+    let scene = CartRun::<f64>::default();
+    let plant = ScenePlant::with_slope(&scene);
+    let mut run = Run::by(Gauss2::new(), plant, Run::begin(&scene));
     run.step(1e-3).expect("it moves");
 }
