@@ -217,12 +217,7 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
         self.plant.position_rates(t, y, self.modes)
     }
 
-    fn position_change(
-        &self,
-        t: Time<P>,
-        y: &P::State,
-        h: Time<P>,
-    ) -> Result<P::State, P::Error> {
+    fn position_change(&self, t: Time<P>, y: &P::State, h: Time<P>) -> Result<P::State, P::Error> {
         self.plant.position_change(t, y, self.modes, h)
     }
 

@@ -16,7 +16,11 @@ use crate::{buoy_run, excess};
 #[test]
 fn the_energy_of_a_buoy_adds_up() {
     let scene = BuoyRun::<f64>::default();
-    let run = Run::by(Dop853::default(), ScenePlant::new(&scene), Run::begin(&scene));
+    let run = Run::by(
+        Dop853::default(),
+        ScenePlant::new(&scene),
+        Run::begin(&scene),
+    );
     let mut run = run.with_tolerance(Tolerance {
         absolute: 1e-10,
         relative: 1e-10,
@@ -42,10 +46,17 @@ fn the_energy_of_a_cart_adds_up() {
     while run.t() < 3.0 {
         run.step(1e-3).expect("it moves");
     }
-    assert!(run.events > 2, "friction holds and releases: {} events", run.events);
+    assert!(
+        run.events > 2,
+        "friction holds and releases: {} events",
+        run.events
+    );
     let audit = run.audit();
     let (supplied, closed) = (audit.supplied.sum(), audit.drift());
-    assert!(closed.abs() < 1e-6 * supplied.abs(), "{closed} J of {supplied} J");
+    assert!(
+        closed.abs() < 1e-6 * supplied.abs(),
+        "{closed} J of {supplied} J"
+    );
 }
 
 /// Power in every state: what is supplied is stored or dissipated.
@@ -55,7 +66,10 @@ fn power_adds_up_where_nothing_is_held() {
     let (y, modes) = scene.start();
     let none = SVector::from([0.0; buoy_run::NU]);
     let all = HybridSystem::power(&scene, &y, &modes, &none, 0.3).expect("it has inertia");
-    let sum: f64 = all.iter().map(|b| b.supplied - b.stored_rate - b.dissipated).sum();
+    let sum: f64 = all
+        .iter()
+        .map(|b| b.supplied - b.stored_rate - b.dissipated)
+        .sum();
     let size: f64 = all.iter().map(|b| b.stored_rate.abs()).sum();
     assert!(sum.abs() < 1e-12 * size, "{sum} W of {size} W");
 }
@@ -63,7 +77,10 @@ fn power_adds_up_where_nothing_is_held() {
 /// The scene's rates are those of the mechanism's methods: q̇ = N(q) v, and forward dynamics under the inputs.
 #[test]
 fn rates_are_those_of_the_mechanism() {
-    let (scene, model) = (SatelliteTorques::<f64>::default(), SatelliteArm6::<f64>::default());
+    let (scene, model) = (
+        SatelliteTorques::<f64>::default(),
+        SatelliteArm6::<f64>::default(),
+    );
     assert_eq!((satellite_torques::NQ, satellite_torques::NV), (NQ, NV));
     let u = SVector::<f64, NV>::from_fn(|i, _| (i as f64 * 0.37 + 0.2).fract());
     let q = model.sample(&u);
@@ -74,14 +91,19 @@ fn rates_are_those_of_the_mechanism() {
     let rates = HybridSystem::derivative(&scene, &y, &SVector::from([]), &input, 0.0);
     let rates = rates.expect("it has inertia");
     let positions = model.position_rates(&q, &v);
-    let accelerations = model.forward_dynamics(&q, &v, &tau).expect("it has inertia");
+    let accelerations = model
+        .forward_dynamics(&q, &v, &tau)
+        .expect("it has inertia");
     for (i, wanted) in positions.iter().chain(&accelerations).enumerate() {
         let off = (rates[i] - wanted).abs();
         assert!(off < 1e-12 * wanted.abs().max(1.0), "rate {i}: by {off:e}");
     }
     let names = scene.state_names();
     assert_eq!((names[3], names[7]), ("free_qx", "shoulder_yaw"));
-    assert_eq!((names[NQ], names[NQ + 6]), ("free_x_velocity", "shoulder_yaw_rate"));
+    assert_eq!(
+        (names[NQ], names[NQ + 6]),
+        ("free_x_velocity", "shoulder_yaw_rate")
+    );
     let joint = runtime::QuasiJoint {
         kind: runtime::QuasiJointKind::Floating,
         position: 0,
@@ -93,12 +115,17 @@ fn rates_are_those_of_the_mechanism() {
 /// A satellite moves itself by its arm: its momentum, the first six rows of M v, remains zero.
 #[test]
 fn a_satellite_keeps_zero_momentum() {
-    let (scene, model) = (SatelliteTorques::<f64>::default(), SatelliteArm6::<f64>::default());
+    let (scene, model) = (
+        SatelliteTorques::<f64>::default(),
+        SatelliteArm6::<f64>::default(),
+    );
     let momentum = |y: &[f64]| {
         let q = SVector::<f64, NQ>::from_column_slice(&y[..NQ]);
         let v = SVector::<f64, NV>::from_column_slice(&y[NQ..]);
         let mass = model.mass_matrix(&q);
-        let own = (0..6).map(|i| mass[(i, i)] * v[i].abs()).fold(0.0, f64::max);
+        let own = (0..6)
+            .map(|i| mass[(i, i)] * v[i].abs())
+            .fold(0.0, f64::max);
         ((mass * v).rows(0, 6).amax(), own)
     };
     let largest = |steps: usize| {
@@ -122,9 +149,24 @@ fn a_satellite_keeps_zero_momentum() {
 #[test]
 fn the_state_of_the_cart_has_these_parts() {
     let names = [
-        "drive_x", "drive_y", "drive_turn", "feed", "turn_first", "turn_second", "grip", "pole",
-        "elastic", "drive_x_velocity", "drive_y_velocity", "drive_turn_rate", "feed_rate",
-        "turn_first_rate", "turn_second_rate", "grip_rate", "pole_rate", "elastic_rate",
+        "drive_x",
+        "drive_y",
+        "drive_turn",
+        "feed",
+        "turn_first",
+        "turn_second",
+        "grip",
+        "pole",
+        "elastic",
+        "drive_x_velocity",
+        "drive_y_velocity",
+        "drive_turn_rate",
+        "feed_rate",
+        "turn_first_rate",
+        "turn_second_rate",
+        "grip_rate",
+        "pole_rate",
+        "elastic_rate",
         "wheels_current",
     ];
     assert_eq!(cart_run::STATE_NAMES, names);

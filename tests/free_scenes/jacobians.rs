@@ -48,10 +48,12 @@ where
             }
         };
         for (c, column) in columns.chunks(n).enumerate() {
-            let moved = |by: Dd| S::State::from_entries(|i| match i == c {
-                true => y.entries()[i] + by,
-                false => y.entries()[i],
-            });
+            let moved = |by: Dd| {
+                S::State::from_entries(|i| match i == c {
+                    true => y.entries()[i] + by,
+                    false => y.entries()[i],
+                })
+            };
             let of = scene.state_names().as_ref()[c];
             difference(rates(&moved(h), t), rates(&moved(-h), t), column, of);
         }
@@ -88,7 +90,10 @@ fn rows_of_a_quaternion_are_linear_in_it_and_in_the_velocity() {
     for i in 0..4 {
         for (j, wanted) in by_position[i].into_iter().chain(by_velocity[i]).enumerate() {
             let found = rows[(i, j)];
-            assert!((found - wanted).abs() < 1e-15, "({i}, {j}): {found}, {wanted}");
+            assert!(
+                (found - wanted).abs() < 1e-15,
+                "({i}, {j}): {found}, {wanted}"
+            );
         }
     }
 }

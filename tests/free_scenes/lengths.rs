@@ -29,12 +29,23 @@ fn kept(steps: usize) {
     for (name, found, allowed) in [
         ("rk4", largest(Rk4, steps, false), 4.0),
         ("rk4, compensated", largest(Rk4, steps, true), 4.0),
-        ("semi-implicit", largest(SemiImplicitEuler, steps, false), 4.0),
+        (
+            "semi-implicit",
+            largest(SemiImplicitEuler, steps, false),
+            4.0,
+        ),
         // Not projected as long as it keeps the length itself.
         ("gauss2", largest(Gauss2::new(), steps / 10, false), 66.0),
-        ("gauss2, compensated", largest(Gauss2::new(), steps / 10, true), 66.0),
+        (
+            "gauss2, compensated",
+            largest(Gauss2::new(), steps / 10, true),
+            66.0,
+        ),
     ] {
-        assert!(found <= allowed, "{name}: {found} roundings, {allowed} allowed");
+        assert!(
+            found <= allowed,
+            "{name}: {found} roundings, {allowed} allowed"
+        );
     }
 }
 

@@ -2,8 +2,8 @@
 
 use bgdyn::runtime::{HybridSystem, Slope};
 use bgdyn_sim::{
-    Dop853, Dopri5, Gauss2, Gauss3, HybridState, Integrator, Midpoint, Rk4, Rodas4, Run, ScenePlant,
-    SemiImplicitEuler, Tolerance,
+    Dop853, Dopri5, Gauss2, Gauss3, HybridState, Integrator, Midpoint, Rk4, Rodas4, Run,
+    ScenePlant, SemiImplicitEuler, Tolerance,
 };
 use serde_json::Value;
 
@@ -26,10 +26,7 @@ fn top() -> Vec<Vec<f64>> {
 
 /// The error of a state of the top against a sample: of the rotation matrix and of ω/40.
 fn error(y: &[f64], sample: &[f64]) -> f64 {
-    let (found, wanted) = (
-        rotation(quaternion(y, 0)),
-        rotation(quaternion(sample, 4)),
-    );
+    let (found, wanted) = (rotation(quaternion(y, 0)), rotation(quaternion(sample, 4)));
     let turned = found.iter().zip(wanted).map(|(a, b)| (a - b).abs());
     let rates = (0..3).map(|i| (y[4 + i] - sample[1 + i]).abs() / 40.0);
     turned.chain(rates).fold(0.0, f64::max)
@@ -59,7 +56,10 @@ where
     for pair in errors.windows(2) {
         let slope = (pair[0] / pair[1]).log2();
         let name = method.info().name;
-        assert!(slope > order - 0.2, "{name}: order {slope}, errors {errors:?}");
+        assert!(
+            slope > order - 0.2,
+            "{name}: order {slope}, errors {errors:?}"
+        );
     }
 }
 
@@ -128,7 +128,11 @@ fn the_satellite_goes_as_the_reference_says() {
         let y = run.y();
         let sign = (3..7).map(|i| y[i] * sample[1 + i]).sum::<f64>().signum();
         for (i, &wanted) in sample[1..].iter().enumerate() {
-            let found = if (3..7).contains(&i) { sign * y[i] } else { y[i] };
+            let found = if (3..7).contains(&i) {
+                sign * y[i]
+            } else {
+                y[i]
+            };
             assert!(
                 (found - wanted).abs() < 2e-11,
                 "t = {}, component {i}: {found} instead of {wanted}",

@@ -179,11 +179,7 @@ impl Simulate {
     }
 
     /// Returns the scene's settings of integration, changed by the options.
-    fn integration(
-        &self,
-        scene: &Scene,
-        given: &NumericOptions,
-    ) -> Result<Integration, Usage> {
+    fn integration(&self, scene: &Scene, given: &NumericOptions) -> Result<Integration, Usage> {
         let quasi_joint = scene.layout.quasi_joints.first();
         let scene = scene.integration;
         let method = match &self.method {

@@ -91,7 +91,9 @@ fn pose(scene: &Scene, name: &str, value: &str) -> Option<Result<Vec<Given>, Str
             (all, _) if all.len() == count && part != "rpy" => all.to_vec(),
             (all, _) => {
                 let found = all.len();
-                return Err(format!("{found} numbers: write {count}, with commas between them"));
+                return Err(format!(
+                    "{found} numbers: write {count}, with commas between them"
+                ));
             }
         };
         Ok(positions.into_iter().zip(numbers).collect())

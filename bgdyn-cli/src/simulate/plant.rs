@@ -96,7 +96,11 @@ impl<'a> Evaluated<'a> {
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
             mode_velocities: mode_velocities.collect(),
             corners: system.scene.corners(),
-            quasi_joints: layout.quasi_joints.iter().map(|j| quasi_joint(j, layout.nq())).collect(),
+            quasi_joints: layout
+                .quasi_joints
+                .iter()
+                .map(|j| quasi_joint(j, layout.nq()))
+                .collect(),
         };
         Evaluated {
             system,

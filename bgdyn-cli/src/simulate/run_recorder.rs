@@ -2,7 +2,9 @@
 
 use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_sim::{Dense, Failure, Integrator, Plant as _, Run, Tolerance, WithIntegrator, with_integrator};
+use bgdyn_sim::{
+    Dense, Failure, Integrator, Plant as _, Run, Tolerance, WithIntegrator, with_integrator,
+};
 
 use super::plant::{Evaluated, Form, Numbers};
 use super::run_table::{EnergyAt, Event, Record, Row, Way};

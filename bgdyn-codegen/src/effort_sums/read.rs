@@ -195,14 +195,17 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         let one = |g: &mut Graph| g.constant(Dd::ONE);
         if self.scene.layout.quasi_joints.is_empty() {
             let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| one(g));
-            return self.b.expr(self.b.with_graph(|g| Tangent::new(seed).of(g, x)));
+            return self
+                .b
+                .expr(self.b.with_graph(|g| Tangent::new(seed).of(g, x)));
         }
         let rates = formulation::unit_tangents(self.b, self.graph, j);
         let seed = |_: &mut Graph, leaf| match leaf {
             Leaf::Position(p) => rates.get(p).copied(),
             _ => None,
         };
-        self.b.expr(self.b.with_graph(|g| Tangent::new(seed).of(g, x)))
+        self.b
+            .expr(self.b.with_graph(|g| Tangent::new(seed).of(g, x)))
     }
 
     /// Returns axes and origin of a site in the world.

@@ -93,7 +93,12 @@ impl<'a> Naming<'a> {
         let coordinates = scene.layout.coordinates.iter();
         let joints: Vec<&str> = coordinates.map(|c| c.name.as_str()).collect();
         Naming {
-            positions: scene.layout.positions.iter().map(|p| p.name.as_str()).collect(),
+            positions: scene
+                .layout
+                .positions
+                .iter()
+                .map(|p| p.name.as_str())
+                .collect(),
             joints,
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(&scene.layout),

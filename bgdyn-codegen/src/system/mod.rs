@@ -232,9 +232,8 @@ fn outputs<'g>(
     let about = |c: &crate::scene::StateCoordinate| {
         format!("velocity of `{}`, {}", c.name, c.dimensions[1].si())
     };
-    let position_about = |p: &crate::scene::StatePosition| {
-        format!("position of `{}`, {}", p.name, p.dimension.si())
-    };
+    let position_about =
+        |p: &crate::scene::StatePosition| format!("position of `{}`, {}", p.name, p.dimension.si());
     let mut add = |name: &str, unit: &'static str, about: &str, value: Expr<'g>| {
         let (name, about) = (name.to_owned(), about.to_owned());
         known.push((Named { name, unit, about }, value));

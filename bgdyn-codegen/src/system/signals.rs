@@ -30,7 +30,8 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
             } => {
                 let wanted = course(b, target);
                 let j = followed(i).unwrap_or(0);
-                (wanted - sums.position_of(j)) * *stiffness + (rate(b, wanted) - sums.v[j]) * *damping
+                (wanted - sums.position_of(j)) * *stiffness
+                    + (rate(b, wanted) - sums.v[j]) * *damping
             }
             InputSource::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
         });

@@ -129,7 +129,13 @@ impl CheckedScene<'_> {
                 let rates = self.system.graph.position_rates(&at.q, &at.v);
                 let own = self.system.scene.layout.coupled().into_iter();
                 let expected: Vec<Dd> = own.map(|p| rates[p]).collect();
-                self.compare(function, ("q̇ = N(q) v", EXACT), (coupled, &expected), 0.0, at)
+                self.compare(
+                    function,
+                    ("q̇ = N(q) v", EXACT),
+                    (coupled, &expected),
+                    0.0,
+                    at,
+                )
             })
     }
 

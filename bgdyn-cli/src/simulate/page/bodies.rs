@@ -23,7 +23,11 @@ fn own_travel(link: &Link, travel: &[(f64, f64)]) -> (f64, f64) {
     let Some(&(low, high)) = degrees.positions.first().and_then(|p| travel.get(p.0)) else {
         return (0.0, 0.0);
     };
-    let own = |q: f64| degrees.mimic.map_or(q, |m| m.ratio.to_f64() * q + m.offset.to_f64());
+    let own = |q: f64| {
+        degrees
+            .mimic
+            .map_or(q, |m| m.ratio.to_f64() * q + m.offset.to_f64())
+    };
     let (a, b) = (own(low), own(high));
     (a.min(b), a.max(b))
 }

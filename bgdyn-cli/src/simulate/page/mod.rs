@@ -253,8 +253,7 @@ fn states(system: &SceneEquations, rows: &[&Row]) -> Vec<Curve> {
         Curve::new(&column, rows.iter().map(|row| row.inputs[i]))
     });
     let parts = super::run_table::state_columns(system);
-    let beside =
-        |i: usize| (i >= positions && i < layout.nq()) || i >= layout.nq() + velocities;
+    let beside = |i: usize| (i >= positions && i < layout.nq()) || i >= layout.nq() + velocities;
     let own = parts.iter().enumerate().filter(|&(i, _)| beside(i));
     let own = own.map(|(i, column)| Curve::new(column, rows.iter().map(|row| row.y[i])));
     inputs.chain(own).collect()

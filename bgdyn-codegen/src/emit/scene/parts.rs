@@ -31,8 +31,15 @@ pub(super) fn moving_parts(layout: &StateLayout) -> Vec<StructField> {
     });
     let velocities = layout.coordinates.iter().map(|c| {
         let unit = c.dimensions[1].si();
-        let axes = if c.is_quasi_velocity() { " in link axes" } else { "" };
-        field(&c.rate_name, format!("velocity of `{}`{axes}, {unit}", c.name))
+        let axes = if c.is_quasi_velocity() {
+            " in link axes"
+        } else {
+            ""
+        };
+        field(
+            &c.rate_name,
+            format!("velocity of `{}`{axes}, {unit}", c.name),
+        )
     });
     let states = layout.states.iter().map(|part| {
         let unit = part.dimension.si();

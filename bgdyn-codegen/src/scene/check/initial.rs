@@ -80,12 +80,17 @@ pub(super) fn initial(
         }
     }
     let place = |joint: &QuasiJoint| {
-        let entry = entries.iter().find(|raw| raw.name.value.starts_with(&joint.name));
+        let entry = entries
+            .iter()
+            .find(|raw| raw.name.value.starts_with(&joint.name));
         entry.map_or_else(Location::file, |raw| raw.name.location.clone())
     };
-    faults.0.extend(layout.unit_quaternions(&mut initial.q).into_iter().map(
-        |(joint, length)| wording::quaternion_length(&place(joint), &joint.name, length),
-    ));
+    faults.0.extend(
+        layout
+            .unit_quaternions(&mut initial.q)
+            .into_iter()
+            .map(|(joint, length)| wording::quaternion_length(&place(joint), &joint.name, length)),
+    );
     // The default initial position and velocity of a drive are those of its joint.
     for (j, c) in layout.coordinates.iter().enumerate() {
         let with = c

@@ -32,7 +32,11 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         for (k, j) in velocities.iter().enumerate() {
             let name = coordinate_names[j.0].clone();
             let position = own_rates[k].map(|own| positions[own].0);
-            let ending = if position.is_some() { "rate" } else { "velocity" };
+            let ending = if position.is_some() {
+                "rate"
+            } else {
+                "velocity"
+            };
             layout.coordinates.push(StateCoordinate {
                 store: MomentumStore::Links(*j),
                 position,

@@ -37,7 +37,8 @@ pub(super) fn locks(
             faults.push(wording::lock_of_several(&raw.name.location, name, keyword));
             continue;
         }
-        let [position, ..] = joints::dimensions(mechanism.linear(crate::mechanism::CoordinateId(j)));
+        let [position, ..] =
+            joints::dimensions(mechanism.linear(crate::mechanism::CoordinateId(j)));
         if let Some(at) = raw.number(&[position], faults) {
             let at = at.value.value;
             locked.push((link, locked_pose(joint, at)));

@@ -67,7 +67,12 @@ fn numbers<const N: usize>(
     let items = entry.items(("a list of numbers", example), faults)?;
     if items.len() != N {
         let location = &entry.location;
-        faults.push(wording::not_so_many_numbers(location, items.len(), N, example));
+        faults.push(wording::not_so_many_numbers(
+            location,
+            items.len(),
+            N,
+            example,
+        ));
         return None;
     }
     let mut found = [Dd::ZERO; N];
