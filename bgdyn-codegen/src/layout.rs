@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use crate::mechanism::CoordinateId;
 use crate::unit::Dimension;
@@ -60,8 +60,8 @@ pub struct StatePosition {
 pub struct QuasiJoint {
     /// Its name.
     pub name: String,
-    /// The module of `bgdyn_runtime::manifold` with its integration.
-    pub manifold: &'static str,
+    /// Its type, for its integration.
+    pub kind: QuasiJointKind,
     /// Its positions.
     pub positions: Range<usize>,
     /// Its coordinates.

@@ -46,6 +46,18 @@ pub enum QuasiJointKind {
     Floating,
 }
 
+impl QuasiJointKind {
+    /// Returns the type with this module of [`crate::manifold`]: `"floating"`. `None` for other names.
+    pub fn of_module(module: &str) -> Option<Self> {
+        match module {
+            "planar" => Some(QuasiJointKind::Planar),
+            "spherical" => Some(QuasiJointKind::Spherical),
+            "floating" => Some(QuasiJointKind::Floating),
+            _ => None,
+        }
+    }
+}
+
 impl QuasiJoint {
     /// Returns the number of its positions.
     pub const fn positions(&self) -> usize {

@@ -7,7 +7,7 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::scene;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::{Contact, Dd, QuasiJoint, QuasiJointKind};
+use bgdyn_runtime::{Contact, Dd, QuasiJoint};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
@@ -288,13 +288,8 @@ impl<'a> Evaluated<'a> {
 
 /// Returns a joint with quasi-velocities by its components in the state.
 fn quasi_joint(joint: &scene::QuasiJoint, positions: usize) -> QuasiJoint {
-    let kind = match joint.manifold {
-        "planar" => QuasiJointKind::Planar,
-        "spherical" => QuasiJointKind::Spherical,
-        _ => QuasiJointKind::Floating,
-    };
     QuasiJoint {
-        kind,
+        kind: joint.kind,
         position: joint.positions.start,
         velocity: positions + joint.coordinates.start,
     }

@@ -1,8 +1,11 @@
 //! Scenes with joints of several degrees of freedom: what they accept, what they refuse and how.
 
+use bgdyn_codegen::mechanism::Motion;
+use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::{QuasiJoint, QuasiJointKind};
 
 use super::findings::*;
 
@@ -246,4 +249,25 @@ fn locks_take_joints_of_one_degree() {
     );
     let system = read(FOLLOWER, "", "lock: { grip: 20 mm }").expect("a sound scene");
     assert_eq!(system.scene.layout.nv(), 0);
+}
+
+/// Every joint type whose velocities are not rates of positions has its integration in runs.
+#[test]
+fn every_manifold_has_a_kind() {
+    for joint in JOINT_TYPES {
+        if let Motion::Compound(motion) = joint.motion
+            && !motion.manifold.is_empty()
+        {
+            let kind = QuasiJointKind::of_module(motion.manifold);
+            let kind = kind.unwrap_or_else(|| panic!("{} in runs", joint.keyword));
+            let own = QuasiJoint {
+                kind,
+                position: 0,
+                velocity: 0,
+            };
+            let sizes = (own.positions(), own.velocities());
+            assert_eq!(sizes, (motion.positions.len(), motion.velocities.len()));
+            assert_eq!(own.quaternion(), motion.quaternion());
+        }
+    }
 }

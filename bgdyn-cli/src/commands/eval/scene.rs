@@ -10,6 +10,7 @@ use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::options::Preference;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::Dd;
 use serde_json::{Value, json};
 
 use super::arguments::Eval;
@@ -134,7 +135,8 @@ impl SceneCall<'_> {
                 "no `z`: the state with momenta in place of velocities".into(),
             ));
         }
-        let y = vector(state, key, &self.names.state, begin)?;
+        let mut y = vector(state, key, &self.names.state, begin)?;
+        self.unit_quaternions(&mut y[..nq])?;
         let modes = vector(state, "modes", &self.names.modes, numbers(&start.modes))?;
         let a = vec![0.0; nv];
         let t = match state.get("t") {
@@ -168,6 +170,33 @@ impl SceneCall<'_> {
             at.u = inputs.evaluate(at.clone()).0;
         }
         Ok(at)
+    }
+
+    /// Divides quaternions by their length.
+    ///
+    /// # Errors
+    /// A quaternion that is no orientation, with its length.
+    fn unit_quaternions(&self, q: &mut [f64]) -> Result<(), Failure> {
+        let layout = &self.system.scene.layout;
+        if layout.quasi_joints.is_empty() {
+            return Ok(());
+        }
+        let mut positions: Vec<Dd> = q.iter().map(|&x| Dd::from_f64(x)).collect();
+        let wrong = layout.unit_quaternions(&mut positions);
+        let told: Vec<String> = wrong
+            .into_iter()
+            .map(|(joint, length)| {
+                let name = &joint.name;
+                format!("the quaternion of `{name}` has the length {length:?}, not 1 within 1e-6")
+            })
+            .collect();
+        if !told.is_empty() {
+            return Err(plain(told.join("; ")));
+        }
+        for (q, unit) in q.iter_mut().zip(positions) {
+            *q = unit.to_f64();
+        }
+        Ok(())
     }
 
     /// Returns the result in printed form.

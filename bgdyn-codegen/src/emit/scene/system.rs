@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::constants::size;
-use super::super::tokens::{ident, number, struct_ident};
+use super::super::tokens::{ident, number};
 use super::parts::{mode_parts, names_of, of_named};
 use crate::interface::SceneInterface;
 use crate::scene::StateLayout;
@@ -152,7 +152,7 @@ fn quasi_joints(layout: &StateLayout) -> TokenStream {
         return TokenStream::new();
     }
     let joints = layout.quasi_joints.iter().map(|joint| {
-        let kind = ident(&struct_ident(joint.manifold));
+        let kind = ident(&format!("{:?}", joint.kind));
         let position = size(joint.positions.start);
         let velocity = size(layout.nq() + joint.coordinates.start);
         quote! {

@@ -1,7 +1,7 @@
 //! The part of a scene's state that belongs to the joints: positions, velocities, joints with
 //! quasi-velocities.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use crate::format::Dimension;
 use crate::layout::{MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition};
@@ -60,9 +60,9 @@ fn quasi_joint(joint: &Joint) -> Option<QuasiJoint> {
         joint.degrees.positions.first()?.0,
         joint.degrees.velocities.first()?.0,
     );
-    (!motion.manifold.is_empty()).then(|| QuasiJoint {
+    QuasiJointKind::of_module(motion.manifold).map(|kind| QuasiJoint {
         name: joint.name.clone(),
-        manifold: motion.manifold,
+        kind,
         positions: q..q + motion.positions.len(),
         coordinates: v..v + motion.velocities.len(),
         quaternion: motion.quaternion().map(|first| q + first),
