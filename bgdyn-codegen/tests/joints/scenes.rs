@@ -79,7 +79,7 @@ fn effects_that_read_a_position_do_not_act_on_quasi_velocities() {
     let spring = ", k: { type: spring, joint: ball_rx, stiffness: 3 N*m/rad }";
     let words = ["`k` is a `spring`", "`ball_rx`", "spherical", "between"];
     refused((BALL, spring, ""), "no-position", &words);
-    let stop = ", s: { type: stop, joint: free_z, stiffness: 3 N/m, upper: 1 m }";
+    let stop = ", s: { type: stop, joint: free_z, stiffness: 3 N/m, upper: 1 m, restitution: 0.5, impact_speed: 1 m/s }";
     refused((FREE, stop, ""), "no-position", &["`free_z`", "floating"]);
     let rotor = ", r: { type: rotor, joint: ball_rz, inertia: 1e-3 kg*m^2 }";
     refused((BALL, rotor, ""), "no-position", &["`rotor`"]);

@@ -12,7 +12,7 @@ use serde::Serialize;
 use self::bodies::Bodies;
 use self::body::{Body, End};
 use self::curve::{Curve, LEVELS};
-use self::poses::{poses, turns};
+use self::poses::{TURN, poses, turns};
 use super::difference::range;
 use super::report::{changes, short};
 use super::run_table::{Column, Record, Row};
@@ -21,8 +21,6 @@ use super::run_table::{Column, Record, Row};
 const POSES: usize = 36_000;
 /// Largest number of rows in a page.
 const ROWS: usize = 4_000;
-/// Scale of a quaternion's components.
-const TURN: f64 = 1e5;
 /// Digits of a time.
 const DIGITS: usize = 9;
 

@@ -9,9 +9,11 @@ use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
-use super::TURN;
 use super::body::Placed;
 use crate::simulate::run_table::Row;
+
+/// Scale of a quaternion's components.
+pub(super) const TURN: f64 = 1e5;
 
 /// Returns the poses of a link at all rows: its axes row by row, its origin. An undefined pose is replaced
 /// by the previous one.
