@@ -4,26 +4,16 @@ use std::sync::Arc;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::SceneFunction;
-use bgdyn_codegen::scene;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::{Contact, Dd, QuasiJoint};
+use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
+use super::scene_functions::{Form, SceneFunctions};
 use super::undefined::Undefined;
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
-
-/// The variables in which a scene is integrated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// y: positions, velocities, first-order states.
-    Natural,
-    /// z: momenta in place of velocities, for which Gauss–Legendre integrators are symplectic.
-    Canonical,
-}
 
 /// A scene in the evaluator. Inputs that the scene does not drive are 0; run-time parameters have the
 /// values of its files.
@@ -34,35 +24,6 @@ pub struct Evaluated<'a> {
     functions: Arc<SceneFunctions>,
 }
 
-/// The functions of a scene, the same for every start.
-#[derive(Debug)]
-struct SceneFunctions {
-    derivative: Function,
-    inputs: Option<Function>,
-    events: Option<Function>,
-    contacts: Option<Function>,
-    outputs: Option<Function>,
-    power: Function,
-    energy: Function,
-    jacobian: Option<Function>,
-    canonical: Option<Canonical>,
-    event_modes: Vec<Option<usize>>,
-    /// The component of the state that is the velocity of each mode's coordinate.
-    mode_velocities: Vec<usize>,
-    /// Instants at which an input bends, s.
-    corners: Vec<f64>,
-    /// The joints with quasi-velocities, by their components in the state.
-    quasi_joints: Vec<QuasiJoint>,
-}
-
-/// The functions of the canonical form.
-#[derive(Debug)]
-struct Canonical {
-    to: Function,
-    from: Function,
-    rates: Function,
-}
-
 /// A value of a scene, or the error that it does not exist.
 pub(crate) type Evaluation<T> = Result<T, Undefined>;
 /// The contacts that can hold a coordinate, mode by mode.
@@ -71,41 +32,10 @@ type ContactsOf = Evaluation<Vec<Contact<f64>>>;
 impl<'a> Evaluated<'a> {
     /// Returns the scene in these variables; `slopes` for integrators that need the slopes of the rates.
     pub fn new(system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
-        let roles = system.roles();
-        let if_there = |role| roles.contains(&role).then(|| system.function(role));
-        let canonical = || Canonical {
-            to: system.function(SceneFunction::ToCanonical),
-            from: system.function(SceneFunction::FromCanonical),
-            rates: system.function(SceneFunction::CanonicalRates),
-        };
-        let layout = &system.scene.layout;
-        let coordinates = system.mode_coordinates().into_iter();
-        let mode_velocities = coordinates.map(|j| layout.nq() + j);
-        let functions = SceneFunctions {
-            derivative: system.function(SceneFunction::Derivative),
-            inputs: if_there(SceneFunction::Inputs),
-            events: if_there(SceneFunction::Events),
-            contacts: if_there(SceneFunction::Contacts),
-            outputs: if_there(SceneFunction::Outputs),
-            power: system.function(SceneFunction::Power),
-            energy: system.function(SceneFunction::Energy),
-            // In canonical form the slopes are not available: stages are then solved without them.
-            jacobian: (slopes && form == Form::Natural)
-                .then(|| system.function(SceneFunction::Jacobian)),
-            canonical: (form == Form::Canonical).then(canonical),
-            event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
-            mode_velocities: mode_velocities.collect(),
-            corners: system.scene.corners(),
-            quasi_joints: layout
-                .quasi_joints
-                .iter()
-                .map(|j| quasi_joint(j, layout.nq()))
-                .collect(),
-        };
         Evaluated {
             system,
             parameters: parameters(system),
-            functions: Arc::new(functions),
+            functions: Arc::new(SceneFunctions::new(system, form, slopes)),
         }
     }
 
@@ -283,15 +213,6 @@ impl<'a> Evaluated<'a> {
             mode_velocities: &self.functions.mode_velocities,
             contacts: move |y: &Numbers, modes: &Numbers| self.contacts(t, y, modes),
         }
-    }
-}
-
-/// Returns a joint with quasi-velocities by its components in the state.
-fn quasi_joint(joint: &scene::QuasiJoint, positions: usize) -> QuasiJoint {
-    QuasiJoint {
-        kind: joint.kind,
-        position: joint.positions.start,
-        velocity: positions + joint.coordinates.start,
     }
 }
 

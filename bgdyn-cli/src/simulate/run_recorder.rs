@@ -6,8 +6,9 @@ use bgdyn_sim::{
     Dense, Failure, Integrator, Plant as _, Run, Tolerance, WithIntegrator, with_integrator,
 };
 
-use super::plant::{Evaluated, Form, Numbers};
+use super::plant::{Evaluated, Numbers};
 use super::run_table::{EnergyAt, Event, Record, Row, Way};
+use super::scene_functions::Form;
 use super::undefined::Undefined;
 
 /// Returns a scene as a plant for its integrator.
