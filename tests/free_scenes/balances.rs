@@ -16,11 +16,7 @@ use crate::{buoy_run, excess};
 #[test]
 fn the_energy_of_a_buoy_adds_up() {
     let scene = BuoyRun::<f64>::default();
-    let run = Run::by(
-        Dop853::default(),
-        ScenePlant::new(&scene),
-        Run::begin(&scene),
-    );
+    let run = Run::by(Dop853, ScenePlant::new(&scene), Run::begin(&scene));
     let mut run = run.with_tolerance(Tolerance {
         absolute: 1e-10,
         relative: 1e-10,

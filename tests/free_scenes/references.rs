@@ -66,7 +66,7 @@ where
 #[test]
 fn explicit_integrators_keep_their_orders() {
     has_order(Rk4, 4.0, 300);
-    has_order(Dopri5::default(), 5.0, 100);
+    has_order(Dopri5, 5.0, 100);
     has_order(SemiImplicitEuler, 1.0, 4000);
 }
 
@@ -87,7 +87,7 @@ fn the_top_goes_as_the_reference_says() {
         relative: 1e-13,
     };
     let begin = || Run::begin(&scene);
-    let plain = Run::by(Dop853::default(), ScenePlant::new(&scene), begin());
+    let plain = Run::by(Dop853, ScenePlant::new(&scene), begin());
     let mut run = plain.with_tolerance(tolerance);
     let plain = Run::by(Gauss3::new(), ScenePlant::with_slope(&scene), begin());
     let mut symplectic = plain.compensated();
@@ -115,7 +115,7 @@ fn the_satellite_goes_as_the_reference_says() {
     let scene = SatelliteTorques::<f64>::default();
     let HybridState { t, y, modes } = Run::begin(&scene);
     let plant = ScenePlant::new(&scene);
-    let run = Run::by(Dop853::default(), plant, HybridState { t, y, modes });
+    let run = Run::by(Dop853, plant, HybridState { t, y, modes });
     let mut run = run.with_tolerance(Tolerance {
         absolute: 1e-13,
         relative: 1e-13,

@@ -51,7 +51,7 @@ fn ignores_signs<M: Integrator<BuoyState> + Clone>(method: M, adaptive: bool) {
 fn the_sign_of_a_quaternion_changes_no_bit() {
     ignores_signs(Rk4, false);
     ignores_signs(SemiImplicitEuler, false);
-    ignores_signs(Dop853::default(), true);
+    ignores_signs(Dop853, true);
     ignores_signs(Rodas4, true);
     ignores_signs(Gauss2::new(), false);
 }
